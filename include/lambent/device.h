@@ -1,0 +1,102 @@
+// lambent/device.h: devices draw scenes into pictures.
+#ifndef LAMBENT_DEVICE_H
+#define LAMBENT_DEVICE_H
+
+#include "camera.h"
+#include "image.h"
+#include "scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Opaque. One device draws one picture at a time; different threads use different devices, and may share a scene
+// that nobody changes. A device keeps its memory from frame to frame: drawing the same kind of frame again
+// allocates nothing.
+typedef struct lam_device lam_device;
+
+// Instruction sets of the CPU device. Every one gives the same bytes.
+typedef enum lam_isa {
+    LAM_ISA_AUTO = 0, // the widest that the processor and this build have
+    LAM_ISA_PLAIN,    // C without vectors
+    LAM_ISA_SSE4,     // SSE4.2, 4 lanes
+    LAM_ISA_AVX2,     // 8 lanes
+    LAM_ISA_AVX512,   // AVX-512 F, BW, DQ and VL, 16 lanes
+    LAM_ISA_NEON,     // 4 lanes
+    LAM_ISA_COUNT
+} lam_isa;
+
+LAM_API const char *lam_isa_name(lam_isa isa); // "plain", "sse4", …; NULL out of range
+LAM_API bool lam_isa_usable(lam_isa isa);      // in this build and on this processor
+
+typedef struct lam_cpu_params {
+    int threads; // threads to draw with, the calling one included, 1..1024; 0: one for each processor
+    lam_isa isa;
+} lam_cpu_params;
+
+// The software device. NULL and the reason when the instruction set is not to be had (LAM_UNSUPPORTED) or memory is
+// out (LAM_LIMIT). `params` may be NULL. lam_cpu_params can be written in the call in C:
+//     lam_device_cpu(&(lam_cpu_params){ .threads = 4 }, &error)
+LAM_API lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error);
+
+// A device that checks its arguments, builds the frame and draws nothing: for tests and for timing what is above devices.
+LAM_API lam_device *lam_device_null(lam_error *error);
+
+LAM_API void lam_device_free(lam_device *device); // NULL is fine
+LAM_API const char *lam_device_name(const lam_device *device); // "cpu avx2, 2 threads"; lives as long as the device
+
+typedef enum lam_shading {
+    LAM_SHADING_PHONG = 0, // normals interpolated, every pixel lit
+    LAM_SHADING_GOURAUD,   // every vertex lit, colours interpolated
+    LAM_SHADING_FLAT,      // every triangle lit once, with its face normal at its last vertex
+} lam_shading;
+
+typedef enum lam_reflection {
+    LAM_REFLECTION_AUTO = 0, // Blinn–Phong for classic materials
+    LAM_REFLECTION_NONE,     // the diffuse colour, unlit
+    LAM_REFLECTION_LAMBERT,
+    LAM_REFLECTION_PHONG,
+    LAM_REFLECTION_BLINN_PHONG,
+    LAM_REFLECTION_KAJIYA_KAY,
+    LAM_REFLECTION_KAJIYA_KAY_LECTURE,
+} lam_reflection;
+
+// How a frame is drawn. All zero is the plain default.
+typedef struct lam_draw_params {
+    int samples; // per pixel: 1, 2, 4, 8 or 16; 0: 4
+    lam_rgba background; // linear, not premultiplied; default clear
+    lam_color_mode color;
+    lam_rig rig;
+    lam_shading shading;
+    lam_reflection reflection;
+} lam_draw_params;
+
+// What a frame took. Milliseconds, and counts.
+typedef struct lam_frame_report {
+    double frame_ms;     // flattening the scene: lights and matrices into eye space
+    double vertices_ms;  // positions to clip space
+    double triangles_ms; // rejecting, clipping, binning
+    double tiles_ms;     // coverage, lighting and resolve of all tiles, wall time
+    double total_ms;     // the whole call
+    // Shares of tiles_ms by work, from times summed over the threads.
+    double coverage_ms, lighting_ms, resolve_ms;
+    uint64_t triangles;       // given
+    uint64_t triangles_binned; // that reached a tile
+    uint64_t pixels_covered;
+    uint64_t points_lit;      // evaluations of the lighting: pixels, vertices or triangles
+    uint64_t memory_bytes;    // held by the device after the frame
+} lam_frame_report;
+
+// Draws the scene as the camera sees it into `image` (made by the caller, whose size and pixel format decide).
+// `params`, `control` may be NULL. On failure the image's contents are undefined. Errors: LAM_BAD_ARGUMENT, LAM_LIMIT,
+// LAM_CANCELLED.
+LAM_API bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *camera,
+                      const lam_draw_params *params, lam_image *image, const lam_control *control, lam_error *error);
+
+// The report of the device's last frame, zeroed before the first.
+LAM_API void lam_device_report(const lam_device *device, lam_frame_report *report);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

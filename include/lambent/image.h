@@ -1,0 +1,77 @@
+// lambent/image.h: pictures: pixels in memory, files, comparison.
+#ifndef LAMBENT_IMAGE_H
+#define LAMBENT_IMAGE_H
+
+#include "base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum lam_pixel_format {
+    LAM_RGBA8 = 0,   // 4 bytes a pixel, sRGB-encoded (or raw numbers), colour not premultiplied
+    LAM_RGBA32F = 1, // 4 floats a pixel, linear, premultiplied by alpha
+} lam_pixel_format;
+
+// A picture. Rows run top to bottom, without padding: pixel (x, y) starts at pixels + (y·width + x)·bytes,
+// with 4 bytes a pixel for LAM_RGBA8 and 16 for LAM_RGBA32F. Zero-initialise before lam_image_make.
+typedef struct lam_image {
+    int width, height; // pixels, 1..65535
+    lam_pixel_format format;
+    void *pixels; // owned; freed by lam_image_free
+} lam_image;
+
+// Allocates a picture of width×height pixels, contents undefined. The caller frees it with lam_image_free.
+LAM_API bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format format, lam_error *error);
+
+// Frees the pixels and zeroes the struct. NULL and a zeroed struct are fine.
+LAM_API void lam_image_free(lam_image *image);
+
+// How a picture is written. All zero is the plain default.
+typedef struct lam_save_params {
+    // Formats without alpha (PPM) hold the picture over this colour, linear. Default black.
+    lam_rgb background;
+    int threads; // threads to encode with; 0: one for each processor. The bytes do not depend on it.
+} lam_save_params;
+
+// A block of bytes that the caller frees with lam_bytes_free.
+typedef struct lam_bytes {
+    void *data;
+    size_t size;
+} lam_bytes;
+
+LAM_API void lam_bytes_free(lam_bytes *bytes);
+
+// Encodes a picture. `format` is "png" (from LAM_RGBA8), "ppm" (from LAM_RGBA8) or "pfm" (from LAM_RGBA32F,
+// RGB, linear, bottom row first). The same picture always gives the same bytes. `params` may be NULL.
+// Errors: LAM_BAD_ARGUMENT (pixel format does not fit), LAM_UNSUPPORTED (no such format), LAM_LIMIT.
+LAM_API bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params,
+                              lam_bytes *out, lam_error *error);
+
+// Encodes and writes to `path`, the format taken from the name's end. The file appears whole or not at all:
+// it is written beside the path under another name and then renamed. Errors as above, LAM_CANNOT_WRITE.
+LAM_API bool lam_image_save(const lam_image *image, const char *path, const lam_save_params *params,
+                            lam_error *error);
+
+// The pixel format that a file name asks for: LAM_RGBA32F for .pfm, LAM_RGBA8 for .png and .ppm.
+// LAM_UNSUPPORTED for another ending, naming those that can be written.
+LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
+
+// Reads a picture (PNG into LAM_RGBA8, PFM into LAM_RGBA32F with alpha 1). Content decides the format.
+LAM_API bool lam_image_load(lam_image *image, const char *path, lam_error *error);
+
+// How far two pictures of the same size and format are apart, over all channels; a channel's unit is 1 = full
+// range (LAM_RGBA8: 255 steps).
+typedef struct lam_difference {
+    double maximum, mean, rmse;
+    double psnr_db; // infinity for equal pictures
+    double share_over_1, share_over_2; // share of pixels, 0..1, with a channel off by more than 1/255, 2/255
+} lam_difference;
+
+LAM_API bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference,
+                               lam_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

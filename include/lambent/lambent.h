@@ -1,0 +1,22 @@
+// lambent/lambent.h: the whole public interface.
+//
+//   lam_scene *scene = lam_scene_load("bunny.obj", NULL, NULL, &error);
+//   lam_camera camera = lam_camera_fit(scene, NULL);
+//   lam_device *device = lam_device_cpu(NULL, &error);
+//   lam_image image = { 0 };
+//   lam_image_make(&image, 1024, 1024, LAM_RGBA8, &error);
+//   lam_draw(device, scene, &camera, NULL, &image, NULL, &error);
+//   lam_image_save(&image, "bunny.png", NULL, &error);
+#ifndef LAMBENT_LAMBENT_H
+#define LAMBENT_LAMBENT_H
+
+#include "base.h"
+#include "camera.h"
+#include "device.h"
+#include "image.h"
+#include "light.h"
+#include "material.h"
+#include "mesh.h"
+#include "scene.h"
+
+#endif

@@ -1,0 +1,142 @@
+// lambent/scene.h: meshes, materials, objects and lights together, made from a file or by hand.
+#ifndef LAMBENT_SCENE_H
+#define LAMBENT_SCENE_H
+
+#include "light.h"
+#include "material.h"
+#include "mesh.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Opaque. It lives in one arena and is freed by one call. While nobody changes it, any number of threads may read
+// and draw it at once.
+typedef struct lam_scene lam_scene;
+
+typedef enum lam_up {
+    LAM_UP_AUTO = 0, // by format: glTF, OBJ and PLY are Y up, STL is Z up
+    LAM_UP_X,
+    LAM_UP_Y,
+    LAM_UP_Z,
+} lam_up;
+
+typedef enum lam_color_mode {
+    LAM_COLOR_SRGB = 0, // colours of files are decoded to linear light; pictures are sRGB-encoded
+    LAM_COLOR_RAW,      // no conversion either way: what the equations give is what the picture holds
+} lam_color_mode;
+
+typedef enum lam_normals {
+    LAM_NORMALS_FILE = 0, // the file's; smooth ones where it has none (STL's facet normals count as none)
+    LAM_NORMALS_SMOOTH,   // made smooth whatever the file says
+    LAM_NORMALS_FACET,    // each triangle's own, at its three corners
+} lam_normals;
+
+// A file that a model names (MTL, texture), read by the caller. Returns false and fills the error if it cannot.
+// `bytes` is freed by the loader with lam_bytes_free's rule (malloc'd). `name` is relative to the model's folder,
+// already confined to it.
+struct lam_bytes;
+typedef bool lam_open_fn(void *user, const char *name, struct lam_bytes *bytes, lam_error *error);
+
+typedef struct lam_load_params {
+    const char *format;        // "obj", "stl", "ply"…; NULL: told by content
+    lam_up up;                 // overrides the format's up axis
+    lam_color_mode color;
+    lam_normals normals;
+    // Made normals are split where neighbouring faces meet at more than this angle, radians, 0..π.
+    double crease_angle_rad; // 0: 40°; for 0 itself use LAM_NORMALS_FACET
+    int threads;               // 0: one for each processor
+    // Companion files when loading from memory. NULL: none can be opened.
+    lam_open_fn *open;
+    void *user;
+} lam_load_params;
+
+// Reads a model file into a new scene: its meshes, materials, one object for each mesh, its lights. `params` and
+// `control` may be NULL. The caller frees the scene. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT,
+// LAM_CANCELLED; then NULL is returned and nothing is left behind.
+LAM_API lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control,
+                                  lam_error *error);
+
+// The same from memory. `name` stands for the file in messages and gives the hint of its ending; may be NULL.
+// The bytes are not kept.
+LAM_API lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name,
+                                         const lam_load_params *params, const lam_control *control, lam_error *error);
+
+// The model formats that can be read, one constant table: the name ("obj") and the file-name endings ("obj").
+// NULL out of range.
+LAM_API const char *lam_format_name(int format);
+LAM_API const char *lam_format_extensions(int format);
+
+// An empty scene, Y up. NULL only when memory is out.
+LAM_API lam_scene *lam_scene_make(lam_error *error);
+LAM_API void lam_scene_free(lam_scene *scene); // NULL is fine
+
+// Add to a scene. Arrays and strings are copied. Each returns the index of what was added, −1 on failure
+// (LAM_BAD_ARGUMENT: an index out of range, a number that is not finite; LAM_LIMIT: memory).
+// A mesh without normals gets smooth ones, creased at 40°.
+LAM_API int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error);
+LAM_API int lam_scene_add_material(lam_scene *scene, const lam_material *material, lam_error *error);
+LAM_API int lam_scene_add_light(lam_scene *scene, const lam_light *light, lam_error *error);
+
+// Add meshes that are computed. The shape's name is one of lam_shape_name(). `control` may be NULL.
+LAM_API int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_params *params, lam_error *error);
+LAM_API int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, const lam_control *control,
+                                     lam_error *error);
+LAM_API int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const lam_control *control,
+                                   lam_error *error);
+
+typedef enum lam_cull {
+    LAM_CULL_NONE = 0,
+    LAM_CULL_BACK,
+    LAM_CULL_FRONT,
+} lam_cull;
+
+// A mesh placed in the scene. lam_object_default() has the identity transform, everything else zero but `material`
+// and `back_material`, which are −1.
+typedef struct lam_object {
+    const char *name;    // UTF-8; NULL: unnamed
+    int mesh;            // index
+    lam_mat4 transform;  // mesh to world, affine (last row 0 0 0 1); invertible
+    int material;        // −1: the parts' own
+    int back_material;   // −1: the front's
+    bool one_sided;      // true: back faces are lit with n as it is and the front material; false: with −n
+    lam_cull cull;
+} lam_object;
+
+LAM_API lam_object lam_object_default(void);
+LAM_API int lam_scene_add_object(lam_scene *scene, const lam_object *object, lam_error *error);
+
+// Look into a scene. Pointers stay valid until the scene is changed or freed; NULL out of range.
+LAM_API int lam_scene_mesh_count(const lam_scene *scene);
+LAM_API int lam_scene_material_count(const lam_scene *scene);
+LAM_API int lam_scene_object_count(const lam_scene *scene);
+LAM_API int lam_scene_light_count(const lam_scene *scene);
+LAM_API const lam_mesh *lam_scene_mesh(const lam_scene *scene, int index);
+LAM_API const lam_material *lam_scene_material(const lam_scene *scene, int index);
+LAM_API const lam_object *lam_scene_object(const lam_scene *scene, int index);
+LAM_API const lam_light *lam_scene_light(const lam_scene *scene, int index);
+LAM_API uint64_t lam_scene_triangle_count(const lam_scene *scene); // over all objects
+LAM_API uint64_t lam_scene_vertex_count(const lam_scene *scene);   // over all objects
+LAM_API const char *lam_scene_format(const lam_scene *scene);      // name of the file format; "" if made by hand
+
+// Things worth telling that did not stop the load, one sentence each, in order; NULL out of range.
+LAM_API const char *lam_scene_warning(const lam_scene *scene, int index);
+
+// The box around all objects' triangles, in world space. False (and the box zeroed) for a scene without triangles.
+LAM_API bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec3 *maximum);
+
+// The up axis: read, and set (LAM_UP_AUTO: Y). It turns the fitted camera and the rig, never the coordinates.
+LAM_API lam_up lam_scene_up(const lam_scene *scene);
+LAM_API void lam_scene_set_up(lam_scene *scene, lam_up up);
+
+// Light from everywhere, added to that of the ambient lights (La_global). Default 0.
+LAM_API void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient);
+LAM_API lam_rgb lam_scene_ambient(const lam_scene *scene);
+
+// Milliseconds that loading took: reading and parsing the file, and preparing (normals, bounds).
+LAM_API void lam_scene_times(const lam_scene *scene, double *read_ms, double *prepare_ms);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

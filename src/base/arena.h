@@ -1,0 +1,43 @@
+// arena.h: memory that is given back all at once.
+//
+// Small requests are cut from blocks; requests of 1 MiB and more get pages of their own, advised to be huge pages (first
+// touch of fresh memory is three times as fast with them). Memory is not zeroed unless asked for. One thread at a time.
+#ifndef ARENA_H
+#define ARENA_H
+
+#include "watch.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+
+struct arena_block;
+struct arena {
+    struct arena_block *blocks;
+    struct watch *watch; // charged for what is allocated; may be NULL
+    size_t total;        // bytes held
+};
+
+void arena_start(struct arena *arena, struct watch *watch);
+void arena_free(struct arena *arena); // frees everything; the arena is empty and usable again
+
+// Aligned to 64 bytes for 64 bytes and more, else to 16. NULL when memory or the watch's budget is out (the reason is
+// found by watch_memory_error). Size 0 gives a valid pointer.
+void *arena_alloc(struct arena *arena, size_t bytes);
+void *arena_alloc_zeroed(struct arena *arena, size_t bytes);
+
+// Space for `count` items of `size` bytes; NULL also where the product overflows.
+void *arena_array(struct arena *arena, size_t count, size_t size);
+
+// Copies of a string (NULL stays NULL), of the first `length` bytes as a string, and formatted.
+char *arena_string(struct arena *arena, const char *text);
+char *arena_string_of(struct arena *arena, const char *text, size_t length);
+char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
+
+// Makes the arena own a block that came from file_read (file.h).
+struct file_bytes;
+bool arena_adopt(struct arena *arena, struct file_bytes *bytes);
+
+// For tests: from now on the allocation number `countdown` (0: the next) of this thread fails, once. −1: none.
+void arena_fail_after(long countdown);
+
+#endif

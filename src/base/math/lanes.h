@@ -1,0 +1,164 @@
+// lanes.h: numbers side by side. Include with LANES defined as 1, 4, 8 or 16.
+//
+//   num    LANES floats          inum   LANES 32-bit integers          mask   LANES truths, from comparing
+//
+// With LANES 1 a num is a float and the same text is ordinary C. With more it is a GCC/Clang vector type, which any
+// instruction set can carry (wider than the machine's registers: several of them), so every width runs everywhere and,
+// since only correctly rounded operations occur (+ − × ÷ √, no fused ones), gives the same bits.
+// This is the one file that may hold intrinsics. The words below and + − * / < <= > >= == != are the whole language;
+// vectors take a C float on one side of an operator, but a variable that starts from a float needs num_of().
+#ifndef LANES_H
+#define LANES_H
+
+#include <stdint.h>
+#include <string.h>
+
+#ifndef LANES
+#error "define LANES as 1, 4, 8 or 16 before including lanes.h"
+#endif
+
+#if defined(__AVX512F__) || defined(__AVX__) || defined(__SSE4_1__) || defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#define LANE_FN static inline __attribute__((always_inline, unused))
+
+#if LANES == 1
+typedef float num;
+typedef int32_t inum;
+typedef int32_t mask; // 0 or 1
+#else
+typedef float num __attribute__((vector_size(LANES * 4)));
+typedef int32_t inum __attribute__((vector_size(LANES * 4)));
+typedef inum mask; // each lane 0 or −1
+// The same in memory of any alignment from 4 up: loads and stores go through these.
+typedef float num_memory __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
+typedef int32_t inum_memory __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
+#endif
+
+// All lanes the same.
+LANE_FN num num_of(float x)
+{
+#if LANES == 1
+    return x;
+#else
+    return x - (num){0};
+#endif
+}
+LANE_FN inum inum_of(int32_t x)
+{
+#if LANES == 1
+    return x;
+#else
+    return x - (inum){0};
+#endif
+}
+
+// 0, 1, 2, … LANES − 1.
+LANE_FN inum lane_numbers(void)
+{
+#if LANES == 1
+    return 0;
+#elif LANES == 4
+    return (inum){0, 1, 2, 3};
+#elif LANES == 8
+    return (inum){0, 1, 2, 3, 4, 5, 6, 7};
+#else
+    return (inum){0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+#endif
+}
+
+#if LANES == 1
+LANE_FN num num_load(const float *at) { return *at; }
+LANE_FN void num_store(float *at, num x) { *at = x; }
+LANE_FN inum inum_load(const int32_t *at) { return *at; }
+LANE_FN void inum_store(int32_t *at, inum x) { *at = x; }
+LANE_FN inum bits_of(num x)
+{
+    inum i;
+    memcpy(&i, &x, 4);
+    return i;
+}
+LANE_FN num num_of_bits(inum i)
+{
+    num x;
+    memcpy(&x, &i, 4);
+    return x;
+}
+LANE_FN num pick(mask m, num a, num b) { return m ? a : b; }      // a where m, else b
+LANE_FN inum ipick(mask m, inum a, inum b) { return m ? a : b; }
+LANE_FN mask both(mask a, mask b) { return a & b; }
+LANE_FN mask either(mask a, mask b) { return a | b; }
+LANE_FN mask negate(mask a) { return !a; }
+LANE_FN int any_lane(mask m) { return m != 0; }
+LANE_FN int all_lanes(mask m) { return m != 0; }
+LANE_FN unsigned mask_bits(mask m) { return m != 0; }              // bit i: lane i
+LANE_FN inum int_of(num x) { return (int32_t)x; }                  // towards zero; |x| < 2³¹, never NaN: clamp first
+LANE_FN num num_of_int(inum i) { return (float)i; }
+LANE_FN num root(num x) { return __builtin_sqrtf(x); }
+LANE_FN float lane(num x, int i) { (void)i; return x; }
+LANE_FN int32_t ilane(inum x, int i) { (void)i; return x; }
+#else
+LANE_FN num num_load(const float *at) { return (num)*(const num_memory *)at; }
+LANE_FN void num_store(float *at, num x) { *(num_memory *)at = (num_memory)x; }
+LANE_FN inum inum_load(const int32_t *at) { return (inum)*(const inum_memory *)at; }
+LANE_FN void inum_store(int32_t *at, inum x) { *(inum_memory *)at = (inum_memory)x; }
+LANE_FN inum bits_of(num x) { return (inum)x; }
+LANE_FN num num_of_bits(inum i) { return (num)i; }
+LANE_FN num pick(mask m, num a, num b) { return (num)(((inum)a & m) | ((inum)b & ~m)); }
+LANE_FN inum ipick(mask m, inum a, inum b) { return (a & m) | (b & ~m); }
+LANE_FN mask both(mask a, mask b) { return a & b; }
+LANE_FN mask either(mask a, mask b) { return a | b; }
+LANE_FN mask negate(mask a) { return ~a; }
+LANE_FN inum int_of(num x) { return __builtin_convertvector(x, inum); }
+LANE_FN num num_of_int(inum i) { return __builtin_convertvector(i, num); }
+LANE_FN float lane(num x, int i) { return x[i]; }
+LANE_FN int32_t ilane(inum x, int i) { return x[i]; }
+LANE_FN unsigned mask_bits(mask m)
+{
+#if LANES == 16 && defined(__AVX512DQ__)
+    return (unsigned)_mm512_movepi32_mask((__m512i)m);
+#elif LANES == 8 && defined(__AVX__)
+    return (unsigned)_mm256_movemask_ps((__m256)m);
+#elif LANES == 4 && defined(__SSE2__)
+    return (unsigned)_mm_movemask_ps((__m128)m);
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < LANES; i++)
+        bits |= (unsigned)(m[i] & 1) << i;
+    return bits;
+#endif
+}
+LANE_FN int any_lane(mask m) { return mask_bits(m) != 0; }
+LANE_FN int all_lanes(mask m) { return mask_bits(m) == (1u << LANES) - 1; }
+// √, correctly rounded. Clang turns the loop into scalar code for AVX-512, hence the lines.
+LANE_FN num root(num x)
+{
+#if LANES == 16 && defined(__AVX512F__)
+    return (num)_mm512_sqrt_ps((__m512)x);
+#elif LANES == 8 && defined(__AVX__)
+    return (num)_mm256_sqrt_ps((__m256)x);
+#elif LANES == 4 && defined(__SSE2__)
+    return (num)_mm_sqrt_ps((__m128)x);
+#else
+    num r = x;
+    for (int i = 0; i < LANES; i++)
+        r[i] = __builtin_sqrtf(x[i]);
+    return r;
+#endif
+}
+#endif
+
+// The smaller and the larger; b where either is NaN. −0 and 0 count as equal (b is taken).
+LANE_FN num lesser(num a, num b) { return pick(a < b, a, b); }
+LANE_FN num greater(num a, num b) { return pick(a > b, a, b); }
+LANE_FN inum ilesser(inum a, inum b) { return ipick(a < b, a, b); }
+LANE_FN inum igreater(inum a, inum b) { return ipick(a > b, a, b); }
+// |x|; the sign bit goes, NaN stays.
+LANE_FN num absolute(num x) { return num_of_bits(bits_of(x) & 0x7fffffff); }
+// max(x, 0); NaN gives 0.
+LANE_FN num positive(num x) { return greater(x, num_of(0.0f)); }
+// x clamped to 0…1; NaN gives 0.
+LANE_FN num saturate(num x) { return lesser(positive(x), num_of(1.0f)); }
+
+#endif

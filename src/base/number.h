@@ -1,0 +1,18 @@
+// number.h: numbers in text, correctly rounded, whatever the locale.
+#ifndef NUMBER_H
+#define NUMBER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// Reads a decimal number (sign, digits, '.', exponent; also inf, nan, as C writes them) at `at`, never looking at or past
+// `end`. Returns the place behind it, NULL if there is no number. The result is the double nearest to the text, ties to even.
+const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out);
+
+// The same, rounded once to the nearest float (not through double).
+const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out);
+
+// A decimal integer with optional sign; NULL if none, or if it does not fit.
+const uint8_t *number_int(const uint8_t *at, const uint8_t *end, int64_t *out);
+
+#endif

@@ -1,0 +1,40 @@
+// importer.h: what a model format is to the rest of the program. One format, one file, one row in import.c.
+#ifndef IMPORTER_H
+#define IMPORTER_H
+
+#include "file.h"
+#include "pool.h"
+#include "scene_store.h"
+#include "watch.h"
+
+struct import_source {
+    const char *name;     // for messages: the path as the user gave it
+    const uint8_t *bytes; // FILE_PADDING zero bytes follow the last one
+    size_t size;
+    const lam_load_params *params;
+    struct pool *pool;    // may be NULL: no threads
+    struct watch *watch;  // never NULL; check it in every long loop
+    // Opens a companion file by the name that the model uses, confined to the model's folder. The caller releases it.
+    bool (*open)(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error);
+    void *open_state;
+};
+
+struct importer {
+    const char *name;       // "obj"
+    const char *extensions; // "obj", several with spaces
+    lam_up up;              // the format's up axis
+    // How sure the format is of these bytes: 0 no, 1 could be (then the name's ending decides), 2 certain.
+    int (*probe)(const uint8_t *bytes, size_t size);
+    // Fills an empty scene: meshes, materials, one object a mesh. The arena is the scene's; on failure the caller frees it.
+    bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);
+};
+
+extern const struct importer importer_obj, importer_stl, importer_ply;
+
+// LAM_CANNOT_READ with "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". Return false.
+bool fail_line(lam_error *error, const struct import_source *source, size_t line, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+bool fail_byte(lam_error *error, const struct import_source *source, size_t offset, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+#endif

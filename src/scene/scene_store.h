@@ -1,0 +1,56 @@
+// scene_store.h: the inside of lam_scene, for importers, shapes and the frame.
+#ifndef SCENE_STORE_H
+#define SCENE_STORE_H
+
+#include "arena.h"
+#include "pool.h"
+#include "watch.h"
+
+#include <lambent/scene.h>
+
+// A growing array in an arena: doubling leaves the old half behind in the arena until the scene goes.
+struct scene_list {
+    void *items;
+    int count, room;
+};
+
+struct lam_scene {
+    struct arena arena;
+    struct scene_list meshes;    // lam_mesh
+    struct scene_list materials; // lam_material
+    struct scene_list objects;   // lam_object
+    struct scene_list lights;    // lam_light
+    struct scene_list warnings;  // const char *
+    lam_up up;
+    lam_rgb ambient;
+    lam_color_mode color; // what the file's colours were read as
+    const char *format;
+    double read_ms, prepare_ms;
+    bool bounds_known;
+    bool has_triangles;
+    lam_vec3 bounds_min, bounds_max;
+};
+
+// As lam_scene_make, charging `watch` (may be NULL) while the scene is being built; scene_built ends that.
+struct lam_scene *scene_make(struct watch *watch, lam_error *error);
+void scene_built(struct lam_scene *scene);
+
+// Take what already lies in the scene's arena, without copying and without making normals. Return the index, −1 when
+// memory is out.
+int scene_take_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error);
+int scene_take_material(struct lam_scene *scene, const lam_material *material, lam_error *error);
+int scene_take_object(struct lam_scene *scene, const lam_object *object, lam_error *error);
+int scene_take_light(struct lam_scene *scene, const lam_light *light, lam_error *error);
+
+// Adds a warning, formatted. At most SCENE_WARNINGS_MAX are kept; the last one then says how many more there were.
+enum { SCENE_WARNINGS_MAX = 64 };
+void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// Makes every mesh ready to draw: normals where they are missing or asked for, degenerate ones told.
+bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,
+                   struct watch *watch, lam_error *error);
+
+// Works out the box around all objects; called at the end of building, so that readers never write.
+void scene_measure(struct lam_scene *scene, struct pool *pool);
+
+#endif

@@ -13,7 +13,8 @@ enum { FILE_PADDING = 64 };
 struct file_bytes {
     const uint8_t *data;
     size_t size;
-    size_t held; // bytes of address space behind data; 0: not owned
+    size_t held;         // bytes of address space behind data; 0: not owned
+    struct watch *watch; // was charged for them, and is refunded; may be NULL
 };
 
 // Reads a file, or standard input for "-". `pool` and `watch` may be NULL. Errors: LAM_CANNOT_READ (no such file, a

@@ -1,0 +1,192 @@
+// arena.c: memory that is given back all at once.
+#include "arena.h"
+
+#include "file.h"
+#include "pages.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    BLOCK_FIRST = 16 << 10, // the first block; each next one is twice as large, up to
+    BLOCK_LARGEST = 1 << 20,
+    OWN_PAGES = 1 << 20, // requests from here on get pages of their own
+};
+
+// A block's header. Small blocks are followed by their memory; large ones point at pages.
+struct arena_block {
+    struct arena_block *next;
+    uint8_t *memory;
+    size_t room, used;
+    size_t held;           // > 0: bytes of pages behind `memory`, given back by pages_free
+    size_t charged;        // what the watch was charged
+};
+
+static _Thread_local long fail_countdown = -1;
+
+void arena_fail_after(long countdown) { fail_countdown = countdown; }
+
+static bool fails_now(void)
+{
+    if (fail_countdown < 0)
+        return false;
+    return fail_countdown-- == 0;
+}
+
+void arena_start(struct arena *arena, struct watch *watch)
+{
+    *arena = (struct arena){.watch = watch};
+}
+
+void arena_free(struct arena *arena)
+{
+    struct arena_block *block = arena->blocks;
+    while (block) {
+        struct arena_block *next = block->next;
+        if (block->held)
+            pages_free(block->memory, block->held);
+        if (arena->watch)
+            watch_refund(arena->watch, block->charged);
+        free(block);
+        block = next;
+    }
+    arena->blocks = NULL;
+    arena->total = 0;
+}
+
+static void link_block(struct arena *arena, struct arena_block *block)
+{
+    // The block that small requests are cut from stays first.
+    if (block->held && arena->blocks) {
+        block->next = arena->blocks->next;
+        arena->blocks->next = block;
+    } else {
+        block->next = arena->blocks;
+        arena->blocks = block;
+    }
+    arena->total += block->charged;
+}
+
+static void *own_pages(struct arena *arena, size_t bytes)
+{
+    if (arena->watch && !watch_charge(arena->watch, bytes))
+        return NULL;
+    struct arena_block *block = calloc(1, sizeof *block);
+    if (block)
+        block->memory = pages_get(bytes, &block->held);
+    if (!block || !block->memory) {
+        free(block);
+        if (arena->watch)
+            watch_refund(arena->watch, bytes);
+        return NULL;
+    }
+    block->room = block->used = block->held;
+    block->charged = bytes;
+    link_block(arena, block);
+    return block->memory;
+}
+
+static struct arena_block *new_block(struct arena *arena, size_t bytes)
+{
+    size_t room = BLOCK_FIRST;
+    if (arena->blocks && !arena->blocks->held)
+        room = arena->blocks->room * 2;
+    if (room > BLOCK_LARGEST)
+        room = BLOCK_LARGEST;
+    if (room < bytes + 64)
+        room = bytes + 64;
+    if (arena->watch && !watch_charge(arena->watch, room))
+        return NULL;
+    struct arena_block *block = malloc(sizeof *block + room);
+    if (!block) {
+        if (arena->watch)
+            watch_refund(arena->watch, room);
+        return NULL;
+    }
+    *block = (struct arena_block){.memory = (uint8_t *)(block + 1), .room = room, .charged = room};
+    link_block(arena, block);
+    return block;
+}
+
+void *arena_alloc(struct arena *arena, size_t bytes)
+{
+    if (fails_now() || bytes > SIZE_MAX / 4)
+        return NULL;
+    if (bytes >= OWN_PAGES)
+        return own_pages(arena, bytes);
+    size_t alignment = bytes >= 64 ? 64 : 16;
+    struct arena_block *block = arena->blocks;
+    for (int attempt = 0; attempt < 2; attempt++) {
+        if (block && !block->held) {
+            uintptr_t at = (uintptr_t)block->memory + block->used;
+            size_t gap = (alignment - at % alignment) % alignment;
+            if (block->used + gap + bytes <= block->room) {
+                block->used += gap + bytes;
+                return (void *)(at + gap);
+            }
+        }
+        if (attempt == 0)
+            block = new_block(arena, bytes);
+    }
+    return NULL;
+}
+
+void *arena_alloc_zeroed(struct arena *arena, size_t bytes)
+{
+    void *memory = arena_alloc(arena, bytes);
+    if (memory && bytes < OWN_PAGES) // pages come zeroed
+        memset(memory, 0, bytes);
+    return memory;
+}
+
+void *arena_array(struct arena *arena, size_t count, size_t size)
+{
+    size_t bytes;
+    if (__builtin_mul_overflow(count, size, &bytes))
+        return NULL;
+    return arena_alloc(arena, bytes);
+}
+
+char *arena_string_of(struct arena *arena, const char *text, size_t length)
+{
+    char *copy = arena_alloc(arena, length + 1);
+    if (copy) {
+        memcpy(copy, text, length);
+        copy[length] = 0;
+    }
+    return copy;
+}
+
+char *arena_string(struct arena *arena, const char *text)
+{
+    return text ? arena_string_of(arena, text, strlen(text)) : NULL;
+}
+
+char *arena_vformat(struct arena *arena, const char *format, va_list arguments)
+{
+    va_list again;
+    va_copy(again, arguments);
+    int length = vsnprintf(NULL, 0, format, again);
+    va_end(again);
+    char *text = length < 0 ? NULL : arena_alloc(arena, (size_t)length + 1);
+    if (text)
+        vsnprintf(text, (size_t)length + 1, format, arguments);
+    return text;
+}
+
+bool arena_adopt(struct arena *arena, struct file_bytes *bytes)
+{
+    if (!bytes->held)
+        return true;
+    struct arena_block *block = fails_now() ? NULL : calloc(1, sizeof *block);
+    if (!block)
+        return false;
+    // The file's reader charged the watch; the arena gives that back when it goes.
+    *block = (struct arena_block){.memory = (uint8_t *)(uintptr_t)bytes->data, .room = bytes->held,
+                                  .used = bytes->held, .held = bytes->held,
+                                  .charged = bytes->watch == arena->watch ? bytes->size + FILE_PADDING : 0};
+    link_block(arena, block);
+    bytes->held = 0;
+    return true;
+}

@@ -1,0 +1,20 @@
+// cpu_features.c: what the processor can do.
+#include "cpu_features.h"
+
+unsigned cpu_features(void)
+{
+    unsigned features = 0;
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_cpu_init(); // asks the operating system too whether it saves the wide registers
+    if (__builtin_cpu_supports("sse4.2"))
+        features |= CPU_SSE4;
+    if (__builtin_cpu_supports("avx2"))
+        features |= CPU_AVX2;
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+        features |= CPU_AVX512;
+#elif defined(__aarch64__)
+    features |= CPU_NEON; // every 64-bit Arm has it
+#endif
+    return features;
+}

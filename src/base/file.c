@@ -1,0 +1,273 @@
+// file.c: whole files in, whole files out.
+#include "file.h"
+
+#include "fail.h"
+#include "pages.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+const char *path_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+const char *path_ending(const char *path)
+{
+    const char *name = path_name(path);
+    const char *dot = strrchr(name, '.');
+    return dot && dot != name ? dot + 1 : "";
+}
+
+static bool fail_system(lam_error *error, lam_code code, const char *path, const char *action)
+{
+    int reason = errno;
+    char buffer[128];
+    const char *text = strerror_r(reason, buffer, sizeof buffer);
+    return fail(error, code, "%s: cannot %s: %s", path, action, text);
+}
+
+static bool hold(size_t size, struct watch *watch, struct file_bytes *out, lam_error *error)
+{
+    *out = (struct file_bytes){0};
+    size_t wanted = size + FILE_PADDING;
+    if (watch && !watch_charge(watch, wanted))
+        return watch_memory_error(watch, wanted, error);
+    out->data = pages_get(wanted, &out->held);
+    if (!out->data) {
+        if (watch)
+            watch_refund(watch, wanted);
+        return fail_memory(error, wanted);
+    }
+    out->size = size;
+    out->watch = watch;
+    return true;
+}
+
+void file_release(struct file_bytes *bytes)
+{
+    if (bytes->held) {
+        pages_free((void *)(uintptr_t)bytes->data, bytes->held);
+        if (bytes->watch)
+            watch_refund(bytes->watch, bytes->size + FILE_PADDING);
+    }
+    *bytes = (struct file_bytes){0};
+}
+
+bool file_copy(const void *bytes, size_t size, struct watch *watch, struct file_bytes *out, lam_error *error)
+{
+    if (!hold(size, watch, out, error))
+        return false;
+    if (size)
+        memcpy((void *)(uintptr_t)out->data, bytes, size);
+    return true;
+}
+
+// One piece of a parallel read.
+enum { PIECE = 4 << 20 };
+struct reading {
+    int file;
+    uint8_t *to;
+    size_t size;
+    struct watch *watch;
+    int failed;     // an errno; −1: the file ended early
+    size_t reached; // where it ended
+};
+
+static void read_piece(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct reading *reading = user;
+    size_t at = index * (size_t)PIECE;
+    size_t end = at + PIECE < reading->size ? at + PIECE : reading->size;
+    if (!watch_on(reading->watch))
+        return;
+    while (at < end && !__atomic_load_n(&reading->failed, __ATOMIC_RELAXED)) {
+        ssize_t got = pread(reading->file, reading->to + at, end - at, (off_t)at);
+        if (got > 0) {
+            at += (size_t)got;
+        } else if (got == 0 || errno != EINTR) {
+            reading->reached = at;
+            __atomic_store_n(&reading->failed, got == 0 ? -1 : errno, __ATOMIC_RELAXED);
+        }
+    }
+}
+
+static bool read_sized(int file, const char *path, size_t size, struct pool *pool, struct watch *watch,
+                       struct file_bytes *out, lam_error *error)
+{
+    if (!hold(size, watch, out, error))
+        return false;
+    struct reading reading = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .watch = watch};
+    pool_run(pool, (size + PIECE - 1) / PIECE, read_piece, &reading);
+    bool ok = true;
+    if (!watch_on(watch)) {
+        ok = watch_error(watch, error);
+    } else if (reading.failed == -1) {
+        ok = fail(error, LAM_CANNOT_READ, "%s: became shorter while it was read: ended at byte %zu of %zu", path,
+                  reading.reached, size);
+    } else if (reading.failed) {
+        errno = reading.failed;
+        ok = fail_system(error, LAM_CANNOT_READ, path, "read");
+    }
+    if (!ok)
+        file_release(out);
+    return ok;
+}
+
+// A pipe, a terminal, a device: read until it ends.
+static bool read_stream(int file, const char *path, struct watch *watch, struct file_bytes *out, lam_error *error)
+{
+    size_t room = 1 << 20, size = 0;
+    uint8_t *bytes = malloc(room);
+    bool ok = bytes != NULL || fail_memory(error, room);
+    while (ok) {
+        if (size == room) {
+            uint8_t *more = room > SIZE_MAX / 4 ? NULL : realloc(bytes, room * 2);
+            if (!more) {
+                ok = fail_memory(error, room);
+                break;
+            }
+            bytes = more;
+            room *= 2;
+        }
+        ssize_t got = read(file, bytes + size, room - size);
+        if (got == 0)
+            break;
+        if (got > 0)
+            size += (size_t)got;
+        else if (errno != EINTR)
+            ok = fail_system(error, LAM_CANNOT_READ, path, "read");
+        if (ok && !watch_on(watch))
+            ok = watch_error(watch, error);
+        if (ok && watch && watch->control.memory_limit_bytes && size > watch->control.memory_limit_bytes)
+            ok = fail(error, LAM_LIMIT, "%s: larger than the memory limit of %.1f MB", path,
+                      (double)watch->control.memory_limit_bytes / 1e6);
+    }
+    if (ok)
+        ok = file_copy(bytes, size, watch, out, error);
+    free(bytes);
+    return ok;
+}
+
+bool file_read(const char *path, struct pool *pool, struct watch *watch, struct file_bytes *out, lam_error *error)
+{
+    *out = (struct file_bytes){0};
+    if (strcmp(path, "-") == 0)
+        return read_stream(STDIN_FILENO, "standard input", watch, out, error);
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        return fail_system(error, LAM_CANNOT_READ, path, "open");
+    struct stat about;
+    bool ok;
+    if (fstat(file, &about) != 0)
+        ok = fail_system(error, LAM_CANNOT_READ, path, "read");
+    else if (S_ISDIR(about.st_mode))
+        ok = fail(error, LAM_CANNOT_READ, "%s: is a directory, expected a file", path);
+    else if (S_ISREG(about.st_mode) && about.st_size > 0)
+        ok = read_sized(file, path, (size_t)about.st_size, pool, watch, out, error);
+    else
+        ok = read_stream(file, path, watch, out, error);
+    close(file);
+    return ok;
+}
+
+static bool write_all(int file, const void *data, size_t size)
+{
+    const uint8_t *at = data;
+    while (size) {
+        ssize_t wrote = write(file, at, size);
+        if (wrote < 0 && errno == EINTR)
+            continue;
+        if (wrote <= 0)
+            return false;
+        at += wrote;
+        size -= (size_t)wrote;
+    }
+    return true;
+}
+
+static bool write_direct(const char *path, const void *data, size_t size, lam_error *error)
+{
+    int file = open(path, O_WRONLY | O_CLOEXEC);
+    if (file < 0)
+        return fail_system(error, LAM_CANNOT_WRITE, path, "open for writing");
+    bool ok = write_all(file, data, size);
+    int reason = errno;
+    if (close(file) != 0 && ok) {
+        reason = errno;
+        ok = false;
+    }
+    errno = reason;
+    return ok || fail_system(error, LAM_CANNOT_WRITE, path, "write");
+}
+
+// A new file beside `target` under a name that nothing has. Created like any file, so the umask decides its mode.
+static int open_temporary(const char *target, char **name)
+{
+    for (int attempt = 0; attempt < 100; attempt++) {
+        if (asprintf(name, "%s.%ld-%llx.part", target, (long)getpid(), (unsigned long long)now_ns()) < 0) {
+            *name = NULL;
+            errno = ENOMEM;
+            return -1;
+        }
+        int file = open(*name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file >= 0)
+            return file;
+        int reason = errno;
+        free(*name);
+        *name = NULL;
+        errno = reason;
+        if (reason != EEXIST)
+            break;
+    }
+    return -1;
+}
+
+// Writes the temporary file and moves it over the target. False with errno set; then it is gone again.
+static bool replace(const char *target, const struct stat *existing, const void *data, size_t size)
+{
+    char *temporary = NULL;
+    int file = open_temporary(target, &temporary);
+    if (file < 0)
+        return false;
+    bool ok = write_all(file, data, size) && (!existing || fchmod(file, existing->st_mode & 07777) == 0);
+    int reason = errno;
+    if (close(file) != 0 && ok) {
+        reason = errno;
+        ok = false;
+    }
+    if (ok && rename(temporary, target) != 0) {
+        reason = errno;
+        ok = false;
+    }
+    if (!ok)
+        unlink(temporary);
+    free(temporary);
+    errno = reason;
+    return ok;
+}
+
+bool file_write(const char *path, const void *data, size_t size, lam_error *error)
+{
+    struct stat about;
+    bool exists = stat(path, &about) == 0;
+    if (exists && S_ISDIR(about.st_mode))
+        return fail(error, LAM_CANNOT_WRITE, "%s: is a directory, expected a file name", path);
+    if (exists && !S_ISREG(about.st_mode))
+        return write_direct(path, data, size, error);
+
+    // A link keeps pointing where it points: the file behind it is replaced.
+    char *target = exists ? realpath(path, NULL) : strdup(path);
+    bool ok = target && (!exists || access(target, W_OK) == 0) && replace(target, exists ? &about : NULL, data, size);
+    if (!ok)
+        fail_system(error, LAM_CANNOT_WRITE, path, "write");
+    free(target);
+    return ok;
+}

@@ -1,0 +1,181 @@
+// pool.c: threads that share loops.
+#include "pool.h"
+
+#include "float_state.h"
+
+#include <stdlib.h>
+
+#if defined(__wasm__)
+
+// One thread: the page has no threads to lend.
+struct pool {
+    int threads;
+};
+
+struct pool *pool_make(int threads)
+{
+    (void)threads;
+    struct pool *pool = calloc(1, sizeof *pool);
+    if (pool)
+        pool->threads = 1;
+    return pool;
+}
+
+void pool_free(struct pool *pool) { free(pool); }
+int pool_threads(const struct pool *pool) { return pool ? pool->threads : 1; }
+int processor_count(void) { return 1; }
+
+void pool_run(struct pool *pool, size_t count, pool_task *task, void *user)
+{
+    (void)pool;
+    for (size_t i = 0; i < count; i++)
+        task(user, i, 0);
+}
+
+#else
+
+#include <pthread.h>
+#include <sched.h>
+#include <signal.h>
+
+enum { THREADS_MAX = 1024 };
+
+struct pool {
+    int threads; // the caller included
+    pthread_mutex_t lock;
+    pthread_cond_t work, done;
+    unsigned round; // one up for each pool_run
+    int busy;       // workers that have not yet finished the round
+    bool closing;
+
+    // The round's work.
+    pool_task *task;
+    void *user;
+    size_t count;
+    size_t next; // touched atomically
+
+    struct worker {
+        struct pool *pool;
+        int number;
+        pthread_t thread;
+    } workers[];
+};
+
+static void take_work(struct pool *pool, int thread)
+{
+    for (;;) {
+        size_t index = __atomic_fetch_add(&pool->next, 1, __ATOMIC_RELAXED);
+        if (index >= pool->count)
+            return;
+        pool->task(pool->user, index, thread);
+    }
+}
+
+static void *worker_main(void *argument)
+{
+    struct worker *worker = argument;
+    struct pool *pool = worker->pool;
+    float_state_enter();
+    unsigned seen = 0;
+    pthread_mutex_lock(&pool->lock);
+    for (;;) {
+        while (pool->round == seen && !pool->closing)
+            pthread_cond_wait(&pool->work, &pool->lock);
+        if (pool->closing)
+            break;
+        seen = pool->round;
+        pthread_mutex_unlock(&pool->lock);
+        take_work(pool, worker->number);
+        pthread_mutex_lock(&pool->lock);
+        if (--pool->busy == 0)
+            pthread_cond_signal(&pool->done);
+    }
+    pthread_mutex_unlock(&pool->lock);
+    return NULL;
+}
+
+int processor_count(void)
+{
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) > 0)
+        return CPU_COUNT(&set);
+    return 1;
+}
+
+struct pool *pool_make(int threads)
+{
+    if (threads <= 0)
+        threads = processor_count();
+    if (threads > THREADS_MAX)
+        threads = THREADS_MAX;
+    struct pool *pool = calloc(1, sizeof *pool + (size_t)threads * sizeof pool->workers[0]);
+    if (!pool)
+        return NULL;
+    pthread_mutex_init(&pool->lock, NULL);
+    pthread_cond_init(&pool->work, NULL);
+    pthread_cond_init(&pool->done, NULL);
+    pool->threads = 1;
+    // Signals belong to the program's own threads.
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    for (int i = 1; i < threads; i++) {
+        struct worker *worker = &pool->workers[i];
+        worker->pool = pool;
+        worker->number = i;
+        if (pthread_create(&worker->thread, NULL, worker_main, worker) != 0)
+            break;
+        pool->threads++;
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return pool;
+}
+
+void pool_free(struct pool *pool)
+{
+    if (!pool)
+        return;
+    pthread_mutex_lock(&pool->lock);
+    pool->closing = true;
+    pthread_cond_broadcast(&pool->work);
+    pthread_mutex_unlock(&pool->lock);
+    for (int i = 1; i < pool->threads; i++)
+        pthread_join(pool->workers[i].thread, NULL);
+    pthread_cond_destroy(&pool->done);
+    pthread_cond_destroy(&pool->work);
+    pthread_mutex_destroy(&pool->lock);
+    free(pool);
+}
+
+int pool_threads(const struct pool *pool) { return pool ? pool->threads : 1; }
+
+void pool_run(struct pool *pool, size_t count, pool_task *task, void *user)
+{
+    if (!pool || pool->threads == 1 || count <= 1) {
+        uint64_t state = float_state_enter();
+        for (size_t i = 0; i < count; i++)
+            task(user, i, 0);
+        float_state_leave(state);
+        return;
+    }
+    pthread_mutex_lock(&pool->lock);
+    pool->task = task;
+    pool->user = user;
+    pool->count = count;
+    __atomic_store_n(&pool->next, 0, __ATOMIC_RELAXED);
+    pool->busy = pool->threads - 1;
+    pool->round++;
+    pthread_cond_broadcast(&pool->work);
+    pthread_mutex_unlock(&pool->lock);
+
+    uint64_t state = float_state_enter();
+    take_work(pool, 0);
+    float_state_leave(state);
+
+    pthread_mutex_lock(&pool->lock);
+    while (pool->busy)
+        pthread_cond_wait(&pool->done, &pool->lock);
+    pthread_mutex_unlock(&pool->lock);
+}
+
+#endif

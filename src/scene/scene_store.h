@@ -14,9 +14,17 @@ struct scene_list {
     int count, room;
 };
 
+// What a mesh's triangles span. `used` lists the vertices that triangles refer to, in order; NULL: all of them.
+struct scene_extent {
+    lam_vec3 minimum, maximum; // mesh coordinates, origin included
+    const uint32_t *used;
+    uint32_t used_count;
+};
+
 struct lam_scene {
     struct arena arena;
     struct scene_list meshes;    // lam_mesh
+    struct scene_list extents;   // struct scene_extent, one for each measured mesh, in the same order
     struct scene_list materials; // lam_material
     struct scene_list objects;   // lam_object
     struct scene_list lights;    // lam_light
@@ -26,9 +34,6 @@ struct lam_scene {
     lam_color_mode color; // what the file's colours were read as
     const char *format;
     double read_ms, prepare_ms;
-    bool bounds_known;
-    bool has_triangles;
-    lam_vec3 bounds_min, bounds_max;
 };
 
 // As lam_scene_make, charging `watch` (may be NULL) while the scene is being built; scene_built ends that.
@@ -42,7 +47,10 @@ int scene_take_material(struct lam_scene *scene, const lam_material *material, l
 int scene_take_object(struct lam_scene *scene, const lam_object *object, lam_error *error);
 int scene_take_light(struct lam_scene *scene, const lam_light *light, lam_error *error);
 
-// Adds a warning, formatted. At most SCENE_WARNINGS_MAX are kept; the last one then says how many more there were.
+// Appends one item of a list; its index, −1 when memory is out.
+int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error);
+
+// Adds a warning, formatted. At most SCENE_WARNINGS_MAX are kept; the last one then says that more follow.
 enum { SCENE_WARNINGS_MAX = 64 };
 void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
@@ -50,7 +58,21 @@ void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__(
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,
                    struct watch *watch, lam_error *error);
 
-// Works out the box around all objects; called at the end of building, so that readers never write.
-void scene_measure(struct lam_scene *scene, struct pool *pool);
+// Works out the extents of meshes that have none yet; every public call that adds meshes ends with it, so that readers
+// never write. False when memory is out.
+bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error);
+
+static inline const lam_mesh *scene_mesh(const struct lam_scene *scene, int i)
+{
+    return (const lam_mesh *)scene->meshes.items + i;
+}
+static inline const struct scene_extent *scene_extent(const struct lam_scene *scene, int i)
+{
+    return (const struct scene_extent *)scene->extents.items + i;
+}
+static inline const lam_object *scene_object(const struct lam_scene *scene, int i)
+{
+    return (const lam_object *)scene->objects.items + i;
+}
 
 #endif

@@ -1,0 +1,39 @@
+// null_device.c: a device that draws nothing: it fills the picture with zeros.
+#include "device_type.h"
+
+#include "fail.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool null_draw(struct lam_device *device, const struct frame *frame, lam_image *image, struct watch *watch,
+                      lam_error *error)
+{
+    (void)device;
+    (void)frame;
+    size_t bytes = (size_t)image->width * (size_t)image->height * (image->format == LAM_RGBA8 ? 4 : 16);
+    memset(image->pixels, 0, bytes);
+    return watch_on(watch) || watch_error(watch, error);
+}
+
+static uint64_t null_memory(const struct lam_device *device)
+{
+    (void)device;
+    return 0;
+}
+
+static void null_free(struct lam_device *device) { free(device); }
+
+lam_device *lam_device_null(lam_error *error)
+{
+    static const struct device_type type = {null_draw, null_memory, null_free};
+    struct lam_device *device = calloc(1, sizeof *device);
+    if (!device) {
+        fail_memory(error, sizeof *device);
+        return NULL;
+    }
+    device->type = &type;
+    snprintf(device->name, sizeof device->name, "null");
+    return device;
+}

@@ -1,0 +1,338 @@
+// frame.c: a scene and a camera flattened into what a device draws.
+#include "frame.h"
+
+#include "fail.h"
+#include "linear.h"
+
+#include <string.h>
+
+// Triangle numbers stay below this, so that a device may use the top bit for its own.
+#define TRIANGLES_MAX 0x7fffffffu
+
+static float rounded(double x) { return (float)x; }
+
+static bool check_camera(const lam_camera *camera, lam_error *error)
+{
+    if (!v3_finite(camera->eye) || !v3_finite(camera->target) || !v3_finite(camera->up))
+        return fail(error, LAM_BAD_ARGUMENT, "camera: eye, target or up is not finite");
+    if (v3_length(v3_sub(camera->eye, camera->target)) == 0)
+        return fail(error, LAM_BAD_ARGUMENT, "camera: eye and target are the same point");
+    double half = camera->ortho_half_height;
+    if (!(half >= 0) || !math_finite(half))
+        return fail(error, LAM_BAD_ARGUMENT, "camera: ortho_half_height is %g, expected a positive number or 0", half);
+    if (half == 0 && !(camera->fovy_rad > 0 && camera->fovy_rad < PI))
+        return fail(error, LAM_BAD_ARGUMENT, "camera: fovy is %g°, expected more than 0° and less than 180°",
+                    math_degrees(camera->fovy_rad));
+    double n = camera->near_plane, f = camera->far_plane;
+    bool automatic = n == 0 && f == 0;
+    if (!automatic && !(n < f && math_finite(n) && math_finite(f) && (half > 0 || n > 0)))
+        return fail(error, LAM_BAD_ARGUMENT, "camera: near is %g and far is %g, expected %snear < far", n, f,
+                    half > 0 ? "" : "0 < ");
+    return true;
+}
+
+static bool check_params(const lam_draw_params *params, lam_error *error)
+{
+    int s = params->samples;
+    if (s != 0 && s != 1 && s != 2 && s != 4 && s != 8 && s != 16)
+        return fail(error, LAM_BAD_ARGUMENT, "samples is %d, expected 1, 2, 4, 8 or 16", s);
+    const float *b = &params->background.r;
+    for (int i = 0; i < 4; i++)
+        if (!(b[i] >= 0 && b[i] <= 3e38f))
+            return fail(error, LAM_BAD_ARGUMENT, "background: a channel is %g, expected a number of at least 0", (double)b[i]);
+    if (b[3] > 1)
+        return fail(error, LAM_BAD_ARGUMENT, "background: alpha is %g, expected 0 to 1", (double)b[3]);
+    if ((unsigned)params->color > LAM_COLOR_RAW || (unsigned)params->rig > LAM_RIG_HEADLIGHT ||
+        (unsigned)params->shading > LAM_SHADING_FLAT ||
+        (unsigned)params->reflection > LAM_REFLECTION_KAJIYA_KAY_LECTURE)
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: color, rig, shading or reflection is out of its range");
+    return true;
+}
+
+// Distances along the view that hold all objects, with a margin; a camera among them starts at 1/10000 of the far one.
+static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthographic, double *near_plane, double *far_plane)
+{
+    lam_vec3 low, high;
+    double nearest = 1e308, farthest = -1e308;
+    *near_plane = 0.1;
+    *far_plane = 100;
+    if (!lam_scene_bounds(scene, &low, &high))
+        return;
+    for (int i = 0; i < 8; i++) {
+        lam_vec3 corner = v3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+        double distance = -mat4_point(view, corner).z;
+        nearest = distance < nearest ? distance : nearest;
+        farthest = distance > farthest ? distance : farthest;
+    }
+    double magnitude = farthest > 0 ? farthest : -farthest;
+    double margin = (farthest - nearest) * 0.01 + magnitude * 1e-5;
+    if (margin == 0)
+        margin = 1e-6;
+    *far_plane = farthest + margin;
+    *near_plane = nearest - margin;
+    if (!orthographic) {
+        if (*far_plane <= 0) // everything is behind the eye
+            *far_plane = 1;
+        if (*near_plane < *far_plane * 1e-4)
+            *near_plane = *far_plane * 1e-4;
+    }
+}
+
+// Rows X·w, Y·w, z, w: the projection with the viewport folded in (conventions 19, y turned down).
+static lam_mat4 to_pixels(const lam_mat4 *projection, int width, int height)
+{
+    lam_mat4 m = *projection;
+    for (int j = 0; j < 4; j++) {
+        m.m[0][j] = (projection->m[0][j] + projection->m[3][j]) * (0.5 * width);
+        m.m[1][j] = (projection->m[3][j] - projection->m[1][j]) * (0.5 * height);
+    }
+    return m;
+}
+
+static void build_draw(struct frame_draw *draw, const lam_scene *scene, int object_index, uint32_t first_id,
+                       const lam_mat4 *view, const lam_mat4 *pixel)
+{
+    const lam_object *object = scene_object(scene, object_index);
+    const lam_mesh *mesh = scene_mesh(scene, object->mesh);
+    lam_mat4 origin = mat4_translate(mesh->origin[0], mesh->origin[1], mesh->origin[2]);
+    lam_mat4 world = mat4_mul(&object->transform, &origin);
+    lam_mat4 eye = mat4_mul(view, &world);
+    lam_mat4 whole = mat4_mul(pixel, &eye);
+    double determinant = mat4_determinant3(&object->transform);
+    *draw = (struct frame_draw){.mesh = mesh, .object = object_index, .first_id = first_id,
+                                .mirrored = determinant < 0, .one_sided = object->one_sided, .cull = object->cull};
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            draw->pixel[i][j] = rounded(whole.m[i][j]);
+    double cofactors[3][3], largest = 0, largest_eye = 0;
+    mat4_normal_matrix(&eye, cofactors);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            double c = cofactors[i][j] < 0 ? -cofactors[i][j] : cofactors[i][j];
+            double e = eye.m[i][j] < 0 ? -eye.m[i][j] : eye.m[i][j];
+            largest = c > largest ? c : largest;
+            largest_eye = e > largest_eye ? e : largest_eye;
+        }
+    // The cofactors are the inverse transpose times the determinant: its sign is taken out, its size does not matter.
+    double scale = (draw->mirrored ? -1 : 1) / (largest > 0 ? largest : 1);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            draw->normal[i][j] = rounded(cofactors[i][j] * scale);
+            draw->tangent[i][j] = rounded(eye.m[i][j] / (largest_eye > 0 ? largest_eye : 1));
+        }
+        for (int j = 0; j < 4; j++)
+            draw->eye[i][j] = rounded(eye.m[i][j]);
+    }
+}
+
+static int material_index(int scene_index) { return scene_index < 0 ? 0 : scene_index + 1; }
+
+static void store3(float out[3], lam_vec3 v)
+{
+    out[0] = rounded(v.x);
+    out[1] = rounded(v.y);
+    out[2] = rounded(v.z);
+}
+
+static void store_rgb(float out[3], lam_rgb c)
+{
+    out[0] = c.r;
+    out[1] = c.g;
+    out[2] = c.b;
+}
+
+// The matrix from a light's frame to eye space.
+static bool light_space(const lam_scene *scene, const lam_light *light, const lam_mat4 *view, lam_mat4 *out,
+                        lam_error *error)
+{
+    if (light->frame == LAM_FRAME_CAMERA) {
+        *out = lam_mat4_identity();
+        return true;
+    }
+    *out = *view;
+    if (light->frame == LAM_FRAME_WORLD)
+        return true;
+    for (int i = 0; i < scene->objects.count; i++) {
+        const lam_object *object = scene_object(scene, i);
+        if (!light->object || (object->name && strcmp(object->name, light->object) == 0)) {
+            *out = mat4_mul(view, &object->transform);
+            return true;
+        }
+    }
+    return fail(error, LAM_BAD_ARGUMENT, "light '%s': its frame is the object '%s', which the scene does not have",
+                light->name ? light->name : "", light->object ? light->object : "");
+}
+
+static void build_light(struct frame_light *out, const lam_light *light, const lam_mat4 *space, int index)
+{
+    *out = (struct frame_light){.directional = light->type == LAM_LIGHT_DIRECTIONAL, .light = index};
+    store3(out->position, mat4_point(space, light->position));
+    store3(out->axis, v3_unit(mat4_vector(space, light->direction)));
+    store_rgb(out->diffuse, light->diffuse);
+    store_rgb(out->specular, light->specular);
+    const lam_attenuation *a = &light->attenuation;
+    bool none = a->constant == 0 && a->linear == 0 && a->quadratic == 0;
+    out->attenuation[0] = none || out->directional ? 1 : a->constant;
+    out->attenuation[1] = out->directional ? 0 : a->linear;
+    out->attenuation[2] = out->directional ? 0 : a->quadratic;
+    out->inverse_range = light->range > 0 && !out->directional ? rounded(1.0 / (double)light->range) : 0;
+    if (light->type != LAM_LIGHT_SPOT)
+        return;
+    out->exponent = light->exponent;
+    if (light->outer_rad > 0) {
+        double inner = math_cos((double)light->inner_rad), outer = math_cos((double)light->outer_rad);
+        double width = inner - outer > 0.001 ? inner - outer : 0.001;
+        out->cone = CONE_SOFT;
+        out->cos_outer = rounded(outer);
+        out->inverse_width = rounded(1 / width);
+    } else if (light->cutoff_rad > 0 && (double)light->cutoff_rad <= PI / 2 + 1e-6) {
+        double cosine = math_cos((double)light->cutoff_rad);
+        out->cone = CONE_CUTOFF;
+        out->cos_cutoff = rounded(cosine > 0 ? cosine : 0);
+    } else {
+        out->cone = light->exponent > 0 ? CONE_EXPONENT : CONE_NONE;
+    }
+}
+
+static lam_vec3 up_vector(lam_up up)
+{
+    return up == LAM_UP_X ? v3(1, 0, 0) : up == LAM_UP_Z ? v3(0, 0, 1) : v3(0, 1, 0);
+}
+
+static bool add_light(struct frame *frame, const lam_scene *scene, const lam_light *light, int index, const lam_mat4 *view,
+                      lam_error *error)
+{
+    lam_mat4 space;
+    if (!light_space(scene, light, view, &space, error))
+        return false;
+    if (light->type == LAM_LIGHT_HEMISPHERE) {
+        struct frame_hemisphere *out = &frame->hemispheres[frame->hemisphere_count++];
+        bool own = light->up.x != 0 || light->up.y != 0 || light->up.z != 0;
+        const lam_mat4 *by = own ? &space : view;
+        store3(out->up, v3_unit(mat4_vector(by, own ? light->up : up_vector(scene->up))));
+        store_rgb(out->sky, light->sky);
+        store_rgb(out->ground, light->ground);
+        return true;
+    }
+    frame->ambient[0] += light->ambient.r;
+    frame->ambient[1] += light->ambient.g;
+    frame->ambient[2] += light->ambient.b;
+    if (light->type != LAM_LIGHT_AMBIENT)
+        build_light(&frame->lights[frame->light_count++], light, &space, index);
+    return true;
+}
+
+static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig rig, const lam_mat4 *view, lam_error *error)
+{
+    store_rgb(frame->ambient, scene->ambient);
+    for (int i = 0; i < scene->lights.count; i++)
+        if (!add_light(frame, scene, lam_scene_light(scene, i), i, view, error))
+            return false;
+    if (rig == LAM_RIG_AUTO)
+        rig = scene->lights.count ? LAM_RIG_NONE : LAM_RIG_STUDIO;
+    lam_light lights[LAM_RIG_LIGHTS_MAX];
+    int count = lam_rig_lights(rig, lights);
+    for (int i = 0; i < count; i++)
+        if (!add_light(frame, scene, &lights[i], -1, view, error))
+            return false;
+    return true;
+}
+
+static void build_surfaces(struct frame *frame, const lam_scene *scene, int draw_index)
+{
+    const struct frame_draw *draw = &frame->draws[draw_index];
+    const lam_object *object = scene_object(scene, draw->object);
+    const lam_mesh *mesh = draw->mesh;
+    lam_part whole = {.triangle_count = mesh->triangle_count, .material = -1};
+    uint32_t parts = mesh->part_count ? mesh->part_count : 1;
+    for (uint32_t i = 0; i < parts; i++) {
+        const lam_part *part = mesh->part_count ? &mesh->parts[i] : &whole;
+        if (!part->triangle_count)
+            continue;
+        int front = material_index(object->material >= 0 ? object->material : part->material);
+        int back = object->back_material >= 0 ? material_index(object->back_material) : front;
+        struct frame_surface *last = frame->surface_count ? &frame->surfaces[frame->surface_count - 1] : NULL;
+        if (last && last->draw == draw_index && last->front == front && last->back == back) {
+            last->count += part->triangle_count;
+            continue;
+        }
+        frame->surfaces[frame->surface_count++] =
+            (struct frame_surface){draw->first_id + part->first_triangle, part->triangle_count, draw_index, front, back};
+    }
+}
+
+// Cuts the frame's arrays out of its storage.
+static bool make_room(struct frame *frame, const lam_scene *scene, struct watch *watch, lam_error *error)
+{
+    size_t objects = (size_t)scene->objects.count, surfaces = 0, lights = (size_t)scene->lights.count + LAM_RIG_LIGHTS_MAX;
+    for (size_t i = 0; i < objects; i++) {
+        uint32_t parts = scene_mesh(scene, scene_object(scene, (int)i)->mesh)->part_count;
+        surfaces += parts ? parts : 1;
+    }
+    size_t materials = (size_t)scene->materials.count + 1;
+    size_t bytes = objects * sizeof *frame->draws + surfaces * sizeof *frame->surfaces + lights * sizeof *frame->lights +
+                   lights * sizeof *frame->hemispheres + materials * sizeof *frame->materials + 64;
+    if (!buffer_reserve(&frame->storage, bytes, watch, error))
+        return false;
+    char *at = frame->storage.data;
+    frame->materials = (void *)at; // pointers first, for their alignment
+    at += materials * sizeof *frame->materials;
+    frame->draws = (void *)at;
+    at += objects * sizeof *frame->draws;
+    frame->surfaces = (void *)at;
+    at += surfaces * sizeof *frame->surfaces;
+    frame->lights = (void *)at;
+    at += lights * sizeof *frame->lights;
+    frame->hemispheres = (void *)at;
+    return true;
+}
+
+bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
+                 int width, int height, struct watch *watch, lam_error *error)
+{
+    if (!check_camera(camera, error) || !check_params(params, error) || !make_room(frame, scene, watch, error))
+        return false;
+    frame->width = width;
+    frame->height = height;
+    frame->samples = params->samples ? params->samples : 4;
+    frame->background = params->background;
+    frame->color = params->color;
+    frame->shading = params->shading;
+    frame->reflection = params->reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : params->reflection;
+    frame->orthographic = camera->ortho_half_height > 0;
+    frame->draw_count = frame->surface_count = frame->light_count = frame->hemisphere_count = 0;
+    frame->triangle_count = 0;
+
+    frame->default_material = lam_material_default();
+    frame->material_count = scene->materials.count + 1;
+    frame->materials[0] = &frame->default_material;
+    for (int i = 0; i < scene->materials.count; i++)
+        frame->materials[i + 1] = lam_scene_material(scene, i);
+
+    lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up);
+    double near_plane = camera->near_plane, far_plane = camera->far_plane, aspect = (double)width / height;
+    if (near_plane == 0 && far_plane == 0)
+        fit_planes(scene, &view, frame->orthographic, &near_plane, &far_plane);
+    frame->near_plane = rounded(near_plane);
+    frame->far_plane = rounded(far_plane);
+    lam_mat4 projection =
+        frame->orthographic ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
+                            : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
+    lam_mat4 pixel = to_pixels(&projection, width, height);
+
+    uint64_t next = 0;
+    for (int i = 0; i < scene->objects.count; i++) {
+        uint32_t triangles = scene_mesh(scene, scene_object(scene, i)->mesh)->triangle_count;
+        if (!triangles)
+            continue;
+        if (next + triangles > TRIANGLES_MAX)
+            return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
+        build_draw(&frame->draws[frame->draw_count], scene, i, (uint32_t)next, &view, &pixel);
+        build_surfaces(frame, scene, frame->draw_count++);
+        next += triangles;
+    }
+    frame->triangle_count = (uint32_t)next;
+    return build_lights(frame, scene, params->rig, &view, error);
+}
+
+void frame_free(struct frame *frame) { buffer_free(&frame->storage); }

@@ -1,0 +1,474 @@
+// number.c: numbers in text, correctly rounded, whatever the locale.
+//
+// Three ways, each used where the one before cannot be sure of the last bit:
+// 1. Few digits and a small power of ten: one exact operation (Clinger, "How to Read Floating Point Numbers Accurately",
+//    1990); for floats a product in double, unless it lies near the middle between two floats.
+// 2. One or two 64×64-bit products with a 128-bit power of five (Lemire, "Number Parsing at a Gigabyte per Second", 2021).
+// 3. Long division of exact big integers.
+#include "number.h"
+
+#include "number_powers.h"
+#include "number_scan.h"
+
+// (−1)^negative · digits · 10^exponent; `truncated`: there were nonzero digits after the first 19.
+struct decimal {
+    uint64_t digits;
+    int64_t exponent;
+    bool negative, truncated;
+    const uint8_t *first, *stop; // the run of digits and '.'
+};
+
+// What is rounded to.
+struct format {
+    int mantissa_bits;          // stored ones
+    int least_exponent;         // of the exponent field 0, minus one: −bias
+    int infinite;               // the exponent field of infinity
+    int even_first, even_last;  // powers of ten at which a product of 64 bits can lie in the middle between two
+    int least_power, most_power; // below: 0, above: infinity, whatever 19 digits stand before
+};
+static const struct format format_double = {52, -1023, 0x7ff, -4, 23, -342, 308};
+static const struct format format_float = {23, -127, 0xff, -17, 10, -65, 38};
+
+static const uint8_t *skip_digits(const uint8_t *at, const uint8_t *end, uint64_t *value)
+{
+    uint64_t v = *value;
+    while (end - at >= 8) {
+        uint64_t eight = number_load8(at);
+        unsigned count = number_digit_count(eight);
+        v = v * number_integer_powers[count] + number_digits_value(eight, count);
+        at += count;
+        if (count < 8) {
+            *value = v;
+            return at;
+        }
+    }
+    for (; at < end && (unsigned)(*at - '0') < 10; at++)
+        v = v * 10 + (unsigned)(*at - '0');
+    *value = v;
+    return at;
+}
+
+// The first 19 significant digits of a run that has more.
+static void take_leading(struct decimal *d, int64_t exponent_behind_run, const uint8_t *point)
+{
+    const uint8_t *at = d->first;
+    while (at < d->stop && (*at == '0' || *at == '.'))
+        at++;
+    d->digits = 0;
+    d->truncated = false;
+    int taken = 0;
+    for (; at < d->stop && taken < 19; at++) {
+        if (*at == '.')
+            continue;
+        d->digits = d->digits * 10 + (unsigned)(*at - '0');
+        taken++;
+    }
+    // Digits that were not taken: those before the point count as powers of ten, those behind it were counted as taken.
+    int64_t left = d->stop - at;
+    if (point && at <= point)
+        left--; // the point itself
+    d->exponent = exponent_behind_run + left;
+    for (; at < d->stop; at++) {
+        if (*at != '0' && *at != '.')
+            d->truncated = true;
+    }
+}
+
+// Reads sign, digits and exponent. Returns the place behind, NULL if there are no digits.
+static const uint8_t *scan(const uint8_t *at, const uint8_t *end, struct decimal *d)
+{
+    *d = (struct decimal){0};
+    if (at < end && (*at == '-' || *at == '+'))
+        d->negative = *at++ == '-';
+    d->first = at;
+    const uint8_t *point = NULL;
+    at = skip_digits(at, end, &d->digits);
+    int64_t count = at - d->first;
+    if (at < end && *at == '.') {
+        point = at;
+        at = skip_digits(at + 1, end, &d->digits);
+        d->exponent = -(at - point - 1);
+        count -= d->exponent;
+    }
+    if (count == 0)
+        return NULL;
+    d->stop = at;
+
+    int64_t written = 0;
+    if (at < end && (*at | 0x20) == 'e') {
+        const uint8_t *power = at + 1;
+        bool minus = false;
+        if (power < end && (*power == '-' || *power == '+'))
+            minus = *power++ == '-';
+        if (power < end && (unsigned)(*power - '0') < 10) {
+            for (; power < end && (unsigned)(*power - '0') < 10; power++) {
+                if (written < INT64_C(1) << 48) // beyond any number of digits that fits into memory
+                    written = written * 10 + (*power - '0');
+            }
+            at = power;
+            written = minus ? -written : written;
+        }
+    }
+    d->exponent += written;
+    if (count > 19)
+        take_leading(d, d->exponent, point);
+    return at;
+}
+
+// --- the second way
+
+struct wide {
+    uint64_t high, low;
+};
+
+static struct wide multiply(uint64_t a, uint64_t b)
+{
+    __extension__ unsigned __int128 product = (unsigned __int128)a * b;
+    return (struct wide){(uint64_t)(product >> 64), (uint64_t)product};
+}
+
+// The bits (without sign) nearest to digits · 10^power. False: not sure.
+static bool round_product(uint64_t digits, int64_t power, const struct format *format, uint64_t *bits)
+{
+    const uint64_t infinity = (uint64_t)format->infinite << format->mantissa_bits;
+    if (digits == 0 || power < format->least_power) {
+        *bits = 0;
+        return true;
+    }
+    if (power > format->most_power) {
+        *bits = infinity;
+        return true;
+    }
+    int zeros = __builtin_clzll(digits);
+    digits <<= zeros;
+    const uint64_t *five = powers_of_five[power - POWER_FIRST];
+    struct wide product = multiply(digits, five[0]);
+    // The low half of the power can only matter where it would carry through all the bits that are cut off.
+    uint64_t cut = UINT64_MAX >> (format->mantissa_bits + 3);
+    if ((product.high & cut) == cut) {
+        uint64_t more = multiply(digits, five[1]).high;
+        product.low += more;
+        if (product.low < more)
+            product.high++;
+    }
+    if (product.low == UINT64_MAX && (power < -27 || power > 55))
+        return false;
+
+    int top = (int)(product.high >> 63);
+    int shift = top + 64 - format->mantissa_bits - 3;
+    uint64_t mantissa = product.high >> shift; // one bit more than is kept
+    // 217706/2^16 is log2(10), exact enough to give the floor for every power in the table.
+    int field = (int)((217706 * power) >> 16) + 63 + top - zeros - format->least_exponent;
+    uint64_t hidden = UINT64_C(1) << format->mantissa_bits;
+    if (field <= 0) { // denormal
+        if (1 - field >= 64) {
+            *bits = 0;
+            return true;
+        }
+        mantissa >>= 1 - field;
+        mantissa = (mantissa + (mantissa & 1)) >> 1;
+        *bits = mantissa; // one that became the smallest normal number carries into the exponent by itself
+        return true;
+    }
+    // In the middle exactly: round to even, not up.
+    if (product.low <= 1 && power >= format->even_first && power <= format->even_last && (mantissa & 3) == 1 &&
+        mantissa << shift == product.high)
+        mantissa &= ~UINT64_C(1);
+    mantissa = (mantissa + (mantissa & 1)) >> 1;
+    if (mantissa >= 2 * hidden) {
+        mantissa = hidden;
+        field++;
+    }
+    *bits = field >= format->infinite ? infinity : ((uint64_t)field << format->mantissa_bits | (mantissa & ~hidden));
+    return true;
+}
+
+// --- the third way
+
+// Unsigned big integers, lowest limb first. 770 digits times 10^308, or 10^(342 + 770) and its multiples by 2^64, fit.
+enum { LIMBS = 160, DIGITS_MAX = 770 };
+struct big {
+    uint32_t limb[LIMBS];
+    int count; // without leading zeros
+};
+
+static void big_multiply_add(struct big *a, uint32_t factor, uint32_t plus)
+{
+    uint64_t carry = plus;
+    for (int i = 0; i < a->count; i++) {
+        carry += (uint64_t)a->limb[i] * factor;
+        a->limb[i] = (uint32_t)carry;
+        carry >>= 32;
+    }
+    if (carry)
+        a->limb[a->count++] = (uint32_t)carry;
+}
+
+static void big_times_power_of_ten(struct big *a, int64_t power)
+{
+    for (; power >= 9; power -= 9)
+        big_multiply_add(a, 1000000000, 0);
+    big_multiply_add(a, (uint32_t)number_integer_powers[power], 0);
+}
+
+static void big_shift_left(struct big *a, int bits)
+{
+    int limbs = bits / 32, rest = bits % 32;
+    if (a->count == 0)
+        return;
+    for (int i = a->count - 1; i >= 0; i--)
+        a->limb[i + limbs] = a->limb[i];
+    for (int i = 0; i < limbs; i++)
+        a->limb[i] = 0;
+    a->count += limbs;
+    if (rest)
+        big_multiply_add(a, UINT32_C(1) << rest, 0);
+}
+
+static int big_bits(const struct big *a)
+{
+    return a->count ? a->count * 32 - __builtin_clz(a->limb[a->count - 1]) : 0;
+}
+
+static int big_compare(const struct big *a, const struct big *b)
+{
+    if (a->count != b->count)
+        return a->count < b->count ? -1 : 1;
+    for (int i = a->count - 1; i >= 0; i--) {
+        if (a->limb[i] != b->limb[i])
+            return a->limb[i] < b->limb[i] ? -1 : 1;
+    }
+    return 0;
+}
+
+static void big_subtract(struct big *a, const struct big *b) // a ≥ b
+{
+    int64_t carry = 0;
+    for (int i = 0; i < a->count; i++) {
+        carry += (int64_t)a->limb[i] - (i < b->count ? b->limb[i] : 0);
+        a->limb[i] = (uint32_t)carry;
+        carry >>= 32;
+    }
+    while (a->count && a->limb[a->count - 1] == 0)
+        a->count--;
+}
+
+// All the digits of the run, up to DIGITS_MAX significant ones: no middle between two doubles has more than 767, so what
+// comes behind only matters by being there, which one more digit says. Returns the power of ten it is to be multiplied by.
+static int64_t big_digits(const struct decimal *d, struct big *a)
+{
+    const uint8_t *at = d->first;
+    while (at < d->stop && (*at == '0' || *at == '.'))
+        at++;
+    int taken = 0;
+    bool rest = false;
+    for (; at < d->stop; at++) {
+        if (*at == '.')
+            continue;
+        if (taken < DIGITS_MAX) {
+            big_multiply_add(a, 10, (uint32_t)(*at - '0'));
+            taken++;
+        } else {
+            rest |= *at != '0';
+        }
+    }
+    // d->exponent belongs to the first 19 digits, or to the last where there are fewer.
+    int64_t power = taken > 19 ? d->exponent - (taken - 19) : d->exponent;
+    if (rest) {
+        big_multiply_add(a, 10, 1);
+        power--;
+    }
+    return power;
+}
+
+// The bits nearest to the number, by long division.
+static uint64_t round_exactly(const struct decimal *d, const struct format *format)
+{
+    struct big over = {{0}, 0}, under = {{1}, 1};
+    int64_t power = big_digits(d, &over);
+    if (power >= 0)
+        big_times_power_of_ten(&over, power);
+    else
+        big_times_power_of_ten(&under, -power);
+
+    // Scale so that the quotient's last bit is the last bit of the result.
+    int precision = format->mantissa_bits + 1;
+    int least = format->least_exponent + 2 - precision; // exponent of a denormal's last bit
+    int exponent = big_bits(&over) - big_bits(&under);  // of the number's first bit, or one more
+    int last = exponent - precision;                    // so the quotient has `precision` bits, or one more
+    if (last < least)
+        last = least;
+    if (last > 0)
+        big_shift_left(&under, last);
+    else
+        big_shift_left(&over, -last);
+
+    uint64_t quotient = 0;
+    int bits = big_bits(&over) - big_bits(&under);
+    if (bits >= 0)
+        big_shift_left(&under, bits);
+    for (int i = bits; i >= 0; i--) {
+        quotient <<= 1;
+        if (big_compare(&over, &under) >= 0) {
+            big_subtract(&over, &under);
+            quotient |= 1;
+        }
+        if (i > 0)
+            big_shift_left(&over, 1); // instead of moving the divisor down
+    }
+    bool rest = over.count != 0;
+    if (bits < 0) { // less than one last bit: half of it or more?
+        big_shift_left(&over, 1);
+        int half = big_compare(&over, &under);
+        return half > 0; // exactly half goes to the even 0
+    }
+    // The remainder has moved up by `bits`; the divisor has too: compare twice the one with the other.
+    uint64_t hidden = UINT64_C(1) << format->mantissa_bits;
+    bool up;
+    if (quotient >= 2 * hidden) { // one bit too many
+        up = (quotient & 1) && (rest || (quotient & 2));
+        quotient >>= 1;
+        last++;
+    } else {
+        big_shift_left(&over, 1);
+        int half = big_compare(&over, &under);
+        up = half > 0 || (half == 0 && (quotient & 1));
+    }
+    quotient += up;
+    if (quotient < hidden)
+        return quotient; // denormal
+    if (quotient == 2 * hidden) {
+        quotient = hidden;
+        last++;
+    }
+    int field = last - least + 1;
+    if (field >= format->infinite)
+        return (uint64_t)format->infinite << format->mantissa_bits;
+    return (uint64_t)field << format->mantissa_bits | (quotient & ~hidden);
+}
+
+static uint64_t round_decimal(const struct decimal *d, const struct format *format)
+{
+    uint64_t bits, above;
+    if (round_product(d->digits, d->exponent, format, &bits) &&
+        (!d->truncated || (round_product(d->digits + 1, d->exponent, format, &above) && above == bits)))
+        return bits;
+    return round_exactly(d, format);
+}
+
+// --- what the header promises
+
+// "inf", "infinity", "nan", "nan(…)", in any case. `*bits` is the mantissa's top bit for a NaN, 0 for infinity.
+static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, bool *negative, bool *nan)
+{
+    *negative = false;
+    if (at < end && (*at == '-' || *at == '+'))
+        *negative = *at++ == '-';
+    static const char *const words[] = {"infinity", "inf", "nan"};
+    for (int w = 0; w < 3; w++) {
+        const uint8_t *c = at;
+        const char *letter = words[w];
+        while (*letter && c < end && (*c | 0x20) == *letter) {
+            c++;
+            letter++;
+        }
+        if (*letter)
+            continue;
+        *nan = w == 2;
+        if (*nan && c < end && *c == '(') {
+            const uint8_t *inside = c + 1;
+            while (inside < end && ((unsigned)(*inside - '0') < 10 || (unsigned)((*inside | 0x20) - 'a') < 26 || *inside == '_'))
+                inside++;
+            if (inside < end && *inside == ')')
+                c = inside + 1;
+        }
+        return c;
+    }
+    return NULL;
+}
+
+static double double_of(uint64_t bits, bool negative)
+{
+    bits |= (uint64_t)negative << 63;
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static float float_of(uint64_t bits, bool negative)
+{
+    uint32_t narrow = (uint32_t)bits | (uint32_t)negative << 31;
+    float x;
+    memcpy(&x, &narrow, sizeof x);
+    return x;
+}
+
+const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out)
+{
+    static const double powers[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                      1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    struct decimal d;
+    const uint8_t *behind = scan(at, end, &d);
+    if (!behind) {
+        bool negative, nan;
+        behind = scan_special(at, end, &negative, &nan);
+        if (behind)
+            *out = double_of(nan ? UINT64_C(0x7ff8) << 48 : UINT64_C(0x7ff0) << 48, negative);
+        return behind;
+    }
+    if (d.digits <= UINT64_C(1) << 53 && d.exponent >= -22 && d.exponent <= 22 && !d.truncated) {
+        double x = (double)d.digits;
+        x = d.exponent < 0 ? x / powers[-d.exponent] : x * powers[d.exponent];
+        *out = d.negative ? -x : x;
+        return behind;
+    }
+    *out = double_of(round_decimal(&d, &format_double), d.negative);
+    return behind;
+}
+
+const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out)
+{
+    // 10^e for e from −28 to 18, each within half a unit: with 19 digits before it the product stays a normal float.
+    enum { LEAST = -28, MOST = 18 };
+    static const double powers[] = {1e-28, 1e-27, 1e-26, 1e-25, 1e-24, 1e-23, 1e-22, 1e-21, 1e-20, 1e-19, 1e-18, 1e-17,
+                                    1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9,  1e-8,  1e-7,  1e-6,  1e-5,
+                                    1e-4,  1e-3,  1e-2,  1e-1,  1e0,   1e1,   1e2,   1e3,   1e4,   1e5,   1e6,   1e7,
+                                    1e8,   1e9,   1e10,  1e11,  1e12,  1e13,  1e14,  1e15,  1e16,  1e17,  1e18};
+    struct decimal d;
+    const uint8_t *behind = scan(at, end, &d);
+    if (!behind) {
+        bool negative, nan;
+        behind = scan_special(at, end, &negative, &nan);
+        if (behind)
+            *out = float_of(nan ? 0x7fc00000u : 0x7f800000u, negative);
+        return behind;
+    }
+    if (d.exponent >= LEAST && d.exponent <= MOST) {
+        double x = (double)d.digits * powers[d.exponent - LEAST];
+        if (number_rounds_surely(x)) {
+            *out = (float)(d.negative ? -x : x);
+            return behind;
+        }
+    }
+    *out = float_of(round_decimal(&d, &format_float), d.negative);
+    return behind;
+}
+
+const uint8_t *number_int(const uint8_t *at, const uint8_t *end, int64_t *out)
+{
+    bool negative = false;
+    if (at < end && (*at == '-' || *at == '+'))
+        negative = *at++ == '-';
+    const uint8_t *first = at;
+    uint64_t value = 0, most = (uint64_t)INT64_MAX + negative;
+    for (; at < end && (unsigned)(*at - '0') < 10; at++) {
+        unsigned digit = (unsigned)(*at - '0');
+        if (value > (most - digit) / 10)
+            return NULL;
+        value = value * 10 + digit;
+    }
+    if (at == first)
+        return NULL;
+    *out = (int64_t)(negative ? 0 - value : value);
+    return at;
+}

@@ -1,0 +1,462 @@
+// triangulate.c: polygons of any size, convex or not, into triangles.
+//
+// Ear clipping (Meisters 1975): a corner is an ear when it is convex and no other corner lies in its triangle. Cutting an
+// ear changes only its two neighbours, so each corner is looked at about three times. Only corners that are not convex can
+// lie in an ear; they are kept in a tree of boxes over their Morton order, so that one look takes about √count steps
+// even for long thin ears, however unevenly the corners are spread.
+//
+// Decisions are exact: the corners are projected along the largest axis of the polygon's normal and snapped to integers,
+// 2^30 steps along the longer side (finer than a float), where a cross product fits into 64 bits.
+#include "triangulate.h"
+
+#include <string.h>
+
+enum {
+    NONE = UINT32_MAX,
+    LEAF = 8,        // points in a leaf of the tree
+    STEPS = 1 << 30, // grid steps along the polygon's longer side
+};
+
+// What a corner must satisfy to be cut. A corner that fails one test waits at the next level, and is only looked at again
+// when nothing is left to do at the levels above: simple polygons never leave the first two.
+enum level {
+    LEVEL_EAR,    // convex, no other corner in its triangle or on its edges
+    LEVEL_FLAT,   // as above, or without area: in line with its neighbours, a spike, a repeated point
+    LEVEL_TOUCH,  // convex, no other corner strictly inside
+    LEVEL_CONVEX, // convex
+    LEVEL_ANY,
+    LEVELS,
+};
+
+struct corner {
+    int32_t x, y;
+    uint32_t previous, next;   // around what is left of the polygon
+    uint32_t earlier, later;   // in the queue of its level
+    uint32_t slot;             // in the tree; NONE: not in it
+    uint8_t level;             // LEVELS: in no queue
+};
+
+// A node's box around its points; `count` of them are still there.
+struct box {
+    int32_t min_x, min_y, max_x, max_y;
+    uint32_t count;
+};
+
+struct clip {
+    struct corner *corners;
+    uint32_t first[LEVELS], last[LEVELS]; // queues
+    uint32_t *points;  // corner numbers in Morton order
+    struct box *boxes; // a complete binary tree, node i's children 2i and 2i + 1, leaves from `leaves` on
+    uint32_t leaves;   // a power of two; 0: no points
+};
+
+void triangulator_start(struct triangulator *scratch, struct watch *watch)
+{
+    *scratch = (struct triangulator){.watch = watch};
+    arena_start(&scratch->memory, watch);
+}
+
+void triangulator_stop(struct triangulator *scratch)
+{
+    arena_free(&scratch->memory);
+    *scratch = (struct triangulator){0};
+}
+
+static const float *position_of(const float *positions, const uint32_t *corners, uint32_t i)
+{
+    return positions + 3 * (size_t)corners[i];
+}
+
+// (b − a) × (c − a), in double: 24-bit coordinates leave its sign right for all but the flattest triangles.
+static void face_normal(const float *a, const float *b, const float *c, double out[3])
+{
+    double u[3], v[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = (double)b[k] - (double)a[k];
+        v[k] = (double)c[k] - (double)a[k];
+    }
+    out[0] = u[1] * v[2] - u[2] * v[1];
+    out[1] = u[2] * v[0] - u[0] * v[2];
+    out[2] = u[0] * v[1] - u[1] * v[0];
+}
+
+// Whether two triangles that share an edge of a quad face the same way.
+static bool same_side(const float *a, const float *b, const float *c, const float *d, const float *e, const float *f)
+{
+    double m[3], n[3];
+    face_normal(a, b, c, m);
+    face_normal(d, e, f, n);
+    return m[0] * n[0] + m[1] * n[1] + m[2] * n[2] > 0.0;
+}
+
+static void write_fan(uint32_t count, uint32_t *triples)
+{
+    for (uint32_t i = 1; i + 1 < count; i++, triples += 3) {
+        triples[0] = 0;
+        triples[1] = i;
+        triples[2] = i + 1;
+    }
+}
+
+static void cut_quad(const float *positions, const uint32_t *corners, uint32_t *triples)
+{
+    const float *a = position_of(positions, corners, 0), *b = position_of(positions, corners, 1);
+    const float *c = position_of(positions, corners, 2), *d = position_of(positions, corners, 3);
+    static const uint32_t other[6] = {0, 1, 3, 1, 2, 3};
+    if (!same_side(a, b, c, a, c, d) && same_side(a, b, d, b, c, d))
+        memcpy(triples, other, sizeof other);
+    else
+        write_fan(4, triples);
+}
+
+// Twice the signed area of the triangle, in grid steps: exact, below 2^62.
+static int64_t turn(const struct corner *a, const struct corner *b, const struct corner *c)
+{
+    return ((int64_t)b->x - a->x) * ((int64_t)c->y - a->y) - ((int64_t)b->y - a->y) * ((int64_t)c->x - a->x);
+}
+
+static int64_t turn_at(const struct corner *corners, uint32_t i)
+{
+    return turn(&corners[corners[i].previous], &corners[i], &corners[corners[i].next]);
+}
+
+static bool same_place(const struct corner *a, const struct corner *b) { return a->x == b->x && a->y == b->y; }
+
+// Projects and snaps the corners, turned so that the polygon runs counter-clockwise. False: it has no area.
+static bool snap(const float *positions, const uint32_t *numbers, uint32_t count, struct corner *corners)
+{
+    // Newell's normal, relative to the first corner: the sum of the fan's.
+    double normal[3] = {0, 0, 0};
+    const float *base = position_of(positions, numbers, 0);
+    double low[3], high[3];
+    for (int k = 0; k < 3; k++)
+        low[k] = high[k] = (double)base[k];
+    for (uint32_t i = 1; i < count; i++) {
+        const float *p = position_of(positions, numbers, i);
+        for (int k = 0; k < 3; k++) {
+            low[k] = (double)p[k] < low[k] ? (double)p[k] : low[k];
+            high[k] = (double)p[k] > high[k] ? (double)p[k] : high[k];
+        }
+        if (i + 1 < count) {
+            double n[3];
+            face_normal(base, p, position_of(positions, numbers, i + 1), n);
+            for (int k = 0; k < 3; k++)
+                normal[k] += n[k];
+        }
+    }
+    double size[3] = {normal[0] < 0 ? -normal[0] : normal[0], normal[1] < 0 ? -normal[1] : normal[1],
+                      normal[2] < 0 ? -normal[2] : normal[2]};
+    int away = size[2] >= size[0] && size[2] >= size[1] ? 2 : size[1] >= size[0] ? 1 : 0;
+    int across = (away + 1) % 3, up = (away + 2) % 3;
+    if (normal[away] < 0) {
+        int swap = across;
+        across = up;
+        up = swap;
+    }
+
+    double side = high[across] - low[across] > high[up] - low[up] ? high[across] - low[across] : high[up] - low[up];
+    double scale = (double)STEPS / side;
+    if (!(side > 0) || !(scale < 1e300)) // no extent, or one that no float polygon with area has
+        return false;
+    __extension__ __int128 area = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const float *p = position_of(positions, numbers, i);
+        corners[i] = (struct corner){
+            .x = (int32_t)(((double)p[across] - low[across]) * scale),
+            .y = (int32_t)(((double)p[up] - low[up]) * scale),
+            .previous = i ? i - 1 : count - 1,
+            .next = i + 1 < count ? i + 1 : 0,
+            .slot = NONE,
+            .level = LEVELS,
+        };
+        if (i > 1)
+            area += turn(&corners[0], &corners[i - 1], &corners[i]);
+    }
+    return area > 0;
+}
+
+// --- the tree of corners that are not convex
+
+// Spreads the low 31 bits of x to the even places.
+static uint64_t spread(uint32_t x)
+{
+    uint64_t v = x;
+    v = (v | v << 16) & 0x0000ffff0000ffffu;
+    v = (v | v << 8) & 0x00ff00ff00ff00ffu;
+    v = (v | v << 4) & 0x0f0f0f0f0f0f0f0fu;
+    v = (v | v << 2) & 0x3333333333333333u;
+    return (v | v << 1) & 0x5555555555555555u;
+}
+
+static uint64_t morton(const struct corner *c) { return spread((uint32_t)c->x) | spread((uint32_t)c->y) << 1; }
+
+// Sorts corner numbers by Morton code: a stable radix sort, a byte of the code at a time.
+static void sort_points(const struct corner *corners, uint32_t *points, uint32_t *spare, uint32_t count)
+{
+    for (int shift = 0; shift < 64; shift += 8) {
+        uint32_t starts[257] = {0};
+        for (uint32_t i = 0; i < count; i++)
+            starts[(morton(&corners[points[i]]) >> shift & 255) + 1]++;
+        for (int b = 0; b < 256; b++)
+            starts[b + 1] += starts[b];
+        for (uint32_t i = 0; i < count; i++)
+            spare[starts[morton(&corners[points[i]]) >> shift & 255]++] = points[i];
+        uint32_t *swap = points;
+        points = spare;
+        spare = swap;
+    } // eight rounds: the result is back in `points`
+}
+
+static void build_tree(struct clip *clip, uint32_t count)
+{
+    for (uint32_t leaf = 0; leaf < clip->leaves; leaf++) {
+        struct box box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN, 0};
+        for (uint32_t slot = leaf * LEAF; slot < count && slot < (leaf + 1) * LEAF; slot++) {
+            struct corner *c = &clip->corners[clip->points[slot]];
+            c->slot = slot;
+            box.min_x = c->x < box.min_x ? c->x : box.min_x;
+            box.min_y = c->y < box.min_y ? c->y : box.min_y;
+            box.max_x = c->x > box.max_x ? c->x : box.max_x;
+            box.max_y = c->y > box.max_y ? c->y : box.max_y;
+            box.count++;
+        }
+        clip->boxes[clip->leaves + leaf] = box;
+    }
+    for (uint32_t node = clip->leaves - 1; node > 0; node--) {
+        const struct box *a = &clip->boxes[2 * node], *b = a + 1;
+        clip->boxes[node] = (struct box){
+            a->min_x < b->min_x ? a->min_x : b->min_x,
+            a->min_y < b->min_y ? a->min_y : b->min_y,
+            a->max_x > b->max_x ? a->max_x : b->max_x,
+            a->max_y > b->max_y ? a->max_y : b->max_y,
+            a->count + b->count,
+        };
+    }
+}
+
+static void tree_remove(struct clip *clip, uint32_t i)
+{
+    uint32_t slot = clip->corners[i].slot;
+    if (slot == NONE)
+        return;
+    clip->corners[i].slot = NONE;
+    clip->points[slot] = NONE;
+    for (uint32_t node = clip->leaves + slot / LEAF; node > 0; node /= 2)
+        clip->boxes[node].count--;
+}
+
+// Whether the whole box lies right of a→b, or on it where touching does not count.
+static bool box_outside(const struct box *box, const struct corner *a, const struct corner *b, bool touching)
+{
+    // The box's corner farthest to the left of the edge.
+    struct corner far = {.x = b->y < a->y ? box->max_x : box->min_x, .y = b->x > a->x ? box->max_y : box->min_y};
+    int64_t side = turn(a, b, &far);
+    return touching ? side < 0 : side <= 0;
+}
+
+static bool point_inside(const struct corner *const triangle[3], const struct corner *p, bool touching)
+{
+    for (int k = 0; k < 3; k++) {
+        // A hole's bridge comes back to the same point: it is not in its own way.
+        if (same_place(p, triangle[k]))
+            return false;
+        int64_t side = turn(triangle[k], triangle[k == 2 ? 0 : k + 1], p);
+        if (touching ? side < 0 : side <= 0)
+            return false;
+    }
+    return true;
+}
+
+// Whether a corner that is not convex lies in corner i's triangle (on its edge counts where `touching`).
+static bool blocked(const struct clip *clip, uint32_t i, bool touching)
+{
+    if (clip->leaves == 0 || clip->boxes[1].count == 0)
+        return false;
+    const struct corner *tip = &clip->corners[i];
+    const struct corner *const triangle[3] = {&clip->corners[tip->previous], tip, &clip->corners[tip->next]};
+    uint32_t stack[64], depth = 0;
+    stack[depth++] = 1;
+    while (depth > 0) {
+        uint32_t node = stack[--depth];
+        const struct box *box = &clip->boxes[node];
+        if (box->count == 0 || box_outside(box, triangle[0], triangle[1], touching) ||
+            box_outside(box, triangle[1], triangle[2], touching) ||
+            box_outside(box, triangle[2], triangle[0], touching))
+            continue;
+        if (node < clip->leaves) {
+            stack[depth++] = 2 * node + 1;
+            stack[depth++] = 2 * node;
+            continue;
+        }
+        for (uint32_t slot = (node - clip->leaves) * LEAF; slot < (node - clip->leaves + 1) * LEAF; slot++) {
+            // Slots behind the last point belong to no one: such a leaf has the count 0, or is the last one used.
+            if (clip->points[slot] != NONE && point_inside(triangle, &clip->corners[clip->points[slot]], touching))
+                return true;
+        }
+    }
+    return false;
+}
+
+// --- queues
+
+static void queue_leave(struct clip *clip, uint32_t i)
+{
+    struct corner *c = &clip->corners[i];
+    if (c->level == LEVELS)
+        return;
+    if (c->earlier == NONE)
+        clip->first[c->level] = c->later;
+    else
+        clip->corners[c->earlier].later = c->later;
+    if (c->later == NONE)
+        clip->last[c->level] = c->earlier;
+    else
+        clip->corners[c->later].earlier = c->earlier;
+    c->level = LEVELS;
+}
+
+// Puts a corner at the end of a queue. Neighbours of a cut go to the end, so that cuts spread around the polygon
+// and triangles stay fat.
+static void queue_join(struct clip *clip, uint32_t i, enum level level)
+{
+    queue_leave(clip, i);
+    struct corner *c = &clip->corners[i];
+    c->level = (uint8_t)level;
+    c->later = NONE;
+    c->earlier = clip->last[level];
+    if (c->earlier == NONE)
+        clip->first[level] = i;
+    else
+        clip->corners[c->earlier].later = i;
+    clip->last[level] = i;
+}
+
+static bool may_cut(const struct clip *clip, uint32_t i, enum level level)
+{
+    int64_t area = turn_at(clip->corners, i);
+    switch (level) {
+    case LEVEL_EAR:
+        return area > 0 && !blocked(clip, i, true);
+    case LEVEL_FLAT:
+        return area == 0 || (area > 0 && !blocked(clip, i, true));
+    case LEVEL_TOUCH:
+        return area > 0 && !blocked(clip, i, false);
+    case LEVEL_CONVEX:
+        return area > 0;
+    default:
+        return true;
+    }
+}
+
+static void cut(struct clip *clip, uint32_t i)
+{
+    struct corner *c = &clip->corners[i];
+    tree_remove(clip, i);
+    queue_leave(clip, i);
+    clip->corners[c->previous].next = c->next;
+    clip->corners[c->next].previous = c->previous;
+    const uint32_t neighbours[2] = {c->previous, c->next};
+    for (int k = 0; k < 2; k++) {
+        if (turn_at(clip->corners, neighbours[k]) > 0)
+            tree_remove(clip, neighbours[k]);
+        queue_join(clip, neighbours[k], LEVEL_EAR);
+    }
+}
+
+// Cuts off corner after corner. False: the watch said stop.
+static bool clip_ears(struct clip *clip, uint32_t count, struct watch *watch, uint32_t *triples)
+{
+    uint32_t left = count;
+    for (uint64_t looks = 0; left > 3; looks++) {
+        if (looks % 1024 == 1023 && !watch_on(watch))
+            return false;
+        int level = LEVEL_EAR;
+        while (level < LEVEL_ANY && clip->first[level] == NONE)
+            level++;
+        uint32_t i = clip->first[level];
+        if (!may_cut(clip, i, (enum level)level)) {
+            queue_join(clip, i, (enum level)(level + 1));
+            continue;
+        }
+        triples[0] = clip->corners[i].previous;
+        triples[1] = i;
+        triples[2] = clip->corners[i].next;
+        triples += 3;
+        cut(clip, i);
+        left--;
+    }
+    uint32_t i = 0;
+    while (clip->corners[i].level == LEVELS) // what was cut is in no queue
+        i++;
+    triples[0] = clip->corners[i].previous;
+    triples[1] = i;
+    triples[2] = clip->corners[i].next;
+    return true;
+}
+
+// Memory for a polygon of `count` corners, cut from the scratch's one block, which only grows.
+static bool make_room(struct triangulator *scratch, uint32_t count, struct clip *clip, uint32_t **spare)
+{
+    uint32_t leaves = 1;
+    while ((uint64_t)leaves * LEAF < count)
+        leaves *= 2;
+    size_t corner_bytes = (size_t)count * sizeof(struct corner);
+    size_t point_bytes = (size_t)leaves * LEAF * sizeof(uint32_t);
+    size_t box_bytes = 2 * (size_t)leaves * sizeof(struct box);
+    size_t wanted = corner_bytes + 2 * point_bytes + box_bytes;
+    if (wanted > scratch->room) {
+        size_t room = scratch->room * 2 > wanted ? scratch->room * 2 : wanted;
+        arena_free(&scratch->memory);
+        scratch->room = 0;
+        scratch->block = arena_alloc(&scratch->memory, room);
+        if (!scratch->block)
+            return false;
+        scratch->room = room;
+    }
+    char *at = scratch->block;
+    clip->corners = (struct corner *)at;
+    clip->boxes = (struct box *)(at + corner_bytes);
+    clip->points = (uint32_t *)(at + corner_bytes + box_bytes);
+    *spare = (uint32_t *)(at + corner_bytes + box_bytes + point_bytes);
+    return true;
+}
+
+bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
+                 uint32_t *triples)
+{
+    if (count == 4)
+        cut_quad(positions, corners, triples);
+    if (count == 3)
+        write_fan(3, triples);
+    if (count <= 4)
+        return true;
+
+    struct clip clip = {0};
+    uint32_t *spare;
+    if (!make_room(scratch, count, &clip, &spare))
+        return false;
+    if (!snap(positions, corners, count, clip.corners)) {
+        write_fan(count, triples);
+        return true;
+    }
+    for (int level = 0; level < LEVELS; level++)
+        clip.first[level] = clip.last[level] = NONE;
+    uint32_t points = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        queue_join(&clip, i, LEVEL_EAR);
+        if (turn_at(clip.corners, i) <= 0)
+            clip.points[points++] = i;
+    }
+    if (points == 0) {
+        write_fan(count, triples);
+        return true;
+    }
+    sort_points(clip.corners, clip.points, spare, points);
+    clip.leaves = 1;
+    while ((uint64_t)clip.leaves * LEAF < points)
+        clip.leaves *= 2;
+    for (uint32_t slot = points; slot < clip.leaves * LEAF; slot++)
+        clip.points[slot] = NONE;
+    build_tree(&clip, points);
+    return clip_ears(&clip, count, scratch->watch, triples);
+}

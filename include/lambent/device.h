@@ -44,6 +44,8 @@ LAM_API lam_device *lam_device_null(lam_error *error);
 
 LAM_API void lam_device_free(lam_device *device); // NULL is fine
 LAM_API const char *lam_device_name(const lam_device *device); // "cpu avx2, 2 threads"; lives as long as the device
+LAM_API lam_isa lam_device_isa(const lam_device *device);      // the one in use; LAM_ISA_AUTO: no CPU device
+LAM_API int lam_device_threads(const lam_device *device);      // threads it draws with; 0: none of its own
 
 typedef enum lam_shading {
     LAM_SHADING_PHONG = 0, // normals interpolated, every pixel lit

@@ -26,6 +26,11 @@ typedef enum lam_color_mode {
     LAM_COLOR_RAW,      // no conversion either way: what the equations give is what the picture holds
 } lam_color_mode;
 
+// A colour as people write it: "#rgb", "#rrggbb", "#rrggbbaa", a colour name of HTML 4 (or "orange"), "transparent",
+// or linear numbers "r/g/b" or "r/g/b/a". Hexadecimal colours and names are sRGB: LAM_COLOR_SRGB decodes them to
+// linear light, LAM_COLOR_RAW leaves the numbers as they are. LAM_BAD_ARGUMENT says what was found and expected.
+LAM_API bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam_error *error);
+
 typedef enum lam_normals {
     LAM_NORMALS_FILE = 0, // the file's; smooth ones where it has none (STL's facet normals count as none)
     LAM_NORMALS_SMOOTH,   // made smooth whatever the file says

@@ -55,6 +55,8 @@ void lam_device_report(const lam_device *device, lam_frame_report *report)
 }
 
 const char *lam_device_name(const lam_device *device) { return device ? device->name : NULL; }
+lam_isa lam_device_isa(const lam_device *device) { return device ? device->isa : LAM_ISA_AUTO; }
+int lam_device_threads(const lam_device *device) { return device ? device->threads : 0; }
 
 void lam_device_free(lam_device *device)
 {

@@ -17,6 +17,8 @@ struct device_type {
 struct lam_device {
     const struct device_type *type;
     char name[96];
+    lam_isa isa; // what lam_device_isa and lam_device_threads tell; left 0 by devices that have none
+    int threads;
     struct frame frame;
     lam_frame_report report;
 };

@@ -1,0 +1,89 @@
+// stl.c: STL, binary and ASCII, told apart by content. The readers are stl_binary.c and stl_ascii.c.
+#include "stl.h"
+#include "fail.h"
+#include "text.h"
+
+#include <string.h>
+
+enum kind { NEITHER, ASCII, BINARY_EXACT, BINARY_LOOSE };
+
+static uint32_t facets_promised(const uint8_t *bytes)
+{
+    const uint8_t *at = bytes + STL_HEADER;
+    return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+}
+
+// ASCII files begin with "solid" (or, carelessly made, "facet"), hold no zero byte, and soon say "facet" or "endsolid".
+// Binary ones often begin with "solid" too, so the word alone proves nothing.
+static bool looks_ascii(const uint8_t *bytes, size_t size)
+{
+    enum { SAMPLE = 1024 };
+    const uint8_t *end = bytes + (size < SAMPLE ? size : SAMPLE), *at = bytes;
+    if (size >= 3 && memcmp(at, "\xef\xbb\xbf", 3) == 0) // a byte order mark
+        at += 3;
+    at = text_skip_white(at, end);
+    if (memchr(bytes, 0, (size_t)(end - bytes)))
+        return false;
+    if (text_is_word(at, end, "facet"))
+        return true;
+    return text_is_word(at, end, "solid") &&
+           (size < SAMPLE || text_count_word(at, end, "facet") || text_count_word(at, end, "endsolid"));
+}
+
+// The size decides first: 84 + 50 · count bytes cannot be met by chance in a text, whose count would be above 10⁸.
+static enum kind tell_kind(const uint8_t *bytes, size_t size)
+{
+    bool room = size >= STL_FACETS;
+    uint64_t expected = room ? STL_FACETS + (uint64_t)STL_FACET * facets_promised(bytes) : 0;
+    if (room && size == expected)
+        return BINARY_EXACT;
+    if (looks_ascii(bytes, size))
+        return ASCII;
+    return room ? BINARY_LOOSE : NEITHER;
+}
+
+static int stl_probe(const uint8_t *bytes, size_t size)
+{
+    switch (tell_kind(bytes, size)) {
+    case BINARY_EXACT:
+    case ASCII:
+        return 2;
+    case BINARY_LOOSE: // cut short, or with bytes behind the last facet: the file's name must say that it is STL
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error)
+{
+    return fail(error, LAM_LIMIT, "%s: %llu facets, expected at most %d", source->name, (unsigned long long)facets,
+                STL_FACETS_MAX);
+}
+
+static bool stl_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+{
+    lam_mesh mesh = {0};
+    switch (tell_kind(source->bytes, source->size)) {
+    case ASCII:
+        if (!stl_load_ascii(source, scene, &mesh, error))
+            return false;
+        break;
+    case NEITHER:
+        return fail(error, LAM_CANNOT_READ,
+                    "%s: %zu bytes that do not begin with \"solid\" are too few for an STL file, expected at least %d",
+                    source->name, source->size, STL_FACETS);
+    default:
+        if (!stl_load_binary(source, scene, &mesh, error))
+            return false;
+    }
+    if (mesh.triangle_count == 0)
+        return true;
+    lam_object object = lam_object_default();
+    object.mesh = scene_take_mesh(scene, &mesh, error);
+    return object.mesh >= 0 && scene_take_object(scene, &object, error) >= 0;
+}
+
+const struct importer importer_stl = {
+    .name = "stl", .extensions = "stl", .up = LAM_UP_Z, .probe = stl_probe, .load = stl_load,
+};

@@ -72,6 +72,12 @@ LAM_API lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const c
 LAM_API const char *lam_format_name(int format);
 LAM_API const char *lam_format_extensions(int format);
 
+// Makes the normals of every mesh anew, as loading would have done: LAM_NORMALS_FILE changes only meshes that have none.
+// `crease_angle_rad` 0: 40°. `threads` 0: one for each processor. `control` may be NULL. On failure some meshes may have
+// new normals and others the old ones.
+LAM_API bool lam_scene_make_normals(lam_scene *scene, lam_normals normals, double crease_angle_rad, int threads,
+                                    const lam_control *control, lam_error *error);
+
 // An empty scene, Y up. NULL only when memory is out.
 LAM_API lam_scene *lam_scene_make(lam_error *error);
 LAM_API void lam_scene_free(lam_scene *scene); // NULL is fine

@@ -1,0 +1,106 @@
+// color_text.c: colours as people write them.
+#include "scene_store.h"
+
+#include "fail.h"
+#include "number.h"
+#include "srgb.h"
+
+#include <string.h>
+
+// The sixteen names of HTML 4 with their usual doubles, and orange.
+static const struct {
+    const char *name;
+    uint32_t rgb;
+} names[] = {
+    {"black", 0x000000}, {"silver", 0xc0c0c0}, {"gray", 0x808080},    {"grey", 0x808080},   {"white", 0xffffff},
+    {"maroon", 0x800000}, {"red", 0xff0000},   {"purple", 0x800080},  {"fuchsia", 0xff00ff}, {"magenta", 0xff00ff},
+    {"green", 0x008000}, {"lime", 0x00ff00},   {"olive", 0x808000},   {"yellow", 0xffff00}, {"navy", 0x000080},
+    {"blue", 0x0000ff},  {"teal", 0x008080},   {"aqua", 0x00ffff},    {"cyan", 0x00ffff},   {"orange", 0xffa500},
+};
+
+static int hex_digit(char c)
+{
+    return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+static lam_rgba from_bytes(uint32_t rgba, lam_color_mode mode)
+{
+    double part[3];
+    for (int i = 0; i < 3; i++) {
+        double encoded = (double)(rgba >> (24 - 8 * i) & 255) / 255;
+        part[i] = mode == LAM_COLOR_RAW ? encoded : srgb_decode(encoded);
+    }
+    return (lam_rgba){(float)part[0], (float)part[1], (float)part[2], (float)((double)(rgba & 255) / 255)};
+}
+
+// "rgb", "rrggbb" or "rrggbbaa" behind the '#'.
+static bool read_hex(const char *text, uint32_t *rgba)
+{
+    size_t length = strlen(text);
+    if (length != 3 && length != 6 && length != 8)
+        return false;
+    *rgba = 0;
+    for (size_t i = 0; i < length; i++) {
+        int digit = hex_digit(text[i]);
+        if (digit < 0)
+            return false;
+        *rgba = *rgba << 4 | (uint32_t)digit;
+        if (length == 3)
+            *rgba = *rgba << 4 | (uint32_t)digit;
+    }
+    if (length != 8)
+        *rgba = *rgba << 8 | 255;
+    return true;
+}
+
+// "r/g/b" or "r/g/b/a", not negative; a up to 1.
+static bool read_numbers(const char *text, lam_rgba *color)
+{
+    float part[4] = {0, 0, 0, 1};
+    const uint8_t *at = (const uint8_t *)text, *end = at + strlen(text);
+    int count = 0;
+    for (; count < 4; count++) {
+        at = number_float(at, end, &part[count]);
+        if (!at || !(part[count] >= 0 && part[count] - part[count] == 0))
+            return false;
+        if (at == end || *at++ != '/')
+            break;
+    }
+    *color = (lam_rgba){part[0], part[1], part[2], part[3]};
+    return at == end && (count == 2 || count == 3) && part[3] <= 1;
+}
+
+static bool same_word(const char *a, const char *b)
+{
+    for (; *a && *b; a++, b++)
+        if ((*a >= 'A' && *a <= 'Z' ? *a + 32 : *a) != *b)
+            return false;
+    return *a == *b;
+}
+
+bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam_error *error)
+{
+    if (!text || !color)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_color_parse: %s is NULL", text ? "color" : "text");
+    uint32_t rgba;
+    if (text[0] == '#' && read_hex(text + 1, &rgba)) {
+        *color = from_bytes(rgba, mode);
+        return true;
+    }
+    if (same_word(text, "transparent")) {
+        *color = (lam_rgba){0, 0, 0, 0};
+        return true;
+    }
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (same_word(text, names[i].name)) {
+            *color = from_bytes(names[i].rgb << 8 | 255, mode);
+            return true;
+        }
+    lam_rgba numbers;
+    if (read_numbers(text, &numbers)) {
+        *color = numbers;
+        return true;
+    }
+    return fail(error, LAM_BAD_ARGUMENT,
+                "found '%.60s', expected a colour: #rrggbb, #rrggbbaa, r/g/b, transparent, or a name such as white", text);
+}

@@ -1,0 +1,42 @@
+// command.h: the commands of the program, one table; one file for each command.
+#ifndef COMMAND_H
+#define COMMAND_H
+
+#include "options.h"
+
+// Runs a command. Returns the program's exit code; whatever failed has been told.
+typedef int command_fn(int operand_count, char **operands, const struct options *options);
+
+struct command {
+    const char *name;
+    const char *operands; // as the help shows them; NULL: none
+    const char *summary;  // one sentence
+    unsigned groups;      // bit g: takes the options of group g
+    int least, most;      // count of operands; most −1: any
+    command_fn *run;
+};
+
+extern const struct command command_table[]; // the first one is what runs when no command is named; ends with NULL
+
+command_fn run_render, run_shapes, run_formats, run_help, run_generate;
+
+// The exit codes, for the help, the man page and the docs. Ends with a NULL meaning.
+struct exit_code {
+    int code;
+    const char *meaning;
+};
+extern const struct exit_code exit_codes[];
+
+// Examples: a command line and what it does. Ends with NULL.
+struct example {
+    const char *line, *meaning;
+};
+extern const struct example examples[];
+
+// More to read for the man page and the docs: a title and its paragraphs, with `code` in back quotes. Ends with NULL.
+struct topic {
+    const char *title, *text;
+};
+extern const struct topic topics[];
+
+#endif

@@ -1,0 +1,61 @@
+// command_table.c: the commands, the examples, the exit codes and the topics of the manual.
+#include "command.h"
+
+#define ABOUT (1u << GROUP_ABOUT)
+#define ALL   ((1u << GROUP_COUNT) - 1)
+
+const struct command command_table[] = {
+    {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL, 1, -1,
+     run_render},
+    {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0, run_shapes},
+    {"formats", NULL, "List the model formats that can be read and the picture formats that can be written.", ABOUT, 0,
+     0, run_formats},
+    {"help", "[COMMAND]", "Print the help, of a command where one is named.", ABOUT, 0, 1, run_help},
+    {"generate", "man|markdown|bash|zsh|fish", "Print the man page, its Markdown form, or a shell's completions.", ABOUT,
+     1, 1, run_generate},
+    {.name = NULL},
+};
+
+const struct example examples[] = {
+    {"lambent koala.obj", "writes koala.png: 1024x1024, transparent, three-quarter view"},
+    {"lambent part.stl -o shot.png --size 1920x1080 -b white", "choose file, size and background"},
+    {"lambent scan.ply --view front --shading flat", "choose side and shading"},
+    {"lambent teapot", "a built-in shape (`lambent shapes` lists them)"},
+    {"lambent -q *.stl", "a picture of each model, no chatter"},
+    {"curl -s URL | lambent - -o - | display", "from standard input to standard output"},
+    {"lambent koala.obj --json", "what was read, the camera, and the time of each step"},
+    {NULL, NULL},
+};
+
+const struct exit_code exit_codes[] = {
+    {0, "done"},
+    {1, "the command line is wrong"},
+    {2, "a model cannot be read or is not what its format says"},
+    {3, "not supported: a format, or an instruction set that this machine lacks"},
+    {4, "a limit was hit: time, memory, or a picture too large for this machine"},
+    {5, "the output cannot be written, or would overwrite a file that lambent did not write"},
+    {130, "interrupted (Ctrl-C); nothing half done is left behind"},
+    {0, NULL},
+};
+
+const struct topic topics[] = {
+    {"Models",
+     "MODEL is a file, the name of a built-in shape, or `-` for standard input. The format is told by the content; the "
+     "ending only helps. A built-in shape's name stands for the shape even where a file has that name: write "
+     "`./teapot` for the file, and `./shapes` for a file that is called like a command.\n"
+     "Several models may be given: each becomes its own picture in the current folder. One that fails is told and the "
+     "others are still drawn; the exit code is then the highest one. `-o` and `-` go with a single model."},
+    {"Output",
+     "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An older picture that lambent "
+     "wrote (told by the `Software` text in the PNG) is replaced; any other file of that name stays, and the exit code "
+     "is 5. With `-o` the file that you name is replaced. A picture appears whole or not at all.\n"
+     "Standard output carries the picture (`-o -`) or the report (`--json`), and nothing else. Warnings, errors, the "
+     "line that tells what was written, and a progress bar (only on a terminal, for work of over half a second) go to "
+     "standard error."},
+    {"Same picture everywhere",
+     "The same model and options give the same bytes, whatever the instruction set, the count of threads, the compiler "
+     "and the machine."},
+    {"Environment", "`NO_COLOR`: when set and not empty, messages have no colours. `TERM=dumb` also switches off the "
+     "progress bar. The locale changes nothing: numbers always have a point."},
+    {NULL, NULL},
+};

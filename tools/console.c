@@ -1,0 +1,63 @@
+// console.c: what the program says to people, and the last word on standard output.
+#include "console.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static bool terminal, colors;
+
+void console_start(void)
+{
+    const char *term = getenv("TERM");
+    const char *no_color = getenv("NO_COLOR"); // https://no-color.org: any value but the empty one
+    terminal = isatty(STDERR_FILENO) && term && strcmp(term, "dumb") != 0;
+    colors = terminal && !(no_color && *no_color);
+}
+
+bool console_is_terminal(void) { return terminal; }
+bool console_has_colors(void) { return colors; }
+
+void say_error(const char *text)
+{
+    fprintf(stderr, "%slambent:%s %s\n", colors ? "\033[1;31m" : "", colors ? "\033[0m" : "", text);
+}
+
+void say_warning(const char *text)
+{
+    fprintf(stderr, "%slambent: warning:%s %s\n", colors ? "\033[1;33m" : "", colors ? "\033[0m" : "", text);
+}
+
+void say_plain(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+}
+
+bool complain(lam_error *error, lam_code code, const char *format, ...)
+{
+    error->code = code;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error->text, sizeof error->text, format, arguments);
+    va_end(arguments);
+    for (char *c = error->text; *c; c++) // a file's name may hold what plays with a terminal
+        if ((unsigned char)*c < 0x20 || *c == 0x7F)
+            *c = '?';
+    return false;
+}
+
+bool finish_output(lam_error *error)
+{
+    errno = 0;
+    bool failed = fflush(stdout) != 0;
+    if (failed || ferror(stdout))
+        return complain(error, LAM_CANNOT_WRITE, "standard output: cannot write: %s",
+                        errno ? strerror(errno) : "an earlier write failed");
+    return true;
+}

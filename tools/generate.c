@@ -1,0 +1,37 @@
+// generate.c: the command `generate`: what is made from the table of options besides the help.
+#include "generate.h"
+
+#include <string.h>
+
+#include "console.h"
+#include "suggest.h"
+
+static const struct {
+    const char *name;
+    void (*print)(void);
+} kinds[] = {{"man", generate_man},
+             {"markdown", generate_markdown},
+             {"bash", generate_bash},
+             {"zsh", generate_zsh},
+             {"fish", generate_fish}};
+
+enum { KINDS = sizeof kinds / sizeof kinds[0] };
+
+int run_generate(int operand_count, char **operands, const struct options *options)
+{
+    (void)operand_count, (void)options;
+    struct suggestion nearest = suggest_start(operands[0]);
+    for (int i = 0; i < KINDS; i++) {
+        if (strcmp(kinds[i].name, operands[0]) == 0) {
+            kinds[i].print();
+            return 0;
+        }
+        suggest_try(&nearest, kinds[i].name);
+    }
+    lam_error error;
+    complain(&error, LAM_BAD_ARGUMENT, "generate: found '%.100s', expected man, markdown, bash, zsh or fish%s%s%s",
+             operands[0], nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+             nearest.best ? "'?" : "");
+    say_error(error.text);
+    return error.code;
+}

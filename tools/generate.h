@@ -1,0 +1,13 @@
+// generate.h: texts made from the tables, printed on standard output.
+#ifndef GENERATE_H
+#define GENERATE_H
+
+#include "command.h"
+
+void generate_man(void);      // manual.c
+void generate_markdown(void); // manual.c
+void generate_bash(void);     // completions.c
+void generate_zsh(void);
+void generate_fish(void);
+
+#endif

@@ -1,0 +1,131 @@
+// help.c: --help and the command `help`: examples first, then the options by group.
+#include "help.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "console.h"
+#include "suggest.h"
+
+enum { WIDTH = 96, COLUMN = 26, EXAMPLE_COLUMN = 36 };
+
+// Prints words up to WIDTH columns, from column `at`; further lines begin at `indent`. Back quotes are left out.
+static void print_wrapped(const char *text, int at, int indent)
+{
+    while (*text) {
+        size_t length = strcspn(text, " ");
+        int shown = 0;
+        for (size_t i = 0; i < length; i++)
+            shown += text[i] != '`';
+        if (at > indent && at + 1 + shown > WIDTH) {
+            printf("\n%*s", indent, "");
+            at = indent;
+        } else if (at > indent) {
+            putchar(' ');
+            at++;
+        }
+        for (size_t i = 0; i < length; i++)
+            if (text[i] != '`')
+                putchar(text[i]);
+        at += shown;
+        text += length;
+        text += strspn(text, " ");
+    }
+    putchar('\n');
+}
+
+static void print_row(const char *left, int column, const char *text)
+{
+    int width = (int)strlen(left);
+    printf("%s", left);
+    if (width + 1 > column) {
+        putchar('\n');
+        width = 0;
+    }
+    printf("%*s", column - width, "");
+    print_wrapped(text, column, column);
+}
+
+static void print_option(const struct option *option)
+{
+    char left[96], text[512];
+    char letter[8] = "    ";
+    if (option->letter)
+        snprintf(letter, sizeof letter, "-%c, ", option->letter);
+    snprintf(left, sizeof left, "  %s--%s%s%s", letter, option->name, option->value ? " " : "",
+             option->value ? option->value : "");
+    snprintf(text, sizeof text, "%s%s%s%s", option->summary, option->standard ? " [" : "",
+             option->standard ? option->standard : "", option->standard ? "]" : "");
+    print_row(left, COLUMN, text);
+}
+
+static void print_options(unsigned groups)
+{
+    for (int group = 0; group < GROUP_COUNT; group++) {
+        if (!(groups & 1u << group))
+            continue;
+        printf("\n%s:\n", group_titles[group]);
+        for (const struct option *o = option_table; o->name; o++)
+            if ((int)o->group == group)
+                print_option(o);
+    }
+}
+
+void print_help(const struct command *command)
+{
+    if (command != command_table) {
+        printf("Usage: lambent %s%s%s\n\n%s\n", command->name, command->operands ? " " : "",
+               command->operands ? command->operands : "", command->summary);
+        print_options(command->groups);
+        return;
+    }
+    printf("lambent lights 3D models: a model file becomes a picture.\n\n"
+           "Usage: lambent [OPTIONS] MODEL...\n"
+           "       lambent COMMAND [ARGUMENTS]\n\n"
+           "Examples:\n");
+    for (const struct example *e = examples; e->line; e++) {
+        char left[128];
+        snprintf(left, sizeof left, "  %s", e->line);
+        print_row(left, EXAMPLE_COLUMN, e->meaning);
+    }
+    print_options(command->groups);
+    printf("\nCommands:\n");
+    for (const struct command *c = command_table + 1; c->name; c++) {
+        char left[96];
+        snprintf(left, sizeof left, "  %s%s%s", c->name, c->operands ? " " : "", c->operands ? c->operands : "");
+        print_row(left, COLUMN, c->summary);
+    }
+    printf("\nExit codes:\n");
+    for (const struct exit_code *e = exit_codes; e->meaning; e++) {
+        char left[16];
+        snprintf(left, sizeof left, "  %d", e->code);
+        print_row(left, 7, e->meaning);
+    }
+    printf("\nMore: man lambent\n");
+}
+
+const struct command *find_command(const char *name)
+{
+    for (const struct command *c = command_table; c->name; c++)
+        if (strcmp(c->name, name) == 0)
+            return c;
+    return NULL;
+}
+
+int run_help(int operand_count, char **operands, const struct options *options)
+{
+    (void)options;
+    const struct command *command = operand_count ? find_command(operands[0]) : command_table;
+    if (!command) {
+        lam_error error;
+        struct suggestion nearest = suggest_start(operands[0]);
+        for (const struct command *c = command_table; c->name; c++)
+            suggest_try(&nearest, c->name);
+        complain(&error, LAM_BAD_ARGUMENT, "unknown command '%.100s'%s%s%s", operands[0],
+                 nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
+        say_error(error.text);
+        return error.code;
+    }
+    print_help(command);
+    return 0;
+}

@@ -1,0 +1,36 @@
+// interrupt.c: Ctrl-C and its kin raise a flag, so that a run ends cleanly and leaves nothing half done.
+#include "interrupt.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+static lam_cancel cancel;
+static volatile sig_atomic_t caught;
+
+static void catch(int number)
+{
+    caught = number;
+    lam_cancel_raise(&cancel);
+}
+
+void interrupt_start(void)
+{
+    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+    for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
+        struct sigaction old, action = {.sa_handler = catch, .sa_flags = (int)SA_RESETHAND}; // no SA_RESTART: reads end
+        sigemptyset(&action.sa_mask);
+        if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
+            sigaction(signals[i], &action, NULL);
+    }
+}
+
+const lam_cancel *interrupt_flag(void) { return &cancel; }
+bool interrupted(void) { return caught != 0; }
+
+void interrupt_finish(void)
+{
+    signal(caught, SIG_DFL);
+    raise(caught);
+    _exit(128 + caught); // only where the signal is blocked
+}

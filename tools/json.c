@@ -1,0 +1,108 @@
+// json.c: writes JSON, one value after the other, on one line.
+#include "json.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+// How many bytes of well-formed UTF-8 (RFC 3629) begin here; 0: none.
+static int utf8_length(const unsigned char *s)
+{
+    int length = s[0] < 0x80 ? 1 : s[0] >= 0xC2 && s[0] < 0xE0 ? 2 : s[0] >= 0xE0 && s[0] < 0xF0 ? 3
+                                                                   : s[0] >= 0xF0 && s[0] < 0xF5 ? 4 : 0;
+    for (int i = 1; i < length; i++)
+        if ((s[i] & 0xC0) != 0x80)
+            return 0;
+    if ((s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xED && s[1] > 0x9F)) // too long, surrogates
+        return 0;
+    if ((s[0] == 0xF0 && s[1] < 0x90) || (s[0] == 0xF4 && s[1] > 0x8F)) // too long, beyond U+10FFFF
+        return 0;
+    return length;
+}
+
+static void quoted(FILE *file, const char *text)
+{
+    putc('"', file);
+    for (const unsigned char *s = (const unsigned char *)text; *s;) {
+        int length = utf8_length(s);
+        if (length == 0) {
+            fputs("\\ufffd", file);
+            length = 1;
+        } else if (*s == '"' || *s == '\\') {
+            fprintf(file, "\\%c", *s);
+        } else if (*s < 0x20 || *s == 0x7F) {
+            fprintf(file, "\\u%04x", *s);
+        } else {
+            fwrite(s, 1, (size_t)length, file);
+        }
+        s += length;
+    }
+    putc('"', file);
+}
+
+static void before(struct json *json, const char *key)
+{
+    if (json->comma)
+        fputs(", ", json->file);
+    json->comma = true;
+    if (key) {
+        quoted(json->file, key);
+        fputs(": ", json->file);
+    }
+}
+
+void json_open(struct json *json, const char *key, char bracket)
+{
+    before(json, key);
+    putc(bracket, json->file);
+    json->comma = false;
+}
+
+void json_close(struct json *json, char bracket)
+{
+    putc(bracket, json->file);
+    json->comma = true;
+}
+
+void json_text(struct json *json, const char *key, const char *text)
+{
+    before(json, key);
+    if (text)
+        quoted(json->file, text);
+    else
+        fputs("null", json->file);
+}
+
+void shortest_number(double value, char text[32])
+{
+    // No locale is ever set in this program, so the decimal point is a point.
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, 32, "%.*g", digits, value);
+        if (strtod(text, NULL) == value)
+            return;
+    }
+}
+
+void json_real(struct json *json, const char *key, double value)
+{
+    before(json, key);
+    if (!(value - value == 0)) {
+        fputs("null", json->file);
+        return;
+    }
+    char text[32];
+    shortest_number(value, text);
+    fputs(text, json->file);
+}
+
+void json_count(struct json *json, const char *key, uint64_t value)
+{
+    before(json, key);
+    fprintf(json->file, "%" PRIu64, value);
+}
+
+void json_null(struct json *json, const char *key)
+{
+    before(json, key);
+    fputs("null", json->file);
+}

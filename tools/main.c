@@ -1,0 +1,79 @@
+// main.c: finds the command, reads its options, runs it.
+#include "command.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "console.h"
+#include "help.h"
+#include "report.h"
+
+// What a command line asks for in case it cannot be read: whether there is to be a report, and where.
+static struct options foresee(int count, char **words)
+{
+    struct options options = {0};
+    for (int i = 0; i < count && strcmp(words[i], "--") != 0; i++) {
+        bool output = strcmp(words[i], "-o") == 0 || strcmp(words[i], "--output") == 0;
+        if (strcmp(words[i], "--json") == 0)
+            options.json = true;
+        if ((output && i + 1 < count && strcmp(words[i + 1], "-") == 0) || strcmp(words[i], "-o-") == 0 ||
+            strcmp(words[i], "--output=-") == 0)
+            options.output = "-";
+    }
+    return options;
+}
+
+// The first word names the command, if it is one.
+static const struct command *take_command(int *count, char **words)
+{
+    const struct command *command = *count ? find_command(words[0]) : NULL;
+    if (!command)
+        return command_table;
+    memmove(words, words + 1, (size_t)--*count * sizeof *words);
+    return command;
+}
+
+static bool check_operands(const struct command *command, int count, char **operands, lam_error *error)
+{
+    if (count < command->least && command == command_table)
+        return complain(error, LAM_BAD_ARGUMENT, "no model is given, expected a file, a shape's name or -");
+    if (count < command->least)
+        return complain(error, LAM_BAD_ARGUMENT, "%s: an argument is missing: %s", command->name, command->operands);
+    if (command->most >= 0 && count > command->most)
+        return complain(error, LAM_BAD_ARGUMENT, "%s: unexpected argument '%s'", command->name, operands[command->most]);
+    return true;
+}
+
+static int run(int count, char **words)
+{
+    struct options options = option_defaults();
+    lam_error error = {0};
+    struct options foreseen = foresee(count, words);
+    const struct command *command = take_command(&count, words);
+    int operands = options_parse(count, words, command->groups, &options, &error);
+    if (operands < 0)
+        return tell_failure(&error, &foreseen);
+    if (options.help) {
+        print_help(command);
+        return 0;
+    }
+    if (options.version) {
+        printf("lambent %s\n%s\n", lam_version(), lam_build_info());
+        return 0;
+    }
+    if (!check_operands(command, operands, words, &error))
+        return tell_failure(&error, &options);
+    return command->run(operands, words, &options);
+}
+
+int main(int count, char **words)
+{
+    console_start();
+    int code = run(count - (count > 0), words + (count > 0));
+    lam_error error;
+    if (!finish_output(&error)) {
+        say_error(error.text);
+        code = code ? code : (int)error.code;
+    }
+    return code;
+}

@@ -1,0 +1,186 @@
+// manual.c: the man page and docs/command-line.md, from the tables of options and commands.
+#include "generate.h"
+
+#include <stdio.h>
+#include <string.h>
+
+// Text for roff: '-' is written \- (else it may be shown as another dash), '`code`' is bold, a line never begins with a
+// control character.
+static void roff(const char *text)
+{
+    bool code = false;
+    for (const char *s = text; *s; s++) {
+        if (*s == '`')
+            fputs((code = !code) ? "\\fB" : "\\fR", stdout);
+        else if (*s == '-')
+            fputs("\\-", stdout);
+        else if (*s == '\\')
+            fputs("\\e", stdout);
+        else if ((*s == '.' || *s == '\'') && (s == text || s[-1] == '\n'))
+            printf("\\&%c", *s);
+        else
+            putchar(*s);
+    }
+}
+
+static void roff_line(const char *text)
+{
+    roff(text);
+    putchar('\n');
+}
+
+static void roff_option(const struct option *o)
+{
+    printf(".TP\n");
+    if (o->letter)
+        printf("\\fB\\-%c\\fR, ", o->letter);
+    printf("\\fB\\-\\-");
+    roff(o->name);
+    printf("\\fR");
+    if (o->value) {
+        printf(" \\fI");
+        roff(o->value);
+        printf("\\fR");
+    }
+    printf("\n");
+    roff_line(o->summary);
+    if (o->standard) {
+        printf("Default: ");
+        roff(o->standard);
+        printf(".\n");
+    }
+    if (o->details)
+        roff_line(o->details);
+    for (const struct word *w = o->words; w && w->name && w->summary; w++) {
+        printf(".br\n\\fB");
+        roff(w->name);
+        printf("\\fR: ");
+        roff_line(w->summary);
+    }
+}
+
+static void roff_paragraphs(const char *text)
+{
+    for (; *text; text++) {
+        if (*text == '\n') {
+            printf("\n.PP\n");
+            continue;
+        }
+        char paragraph[4096];
+        size_t length = strcspn(text, "\n");
+        snprintf(paragraph, sizeof paragraph, "%.*s", (int)length, text);
+        roff(paragraph);
+        text += length - 1;
+    }
+    putchar('\n');
+}
+
+void generate_man(void)
+{
+    printf(".TH LAMBENT 1 \"\" \"Lambent %s\" \"User Commands\"\n", lam_version());
+    printf(".SH NAME\nlambent \\- light 3D models: a model file becomes a picture\n");
+    printf(".SH SYNOPSIS\n.B lambent\n[\\fIOPTIONS\\fR] \\fIMODEL\\fR...\n.br\n.B lambent\n\\fICOMMAND\\fR "
+           "[\\fIARGUMENTS\\fR]\n");
+    printf(".SH EXAMPLES\n");
+    for (const struct example *e = examples; e->line; e++) {
+        printf(".TP\n.B ");
+        roff_line(e->line);
+        roff_line(e->meaning);
+    }
+    printf(".SH OPTIONS\n");
+    for (int group = 0; group < GROUP_COUNT; group++) {
+        printf(".SS %s\n", group_titles[group]);
+        for (const struct option *o = option_table; o->name; o++)
+            if ((int)o->group == group)
+                roff_option(o);
+    }
+    printf(".SH COMMANDS\n");
+    for (const struct command *c = command_table; c->name; c++) {
+        printf(".TP\n\\fB%s\\fR", c->name);
+        if (c->operands)
+            printf(" \\fI%s\\fR", c->operands);
+        printf("\n");
+        roff_line(c->summary);
+    }
+    for (const struct topic *t = topics; t->title; t++) {
+        printf(".SH \"%s\"\n", t->title);
+        roff_paragraphs(t->text);
+    }
+    printf(".SH \"EXIT STATUS\"\n");
+    for (const struct exit_code *e = exit_codes; e->meaning; e++) {
+        printf(".TP\n.B %d\n", e->code);
+        roff_line(e->meaning);
+    }
+}
+
+// A cell of a Markdown table: '|' ends a cell.
+static void cell(const char *text)
+{
+    for (; *text; text++)
+        printf(*text == '|' ? "\\|" : "%c", *text);
+}
+
+static void markdown_option(const struct option *o)
+{
+    printf("| `");
+    if (o->letter)
+        printf("-%c`, `", o->letter);
+    printf("--%s", o->name);
+    if (o->value) {
+        putchar(' ');
+        cell(o->value);
+    }
+    printf("` | ");
+    cell(o->standard ? o->standard : "");
+    printf(" | ");
+    cell(o->summary);
+    if (o->details) {
+        putchar(' ');
+        cell(o->details);
+    }
+    for (const struct word *w = o->words; w && w->name && w->summary; w++) {
+        printf("<br>`%s`: ", w->name);
+        cell(w->summary);
+    }
+    printf(" |\n");
+}
+
+void generate_markdown(void)
+{
+    printf("<!-- Made by `lambent generate markdown` from tools/option_table.c and tools/command_table.c. -->\n"
+           "# The command line\n\n"
+           "    lambent [OPTIONS] MODEL...\n"
+           "    lambent COMMAND [ARGUMENTS]\n\n"
+           "## Examples\n\n| command | what it does |\n|---|---|\n");
+    for (const struct example *e = examples; e->line; e++) {
+        printf("| `");
+        cell(e->line);
+        printf("` | ");
+        cell(e->meaning);
+        printf(" |\n");
+    }
+    printf("\n## Options\n");
+    for (int group = 0; group < GROUP_COUNT; group++) {
+        printf("\n### %s\n\n| option | default | what it does |\n|---|---|---|\n", group_titles[group]);
+        for (const struct option *o = option_table; o->name; o++)
+            if ((int)o->group == group)
+                markdown_option(o);
+    }
+    printf("\n## Commands\n\n| command | what it does |\n|---|---|\n");
+    for (const struct command *c = command_table; c->name; c++) {
+        printf("| `%s%s", c->name, c->operands ? " " : "");
+        cell(c->operands ? c->operands : "");
+        printf("` | ");
+        cell(c->summary);
+        printf(" |\n");
+    }
+    for (const struct topic *t = topics; t->title; t++) {
+        printf("\n## %s\n\n", t->title);
+        for (const char *s = t->text; *s; s++)
+            fputs(*s == '\n' ? "\n\n" : (char[]){*s, 0}, stdout);
+        putchar('\n');
+    }
+    printf("\n## Exit codes\n\n| code | meaning |\n|---|---|\n");
+    for (const struct exit_code *e = exit_codes; e->meaning; e++)
+        printf("| %d | %s |\n", e->code, e->meaning);
+}

@@ -1,0 +1,168 @@
+// option_values.c: from the text behind an option to a value.
+#include "options.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "camera_option.h"
+#include "console.h"
+#include "suggest.h"
+
+static void *field_of(struct options *options, size_t field) { return (char *)options + field; }
+
+static bool wrong(lam_error *error, const char *value, const char *expected)
+{
+    return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s", value, expected);
+}
+
+bool store_switch(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    (void)value, (void)error;
+    *(bool *)field_of(options, option->field) = true;
+    return true;
+}
+
+bool store_text(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    if (!*value)
+        return complain(error, LAM_BAD_ARGUMENT, "its value is empty, expected %s", option->value);
+    *(const char **)field_of(options, option->field) = value;
+    return true;
+}
+
+bool store_word(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    struct suggestion nearest = suggest_start(value);
+    for (const struct word *w = option->words; w->name; w++) {
+        if (strcmp(w->name, value) == 0) {
+            *(int *)field_of(options, option->field) = w->value;
+            return true;
+        }
+        suggest_try(&nearest, w->name);
+    }
+    char known[256] = "";
+    for (const struct word *w = option->words; w->name; w++) {
+        strncat(known, w == option->words ? "" : w[1].name ? ", " : " or ", sizeof known - strlen(known) - 1);
+        strncat(known, w->name, sizeof known - strlen(known) - 1);
+    }
+    char guess[64] = "";
+    if (nearest.best && nearest.best[0] > '9') // numbers are not mistyped words
+        snprintf(guess, sizeof guess, "; did you mean '%s'?", nearest.best);
+    return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s", value, known, guess);
+}
+
+const char *read_number(const char *text, double *value)
+{
+    // strtod also takes spaces, hexadecimal, "inf" and "nan": only the plain forms get through to it. Its result is
+    // correctly rounded, and no locale is ever set here.
+    const char *s = text;
+    if (*s == '-' || *s == '+')
+        s++;
+    size_t digits = strspn(s, "0123456789");
+    s += digits;
+    if (*s == '.') {
+        size_t fraction = strspn(++s, "0123456789");
+        digits += fraction;
+        s += fraction;
+    }
+    if (!digits)
+        return NULL;
+    if (*s == 'e' || *s == 'E') {
+        const char *exponent = s + 1 + (s[1] == '-' || s[1] == '+');
+        size_t exponent_digits = strspn(exponent, "0123456789");
+        if (exponent_digits)
+            s = exponent + exponent_digits;
+    }
+    char copy[128];
+    if ((size_t)(s - text) >= sizeof copy)
+        return NULL;
+    memcpy(copy, text, (size_t)(s - text));
+    copy[s - text] = 0;
+    *value = strtod(copy, NULL);
+    return *value - *value == 0 ? s : NULL;
+}
+
+static bool number_between(const struct option *option, const char *value, bool whole, double *number,
+                           lam_error *error)
+{
+    const char *end = read_number(value, number);
+    if (end && !*end && *number >= option->least && *number <= option->most &&
+        (!whole || *number == (double)(long)*number))
+        return true;
+    char expected[96];
+    snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "", option->least,
+             option->most);
+    return wrong(error, value, expected);
+}
+
+bool store_integer(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    double number;
+    if (!number_between(option, value, true, &number, error))
+        return false;
+    *(int *)field_of(options, option->field) = (int)number;
+    return true;
+}
+
+bool store_number(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    if (!number_between(option, value, false, field_of(options, option->field), error))
+        return false;
+    if (option->has_field)
+        *(bool *)field_of(options, option->has_field) = true;
+    return true;
+}
+
+// "800" or "1920x1080".
+bool store_size(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    char *end = (char *)(uintptr_t)value;
+    long width = *value >= '0' && *value <= '9' ? strtol(value, &end, 10) : 0;
+    long height = width;
+    if (end > value && (*end == 'x' || *end == 'X') && end[1] >= '0' && end[1] <= '9')
+        height = strtol(end + 1, &end, 10);
+    if (width < 1 || height < 1 || width > (long)option->most || height > (long)option->most || *end)
+        return wrong(error, value, "W or WxH from 1 to 65535 pixels, such as 800 or 1920x1080");
+    options->width = (int)width;
+    options->height = (int)height;
+    return true;
+}
+
+// "500M": k, M, G, T are powers of 1000, with an i behind them of 1024.
+bool store_bytes(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    double number;
+    const char *rest = read_number(value, &number);
+    const char *letters = "kMGT", *letter = rest && *rest ? strchr(letters, *rest == 'K' ? 'k' : *rest) : NULL;
+    if (letter) {
+        bool binary = rest[1] == 'i';
+        for (int i = 0; i <= letter - letters; i++)
+            number *= binary ? 1024 : 1000;
+        rest += binary ? 2 : 1;
+    }
+    if (rest && *rest == 'B')
+        rest++;
+    if (!rest || *rest || !(number >= 1 && number <= 1e18))
+        return wrong(error, value, "bytes, such as 500M or 2Gi");
+    *(uint64_t *)field_of(options, option->field) = (uint64_t)number;
+    return true;
+}
+
+bool store_color(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    lam_rgba color;
+    if (!lam_color_parse(value, LAM_COLOR_SRGB, &color, error))
+        return false;
+    *(const char **)field_of(options, option->field) = value;
+    return true;
+}
+
+bool store_camera(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    struct camera_option camera;
+    if (!camera_option_parse(value, &camera, error))
+        return false;
+    *(const char **)field_of(options, option->field) = value;
+    return true;
+}

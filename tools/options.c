@@ -1,0 +1,130 @@
+// options.c: reads a command line by the table of options.
+#include "options.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "console.h"
+#include "suggest.h"
+
+struct options option_defaults(void)
+{
+    return (struct options){.width = 1024, .height = 1024, .crease_angle_deg = -1, .repeat = 1};
+}
+
+static const struct option *find_long(const char *name, size_t length)
+{
+    for (const struct option *o = option_table; o->name; o++)
+        if (strlen(o->name) == length && memcmp(o->name, name, length) == 0)
+            return o;
+    return NULL;
+}
+
+static const struct option *find_letter(char letter)
+{
+    for (const struct option *o = option_table; o->name; o++)
+        if (o->letter == letter)
+            return o;
+    return NULL;
+}
+
+static bool unknown_long(const char *name, size_t length, unsigned groups, lam_error *error)
+{
+    char typed[64];
+    snprintf(typed, sizeof typed, "%.*s", (int)(length < 60 ? length : 60), name);
+    struct suggestion nearest = suggest_start(typed);
+    for (const struct option *o = option_table; o->name; o++)
+        if (groups & 1u << o->group)
+            suggest_try(&nearest, o->name);
+    if (nearest.best)
+        return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; did you mean '--%s'?", typed, nearest.best);
+    return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'", typed);
+}
+
+static bool is_known_option(const char *word)
+{
+    return word[0] == '-' && word[1] == '-' && word[2] && find_long(word + 2, strcspn(word + 2, "="));
+}
+
+static bool apply(const struct option *option, const char *value, unsigned groups, struct options *options,
+                  lam_error *error)
+{
+    if (!(groups & 1u << option->group))
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' has no meaning for this command", option->name);
+    lam_error reason = {0};
+    if (option->store(option, value, options, &reason))
+        return true;
+    return complain(error, LAM_BAD_ARGUMENT, "option '--%s': %.400s", option->name, reason.text);
+}
+
+// The word after an option that wants a value; NULL with the error when there is none.
+static const char *next_value(const struct option *option, int count, char **words, int *at, lam_error *error)
+{
+    if (*at + 1 < count && !is_known_option(words[*at + 1]))
+        return words[++*at];
+    complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs a value: %s", option->name, option->value);
+    return NULL;
+}
+
+// "--name", "--name=value" or "--name value".
+static bool read_long(int count, char **words, int *at, unsigned groups, struct options *options, lam_error *error)
+{
+    const char *name = words[*at] + 2;
+    size_t length = strcspn(name, "=");
+    const struct option *option = find_long(name, length);
+    if (!option)
+        return unknown_long(name, length, groups, error);
+    const char *value = name[length] ? name + length + 1 : NULL;
+    if (!option->value && value)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' takes no value; found '%s'", option->name, value);
+    if (option->value && !value && !(value = next_value(option, count, words, at, error)))
+        return false;
+    return apply(option, value, groups, options, error);
+}
+
+// "-q", "-qv", "-ofile" or "-o file".
+static bool read_letters(int count, char **words, int *at, unsigned groups, struct options *options,
+                         lam_error *error)
+{
+    for (const char *letter = words[*at] + 1; *letter; letter++) {
+        const struct option *option = find_letter(*letter);
+        if (!option) {
+            const struct option *whole = find_long(words[*at] + 1, strcspn(words[*at] + 1, "="));
+            if (whole)
+                return complain(error, LAM_BAD_ARGUMENT, "unknown option '%s'; did you mean '--%s'?", words[*at],
+                                whole->name);
+            return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'", *letter);
+        }
+        const char *value = NULL;
+        if (option->value) {
+            value = letter[1] ? letter + 1 : next_value(option, count, words, at, error);
+            if (!value)
+                return false;
+        }
+        if (!apply(option, value, groups, options, error))
+            return false;
+        if (value)
+            break;
+    }
+    return true;
+}
+
+int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error)
+{
+    int operands = 0;
+    for (int at = 0; at < count; at++) {
+        char *word = words[at];
+        if (strcmp(word, "--") == 0) {
+            while (++at < count)
+                words[operands++] = words[at];
+        } else if (word[0] != '-' || word[1] == 0) {
+            words[operands++] = word;
+        } else if (word[1] == '-') {
+            if (!read_long(count, words, &at, groups, options, error))
+                return -1;
+        } else if (!read_letters(count, words, &at, groups, options, error)) {
+            return -1;
+        }
+    }
+    return operands;
+}

@@ -1,0 +1,71 @@
+// output.c: where a picture goes, and whether it may.
+#include "output.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "console.h"
+
+char *output_name(const char *model)
+{
+    if (strcmp(model, "-") == 0)
+        return strdup("model.png");
+    const char *slash = strrchr(model, '/'), *name = slash ? slash + 1 : model;
+    const char *dot = strrchr(name, '.');
+    int stem = (int)(dot && dot != name ? (size_t)(dot - name) : strlen(name));
+    char *path = malloc((size_t)stem + sizeof ".png");
+    if (path)
+        sprintf(path, "%.*s.png", stem, name);
+    return path;
+}
+
+static bool check_folder(const char *path, lam_error *error)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+    if (!folder)
+        return complain(error, LAM_LIMIT, "out of memory");
+    struct stat found;
+    bool ok = true;
+    if (stat(folder, &found) != 0)
+        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder, strerror(errno));
+    else if (!S_ISDIR(found.st_mode))
+        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: '%s' is not a folder", path, folder);
+    else if (access(folder, W_OK | X_OK) != 0)
+        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder, strerror(errno));
+    free(folder);
+    return ok;
+}
+
+bool output_check(const char *path, const char *model, bool named, lam_error *error)
+{
+    struct stat there, of_model;
+    if (stat(path, &there) != 0)
+        return check_folder(path, error);
+    // A picture given as the model: reading it will say what is wrong, which is not that it exists.
+    if (!named && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev && there.st_ino == of_model.st_ino)
+        return true;
+    if (S_ISDIR(there.st_mode))
+        return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: it is a folder%s", path,
+                        named ? "" : "; name another file with -o");
+    if (!S_ISREG(there.st_mode)) { // a pipe or a device is written in place
+        if (access(path, W_OK) != 0)
+            return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
+        return true;
+    }
+    if (!named && !lam_image_is_ours(path))
+        return complain(error, LAM_CANNOT_WRITE,
+                        "%s: already exists, and lambent did not write it; -o %s replaces it, -o FILE writes another",
+                        path, path);
+    return check_folder(path, error);
+}
+
+uint64_t output_size(const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISREG(found.st_mode) ? (uint64_t)found.st_size : 0;
+}

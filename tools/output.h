@@ -1,0 +1,18 @@
+// output.h: where a picture goes, and whether it may.
+#ifndef OUTPUT_H
+#define OUTPUT_H
+
+#include <lambent/lambent.h>
+
+// The name of the picture of a model when none is given, from malloc: "dir/koala.obj" gives "koala.png", "-" gives
+// "model.png". NULL when memory is out.
+char *output_name(const char *model);
+
+// Whether `path` can be written, as far as can be told before the work is done: its folder is there and may be
+// written, it is no folder itself, and, where the user did not name it (`named` false), it is not somebody else's.
+bool output_check(const char *path, const char *model, bool named, lam_error *error);
+
+// Bytes of the file at `path`; 0 where it is none.
+uint64_t output_size(const char *path);
+
+#endif

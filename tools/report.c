@@ -1,0 +1,263 @@
+// report.c: tells what came of a job: a line, a table, or JSON.
+#include "report.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "console.h"
+#include "json.h"
+
+static const char *const code_names[] = {"ok",    "usage",        "cannot-read", "unsupported",
+                                         "limit", "cannot-write", "",            "cancelled"};
+
+static char up_letter(const lam_scene *scene)
+{
+    lam_up up = lam_scene_up(scene);
+    return up == LAM_UP_X ? 'x' : up == LAM_UP_Z ? 'z' : 'y';
+}
+
+// A shape is no file: its format is told as "shape".
+static const char *format_of(const lam_scene *scene)
+{
+    const char *format = lam_scene_format(scene);
+    return format && *format ? format : "shape";
+}
+
+// Thirteen digits: what an angle's way to radians and back leaves of it.
+static double degrees(double angle_rad)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.13g", angle_rad * (180 / 3.14159265358979323846));
+    return strtod(text, NULL);
+}
+
+void report_line(const struct job *job)
+{
+    say_plain("%s  %dx%d  %" PRIu64 " triangles  %.*f ms\n",
+              strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width, job->image.height,
+              lam_scene_triangle_count(job->scene), job->times.total < 10 ? 1 : 0, job->times.total);
+}
+
+static void time_row(const char *name, double ms) { say_plain("  %-12s %10.2f ms\n", name, ms); }
+
+void report_table(const struct job *job)
+{
+    const lam_scene *scene = job->scene;
+    const lam_frame_report *frame = &job->times.frame;
+    lam_vec3 low, high;
+    lam_scene_bounds(scene, &low, &high);
+    say_plain("model    %s (%s), %" PRIu64 " triangles, %" PRIu64 " vertices\n", job->model, format_of(scene),
+              lam_scene_triangle_count(scene), lam_scene_vertex_count(scene));
+    say_plain("         meshes %d, objects %d, materials %d, lights %d, up %c\n", lam_scene_mesh_count(scene),
+              lam_scene_object_count(scene), lam_scene_material_count(scene), lam_scene_light_count(scene),
+              up_letter(scene));
+    say_plain("box      %.7g %.7g %.7g to %.7g %.7g %.7g\n", low.x, low.y, low.z, high.x, high.y, high.z);
+    const lam_camera *camera = &job->camera;
+    say_plain("camera   eye %.7g %.7g %.7g, target %.7g %.7g %.7g, ", camera->eye.x, camera->eye.y, camera->eye.z,
+              camera->target.x, camera->target.y, camera->target.z);
+    if (camera->ortho_half_height > 0)
+        say_plain("orthographic, half height %.7g\n", camera->ortho_half_height);
+    else
+        say_plain("%.7g degrees high\n", degrees(camera->fovy_rad));
+    say_plain("device   %s\n", lam_device_name(job->device));
+    say_plain("picture  %s, %dx%d, %" PRIu64 " bytes\n", strcmp(job->output, "-") == 0 ? "standard output" : job->output,
+              job->image.width, job->image.height, job->bytes);
+    say_plain("drawn    %" PRIu64 " of %" PRIu64 " triangles, %" PRIu64 " pixels covered, %" PRIu64 " points lit, %.1f MB\n",
+              frame->triangles_binned, frame->triangles, frame->pixels_covered, frame->points_lit,
+              (double)frame->memory_bytes / 1e6);
+    time_row("read", job->times.read);
+    time_row("prepare", job->times.prepare);
+    time_row("camera", job->times.camera);
+    time_row("frame", frame->total_ms);
+    time_row("  flatten", frame->frame_ms);
+    time_row("  vertices", frame->vertices_ms);
+    time_row("  triangles", frame->triangles_ms);
+    time_row("  tiles", frame->tiles_ms);
+    time_row("    coverage", frame->coverage_ms);
+    time_row("    lighting", frame->lighting_ms);
+    time_row("    resolve", frame->resolve_ms);
+    if (job->times.frames > 1)
+        say_plain("  %d frames, the median one above; %.2f to %.2f ms\n", job->times.frames, job->times.frame_least,
+                  job->times.frame_most);
+    time_row("encode", job->times.encode);
+    time_row("total", job->times.total);
+}
+
+static void json_vector(struct json *json, const char *key, lam_vec3 v)
+{
+    json_open(json, key, '[');
+    json_real(json, NULL, v.x);
+    json_real(json, NULL, v.y);
+    json_real(json, NULL, v.z);
+    json_close(json, ']');
+}
+
+static void json_model(struct json *json, const struct job *job)
+{
+    const lam_scene *scene = job->scene;
+    json_open(json, "model", '{');
+    json_text(json, "path", job->model);
+    if (scene) {
+        char up[2] = {up_letter(scene), 0};
+        lam_vec3 low, high;
+        lam_scene_bounds(scene, &low, &high);
+        json_text(json, "format", format_of(scene));
+        json_count(json, "triangles", lam_scene_triangle_count(scene));
+        json_count(json, "vertices", lam_scene_vertex_count(scene));
+        json_count(json, "meshes", (uint64_t)lam_scene_mesh_count(scene));
+        json_count(json, "objects", (uint64_t)lam_scene_object_count(scene));
+        json_count(json, "materials", (uint64_t)lam_scene_material_count(scene));
+        json_count(json, "lights", (uint64_t)lam_scene_light_count(scene));
+        json_text(json, "up", up);
+        json_open(json, "bounds", '{');
+        json_vector(json, "min", low);
+        json_vector(json, "max", high);
+        json_close(json, '}');
+    }
+    json_close(json, '}');
+}
+
+static void json_image(struct json *json, const struct job *job)
+{
+    json_open(json, "image", '{');
+    json_text(json, "path", job->output);
+    json_text(json, "format", job->format);
+    json_count(json, "width", (uint64_t)job->image.width);
+    json_count(json, "height", (uint64_t)job->image.height);
+    json_count(json, "samples", (uint64_t)(job->options->samples ? job->options->samples : 4));
+    json_count(json, "bytes", job->bytes);
+    json_close(json, '}');
+}
+
+static void json_camera(struct json *json, const lam_camera *camera)
+{
+    json_open(json, "camera", '{');
+    json_vector(json, "eye", camera->eye);
+    json_vector(json, "target", camera->target);
+    json_vector(json, "up", camera->up);
+    if (camera->ortho_half_height > 0)
+        json_real(json, "ortho_half_height", camera->ortho_half_height);
+    else
+        json_real(json, "fovy_deg", degrees(camera->fovy_rad));
+    bool fitted = camera->near_plane == 0 && camera->far_plane == 0;
+    if (fitted) {
+        json_null(json, "near");
+        json_null(json, "far");
+    } else {
+        json_real(json, "near", camera->near_plane);
+        json_real(json, "far", camera->far_plane);
+    }
+    json_close(json, '}');
+}
+
+static void json_device(struct json *json, const lam_device *device)
+{
+    lam_isa isa = lam_device_isa(device);
+    json_open(json, "device", '{');
+    json_text(json, "name", lam_device_name(device));
+    json_text(json, "isa", isa == LAM_ISA_AUTO ? NULL : lam_isa_name(isa));
+    json_count(json, "threads", (uint64_t)lam_device_threads(device));
+    json_close(json, '}');
+}
+
+// To the microsecond: more would be noise.
+static void json_ms(struct json *json, const char *key, double ms)
+{
+    json_real(json, key, (double)(int64_t)(ms * 1e3 + 0.5) / 1e3);
+}
+
+static void json_times(struct json *json, const struct job_times *times)
+{
+    const lam_frame_report *frame = &times->frame;
+    json_open(json, "times_ms", '{');
+    json_ms(json, "read", times->read);
+    json_ms(json, "prepare", times->prepare);
+    json_ms(json, "camera", times->camera);
+    json_ms(json, "frame", frame->total_ms);
+    json_ms(json, "encode", times->encode);
+    json_ms(json, "total", times->total);
+    json_open(json, "steps", '{');
+    json_ms(json, "flatten", frame->frame_ms);
+    json_ms(json, "vertices", frame->vertices_ms);
+    json_ms(json, "triangles", frame->triangles_ms);
+    json_ms(json, "tiles", frame->tiles_ms);
+    json_ms(json, "coverage", frame->coverage_ms);
+    json_ms(json, "lighting", frame->lighting_ms);
+    json_ms(json, "resolve", frame->resolve_ms);
+    json_close(json, '}');
+    json_count(json, "frames", (uint64_t)times->frames);
+    json_ms(json, "frame_least", times->frame_least);
+    json_ms(json, "frame_most", times->frame_most);
+    json_close(json, '}');
+}
+
+static void json_counts(struct json *json, const lam_frame_report *frame)
+{
+    json_open(json, "counts", '{');
+    json_count(json, "triangles", frame->triangles);
+    json_count(json, "triangles_binned", frame->triangles_binned);
+    json_count(json, "pixels_covered", frame->pixels_covered);
+    json_count(json, "points_lit", frame->points_lit);
+    json_count(json, "memory_bytes", frame->memory_bytes);
+    json_close(json, '}');
+}
+
+static void json_error(struct json *json, const lam_error *error)
+{
+    if (!error || error->code == LAM_OK) {
+        json_null(json, "error");
+        return;
+    }
+    json_open(json, "error", '{');
+    json_text(json, "code", code_names[error->code]);
+    json_count(json, "exit", error->code == LAM_CANCELLED ? 130 : (uint64_t)error->code);
+    json_text(json, "text", error->text);
+    json_close(json, '}');
+}
+
+void report_json(FILE *file, const struct job *job, const lam_error *error)
+{
+    struct json json = {.file = file};
+    json_open(&json, NULL, '{');
+    json_text(&json, "lambent", lam_version());
+    if (job) {
+        json_model(&json, job);
+    } else {
+        json_null(&json, "model");
+    }
+    // A picture that was not written has no camera, device or times worth telling.
+    if (job && job->written) {
+        json_image(&json, job);
+        json_camera(&json, &job->camera);
+        json_device(&json, job->device);
+        json_times(&json, &job->times);
+        json_counts(&json, &job->times.frame);
+    }
+    json_open(&json, "warnings", '[');
+    for (int i = 0; job && job->scene && lam_scene_warning(job->scene, i); i++)
+        json_text(&json, NULL, lam_scene_warning(job->scene, i));
+    json_close(&json, ']');
+    json_error(&json, error);
+    json_close(&json, '}');
+    putc('\n', file);
+}
+
+FILE *report_stream(const struct options *options)
+{
+    if (!options->json)
+        return NULL;
+    return options->output && strcmp(options->output, "-") == 0 ? stderr : stdout;
+}
+
+int tell_failure(const lam_error *error, const struct options *options)
+{
+    FILE *stream = report_stream(options);
+    if (stream != stderr)
+        say_error(error->text);
+    if (stream)
+        report_json(stream, NULL, error);
+    else if (error->code == LAM_BAD_ARGUMENT)
+        say_plain("Try 'lambent --help'.\n");
+    return (int)error->code;
+}

@@ -31,6 +31,7 @@ typedef int32_t mask; // 0 or 1
 typedef float num __attribute__((vector_size(LANES * 4)));
 typedef int32_t inum __attribute__((vector_size(LANES * 4)));
 typedef inum mask; // each lane 0 or −1
+typedef uint32_t unsigned_lanes __attribute__((vector_size(LANES * 4)));
 // The same in memory of any alignment from 4 up: loads and stores go through these.
 typedef float num_memory __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
 typedef int32_t inum_memory __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
@@ -95,6 +96,11 @@ LANE_FN int all_lanes(mask m) { return m != 0; }
 LANE_FN unsigned mask_bits(mask m) { return m != 0; }              // bit i: lane i
 LANE_FN inum int_of(num x) { return (int32_t)x; }                  // towards zero; |x| < 2³¹, never NaN: clamp first
 LANE_FN num num_of_int(inum i) { return (float)i; }
+LANE_FN inum wrap_add(inum a, inum b) { return (int32_t)((uint32_t)a + (uint32_t)b); } // modulo 2³²
+LANE_FN inum wrap_sub(inum a, inum b) { return (int32_t)((uint32_t)a - (uint32_t)b); }
+LANE_FN inum wrap_mul(inum a, inum b) { return (int32_t)((uint32_t)a * (uint32_t)b); }
+LANE_FN inum shift_left(inum i, int n) { return (int32_t)((uint32_t)i << n); }
+LANE_FN inum shift_right(inum i, int n) { return i >> n; }         // keeps the sign
 LANE_FN num root(num x) { return __builtin_sqrtf(x); }
 LANE_FN float lane(num x, int i) { (void)i; return x; }
 LANE_FN int32_t ilane(inum x, int i) { (void)i; return x; }
@@ -112,6 +118,11 @@ LANE_FN mask either(mask a, mask b) { return a | b; }
 LANE_FN mask negate(mask a) { return ~a; }
 LANE_FN inum int_of(num x) { return __builtin_convertvector(x, inum); }
 LANE_FN num num_of_int(inum i) { return __builtin_convertvector(i, num); }
+LANE_FN inum wrap_add(inum a, inum b) { return (inum)((unsigned_lanes)a + (unsigned_lanes)b); }
+LANE_FN inum wrap_sub(inum a, inum b) { return (inum)((unsigned_lanes)a - (unsigned_lanes)b); }
+LANE_FN inum wrap_mul(inum a, inum b) { return (inum)((unsigned_lanes)a * (unsigned_lanes)b); }
+LANE_FN inum shift_left(inum i, int n) { return (inum)((unsigned_lanes)i << n); }
+LANE_FN inum shift_right(inum i, int n) { return i >> n; }
 LANE_FN float lane(num x, int i) { return x[i]; }
 LANE_FN int32_t ilane(inum x, int i) { return x[i]; }
 LANE_FN unsigned mask_bits(mask m)

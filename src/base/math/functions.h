@@ -1,0 +1,116 @@
+// functions.h: powers, logarithms and inverse roots, many at a time, with the same bits on every machine.
+//
+// On top of lanes.h: + − × and integer work on the bits, no libm, no table, no division. Each function says its range
+// and its error, both measured by tests/lighting/test_functions.c. No argument gives NaN, unless it says so.
+#ifndef FUNCTIONS_H
+#define FUNCTIONS_H
+
+#include "lanes.h"
+
+#define SMALLEST_NORMAL 1.17549435e-38f // 2⁻¹²⁶
+
+// x = 2^exponent · (1 + rest) with |rest| ≤ 1/3, exactly, for normal x > 0: the mantissa is cut at 2/3 and 4/3.
+struct binary_parts {
+    num exponent, rest;
+};
+
+LANE_FN struct binary_parts binary_parts_of(num x)
+{
+    inum above = wrap_sub(bits_of(x), inum_of(0x3f2aaaab)); // bits of 2/3
+    inum mantissa = wrap_sub(bits_of(x), above & -0x800000); // the exponent's bits taken off
+    return (struct binary_parts){num_of_int(shift_right(above, 23)), num_of_bits(mantissa) - 1.0f};
+}
+
+// log₂(1 + z) − 1.5·z for |z| ≤ 1/3, at most 0.085; best polynomial, error 1.2e-9 before rounding. 1.5·z is exact in a
+// float, so that the two together know the logarithm to some bits more than a float has.
+LANE_FN num log2_remainder(num z)
+{
+    num r = z * -1.9656924e-1f + 2.0720493e-1f;
+    r = r * z - 1.7290363e-1f;
+    r = r * z + 2.0072298e-1f;
+    r = r * z - 2.4091921e-1f;
+    r = r * z + 2.8879759e-1f;
+    r = r * z - 3.6066076e-1f;
+    r = r * z + 4.8089349e-1f;
+    r = r * z - 7.2134763e-1f;
+    r = r * z - 5.7304937e-2f;
+    return r * z;
+}
+
+// 2^f for |f| ≤ 0.5005, relative error 1e-7 before rounding, exactly 1 at 0.
+LANE_FN num exp2_fraction(num f)
+{
+    num r = f * 1.3265090e-3f + 9.6713379e-3f;
+    r = r * f + 5.5507299e-2f;
+    r = r * f + 2.4022247e-1f;
+    r = r * f + 6.9314700e-1f;
+    return r * f + 1.0f;
+}
+
+// A whole number n near y and 2^n. Adding 1.5·2²³ + 127 leaves no room for a fraction and puts n + 127, the exponent as
+// floats store it, into the lowest bits. Meaningless but harmless where |y| > 126.
+struct whole_power {
+    num whole, power;
+};
+
+LANE_FN struct whole_power whole_power_of(num y)
+{
+    num shifted = y + 12583039.0f;
+    return (struct whole_power){shifted - 12583039.0f, num_of_bits(shift_left(bits_of(shifted), 23))};
+}
+
+// log₂ x within 1.2e-7 absolute and 2e-7 relative. Below the smallest normal number, and for NaN: −126.
+LANE_FN num log2_of(num x)
+{
+    struct binary_parts b = binary_parts_of(greater(x, num_of(SMALLEST_NORMAL)));
+    return b.exponent + (1.5f * b.rest + log2_remainder(b.rest));
+}
+
+// 2^y within 2.5e-7 relative. 0 below −126 and for NaN; what is above 127.5 counts as 127.5.
+LANE_FN num exp2_of(num y)
+{
+    num x = lesser(y, num_of(127.5f));
+    struct whole_power w = whole_power_of(lesser(x, num_of(127.0f)));
+    return pick(y >= -126.0f, exp2_fraction(x - w.whole) * w.power, num_of(0.0f));
+}
+
+// base^exponent for a base in 0…1 (more counts as 1) and any finite exponent ≥ 0. 0⁰ = 1, and 0 else where the base is
+// 0, negative, NaN or below the smallest normal number. Results below the smallest normal number are 0: denormals cost
+// two to three times the rest. Relative error at most 2e-6 for exponents up to 128, 2e-6 + 1.4e-8·exponent beyond.
+//
+// y = exponent · log₂ base is wanted to 2e-6 where it may be 126, two bits more than a float has. So the logarithm is
+// taken as head + tail, the head of 12 bits, and the exponent likewise: head · head is then exact, and only small
+// things are rounded. The work on the exponent is the same for every pixel and leaves the loop.
+LANE_FN num unit_power(num base, num exponent)
+{
+    num x = lesser(base, num_of(1.0f));
+    struct binary_parts b = binary_parts_of(x);
+    num line = 1.5f * b.rest;
+    num curve = log2_remainder(b.rest);
+    num log_head = num_of_bits(bits_of(b.exponent + (line + curve)) & -0x1000);
+    num log_tail = ((b.exponent - log_head) + line) + curve;
+    num exponent_head = num_of_bits(bits_of(exponent) & -0x1000);
+    num exponent_tail = exponent - exponent_head;
+
+    num y_head = exponent_head * log_head;
+    num y_tail = exponent_tail * log_head + exponent * log_tail;
+    num y = y_head + y_tail;
+    struct whole_power w = whole_power_of(y);
+    num fraction = (y_head - w.whole) + y_tail;
+
+    num smallest = pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-3.0e38f)); // for exponent 0 every base will do
+    return pick(both(base >= smallest, y >= -126.0f), exp2_fraction(fraction) * w.power, num_of(0.0f));
+}
+
+// 1/√x for normal x > 0 within 9e-8 relative; about 3.6e19 at 0, so that 0 · inverse_root(0) = 0. A start from the bits
+// (the halved, negated exponent), a first step whose constants were fitted to come out a little low, which makes the
+// rounding of x·y² finer, and one step of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2 + 3e²/8 + …).
+LANE_FN num inverse_root(num x)
+{
+    num y = num_of_bits(wrap_sub(inum_of(0x5f1ffff9), shift_right(bits_of(x), 1)));
+    y = y * (1.6808f - 0.7035f * ((x * y) * y));
+    num e = 1.0f - (x * y) * y;
+    return y + (y * e) * (0.5f + 0.375f * e);
+}
+
+#endif

@@ -1,0 +1,12 @@
+// lighting.h: the equations in C. Include with LANES defined as 1, 4, 8 or 16 (src/base/math/lanes.h).
+//
+// In GLSL the same files follow one another in this order, after prelude.glsl, without the #include lines and guards.
+#ifndef LIGHTING_H
+#define LIGHTING_H
+
+#include "prelude_c.h"
+#include "lobes.h"
+#include "sources.h"
+#include "sum.h"
+
+#endif

@@ -1,0 +1,138 @@
+// lobes.h: how a point of a surface answers the light of one direction: Lambert, Phong, Blinn-Phong, Kajiya-Kay.
+//
+// One text for C and GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space: n the unit normal, l from the point
+// to the light, v from the point to the eye, t the tangent, all of length 1, or 0 where there is none; then the answer
+// is 0. D is the share of diffuse light, S the strength of the highlight, both in 0...1; what multiplies them stands in
+// sum.h. No light comes through a surface: S is 0 where n.l <= 0, since r.v and n.h may be positive there.
+
+// The reflection models, numbered as in lambent/device.h.
+#define MODEL_NONE               1
+#define MODEL_LAMBERT            2
+#define MODEL_PHONG              3
+#define MODEL_BLINN_PHONG        4
+#define MODEL_KAJIYA_KAY         5
+#define MODEL_KAJIYA_KAY_LECTURE 6
+
+STRUCT(surface) {
+    vec3 p;  // the point
+    vec3 n;  // its normal, on the side that is seen
+    vec3 v;  // towards the eye
+    vec3 t;  // along the surface, perpendicular to n; only Kajiya-Kay looks at it
+};
+
+STRUCT(reflected) {
+    num diffuse;   // D
+    num specular;  // S
+    num n_dot_l;   // cosine between normal and light, -1...1
+    num base;      // of the highlight before it goes to the power: r.v or n.h or the cone's cosine, 0...1
+};
+
+// x in -1...1: a dot product of unit vectors may be a rounding more.
+FN num cosine(num x)
+{
+    return lesser(greater(x, num_of(-1.0f)), num_of(1.0f));
+}
+
+// The mirror image of w about n:  2 (n.w) n - w.  Of l it is the lectures' r, of v the ray that an environment is
+// looked up with.
+FN vec3 mirror3(vec3 w, vec3 n)
+{
+    return sub3(scale3(n, 2.0f * dot3(n, w)), w);
+}
+
+// The vector halfway between l and v, both of length 1.
+FN vec3 halfway3(vec3 l, vec3 v)
+{
+    return unit3(add3(l, v));
+}
+
+// w made perpendicular to n and unit (Gram and Schmidt); 0 where w lies along n.
+FN vec3 perpendicular3(vec3 w, vec3 n)
+{
+    return unit3(sub3(w, scale3(n, dot3(n, w))));
+}
+
+// Lambert (1760): a matt surface sends the light it takes in evenly to all sides, and takes in the more the steeper the
+// light falls:  D = max(n.l, 0)
+FN reflected lambert(surface s, vec3 l)
+{
+    reflected r;
+    r.n_dot_l = cosine(dot3(s.n, l));
+    r.diffuse = positive(r.n_dot_l);
+    r.specular = num_of(0.0f);
+    r.base = num_of(0.0f);
+    return r;
+}
+
+// Phong (1975): the highlight is round the mirror image of the light.  S = [n.l > 0] max(r.v, 0)^shininess
+// An error e in r.v becomes shininess * e in S, in every model.
+FN reflected phong(surface s, vec3 l, num shininess)
+{
+    reflected r = lambert(s, l);
+    num c = dot3(mirror3(l, s.n), s.v);
+    r.base = saturate(c);
+    r.specular = pick(r.n_dot_l > 0.0f, unit_power(c, shininess), num_of(0.0f));
+    return r;
+}
+
+// Blinn (1977), the lectures' modified Phong: how near the normal comes to the vector halfway between light and eye.
+// S = [n.l > 0] max(n.h, 0)^shininess  with  h = (l + v) / |l + v|,  so that  n.h = (n.l + n.v) / |l + v|
+FN reflected blinn_phong(surface s, vec3 l, num shininess)
+{
+    reflected r = lambert(s, l);
+    vec3 sum = add3(l, s.v);
+    num c = (dot3(s.n, l) + dot3(s.n, s.v)) * inverse_root(dot3(sum, sum));
+    r.base = saturate(c);
+    r.specular = pick(r.n_dot_l > 0.0f, unit_power(c, shininess), num_of(0.0f));
+    return r;
+}
+
+// Kajiya and Kay (1989): a thread along t mirrors light into a cone round t. With the angles between t and l, t and v:
+//     D = sin(t,l)        S = max(sin(t,l) sin(t,v) - cos(t,l) cos(t,v), 0)^shininess        the mirror cone
+//                         S = max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)^shininess        `lecture`, as some print it
+// sin(t,l) = |t x l|: the root of 1 - (t.l)^2 would lose half of the digits where l is nearly along t. On a solid surface
+// D and S are gated by n.l > 0; a fibre has no inside, and the lecture's form has no gate.
+FN reflected kajiya_kay(surface s, vec3 l, num shininess, int lecture, int fibre)
+{
+    vec3 across_l = cross3(s.t, l);
+    vec3 across_v = cross3(s.t, s.v);
+    num sine_l = lesser(root(dot3(across_l, across_l)), num_of(1.0f));
+    num sine_v = lesser(root(dot3(across_v, across_v)), num_of(1.0f));
+    num cosines = dot3(s.t, l) * dot3(s.t, s.v);
+    num c = sine_l * sine_v - cosines;
+    if (lecture != 0) {
+        c = sine_l * sine_v + cosines;
+    }
+    reflected r;
+    r.n_dot_l = cosine(dot3(s.n, l));
+    r.base = saturate(c);
+    mask lit = dot3(s.t, s.t) > 0.0f;
+    if (fibre == 0 && lecture == 0) {
+        lit = both(lit, r.n_dot_l > 0.0f);
+    }
+    r.diffuse = pick(lit, sine_l, num_of(0.0f));
+    r.specular = pick(lit, unit_power(c, shininess), num_of(0.0f));
+    return r;
+}
+
+// The model by its number. MODEL_NONE answers no light: its colour is `unlit` in sum.h.
+FN reflected reflect_light(surface s, vec3 l, num shininess, int model, int fibre)
+{
+    reflected r = lambert(s, l);
+    if (model == MODEL_NONE) {
+        r.diffuse = num_of(0.0f);
+    }
+    if (model == MODEL_PHONG) {
+        r = phong(s, l, shininess);
+    }
+    if (model == MODEL_BLINN_PHONG) {
+        r = blinn_phong(s, l, shininess);
+    }
+    if (model == MODEL_KAJIYA_KAY) {
+        r = kajiya_kay(s, l, shininess, 0, fibre);
+    }
+    if (model == MODEL_KAJIYA_KAY_LECTURE) {
+        r = kajiya_kay(s, l, shininess, 1, fibre);
+    }
+    return r;
+}

@@ -1,0 +1,118 @@
+// sum.h: the light that leaves a point, as terms and as their sum.
+//
+// One text for C and GLSL (prelude_c.h, prelude.glsl).
+//
+//     I = emission + ka * (La global + sum of La_i + sum of hemisphere_i)
+//         + sum over lights of  spot_i attenuation_i (kd * Ld_i D_i + ks * Ls_i S_i)
+//         + kr * environment
+//
+// where * between colours goes channel by channel. The products ka * La, kd * Ld, ks * Ls are formed once for each
+// draw and come in here as colours. Ambient light is neither attenuated nor narrowed by a cone, so that all of it is
+// one colour for a draw.
+
+// The terms before their sum: pictures of one term, and the explanation of one pixel, come from these.
+STRUCT(terms) {
+    vec3 ambient, diffuse, specular, emission, reflection;
+};
+
+// A sky over a ground, as products with the material: ka * sky, ka * ground.
+STRUCT(hemisphere) {
+    vec3 up;  // unit, towards the sky
+    vec3 sky, ground;
+};
+
+// How the eye sees: from one place (local), or from infinitely far in front, as an orthographic camera does.
+#define VIEWER_LOCAL    0
+#define VIEWER_INFINITE 1
+
+FN vec3 black3()
+{
+    return vec3_of(num_of(0.0f), num_of(0.0f), num_of(0.0f));
+}
+
+// The direction from p to the eye, which is at the origin of eye space.
+FN vec3 to_eye(vec3 p, int viewer)
+{
+    vec3 v = vec3_of(num_of(0.0f), num_of(0.0f), num_of(1.0f));
+    if (viewer == VIEWER_LOCAL) {
+        v = unit3(negate3(p));
+    }
+    return v;
+}
+
+// A surface from interpolated values: normal and tangent of any length.
+FN surface surface_at(vec3 p, vec3 normal, vec3 tangent, int viewer)
+{
+    surface s;
+    s.p = p;
+    s.n = unit3(normal);
+    s.v = to_eye(p, viewer);
+    s.t = perpendicular3(tangent, s.n);
+    return s;
+}
+
+// What is there before any light: ambient = ka * (La global + sum of the lights' La), and the surface's own emission.
+FN terms start_terms(vec3 ambient, vec3 emission)
+{
+    terms sum;
+    sum.ambient = ambient;
+    sum.diffuse = black3();
+    sum.specular = black3();
+    sum.emission = emission;
+    sum.reflection = black3();
+    return sum;
+}
+
+// MODEL_NONE: the diffuse colour as it is, no light asked.
+FN terms unlit_terms(vec3 kd)
+{
+    terms sum = start_terms(black3(), black3());
+    sum.diffuse = kd;
+    return sum;
+}
+
+// Adds ka * mix(ground, sky, 1/2 + 1/2 n.up), the light of a sky over a ground (0 without a normal).
+FN terms add_hemisphere(terms sum, surface s, hemisphere h)
+{
+    vec3 light = mix3(h.ground, h.sky, 0.5f + 0.5f * cosine(dot3(s.n, h.up)));
+    sum.ambient = pick3(dot3(s.n, s.n) > 0.0f, add3(sum.ambient, light), sum.ambient);
+    return sum;
+}
+
+// Adds spot * attenuation * (kd * Ld D + ks * Ls S), both known already.
+FN terms add_reflected(terms sum, source light, toward t, reflected r)
+{
+    num arriving = t.attenuation * t.spot;
+    sum.diffuse = add3(sum.diffuse, scale3(light.diffuse, arriving * r.diffuse));
+    sum.specular = add3(sum.specular, scale3(light.specular, arriving * r.specular));
+    return sum;
+}
+
+// Adds one point, directional or spot light.
+FN terms add_light(terms sum, surface s, source light, num shininess, int kind, int falloff, int model, int fibre)
+{
+    toward t = toward_light(s.p, light, kind, falloff);
+    reflected r = reflect_light(s, t.l, shininess, model, fibre);
+    return add_reflected(sum, light, t, r);
+}
+
+// Adds kr * environment, the environment's colour having been looked up with mirror3(v, n).
+FN terms add_environment(terms sum, vec3 kr, vec3 colour)
+{
+    sum.reflection = add3(sum.reflection, mul3(kr, colour));
+    return sum;
+}
+
+// A colour that varies over the surface (vertex colours, a texture) multiplies what is reflected evenly: ka and kd.
+FN terms tint_terms(terms sum, vec3 colour)
+{
+    sum.ambient = mul3(sum.ambient, colour);
+    sum.diffuse = mul3(sum.diffuse, colour);
+    return sum;
+}
+
+// The sum, nothing clamped.
+FN vec3 sum_terms(terms t)
+{
+    return add3(add3(add3(add3(t.emission, t.ambient), t.diffuse), t.specular), t.reflection);
+}

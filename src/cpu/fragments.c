@@ -1,0 +1,99 @@
+// fragments.c: from samples to fragments: each pixel with each triangle it shows, and how many samples show it.
+#include "pipeline.h"
+
+#include <string.h>
+
+// The pixel's fragments: one for each different number among its samples, in the order of the nearest sample that shows it.
+static int split_pixel(const struct sample_pattern *pattern, const uint32_t *ids, struct thread_state *thread, int count,
+                       uint16_t pixel)
+{
+    int first = count;
+    for (int i = 0; i < pattern->count; i++) {
+        int sample = pattern->by_distance[i];
+        uint32_t id = ids[sample];
+        if (id == NOTHING)
+            continue;
+        int f = first;
+        while (f < count && thread->fragment_id[f] != id)
+            f++;
+        if (f == count) {
+            thread->fragment_id[f] = id;
+            thread->fragment_pixel[f] = pixel;
+            thread->fragment_weight[f] = 0;
+            thread->fragment_sample[f] = (uint8_t)sample;
+            count++;
+        }
+        thread->fragment_weight[f]++;
+    }
+    return count;
+}
+
+// Sorts the fragments' numbers by group: by 11 bits at a time from the lowest, keeping the order within a group.
+static void sort_by_group(struct thread_state *thread, uint32_t largest)
+{
+    uint32_t n = (uint32_t)thread->fragment_count;
+    uint32_t *from = thread->order, *to = thread->fragment_point; // not in use yet, and larger
+    for (uint32_t i = 0; i < n; i++)
+        from[i] = i;
+    for (int shift = 0; shift < 32 && (largest >> shift) != 0; shift += 11) {
+        uint32_t starts[2048] = {0}, sum = 0;
+        for (uint32_t i = 0; i < n; i++)
+            starts[thread->fragment_group[i] >> shift & 2047]++;
+        for (int d = 0; d < 2048; d++) {
+            uint32_t c = starts[d];
+            starts[d] = sum;
+            sum += c;
+        }
+        for (uint32_t i = 0; i < n; i++)
+            to[starts[thread->fragment_group[from[i]] >> shift & 2047]++] = from[i];
+        uint32_t *swap = from;
+        from = to;
+        to = swap;
+    }
+    if (from != thread->order)
+        memcpy(thread->order, from, n * sizeof *from);
+}
+
+static void find_groups(const struct frame *frame, struct thread_state *thread)
+{
+    uint32_t largest = 0;
+    uint32_t low = 0, count = 0; // the surface of the fragment before
+    int surface = 0;
+    for (int i = 0; i < thread->fragment_count; i++) {
+        uint32_t id = thread->fragment_id[i] & ~BACK_SIDE;
+        if (id - low >= count) {
+            surface = frame_surface_of(frame, id);
+            low = frame->surfaces[surface].first_id;
+            count = frame->surfaces[surface].count;
+        }
+        uint32_t group = (uint32_t)surface * 2 + (thread->fragment_id[i] >> 31);
+        thread->fragment_group[i] = group;
+        largest = group > largest ? group : largest;
+    }
+    sort_by_group(thread, largest);
+}
+
+void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height)
+{
+    const struct sample_pattern *pattern = cpu->pattern;
+    int samples = pattern->count, stride = tile_stride(samples), count = 0;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            const uint32_t *ids = thread->ids + (size_t)y * (size_t)stride + (size_t)x * (size_t)samples;
+            int before = count, same = 1;
+            while (same < samples && ids[same] == ids[0])
+                same++;
+            if (same < samples) {
+                count = split_pixel(pattern, ids, thread, count, (uint16_t)(y * TILE + x));
+            } else if (ids[0] != NOTHING) {
+                thread->fragment_id[count] = ids[0];
+                thread->fragment_pixel[count] = (uint16_t)(y * TILE + x);
+                thread->fragment_weight[count] = (uint8_t)samples;
+                thread->fragment_sample[count] = pattern->by_distance[0];
+                count++;
+            }
+            thread->pixels_covered += count > before;
+        }
+    thread->fragment_count = count;
+    find_groups(cpu->frame, thread);
+}

@@ -1,0 +1,26 @@
+// kernels.c: the template of all kernels, compiled once for each instruction set with LANES and ISA defined (meson.build).
+#include "kernels.h"
+
+#include "lanes.h"
+
+#include "project.inc"
+#include "bin.inc"
+#include "cover.inc"
+#include "light.inc"
+#include "resolve.inc"
+
+#define JOIN(a, b)  a##b
+#define NAME(isa)   JOIN(kernels_, isa)
+#define TEXT(x)     #x
+#define STRING(x)   TEXT(x)
+
+const struct kernels NAME(ISA) = {
+    .name = STRING(ISA),
+    .lanes = LANES,
+    .project = project,
+    .bin = bin,
+    .cover = cover,
+    .light = light,
+    .resolve = resolve,
+    .resolve_empty = resolve_empty,
+};

@@ -1,0 +1,27 @@
+// kernels.h: the table of hot functions. One text, compiled once for each instruction set (kernels.c); every one gives the same
+// bits as `plain`.
+#ifndef KERNELS_H
+#define KERNELS_H
+
+#include "pipeline.h"
+
+struct kernels {
+    const char *name;
+    int lanes;
+    // Projects the vertices of one piece.
+    void (*project)(struct cpu_frame *cpu, const struct piece *piece);
+    // Rejects and bins the triangles of one piece.
+    void (*bin)(struct cpu_frame *cpu, struct thread_state *thread, const struct piece *piece);
+    // Draws one tile's binned triangles into the thread's visibility arrays.
+    void (*cover)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
+    // Colours the thread's fragments.
+    void (*light)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
+    // Sums the fragments of a tile into its pixels and writes those into the picture.
+    void (*resolve)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
+    // What a pixel without fragments holds, into cpu->empty_pixel.
+    void (*resolve_empty)(struct cpu_frame *cpu);
+};
+
+extern const struct kernels kernels_plain, kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon;
+
+#endif

@@ -1,0 +1,205 @@
+// pipeline.h: what the steps of the CPU device hand to each other.
+//
+//   vertices   positions → pixel x, y and depth key of every vertex           project.inc
+//   triangles  index triples → tile bins                                      bin.inc, clip.c
+//   tiles      bins → depth key and triangle number of every sample           cover.inc
+//              samples → fragments (a pixel and a triangle it shows)          fragments.c
+//              fragments → colours                                            light.inc
+//              colours → pixels of the picture                                resolve.inc
+#ifndef PIPELINE_H
+#define PIPELINE_H
+
+#include "buffer.h"
+#include "frame.h"
+#include "pool.h"
+#include "watch.h"
+
+enum {
+    TILE = 64,                   // pixels on a side; the same on every machine
+    TILE_SHIFT = 6,
+    SUBPIXEL = 256,              // steps of a snapped vertex in a pixel
+    SUBPIXEL_SHIFT = 8,
+    SAMPLES_MAX = 16,
+    LANES_MAX = 16,
+    VERTEX_PIECE = 8192,         // vertices and triangles in one piece of parallel work
+    TRIANGLE_PIECE = 4096,
+    SMALL = TILE * SUBPIXEL,     // triangles up to this extent have edge functions in 32 bits
+};
+
+#define NOTHING 0xffffffffu      // a sample that no triangle covers
+#define BACK_SIDE 0x80000000u    // in a visibility number: the triangle shows its back
+#define CLIPPED 0x80000000u      // in a bin: the number of a clipped piece, not of a triangle
+
+// Where samples lie in a pixel, in 1/16 pixel from its centre (y down), and in which order they are near to it.
+struct sample_pattern {
+    int count;
+    int8_t x[SAMPLES_MAX], y[SAMPLES_MAX];
+    uint8_t by_distance[SAMPLES_MAX];
+};
+const struct sample_pattern *sample_pattern(int samples);
+
+// A vertex that the fast path cannot use has x = NaN whose low bits say why: outside of which planes it lies.
+enum outside {
+    OUTSIDE_LEFT = 1,
+    OUTSIDE_RIGHT = 2,
+    OUTSIDE_TOP = 4,
+    OUTSIDE_BOTTOM = 8,
+    OUTSIDE_NEAR = 16,
+    OUTSIDE_FAR = 32,
+    OUTSIDE_ALL = 63,
+};
+#define OUTSIDE_NAN 0x7fc00000
+
+// Vertices of all draws: pixel coordinates (y down, not snapped) and depth key (larger is nearer).
+struct vertices {
+    float *x, *y, *key;
+};
+
+// A piece of a triangle that was clipped: its own window coordinates, and the triangle that it belongs to.
+struct clipped_piece {
+    float x[3], y[3], key[3];
+    uint32_t id;
+    bool back;
+};
+
+// A run of vertices or triangles of one draw.
+struct piece {
+    uint32_t draw, first, count;
+};
+
+// Bins: for each tile a chain of blocks with triangle numbers. Every thread has its own, so no locks are taken; the picture
+// does not depend on the order in which a tile's triangles come.
+enum { BIN_BLOCK_IDS = 62 };
+struct bin_block {
+    struct bin_block *next;
+    uint32_t count;
+    uint32_t ids[BIN_BLOCK_IDS];
+};
+
+// Memory in slabs that never move: blocks and clipped pieces of one thread.
+struct slab_list {
+    void **slabs;
+    int count, room;  // slabs held
+    int current;      // the slab being filled
+    size_t used;      // bytes of it
+};
+
+struct thread_state {
+    struct bin_block **bins; // first block of each tile, newest first
+    struct slab_list blocks;
+    struct slab_list pieces;
+    uint32_t piece_count;
+
+    // One tile's visibility: rows of TILE·samples + LANES_MAX entries.
+    float *keys;
+    uint32_t *ids;
+    // One tile's fragments, in the order of pixels.
+    uint32_t *fragment_id;      // with BACK_SIDE
+    uint16_t *fragment_pixel;   // y·TILE + x
+    uint8_t *fragment_weight;   // samples
+    uint8_t *fragment_sample;   // the covered one nearest to the centre
+    uint32_t *fragment_group;   // surface·2 + back
+    uint32_t *order;            // fragments sorted by group
+    float *fragment_color[4];   // r, g, b, a; not premultiplied
+    int fragment_count;
+    // Gouraud and flat shading: the points lit in this tile, found again by hashing.
+    uint32_t *point_table;      // slot → point + 1; a power of two of them, fitted to the group
+    uint32_t (*point_key)[4];   // what makes a point: position, normal, colour, tangent element
+    uint32_t *fragment_point;   // 3 per fragment
+    float *point_color[4];
+    // Sums of a tile's pixels: r, g, b premultiplied, and alpha.
+    float *sum[4];
+
+    struct buffer scratch;      // holds the arrays above but the slabs
+    uint64_t coverage_ns, lighting_ns, resolve_ns, pixels_covered, points_lit, triangles_binned;
+};
+
+// A light against a material: the products that the sum needs (conventions, "The sum").
+struct light_products {
+    float diffuse[3], specular[3]; // kd ⊙ Ld, ks ⊙ Ls
+};
+struct material_products {
+    float ambient[3];              // ka ⊙ (La_global + Σ La)
+    float emission[3];
+    float diffuse[4];              // kd and opacity, for painting unlit
+    float shininess;
+    bool fibre;
+    const struct light_products *lights; // one for each light
+    float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere
+};
+
+struct kernels;
+
+struct cpu_frame {
+    const struct frame *frame;
+    const struct kernels *kernels;
+    const struct sample_pattern *pattern;
+    lam_image *image;
+    struct watch *watch;
+    struct pool *pool;
+    int tiles_across, tiles_down;
+    float guard[2]; // |x|, |y| of a vertex up to which the fast path takes it, in multiples of w, about the window's middle
+    struct vertices vertices;
+    const uint32_t *first_vertex; // of each draw
+    const struct piece *vertex_pieces, *triangle_pieces;
+    const struct material_products *materials;
+    struct thread_state *threads;
+    const float *decode_srgb, *decode_linear; // 256 entries each: what a colour byte stands for
+    uint8_t empty_pixel[16]; // what a pixel without fragments holds
+    int failed;              // set atomically by a worker that ran out of memory
+};
+
+// A block for one more bin, space for one more clipped piece; NULL: out of memory (cpu->failed is set).
+struct bin_block *new_bin_block(struct cpu_frame *cpu, struct thread_state *thread);
+struct clipped_piece *new_clipped_piece(struct cpu_frame *cpu, struct thread_state *thread, uint32_t *number);
+const struct clipped_piece *clipped_piece(const struct thread_state *thread, uint32_t number);
+void slabs_free(struct slab_list *list);
+
+// Appends a number to a tile's bin.
+static inline void bin_put(struct cpu_frame *cpu, struct thread_state *thread, int tile, uint32_t id)
+{
+    struct bin_block *block = thread->bins[tile];
+    if (!block || block->count == BIN_BLOCK_IDS) {
+        struct bin_block *fresh = new_bin_block(cpu, thread);
+        if (!fresh)
+            return;
+        fresh->next = block;
+        fresh->count = 0;
+        thread->bins[tile] = block = fresh;
+    }
+    block->ids[block->count++] = id;
+}
+
+// Snapped coordinates of a triangle's corners, in the order that makes its area positive with y down.
+struct snapped {
+    int32_t x[3], y[3];
+};
+
+// Bins a triangle of any size by its snapped corners: only tiles it can touch.
+void bin_large(struct cpu_frame *cpu, struct thread_state *thread, const struct snapped *corners, uint32_t id);
+
+// Clips triangle t of a draw (id is its number) against the planes its corners violate, and bins the pieces.
+void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw, uint32_t t,
+                   uint32_t id);
+
+// Lists the fragments of a tile.
+void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height);
+
+// Rounds to the nearest 1/256 pixel.
+static inline int32_t snap(float x)
+{
+    float t = x * 256.0f + 0.5f;
+    int32_t i = (int32_t)t;
+    return i - ((float)i > t);
+}
+
+// The three corners' elements of an attribute with its own index array, or the positions' one, or none.
+static inline uint32_t corner_element(const uint32_t *own, const uint32_t *shared, uint32_t corner)
+{
+    return own ? own[corner] : shared ? shared[corner] : corner;
+}
+
+// Numbers in a row of a tile's visibility arrays.
+static inline int tile_stride(int samples) { return TILE * samples + LANES_MAX; }
+
+#endif

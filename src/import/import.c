@@ -1,0 +1,305 @@
+// import.c: from a file or memory to a scene: the table of formats, and the steps that all of them share.
+#include "importer.h"
+
+#include "fail.h"
+#include "float_state.h"
+#include "foreign.h"
+
+#include <lambent/image.h>
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+static const struct importer *const importers[] = {&importer_obj, &importer_stl, &importer_ply};
+enum { IMPORTERS = sizeof importers / sizeof *importers };
+
+const char *lam_format_name(int format)
+{
+    return format >= 0 && format < IMPORTERS ? importers[format]->name : NULL;
+}
+
+const char *lam_format_extensions(int format)
+{
+    return format >= 0 && format < IMPORTERS ? importers[format]->extensions : NULL;
+}
+
+// --- errors with a place
+
+static bool fail_at(lam_error *error, const char *place, const char *format, va_list arguments)
+{
+    char sentence[sizeof error->text];
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    return fail(error, LAM_CANNOT_READ, "%s: %s", place, sentence);
+}
+
+bool fail_line(lam_error *error, const struct import_source *source, size_t line, const char *format, ...)
+{
+    if (!error)
+        return false;
+    char place[sizeof error->text];
+    snprintf(place, sizeof place, "%s:%zu", source->name, line);
+    va_list arguments;
+    va_start(arguments, format);
+    fail_at(error, place, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+bool fail_byte(lam_error *error, const struct import_source *source, size_t offset, const char *format, ...)
+{
+    if (!error)
+        return false;
+    char place[sizeof error->text];
+    snprintf(place, sizeof place, "%s: byte %zu", source->name, offset);
+    va_list arguments;
+    va_start(arguments, format);
+    fail_at(error, place, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+// --- which format
+
+// "obj, stl and ply"
+static const char *format_list(char out[128])
+{
+    size_t used = 0;
+    for (int i = 0; i < IMPORTERS; i++) {
+        const char *between = i == 0 ? "" : i == IMPORTERS - 1 ? " and " : ", ";
+        used += (size_t)snprintf(out + used, 128 - used, "%s%s", between, importers[i]->name);
+    }
+    return out;
+}
+
+static bool has_ending(const struct importer *importer, const char *ending)
+{
+    const char *word = importer->extensions;
+    size_t length = strlen(ending);
+    while (*word && length) {
+        size_t end = strcspn(word, " ");
+        if (end == length && strncasecmp(word, ending, length) == 0)
+            return true;
+        word += end;
+        word += strspn(word, " ");
+    }
+    return false;
+}
+
+// Content decides. Where it leaves a choice, or says nothing, the name's ending does.
+static const struct importer *choose(const char *name, const struct file_bytes *file, const char *wanted, lam_error *error)
+{
+    char list[128];
+    if (wanted) {
+        for (int i = 0; i < IMPORTERS; i++) {
+            if (strcasecmp(importers[i]->name, wanted) == 0 || has_ending(importers[i], wanted))
+                return importers[i];
+        }
+        fail(error, LAM_UNSUPPORTED, "%s: the format '%s' cannot be read; this version reads %s", name, wanted,
+             format_list(list));
+        return NULL;
+    }
+    if (file->size == 0) {
+        fail(error, LAM_CANNOT_READ, "%s: the file is empty", name);
+        return NULL;
+    }
+    const char *ending = path_ending(name);
+    const struct importer *by_content = NULL, *by_ending = NULL;
+    int best = 0;
+    for (int i = 0; i < IMPORTERS; i++) {
+        int sure = importers[i]->probe(file->data, file->size);
+        bool named = has_ending(importers[i], ending);
+        if (named)
+            by_ending = importers[i];
+        if (sure > best || (sure == best && sure > 0 && named)) {
+            best = sure;
+            by_content = importers[i];
+        }
+    }
+    if (best == 2)
+        return by_content;
+    // Known to be something else, whatever its name says.
+    const struct foreign_kind *foreign = foreign_kind_of(file->data, file->size);
+    if (foreign && foreign->is_model) {
+        fail(error, LAM_UNSUPPORTED, "%s: this is %s, which this version cannot read yet; it reads %s", name, foreign->name,
+             format_list(list));
+        return NULL;
+    }
+    if (foreign) {
+        fail(error, LAM_CANNOT_READ, "%s: this is %s, not a 3D model; expected %s", name, foreign->name, format_list(list));
+        return NULL;
+    }
+    if (by_ending)
+        return by_ending; // its reader says what is wrong
+    fail(error, LAM_CANNOT_READ, "%s: this is no model format known here; expected %s", name, format_list(list));
+    return NULL;
+}
+
+// --- companion files
+
+struct companions {
+    const char *model; // the model's path; NULL: it came from memory
+    lam_open_fn *open;
+    void *user;
+};
+
+// A name that stays within the model's folder: as the file has it, with '/' for '\'; only its last part where it begins
+// at a root or drive, or climbs. False: there is no room for it.
+static bool confine(const char *name, char *out, size_t room)
+{
+    size_t length = strlen(name);
+    if (length >= room)
+        return false;
+    for (size_t i = 0; i <= length; i++)
+        out[i] = name[i] == '\\' ? '/' : name[i];
+    bool leaves = out[0] == '/' || (out[0] && out[1] == ':');
+    for (const char *part = out; *part;) {
+        size_t end = strcspn(part, "/");
+        leaves |= end == 2 && part[0] == '.' && part[1] == '.';
+        part += end;
+        part += strspn(part, "/");
+    }
+    if (leaves) {
+        const char *last = path_name(out);
+        memmove(out, last, strlen(last) + 1);
+    }
+    return true;
+}
+
+static bool open_companion(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error)
+{
+    enum { LONGEST = 4096 };
+    const struct companions *companions = source->open_state;
+    char inside[LONGEST], path[2 * LONGEST];
+    if (!confine(name, inside, sizeof inside) || !*inside || strcmp(inside, "..") == 0)
+        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for", source->name, name);
+    if (companions->open) {
+        lam_bytes bytes = {0};
+        if (!companions->open(companions->user, inside, &bytes, error))
+            return false;
+        bool ok = file_copy(bytes.data, bytes.size, source->watch, out, error);
+        lam_bytes_free(&bytes);
+        return ok;
+    }
+    if (!companions->model)
+        return fail(error, LAM_CANNOT_READ, "%s: the file '%s' is not at hand", source->name, inside);
+    int folder = (int)(path_name(companions->model) - companions->model);
+    // Behind "./" a file called "-" is a file.
+    int length = snprintf(path, sizeof path, "%.*s%s%s", folder, companions->model,
+                          folder == 0 && inside[0] == '-' ? "./" : "", inside);
+    if (length < 0 || (size_t)length >= sizeof path)
+        return fail(error, LAM_CANNOT_READ, "%s: the path to '%.80s' is too long", source->name, inside);
+    return file_read(path, source->pool, source->watch, out, error);
+}
+
+// --- the steps
+
+static bool check_params(const lam_load_params *params, const char *name, lam_error *error)
+{
+    double crease = params->crease_angle_rad;
+    if (!(crease >= 0 && crease <= 3.1415927))
+        return fail(error, LAM_BAD_ARGUMENT, "%s: crease_angle_rad is %g, expected 0 to pi", name, crease);
+    if (params->threads < 0 || params->threads > 1024)
+        return fail(error, LAM_BAD_ARGUMENT, "%s: threads is %d, expected 0 to 1024", name, params->threads);
+    if ((unsigned)params->up > LAM_UP_Z || (unsigned)params->color > LAM_COLOR_RAW ||
+        (unsigned)params->normals > LAM_NORMALS_FACET)
+        return fail(error, LAM_BAD_ARGUMENT, "%s: up, color or normals is not one of its constants", name);
+    return true;
+}
+
+static bool check_not_empty(const struct lam_scene *scene, const char *name, lam_error *error)
+{
+    uint64_t triangles = 0, points = 0;
+    for (int i = 0; i < scene->meshes.count; i++) {
+        const lam_mesh *mesh = (const lam_mesh *)scene->meshes.items + i;
+        triangles += mesh->triangle_count;
+        points += mesh->vertex_count;
+    }
+    if (triangles)
+        return true;
+    if (points)
+        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles (%llu points only)", name, (unsigned long long)points);
+    return fail(error, LAM_CANNOT_READ, "%s: holds no triangles", name);
+}
+
+static bool build(struct lam_scene *scene, const struct import_source *source, const struct importer *importer,
+                  uint64_t start_ns, lam_error *error)
+{
+    const lam_load_params *params = source->params;
+    scene->format = importer->name;
+    scene->color = params->color;
+    scene->up = params->up == LAM_UP_AUTO ? importer->up : params->up;
+    if (!importer->load(source, scene, error) || !check_not_empty(scene, source->name, error))
+        return false;
+    uint64_t read_ns = now_ns();
+    scene->read_ms = (double)(read_ns - start_ns) * 1e-6;
+    watch_progress(source->watch, 0.8, "normals");
+    if (!scene_prepare(scene, params->normals, params->crease_angle_rad, source->pool, source->watch, error))
+        return false;
+    if (!scene_measure(scene, source->pool, error))
+        return false;
+    scene->prepare_ms = (double)(now_ns() - read_ns) * 1e-6;
+    watch_progress(source->watch, 1, "normals");
+    return true;
+}
+
+// `path` or else `bytes`.
+static lam_scene *load(const char *path, const void *bytes, size_t size, const char *name, const lam_load_params *given,
+                       const lam_control *control, lam_error *error)
+{
+    static const lam_load_params defaults;
+    const lam_load_params *params = given ? given : &defaults;
+    if (!check_params(params, name, error))
+        return NULL;
+    uint64_t state = float_state_enter(), start_ns = now_ns();
+    struct watch watch;
+    watch_start(&watch, control);
+    struct companions companions = {.model = path, .open = params->open, .user = params->user};
+    struct import_source source = {
+        .name = name,
+        .params = params,
+        .pool = pool_make(params->threads),
+        .watch = &watch,
+        .open = open_companion,
+        .open_state = &companions,
+    };
+    struct lam_scene *scene = NULL;
+    struct file_bytes file = {0};
+    bool ok = source.pool || fail(error, LAM_LIMIT, "%s: out of memory for threads", name);
+    ok = ok && (path ? file_read(path, source.pool, &watch, &file, error) : file_copy(bytes, size, &watch, &file, error));
+    if (ok) {
+        source.bytes = file.data;
+        source.size = file.size;
+        watch_progress(&watch, 0.05, "read");
+        const struct importer *importer = choose(name, &file, params->format, error);
+        scene = importer ? scene_make(&watch, error) : NULL;
+        ok = scene && build(scene, &source, importer, start_ns, error);
+    }
+    if (ok)
+        scene_built(scene);
+    else
+        lam_scene_free(scene);
+    file_release(&file);
+    pool_free(source.pool);
+    float_state_leave(state);
+    return ok ? scene : NULL;
+}
+
+lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control, lam_error *error)
+{
+    if (!path || !*path) {
+        fail(error, LAM_BAD_ARGUMENT, "no file name given");
+        return NULL;
+    }
+    return load(path, NULL, 0, strcmp(path, "-") == 0 ? "standard input" : path, params, control, error);
+}
+
+lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name, const lam_load_params *params,
+                                 const lam_control *control, lam_error *error)
+{
+    if (!bytes && size) {
+        fail(error, LAM_BAD_ARGUMENT, "no bytes given");
+        return NULL;
+    }
+    return load(NULL, bytes, size, name ? name : "(memory)", params, control, error);
+}

@@ -1,0 +1,218 @@
+// obj_faces.c: what an OBJ file's faces need once all vertices are read: polygons cut into triangles, and normals and
+// texture coordinates for the corners that name none.
+#include "obj.h"
+
+#include "linear.h"
+#include "normals.h"
+#include "triangulate.h"
+
+#include <string.h>
+
+// --- polygons
+
+struct cutting {
+    struct obj *obj;
+    struct triangulator *scratch; // one for each thread
+    struct arena *spare;          // likewise: for corners of large polygons
+    int failed;                   // touched atomically
+};
+
+enum { SMALL = 64 };
+
+// Puts the corners in the order of their triangles. `corners` is a copy of what stands at the begin of `at`.
+static void spread_corners(uint32_t *at, const uint32_t *corners, const uint32_t *triples, uint32_t slots)
+{
+    for (uint32_t i = 0; i < slots; i++)
+        at[i] = corners[triples[i]];
+}
+
+static bool cut_polygon(struct cutting *cutting, struct obj_polygon polygon, int thread)
+{
+    struct obj *obj = cutting->obj;
+    uint32_t count = polygon.count, slots = 3 * (count - 2);
+    uint32_t small_corners[SMALL], small_triples[3 * (SMALL - 2)];
+    uint32_t *corners = small_corners, *triples = small_triples;
+    if (count > SMALL) {
+        struct arena *spare = &cutting->spare[thread];
+        arena_free(spare);
+        corners = arena_array(spare, count, sizeof *corners);
+        triples = arena_array(spare, slots, sizeof *triples);
+        if (!corners || !triples)
+            return false;
+    }
+    size_t first = 3 * (size_t)polygon.first_triangle;
+    memcpy(corners, obj->indices + first, count * sizeof *corners);
+    if (!triangulate(&cutting->scratch[thread], obj->positions, corners, count, triples))
+        return false;
+    spread_corners(obj->indices + first, corners, triples, slots);
+    if (obj->texcoord_indices) {
+        memcpy(corners, obj->texcoord_indices + first, count * sizeof *corners);
+        spread_corners(obj->texcoord_indices + first, corners, triples, slots);
+    }
+    if (obj->normal_indices) {
+        memcpy(corners, obj->normal_indices + first, count * sizeof *corners);
+        spread_corners(obj->normal_indices + first, corners, triples, slots);
+    }
+    return true;
+}
+
+static void cut_piece(void *user, size_t index, int thread)
+{
+    struct cutting *cutting = user;
+    struct obj *obj = cutting->obj;
+    uint64_t last = (index + 1) * OBJ_POLYGONS_A_PIECE;
+    if (last > obj->total.polygons)
+        last = obj->total.polygons;
+    if (!watch_on(obj->source->watch))
+        return;
+    for (uint64_t i = index * OBJ_POLYGONS_A_PIECE; i < last; i++) {
+        if (__atomic_load_n(&cutting->failed, __ATOMIC_RELAXED))
+            return;
+        if (!cut_polygon(cutting, obj->polygons[i], thread))
+            __atomic_store_n(&cutting->failed, 1, __ATOMIC_RELAXED);
+    }
+}
+
+bool obj_cut_polygons(struct obj *obj, lam_error *error)
+{
+    if (obj->total.polygons == 0)
+        return true;
+    struct watch *watch = obj->source->watch;
+    size_t threads = (size_t)pool_threads(obj->source->pool);
+    struct cutting cutting = {.obj = obj};
+    cutting.scratch = arena_array(&obj->memory, threads, sizeof *cutting.scratch);
+    cutting.spare = arena_array(&obj->memory, threads, sizeof *cutting.spare);
+    if (!cutting.scratch || !cutting.spare)
+        return watch_memory_error(watch, threads * sizeof *cutting.scratch, error);
+    for (size_t t = 0; t < threads; t++) {
+        triangulator_start(&cutting.scratch[t], watch);
+        arena_start(&cutting.spare[t], watch);
+    }
+    pool_run(obj->source->pool, (obj->total.polygons + OBJ_POLYGONS_A_PIECE - 1) / OBJ_POLYGONS_A_PIECE, cut_piece,
+             &cutting);
+    for (size_t t = 0; t < threads; t++) {
+        triangulator_stop(&cutting.scratch[t]);
+        arena_free(&cutting.spare[t]);
+    }
+    if (!watch_on(watch))
+        return watch_error(watch, error);
+    if (cutting.failed)
+        return watch_memory_error(watch, obj->polygons[0].count * sizeof(uint32_t), error);
+    return true;
+}
+
+// --- attributes that some corners name and others do not
+
+// The same array with room for `more` elements behind its `count`.
+static float *grow(struct obj *obj, const float *array, size_t count, size_t more, size_t width, lam_error *error)
+{
+    float *larger = arena_array(&obj->scene->arena, count + more, width * sizeof *larger);
+    if (!larger) {
+        watch_memory_error(obj->source->watch, (count + more) * width * sizeof *larger, error);
+        return NULL;
+    }
+    memcpy(larger, array, count * width * sizeof *larger);
+    return larger;
+}
+
+// Corners without texture coordinates get (0, 0).
+bool obj_complete_texcoords(struct obj *obj, lam_error *error)
+{
+    bool used = false, missing = false;
+    for (size_t c = 0; c < obj->chunk_count; c++) {
+        used |= obj->chunks[c].texcoord_used;
+        missing |= obj->chunks[c].texcoord_missing;
+    }
+    if (!used) {
+        obj->texcoords = NULL;
+        obj->texcoord_indices = NULL;
+        obj->total.texcoords = 0;
+        return true;
+    }
+    if (!missing)
+        return true;
+    size_t count = (size_t)obj->total.texcoords;
+    float *texcoords = grow(obj, obj->texcoords, count, 1, 2, error);
+    if (!texcoords)
+        return false;
+    texcoords[2 * count] = texcoords[2 * count + 1] = 0;
+    for (size_t i = 0; i < 3 * (size_t)obj->total.triangles; i++) {
+        if (obj->texcoord_indices[i] == OBJ_MISSING)
+            obj->texcoord_indices[i] = (uint32_t)count;
+    }
+    obj->texcoords = texcoords;
+    obj->total.texcoords = count + 1;
+    return true;
+}
+
+static bool lacks_normal(const uint32_t *corners)
+{
+    return corners[0] == OBJ_MISSING || corners[1] == OBJ_MISSING || corners[2] == OBJ_MISSING;
+}
+
+// Makes smooth normals for the triangles that lack one at some corner, from those triangles alone, behind the file's own.
+static bool make_missing(struct obj *obj, lam_error *error)
+{
+    const struct import_source *source = obj->source;
+    size_t triangles = (size_t)obj->total.triangles, lacking = 0;
+    for (size_t t = 0; t < triangles; t++)
+        lacking += lacks_normal(obj->normal_indices + 3 * t);
+    uint32_t *indices = arena_array(&obj->memory, 3 * lacking, sizeof *indices);
+    uint32_t *groups = obj->smoothing_groups ? arena_array(&obj->memory, lacking, sizeof *groups) : NULL;
+    if (!indices || (obj->smoothing_groups && !groups))
+        return watch_memory_error(source->watch, 3 * lacking * sizeof *indices, error);
+    for (size_t t = 0, to = 0; t < triangles; t++) {
+        if (!lacks_normal(obj->normal_indices + 3 * t))
+            continue;
+        memcpy(indices + 3 * to, obj->indices + 3 * t, 3 * sizeof *indices);
+        if (groups)
+            groups[to] = obj->smoothing_groups[t];
+        to++;
+    }
+    lam_mesh part = {
+        .positions = obj->positions,
+        .vertex_count = (uint32_t)obj->total.positions,
+        .indices = indices,
+        .triangle_count = (uint32_t)lacking,
+        .smoothing_groups = groups,
+    };
+    double crease = source->params->crease_angle_rad;
+    if (!normals_smooth(&part, crease > 0 ? crease : math_radians(40), &obj->memory, source->pool, source->watch, error))
+        return false;
+    size_t own = (size_t)obj->total.normals;
+    float *normals = grow(obj, obj->normals, own, part.normal_count, 3, error);
+    if (!normals)
+        return false;
+    memcpy(normals + 3 * own, part.normals, (size_t)part.normal_count * 3 * sizeof *normals);
+    for (size_t t = 0, from = 0; t < triangles; t++) {
+        uint32_t *corners = obj->normal_indices + 3 * t;
+        if (!lacks_normal(corners))
+            continue;
+        for (int c = 0; c < 3; c++) {
+            if (corners[c] == OBJ_MISSING)
+                corners[c] = (uint32_t)own + (part.normal_indices ? part.normal_indices[3 * from + (size_t)c]
+                                                                  : (uint32_t)(3 * from + (size_t)c));
+        }
+        from++;
+    }
+    obj->normals = normals;
+    obj->total.normals = own + part.normal_count;
+    return true;
+}
+
+bool obj_complete_normals(struct obj *obj, lam_error *error)
+{
+    bool used = false, missing = false;
+    for (size_t c = 0; c < obj->chunk_count; c++) {
+        used |= obj->chunks[c].normal_used;
+        missing |= obj->chunks[c].normal_missing;
+    }
+    if (used && missing && obj->source->params->normals == LAM_NORMALS_FILE)
+        return make_missing(obj, error);
+    if (!used || missing) { // the scene makes them all
+        obj->normals = NULL;
+        obj->normal_indices = NULL;
+        obj->total.normals = 0;
+    }
+    return true;
+}

@@ -55,12 +55,12 @@ static const struct kernels *kernels_of(lam_isa isa)
 
 bool lam_isa_usable(lam_isa isa) { return isa == LAM_ISA_AUTO || kernels_of(isa) != NULL; }
 
-static const struct kernels *widest_kernels(void)
+static lam_isa widest_isa(void)
 {
     for (int isa = LAM_ISA_COUNT - 1; isa > LAM_ISA_AUTO; isa--)
         if (kernels_of((lam_isa)isa))
-            return kernels_of((lam_isa)isa);
-    return &kernels_plain;
+            return (lam_isa)isa;
+    return LAM_ISA_PLAIN;
 }
 
 // --- memory
@@ -395,11 +395,12 @@ lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
         fail(error, LAM_BAD_ARGUMENT, "cpu: threads is %d, expected 1 to 1024, or 0 for one each processor", params->threads);
         return NULL;
     }
-    const struct kernels *kernels = params->isa == LAM_ISA_AUTO ? widest_kernels() : kernels_of(params->isa);
+    lam_isa isa = params->isa == LAM_ISA_AUTO ? widest_isa() : params->isa;
+    const struct kernels *kernels = kernels_of(isa);
     if (!kernels) {
         const char *name = lam_isa_name(params->isa);
         fail(error, LAM_UNSUPPORTED, "cpu: %s has no instruction set '%s'; '%s' is the widest here",
-             name ? "this processor or build" : "lambent", name ? name : "?", widest_kernels()->name);
+             name ? "this processor or build" : "lambent", name ? name : "?", lam_isa_name(widest_isa()));
         return NULL;
     }
     struct cpu_device *device = calloc(1, sizeof *device);
@@ -413,6 +414,8 @@ lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
         return NULL;
     }
     device->base.type = &type;
+    device->base.isa = isa;
+    device->base.threads = pool_threads(pool);
     device->kernels = kernels;
     device->pool = pool;
     device->thread_count = pool_threads(pool);

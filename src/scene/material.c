@@ -1,0 +1,192 @@
+// material.c: the neutral default and the classic named materials.
+#include <lambent/material.h>
+
+#include <stddef.h>
+
+struct named_material {
+    const char *name;
+    lam_rgb ambient;
+    lam_rgb diffuse;
+    lam_rgb specular;
+    float shininess;
+};
+
+// The last column of the published table is a share of OpenGL's largest exponent.
+#define SHININESS(share) ((float)((share) * 128.0))
+
+// The numbers of SGI's demonstration teapots.c, unchanged.
+static const struct named_material named[LAM_MATERIAL_COUNT] = {
+    [LAM_MATERIAL_EMERALD] = {"emerald",
+                              {0.0215f, 0.1745f, 0.0215f},
+                              {0.07568f, 0.61424f, 0.07568f},
+                              {0.633f, 0.727811f, 0.633f},
+                              SHININESS(0.6)},
+    [LAM_MATERIAL_JADE] = {"jade",
+                           {0.135f, 0.2225f, 0.1575f},
+                           {0.54f, 0.89f, 0.63f},
+                           {0.316228f, 0.316228f, 0.316228f},
+                           SHININESS(0.1)},
+    [LAM_MATERIAL_OBSIDIAN] = {"obsidian",
+                               {0.05375f, 0.05f, 0.06625f},
+                               {0.18275f, 0.17f, 0.22525f},
+                               {0.332741f, 0.328634f, 0.346435f},
+                               SHININESS(0.3)},
+    [LAM_MATERIAL_PEARL] = {"pearl",
+                            {0.25f, 0.20725f, 0.20725f},
+                            {1.0f, 0.829f, 0.829f},
+                            {0.296648f, 0.296648f, 0.296648f},
+                            SHININESS(0.088)},
+    [LAM_MATERIAL_RUBY] = {"ruby",
+                           {0.1745f, 0.01175f, 0.01175f},
+                           {0.61424f, 0.04136f, 0.04136f},
+                           {0.727811f, 0.626959f, 0.626959f},
+                           SHININESS(0.6)},
+    [LAM_MATERIAL_TURQUOISE] = {"turquoise",
+                                {0.1f, 0.18725f, 0.1745f},
+                                {0.396f, 0.74151f, 0.69102f},
+                                {0.297254f, 0.30829f, 0.306678f},
+                                SHININESS(0.1)},
+    [LAM_MATERIAL_BRASS] = {"brass",
+                            {0.329412f, 0.223529f, 0.027451f},
+                            {0.780392f, 0.568627f, 0.113725f},
+                            {0.992157f, 0.941176f, 0.807843f},
+                            SHININESS(0.21794872)},
+    [LAM_MATERIAL_BRONZE] = {"bronze",
+                             {0.2125f, 0.1275f, 0.054f},
+                             {0.714f, 0.4284f, 0.18144f},
+                             {0.393548f, 0.271906f, 0.166721f},
+                             SHININESS(0.2)},
+    [LAM_MATERIAL_CHROME] = {"chrome",
+                             {0.25f, 0.25f, 0.25f},
+                             {0.4f, 0.4f, 0.4f},
+                             {0.774597f, 0.774597f, 0.774597f},
+                             SHININESS(0.6)},
+    [LAM_MATERIAL_COPPER] = {"copper",
+                             {0.19125f, 0.0735f, 0.0225f},
+                             {0.7038f, 0.27048f, 0.0828f},
+                             {0.256777f, 0.137622f, 0.086014f},
+                             SHININESS(0.1)},
+    [LAM_MATERIAL_GOLD] = {"gold",
+                           {0.24725f, 0.1995f, 0.0745f},
+                           {0.75164f, 0.60648f, 0.22648f},
+                           {0.628281f, 0.555802f, 0.366065f},
+                           SHININESS(0.4)},
+    [LAM_MATERIAL_SILVER] = {"silver",
+                             {0.19225f, 0.19225f, 0.19225f},
+                             {0.50754f, 0.50754f, 0.50754f},
+                             {0.508273f, 0.508273f, 0.508273f},
+                             SHININESS(0.4)},
+    [LAM_MATERIAL_BLACK_PLASTIC] = {"black-plastic",
+                                    {0.0f, 0.0f, 0.0f},
+                                    {0.01f, 0.01f, 0.01f},
+                                    {0.5f, 0.5f, 0.5f},
+                                    SHININESS(0.25)},
+    [LAM_MATERIAL_CYAN_PLASTIC] = {"cyan-plastic",
+                                   {0.0f, 0.1f, 0.06f},
+                                   {0.0f, 0.50980392f, 0.50980392f},
+                                   {0.50196078f, 0.50196078f, 0.50196078f},
+                                   SHININESS(0.25)},
+    [LAM_MATERIAL_GREEN_PLASTIC] = {"green-plastic",
+                                    {0.0f, 0.0f, 0.0f},
+                                    {0.1f, 0.35f, 0.1f},
+                                    {0.45f, 0.55f, 0.45f},
+                                    SHININESS(0.25)},
+    [LAM_MATERIAL_RED_PLASTIC] = {"red-plastic",
+                                  {0.0f, 0.0f, 0.0f},
+                                  {0.5f, 0.0f, 0.0f},
+                                  {0.7f, 0.6f, 0.6f},
+                                  SHININESS(0.25)},
+    [LAM_MATERIAL_WHITE_PLASTIC] = {"white-plastic",
+                                    {0.0f, 0.0f, 0.0f},
+                                    {0.55f, 0.55f, 0.55f},
+                                    {0.7f, 0.7f, 0.7f},
+                                    SHININESS(0.25)},
+    [LAM_MATERIAL_YELLOW_PLASTIC] = {"yellow-plastic",
+                                     {0.0f, 0.0f, 0.0f},
+                                     {0.5f, 0.5f, 0.0f},
+                                     {0.6f, 0.6f, 0.5f},
+                                     SHININESS(0.25)},
+    [LAM_MATERIAL_BLACK_RUBBER] = {"black-rubber",
+                                   {0.02f, 0.02f, 0.02f},
+                                   {0.01f, 0.01f, 0.01f},
+                                   {0.4f, 0.4f, 0.4f},
+                                   SHININESS(0.078125)},
+    [LAM_MATERIAL_CYAN_RUBBER] = {"cyan-rubber",
+                                  {0.0f, 0.05f, 0.05f},
+                                  {0.4f, 0.5f, 0.5f},
+                                  {0.04f, 0.7f, 0.7f},
+                                  SHININESS(0.078125)},
+    [LAM_MATERIAL_GREEN_RUBBER] = {"green-rubber",
+                                   {0.0f, 0.05f, 0.0f},
+                                   {0.4f, 0.5f, 0.4f},
+                                   {0.04f, 0.7f, 0.04f},
+                                   SHININESS(0.078125)},
+    [LAM_MATERIAL_RED_RUBBER] = {"red-rubber",
+                                 {0.05f, 0.0f, 0.0f},
+                                 {0.5f, 0.4f, 0.4f},
+                                 {0.7f, 0.04f, 0.04f},
+                                 SHININESS(0.078125)},
+    [LAM_MATERIAL_WHITE_RUBBER] = {"white-rubber",
+                                   {0.05f, 0.05f, 0.05f},
+                                   {0.5f, 0.5f, 0.5f},
+                                   {0.7f, 0.7f, 0.7f},
+                                   SHININESS(0.078125)},
+    [LAM_MATERIAL_YELLOW_RUBBER] = {"yellow-rubber",
+                                    {0.05f, 0.05f, 0.0f},
+                                    {0.5f, 0.5f, 0.4f},
+                                    {0.7f, 0.7f, 0.04f},
+                                    SHININESS(0.078125)},
+};
+
+// A grey that the studio rig lights from sRGB 80 in the shade to 230 in the light, with room above for a highlight
+// that shows the form without looking like metal or wet clay.
+lam_material lam_material_default(void)
+{
+    return (lam_material){
+        .ambient = {0.55f, 0.55f, 0.55f},
+        .diffuse = {0.55f, 0.55f, 0.55f, 1.0f},
+        .specular = {0.12f, 0.12f, 0.12f},
+        .shininess = 32.0f,
+        .illum = -1,
+    };
+}
+
+static bool known(lam_material_id id) { return (unsigned)id < LAM_MATERIAL_COUNT; }
+
+lam_material lam_material_named(lam_material_id id)
+{
+    lam_material material = lam_material_default();
+    if (!known(id))
+        return material;
+    const struct named_material *row = &named[id];
+    material.ambient = row->ambient;
+    material.diffuse = (lam_rgba){row->diffuse.r, row->diffuse.g, row->diffuse.b, 1.0f};
+    material.specular = row->specular;
+    material.shininess = row->shininess;
+    material.name = row->name;
+    return material;
+}
+
+const char *lam_material_name(lam_material_id id) { return known(id) ? named[id].name : NULL; }
+
+// A letter as the table writes it. Only ASCII, so the locale has no say.
+static char plain_letter(char c)
+{
+    if (c >= 'A' && c <= 'Z')
+        return (char)(c - 'A' + 'a');
+    return c == ' ' || c == '_' ? '-' : c;
+}
+
+lam_material_id lam_material_find(const char *name)
+{
+    for (int id = 0; name && id < LAM_MATERIAL_COUNT; id++) {
+        const char *a = name, *b = named[id].name;
+        while (*a && plain_letter(*a) == *b) {
+            a++;
+            b++;
+        }
+        if (!*a && !*b)
+            return (lam_material_id)id;
+    }
+    return LAM_MATERIAL_COUNT;
+}

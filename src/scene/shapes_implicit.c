@@ -1,0 +1,470 @@
+// shapes_implicit.c: meshes from implicit surfaces f(p) = 0, by marching cubes with a table that is derived here.
+//
+// The box is cut into cells. A lattice point is inside where f < 0 (0 and NaN count as outside); where the two ends of a
+// cell's edge differ, the surface crosses it, at one vertex that all cells around the edge share. The vertex is moved
+// along the edge until f vanishes there, so it lies on the surface to rounding, and takes its normal from ∇f.
+//
+// How the vertices of a cell join (the table). Go round a face of the cell counter-clockwise, seen from outside the cell:
+// each run of inside corners is entered by one crossed edge and left by another. The surface cuts the face along a line
+// from the one where it is entered to the one where it is left. A face with two opposite inside corners has two such
+// lines, each cutting off its corner; since that depends on the face alone, the two cells at it agree, and the mesh has
+// no holes. An edge is entered in one of its two faces and left in the other, so the lines join into closed loops, which
+// run counter-clockwise seen from outside the surface.
+// The loops are cut into triangles by diagonals that do not lie in a face: there the neighbour might have the same.
+#include "shapes.h"
+
+#include "fail.h"
+#include "linear.h"
+#include "origin.h"
+
+#include <string.h>
+
+// Lattice corners of a cell are numbered x + 2y + 4z; its edges 4·axis + the two other coordinates, lower axis first.
+// No case has more than 5 triangles (its longest loop has 7 edges), as trying all 256 shows.
+enum { CORNERS = 8, EDGES = 12, LOOP_MAX = EDGES, TRIANGLES_MAX = 5 };
+
+struct cell_case {
+    uint8_t triangles;
+    uint8_t edges[TRIANGLES_MAX][3];
+};
+
+// --- The table
+
+// The edge between two corners that differ in one coordinate.
+static int edge_between(int a, int b)
+{
+    int axis = (a ^ b) == 1 ? 0 : (a ^ b) == 2 ? 1 : 2;
+    int low = a & b; // the end with coordinate 0 on the axis
+    int others = axis == 0 ? low >> 1 : axis == 1 ? (low & 1) | (low >> 1 & 2) : low & 3;
+    return 4 * axis + others;
+}
+
+// Corner k of a face, counter-clockwise seen from outside the cell. Face 2·axis + side.
+static int face_corner(int face, int k)
+{
+    int axis = face >> 1, side = face & 1;
+    int u = (axis + 1) % 3, v = (axis + 2) % 3; // u × v points along +axis
+    int turn = side ? k : 3 - k;                // seen from the other side the order is reversed
+    static const int steps[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    return side << axis | steps[turn][0] << u | steps[turn][1] << v;
+}
+
+// next[e]: the edge that the surface's line leads to from edge e. −1: the edge is not crossed.
+static void link_edges(int inside, int next[EDGES])
+{
+    for (int e = 0; e < EDGES; e++)
+        next[e] = -1;
+    for (int face = 0; face < 6; face++)
+        for (int k = 0; k < 4; k++) {
+            int from = face_corner(face, k), to = face_corner(face, (k + 1) % 4);
+            bool leaves = (inside >> from & 1) && !(inside >> to & 1);
+            if (!leaves)
+                continue;
+            int entry = k; // back to where the run began
+            while (inside >> face_corner(face, (entry + 3) % 4) & 1)
+                entry = (entry + 3) % 4;
+            next[edge_between(face_corner(face, (entry + 3) % 4), face_corner(face, entry))] = edge_between(from, to);
+        }
+}
+
+// Do two edges lie in one face? Each edge lies in the two faces that its `others` name.
+static bool share_face(int a, int b)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        int side[2], edges[2] = {a, b};
+        for (int k = 0; k < 2; k++) {
+            int own = edges[k] >> 2, others = edges[k] & 3;
+            int first = own == 0 ? 1 : 0; // the lower of the other two axes
+            side[k] = own == axis ? 2 : axis == first ? others & 1 : others >> 1;
+        }
+        if (side[0] == side[1] && side[0] != 2)
+            return true;
+    }
+    return false;
+}
+
+// Cuts a loop into triangles with the fewest diagonals in faces: by intervals, the least cost of the part of the loop
+// from i to j, given that i–j is a line already.
+static void cut_loop(const int *loop, int count, struct cell_case *out)
+{
+    int cost[LOOP_MAX][LOOP_MAX] = {{0}}, apex[LOOP_MAX][LOOP_MAX] = {{0}};
+    for (int span = 2; span < count; span++)
+        for (int i = 0; i + span < count; i++) {
+            int j = i + span, best = 1000;
+            for (int k = i + 1; k < j; k++) {
+                int c = cost[i][k] + cost[k][j];
+                c += k > i + 1 && share_face(loop[i], loop[k]);
+                c += k < j - 1 && share_face(loop[k], loop[j]);
+                if (c < best) {
+                    best = c;
+                    apex[i][j] = k;
+                }
+            }
+            cost[i][j] = best;
+        }
+    int stack[LOOP_MAX][2] = {{0, count - 1}}, depth = 1;
+    while (depth > 0) {
+        depth--;
+        int i = stack[depth][0], j = stack[depth][1];
+        if (j - i < 2)
+            continue;
+        int k = apex[i][j];
+        uint8_t *triangle = out->edges[out->triangles++];
+        triangle[0] = (uint8_t)loop[i];
+        triangle[1] = (uint8_t)loop[k];
+        triangle[2] = (uint8_t)loop[j];
+        stack[depth][0] = i;
+        stack[depth++][1] = k;
+        stack[depth][0] = k;
+        stack[depth++][1] = j;
+    }
+}
+
+static void make_table(struct cell_case table[256])
+{
+    for (int inside = 0; inside < 256; inside++) {
+        int next[EDGES];
+        bool done[EDGES] = {false};
+        table[inside].triangles = 0;
+        link_edges(inside, next);
+        for (int e = 0; e < EDGES; e++) {
+            int loop[LOOP_MAX], count = 0;
+            for (int at = e; at >= 0 && next[at] >= 0 && !done[at]; at = next[at]) {
+                done[at] = true;
+                loop[count++] = at;
+            }
+            if (count >= 3)
+                cut_loop(loop, count, &table[inside]);
+        }
+    }
+}
+
+// --- The march
+
+#define NO_VERTEX UINT32_MAX
+
+struct march {
+    const lam_implicit *surface;
+    int cells[3];
+    double origin[3];
+    struct arena *scratch; // growing lists and planes
+    struct watch *watch;
+    lam_error *error;
+
+    double *values[2];     // f at the lattice points of the plane below and above
+    uint32_t *crossed[2][2]; // vertices on the x and y edges of the two planes
+    uint32_t *upright;     // vertices on the z edges between them
+    uint32_t *corners[2];  // vertices that fell on a lattice point of the two planes
+
+    float *positions, *normals;
+    uint32_t *indices;
+    size_t vertices, vertex_room, count, index_room; // count: of indices
+};
+
+static double coordinate(const struct march *m, int axis, int i)
+{
+    const lam_implicit *s = m->surface;
+    double low[3] = {s->minimum.x, s->minimum.y, s->minimum.z}, high[3] = {s->maximum.x, s->maximum.y, s->maximum.z};
+    int n = m->cells[axis];
+    if (i <= 0)
+        return low[axis];
+    if (i >= n)
+        return high[axis];
+    return (low[axis] * (n - i) + high[axis] * i) / n;
+}
+
+static lam_vec3 lattice(const struct march *m, int x, int y, int z)
+{
+    return v3(coordinate(m, 0, x), coordinate(m, 1, y), coordinate(m, 2, z));
+}
+
+static bool is_inside(double value) { return value < 0; }
+
+// Where on the way from a (0) to b (1) f vanishes: the secant rule that halves the value of an end which stays twice
+// (Illinois), which always keeps the root between its ends.
+static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa, double fb)
+{
+    const lam_implicit *s = m->surface;
+    lam_vec3 way = v3_sub(b, a);
+    double low = 0, high = 1, before = -1;
+    bool a_inside = is_inside(fa);
+    int stayed = 0; // which end was replaced last: −1 low, 1 high
+    for (int step = 0; step < 64; step++) {
+        double t = low + (high - low) * (fa / (fa - fb));
+        if (!(t > low && t < high) || !math_finite(t))
+            t = 0.5 * low + 0.5 * high;
+        double f = s->value(s->user, v3_add(a, v3_scale(way, t)));
+        double change = t - before;
+        if (f == 0 || (change > -1e-12 && change < 1e-12))
+            return t;
+        before = t;
+        if (is_inside(f) == a_inside) {
+            low = t;
+            fa = f;
+            if (stayed < 0)
+                fb *= 0.5;
+            stayed = -1;
+        } else {
+            high = t;
+            fb = f;
+            if (stayed > 0)
+                fa *= 0.5;
+            stayed = 1;
+        }
+        if (high - low < 1e-12)
+            return high;
+    }
+    return before;
+}
+
+// ∇f made unit; where it vanishes or is not finite, from differences of f a hundredth of a cell to either side.
+static lam_vec3 normal_at(const struct march *m, lam_vec3 p)
+{
+    const lam_implicit *s = m->surface;
+    lam_vec3 n = s->gradient(s->user, p);
+    if (v3_finite(n) && v3_length(n) > 0)
+        return v3_unit(n);
+    double h = 0.01 * (s->maximum.x - s->minimum.x) / m->cells[0];
+    n = v3(s->value(s->user, v3(p.x + h, p.y, p.z)) - s->value(s->user, v3(p.x - h, p.y, p.z)),
+           s->value(s->user, v3(p.x, p.y + h, p.z)) - s->value(s->user, v3(p.x, p.y - h, p.z)),
+           s->value(s->user, v3(p.x, p.y, p.z + h)) - s->value(s->user, v3(p.x, p.y, p.z - h)));
+    return v3_finite(n) ? v3_unit(n) : v3(0, 0, 0);
+}
+
+// Room for one more vertex, or for the triangles of one more cell.
+static bool grow(struct march *m, void **list, size_t *room, size_t needed, size_t size)
+{
+    if (needed <= *room)
+        return true;
+    size_t larger = *room ? *room * 2 : 1 << 14;
+    void *copy = arena_array(m->scratch, larger, size);
+    if (!copy)
+        return watch_memory_error(m->watch, larger * size, m->error);
+    if (*room)
+        memcpy(copy, *list, *room * size);
+    *list = copy;
+    *room = larger;
+    return true;
+}
+
+static void to_float(const struct march *m, lam_vec3 p, float out[3])
+{
+    out[0] = (float)(p.x - m->origin[0] + 0.0);
+    out[1] = (float)(p.y - m->origin[1] + 0.0);
+    out[2] = (float)(p.z - m->origin[2] + 0.0);
+}
+
+// A vertex at p. Where `corner` is given and p falls on the lattice point `at`, that point's one vertex.
+static bool add_vertex(struct march *m, lam_vec3 p, lam_vec3 at, uint32_t *corner, uint32_t *id)
+{
+    float position[3], lattice_position[3];
+    to_float(m, p, position);
+    to_float(m, at, lattice_position);
+    bool on_lattice = memcmp(position, lattice_position, sizeof position) == 0;
+    if (on_lattice && *corner != NO_VERTEX) {
+        *id = *corner;
+        return true;
+    }
+    if (m->vertices >= SHAPE_VERTICES_MAX)
+        return fail(m->error, LAM_LIMIT, "implicit surface: more than %d vertices", SHAPE_VERTICES_MAX);
+    size_t room = m->vertex_room;
+    if (!grow(m, (void **)&m->positions, &room, m->vertices + 1, 3 * sizeof(float)) ||
+        !grow(m, (void **)&m->normals, &m->vertex_room, m->vertices + 1, 3 * sizeof(float)))
+        return false;
+    lam_vec3 n = normal_at(m, p);
+    float *normal = m->normals + 3 * m->vertices;
+    normal[0] = (float)(n.x + 0.0);
+    normal[1] = (float)(n.y + 0.0);
+    normal[2] = (float)(n.z + 0.0);
+    memcpy(m->positions + 3 * m->vertices, position, sizeof position);
+    *id = (uint32_t)m->vertices++;
+    if (on_lattice)
+        *corner = *id;
+    return true;
+}
+
+// The vertex on the edge between two neighbouring lattice points, if the surface crosses it.
+static bool cross_edge(struct march *m, const int from[3], const int to[3], int plane_from, int plane_to, uint32_t *id)
+{
+    size_t row = (size_t)m->cells[0] + 1;
+    size_t i = (size_t)from[1] * row + (size_t)from[0], j = (size_t)to[1] * row + (size_t)to[0];
+    double a = m->values[plane_from][i], b = m->values[plane_to][j];
+    *id = NO_VERTEX;
+    if (is_inside(a) == is_inside(b))
+        return true;
+    lam_vec3 pa = lattice(m, from[0], from[1], from[2]), pb = lattice(m, to[0], to[1], to[2]);
+    double t = find_root(m, pa, pb, a, b);
+    lam_vec3 p = v3_add(pa, v3_scale(v3_sub(pb, pa), t));
+    bool nearer_a = t < 0.5;
+    return add_vertex(m, p, nearer_a ? pa : pb, nearer_a ? &m->corners[plane_from][i] : &m->corners[plane_to][j], id);
+}
+
+static bool evaluate_plane(struct march *m, int z, int plane)
+{
+    const lam_implicit *s = m->surface;
+    size_t at = 0;
+    for (int y = 0; y <= m->cells[1]; y++) {
+        if (!watch_on(m->watch))
+            return watch_error(m->watch, m->error);
+        for (int x = 0; x <= m->cells[0]; x++) {
+            m->corners[plane][at] = NO_VERTEX;
+            m->values[plane][at++] = s->value(s->user, lattice(m, x, y, z));
+        }
+    }
+    return true;
+}
+
+static bool cross_plane(struct march *m, int z, int plane)
+{
+    size_t row = (size_t)m->cells[0] + 1;
+    for (int y = 0; y <= m->cells[1]; y++)
+        for (int x = 0; x <= m->cells[0]; x++) {
+            size_t at = (size_t)y * row + (size_t)x;
+            if (x < m->cells[0] && !cross_edge(m, (int[]){x, y, z}, (int[]){x + 1, y, z}, plane, plane,
+                                               &m->crossed[plane][0][at]))
+                return false;
+            if (y < m->cells[1] && !cross_edge(m, (int[]){x, y, z}, (int[]){x, y + 1, z}, plane, plane,
+                                               &m->crossed[plane][1][at]))
+                return false;
+        }
+    return true;
+}
+
+static bool cross_between(struct march *m, int z, int below, int above)
+{
+    size_t row = (size_t)m->cells[0] + 1;
+    for (int y = 0; y <= m->cells[1]; y++)
+        for (int x = 0; x <= m->cells[0]; x++)
+            if (!cross_edge(m, (int[]){x, y, z}, (int[]){x, y, z + 1}, below, above,
+                            &m->upright[(size_t)y * row + (size_t)x]))
+                return false;
+    return true;
+}
+
+// The triangles of the cells between two planes.
+static bool fill_layer(struct march *m, const struct cell_case *table, int below, int above)
+{
+    size_t row = (size_t)m->cells[0] + 1;
+    for (int y = 0; y < m->cells[1]; y++)
+        for (int x = 0; x < m->cells[0]; x++) {
+            size_t at = (size_t)y * row + (size_t)x;
+            int inside = 0;
+            for (int corner = 0; corner < CORNERS; corner++) {
+                const double *values = m->values[corner & 4 ? above : below];
+                inside |= is_inside(values[at + (corner & 1) + (corner & 2 ? row : 0)]) << corner;
+            }
+            const struct cell_case *cell = &table[inside];
+            if (cell->triangles == 0)
+                continue;
+            if (!grow(m, (void **)&m->indices, &m->index_room, m->count + 3 * TRIANGLES_MAX, sizeof(uint32_t)))
+                return false;
+            for (int k = 0; k < cell->triangles; k++) {
+                uint32_t id[3];
+                for (int c = 0; c < 3; c++) {
+                    int edge = cell->edges[k][c], axis = edge >> 2, first = edge & 1, second = edge >> 1 & 1;
+                    if (axis == 0) // others: y, z
+                        id[c] = m->crossed[second ? above : below][0][at + (first ? row : 0)];
+                    else if (axis == 1) // others: x, z
+                        id[c] = m->crossed[second ? above : below][1][at + (size_t)first];
+                    else // others: x, y
+                        id[c] = m->upright[at + (size_t)first + (second ? row : 0)];
+                }
+                if (id[0] == id[1] || id[1] == id[2] || id[2] == id[0])
+                    continue; // vertices that fell on one lattice point
+                memcpy(m->indices + m->count, id, sizeof id);
+                m->count += 3;
+            }
+        }
+    return true;
+}
+
+static bool march_all(struct march *m)
+{
+    size_t points = ((size_t)m->cells[0] + 1) * ((size_t)m->cells[1] + 1);
+    bool ok = true;
+    for (int k = 0; k < 2; k++) {
+        m->values[k] = arena_array(m->scratch, points, sizeof(double));
+        m->corners[k] = arena_array(m->scratch, points, sizeof(uint32_t));
+        m->crossed[k][0] = arena_array(m->scratch, points, sizeof(uint32_t));
+        m->crossed[k][1] = arena_array(m->scratch, points, sizeof(uint32_t));
+        ok = ok && m->values[k] && m->corners[k] && m->crossed[k][0] && m->crossed[k][1];
+    }
+    m->upright = arena_array(m->scratch, points, sizeof(uint32_t));
+    struct cell_case *table = arena_array(m->scratch, 256, sizeof *table);
+    if (!ok || !m->upright || !table)
+        return watch_memory_error(m->watch, points * 44, m->error);
+    make_table(table);
+    if (!evaluate_plane(m, 0, 0) || !cross_plane(m, 0, 0))
+        return false;
+    for (int z = 0; z < m->cells[2]; z++) {
+        int below = z & 1, above = !below;
+        if (!evaluate_plane(m, z + 1, above) || !cross_plane(m, z + 1, above) || !cross_between(m, z, below, above) ||
+            !fill_layer(m, table, below, above))
+            return false;
+    }
+    return true;
+}
+
+static bool check(const lam_implicit *s, lam_error *error)
+{
+    const char *place = "implicit surface";
+    if (!s->value || !s->gradient)
+        return fail(error, LAM_BAD_ARGUMENT, "%s: the function `%s` is NULL", place, s->value ? "gradient" : "value");
+    if (!v3_finite(s->minimum) || !v3_finite(s->maximum))
+        return fail(error, LAM_BAD_ARGUMENT, "%s: a side of the box is not finite", place);
+    double low[3] = {s->minimum.x, s->minimum.y, s->minimum.z}, high[3] = {s->maximum.x, s->maximum.y, s->maximum.z};
+    for (int a = 0; a < 3; a++)
+        if (!(low[a] < high[a]) || !(high[a] - low[a] < 1e38))
+            return fail(error, LAM_BAD_ARGUMENT, "%s: the box goes from %g to %g along %c, expected a length in 0 to 1e38",
+                        place, low[a], high[a], "xyz"[a]);
+    if (s->cells != 0 && (s->cells < 2 || s->cells > 1024))
+        return fail(error, LAM_BAD_ARGUMENT, "%s: cells is %d, expected 2 to 1024, or 0", place, s->cells);
+    return true;
+}
+
+bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct watch *watch, lam_mesh *mesh,
+                         lam_error *error)
+{
+    if (!check(surface, error))
+        return false;
+    struct arena scratch;
+    arena_start(&scratch, watch);
+    struct march m = {.surface = surface, .scratch = &scratch, .watch = watch, .error = error};
+    double low[3] = {surface->minimum.x, surface->minimum.y, surface->minimum.z};
+    double high[3] = {surface->maximum.x, surface->maximum.y, surface->maximum.z};
+    double longest = 0;
+    for (int a = 0; a < 3; a++)
+        longest = high[a] - low[a] > longest ? high[a] - low[a] : longest;
+    int cells = surface->cells ? surface->cells : 96;
+    for (int a = 0; a < 3; a++) {
+        double exact = cells * ((high[a] - low[a]) / longest); // in (0, 1024]
+        m.cells[a] = (int)exact;
+        m.cells[a] += m.cells[a] < exact - 1e-9 || m.cells[a] == 0;
+    }
+    origin_choose(low, high, m.origin);
+    bool ok = march_all(&m);
+    if (ok) {
+        float *positions = arena_array(arena, m.vertices, 3 * sizeof(float));
+        float *normals = arena_array(arena, m.vertices, 3 * sizeof(float));
+        uint32_t *indices = arena_array(arena, m.count, sizeof(uint32_t));
+        ok = positions && normals && indices;
+        if (!ok)
+            watch_memory_error(watch, m.vertices * 24 + m.count * 4, error);
+        if (ok && m.count) {
+            memcpy(positions, m.positions, m.vertices * 3 * sizeof(float));
+            memcpy(normals, m.normals, m.vertices * 3 * sizeof(float));
+            memcpy(indices, m.indices, m.count * sizeof(uint32_t));
+        }
+        *mesh = (lam_mesh){
+            .origin = {m.origin[0], m.origin[1], m.origin[2]},
+            .positions = positions,
+            .vertex_count = (uint32_t)m.vertices,
+            .indices = indices,
+            .triangle_count = (uint32_t)(m.count / 3),
+            .normals = normals,
+            .normal_count = (uint32_t)m.vertices,
+        };
+    }
+    arena_free(&scratch);
+    return ok;
+}

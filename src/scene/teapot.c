@@ -1,0 +1,135 @@
+// teapot.c: the Utah teapot from its Bézier patches.
+//
+// Patches that continue each other become one parametric surface: u goes around (4 patches for body and lid, 2 for handle
+// and spout), v along (from the bottom's middle over body and rim, from the lid's edge to its top, from the body outward).
+// All joints are smooth in the data, so positions and normals there are shared. As published, the pot is open: the lid lies
+// in the rim without touching it, handle and spout end inside the body's wall.
+#include "shapes.h"
+
+#include "fail.h"
+#include "linear.h"
+#include "teapot_data.h"
+
+// From Newell's coordinates: Y up, middle of the box at the origin, from handle (−3) to spout (3.434075) 2 units wide.
+#define TEAPOT_MIDDLE_X 0.2170375625
+#define TEAPOT_MIDDLE_Z 1.575
+#define TEAPOT_HALF_WIDTH 3.2170375625
+
+static lam_vec3 place(double x, double y, double z)
+{
+    return v3((x - TEAPOT_MIDDLE_X) / TEAPOT_HALF_WIDTH, (z - TEAPOT_MIDDLE_Z) / TEAPOT_HALF_WIDTH,
+              -y / TEAPOT_HALF_WIDTH);
+}
+
+enum { PATCHES_AROUND_MAX = 4, BANDS_MAX = 4 };
+
+struct patches {
+    lam_vec3 control[BANDS_MAX][PATCHES_AROUND_MAX][4][4]; // [band][patch around][along v][along u]
+    int bands, around;
+    int u_steps, v_steps; // segments of one patch
+};
+
+// Bernstein's cubics and their derivatives, with exact ends.
+static void bernstein(double t, double b[4], double d[4])
+{
+    double s = 1 - t;
+    b[0] = s * s * s;
+    b[1] = 3 * t * s * s;
+    b[2] = 3 * t * t * s;
+    b[3] = t * t * t;
+    d[0] = -3 * s * s;
+    d[1] = 3 * s * s - 6 * t * s;
+    d[2] = 6 * t * s - 3 * t * t;
+    d[3] = 3 * t * t;
+}
+
+// Which patch a parameter falls into, and where in it; a joint belongs to the patch that follows.
+static int patch_of(double x, int steps, int count, double *within)
+{
+    int patch = (int)(x / steps);
+    if (patch >= count)
+        patch = count - 1;
+    *within = (x - (double)patch * steps) / steps;
+    return patch;
+}
+
+static void patch_point(void *user, double u, double v, lam_surface_point *out)
+{
+    const struct patches *patches = user;
+    double tu, tv, bu[4], du[4], bv[4], dv[4];
+    int column = patch_of(u, patches->u_steps, patches->around, &tu);
+    int band = patch_of(v, patches->v_steps, patches->bands, &tv);
+    bernstein(tu, bu, du);
+    bernstein(tv, bv, dv);
+    *out = (lam_surface_point){0};
+    for (int j = 0; j < 4; j++) {
+        const lam_vec3 *c = patches->control[band][column][j];
+        lam_vec3 row = v3(0, 0, 0), row_du = v3(0, 0, 0);
+        for (int i = 0; i < 4; i++) {
+            row = v3_add(row, v3_scale(c[i], bu[i]));
+            row_du = v3_add(row_du, v3_scale(c[i], du[i]));
+        }
+        out->p = v3_add(out->p, v3_scale(row, bv[j]));
+        out->dp_du = v3_add(out->dp_du, v3_scale(row_du, bv[j]));
+        out->dp_dv = v3_add(out->dp_dv, v3_scale(row, dv[j]));
+    }
+}
+
+// The four quarters, from the back (+y) to the left, the front and the right, so that ∂p/∂u × ∂p/∂v points outward.
+static void turn(struct patches *patches, const struct teapot_ring (*bands)[4], int count)
+{
+    static const double way[5][2] = {{0, 1}, {-1, 0}, {0, -1}, {1, 0}, {0, 1}};
+    patches->bands = count;
+    patches->around = 4;
+    for (int band = 0; band < count; band++)
+        for (int quarter = 0; quarter < 4; quarter++)
+            for (int j = 0; j < 4; j++) {
+                struct teapot_ring r = bands[band][j];
+                const double *a = way[quarter], *b = way[quarter + 1];
+                lam_vec3 *row = patches->control[band][quarter][j];
+                row[0] = place(a[0] * r.radius, a[1] * r.radius, r.height);
+                row[1] = place(a[0] * r.radius + b[0] * r.step, a[1] * r.radius + b[1] * r.step, r.height);
+                row[2] = place(a[0] * r.step + b[0] * r.radius, a[1] * r.step + b[1] * r.radius, r.height);
+                row[3] = place(b[0] * r.radius, b[1] * r.radius, r.height);
+            }
+}
+
+// The two halves: a to b on the viewer's side (−y), then back on the other.
+static void mirror(struct patches *patches, const struct teapot_section (*bands)[4], int count)
+{
+    patches->bands = count;
+    patches->around = 2;
+    for (int band = 0; band < count; band++)
+        for (int j = 0; j < 4; j++) {
+            struct teapot_section s = bands[band][j];
+            lam_vec3 *front = patches->control[band][0][j], *back = patches->control[band][1][j];
+            front[0] = back[3] = place(s.ax, 0, s.az);
+            front[1] = place(s.ax, -s.width, s.az);
+            front[2] = place(s.bx, -s.width, s.bz);
+            front[3] = back[0] = place(s.bx, 0, s.bz);
+            back[1] = place(s.bx, s.width, s.bz);
+            back[2] = place(s.ax, s.width, s.az);
+        }
+}
+
+bool teapot_build(const struct shape_request *request, lam_mesh *mesh)
+{
+    if (request->stacks > 16384 / BANDS_MAX)
+        return fail(request->error, LAM_BAD_ARGUMENT, "shape 'teapot': stacks is %d, expected at most %d along each patch",
+                    request->stacks, 16384 / BANDS_MAX);
+    struct patches parts[4];
+    turn(&parts[0], teapot_body, 4);
+    turn(&parts[1], teapot_lid, 2);
+    mirror(&parts[2], teapot_handle, 2);
+    mirror(&parts[3], teapot_spout, 2);
+    int slices = request->slices ? request->slices : 128;
+    lam_parametric surfaces[4];
+    for (int i = 0; i < 4; i++) {
+        struct patches *part = &parts[i];
+        part->u_steps = (slices + 3) / 4;
+        part->v_steps = request->stacks ? request->stacks : 32;
+        int u = part->u_steps * part->around, v = part->v_steps * part->bands;
+        surfaces[i] = (lam_parametric){patch_point, part, 0, u, 0, v, u, v, true, false};
+    }
+    return tessellate_parametric(surfaces, 4, request->arena, request->watch, mesh, request->error);
+}

@@ -1,0 +1,61 @@
+# The two commands of the README are `make demo` and `make test`. Behind this file stands Meson.
+
+build   ?= build
+prefix  ?= /usr/local
+DESTDIR ?=
+MAKEFLAGS += --no-print-directory
+
+.PHONY: all demo test bench docs install uninstall clean help
+
+all: $(build)/lambent
+
+help:
+	@echo 'make            builds $(build)/lambent (missing Debian packages are installed first)'
+	@echo 'make demo       builds and renders the Utah teapot to out/demo.png'
+	@echo 'make test       builds and runs the whole test suite, both compilers, with sanitizers'
+	@echo 'make bench      measures, into bench/results'
+	@echo 'make install    installs to $$(DESTDIR)$$(prefix), prefix=$(prefix)'
+	@echo 'make uninstall  removes what install put there'
+	@echo 'make docs       writes the generated parts of docs/ anew, and the pictures of the README'
+	@echo 'make clean      removes everything that was built'
+
+$(build)/build.ninja:
+	@scripts/setup.sh build
+	meson setup $(build) --buildtype=release --prefix=$(prefix) -Dtests=false
+
+.PHONY: $(build)/lambent
+$(build)/lambent: $(build)/build.ninja
+	@scripts/setup.sh build
+	ninja -C $(build)
+
+demo: $(build)/lambent
+	@mkdir -p out
+	@$(build)/lambent teapot -o out/demo.png
+	@echo 'The picture: out/demo.png'
+	@echo 'Next, try:   $(build)/lambent torus-knot --background white -o out/knot.png'
+
+test:
+	@scripts/setup.sh build test
+	@python3 tests/run.py
+
+bench:
+	@scripts/setup.sh build test bench
+	@$(MAKE) all
+	@python3 bench/run.py
+
+install: $(build)/lambent
+	meson configure $(build) --prefix=$(prefix)
+	DESTDIR=$(DESTDIR) meson install -C $(build) --no-rebuild
+	@cp $(build)/meson-logs/install-log.txt $(build)/installed.txt
+
+uninstall:
+	@test -f $(build)/installed.txt || { echo 'nothing was installed from $(build)' >&2; exit 1; }
+	@grep -v '^#' $(build)/installed.txt | while read -r file; do \
+	  if [ -d "$$file" ] && [ ! -L "$$file" ]; then continue; fi; rm -fv "$$file"; done
+	@rmdir $(DESTDIR)$(prefix)/include/lambent 2>/dev/null || true
+
+docs: $(build)/lambent
+	@python3 scripts/docs.py $(build)/lambent
+
+clean:
+	rm -rf build build-* out

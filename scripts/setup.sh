@@ -1,0 +1,42 @@
+#!/bin/sh
+# setup.sh GROUP…: installs the Debian packages of the named groups (packages.txt) that are missing. Says what it does;
+# does nothing, quickly, when everything is there. Uses sudo only where it is not root.
+set -eu
+list="$(dirname "$0")/../packages.txt"
+wanted=""
+for group in "$@"; do
+    wanted="$wanted $(sed -n "s/^$group  *//p" "$list")"
+done
+if ! command -v dpkg-query >/dev/null 2>&1; then
+    echo "setup: this is not Debian; please see that these are installed:$wanted" >&2
+    exit 0
+fi
+missing=""
+installed=" $(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p' | tr '\n' ' ')"
+for package in $wanted; do
+    case "$installed" in
+    *" $package "*) ;;
+    *) missing="$missing $package" ;;
+    esac
+done
+[ -n "$missing" ] || exit 0
+as_root=""
+if [ "$(id -u)" -ne 0 ]; then
+    as_root=sudo
+    command -v sudo >/dev/null 2>&1 || {
+        echo "setup: these packages are missing and there is no sudo; as root: apt-get install$missing" >&2
+        exit 1
+    }
+fi
+echo "setup: installing$missing"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+install() {
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing >"$log" 2>&1
+}
+# The package lists may be old or absent: refresh them when the first try fails.
+if ! install; then
+    echo "setup: refreshing the package lists"
+    $as_root apt-get update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+    install || { cat "$log" >&2; exit 1; }
+fi

@@ -40,8 +40,9 @@ float root(float x) { return sqrt(x); }
 float inverse_root(float x) { return inversesqrt(greater(x, 1.0e-37)); }
 float log2_of(float x) { return log2(greater(x, 1.17549435e-38)); }
 float exp2_of(float y) { return y >= -126.0 ? exp2(lesser(y, 127.5)) : 0.0; }
-float unit_power(float base, float exponent)
+float power(float base, float exponent)
 {
-    return base >= 1.17549435e-38 ? exp2(exponent * log2(lesser(base, 1.0))) : (exponent > 0.0 ? 0.0 : 1.0);
+    return base >= 1.17549435e-38 ? exp2_of(exponent * log2(base)) : (exponent > 0.0 ? 0.0 : 1.0);
 }
+float unit_power(float base, float exponent) { return power(lesser(base, 1.0), exponent); }
 vec3 unit3(vec3 a) { return a * inverse_root(dot(a, a)); }

@@ -25,26 +25,19 @@ LANE_FN struct binary_parts binary_parts_of(num x)
 // float, so that the two together know the logarithm to some bits more than a float has.
 LANE_FN num log2_remainder(num z)
 {
-    num r = z * -1.9656924e-1f + 2.0720493e-1f;
-    r = r * z - 1.7290363e-1f;
-    r = r * z + 2.0072298e-1f;
-    r = r * z - 2.4091921e-1f;
-    r = r * z + 2.8879759e-1f;
-    r = r * z - 3.6066076e-1f;
-    r = r * z + 4.8089349e-1f;
-    r = r * z - 7.2134763e-1f;
-    r = r * z - 5.7304937e-2f;
-    return r * z;
+    num z2 = z * z, z4 = z2 * z2;
+    num a = (z * -7.2134763e-1f - 5.7304937e-2f) + z2 * (z * -3.6066076e-1f + 4.8089349e-1f);
+    num b = (z * -2.4091921e-1f + 2.8879759e-1f) + z2 * (z * -1.7290363e-1f + 2.0072298e-1f);
+    num c = z * -1.9656924e-1f + 2.0720493e-1f;
+    return z * (a + z4 * (b + z4 * c));
 }
 
 // 2^f for |f| ≤ 0.5005, relative error 1e-7 before rounding, exactly 1 at 0.
 LANE_FN num exp2_fraction(num f)
 {
-    num r = f * 1.3265090e-3f + 9.6713379e-3f;
-    r = r * f + 5.5507299e-2f;
-    r = r * f + 2.4022247e-1f;
-    r = r * f + 6.9314700e-1f;
-    return r * f + 1.0f;
+    num f2 = f * f;
+    return (f * 6.9314700e-1f + 1.0f)
+           + f2 * ((f * 5.5507299e-2f + 2.4022247e-1f) + f2 * (f * 1.3265090e-3f + 9.6713379e-3f));
 }
 
 // A whole number n near y and 2^n. Adding 1.5·2²³ + 127 leaves no room for a fraction and puts n + 127, the exponent as
@@ -74,32 +67,55 @@ LANE_FN num exp2_of(num y)
     return pick(y >= -126.0f, exp2_fraction(x - w.whole) * w.power, num_of(0.0f));
 }
 
-// base^exponent for a base in 0…1 (more counts as 1) and any finite exponent ≥ 0. 0⁰ = 1, and 0 else where the base is
-// 0, negative, NaN or below the smallest normal number. Results below the smallest normal number are 0: denormals cost
-// two to three times the rest. Relative error at most 2e-6 for exponents up to 128, 2e-6 + 1.4e-8·exponent beyond.
-//
-// y = exponent · log₂ base is wanted to 2e-6 where it may be 126, two bits more than a float has. So the logarithm is
-// taken as head + tail, the head of 12 bits, and the exponent likewise: head · head is then exact, and only small
-// things are rounded. The work on the exponent is the same for every pixel and leaves the loop.
-LANE_FN num unit_power(num base, num exponent)
+// y = exponent · log₂ base for normal base > 0, as head + tail. Powers want y to 2e-6 where it may be 126, two bits more
+// than a float has. So the logarithm is taken in two parts, the first of 12 bits (any value near it will do: here a short
+// guess), and the exponent likewise. Head · head is then exact, and only small things are rounded. The work on the
+// exponent is the same for every pixel and leaves the loop.
+struct two_parts {
+    num head, tail;
+};
+
+LANE_FN struct two_parts scaled_log2(num base, num exponent)
 {
-    num x = lesser(base, num_of(1.0f));
-    struct binary_parts b = binary_parts_of(x);
+    struct binary_parts b = binary_parts_of(base);
     num line = 1.5f * b.rest;
     num curve = log2_remainder(b.rest);
-    num log_head = num_of_bits(bits_of(b.exponent + (line + curve)) & -0x1000);
+    num guess = b.exponent + (line - 0.7f * (b.rest * b.rest));
+    num log_head = num_of_bits(bits_of(guess) & -0x1000);
     num log_tail = ((b.exponent - log_head) + line) + curve;
     num exponent_head = num_of_bits(bits_of(exponent) & -0x1000);
     num exponent_tail = exponent - exponent_head;
+    return (struct two_parts){exponent_head * log_head, exponent_tail * log_head + exponent * log_tail};
+}
 
-    num y_head = exponent_head * log_head;
-    num y_tail = exponent_tail * log_head + exponent * log_tail;
-    num y = y_head + y_tail;
-    struct whole_power w = whole_power_of(y);
-    num fraction = (y_head - w.whole) + y_tail;
+// The least base that is not taken for 0: any, where the exponent is 0, since 0⁰ = 1.
+LANE_FN num least_base(num exponent)
+{
+    return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-3.0e38f));
+}
 
-    num smallest = pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-3.0e38f)); // for exponent 0 every base will do
-    return pick(both(base >= smallest, y >= -126.0f), exp2_fraction(fraction) * w.power, num_of(0.0f));
+// base^exponent for a base in 0…1 (more counts as 1) and any finite exponent ≥ 0. 0⁰ = 1. Otherwise 0 where the base is
+// 0, negative or below the smallest normal number; 0 where it is NaN. Results below the smallest normal number are 0:
+// denormals cost two to three times the rest. Relative error at most 2e-6 for exponents up to 128, and 3e-6 for all.
+LANE_FN num unit_power(num base, num exponent)
+{
+    struct two_parts y = scaled_log2(lesser(base, num_of(1.0f)), exponent);
+    num sum = y.head + y.tail;
+    struct whole_power w = whole_power_of(sum);
+    num fraction = (y.head - w.whole) + y.tail;
+    mask some = both(base >= least_base(exponent), sum >= -126.0f);
+    return pick(some, exp2_fraction(fraction) * w.power, num_of(0.0f));
+}
+
+// As unit_power, for any base ≥ 0. Results above 2^127.5 become about that.
+LANE_FN num power(num base, num exponent)
+{
+    struct two_parts y = scaled_log2(base, lesser(exponent, num_of(1.0e30f)));
+    num sum = y.head + y.tail;
+    struct whole_power w = whole_power_of(lesser(sum, num_of(127.0f)));
+    num fraction = lesser((y.head - w.whole) + y.tail, num_of(0.51f)); // a little over ½: sum was rounded
+    mask some = both(base >= least_base(exponent), sum >= -126.0f);
+    return pick(some, exp2_fraction(fraction) * w.power, num_of(0.0f));
 }
 
 // 1/√x for normal x > 0 within 9e-8 relative; about 3.6e19 at 0, so that 0 · inverse_root(0) = 0. A start from the bits

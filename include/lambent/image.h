@@ -32,6 +32,7 @@ typedef struct lam_save_params {
     // Formats without alpha (PPM) hold the picture over this colour, linear. Default black.
     lam_rgb background;
     int threads; // threads to encode with; 0: one for each processor. The bytes do not depend on it.
+    bool raw;    // the numbers are not sRGB-encoded: PNG gets no sRGB chunk, PPM is composed without conversion
 } lam_save_params;
 
 // A block of bytes that the caller frees with lam_bytes_free.
@@ -57,17 +58,26 @@ LAM_API bool lam_image_save(const lam_image *image, const char *path, const lam_
 // LAM_UNSUPPORTED for another ending, naming those that can be written.
 LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
 
-// Reads a picture (PNG into LAM_RGBA8, PFM into LAM_RGBA32F with alpha 1). Content decides the format.
+// Reads a picture: PNG and binary PPM into LAM_RGBA8 (16 bits are cut to 8, grey and palettes become RGB), PFM into
+// LAM_RGBA32F, with alpha 1 where the file has none. Content decides the format. `image` may hold anything before; it is
+// not freed, and is zeroed on failure. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, memory).
 LAM_API bool lam_image_load(lam_image *image, const char *path, lam_error *error);
 
+// Whether the file at `path` says that Lambent wrote it: PNG by its text "Software: lambent", PPM by the comment
+// "# lambent" in its second line. False for PFM, which has no place to say so, and wherever it cannot be told (no such
+// file, not a regular file, not readable). Looks at the file's beginning only.
+LAM_API bool lam_image_is_ours(const char *path);
+
 // How far two pictures of the same size and format are apart, over all channels; a channel's unit is 1 = full
-// range (LAM_RGBA8: 255 steps).
+// range (LAM_RGBA8: 255 steps). Where one picture has a number and the other has NaN or another infinity, they are
+// infinitely far apart.
 typedef struct lam_difference {
     double maximum, mean, rmse;
-    double psnr_db; // infinity for equal pictures
+    double psnr_db; // 20·log10(1 / rmse); infinity for equal pictures, −infinity for infinitely different ones
     double share_over_1, share_over_2; // share of pixels, 0..1, with a channel off by more than 1/255, 2/255
 } lam_difference;
 
+// LAM_BAD_ARGUMENT when sizes or formats differ.
 LAM_API bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference,
                                lam_error *error);
 

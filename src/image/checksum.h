@@ -1,0 +1,36 @@
+// checksum.h: CRC-32 and Adler-32, as PNG and zlib define them.
+#ifndef CHECKSUM_H
+#define CHECKSUM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+// The tables that let CRC-32 take eight bytes a step (8 KiB). They are made anew for each encoding (about a
+// microsecond) because the library keeps no global state.
+struct crc_tables {
+    uint32_t row[8][256];
+};
+
+void crc_tables_make(struct crc_tables *tables);
+
+// CRC-32 (polynomial 0xEDB88320 reflected, PNG specification annex D) of `size` bytes.
+uint32_t crc_of(const struct crc_tables *tables, const uint8_t *bytes, size_t size);
+
+// Adler-32 of a run of bytes in a form in which neighbouring runs, made by different threads, can be joined:
+// sum = Σ byte, weighted = Σ (size − position)·byte, both modulo 65521.
+struct adler_part {
+    uint32_t sum, weighted;
+    uint64_t size;
+};
+
+// Lengthen a part by one byte, by a row of pixels, by the part that follows it. A row is `width` 32-bit words
+// of which the first `bytes_per_pixel` bytes (3 or 4) are in the stream; with 3 the fourth must be zero. The
+// words after the row up to a multiple of 4 must be zero too.
+void adler_byte(struct adler_part *part, uint8_t byte);
+void adler_row(struct adler_part *part, const uint32_t *row, int width, int bytes_per_pixel);
+void adler_join(struct adler_part *part, const struct adler_part *next);
+
+// The checksum as zlib stores it (RFC 1950).
+uint32_t adler_value(const struct adler_part *part);
+
+#endif

@@ -1,0 +1,179 @@
+// codecs.c: the table of picture formats, and the calls that pick from it.
+#include "codec.h"
+#include "fail.h"
+#include "file.h"
+#include "float_state.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const struct codec *const codecs[] = {&codec_png, &codec_ppm, &codec_pfm};
+enum { CODECS = sizeof codecs / sizeof *codecs, THREADS_MOST = 1024, LIST_ROOM = 128 };
+
+static const struct codec *codec_named(const char *name)
+{
+    for (int i = 0; i < CODECS; i++)
+        if (strcasecmp(codecs[i]->name, name) == 0)
+            return codecs[i];
+    return NULL;
+}
+
+// "png, ppm or pfm", each with `before` in front.
+static const char *list_names(const char *before, char list[LIST_ROOM])
+{
+    list[0] = 0;
+    size_t used = 0;
+    for (int i = 0; i < CODECS; i++) {
+        const char *parts[] = {i == 0 ? "" : i == CODECS - 1 ? " or " : ", ", before, codecs[i]->name};
+        for (int part = 0; part < 3; part++)
+            for (const char *letter = parts[part]; *letter && used < LIST_ROOM - 1; letter++)
+                list[used++] = *letter;
+    }
+    list[used] = 0;
+    return list;
+}
+
+static bool fail_unknown(lam_error *error, const char *subject, const char *before, const char *word)
+{
+    const char *names[CODECS], *nearest;
+    for (int i = 0; i < CODECS; i++)
+        names[i] = codecs[i]->name;
+    char list[LIST_ROOM];
+    list_names(before, list);
+    if ((nearest = nearest_word(word, names, CODECS)))
+        return fail(error, LAM_UNSUPPORTED,
+                    "%s: '%s%s' is no picture format that can be written, did you mean %s%s? (%s)", subject,
+                    before, word, before, nearest, list);
+    return fail(error, LAM_UNSUPPORTED, "%s: '%s%s' is no picture format that can be written, expected %s",
+                subject, before, word, list);
+}
+
+static const struct codec *codec_for(const char *path, lam_error *error)
+{
+    const char *ending = path_ending(path);
+    const struct codec *codec = codec_named(ending);
+    char list[LIST_ROOM];
+    if (!codec && *ending)
+        fail_unknown(error, path, ".", ending);
+    else if (!codec)
+        fail(error, LAM_UNSUPPORTED,
+             "%s: the name has no ending that tells the picture's format, expected %s", path,
+             list_names(".", list));
+    return codec;
+}
+
+static bool encode(const struct codec *codec, const lam_image *image, const lam_save_params *params,
+                   lam_bytes *out, lam_error *error)
+{
+    static const lam_save_params plain = {0};
+    if (!params)
+        params = &plain;
+    if (!image || !image->pixels || image->width < 1 || image->height < 1 || image->width > 65535 ||
+        image->height > 65535)
+        return fail(error, LAM_BAD_ARGUMENT, "image: expected pixels, 1 to 65535 wide and high");
+    if (image->format != codec->pixels)
+        return fail(error, LAM_BAD_ARGUMENT, "image: %s is made from %s, the picture has %s", codec->title,
+                    codec->pixels == LAM_RGBA8 ? "bytes (LAM_RGBA8)" : "floats (LAM_RGBA32F)",
+                    image->format == LAM_RGBA8 ? "bytes" : "floats");
+    if (params->threads < 0 || params->threads > THREADS_MOST)
+        return fail(error, LAM_BAD_ARGUMENT, "threads: %d, expected 0 to %d", params->threads, THREADS_MOST);
+    uint64_t state = float_state_enter();
+    // Below some ten thousand pixels a second thread takes longer to start than it saves.
+    bool small = (int64_t)image->width * image->height < 1 << 16;
+    struct pool *pool =
+        small || params->threads == 1 ? NULL : pool_make(params->threads); // NULL: this thread alone
+    bool ok = codec->write(image, params, pool, out, error);
+    pool_free(pool);
+    float_state_leave(state);
+    return ok;
+}
+
+bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params,
+                      lam_bytes *out, lam_error *error)
+{
+    if (!out || !format)
+        return fail(error, LAM_BAD_ARGUMENT, "encode: a format and a place for the bytes are needed");
+    *out = (lam_bytes){0};
+    const struct codec *codec = codec_named(format);
+    if (!codec)
+        return fail_unknown(error, "format", "", format);
+    return encode(codec, image, params, out, error);
+}
+
+bool lam_image_save(const lam_image *image, const char *path, const lam_save_params *params, lam_error *error)
+{
+    if (!path)
+        return fail(error, LAM_BAD_ARGUMENT, "save: a path is needed");
+    const struct codec *codec = codec_for(path, error);
+    lam_bytes bytes = {0};
+    if (!codec || !encode(codec, image, params, &bytes, error))
+        return false;
+    bool ok = file_write(path, bytes.data, bytes.size, error);
+    lam_bytes_free(&bytes);
+    return ok;
+}
+
+bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error)
+{
+    if (!path || !format)
+        return fail(error, LAM_BAD_ARGUMENT, "format: a path and a place for the result are needed");
+    const struct codec *codec = codec_for(path, error);
+    if (codec)
+        *format = codec->pixels;
+    return codec != NULL;
+}
+
+static const struct codec *codec_of(const uint8_t *bytes, size_t size)
+{
+    for (int i = 0; i < CODECS; i++)
+        if (codecs[i]->probe(bytes, size))
+            return codecs[i];
+    return NULL;
+}
+
+bool lam_image_load(lam_image *image, const char *path, lam_error *error)
+{
+    if (!image || !path)
+        return fail(error, LAM_BAD_ARGUMENT, "load: a path and a picture to fill are needed");
+    *image = (lam_image){0};
+    struct file_bytes file;
+    if (!file_read(path, NULL, NULL, &file, error))
+        return false;
+    uint64_t state = float_state_enter();
+    const char *name = strcmp(path, "-") == 0 ? "standard input" : path;
+    const struct codec *codec = codec_of(file.data, file.size);
+    bool ok;
+    if (codec)
+        ok = codec->read(file.data, file.size, name, image, error);
+    else if (file.size == 0)
+        ok = fail(error, LAM_CANNOT_READ, "%s: is empty, expected a PNG, PPM or PFM picture", name);
+    else
+        ok =
+            fail(error, LAM_CANNOT_READ, "%s: byte 0: not the start of a PNG, PPM (P6) or PFM picture", name);
+    file_release(&file);
+    float_state_leave(state);
+    return ok;
+}
+
+bool lam_image_is_ours(const char *path)
+{
+    if (!path)
+        return false;
+    // Not blocking: a pipe that nobody writes to must not stop us.
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (file < 0)
+        return false;
+    uint8_t head[CODEC_HEAD];
+    size_t size = 0;
+    struct stat about;
+    if (fstat(file, &about) == 0 && S_ISREG(about.st_mode))
+        for (ssize_t got; size < sizeof head && (got = read(file, head + size, sizeof head - size)) > 0;)
+            size += (size_t)got;
+    close(file);
+    const struct codec *codec = codec_of(head, size);
+    return codec && codec->ours && codec->ours(head, size);
+}

@@ -1,0 +1,176 @@
+// image.c: pixels in memory, and how far two pictures are apart.
+#include "fail.h"
+#include "float_state.h"
+
+#include <lambent/image.h>
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+
+enum { SIDE_MOST = 65535 };
+
+static size_t pixel_bytes(lam_pixel_format format)
+{
+    return format == LAM_RGBA32F ? 16 : 4;
+}
+
+// Large pictures lie in huge pages where the system gives them: first touch is three times as fast.
+static void *get_pixels(size_t bytes)
+{
+    const size_t huge = (size_t)2 << 20;
+    if (bytes < huge || bytes > SIZE_MAX - huge)
+        return malloc(bytes);
+    size_t rounded = (bytes + huge - 1) & ~(huge - 1);
+    void *pixels = aligned_alloc(huge, rounded);
+#ifdef MADV_HUGEPAGE
+    if (pixels)
+        madvise(pixels, rounded, MADV_HUGEPAGE); // advice: a refusal changes nothing but speed
+#endif
+    return pixels;
+}
+
+bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format format, lam_error *error)
+{
+    if (!image)
+        return fail(error, LAM_BAD_ARGUMENT, "image: none given");
+    *image = (lam_image){0};
+    if (format != LAM_RGBA8 && format != LAM_RGBA32F)
+        return fail(error, LAM_BAD_ARGUMENT, "image: pixel format %d is not one of lam_pixel_format",
+                    (int)format);
+    if (width < 1 || height < 1)
+        return fail(error, LAM_BAD_ARGUMENT, "image: %d×%d pixels, expected at least 1×1", width, height);
+    if (width > SIDE_MOST || height > SIDE_MOST)
+        return fail(error, LAM_LIMIT, "image: %d×%d pixels, expected at most %d×%d", width, height, SIDE_MOST,
+                    SIDE_MOST);
+    uint64_t bytes = (uint64_t)width * (uint64_t)height * pixel_bytes(format); // below 2³⁶
+    void *pixels = bytes <= SIZE_MAX ? get_pixels((size_t)bytes) : NULL;
+    if (!pixels)
+        return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which could not be had",
+                    width, height, (double)bytes / 1e6);
+    *image = (lam_image){width, height, format, pixels};
+    return true;
+}
+
+void lam_image_free(lam_image *image)
+{
+    if (!image)
+        return;
+    free(image->pixels);
+    *image = (lam_image){0};
+}
+
+void lam_bytes_free(lam_bytes *bytes)
+{
+    if (!bytes)
+        return;
+    free(bytes->data);
+    *bytes = (lam_bytes){0};
+}
+
+// log10 of a positive finite number, without libm: x = m·2^e with m near 1, ln m = 2·artanh((m − 1)/(m + 1)).
+static double log10_of(double x)
+{
+    int exponent = 0;
+    if (x < 0x1p-1022) {
+        x *= 0x1p54;
+        exponent = -54;
+    }
+    uint64_t bits;
+    memcpy(&bits, &x, 8);
+    exponent += (int)(bits >> 52) - 1023;
+    bits = (bits & 0x000FFFFFFFFFFFFFu) | 0x3FF0000000000000u;
+    double m;
+    memcpy(&m, &bits, 8);
+    if (m > 1.4142135623730951) {
+        m *= 0.5;
+        exponent++;
+    }
+    double s = (m - 1.0) / (m + 1.0), square = s * s, series = 0.0;
+    for (int k = 23; k >= 1; k -= 2)
+        series = series * square + 1.0 / k; // Σ s²ⁿ/(2n + 1); |s| < 0.172, what is left out is below 1e-19
+    const double log10_2 = 0.30102999566398120, log10_e = 0.43429448190325183;
+    return exponent * log10_2 + 2.0 * s * series * log10_e;
+}
+
+// Differences added up.
+struct tally {
+    double sum, squares, maximum;
+    uint64_t over_1, over_2; // pixels
+};
+
+static void tally_bytes(struct tally *tally, const uint8_t *a, const uint8_t *b, size_t pixels)
+{
+    uint64_t sum = 0, squares = 0;
+    unsigned maximum = 0;
+    for (size_t i = 0; i < pixels; i++) {
+        unsigned most = 0;
+        for (int channel = 0; channel < 4; channel++) {
+            int difference = a[4 * i + (size_t)channel] - b[4 * i + (size_t)channel];
+            unsigned size = (unsigned)(difference < 0 ? -difference : difference);
+            sum += size;
+            squares += size * size;
+            most = size > most ? size : most;
+        }
+        maximum = most > maximum ? most : maximum;
+        tally->over_1 += most > 1;
+        tally->over_2 += most > 2;
+    }
+    tally->sum = (double)sum / 255.0;
+    tally->squares = (double)squares / (255.0 * 255.0);
+    tally->maximum = maximum / 255.0;
+}
+
+static void tally_floats(struct tally *tally, const float *a, const float *b, size_t pixels)
+{
+    for (size_t i = 0; i < pixels; i++) {
+        double most = 0.0;
+        for (size_t at = 4 * i; at < 4 * i + 4; at++) {
+            bool nan_a = a[at] != a[at], nan_b = b[at] != b[at];
+            double size = 0.0;
+            if (nan_a != nan_b)
+                size = __builtin_inf();
+            else if (!nan_a && a[at] != b[at]) // equal infinities would give NaN
+                size = a[at] < b[at] ? (double)b[at] - (double)a[at] : (double)a[at] - (double)b[at];
+            tally->sum += size;
+            tally->squares += size * size;
+            most = size > most ? size : most;
+        }
+        tally->maximum = most > tally->maximum ? most : tally->maximum;
+        tally->over_1 += most > 1.0 / 255.0;
+        tally->over_2 += most > 2.0 / 255.0;
+    }
+}
+
+bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference, lam_error *error)
+{
+    if (!a || !b || !a->pixels || !b->pixels || !difference)
+        return fail(error, LAM_BAD_ARGUMENT, "compare: two pictures and a place for the result are needed");
+    if (a->width != b->width || a->height != b->height)
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "compare: the pictures have %d×%d and %d×%d pixels, expected the same", a->width,
+                    a->height, b->width, b->height);
+    if (a->format != b->format)
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "compare: one picture has bytes, the other floats, expected the same");
+    uint64_t state = float_state_enter();
+    struct tally tally = {0};
+    size_t pixels = (size_t)a->width * (size_t)a->height;
+    if (a->format == LAM_RGBA32F)
+        tally_floats(&tally, a->pixels, b->pixels, pixels);
+    else
+        tally_bytes(&tally, a->pixels, b->pixels, pixels);
+    double channels = 4.0 * (double)pixels, mean_square = tally.squares / channels;
+    *difference = (lam_difference){
+        .maximum = tally.maximum,
+        .mean = tally.sum / channels,
+        .rmse = __builtin_sqrt(mean_square),
+        .psnr_db = mean_square == 0.0               ? __builtin_inf()
+                   : mean_square == __builtin_inf() ? -__builtin_inf()
+                                                    : -10.0 * log10_of(mean_square),
+        .share_over_1 = (double)tally.over_1 / (double)pixels,
+        .share_over_2 = (double)tally.over_2 / (double)pixels,
+    };
+    float_state_leave(state);
+    return true;
+}

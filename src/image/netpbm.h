@@ -1,0 +1,19 @@
+// netpbm.h: the text header that PPM and PFM share.
+#ifndef NETPBM_H
+#define NETPBM_H
+
+#include <lambent/base.h>
+
+struct netpbm_header {
+    int width, height; // 1 … 65535
+    double last;       // PPM: the largest value; PFM: the scale, whose sign is the byte order
+    size_t pixels;     // where they start
+};
+
+// Reads the header of a file whose first two bytes have been recognised: width, height and one more number,
+// apart by white space and comments from '#' to the line's end, then one white-space character. `title` is
+// the format's name.
+bool netpbm_read_header(const uint8_t *bytes, size_t size, const char *title, const char *name,
+                        struct netpbm_header *header, lam_error *error);
+
+#endif

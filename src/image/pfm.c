@@ -1,0 +1,86 @@
+// pfm.c: PFM, floats with a three-line header (Debevec's portable float map), bottom row first.
+//
+// "PF", width and height, then a number whose sign tells the byte order: negative is little-endian. Its size
+// is a scale that programs do not agree about; it is written as 1 and not applied when read. PFM has no alpha
+// and no place for a remark, so a PFM never says who wrote it.
+#include "codec.h"
+#include "fail.h"
+#include "netpbm.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool pfm_write(const lam_image *image, const lam_save_params *params, struct pool *pool,
+                      lam_bytes *out, lam_error *error)
+{
+    (void)params, (void)pool;
+    char header[40];
+    size_t head = (size_t)snprintf(header, sizeof header, "PF\n%d %d\n-1.0\n", image->width, image->height);
+    uint64_t wanted = (uint64_t)image->width * (uint64_t)image->height * 12 + head;
+    uint8_t *bytes = wanted <= SIZE_MAX ? malloc((size_t)wanted) : NULL;
+    if (!bytes)
+        return fail_memory(error, (size_t)wanted);
+    memcpy(bytes, header, head);
+    uint8_t *at = bytes + head;
+    for (int y = image->height - 1; y >= 0; y--) {
+        const float *pixel = (const float *)image->pixels + (size_t)y * (size_t)image->width * 4;
+        for (int x = 0; x < image->width; x++, pixel += 4, at += 12)
+            memcpy(at, pixel, 12);
+    }
+    *out = (lam_bytes){bytes, (size_t)wanted};
+    return true;
+}
+
+static bool pfm_probe(const uint8_t *bytes, size_t size)
+{
+    return size >= 3 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f') &&
+           (bytes[2] == '\n' || bytes[2] == '\r' || bytes[2] == ' ' || bytes[2] == '\t');
+}
+
+static float float_at(const uint8_t *at, bool little)
+{
+    uint32_t word = little ? at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24
+                           : at[3] | (uint32_t)at[2] << 8 | (uint32_t)at[1] << 16 | (uint32_t)at[0] << 24;
+    float value;
+    memcpy(&value, &word, 4);
+    return value;
+}
+
+static bool pfm_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error)
+{
+    struct netpbm_header header;
+    if (!netpbm_read_header(bytes, size, "PFM", name, &header, error))
+        return false;
+    if (header.last == 0 || header.last != header.last)
+        return fail(error, LAM_CANNOT_READ,
+                    "%s: the PFM header has a scale of %g, expected a number above or below 0", name,
+                    header.last);
+    const size_t channels = bytes[1] == 'F' ? 3 : 1;
+    const bool little = header.last < 0;
+    uint64_t wanted = (uint64_t)header.width * (uint64_t)header.height * channels * 4;
+    if (wanted > size - header.pixels)
+        return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its %d×%d floats take up to byte %llu",
+                    name, size, header.width, header.height, (unsigned long long)(wanted + header.pixels));
+    if (!lam_image_make(image, header.width, header.height, LAM_RGBA32F, error))
+        return false;
+    const uint8_t *at = bytes + header.pixels;
+    for (int y = header.height - 1; y >= 0; y--) {
+        float *pixel = (float *)image->pixels + (size_t)y * (size_t)header.width * 4;
+        for (int x = 0; x < header.width; x++, pixel += 4, at += 4 * channels) {
+            for (size_t channel = 0; channel < 3; channel++)
+                pixel[channel] = float_at(at + (channels == 3 ? 4 * channel : 0), little);
+            pixel[3] = 1.0f;
+        }
+    }
+    return true;
+}
+
+const struct codec codec_pfm = {
+    .name = "pfm",
+    .title = "PFM",
+    .pixels = LAM_RGBA32F,
+    .write = pfm_write,
+    .probe = pfm_probe,
+    .read = pfm_read,
+};

@@ -1,0 +1,158 @@
+// png_filter.c: PNG's row filters, sixteen bytes at a time.
+#include "png_filter.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+typedef uint8_t u8x16 __attribute__((vector_size(16)));
+typedef int8_t s8x16 __attribute__((vector_size(16)));
+typedef uint16_t u16x8 __attribute__((vector_size(16)));
+typedef uint32_t u32x4 __attribute__((vector_size(16)));
+typedef u8x16 u8x16_memory __attribute__((aligned(1), may_alias));
+
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE u8x16 load(const uint8_t *at)
+{
+    return (u8x16) * (const u8x16_memory *)at;
+}
+INLINE u8x16 choose(u8x16 mask, u8x16 a, u8x16 b)
+{
+    return (a & mask) | (b & ~mask);
+}
+INLINE u8x16 below(u8x16 a, u8x16 b)
+{
+    return (u8x16)(a < b);
+}
+// |a − b|, given a < b as a mask.
+INLINE u8x16 distance(u8x16 a, u8x16 b, u8x16 a_below)
+{
+    return ((a - b) ^ a_below) - a_below;
+}
+
+// The mean, rounded down, without a ninth bit.
+INLINE u8x16 average(u8x16 a, u8x16 b)
+{
+    u16x8 half = (u16x8)((a ^ b) & 0xFE) >> 1; // no bit crosses from byte to byte: the lowest is cleared
+    return (a & b) + (u8x16)half;
+}
+
+// Paeth's predictor in bytes. With p = a + b − c: |p − a| = |b − c|, |p − b| = |a − c|, and |p − c| is the
+// difference of these two where a and b lie on different sides of c. On the same side it is their sum, never
+// the least: 255 stands for it. Ties go to a, then b.
+INLINE u8x16 paeth(u8x16 a, u8x16 b, u8x16 c)
+{
+    u8x16 b_below = below(b, c), a_below = below(a, c);
+    u8x16 to_a = distance(b, c, b_below), to_b = distance(a, c, a_below);
+    u8x16 to_c = distance(to_a, to_b, below(to_a, to_b)) | ~(a_below ^ b_below);
+    u8x16 take_a = ~(below(to_b, to_a) | below(to_c, to_a));
+    return choose(take_a, a, choose(below(to_c, to_b), c, b));
+}
+
+INLINE u8x16 filtered(enum png_filter filter, u8x16 here, u8x16 left, u8x16 above, u8x16 above_left)
+{
+    switch (filter) {
+    case PNG_FILTER_SUB:
+        return here - left;
+    case PNG_FILTER_UP:
+        return here - above;
+    case PNG_FILTER_AVERAGE:
+        return here - average(left, above);
+    case PNG_FILTER_PAETH:
+        return here - paeth(left, above, above_left);
+    default:
+        return here;
+    }
+}
+
+enum { VECTOR = 16, BLOCK = 4 * VECTOR };
+
+// Whether a block and the pixel to its left are zero: the transparent background, most of many a picture.
+INLINE bool is_blank(const uint8_t *row)
+{
+    typedef uint64_t u64x2 __attribute__((vector_size(16)));
+    u64x2 any = (u64x2)(load(row - 4) | load(row) | load(row + VECTOR) | load(row + 2 * VECTOR) |
+                        load(row + 3 * VECTOR));
+    return (any[0] | any[1]) == 0;
+}
+
+INLINE void put(uint32_t *out, int at, u8x16 result)
+{
+    *(u8x16_memory *)(out + at / 4) = result;
+}
+
+// One vector at a time; the first, which has nothing to its left, and the last, which may be short, go
+// through copies.
+INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width,
+                       uint32_t mask, uint32_t *out)
+{
+    const int bytes = 4 * width;
+    const u8x16 masks = (u8x16)((u32x4){0} + mask), zero = {0};
+    for (int at = 0; at < bytes;) {
+        if (at > 0 && at + BLOCK <= bytes && is_blank(row + at) && is_blank(above + at)) {
+            for (int end = at + BLOCK; at < end; at += VECTOR)
+                put(out, at, zero);
+        } else if (at > 0 && at + VECTOR <= bytes) {
+            int end = at + BLOCK <= bytes ? at + BLOCK : at + VECTOR;
+            for (; at < end; at += VECTOR)
+                put(out, at,
+                    masks & filtered(filter, load(row + at), load(row + at - 4), load(above + at),
+                                     load(above + at - 4)));
+        } else {
+            uint8_t near[VECTOR + 4] = {0},
+                                  far[VECTOR + 4] = {0}; // this row and the one above, from the left pixel on
+            const int before = at > 0 ? 4 : 0, behind = bytes - at < VECTOR ? bytes - at : VECTOR;
+            memcpy(near + 4 - before, row + at - before, (size_t)(before + behind));
+            memcpy(far + 4 - before, above + at - before, (size_t)(before + behind));
+            u8x16 result = filtered(filter, load(near + 4), load(near), load(far + 4), load(far));
+            for (int i = behind; i < VECTOR; i++)
+                result[i] = 0;
+            put(out, at, result & masks);
+            at += VECTOR;
+        }
+    }
+}
+
+void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width,
+                    uint32_t mask, uint32_t *out)
+{
+    // Written out so that each loop is made for its filter.
+    switch (filter) {
+    case PNG_FILTER_SUB:
+        filter_row(PNG_FILTER_SUB, row, above, width, mask, out);
+        break;
+    case PNG_FILTER_UP:
+        filter_row(PNG_FILTER_UP, row, above, width, mask, out);
+        break;
+    case PNG_FILTER_AVERAGE:
+        filter_row(PNG_FILTER_AVERAGE, row, above, width, mask, out);
+        break;
+    case PNG_FILTER_PAETH:
+        filter_row(PNG_FILTER_PAETH, row, above, width, mask, out);
+        break;
+    default:
+        filter_row(PNG_FILTER_NONE, row, above, width, mask, out);
+        break;
+    }
+}
+
+uint64_t png_filter_cost(const uint32_t *filtered_row, int width)
+{
+    // 16-bit lanes take two bytes of at most 128 a step: 255 steps stay below 65536.
+    enum { STEPS = 255 };
+    const int vectors = (width + 3) / 4;
+    const uint8_t *bytes = (const uint8_t *)filtered_row;
+    uint64_t cost = 0;
+    for (int first = 0; first < vectors; first += STEPS) {
+        int end = first + STEPS < vectors ? first + STEPS : vectors;
+        u16x8 sums = {0};
+        for (int i = first; i < end; i++) {
+            u8x16 byte = load(bytes + 16 * (size_t)i), negative = (u8x16)((s8x16)byte < 0);
+            u16x8 pair = (u16x8)((byte ^ negative) - negative);
+            sums += (pair & 255) + (pair >> 8);
+        }
+        for (int lane = 0; lane < 8; lane++)
+            cost += sums[lane];
+    }
+    return cost;
+}

@@ -1,0 +1,95 @@
+// png_read.c: PNG's row in the table of formats; reading through libspng.
+#include "codec.h"
+#include "fail.h"
+
+#include <spng.h>
+#include <string.h>
+
+static const uint8_t signature[8] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
+
+static bool png_probe(const uint8_t *bytes, size_t size)
+{
+    return size >= sizeof signature && memcmp(bytes, signature, sizeof signature) == 0;
+}
+
+static uint32_t u32_at(const uint8_t *at)
+{
+    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
+}
+
+// The text "Software: lambent" in one of the chunks in front of the pixels.
+static bool png_ours(const uint8_t *bytes, size_t size)
+{
+    static const char wanted[] = "tEXtSoftware\0lambent";
+    const uint32_t length = sizeof wanted - 1 - 4; // without the chunk's type
+    for (size_t at = sizeof signature; size - at >= 8;) {
+        uint32_t chunk = u32_at(bytes + at);
+        const uint8_t *type = bytes + at + 4;
+        if (memcmp(type, "IDAT", 4) == 0)
+            return false;
+        if (chunk == length && size - at >= 8 + length && memcmp(type, wanted, 4 + length) == 0)
+            return true;
+        if (chunk > size || size - at < (size_t)chunk + 12)
+            return false;
+        at += (size_t)chunk + 12;
+    }
+    return false;
+}
+
+// Deflate makes at most 1032 bytes of one, so a small file that claims a huge picture is told before memory
+// is asked for.
+static bool fits(const struct spng_ihdr *header, size_t size)
+{
+    static const int channels[7] = {1, 0, 3, 1, 2, 0, 4};
+    uint64_t bits = (uint64_t)header->width * header->bit_depth * (unsigned)channels[header->color_type];
+    return (bits / 8 + 1) * header->height / 1032 <= size;
+}
+
+static bool decode(spng_ctx *spng, const uint8_t *bytes, size_t size, const char *name, lam_image *image,
+                   lam_error *error)
+{
+    struct spng_ihdr header;
+    enum { CHUNK_MOST = 64 << 20 }; // texts and profiles, decompressed
+    int code = spng_set_chunk_limits(spng, CHUNK_MOST, CHUNK_MOST);
+    if (!code)
+        code = spng_set_png_buffer(spng, bytes, size);
+    if (!code)
+        code = spng_get_ihdr(spng, &header);
+    if (code)
+        return fail(error, LAM_CANNOT_READ, "%s: PNG header: %s", name, spng_strerror(code));
+    if (header.width > 65535 || header.height > 65535)
+        return fail(error, LAM_LIMIT, "%s: PNG of %u×%u pixels, expected at most 65535×65535", name,
+                    header.width, header.height);
+    if (!fits(&header, size))
+        return fail(error, LAM_CANNOT_READ, "%s: PNG of %u×%u pixels, which cannot be in a file of %zu bytes",
+                    name, header.width, header.height, size);
+    if (!lam_image_make(image, (int)header.width, (int)header.height, LAM_RGBA8, error))
+        return false;
+    code = spng_decode_image(spng, image->pixels, (size_t)header.width * header.height * 4, SPNG_FMT_RGBA8,
+                             SPNG_DECODE_TRNS);
+    if (!code)
+        code = spng_decode_chunks(spng); // to the file's end, so that one cut behind the pixels is told too
+    return code == 0 || fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", name, spng_strerror(code));
+}
+
+bool png_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error)
+{
+    spng_ctx *spng = spng_ctx_new(0);
+    if (!spng)
+        return fail_memory(error, 1 << 15);
+    bool ok = decode(spng, bytes, size, name, image, error);
+    spng_ctx_free(spng);
+    if (!ok)
+        lam_image_free(image);
+    return ok;
+}
+
+const struct codec codec_png = {
+    .name = "png",
+    .title = "PNG",
+    .pixels = LAM_RGBA8,
+    .write = png_write,
+    .probe = png_probe,
+    .read = png_read,
+    .ours = png_ours,
+};

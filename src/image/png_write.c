@@ -1,0 +1,256 @@
+// png_write.c: pictures become PNG files, in parallel strips and yet always the same bytes.
+//
+// Rows are cut into strips whose height depends on the width alone. A strip takes one row filter, is
+// compressed by itself (deflate.h) and becomes one IDAT chunk with its own CRC, so that any thread may take
+// any strip; only the Adler-32 of the whole is joined at the end. A filter looks at the row above, which is
+// there whichever strip it is in.
+#include "arena.h"
+#include "checksum.h"
+#include "codec.h"
+#include "deflate.h"
+#include "fail.h"
+#include "png_filter.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    STRIP_PIXELS =
+        32768, // a strip's words stay in the second-level cache; its Huffman code costs about 80 bytes
+    BATCH_STRIPS = 256, // strips between two joinings: bounds the room that waits for the worst case
+    TRIAL_STEP = 8,     // each eighth row is tried with every filter
+    CHUNK = 12,         // a chunk's length, type and CRC
+};
+
+struct strip {
+    struct adler_part adler;
+    size_t size; // of its chunk
+};
+
+struct encoding {
+    const lam_image *image;
+    int bytes_per_pixel; // 4, or 3 where every pixel is opaque
+    uint32_t mask;       // of a pixel's bytes that are written
+    int rows;            // in a strip
+    int strips;
+    size_t room; // for one strip's chunk at worst
+    struct crc_tables crc;
+    const uint8_t *zeros;    // the row above the first
+    struct deflate *scratch; // one for each thread
+    int translucent;         // touched atomically: set once a pixel was found that is not opaque
+
+    int first;          // strip of this batch
+    uint8_t *out;       // of this batch, `room` bytes for each strip
+    struct strip *done; // one for each strip of a batch
+};
+
+static void put_u32(uint8_t *at, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        at[i] = (uint8_t)(value >> (24 - 8 * i));
+}
+
+// Completes a chunk whose `size` bytes of data already stand at out + 8. Returns the chunk's size.
+static size_t close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size)
+{
+    put_u32(out, (uint32_t)size);
+    memcpy(out + 4, type, 4);
+    put_u32(out + 8 + size, crc_of(crc, out + 4, size + 4));
+    return size + CHUNK;
+}
+
+static size_t put_chunk(const struct crc_tables *crc, const char *type, const void *data, size_t size,
+                        uint8_t *out)
+{
+    if (size)
+        memcpy(out + 8, data, size);
+    return close_chunk(crc, type, out, size);
+}
+
+static const uint8_t *pixel_row(const struct encoding *encoding, int y)
+{
+    if (y < 0)
+        return encoding->zeros;
+    return (const uint8_t *)encoding->image->pixels + (size_t)y * (size_t)encoding->image->width * 4;
+}
+
+static int strip_rows(const struct encoding *encoding, int strip)
+{
+    int left = encoding->image->height - strip * encoding->rows;
+    return left < encoding->rows ? left : encoding->rows;
+}
+
+static void look_for_translucent(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct encoding *encoding = user;
+    if (__atomic_load_n(&encoding->translucent, __ATOMIC_RELAXED))
+        return;
+    const uint8_t *pixels = pixel_row(encoding, (int)index * encoding->rows);
+    size_t count = (size_t)strip_rows(encoding, (int)index) * (size_t)encoding->image->width;
+    for (size_t i = 0; i < count;) {
+        uint8_t all = 255;
+        for (size_t end = count - i < 4096 ? count : i + 4096; i < end; i++)
+            all &= pixels[4 * i + 3];
+        if (all != 255) {
+            __atomic_store_n(&encoding->translucent, 1, __ATOMIC_RELAXED);
+            return;
+        }
+    }
+}
+
+// The filter that leaves the least on some of the strip's rows.
+static enum png_filter best_filter(const struct encoding *encoding, struct deflate *scratch, int top,
+                                   int rows)
+{
+    uint64_t least = UINT64_MAX;
+    enum png_filter best = PNG_FILTER_PAETH;
+    for (enum png_filter filter = PNG_FILTER_PAETH; filter >= PNG_FILTER_SUB; filter--) {
+        uint64_t cost = 0;
+        for (int y = rows < TRIAL_STEP ? 0 : TRIAL_STEP / 2; y < rows; y += TRIAL_STEP) {
+            png_filter_row(filter, pixel_row(encoding, top + y), pixel_row(encoding, top + y - 1),
+                           encoding->image->width, encoding->mask, scratch->row);
+            cost += png_filter_cost(scratch->row, encoding->image->width);
+        }
+        if (cost < least) {
+            least = cost;
+            best = filter;
+        }
+    }
+    return best;
+}
+
+static void encode_strip(void *user, size_t index, int thread)
+{
+    struct encoding *encoding = user;
+    struct deflate *scratch = &encoding->scratch[thread];
+    const int strip = encoding->first + (int)index, width = encoding->image->width;
+    const int top = strip * encoding->rows, rows = strip_rows(encoding, strip);
+    struct strip *done = &encoding->done[index];
+
+    const enum png_filter filter = best_filter(encoding, scratch, top, rows);
+    done->adler = (struct adler_part){0};
+    deflate_start(scratch);
+    for (int y = 0; y < rows; y++) {
+        png_filter_row(filter, pixel_row(encoding, top + y), pixel_row(encoding, top + y - 1), width,
+                       encoding->mask, scratch->row);
+        adler_byte(&done->adler, (uint8_t)filter);
+        adler_row(&done->adler, scratch->row, width, encoding->bytes_per_pixel);
+        deflate_row(scratch, (uint8_t)filter);
+    }
+    uint8_t *out = encoding->out + index * encoding->room;
+    size_t size = 0;
+    if (strip == 0) {
+        // zlib's header (RFC 1950): deflate, a window of 32 KiB, the fastest level.
+        out[8] = 0x78;
+        out[9] = 0x01;
+        size = 2;
+    }
+    size += deflate_write(scratch, (size_t)rows, out + 8 + size);
+    done->size = close_chunk(&encoding->crc, "IDAT", out, size);
+}
+
+static size_t put_head(const struct encoding *encoding, bool raw, uint8_t *out)
+{
+    static const uint8_t signature[8] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
+    static const uint8_t intent = 0; // perceptual
+    static const char software[] = "Software\0lambent";
+    uint8_t header[13] = {0}, *at = out;
+    memcpy(at, signature, sizeof signature);
+    at += sizeof signature;
+    put_u32(header, (uint32_t)encoding->image->width);
+    put_u32(header + 4, (uint32_t)encoding->image->height);
+    header[8] = 8;                                      // bits
+    header[9] = encoding->bytes_per_pixel == 4 ? 6 : 2; // RGBA or RGB
+    at += put_chunk(&encoding->crc, "IHDR", header, sizeof header, at);
+    if (!raw)
+        at += put_chunk(&encoding->crc, "sRGB", &intent, 1, at);
+    at += put_chunk(&encoding->crc, "tEXt", software, sizeof software - 1, at);
+    return (size_t)(at - out);
+}
+
+// The last block, empty with fixed codes, and the checksum.
+static size_t put_tail(const struct encoding *encoding, const struct adler_part *adler, uint8_t *out)
+{
+    uint8_t end[6] = {3, 0};
+    put_u32(end + 2, adler_value(adler));
+    size_t size = put_chunk(&encoding->crc, "IDAT", end, sizeof end, out);
+    return size + put_chunk(&encoding->crc, "IEND", NULL, 0, out + size);
+}
+
+enum { HEAD_ROOM = 128, TAIL_ROOM = 6 + 2 * CHUNK };
+
+// Memory that lives while the file is made. Bounded: per thread about 8 bytes for each pixel of a strip.
+static bool get_scratch(struct encoding *encoding, int threads, struct arena *arena, lam_error *error)
+{
+    const int width = encoding->image->width;
+    const int batch = encoding->strips < BATCH_STRIPS ? encoding->strips : BATCH_STRIPS;
+    encoding->scratch = arena_array(arena, (size_t)threads, sizeof *encoding->scratch);
+    encoding->done = arena_array(arena, (size_t)batch, sizeof *encoding->done);
+    encoding->zeros = arena_alloc_zeroed(arena, (size_t)width * 4);
+    bool ok = encoding->scratch && encoding->done && encoding->zeros;
+    for (int i = 0; ok && i < threads; i++)
+        ok = deflate_make(&encoding->scratch[i], arena, width, encoding->rows, encoding->bytes_per_pixel);
+    return ok || fail_memory(error, (size_t)threads * deflate_scratch(width, encoding->rows));
+}
+
+// Strips are made at a distance that fits the worst case, then moved together. Pages that were not reached
+// are never touched, so the room costs address space only.
+static bool encode_strips(struct encoding *encoding, bool raw, struct pool *pool, lam_bytes *out,
+                          lam_error *error)
+{
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    struct adler_part adler = {0};
+    for (encoding->first = 0; encoding->first < encoding->strips; encoding->first += BATCH_STRIPS) {
+        int left = encoding->strips - encoding->first, count = left < BATCH_STRIPS ? left : BATCH_STRIPS;
+        size_t wanted = (size ? size : HEAD_ROOM) + (size_t)count * encoding->room + TAIL_ROOM;
+        uint8_t *more = realloc(bytes, wanted);
+        if (!more) {
+            free(bytes);
+            return fail_memory(error, wanted);
+        }
+        bytes = more;
+        if (size == 0)
+            size = put_head(encoding, raw, bytes);
+        encoding->out = bytes + size;
+        pool_run(pool, (size_t)count, encode_strip, encoding);
+        for (int i = 0; i < count; i++) {
+            memmove(bytes + size, encoding->out + (size_t)i * encoding->room, encoding->done[i].size);
+            size += encoding->done[i].size;
+            adler_join(&adler, &encoding->done[i].adler);
+        }
+    }
+    size += put_tail(encoding, &adler, bytes + size);
+    uint8_t *fitted = realloc(bytes, size);
+    *out = (lam_bytes){fitted ? fitted : bytes, size};
+    return true;
+}
+
+bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
+               lam_error *error)
+{
+    struct encoding encoding = {.image = image, .bytes_per_pixel = 4, .mask = 0xFFFFFFFFu};
+    encoding.rows = STRIP_PIXELS / image->width;
+    if (encoding.rows < 1)
+        encoding.rows = 1;
+    if (encoding.rows > image->height)
+        encoding.rows = image->height;
+    encoding.strips = (image->height + encoding.rows - 1) / encoding.rows;
+    if (encoding.strips == 1)
+        pool = NULL;
+    pool_run(pool, (size_t)encoding.strips, look_for_translucent, &encoding);
+    if (!encoding.translucent) {
+        encoding.bytes_per_pixel = 3;
+        encoding.mask = 0x00FFFFFFu;
+    }
+    encoding.room = CHUNK + 2 + deflate_room(image->width, encoding.rows, encoding.bytes_per_pixel);
+    crc_tables_make(&encoding.crc);
+
+    struct arena arena;
+    arena_start(&arena, NULL);
+    bool ok = get_scratch(&encoding, pool_threads(pool), &arena, error) &&
+              encode_strips(&encoding, params->raw, pool, out, error);
+    arena_free(&arena);
+    return ok;
+}

@@ -1,0 +1,553 @@
+// test_image.c: pictures in memory, their files other than how PNG is packed, comparison, and every way to
+// fail.
+#include <lambent/image.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <dirent.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static char folder[64];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    strcpy(folder, "/tmp/lambent-test-image-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static const char *in_folder(const char *name)
+{
+    static char paths[4][384];
+    static unsigned next;
+    char *path = paths[next++ % 4];
+    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
+    return path;
+}
+
+static int files_in_folder(void)
+{
+    DIR *dir = opendir(folder);
+    assert_non_null(dir);
+    int count = 0;
+    for (struct dirent *entry; (entry = readdir(dir));)
+        count += entry->d_name[0] != '.';
+    closedir(dir);
+    return count;
+}
+
+static int empty_folder(void **state)
+{
+    (void)state;
+    DIR *dir = opendir(folder);
+    assert_non_null(dir);
+    for (struct dirent *entry; (entry = readdir(dir));)
+        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0)
+            unlink(in_folder(entry->d_name));
+    closedir(dir);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    empty_folder(state);
+    return rmdir(folder);
+}
+
+static void write_file(const char *path, const void *data, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static lam_image bytes_picture(int width, int height)
+{
+    lam_image image;
+    assert_true(lam_image_make(&image, width, height, LAM_RGBA8, NULL));
+    uint8_t *pixels = image.pixels;
+    for (int i = 0; i < width * height * 4; i++)
+        pixels[i] = (uint8_t)(i * 37 + i / 7);
+    return image;
+}
+
+static lam_image floats_picture(int width, int height)
+{
+    lam_image image;
+    assert_true(lam_image_make(&image, width, height, LAM_RGBA32F, NULL));
+    float *pixels = image.pixels;
+    for (int i = 0; i < width * height * 4; i++)
+        pixels[i] = i % 4 == 3 ? 1.0f : (float)i * 0.37f - 3.0f;
+    return image;
+}
+
+static void expect_near(double found, double wanted, double apart)
+{
+    if (!(fabs(found - wanted) <= apart))
+        fail_msg("%.17g, expected %.17g", found, wanted);
+}
+
+static void expect_error(bool ok, const lam_error *error, lam_code code, const char *words)
+{
+    assert_false(ok);
+    if (error->code != code || !strstr(error->text, words))
+        fail_msg("code %d, '%s'; expected %d, '%s'", (int)error->code, error->text, (int)code, words);
+    assert_null(strchr(error->text, '\n'));
+}
+
+static void makes_within_limits(void **state)
+{
+    (void)state;
+    lam_image image;
+    lam_error error;
+    assert_true(lam_image_make(&image, 65535, 1, LAM_RGBA32F, NULL));
+    ((float *)image.pixels)[65534 * 4 + 3] = 1.0f;
+    lam_image_free(&image);
+    assert_null(image.pixels);
+    lam_image_free(&image);
+    lam_image_free(NULL);
+    assert_true(lam_image_make(&image, 1024, 1024, LAM_RGBA8, NULL)); // in pages of its own
+    memset(image.pixels, 1, 1024 * 1024 * 4);
+    lam_image_free(&image);
+
+    expect_error(lam_image_make(&image, 0, 5, LAM_RGBA8, &error), &error, LAM_BAD_ARGUMENT, "0×5");
+    expect_error(lam_image_make(&image, 5, -1, LAM_RGBA8, &error), &error, LAM_BAD_ARGUMENT, "5×-1");
+    expect_error(lam_image_make(&image, 65536, 5, LAM_RGBA8, &error), &error, LAM_LIMIT, "65535");
+    expect_error(lam_image_make(&image, 5, 2147483647, LAM_RGBA8, &error), &error, LAM_LIMIT, "65535");
+    expect_error(lam_image_make(&image, 5, 5, (lam_pixel_format)7, &error), &error, LAM_BAD_ARGUMENT,
+                 "format 7");
+    expect_error(lam_image_make(NULL, 5, 5, LAM_RGBA8, &error), &error, LAM_BAD_ARGUMENT, "image");
+    assert_false(lam_image_make(&image, 0, 0, LAM_RGBA8, NULL));
+    assert_null(image.pixels);
+}
+
+static void names_pick_formats(void **state)
+{
+    (void)state;
+    lam_pixel_format format;
+    lam_error error;
+    assert_true(lam_image_format_for("a.png", &format, NULL));
+    assert_int_equal(format, LAM_RGBA8);
+    assert_true(lam_image_format_for("dir.d/A.PPM", &format, NULL));
+    assert_int_equal(format, LAM_RGBA8);
+    assert_true(lam_image_format_for("x.y.pfm", &format, NULL));
+    assert_int_equal(format, LAM_RGBA32F);
+    expect_error(lam_image_format_for("a.jpg", &format, &error), &error, LAM_UNSUPPORTED,
+                 ".png, .ppm or .pfm");
+    expect_error(lam_image_format_for("a.pngg", &format, &error), &error, LAM_UNSUPPORTED,
+                 "did you mean .png");
+    expect_error(lam_image_format_for("dir.png/a", &format, &error), &error, LAM_UNSUPPORTED, "no ending");
+    expect_error(lam_image_format_for(NULL, &format, &error), &error, LAM_BAD_ARGUMENT, "path");
+}
+
+static void encode_checks_its_arguments(void **state)
+{
+    (void)state;
+    lam_image bytes = bytes_picture(3, 2), floats = floats_picture(3, 2), none = {0};
+    lam_bytes out = {&out, 5};
+    lam_error error;
+    expect_error(lam_image_encode(&bytes, "gif", NULL, &out, &error), &error, LAM_UNSUPPORTED,
+                 "png, ppm or pfm");
+    assert_null(out.data);
+    expect_error(lam_image_encode(&bytes, "pfm", NULL, &out, &error), &error, LAM_BAD_ARGUMENT,
+                 "LAM_RGBA32F");
+    expect_error(lam_image_encode(&floats, "png", NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "LAM_RGBA8");
+    expect_error(lam_image_encode(&floats, "ppm", NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "PPM");
+    expect_error(lam_image_encode(&none, "png", NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "pixels");
+    expect_error(lam_image_encode(NULL, "png", NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "pixels");
+    expect_error(lam_image_encode(&bytes, NULL, NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "format");
+    expect_error(lam_image_encode(&bytes, "png", &(lam_save_params){.threads = -1}, &out, &error), &error,
+                 LAM_BAD_ARGUMENT, "threads");
+    lam_bytes_free(&out);
+    lam_bytes_free(NULL);
+    lam_image_free(&bytes);
+    lam_image_free(&floats);
+}
+
+static void png_comes_back(void **state)
+{
+    (void)state;
+    const char *path = in_folder("a.png");
+    lam_image image = bytes_picture(61, 47), back;
+    assert_true(lam_image_save(&image, path, NULL, NULL));
+    assert_true(lam_image_load(&back, path, NULL));
+    assert_int_equal(back.width, 61);
+    assert_int_equal(back.height, 47);
+    assert_int_equal(back.format, LAM_RGBA8);
+    assert_memory_equal(back.pixels, image.pixels, 61 * 47 * 4);
+    assert_int_equal(files_in_folder(), 1);
+    assert_true(lam_image_is_ours(path));
+    lam_image_free(&image);
+    lam_image_free(&back);
+}
+
+static void pfm_is_exact(void **state)
+{
+    (void)state;
+    const char *path = in_folder("a.pfm");
+    lam_image image = floats_picture(5, 3), back;
+    lam_bytes bytes;
+    assert_true(lam_image_encode(&image, "pfm", NULL, &bytes, NULL));
+    static const char header[] = "PF\n5 3\n-1.0\n";
+    assert_int_equal(bytes.size, sizeof header - 1 + 5 * 3 * 12);
+    assert_memory_equal(bytes.data, header, sizeof header - 1);
+    // The bottom row comes first.
+    assert_memory_equal((uint8_t *)bytes.data + sizeof header - 1, (float *)image.pixels + 2 * 5 * 4, 12);
+    lam_bytes_free(&bytes);
+    assert_true(lam_image_save(&image, path, NULL, NULL));
+    assert_true(lam_image_load(&back, path, NULL));
+    assert_int_equal(back.format, LAM_RGBA32F);
+    assert_memory_equal(back.pixels, image.pixels, 5 * 3 * 16); // the source's alpha is 1 throughout
+    assert_false(lam_image_is_ours(path));
+    lam_image_free(&image);
+    lam_image_free(&back);
+}
+
+static void pfm_of_others(void **state)
+{
+    (void)state;
+    // Grey, big-endian, another scale.
+    static const char grey[] = "Pf 2\n1\r2.5\n\x3F\x80\x00\x00\xC0\x00\x00\x00";
+    lam_image image;
+    write_file(in_folder("g.pfm"), grey, sizeof grey - 1);
+    assert_true(lam_image_load(&image, in_folder("g.pfm"), NULL));
+    const float wanted[8] = {1, 1, 1, 1, -2, -2, -2, 1};
+    assert_memory_equal(image.pixels, wanted, sizeof wanted);
+    lam_image_free(&image);
+}
+
+static double decode(double x)
+{
+    return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
+}
+static double encode(double x)
+{
+    return x <= 0.0031308 ? x * 12.92 : 1.055 * pow(x, 1 / 2.4) - 0.055;
+}
+
+// The picture over the background in linear light, against libm.
+static void ppm_lies_over_the_background(void **state)
+{
+    (void)state;
+    lam_image image;
+    lam_bytes out;
+    assert_true(lam_image_make(&image, 256, 256, LAM_RGBA8, NULL));
+    uint8_t *pixels = image.pixels;
+    for (int alpha = 0; alpha < 256; alpha++)
+        for (int color = 0; color < 256; color++, pixels += 4) {
+            pixels[0] = (uint8_t)color;
+            pixels[1] = (uint8_t)(255 - color);
+            pixels[2] = (uint8_t)(color ^ 0x55);
+            pixels[3] = (uint8_t)alpha;
+        }
+    for (int raw = 0; raw < 2; raw++) {
+        const lam_rgb background = {0.25f, 0.0f, 1.5f};
+        lam_save_params params = {.background = background, .raw = raw};
+        assert_true(lam_image_encode(&image, "ppm", &params, &out, NULL));
+        static const char header[] = "P6\n# lambent\n256 256\n255\n";
+        assert_int_equal(out.size, sizeof header - 1 + 256 * 256 * 3);
+        assert_memory_equal(out.data, header, sizeof header - 1);
+        const uint8_t *got = (uint8_t *)out.data + sizeof header - 1, *source = image.pixels;
+        int near = 0; // where libm's last digits decide
+        for (int i = 0; i < 256 * 256; i++)
+            for (int channel = 0; channel < 3; channel++) {
+                double over = (double)(&background.r)[channel], a = source[4 * i + 3] / 255.0;
+                double c = source[4 * i + channel] / 255.0;
+                double sum = (raw ? c : decode(c)) * a + over * (1 - a);
+                double value = 255 * (raw ? sum : encode(sum));
+                value = value < 0 ? 0 : value > 255 ? 255 : value;
+                assert_true(fabs(got[3 * i + channel] - value) < 0.501);
+                near += got[3 * i + channel] != (int)floor(value + 0.5);
+                if (source[4 * i + 3] == 255)
+                    assert_int_equal(got[3 * i + channel], source[4 * i + channel]);
+            }
+        assert_true(near < 100);
+        lam_bytes_free(&out);
+    }
+    lam_image_free(&image);
+}
+
+static void ppm_comes_back(void **state)
+{
+    (void)state;
+    lam_image image = bytes_picture(9, 4), back;
+    for (int i = 0; i < 9 * 4; i++)
+        ((uint8_t *)image.pixels)[4 * i + 3] = 255;
+    assert_true(lam_image_save(&image, in_folder("a.ppm"), NULL, NULL));
+    assert_true(lam_image_is_ours(in_folder("a.ppm")));
+    assert_true(lam_image_load(&back, in_folder("a.ppm"), NULL));
+    assert_memory_equal(back.pixels, image.pixels, 9 * 4 * 4);
+    lam_image_free(&image);
+    lam_image_free(&back);
+}
+
+// A background that is no number must not reach an undefined conversion.
+static void background_of_nan(void **state)
+{
+    (void)state;
+    lam_image image = bytes_picture(2, 2);
+    lam_bytes out;
+    ((uint8_t *)image.pixels)[3] = 0;
+    lam_save_params params = {.background = {NAN, INFINITY, -INFINITY}};
+    assert_true(lam_image_encode(&image, "ppm", &params, &out, NULL));
+    const uint8_t *pixel = (uint8_t *)out.data + out.size - 12;
+    assert_int_equal(pixel[0], 0);
+    assert_int_equal(pixel[1], 255);
+    assert_int_equal(pixel[2], 0);
+    lam_bytes_free(&out);
+    lam_image_free(&image);
+}
+
+static void ours_only_where_it_says_so(void **state)
+{
+    (void)state;
+    static const char foreign[] = "P6\n1 1\n255\nabc";
+    assert_false(lam_image_is_ours(in_folder("none.png")));
+    assert_false(lam_image_is_ours(folder));
+    assert_false(lam_image_is_ours("/dev/null"));
+    assert_false(lam_image_is_ours(NULL));
+    write_file(in_folder("f.ppm"), foreign, sizeof foreign - 1);
+    assert_false(lam_image_is_ours(in_folder("f.ppm")));
+    write_file(in_folder("empty.png"), "", 0);
+    assert_false(lam_image_is_ours(in_folder("empty.png")));
+    assert_int_equal(mkfifo(in_folder("pipe.png"), 0600), 0);
+    assert_false(lam_image_is_ours(in_folder("pipe.png"))); // and does not wait for a writer
+
+    // A PNG whose Software text is another's, and ours cut at every byte in front of the pixels.
+    lam_image image = bytes_picture(4, 4);
+    lam_bytes out;
+    assert_true(lam_image_encode(&image, "png", NULL, &out, NULL));
+    uint8_t *text = out.data;
+    while (memcmp(text, "lambent", 7) != 0)
+        text++;
+    const size_t said = (size_t)(text + 7 - (uint8_t *)out.data);
+    for (size_t size = 0; size < said; size++) {
+        write_file(in_folder("cut.png"), out.data, size);
+        assert_false(lam_image_is_ours(in_folder("cut.png")));
+    }
+    text[0] = 'L';
+    write_file(in_folder("other.png"), out.data, out.size);
+    assert_false(lam_image_is_ours(in_folder("other.png")));
+    lam_bytes_free(&out);
+    lam_image_free(&image);
+}
+
+// Files cut at every byte are refused; files with one byte changed are refused or, as PNG's checksums see to,
+// give the same picture (a damaged remark does no harm).
+static void damaged_files_are_refused(void **state)
+{
+    (void)state;
+    lam_image bytes = bytes_picture(7, 5), floats = floats_picture(3, 2), back;
+    lam_error error;
+    static const struct {
+        const char *format;
+        size_t needless; // bytes at the end that hold nothing: the checksum of PNG's empty last chunk
+    } cases[] = {{"png", 4}, {"ppm", 0}, {"pfm", 0}};
+    for (int i = 0; i < 3; i++) {
+        lam_bytes out;
+        assert_true(lam_image_encode(i == 2 ? &floats : &bytes, cases[i].format, NULL, &out, NULL));
+        for (size_t size = 0; size < out.size - cases[i].needless; size++) {
+            write_file(in_folder("cut"), out.data, size);
+            memset(&back, 0xEE, sizeof back);
+            expect_error(lam_image_load(&back, in_folder("cut"), &error), &error, LAM_CANNOT_READ, "/cut: ");
+            assert_null(back.pixels);
+        }
+        uint8_t *data = out.data;
+        int refused = 0;
+        for (size_t at = 0; at < out.size; at++) {
+            data[at] ^= 0x15;
+            write_file(in_folder("bad"), out.data, out.size);
+            if (lam_image_load(&back, in_folder("bad"), &error)) {
+                if (i == 0)
+                    assert_memory_equal(back.pixels, bytes.pixels, 7 * 5 * 4);
+                lam_image_free(&back);
+            } else {
+                refused++;
+            }
+            data[at] ^= 0x15;
+        }
+        assert_true(refused > (i == 0 ? (int)out.size / 2 : 4));
+        lam_bytes_free(&out);
+    }
+    lam_image_free(&bytes);
+    lam_image_free(&floats);
+}
+
+static void refusals_say_why(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *content;
+        lam_code code;
+        const char *words;
+    } cases[] = {
+        {"", LAM_CANNOT_READ, "is empty"},
+        {"GIF89a", LAM_CANNOT_READ, "byte 0"},
+        {"P6\n0 4\n255\n", LAM_CANNOT_READ, "width of 0"},
+        {"P6\n3.5 4\n255\n", LAM_CANNOT_READ, "width of 3.5"},
+        {"P6\n3 nan\n255\n", LAM_CANNOT_READ, "height of"},
+        {"P6\n70000 1\n255\n", LAM_LIMIT, "65535"},
+        {"P6\n1 1e300\n255\n", LAM_LIMIT, "65535"},
+        {"P6\n1 1\n65535\nabcdef", LAM_UNSUPPORTED, "65535"},
+        {"P6\n# no end", LAM_CANNOT_READ, "no width"},
+        {"P6\n1 1 x", LAM_CANNOT_READ, "no number behind the height"},
+        {"PF\n60000 60000\n-1\nxx", LAM_CANNOT_READ, "60000×60000"},
+        {"PF\n1 1\n0\nabcdabcdabcd", LAM_CANNOT_READ, "scale of 0"},
+    };
+    lam_image image;
+    lam_error error;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_file(in_folder("r"), cases[i].content, strlen(cases[i].content));
+        expect_error(lam_image_load(&image, in_folder("r"), &error), &error, cases[i].code, cases[i].words);
+    }
+    expect_error(lam_image_load(&image, in_folder("absent.png"), &error), &error, LAM_CANNOT_READ,
+                 "absent.png");
+    expect_error(lam_image_load(&image, folder, &error), &error, LAM_CANNOT_READ, "directory");
+    expect_error(lam_image_load(&image, NULL, &error), &error, LAM_BAD_ARGUMENT, "path");
+
+    // A PNG of 57 bytes that claims 60000×60000 pixels: told before memory is asked for.
+    static const uint8_t bomb[] = {137, 80, 78, 71, 13, 10,   26,   10,   0,    0, 0,    13,
+                                   73,  72, 68, 82, 0,  0,    0xEA, 0x60, 0,    0, 0xEA, 0x60,
+                                   8,   6,  0,  0,  0,  0x1D, 0x3E, 0x8E, 0x51, 0, 0,    0,
+                                   0,   73, 68, 65, 84, 0x35, 0xAF, 0x06, 0x1E};
+    write_file(in_folder("bomb.png"), bomb, sizeof bomb);
+    assert_false(lam_image_load(&image, in_folder("bomb.png"), &error));
+    assert_int_equal(error.code, LAM_CANNOT_READ);
+}
+
+// Whatever goes wrong, no file appears, none is changed, no temporary one stays.
+static void writes_whole_or_not_at_all(void **state)
+{
+    (void)state;
+    empty_folder(state);
+    lam_image image = bytes_picture(40, 40);
+    lam_error error;
+    expect_error(lam_image_save(&image, in_folder("a.pfm"), NULL, &error), &error, LAM_BAD_ARGUMENT, "PFM");
+    expect_error(lam_image_save(&image, in_folder("a.bmp"), NULL, &error), &error, LAM_UNSUPPORTED, ".bmp");
+    expect_error(lam_image_save(&image, in_folder("sub/a.png"), NULL, &error), &error, LAM_CANNOT_WRITE,
+                 "sub/a.png");
+    expect_error(lam_image_save(&image, NULL, NULL, &error), &error, LAM_BAD_ARGUMENT, "path");
+    assert_int_equal(files_in_folder(), 0);
+
+    // A full device behind a link that ends in .png.
+    if (access("/dev/full", W_OK) == 0) {
+        assert_int_equal(symlink("/dev/full", in_folder("full.png")), 0);
+        expect_error(lam_image_save(&image, in_folder("full.png"), NULL, &error), &error, LAM_CANNOT_WRITE,
+                     "full.png");
+        assert_int_equal(files_in_folder(), 1);
+        unlink(in_folder("full.png"));
+    }
+    // A folder in the way.
+    assert_int_equal(mkdir(in_folder("dir.png"), 0700), 0);
+    expect_error(lam_image_save(&image, in_folder("dir.png"), NULL, &error), &error, LAM_CANNOT_WRITE,
+                 "dir.png");
+    assert_int_equal(files_in_folder(), 1);
+    assert_int_equal(rmdir(in_folder("dir.png")), 0);
+
+    // A folder that may not be written; root may.
+    if (geteuid() != 0) {
+        assert_int_equal(chmod(folder, 0500), 0);
+        expect_error(lam_image_save(&image, in_folder("a.png"), NULL, &error), &error, LAM_CANNOT_WRITE,
+                     "a.png");
+        assert_int_equal(chmod(folder, 0700), 0);
+        assert_int_equal(files_in_folder(), 0);
+    }
+    // An older file is replaced whole.
+    write_file(in_folder("a.png"), "old", 3);
+    assert_true(lam_image_save(&image, in_folder("a.png"), NULL, &error));
+    assert_true(lam_image_is_ours(in_folder("a.png")));
+    assert_int_equal(files_in_folder(), 1);
+    lam_image_free(&image);
+}
+
+static void compares_bytes(void **state)
+{
+    (void)state;
+    lam_image a = bytes_picture(10, 10), b = bytes_picture(10, 10), other = bytes_picture(10, 9);
+    lam_image floats = floats_picture(10, 10);
+    lam_difference d;
+    lam_error error;
+    assert_true(lam_image_compare(&a, &b, &d, NULL));
+    assert_true(d.maximum == 0 && d.mean == 0 && d.rmse == 0 && isinf(d.psnr_db) && d.psnr_db > 0);
+    uint8_t *pixels = b.pixels;
+    for (int i = 0; i < 3; i++) { // off by 1, 2 and 3 in three pixels
+        uint8_t *channel = pixels + 4 * (i * 17) + i;
+        *channel = (uint8_t)(*channel > 100 ? *channel - (i + 1) : *channel + (i + 1));
+    }
+    assert_true(lam_image_compare(&a, &b, &d, NULL));
+    expect_near(d.maximum, 3 / 255.0, 1e-12);
+    expect_near(d.mean, 6 / 255.0 / 400, 1e-12);
+    expect_near(d.rmse, sqrt(14.0 / 400) / 255, 1e-12);
+    expect_near(d.psnr_db, -20 * log10(sqrt(14.0 / 400) / 255), 1e-11);
+    expect_near(d.share_over_1, 0.02, 1e-12);
+    expect_near(d.share_over_2, 0.01, 1e-12);
+    expect_error(lam_image_compare(&a, &other, &d, &error), &error, LAM_BAD_ARGUMENT, "10×9");
+    expect_error(lam_image_compare(&a, &floats, &d, &error), &error, LAM_BAD_ARGUMENT, "floats");
+    expect_error(lam_image_compare(&a, NULL, &d, &error), &error, LAM_BAD_ARGUMENT, "two pictures");
+    lam_image_free(&a);
+    lam_image_free(&b);
+    lam_image_free(&other);
+    lam_image_free(&floats);
+}
+
+static void compares_floats(void **state)
+{
+    (void)state;
+    lam_image a = floats_picture(8, 8), b = floats_picture(8, 8);
+    lam_difference d;
+    float *first = a.pixels, *second = b.pixels;
+    first[5] = second[5] = NAN;
+    first[9] = second[9] = INFINITY;
+    assert_true(lam_image_compare(&a, &b, &d, NULL));
+    assert_true(d.maximum == 0 && isinf(d.psnr_db));
+    second[20] = first[20] + 0.25f;
+    assert_true(lam_image_compare(&a, &b, &d, NULL));
+    assert_true(fabs(d.maximum - 0.25) < 1e-6 && fabs(d.rmse - 0.25 / 16) < 1e-6);
+    assert_true(fabs(d.psnr_db - 20 * log10(16 / 0.25)) < 1e-4);
+    assert_true(d.share_over_2 == 1 / 64.0);
+    second[5] = 0;
+    assert_true(lam_image_compare(&a, &b, &d, NULL));
+    assert_true(isinf(d.maximum) && isinf(d.mean) && isinf(d.psnr_db) && d.psnr_db < 0);
+    // Differences whose square is a denormal number.
+    second[5] = NAN;
+    second[20] = first[20];
+    first[24] = 0.0f;
+    second[24] = 1e-40f;
+    first[24 + 1] = second[24 + 1] = 0;
+    assert_true(lam_image_compare(&a, &b, &d, NULL));
+    assert_true(d.maximum > 0.9e-40 && fabs(d.psnr_db - 20 * log10(16 / (double)second[24])) < 1e-6);
+    lam_image_free(&a);
+    lam_image_free(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(makes_within_limits),
+        cmocka_unit_test(names_pick_formats),
+        cmocka_unit_test(encode_checks_its_arguments),
+        cmocka_unit_test(png_comes_back),
+        cmocka_unit_test(pfm_is_exact),
+        cmocka_unit_test(pfm_of_others),
+        cmocka_unit_test(ppm_lies_over_the_background),
+        cmocka_unit_test(ppm_comes_back),
+        cmocka_unit_test(background_of_nan),
+        cmocka_unit_test(ours_only_where_it_says_so),
+        cmocka_unit_test(damaged_files_are_refused),
+        cmocka_unit_test(refusals_say_why),
+        cmocka_unit_test(writes_whole_or_not_at_all),
+        cmocka_unit_test(compares_bytes),
+        cmocka_unit_test(compares_floats),
+    };
+    return cmocka_run_group_tests_name("image", tests, make_folder, remove_folder);
+}

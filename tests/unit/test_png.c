@@ -1,0 +1,429 @@
+// test_png.c: PNG files decode to the picture they were made from, and are the same bytes whoever makes them.
+#include "checksum.h"
+#include "deflate.h"
+#include "huffman.h"
+#include "png_filter.h"
+
+#include <lambent/image.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <spng.h>
+
+static uint64_t random_state;
+
+static uint32_t random_bits(void)
+{
+    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(random_state >> 33);
+}
+
+enum content { CLEAR, OPAQUE_NOISE, NOISE, GRADIENT, OPAQUE_GRADIENT, RUNS, FLAT, LAST_PIXEL, CONTENTS };
+
+static const char *const content_names[CONTENTS] = {"clear",           "opaque noise", "noise", "gradient",
+                                                    "opaque gradient", "runs",         "flat",  "last pixel"};
+
+static uint32_t pixel_of(enum content content, int x, int y, int width, int height, uint32_t before)
+{
+    uint32_t gradient =
+        (uint32_t)(x * 255 / width) | (uint32_t)(y * 255 / height) << 8 | (uint32_t)((x + y) & 255) << 16;
+    switch (content) {
+    case OPAQUE_NOISE:
+        return random_bits() << 1 | 0xFF000000u;
+    case NOISE:
+        return random_bits() << 1 ^ random_bits() >> 3;
+    case GRADIENT:
+        return x > width / 3 ? gradient | (uint32_t)(x * y & 255) << 24 : 0;
+    case OPAQUE_GRADIENT:
+        return gradient | 0xFF000000u;
+    case RUNS:
+        return random_bits() % 9 ? before : random_bits() & 0x03030303u;
+    case FLAT:
+        return 0xFF6496C8u;
+    case LAST_PIXEL:
+        return x == width - 1 && y == height - 1 ? 0x01020304u : 0;
+    default:
+        return 0;
+    }
+}
+
+static void make_picture(lam_image *image, int width, int height, enum content content)
+{
+    lam_error error;
+    if (!lam_image_make(image, width, height, LAM_RGBA8, &error))
+        fail_msg("%s", error.text);
+    random_state = (uint64_t)width * 1000003u + (uint64_t)height * 17 + content;
+    uint32_t pixel = 0;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            pixel = pixel_of(content, x, y, width, height, pixel);
+            memcpy((uint8_t *)image->pixels + ((size_t)y * (size_t)width + (size_t)x) * 4, &pixel, 4);
+        }
+}
+
+static lam_bytes encode(const lam_image *image, int threads)
+{
+    lam_error error;
+    lam_bytes bytes;
+    if (!lam_image_encode(image, "png", &(lam_save_params){.threads = threads}, &bytes, &error))
+        fail_msg("%s", error.text);
+    return bytes;
+}
+
+// libspng checks every CRC, zlib the Adler-32.
+static void decode_and_compare(const lam_bytes *bytes, const lam_image *image, const char *what)
+{
+    spng_ctx *spng = spng_ctx_new(0);
+    assert_non_null(spng);
+    spng_set_crc_action(spng, SPNG_CRC_ERROR, SPNG_CRC_ERROR);
+    assert_int_equal(spng_set_png_buffer(spng, bytes->data, bytes->size), 0);
+    size_t size = 0, wanted = (size_t)image->width * (size_t)image->height * 4;
+    int code = spng_decoded_image_size(spng, SPNG_FMT_RGBA8, &size);
+    uint8_t *pixels = malloc(wanted);
+    assert_non_null(pixels);
+    if (!code && size == wanted)
+        code = spng_decode_image(spng, pixels, size, SPNG_FMT_RGBA8, 0);
+    if (!code)
+        code = spng_decode_chunks(spng);
+    bool same = !code && size == wanted && memcmp(pixels, image->pixels, wanted) == 0;
+    free(pixels);
+    spng_ctx_free(spng);
+    if (!same)
+        fail_msg("%s, %d×%d: %s", what, image->width, image->height,
+                 code ? spng_strerror(code) : "other pixels");
+}
+
+static void round_trip(int width, int height, enum content content)
+{
+    lam_image image;
+    make_picture(&image, width, height, content);
+    lam_bytes bytes = encode(&image, 1);
+    decode_and_compare(&bytes, &image, content_names[content]);
+    const uint8_t *data = bytes.data;
+    static const uint8_t end[12] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
+    assert_memory_equal(data + bytes.size - 12, end, 12);
+    lam_bytes_free(&bytes);
+    lam_image_free(&image);
+}
+
+static void decodes_to_the_source(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1, 1},   {2, 1},    {1, 2},     {3, 3},   {4, 7},    {5, 64},   {15, 16},
+                                   {16, 15}, {17, 17},  {31, 9},    {33, 2},  {63, 65},  {86, 86},  {87, 3},
+                                   {88, 5},  {129, 97}, {255, 257}, {300, 3}, {515, 70}, {1024, 64}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        for (int content = 0; content < CONTENTS; content++)
+            round_trip(sizes[i][0], sizes[i][1], content);
+}
+
+static void decodes_at_the_limits_of_size(void **state)
+{
+    (void)state;
+    for (int content = 0; content < CONTENTS; content++) {
+        round_trip(65535, 1, content);
+        round_trip(1, 65535, content);
+        round_trip(65535, 3, content);
+    }
+    round_trip(3, 65535, RUNS);
+}
+
+// Every length of a run from 1 to 700 bytes and more, in both pixel sizes, at several offsets.
+static void holds_runs_of_every_length(void **state)
+{
+    (void)state;
+    for (int opaque = 0; opaque < 2; opaque++) {
+        lam_image image;
+        lam_error error;
+        assert_true(lam_image_make(&image, 256, 256, LAM_RGBA8, &error));
+        for (int y = 0; y < 256; y++)
+            for (int x = 0; x < 256; x++) {
+                // A first run of y pixels and a second of the rest; after filtering too there are runs of all
+                // lengths.
+                uint32_t value = x < y ? 0x00112233u : 0x00445566u + (uint32_t)(y % 3);
+                value |= opaque ? 0xFF000000u : 0x80000000u;
+                memcpy((uint8_t *)image.pixels + (y * 256 + x) * 4, &value, 4);
+            }
+        lam_bytes bytes = encode(&image, 1);
+        decode_and_compare(&bytes, &image, "staircase");
+        assert_true(bytes.size < 256 * 40);
+        lam_bytes_free(&bytes);
+        lam_image_free(&image);
+    }
+}
+
+static void threads_change_nothing(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1024, 700}, {333, 1001}, {65535, 5}, {3, 30000}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        for (int content = NOISE; content <= RUNS; content++) {
+            lam_image image;
+            make_picture(&image, sizes[i][0], sizes[i][1], content);
+            lam_bytes one = encode(&image, 1), two = encode(&image, 2), five = encode(&image, 5);
+            assert_int_equal(one.size, two.size);
+            assert_int_equal(one.size, five.size);
+            assert_memory_equal(one.data, two.data, one.size);
+            assert_memory_equal(one.data, five.data, one.size);
+            lam_bytes_free(&one);
+            lam_bytes_free(&two);
+            lam_bytes_free(&five);
+            lam_image_free(&image);
+        }
+}
+
+// FNV-1a, 64 bits.
+static uint64_t hash_of(const void *data, size_t size)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ ((const uint8_t *)data)[i]) * 0x100000001b3u;
+    return hash;
+}
+
+// One hash for each content, the same for every compiler, build type and instruction set. They change only
+// when the encoder is meant to write other bytes; then look at the sizes too.
+static void bytes_are_the_recorded_ones(void **state)
+{
+    (void)state;
+    static const struct {
+        enum content content;
+        size_t size;
+        uint64_t hash;
+    } recorded[] = {
+        {CLEAR, 1165, 0x5354b8c6c2928655},      {NOISE, 430016, 0x959081525ee6b91e},
+        {GRADIENT, 105781, 0xcef7b54a13700460}, {OPAQUE_GRADIENT, 1628, 0x67049af9e1054640},
+        {RUNS, 36247, 0xc1d09b25293ad2ca},
+    };
+    int wrong = 0;
+    for (size_t i = 0; i < sizeof recorded / sizeof *recorded; i++) {
+        lam_image image;
+        make_picture(&image, 509, 211, recorded[i].content);
+        lam_bytes bytes = encode(&image, 2);
+        uint64_t hash = hash_of(bytes.data, bytes.size);
+        if (hash != recorded[i].hash || bytes.size != recorded[i].size) {
+            print_message("%s: %zu bytes, 0x%016llx\n", content_names[recorded[i].content], bytes.size,
+                          (unsigned long long)hash);
+            wrong++;
+        }
+        lam_bytes_free(&bytes);
+        lam_image_free(&image);
+    }
+    assert_int_equal(wrong, 0);
+}
+
+static const uint8_t *find_chunk(const lam_bytes *bytes, const char *type)
+{
+    const uint8_t *data = bytes->data;
+    for (size_t at = 8; at + 12 <= bytes->size;) {
+        if (memcmp(data + at + 4, type, 4) == 0)
+            return data + at;
+        at +=
+            ((size_t)data[at] << 24 | (size_t)data[at + 1] << 16 | (size_t)data[at + 2] << 8 | data[at + 3]) +
+            12;
+    }
+    return NULL;
+}
+
+static void chunks_say_what_is_in_it(void **state)
+{
+    (void)state;
+    lam_image image;
+    lam_bytes bytes;
+    make_picture(&image, 40, 30, GRADIENT);
+    assert_true(lam_image_encode(&image, "png", NULL, &bytes, NULL));
+    const uint8_t *header = find_chunk(&bytes, "IHDR"), *text = find_chunk(&bytes, "tEXt");
+    assert_int_equal(header[8 + 8], 8);
+    assert_int_equal(header[8 + 9], 6); // RGBA
+    assert_non_null(find_chunk(&bytes, "sRGB"));
+    assert_non_null(text);
+    assert_memory_equal(text + 8, "Software\0lambent", 16);
+    lam_bytes_free(&bytes);
+
+    assert_true(lam_image_encode(&image, "png", &(lam_save_params){.raw = true}, &bytes, NULL));
+    assert_null(find_chunk(&bytes, "sRGB"));
+    lam_bytes_free(&bytes);
+    lam_image_free(&image);
+
+    make_picture(&image, 40, 30, OPAQUE_GRADIENT);
+    assert_true(lam_image_encode(&image, "png", NULL, &bytes, NULL));
+    assert_int_equal(find_chunk(&bytes, "IHDR")[8 + 9], 2); // RGB
+    lam_bytes_free(&bytes);
+    // One pixel that is not opaque, the last.
+    ((uint8_t *)image.pixels)[40 * 30 * 4 - 1] = 254;
+    assert_true(lam_image_encode(&image, "png", NULL, &bytes, NULL));
+    assert_int_equal(find_chunk(&bytes, "IHDR")[8 + 9], 6);
+    lam_bytes_free(&bytes);
+    lam_image_free(&image);
+}
+
+static void checksums_are_the_published_ones(void **state)
+{
+    (void)state;
+    struct crc_tables tables;
+    crc_tables_make(&tables);
+    assert_int_equal(crc_of(&tables, (const uint8_t *)"123456789", 9),
+                     0xCBF43926u); // the CRC catalogue's check value
+    assert_int_equal(crc_of(&tables, (const uint8_t *)"IEND", 4), 0xAE426082u);
+    struct adler_part part = {0};
+    for (const char *c = "Wikipedia"; *c; c++)
+        adler_byte(&part, (uint8_t)*c);
+    assert_int_equal(adler_value(&part), 0x11E60398u);
+}
+
+// A row against the definition of Adler-32, byte by byte, for both pixel sizes and every tail.
+static void adler_of_rows(void **state)
+{
+    (void)state;
+    uint32_t *row = calloc(65536 + 16, 4);
+    assert_non_null(row);
+    random_state = 5;
+    for (int bytes_per_pixel = 3; bytes_per_pixel <= 4; bytes_per_pixel++)
+        for (int i = 0; i < 120; i++) {
+            int width = i < 100 ? i + 1 : i < 119 ? 100 + (int)(random_bits() % 5000) : 65535;
+            uint32_t mask = bytes_per_pixel == 4 ? 0xFFFFFFFFu : 0x00FFFFFFu;
+            memset(row, 0, (65536 + 16) * 4);
+            for (int x = 0; x < width; x++)
+                row[x] = (i % 3 ? random_bits() << 1 : 0xFFFFFFFFu) & mask;
+            struct adler_part part = {0};
+            adler_byte(&part, 4);
+            adler_row(&part, row, width, bytes_per_pixel);
+            uint32_t low = 1 + 4, high = 1 + 4;
+            for (int x = 0; x < width; x++)
+                for (int channel = 0; channel < bytes_per_pixel; channel++) {
+                    low = (low + (row[x] >> 8 * channel & 255)) % 65521;
+                    high = (high + low) % 65521;
+                }
+            assert_int_equal(adler_value(&part), high << 16 | low);
+        }
+    free(row);
+}
+
+static int plain_paeth(int a, int b, int c)
+{
+    int p = a + b - c, pa = abs(p - a), pb = abs(p - b), pc = abs(p - c);
+    return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
+}
+
+// The filters against the specification's words, for every combination of left, above and above left in
+// steps.
+static void filters_as_specified(void **state)
+{
+    (void)state;
+    enum { WIDTH = 53 };
+    uint8_t rows[2][WIDTH * 4];
+    uint32_t out[(WIDTH + 3) / 4 * 4];
+    random_state = 9;
+    for (int round = 0; round < 3000; round++) {
+        int width = 1 + (int)(random_bits() % WIDTH);
+        uint32_t spread = round % 4 == 0 ? 3 : 255;
+        for (int i = 0; i < WIDTH * 8; i++)
+            rows[i / (WIDTH * 4)][i % (WIDTH * 4)] = (uint8_t)(random_bits() & spread);
+        const uint8_t *above = rows[0], *row = rows[1];
+        for (int filter = 0; filter <= 4; filter++) {
+            memset(out, 0xEE, sizeof out);
+            png_filter_row((enum png_filter)filter, row, above, width, 0xFFFFFFFFu, out);
+            uint64_t cost = 0;
+            for (int i = 0; i < width * 4; i++) {
+                int a = i >= 4 ? row[i - 4] : 0, b = above[i], c = i >= 4 ? above[i - 4] : 0;
+                const int predicted[5] = {0, a, b, (a + b) / 2, plain_paeth(a, b, c)};
+                uint8_t wanted = (uint8_t)(row[i] - predicted[filter]);
+                assert_int_equal(((uint8_t *)out)[i], wanted);
+                cost += (uint64_t)abs((int8_t)wanted);
+            }
+            for (int i = width; i < (width + 3) / 4 * 4; i++)
+                assert_int_equal(out[i], 0);
+            assert_int_equal(png_filter_cost(out, width), cost);
+        }
+    }
+}
+
+// Codes of limited length: complete (Kraft's sum is 1), within the limit, the more frequent never longer.
+static void codes_are_complete(void **state)
+{
+    (void)state;
+    random_state = 3;
+    for (int round = 0; round < 400; round++) {
+        uint32_t counts[286] = {0};
+        int used = 0, limit = round % 2 ? 14 : 9;
+        uint32_t a = 1, b = 1;
+        for (int i = 0; i < 286; i++) {
+            if (round % 5 == 0) { // Fibonacci's numbers make the deepest tree
+                counts[i] = i < 29 ? a : 0;
+                uint32_t next = a + b;
+                a = b;
+                b = i < 29 ? next : 1;
+            } else {
+                counts[i] = random_bits() % 3 ? random_bits() % (1u << (random_bits() % 18)) : 0;
+            }
+            used += counts[i] > 0;
+        }
+        uint8_t lengths[286];
+        huffman_lengths(counts, 286, limit, lengths);
+        uint32_t places = 0;
+        for (int i = 0; i < 286; i++) {
+            assert_true((lengths[i] > 0) == (counts[i] > 0));
+            assert_true(lengths[i] <= limit);
+            places += lengths[i] ? 1u << (limit - lengths[i]) : 0;
+            for (int j = 0; j < i; j++)
+                if (counts[i] > counts[j] && counts[j] > 0)
+                    assert_true(lengths[i] <= lengths[j]);
+        }
+        assert_true(used < 2 || places == 1u << limit);
+    }
+    uint32_t one[4] = {0, 0, 7, 0};
+    uint8_t lengths[4];
+    huffman_lengths(one, 4, 14, lengths);
+    assert_int_equal(lengths[2], 1);
+    assert_int_equal(lengths[0] + lengths[1] + lengths[3], 0);
+}
+
+// Each allocation fails in turn: an error, nothing left behind (a leak checker sees to that).
+static void survives_without_memory(void **state)
+{
+    (void)state;
+    lam_image image;
+    make_picture(&image, 1024, 300, GRADIENT);
+    int failures = 0;
+    for (long countdown = 0;; countdown++) {
+        arena_fail_after(countdown);
+        lam_bytes bytes;
+        lam_error error;
+        bool ok = lam_image_encode(&image, "png", &(lam_save_params){.threads = 1}, &bytes, &error);
+        arena_fail_after(-1);
+        if (ok) {
+            lam_bytes_free(&bytes);
+            break;
+        }
+        assert_int_equal(error.code, LAM_LIMIT);
+        assert_null(bytes.data);
+        failures++;
+    }
+    assert_true(failures >= 4);
+    lam_image_free(&image);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(checksums_are_the_published_ones),
+        cmocka_unit_test(adler_of_rows),
+        cmocka_unit_test(filters_as_specified),
+        cmocka_unit_test(codes_are_complete),
+        cmocka_unit_test(decodes_to_the_source),
+        cmocka_unit_test(decodes_at_the_limits_of_size),
+        cmocka_unit_test(holds_runs_of_every_length),
+        cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(bytes_are_the_recorded_ones),
+        cmocka_unit_test(chunks_say_what_is_in_it),
+        cmocka_unit_test(survives_without_memory),
+    };
+    return cmocka_run_group_tests_name("png", tests, NULL, NULL);
+}

@@ -8,7 +8,7 @@ const struct command command_table[] = {
     {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL, 1, -1,
      run_render},
     {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0, run_shapes},
-    {"formats", NULL, "List the model formats that can be read and the picture formats that can be written.", ABOUT, 0,
+    {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.", ABOUT, 0,
      0, run_formats},
     {"help", "[COMMAND]", "Print the help, of a command where one is named.", ABOUT, 0, 1, run_help},
     {"generate", "man|markdown|bash|zsh|fish", "Print the man page, its Markdown form, or a shell's completions.", ABOUT,
@@ -18,11 +18,11 @@ const struct command command_table[] = {
 
 const struct example examples[] = {
     {"lambent koala.obj", "writes koala.png: 1024x1024, transparent, three-quarter view"},
-    {"lambent part.stl -o shot.png --size 1920x1080 -b white", "choose file, size and background"},
-    {"lambent scan.ply --view front --shading flat", "choose side and shading"},
+    {"lambent part.stl -o shot.png -b white", "another name, on white"},
+    {"lambent scan.ply -s 1920x1080 --view front", "another size, straight from the front"},
     {"lambent teapot", "a built-in shape (`lambent shapes` lists them)"},
     {"lambent -q *.stl", "a picture of each model, no chatter"},
-    {"curl -s URL | lambent - -o - | display", "from standard input to standard output"},
+    {"lambent - -o - < part.stl > part.png", "from standard input to standard output"},
     {"lambent koala.obj --json", "what was read, the camera, and the time of each step"},
     {NULL, NULL},
 };

@@ -7,7 +7,7 @@
 #include "console.h"
 #include "suggest.h"
 
-enum { WIDTH = 96, COLUMN = 26, EXAMPLE_COLUMN = 36 };
+enum { WIDTH = 100, COLUMN = 29, EXAMPLE_COLUMN = 41 };
 
 // Prints words up to WIDTH columns, from column `at`; further lines begin at `indent`. Back quotes are left out.
 static void print_wrapped(const char *text, int at, int indent)

@@ -87,15 +87,15 @@ const struct option option_table[] = {
     {"samples", 0, GROUP_PICTURE, "N", "4", "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges. Each pixel is lit once for each triangle that it shows.", sample_words,
      .store = store_word, FIELD(samples)},
-    {"background", 'b', GROUP_PICTURE, "COLOR", "transparent", "white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
+    {"background", 'b', GROUP_PICTURE, "COLOR", "transparent", "Behind the model: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
      "A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), one of the basic names (`black`, `white`, `gray`, `silver`, "
      "`red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour names of HTML 4), three or "
      "four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",
      .store = store_color, FIELD(background)},
-    {"color", 0, GROUP_PICTURE, "MODE", "srgb", "srgb: proper light; raw: numbers as they are.",
+    {"color", 0, GROUP_PICTURE, "MODE", "srgb", "How colours become numbers: srgb or raw (no conversion).",
      NULL, color_words, .store = store_word, FIELD(color)},
 
-    {"view", 0, GROUP_VIEW, "SIDE", "three-quarter", "front, back, left, right, top, bottom or iso.",
+    {"view", 0, GROUP_VIEW, "SIDE", "three-quarter", "Seen from the front, back, left, right, top, bottom or iso.",
      "Without it the camera stands 30 degrees to the right of the front and 20 degrees above. The model always fills "
      "92 % of the picture's tighter side. `--azimuth` and `--elevation` change the angles of a named side.",
      view_words, .store = store_word, FIELD(view)},
@@ -107,13 +107,13 @@ const struct option option_table[] = {
      .most = 90},
     {"zoom", 0, GROUP_VIEW, "FACTOR", "1", "2 shows the model twice as large.", NULL, .store = store_number,
      FIELD(zoom), .least = 0.001, .most = 1000},
-    {"projection", 0, GROUP_VIEW, "KIND", "perspective", "perspective or orthographic.", NULL, projection_words,
+    {"projection", 0, GROUP_VIEW, "KIND", "perspective", "How depth is shown: perspective or orthographic.", NULL, projection_words,
      .store = store_word, FIELD(projection)},
-    {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y or z.",
+    {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z or auto.",
      "It turns the camera and the lights that go with it; the model's coordinates stay as they are. STL files are "
      "taken as Z up, the habit of printing and CAD; the others as Y up.",
      up_words, .store = store_word, FIELD(up)},
-    {"camera", 0, GROUP_VIEW, "KEYS", "fitted", "An exact camera: eye=x/y/z,target=x/y/z,fovy=30",
+    {"camera", 0, GROUP_VIEW, "KEYS", "fitted", "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more.",
      "Keys, with commas between them and in the model's own coordinates: `eye` (must be given), `target` (the middle "
      "of the model), `up` (the model's up axis), `fovy` (the whole vertical angle in degrees: 30) or `ortho` (parallel "
      "projection: model units from the picture's middle to its top), `near` and `far` (both or neither: fitted). It "
@@ -121,27 +121,27 @@ const struct option option_table[] = {
      "picture in these terms.",
      .store = store_camera, FIELD(camera)},
 
-    {"shading", 0, GROUP_SHADING, "METHOD", "phong", "flat, gouraud or phong (lit per pixel).", NULL, shading_words,
+    {"shading", 0, GROUP_SHADING, "METHOD", "phong", "Where light is worked out: flat, gouraud or phong (each pixel).", NULL, shading_words,
      .store = store_word, FIELD(shading)},
-    {"reflection", 0, GROUP_SHADING, "MODEL", "auto", "How surfaces answer light: none, lambert, phong, blinn-phong, "
-     "kajiya-kay or kajiya-kay-lecture.", NULL, reflection_words, .store = store_word, FIELD(reflection)},
-    {"rig", 0, GROUP_SHADING, "NAME", "auto", "Lights: auto, none, studio or headlight.", NULL, rig_words,
+    {"reflection", 0, GROUP_SHADING, "MODEL", "auto", "How surfaces answer light: none, lambert, phong, blinn-phong, kajiya-kay, "
+     "kajiya-kay-lecture or auto.", NULL, reflection_words, .store = store_word, FIELD(reflection)},
+    {"rig", 0, GROUP_SHADING, "NAME", "auto", "The lights: the model's or the studio's (auto), none, studio or headlight.", NULL, rig_words,
      .store = store_word, FIELD(rig)},
-    {"normals", 0, GROUP_SHADING, "SOURCE", "file", "file, smooth or facet.", NULL, normals_words, .store = store_word,
+    {"normals", 0, GROUP_SHADING, "SOURCE", "file", "Whose normals: the file's (file), smooth or facet ones made anew.", NULL, normals_words, .store = store_word,
      FIELD(normals)},
     {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Made normals are split at sharper edges than this.", NULL,
      .store = store_number, FIELD(crease_angle_deg), .least = 0, .most = 180},
 
     {"threads", 'j', GROUP_WORK, "N", "one for each processor", "Threads to work with. The picture does not depend on it.",
      NULL, .store = store_integer, FIELD(threads), .least = 1, .most = 1024},
-    {"isa", 0, GROUP_WORK, "NAME", "auto", "Instruction set: plain, sse4, avx2, avx512 or neon.",
+    {"isa", 0, GROUP_WORK, "NAME", "auto", "Instruction set: plain, sse4, avx2, avx512, neon or auto.",
      "Every one gives the same bytes; one that this machine or this build does not have is refused (exit 3).",
      isa_words, .store = store_word, FIELD(isa)},
     {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median one's time.", NULL,
      .store = store_integer, FIELD(repeat), .least = 1, .most = 100000},
     {"time-limit", 0, GROUP_WORK, "SECONDS", "none", "Give up on a model after this time (exit 4).", NULL,
      .store = store_number, FIELD(time_limit_s), .least = 0.001, .most = 1e9},
-    {"memory-limit", 0, GROUP_WORK, "BYTES", "none", "Give up on a model that needs more; 500M, 2Gi (exit 4).",
+    {"memory-limit", 0, GROUP_WORK, "BYTES", "none", "Give up on a model that needs more, such as 500M or 2Gi (exit 4).",
      "Reading a model and drawing it may each hold this much at once. k, M, G and T are powers of 1000, Ki, Mi, Gi and "
      "Ti of 1024.",
      .store = store_bytes, FIELD(memory_limit_bytes)},

@@ -302,15 +302,16 @@ static void tell_warnings(const struct job *job)
 static void name_model(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
+    const char *name = strcmp(job->model, "-") == 0 ? "standard input" : job->model;
     if (error->code == LAM_LIMIT && o->time_limit_s > 0 &&
         clock_ms() - job->times.start >= o->time_limit_s * 1e3) {
         complain(error, LAM_LIMIT, "%s: the time limit of %.10g s is over", job->model, o->time_limit_s);
     } else if (error->code == LAM_CANCELLED) {
         complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
-    } else if (error->code != LAM_CANNOT_WRITE && !strstr(error->text, job->model)) {
+    } else if (error->code != LAM_CANNOT_WRITE && !strstr(error->text, name) &&
+               !(job->output && strstr(error->text, job->output) == error->text)) {
         lam_error plain = *error;
-        complain(error, plain.code, "%.200s: %.300s", strcmp(job->model, "-") == 0 ? "standard input" : job->model,
-                 plain.text);
+        complain(error, plain.code, "%.200s: %.300s", name, plain.text);
     }
 }
 

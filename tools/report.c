@@ -34,9 +34,10 @@ static double degrees(double angle_rad)
 
 void report_line(const struct job *job)
 {
-    say_plain("%s  %dx%d  %" PRIu64 " triangles  %.*f ms\n",
+    uint64_t triangles = lam_scene_triangle_count(job->scene);
+    say_plain("%s  %dx%d  %" PRIu64 " triangle%s  %.*f ms\n",
               strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width, job->image.height,
-              lam_scene_triangle_count(job->scene), job->times.total < 10 ? 1 : 0, job->times.total);
+              triangles, triangles == 1 ? "" : "s", job->times.total < 10 ? 1 : 0, job->times.total);
 }
 
 static void time_row(const char *name, double ms) { say_plain("  %-12s %10.2f ms\n", name, ms); }

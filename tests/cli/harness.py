@@ -1,0 +1,170 @@
+# harness.py: what the tests of the program share: running it, reading its pictures, checking its reports.
+import json
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import tempfile
+import unittest
+import zlib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+OWN_MODELS = ROOT / "tests" / "models"
+SHARED_MODELS = pathlib.Path(os.environ.get("LAMBENT_MODELS", ROOT.parent / "shared" / "models"))
+PROGRAM = os.environ.get("LAMBENT", str(ROOT / "build" / "lambent"))
+
+
+class Case(unittest.TestCase):
+    """A test in an empty folder of its own, with tests/models/cube.* beside it."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="lambent-cli-"))
+        self.addCleanup(shutil.rmtree, self.folder, True)
+        for model in OWN_MODELS.glob("cube.*"):
+            shutil.copy(model, self.folder)
+        self.given = set(os.listdir(self.folder))
+
+    def run_program(self, *words, stdin=b"", env=None, stdout=subprocess.PIPE, timeout=60):
+        environment = {k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "TERM")}
+        environment.update(env or {})
+        given = {"stdin": stdin} if hasattr(stdin, "fileno") else {"input": stdin}
+        return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, stdout=stdout, stderr=subprocess.PIPE,
+                              env=environment, timeout=timeout, **given)
+
+    def good(self, *words, **more):
+        """Runs; it must end well."""
+        done = self.run_program(*words, **more)
+        self.assertEqual(done.returncode, 0, f"lambent {' '.join(map(str, words))}: {done.stderr.decode()}")
+        return done
+
+    def bad(self, code, *words, says=(), leaves=(), **more):
+        """Runs; it must end with the code and a sentence that has all of `says`, and leave no new file but `leaves`."""
+        done = self.run_program(*words, **more)
+        text = done.stderr.decode(errors="replace")
+        self.assertEqual(done.returncode, code, f"lambent {' '.join(map(str, words))}: {text}")
+        self.assertTrue(text.startswith("lambent: "), text)
+        for part in [says] if isinstance(says, str) else says:
+            self.assertIn(part, text)
+        self.assertEqual(self.new_files(), set(leaves))
+        return done
+
+    def new_files(self):
+        return set(os.listdir(self.folder)) - self.given
+
+    def report(self, *words, **more):
+        """The checked report of a run that must end well."""
+        report = json.loads(self.good(*words, "--json", **more).stdout)
+        check_report(self, report)
+        return report
+
+    def png(self, *words, **more):
+        """The picture that a run writes to standard output, as (width, height, RGBA bytes)."""
+        return read_png(self.good(*words, "-o", "-", **more).stdout)
+
+
+def pixel(picture, x, y):
+    width, _, data = picture
+    return tuple(data[(y * width + x) * 4:(y * width + x) * 4 + 4])
+
+
+def covered(picture):
+    """The box of pixels that are not clear: (left, top, right, bottom), right and bottom excluded."""
+    width, height, data = picture
+    inside = [i for i in range(width * height) if data[i * 4 + 3]]
+    columns = [i % width for i in inside]
+    return min(columns), inside[0] // width, max(columns) + 1, inside[-1] // width + 1
+
+
+def read_png(data):
+    """Decodes an 8-bit RGBA or RGB PNG without interlacing, checking every chunk."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", data[:20]
+    at, packed, texts = 8, b"", {}
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0], kind
+        if kind == b"IHDR":
+            width, height, depth, color, _, _, interlace = struct.unpack(">IIBBBBB", body)
+            assert depth == 8 and color in (2, 6) and interlace == 0
+        elif kind == b"IDAT":
+            packed += body
+        elif kind == b"tEXt":
+            name, text = body.split(b"\0", 1)
+            texts[name.decode()] = text.decode()
+        at += 12 + length
+    assert texts.get("Software", "").startswith("lambent"), texts
+    step = 4 if color == 6 else 3
+    raw, rows, before = zlib.decompress(packed), bytearray(), bytes(width * step)
+    assert len(raw) == height * (width * step + 1)
+    for y in range(height):
+        start = y * (width * step + 1)
+        row = bytearray(raw[start + 1:start + 1 + width * step])
+        unfilter(raw[start], row, before, step)
+        before = row
+        if step == 4:
+            rows += row
+        else:
+            for x in range(width):
+                rows += row[3 * x:3 * x + 3] + b"\xff"
+    return width, height, bytes(rows)
+
+
+def unfilter(kind, row, before, step):
+    for i in range(len(row)):
+        left, up = row[i - step] if i >= step else 0, before[i]
+        corner = before[i - step] if i >= step else 0
+        if kind == 1:
+            row[i] = (row[i] + left) & 255
+        elif kind == 2:
+            row[i] = (row[i] + up) & 255
+        elif kind == 3:
+            row[i] = (row[i] + (left + up) // 2) & 255
+        elif kind == 4:
+            guess = left + up - corner
+            near = min((abs(guess - left), 0, left), (abs(guess - up), 1, up), (abs(guess - corner), 2, corner))
+            row[i] = (row[i] + near[2]) & 255
+
+
+SCHEMA = json.loads((ROOT / "docs" / "report.schema.json").read_text())
+
+
+def check_report(case, report):
+    check_value(case, report, SCHEMA, "report")
+    if report["error"] is None:
+        for key in ("image", "camera", "device", "times_ms", "counts"):
+            case.assertIn(key, report)
+
+
+def check_value(case, value, schema, place):
+    """The part of JSON Schema that docs/report.schema.json uses; a word it does not know fails."""
+    known = {"type", "enum", "required", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
+             "$ref", "$defs", "$schema", "title", "description"}
+    case.assertLessEqual(set(schema), known, place)
+    if "$ref" in schema:
+        schema = SCHEMA["$defs"][schema["$ref"].rsplit("/", 1)[1]]
+    if "enum" in schema:
+        case.assertIn(value, schema["enum"], place)
+    if "type" in schema:
+        kinds = schema["type"] if isinstance(schema["type"], list) else [schema["type"]]
+        case.assertTrue(any(is_kind(value, kind) for kind in kinds), f"{place}: {value!r} is not {kinds}")
+    if isinstance(value, dict):
+        for key in schema.get("required", ()):
+            case.assertIn(key, value, place)
+        for key, inner in value.items():
+            case.assertIn(key, schema["properties"], place)
+            check_value(case, inner, schema["properties"][key], f"{place}.{key}")
+    if isinstance(value, list):
+        case.assertGreaterEqual(len(value), schema.get("minItems", 0), place)
+        case.assertLessEqual(len(value), schema.get("maxItems", len(value)), place)
+        for i, inner in enumerate(value):
+            check_value(case, inner, schema["items"], f"{place}[{i}]")
+    if "minimum" in schema:
+        case.assertGreaterEqual(value, schema["minimum"], place)
+
+
+def is_kind(value, kind):
+    if isinstance(value, bool):
+        return kind == "boolean"
+    return {"object": isinstance(value, dict), "array": isinstance(value, list), "string": isinstance(value, str),
+            "integer": isinstance(value, int), "number": isinstance(value, (int, float)), "null": value is None}[kind]

@@ -1,0 +1,89 @@
+# test_docs.py: the help, the man page, the completions and the docs are complete, well formed and up to date.
+import re
+import shutil
+import subprocess
+import unittest
+
+from harness import PROGRAM, ROOT, Case
+
+
+def options_of(text):
+    return set(re.findall(r"(?<![\w-])--([a-z][a-z-]*)", text))
+
+
+class Docs(Case):
+    def help(self):
+        return self.good("--help").stdout.decode()
+
+    def test_help(self):
+        text = self.help()
+        self.assertLessEqual(max(map(len, text.splitlines())), 100)
+        self.assertNotIn("`", text)
+        self.assertLess(text.index("Examples:"), text.index("--output"))
+        for option in ("output", "size", "samples", "background", "view", "azimuth", "elevation", "zoom", "up", "camera",
+                       "threads", "isa", "shading", "reflection", "color", "crease-angle", "json", "quiet", "verbose",
+                       "version", "help"):
+            self.assertIn(f"--{option}", text)
+        for code in ("0", "1", "2", "3", "4", "5", "130"):
+            self.assertRegex(text, rf"(?m)^  {code} ")
+
+    def test_every_output_has_every_option(self):
+        wanted = options_of(self.help())
+        self.assertGreater(len(wanted), 20)
+        for kind in ("markdown", "bash"):
+            self.assertEqual(options_of(self.good("generate", kind).stdout.decode()) - {"-"} & wanted, wanted, kind)
+        man = self.good("generate", "man").stdout.decode().replace("\\-", "-")
+        zsh = self.good("generate", "zsh").stdout.decode()
+        fish = self.good("generate", "fish").stdout.decode()
+        for option in wanted:
+            self.assertIn(f"--{option}", man)
+            self.assertIn(f"--{option}", zsh)
+            self.assertRegex(fish, rf"-l {option}\b")
+
+    def test_examples_are_right(self):
+        # Every option of an example is one of the table's, and each example's command line is read without complaint.
+        for line in re.findall(r"(?m)^  (lambent .*?)(?:  .*)?$", self.help().split("\nPicture:")[0]):
+            words = [w for w in line.split("<")[0].split()[1:] if not w.startswith("*")]
+            done = self.run_program(*words, "--memory-limit", "1k", stdin=b"")
+            self.assertNotEqual(done.returncode, 1, (line, done.stderr))
+
+    def test_committed_docs_are_up_to_date(self):
+        made = self.good("generate", "markdown").stdout.decode()
+        kept = (ROOT / "docs" / "command-line.md").read_text()
+        self.assertEqual(kept, made, "refresh it: lambent generate markdown > docs/command-line.md")
+
+    def test_completions(self):
+        script = self.good("generate", "bash").stdout
+        subprocess.run(["bash", "-n"], input=script, check=True)
+        ask = script.decode() + """
+            ask() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _lambent; echo "${COMPREPLY[*]}"; }
+            ask lambent --sha
+            ask lambent --shading fl
+            ask lambent tea
+            ask lambent x.obj -o cube.o
+            ask lambent generate b
+        """
+        done = subprocess.run(["bash", "-c", ask], cwd=self.folder, capture_output=True, check=True)
+        self.assertEqual(done.stdout.decode().splitlines(), ["--shading", "flat", "teapot", "cube.obj", "bash"])
+        for shell in ("zsh", "fish"):
+            if shutil.which(shell):
+                script = self.good("generate", shell).stdout
+                subprocess.run([shell, "-n", "/dev/stdin"], input=script, check=True)
+
+    @unittest.skipUnless(shutil.which("groff"), "no groff")
+    def test_man_page(self):
+        page = self.good("generate", "man").stdout
+        done = subprocess.run(["groff", "-man", "-ww", "-Tutf8", "-P-c"], input=page, capture_output=True, check=True)
+        self.assertEqual(done.stderr, b"")
+        for word in (b"--crease-angle", b"EXIT STATUS", b"EXAMPLES", b"NO_COLOR"):
+            self.assertIn(word, done.stdout)
+
+    def test_schema_describes_every_option_word(self):
+        schema = (ROOT / "docs" / "report.schema.json").read_text()
+        for isa in re.search(r"Instruction set: (.*)", self.help()).group(1).split(" [")[0].rstrip(".").replace(" or ", ", ").split(", "):
+            if isa and isa != "auto":
+                self.assertIn(f'"{isa}"', schema)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,161 @@
+# test_errors.py: what cannot be done is told in one sentence with its exit code, and leaves nothing behind.
+import os
+import shutil
+import struct
+import subprocess
+import unittest
+
+from harness import PROGRAM, Case
+
+
+class Models(Case):
+    def write(self, name, data):
+        (self.folder / name).write_bytes(data)
+        self.given.add(name)
+        return name
+
+    def one_sentence(self, done):
+        text = done.stderr.decode()
+        self.assertEqual(text.count("\n"), 1, text)
+        self.assertLess(len(text), 600)
+
+    def test_missing(self):
+        self.one_sentence(self.bad(2, "missing.obj", says="missing.obj"))
+        self.bad(2, "teapto", says="did you mean 'teapot'?")
+
+    def test_folder(self):
+        (self.folder / "folder.obj").mkdir()
+        self.given.add("folder.obj")
+        self.one_sentence(self.bad(2, "folder.obj", says="folder.obj"))
+
+    def test_empty(self):
+        for name in ("empty.obj", "empty.stl", "empty.ply", "empty"):
+            self.one_sentence(self.bad(2, self.write(name, b""), says=name))
+        self.bad(2, "-", stdin=b"", says="standard input")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may read everything")
+    def test_unreadable(self):
+        os.chmod(self.folder / "cube.obj", 0)
+        self.bad(2, "cube.obj", says="cube.obj")
+
+    def test_no_triangles(self):
+        ply = b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n"
+        for name, data in (("points.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n"), ("none.stl", b"solid none\nendsolid none\n"),
+                           ("zero.stl", bytes(80) + struct.pack("<I", 0)), ("points.ply", ply)):
+            self.one_sentence(self.bad(2, self.write(name, data), says=name))
+
+    def test_cut_files(self):
+        binary = bytes(80) + struct.pack("<I", 12)
+        binary += b"".join(struct.pack("<12fH", 0, 0, 1, *(i % 3 for i in range(9)), 0) for _ in range(12))
+        self.write("binary.stl", binary)
+        for name in ("cube.stl", "cube.ply", "binary.stl"):
+            data = (self.folder / name).read_bytes()
+            for share in (0.3, 0.5, 0.9):
+                cut = self.write("cut" + name[-4:], data[:int(len(data) * share)])
+                with self.subTest(f"{name} cut at {share}"):
+                    self.one_sentence(self.bad(2, cut, says=cut))
+
+    def test_wrong_kind(self):
+        self.good("cube.obj", "-s", 16, "-o", "picture.png")
+        self.given.add("picture.png")
+        before = (self.folder / "picture.png").read_bytes()
+        done = self.run_program("picture.png")
+        self.assertIn(done.returncode, (2, 3))
+        self.assertIn(b"picture.png", done.stderr)
+        self.assertNotIn(b"-o", done.stderr)  # the picture is not the trouble's output
+        self.assertEqual((self.folder / "picture.png").read_bytes(), before)
+        for name, data in (("text.obj", b"Dear reader,\nthis is a letter.\n"), ("zeros.stl", bytes(1000)),
+                           ("noise", bytes((i * 7919 + i * i) & 255 for i in range(2000)))):
+            done = self.run_program(self.write(name, data))
+            self.assertIn(done.returncode, (2, 3), name)
+            self.one_sentence(done)
+            self.assertEqual(self.new_files(), set())
+
+    def test_formats_that_come_later(self):
+        glb = struct.pack("<4sII", b"glTF", 2, 12 + 8 + 28) + struct.pack("<I4s", 28, b"JSON") + b'{"asset":{"version":"2.0"}} '
+        self.bad(3, self.write("model.glb", glb), says="model.glb")
+
+    def test_bad_place_is_named(self):
+        self.write("bad.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n")
+        self.bad(2, "bad.obj", says="bad.obj:3")
+
+    def test_control_characters_in_names(self):
+        name = "evil\033[31m.obj"
+        done = self.bad(2, name)
+        self.assertNotIn(b"\033", done.stderr)
+
+
+class Outputs(Case):
+    def test_folder_missing(self):
+        self.bad(5, "cube.obj", "-o", "no/such/place.png", says=["no/such/place.png", "folder"])
+
+    def test_output_is_a_folder(self):
+        (self.folder / "out.png").mkdir()
+        self.given.add("out.png")
+        self.bad(5, "cube.obj", "-o", "out.png", says="out.png")
+        (self.folder / "cube.png").mkdir()
+        self.given.add("cube.png")
+        self.bad(5, "cube.obj", says=["cube.png", "-o"])
+
+    def test_folder_is_a_file(self):
+        self.bad(5, "cube.obj", "-o", "cube.mtl/x.png", says="cube.mtl")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_folder_may_not_be_written(self):
+        os.chmod(self.folder, 0o555)
+        try:
+            self.bad(5, "cube.obj", says="cube.png")
+        finally:
+            os.chmod(self.folder, 0o755)
+
+    def test_told_before_the_work(self):
+        # The model does not exist either: the output is looked at first, so that nobody waits for nothing.
+        self.bad(5, "missing.obj", "-o", "no/x.png", says="no/x.png")
+
+    def test_unknown_ending(self):
+        for name in ("x.jpg", "x", "x.png.zip", ".png/x"):
+            self.bad(3, "cube.obj", "-o", name, says=name)
+
+    def test_full_device(self):
+        with open("/dev/full", "wb") as full:
+            done = self.run_program("cube.obj", "-s", 16, "-o", "-", stdout=full)
+            self.assertEqual(done.returncode, 5)
+            self.assertIn(b"standard output", done.stderr)
+            for words in (("--help",), ("cube.obj", "-s", 16, "--json"), ("generate", "man")):
+                done = self.run_program(*words, stdout=full)
+                self.assertEqual(done.returncode, 5, words)
+
+    def test_full_disk_leaves_nothing(self):
+        # A file-size limit stands for the full disk.
+        script = f'ulimit -f 1; trap "" XFSZ; exec "{PROGRAM}" teapot -s 512 -o x.png'
+        done = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, timeout=30)
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertIn(b"x.png", done.stderr)
+        self.assertEqual(self.new_files(), set())
+
+    def test_full_disk_keeps_the_old_picture(self):
+        self.good("cube.obj", "-s", 16, "-o", "x.png")
+        before = (self.folder / "x.png").read_bytes()
+        script = f'ulimit -f 1; trap "" XFSZ; exec "{PROGRAM}" teapot -s 512 -o x.png'
+        self.assertEqual(subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, timeout=30).returncode, 5)
+        self.assertEqual((self.folder / "x.png").read_bytes(), before)
+
+    def test_closed_pipe(self):
+        done = subprocess.run(["bash", "-c", f'"{PROGRAM}" teapot -o - | head -c 10 | wc -c'], cwd=self.folder,
+                              capture_output=True, timeout=30)
+        self.assertEqual(done.stdout.strip(), b"10")
+        self.assertEqual(self.new_files(), set())
+
+    def test_pipe_as_output(self):
+        os.mkfifo(self.folder / "pipe.png")
+        self.given.add("pipe.png")
+        reader = subprocess.Popen(["cat", "pipe.png"], cwd=self.folder, stdout=subprocess.PIPE)
+        self.good("cube.obj", "-s", 16, "-o", "pipe.png")
+        self.assertTrue(reader.communicate(timeout=20)[0].startswith(b"\x89PNG"))
+
+    def test_too_large_a_picture(self):
+        self.bad(4, "cube.obj", "-s", "65535", "--memory-limit", "1G", says="65535x65535")
+
+
+if __name__ == "__main__":
+    unittest.main()

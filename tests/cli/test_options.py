@@ -1,0 +1,320 @@
+# test_options.py: every option does what it says.
+import json
+import unittest
+
+from harness import Case, covered, pixel
+
+
+class Picture(Case):
+    def test_size(self):
+        self.assertEqual(self.png("cube.obj", "--size", "40")[:2], (40, 40))
+        self.assertEqual(self.png("cube.obj", "-s", "60x30")[:2], (60, 30))
+        self.assertEqual(self.png("cube.obj", "-s17x5")[:2], (17, 5))
+
+    def test_default_size_and_samples(self):
+        image = self.report("cube.obj")["image"]
+        self.assertEqual((image["width"], image["height"], image["samples"]), (1024, 1024, 4))
+
+    def test_default_background_is_clear(self):
+        picture = self.png("cube.obj", "--size", "64")
+        self.assertEqual(pixel(picture, 0, 0), (0, 0, 0, 0))
+        self.assertEqual(pixel(picture, 32, 32)[3], 255)
+
+    def test_background(self):
+        for text, expected in {
+            "white": (255, 255, 255, 255), "#336699": (0x33, 0x66, 0x99, 255), "#369": (0x33, 0x66, 0x99, 255),
+            "#33669980": (0x33, 0x66, 0x99, 0x80), "transparent": (0, 0, 0, 0), "1/0/0": (255, 0, 0, 255),
+            "Orange": (255, 165, 0, 255), "0.5/0.5/0.5/1": (188, 188, 188, 255),
+        }.items():
+            with self.subTest(text):
+                self.assertEqual(pixel(self.png("cube.obj", "-s", 16, "--background", text), 0, 0), expected)
+
+    def test_background_raw(self):
+        words = ("cube.obj", "-s", 16, "--color", "raw", "-b")
+        self.assertEqual(pixel(self.png(*words, "#336699"), 0, 0), (0x33, 0x66, 0x99, 255))
+        self.assertEqual(pixel(self.png(*words, "0.5/0.5/0.5"), 0, 0), (128, 128, 128, 255))
+
+    def test_samples(self):
+        pictures = {n: self.png("cube.obj", "-s", 40, "--samples", n) for n in (1, 2, 4, 8, 16)}
+        self.assertEqual({a for a in pictures[1][2][3::4]}, {0, 255})  # one sample: covered or not
+        for n in (2, 4, 8, 16):
+            self.assertGreater(len(set(pictures[n][2][3::4])), 2)
+            self.assertTrue(all(abs(a * n / 255 - round(a * n / 255)) < 0.05 for a in pictures[n][2][3::4]))
+        self.assertEqual(pictures[4], self.png("cube.obj", "-s", 40))
+
+    def test_color(self):
+        self.assertNotEqual(self.png("cube.obj", "-s", 32, "--color", "raw"), self.png("cube.obj", "-s", 32))
+
+    def test_formats(self):
+        self.good("cube.obj", "-s", "20x10", "-o", "a.ppm", "-b", "white")
+        data = (self.folder / "a.ppm").read_bytes()
+        self.assertTrue(data.startswith(b"P6\n"))
+        self.assertEqual(data[-20 * 10 * 3:][:3], b"\xff\xff\xff")
+        self.good("cube.obj", "-s", "20x10", "-o", "a.pfm")
+        data = (self.folder / "a.pfm").read_bytes()
+        self.assertTrue(data.startswith(b"PF\n20 10\n"))
+        self.assertGreater(len(data), 20 * 10 * 12)
+
+
+class View(Case):
+    def eye(self, *words):
+        camera = self.report("cube.obj", "-s", 16, "-o", "view.png", *words)["camera"]
+        return [e - t for e, t in zip(camera["eye"], camera["target"])]
+
+    def direction(self, *words):
+        eye = self.eye(*words)
+        length = sum(c * c for c in eye) ** 0.5
+        return [round(c / length, 6) + 0 for c in eye]
+
+    def test_sides(self):
+        for side, expected in {"front": [0, 0, 1], "back": [0, 0, -1], "left": [-1, 0, 0], "right": [1, 0, 0],
+                               "top": [0, 1, 0], "bottom": [0, -1, 0], "iso": [0.57735] * 3}.items():
+            with self.subTest(side):
+                for found, wanted in zip(self.direction("--view", side), expected):
+                    self.assertAlmostEqual(found, wanted, 5)
+
+    def test_angles(self):
+        self.assertEqual(self.direction("--azimuth", "90", "--elevation", "0"), [1, 0, 0])
+        self.assertEqual(self.direction("--azimuth", "-90", "--elevation=0"), [-1, 0, 0])
+        self.assertEqual(self.direction("--elevation", "0", "--view", "right"), [1, 0, 0])
+        self.assertEqual(self.direction("--azimuth", "30", "--elevation", "20"), self.direction())
+        self.assertEqual(self.direction("--view", "front", "--elevation", "90"), [0, 1, 0])
+
+    def test_fit_fills_the_picture(self):
+        for words in ((), ("--view", "front"), ("--projection", "orthographic"), ("--azimuth", "200")):
+            left, top, right, bottom = covered(self.png("cube.obj", "-s", "200", "--samples", 16, *words))
+            with self.subTest(words):
+                self.assertAlmostEqual(max(right - left, bottom - top) / 200, 0.92, delta=0.015)
+                self.assertAlmostEqual(left + right, 200, delta=2)
+                self.assertAlmostEqual(top + bottom, 200, delta=2)
+
+    def test_zoom(self):
+        def width(zoom):
+            left, _, right, _ = covered(self.png("cube.obj", "-s", 200, "--view", "front", "--zoom", zoom))
+            return right - left
+        self.assertAlmostEqual(width(0.5) / width(1), 0.5, delta=0.03)
+
+    def test_up(self):
+        self.assertEqual(self.report("cube.obj", "-s", 16)["model"]["up"], "y")
+        self.assertEqual(self.report("cube.stl", "-s", 16)["model"]["up"], "z")
+        for axis, expected in {"x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]}.items():
+            self.assertEqual(self.report("cube.stl", "-s", 16, "--up", axis)["model"]["up"], axis)
+            self.assertEqual(self.direction("--view", "top", "--up", axis), expected)
+        # The coordinates stay.
+        self.assertEqual(self.report("teapot", "-s", 16, "--up", "z")["model"]["bounds"],
+                         self.report("teapot", "-s", 16)["model"]["bounds"])
+
+    def test_projection(self):
+        camera = self.report("cube.obj", "-s", 16, "--projection", "orthographic")["camera"]
+        self.assertIn("ortho_half_height", camera)
+        self.assertNotIn("fovy_deg", camera)
+        self.assertEqual(self.report("cube.obj", "-s", 16)["camera"]["fovy_deg"], 30)
+
+    def test_camera(self):
+        # A cube of half side 1 seen from z = 5 straight on: its near face is 4 away; tan(fovy/2) = 1/2 puts the face's
+        # edge at half of the picture's half height.
+        degrees = "53.13010235415598"
+        picture = self.png("cube.obj", "-s", 200, "--camera", f"eye=0/0/5,target=0/0/0,up=0/1/0,fovy={degrees}")
+        self.assertEqual(covered(picture), (50, 50, 150, 150))
+        picture = self.png("cube.obj", "-s", 200, "--camera", "eye=0/0/5,ortho=2")
+        self.assertEqual(covered(picture), (50, 50, 150, 150))
+        # A far plane that cuts the cube leaves its near face; a near plane behind that face shows the inside.
+        picture = self.png("cube.obj", "-s", 200, "--camera", "eye=0/0/5,ortho=2,near=1,far=3")
+        self.assertEqual(set(picture[2][3::4]), {0})
+
+    def test_camera_of_the_report_gives_the_same_picture(self):
+        def text(v):
+            return "/".join(map(repr, v))
+        for words in ((), ("--view", "iso", "--projection", "orthographic"), ("--azimuth", "123.4")):
+            self.good("cube.obj", "-s", 64, "-o", "fitted.png", *words)
+            camera = self.report("cube.obj", "-s", 64, "-o", "fitted.png", *words)["camera"]
+            size = f"fovy={camera['fovy_deg']!r}" if "fovy_deg" in camera else f"ortho={camera['ortho_half_height']!r}"
+            self.good("cube.obj", "-s", 64, "-o", "given.png", "--camera", f"eye={text(camera['eye'])},"
+                      f"target={text(camera['target'])},up={text(camera['up'])},{size}")
+            self.assertEqual((self.folder / "fitted.png").read_bytes(), (self.folder / "given.png").read_bytes())
+
+    def test_camera_errors(self):
+        for value, says in {
+            "target=0/0/0": "'eye' is missing", "eye=1/2": "three numbers", "eye=1/2/3/4": "three numbers",
+            "eye=1/2/x": "three numbers", "eye=nan/0/1": "three numbers", "eye=0x1/0/1": "three numbers",
+            "ey=1/2/3": "did you mean 'eye'?", "eye=0/0/5,fovy=0": "above 0", "eye=0/0/5,fovy=180": "below 180",
+            "eye=0/0/5,fovy=30,ortho=1": "one of them", "eye=0/0/5,near=1": "only 'near'",
+            "eye=0/0/5,near=3,far=2": "near < far", "eye=0/0/5,near=0,far=2": "0 < near < far",
+            "eye=0/0/5,ortho=-1": "above 0", "eye=1/1/1,target=1/1/1": "same point", "eye=0/0/5,up=0/0/0": "direction",
+            "eye=0/0/5,eye=0/0/6": "twice", "eye": "key=value",
+        }.items():
+            with self.subTest(value):
+                self.bad(1, "cube.obj", "--camera", value, says=["option '--camera'", says])
+        for other in (("--view", "front"), ("--azimuth", 0), ("--elevation", 0), ("--zoom", 2),
+                      ("--projection", "orthographic")):
+            self.bad(1, "cube.obj", "--camera", "eye=0/0/5", *other, says=["'--camera'", other[0]])
+
+
+class Surface(Case):
+    def test_shading(self):
+        words = ("sphere", "-s", 64, "--shading")
+        pictures = {name: self.png(*words, name) for name in ("flat", "gouraud", "phong", "smooth", "normal")}
+        self.assertEqual(pictures["smooth"], pictures["gouraud"])
+        self.assertEqual(pictures["normal"], pictures["phong"])
+        self.assertEqual(pictures["phong"], self.png("sphere", "-s", 64))
+        self.assertEqual(len({p[2] for p in pictures.values()}), 3)
+
+    def test_reflection(self):
+        words = ("sphere", "-s", 64, "--reflection")
+        names = ("none", "lambert", "phong", "blinn-phong", "kajiya-kay", "kajiya-kay-lecture")
+        pictures = {name: self.png(*words, name) for name in names}
+        self.assertEqual(len({p[2] for p in pictures.values()}), len(names))
+        self.assertEqual(self.png(*words, "auto"), pictures["blinn-phong"])
+        inside = {pixel(pictures["none"], x, 32) for x in range(20, 44)}
+        self.assertEqual(len(inside), 1)  # unlit: one colour
+
+    def test_rig(self):
+        pictures = {name: self.png("sphere", "-s", 64, "--rig", name) for name in ("auto", "none", "studio", "headlight")}
+        self.assertEqual(pictures["auto"], pictures["studio"])
+        self.assertEqual(len({p[2] for p in pictures.values()}), 3)
+        self.assertEqual(pixel(pictures["none"], 32, 32), (0, 0, 0, 255))  # no light at all
+
+    def test_normals(self):
+        # A sphere's own normals, facet ones, and smooth ones from a cube that has none.
+        own, facet = (self.png("sphere", "-s", 64, "--normals", n) for n in ("file", "facet"))
+        self.assertEqual(own, self.png("sphere", "-s", 64))
+        self.assertNotEqual(own, facet)
+        smooth = self.png("cube.ply", "-s", 64, "--normals", "smooth", "--crease-angle", "180")
+        self.assertNotEqual(smooth, self.png("cube.ply", "-s", 64, "--normals", "facet"))
+        # A cube's sides are split by the default crease angle anyway.
+        self.assertEqual(self.png("cube.ply", "-s", 64), self.png("cube.ply", "-s", 64, "--normals", "facet"))
+
+    def test_crease_angle(self):
+        # The cube's sides meet at 90 degrees.
+        words = ("cube.ply", "-s", 64, "--crease-angle")
+        sharp = self.png(*words, "89")
+        self.assertEqual(sharp, self.png("cube.ply", "-s", 64))
+        self.assertEqual(sharp, self.png(*words, "0"))
+        self.assertNotEqual(sharp, self.png(*words, "91"))
+        self.bad(1, "cube.ply", "--crease-angle", "181", says="from 0 to 180")
+
+
+class Work(Case):
+    def test_threads_do_not_change_the_picture(self):
+        files = []
+        for threads in (1, 2, 3, 8):
+            report = self.report("teapot", "-s", 200, "-j", threads, "-o", "t.png")
+            self.assertEqual(report["device"]["threads"], threads)
+            files.append((self.folder / "t.png").read_bytes())
+        self.assertEqual(len(set(files)), 1)
+
+    def test_every_instruction_set_gives_the_same_bytes(self):
+        files, used = set(), []
+        for isa in ("plain", "sse4", "avx2", "avx512", "neon"):
+            done = self.run_program("teapot", "-s", 200, "--isa", isa, "-o", "t.png", "--json")
+            if done.returncode == 3:
+                self.assertIn(isa.encode(), done.stderr)
+                continue
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(json.loads(done.stdout)["device"]["isa"], isa)
+            used.append(isa)
+            files.add((self.folder / "t.png").read_bytes())
+        self.assertIn("plain", used)
+        self.assertLess(len(used), 5)  # no machine has all of them
+        self.assertEqual(len(files), 1)
+
+    def test_repeat(self):
+        times = self.report("cube.obj", "-s", 64, "--repeat", 5)["times_ms"]
+        self.assertEqual(times["frames"], 5)
+        self.assertLessEqual(times["frame_least"], times["frame"])
+        self.assertLessEqual(times["frame"], times["frame_most"])
+        once = self.png("cube.obj", "-s", 64)
+        self.assertEqual(once, self.png("cube.obj", "-s", 64, "--repeat", 3))
+
+    def test_limits(self):
+        self.bad(4, "cube.obj", "--time-limit", "0.001", "-s", "4000", "--repeat", "100000",
+                 says=["cube.obj", "time limit of 0.001 s"])
+        self.bad(4, "cube.obj", "--memory-limit", "1k", says="cube.obj")
+        self.bad(4, "cube.obj", "--memory-limit", "1k", "-s", "8", says="memory limit")
+        self.good("cube.obj", "--memory-limit", "200M", "--time-limit", "60", "-s", 64)
+        for text in ("", "x", "0", "-5", "10Q", "5 M", "1e99"):
+            self.bad(1, "cube.obj", f"--memory-limit={text}", says="--memory-limit", leaves={"cube.png"})
+
+
+class CommandLine(Case):
+    def test_unknown_options_name_the_nearest(self):
+        for word, nearest in {"--szie": "--size", "--ouput": "--output", "--backgroun": "--background",
+                              "--colour": "--color", "-size": "--size", "--crease": "--crease-angle"}.items():
+            self.bad(1, "cube.obj", word, "3", says=[f"unknown option '{word}'", f"did you mean '{nearest}'?"])
+        done = self.bad(1, "cube.obj", "--entirely-else", says="unknown option '--entirely-else'")
+        self.assertNotIn(b"did you mean", done.stderr)
+        self.bad(1, "cube.obj", "-Z", says="unknown option '-Z'")
+
+    def test_values(self):
+        for words, says in {
+            ("--shading", "falt"): "did you mean 'flat'?", ("--view", "frnt"): "did you mean 'front'?",
+            ("--samples", "3"): "expected 1, 2, 4, 8 or 16", ("--size", "0"): "found '0'",
+            ("--size", "10x"): "found '10x'", ("--size", "70000"): "65535", ("--size", "-5"): "found '-5'",
+            ("--size", "10x10x10"): "found", ("--size", "99999999999999999999"): "found", ("--threads", "0"): "from 1",
+            ("--threads", "1.5"): "whole", ("--threads", "2000"): "to 1024", ("--azimuth", "abc"): "found 'abc'",
+            ("--azimuth", "nan"): "found 'nan'", ("--azimuth", "1,5"): "found '1,5'", ("--elevation", "91"): "to 90",
+            ("--zoom", "0"): "from 0.001", ("--zoom", "inf"): "found", ("--background", "blurple"): "expected a colour",
+            ("--background", "#12345"): "expected a colour", ("--background", "1/2"): "expected a colour",
+            ("--background", "-1/0/0"): "expected a colour", ("--isa", "mmx"): "expected auto, plain",
+            ("--output", ""): "empty", ("--repeat", "0"): "from 1", ("--time-limit", "0"): "from 0.001",
+            ("--json=yes",): "takes no value",
+        }.items():
+            with self.subTest(words):
+                self.bad(1, "cube.obj", *words, says=[words[0].split("=")[0], says])
+
+    def test_missing_values(self):
+        for word in ("--output", "-o", "--size", "--camera"):
+            self.bad(1, "cube.obj", word, says="needs a value")
+        self.bad(1, "cube.obj", "-o", "--json", says="needs a value")
+
+    def test_forms(self):
+        for words in (("--size=20", "cube.obj"), ("--size", "20", "cube.obj"), ("-s20", "cube.obj"), ("-s", 20, "cube.obj"),
+                      ("render", "cube.obj", "-s", "20"), ("-s", 99, "-s", 20, "--", "cube.obj")):
+            self.assertEqual(self.report(*words)["image"]["width"], 20)
+        done = self.good("-qs20", "cube.obj")
+        self.assertEqual((done.stdout, done.stderr), (b"", b""))
+
+    def test_double_dash(self):
+        (self.folder / "-odd.obj").write_bytes((self.folder / "cube.obj").read_bytes())
+        self.good("-s", 16, "--", "-odd.obj")
+        self.assertIn("-odd.png", self.new_files())
+
+    def test_nothing_given(self):
+        self.bad(1, says="no model is given")
+
+    def test_together(self):
+        self.bad(1, "cube.obj", "-q", "-v", says="cannot be used together")
+        self.bad(1, "cube.obj", "cube.stl", "-o", "x.png", says="names one picture")
+        self.bad(1, "cube.obj", "cube.stl", says="would both be written to 'cube.png'")
+        self.bad(1, "cube.obj", "-", says="single model")
+
+    def test_commands(self):
+        shapes = [line.split()[0] for line in self.good("shapes").stdout.decode().splitlines()]
+        for name in ("sphere", "torus", "plane", "cube", "cylinder", "cone", "teapot"):
+            self.assertIn(name, shapes)
+        formats = self.good("formats").stdout.decode()
+        for name in ("obj", "stl", "ply", ".png", ".ppm", ".pfm"):
+            self.assertIn(name, formats)
+        self.bad(1, "shapes", "x", says="unexpected argument 'x'")
+        self.bad(1, "shapes", "--size", 5, says="no meaning for this command")
+        self.bad(1, "generate", says="argument is missing")
+        self.bad(1, "generate", "mna", says="did you mean 'man'?")
+        self.bad(1, "help", "shaeps", says="did you mean 'shapes'?")
+        self.assertEqual(self.good("help", "shapes").stdout, self.good("shapes", "--help").stdout)
+        self.bad(2, "-q", "shapes", says="a command comes first")
+
+    def test_version(self):
+        text = self.good("--version").stdout.decode()
+        self.assertRegex(text, r"^lambent \d+\.\d+\.\d+\n\S+")
+
+    def test_every_shape_renders(self):
+        for name in [line.split()[0] for line in self.good("shapes").stdout.decode().splitlines()]:
+            with self.subTest(name):
+                report = self.report(name, "-s", 48)
+                self.assertEqual(report["model"]["format"], "shape")
+                self.assertGreater(report["counts"]["pixels_covered"], 200)
+                self.assertIn(f"{name}.png", self.new_files())
+
+
+if __name__ == "__main__":
+    unittest.main()

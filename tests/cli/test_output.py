@@ -1,0 +1,272 @@
+# test_output.py: where pictures go, what is overwritten, what the streams carry, the report.
+import json
+import os
+import pty
+import select
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from harness import PROGRAM, SHARED_MODELS, Case, check_report, read_png
+
+
+class Names(Case):
+    def test_name_of_the_model(self):
+        (self.folder / "sub").mkdir()
+        for name in ("sub/odd.name.OBJ", "sub/none", "sub/.hidden"):
+            shutil.copy(self.folder / "cube.obj", self.folder / name)
+        shutil.copy(self.folder / "cube.mtl", self.folder / "sub")
+        self.given.add("sub")
+        self.good("cube.obj", "-s", 16)
+        for name in ("sub/odd.name.OBJ", "sub/none", "sub/.hidden"):
+            self.good(name, "-s", 16)
+        self.assertEqual(self.new_files(), {"cube.png", "odd.name.png", "none.png", ".hidden.png"})
+
+    def test_standard_input(self):
+        for model in ("cube.obj", "cube.stl", "cube.ply"):
+            data = (self.folder / model).read_bytes()
+            report = self.report("-", "-s", 16, stdin=data)
+            self.assertEqual(report["model"]["format"], model[-3:])
+            self.assertEqual(report["image"]["path"], "model.png")
+        self.assertEqual(self.new_files(), {"model.png"})
+
+    def test_own_picture_is_replaced(self):
+        self.good("cube.obj", "-s", 16)
+        self.good("cube.obj", "-s", 24)
+        self.assertEqual(read_png((self.folder / "cube.png").read_bytes())[0], 24)
+
+    def test_foreign_file_stays(self):
+        for content in (b"", b"precious", b"\x89PNG\r\n\x1a\n" + b"x" * 600):
+            (self.folder / "cube.png").write_bytes(content)
+            self.bad(5, "cube.obj", "-s", 16, says=["cube.png", "-o"], leaves={"cube.png"})
+            self.assertEqual((self.folder / "cube.png").read_bytes(), content)
+
+    def test_named_file_is_replaced(self):
+        (self.folder / "cube.png").write_bytes(b"precious")
+        self.good("cube.obj", "-s", 16, "-o", "cube.png")
+        read_png((self.folder / "cube.png").read_bytes())
+
+    def test_link_is_written_through_or_replaced_whole(self):
+        os.symlink("target.png", self.folder / "out.png")
+        self.good("cube.obj", "-s", 16, "-o", "out.png")
+        read_png((self.folder / "out.png").read_bytes())
+
+    def test_shape_before_file(self):
+        shutil.copy(self.folder / "cube.obj", self.folder / "teapot")
+        self.given.add("teapot")
+        self.assertEqual(self.report("teapot", "-s", 16)["model"]["format"], "shape")
+        self.assertEqual(self.report("./teapot", "-s", 16)["model"]["format"], "obj")
+
+    def test_several_models(self):
+        shutil.copy(self.folder / "cube.stl", self.folder / "second.stl")
+        (self.folder / "broken.ply").write_bytes(b"ply\nformat ascii 1.0\n")
+        self.given |= {"second.stl", "broken.ply"}
+        done = self.run_program("cube.obj", "broken.ply", "missing.obj", "second.stl", "-s", 16, "--json")
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(self.new_files(), {"cube.png", "second.png"})
+        reports = [json.loads(line) for line in done.stdout.splitlines()]
+        for report in reports:
+            check_report(self, report)
+        self.assertEqual([r["error"] and r["error"]["exit"] for r in reports], [None, 2, 2, None])
+        self.assertEqual([r["model"]["path"] for r in reports], ["cube.obj", "broken.ply", "missing.obj", "second.stl"])
+        text = done.stderr.decode()
+        self.assertIn("broken.ply", text)
+        self.assertIn("missing.obj", text)
+
+
+class Streams(Case):
+    def test_quiet_and_plain(self):
+        done = self.good("cube.obj", "-s", 16)
+        self.assertEqual(done.stdout, b"")
+        self.assertRegex(done.stderr.decode(), r"^cube\.png  16x16  12 triangles  [\d.]+ ms\n$")
+        done = self.good("cube.obj", "-s", 16, "-q")
+        self.assertEqual((done.stdout, done.stderr), (b"", b""))
+
+    def test_verbose(self):
+        done = self.good("cube.obj", "-s", 16, "-v")
+        self.assertEqual(done.stdout, b"")
+        text = done.stderr.decode()
+        for word in ("model    cube.obj (obj), 12 triangles", "camera", "device   cpu", "read", "prepare", "frame",
+                     "vertices", "tiles", "lighting", "encode", "total"):
+            self.assertIn(word, text)
+        self.assertLessEqual(max(map(len, text.splitlines())), 160)
+
+    def test_picture_on_standard_output(self):
+        done = self.good("cube.obj", "-s", 16, "-o", "-")
+        self.assertEqual(read_png(done.stdout)[:2], (16, 16))
+        self.assertEqual(self.new_files(), set())
+        self.good("cube.obj", "-s", 16, "-o", "same.png")
+        self.assertEqual((self.folder / "same.png").read_bytes(), done.stdout)
+
+    def test_report_moves_when_the_picture_takes_standard_output(self):
+        done = self.good("cube.obj", "-s", 16, "-o", "-", "--json", "-v")
+        read_png(done.stdout)
+        report = json.loads(done.stderr)  # and nothing else
+        check_report(self, report)
+        self.assertEqual((report["image"]["path"], report["image"]["bytes"]), ("-", len(done.stdout)))
+        done = self.run_program("missing.obj", "-o", "-", "--json")
+        self.assertEqual((done.returncode, done.stdout), (2, b""))
+        self.assertEqual(json.loads(done.stderr)["error"]["exit"], 2)
+        done = self.run_program("--nonsense", "-o", "-", "--json")
+        self.assertEqual((done.returncode, done.stdout), (1, b""))
+        self.assertEqual(json.loads(done.stderr)["error"]["code"], "usage")
+
+    def test_no_colors_without_a_terminal(self):
+        for env in ({"TERM": "xterm"}, {"TERM": "xterm", "NO_COLOR": "1"}):
+            self.assertNotIn(b"\033", self.run_program("missing.obj", env=env).stderr)
+
+    def on_terminal(self, *words, env):
+        """What the program writes to a terminal that is its standard error."""
+        mine, its = pty.openpty()
+        process = subprocess.Popen([PROGRAM, *map(str, words)], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=its, env={**os.environ, **env})
+        os.close(its)
+        text = b""
+        while True:
+            try:
+                part = os.read(mine, 65536)
+            except OSError:
+                break
+            if not part:
+                break
+            text += part
+        process.wait(60)
+        os.close(mine)
+        return process.returncode, text
+
+    def test_colors_on_a_terminal(self):
+        for env, colored in (({"TERM": "xterm", "NO_COLOR": ""}, True), ({"TERM": "xterm", "NO_COLOR": "1"}, False),
+                             ({"TERM": "dumb", "NO_COLOR": ""}, False)):
+            code, text = self.on_terminal("missing.obj", env=env)
+            self.assertEqual(code, 2)
+            self.assertEqual(b"\033[" in text, colored, env)
+
+    def test_progress_bar(self):
+        slow = ("teapot", "-s", 512, "--repeat", 1000, "--time-limit", 1.5)  # still at work after half a second
+        code, text = self.on_terminal(*slow, env={"TERM": "xterm", "NO_COLOR": ""})
+        self.assertEqual(code, 4)
+        self.assertIn(b"[#" if b"[#" in text else b"[....", text)
+        self.assertIn(b" %", text)
+        self.assertIn(b"\r\033[K", text)
+        for env, words in (({"TERM": "dumb"}, slow), ({"TERM": "xterm"}, (*slow, "-q")),
+                           ({"TERM": "xterm"}, ("teapot", "-s", 64))):
+            self.assertNotIn(b"[K", self.on_terminal(*words, env=env)[1])
+
+    def test_binary_never_goes_to_a_terminal(self):
+        mine, its = pty.openpty()
+        done = self.run_program("cube.obj", "-o", "-", stdout=its)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"terminal", done.stderr)
+        self.assertEqual(select.select([mine], [], [], 0)[0], [])
+        done = self.run_program("-", stdin=os.fdopen(its, "rb", closefd=False))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"terminal", done.stderr)
+        os.close(mine)
+        os.close(its)
+
+
+class Report(Case):
+    def test_cube(self):
+        report = self.report("cube.obj", "-s", "64x32", "--samples", 8, "-j", 2)
+        model = report["model"]
+        self.assertEqual(model, {"path": "cube.obj", "format": "obj", "triangles": 12, "vertices": 8, "meshes":
+                                 model["meshes"], "objects": model["objects"], "materials": model["materials"],
+                                 "lights": 0, "up": "y", "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}})
+        self.assertGreaterEqual(model["materials"], 2)
+        self.assertEqual(report["image"], {"path": "cube.png", "format": "png", "width": 64, "height": 32, "samples": 8,
+                                           "bytes": (self.folder / "cube.png").stat().st_size})
+        self.assertEqual(report["device"]["threads"], 2)
+        times = report["times_ms"]
+        self.assertLessEqual(sum(times[k] for k in ("read", "prepare", "camera", "frame", "encode")),
+                             times["total"] + 0.01)
+        steps = times["steps"]
+        self.assertLessEqual(steps["flatten"] + steps["vertices"] + steps["triangles"] + steps["tiles"],
+                             times["frame"] + 0.01)
+        self.assertEqual(report["counts"]["triangles"], 12)
+        self.assertGreater(report["counts"]["pixels_covered"], 100)
+
+    def test_version_agrees(self):
+        report = self.report("cube.obj", "-s", 16)
+        self.assertEqual(self.good("--version").stdout.decode().split()[1], report["lambent"])
+
+    def test_errors_are_reported(self):
+        for words, code, name in ((("missing.obj",), 2, "cannot-read"), (("cube.obj", "-o", "x.jpg"), 3, "unsupported"),
+                                  (("cube.obj", "--memory-limit", "1k"), 4, "limit"),
+                                  (("cube.obj", "-o", "no/x.png"), 5, "cannot-write"), (("--size", "x"), 1, "usage")):
+            done = self.run_program(*words, "--json")
+            report = json.loads(done.stdout)
+            check_report(self, report)
+            self.assertEqual((done.returncode, report["error"]["exit"], report["error"]["code"]), (code, code, name))
+            self.assertIn(report["error"]["text"], done.stderr.decode())
+
+    def test_strange_names(self):
+        for name in (b"caf\xc3\xa9.obj", b"caf\xe9.obj", b'q"\\\x01.obj'):
+            path = os.path.join(os.fsencode(self.folder), name)
+            shutil.copy(self.folder / "cube.obj", path)
+            report = self.report(os.fsdecode(name), "-s", 16)
+            wanted = name.decode("utf-8", "replace")
+            self.assertEqual(report["model"]["path"], wanted)
+
+    def test_locale_changes_nothing(self):
+        plain = self.report("cube.obj", "-s", 16, "--azimuth", "12.5")
+        for locale in ("de_DE.UTF-8", "C", "tr_TR.UTF-8"):
+            other = self.report("cube.obj", "-s", 16, "--azimuth", "12.5", env={"LC_ALL": locale, "LANG": locale})
+            self.assertEqual((other["camera"], other["model"]), (plain["camera"], plain["model"]))
+
+    def test_warnings(self):
+        (self.folder / "lost.obj").write_text("mtllib lost.mtl\n" + (self.folder / "cube.obj").read_text().split("\n", 2)[2])
+        done = self.good("lost.obj", "-s", 16)
+        text = done.stderr.decode()
+        self.assertIn("lambent: warning: ", text)
+        self.assertEqual(text.count("lost.mtl"), 1)
+        self.assertEqual(self.good("lost.obj", "-s", 16, "-q").stderr, b"")
+        report = self.report("lost.obj", "-s", 16)
+        self.assertTrue(any("lost.mtl" in w for w in report["warnings"]))
+
+
+class Interrupt(Case):
+    def test_control_c(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with subprocess.Popen([PROGRAM, "teapot", "-s", "1024", "--repeat", "100000"], cwd=self.folder,
+                                  stderr=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+                time.sleep(0.4)
+                process.send_signal(number)
+                sent = time.monotonic()
+                _, text = process.communicate(timeout=20)
+                self.assertLess(time.monotonic() - sent, 5)
+            # It dies by the signal: a shell shows 128 + number, and its loops stop.
+            self.assertEqual(process.returncode, -number)
+            self.assertEqual(text, b"lambent: teapot: interrupted\n")
+            self.assertEqual(self.new_files(), set())
+
+    def test_exit_code_in_a_shell(self):
+        script = f'"{PROGRAM}" teapot -q -s 1024 --repeat 100000 & sleep 0.4; kill -TERM $!; wait $!; echo $?'
+        done = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, timeout=30)
+        self.assertEqual(done.stdout, b"143\n")
+
+    def test_standard_input_can_be_interrupted(self):
+        read, write = os.pipe()
+        with subprocess.Popen([PROGRAM, "-"], cwd=self.folder, stdin=read, stderr=subprocess.PIPE) as process:
+            time.sleep(0.3)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=10)
+        os.close(read)
+        os.close(write)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+
+
+class RealModels(Case):
+    @unittest.skipUnless(SHARED_MODELS.is_dir(), f"no models at {SHARED_MODELS}")
+    def test_one_of_each_format(self):
+        for ending in ("obj", "stl", "ply"):
+            model = min(SHARED_MODELS.glob(f"{ending}/**/*.{ending}"), key=lambda p: (p.stat().st_size < 50000, p.stat().st_size))
+            with self.subTest(model.name):
+                report = self.report(model, "-s", 128)
+                self.assertEqual(report["model"]["format"], ending)
+                self.assertGreater(report["counts"]["pixels_covered"], 500)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -31,9 +31,11 @@ static inline uint64_t number_digits_value(uint64_t eight, unsigned count)
 {
     // Moved to the end, so that zeros lead; in two steps, since a shift by 64 means nothing.
     uint64_t v = (eight - 0x3030303030303030u) << 4 * (8 - count) << 4 * (8 - count);
-    v = (v * 10 + (v >> 8)) & 0x00ff00ff00ff00ffu;
-    v = (v * 100 + (v >> 16)) & 0x0000ffff0000ffffu;
-    return (v * 10000 + (v >> 32)) & 0xffffffffu;
+    // Neighbours are joined, ten times the first plus the second: 8 digits to 4 pairs to 2 quads to 1 number. One product
+    // does both, since 10 · 2⁸ + 1 puts ten times the lower byte under the upper one.
+    v = (v * (10 << 8 | 1) >> 8) & 0x00ff00ff00ff00ffu;
+    v = (v * (100 << 16 | 1) >> 16) & 0x0000ffff0000ffffu;
+    return v * (UINT64_C(10000) << 32 | 1) >> 32;
 }
 
 static const uint64_t number_integer_powers[20] = {

@@ -19,6 +19,19 @@ struct byte_masks {
     uint64_t special; // '#' or '\\'
 };
 
+// Bits set. The compiler's own is a call into a table where the processor may lack the instruction.
+static inline unsigned byte_masks_count(uint64_t bits)
+{
+#if defined(__POPCNT__) || defined(__aarch64__)
+    return (unsigned)__builtin_popcountll(bits);
+#else
+    bits -= bits >> 1 & 0x5555555555555555u;
+    bits = (bits & 0x3333333333333333u) + (bits >> 2 & 0x3333333333333333u);
+    bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+    return (unsigned)(bits * 0x0101010101010101u >> 56);
+#endif
+}
+
 #if defined(__SSE2__)
 static inline struct byte_masks byte_masks_of(const uint8_t *at)
 {

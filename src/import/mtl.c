@@ -1,4 +1,5 @@
 // mtl.c: MTL, the material files that OBJ files name. docs/formats.md says what each statement becomes.
+#define LANES 1 // srgb_decode, one number at a time
 #include "mtl.h"
 
 #include "encoding.h"
@@ -105,8 +106,8 @@ static float within(struct reader *reader, const uint8_t *at, float x, float low
     return to;
 }
 
-// A colour as linear light. Above 1, where sRGB says nothing, numbers are taken as they are.
-static float linear(const struct reader *reader, float c) { return reader->raw || c > 1 ? c : srgb_decode(c); }
+// A colour as linear light. From 1 on, where sRGB ends, numbers are taken as they are.
+static float linear(const struct reader *reader, float c) { return reader->raw || c >= 1 ? c : srgb_decode(c); }
 
 // K… r [g b]; one number stands for three. False: not read.
 static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *end, const char *what, lam_rgb *out)

@@ -1,4 +1,5 @@
 // obj_parse.c: pass two over an OBJ file: numbers and face corners, straight into their places.
+#define LANES 1 // srgb_decode, one number at a time
 #include "obj.h"
 
 #include "chunks.h"
@@ -209,6 +210,7 @@ static const uint8_t *read_face(struct reader *reader, const uint8_t *at)
     const uint64_t first = 3 * reader->at.triangles, limit = 3 * reader->limit.triangles;
     uint32_t *texcoords = obj->texcoord_indices, *normals = obj->normal_indices;
     uint64_t count = 0;
+    bool texcoord_used = false, texcoord_missing = false, normal_used = false, normal_missing = false;
     at = obj_next(at + 1, end);
     for (; !obj_over(at, end); count++) {
         uint32_t position, texcoord = OBJ_MISSING, normal = OBJ_MISSING;
@@ -258,12 +260,16 @@ static const uint8_t *read_face(struct reader *reader, const uint8_t *at)
             if (normals)
                 normals[first + count] = normal;
         }
-        chunk->texcoord_used |= texcoord != OBJ_MISSING;
-        chunk->normal_used |= normal != OBJ_MISSING;
-        chunk->texcoord_missing |= texcoord == OBJ_MISSING;
-        chunk->normal_missing |= normal == OBJ_MISSING;
+        texcoord_used |= texcoord != OBJ_MISSING;
+        normal_used |= normal != OBJ_MISSING;
+        texcoord_missing |= texcoord == OBJ_MISSING;
+        normal_missing |= normal == OBJ_MISSING;
         at = obj_next(at, end);
     }
+    chunk->texcoord_used |= texcoord_used;
+    chunk->normal_used |= normal_used;
+    chunk->texcoord_missing |= texcoord_missing;
+    chunk->normal_missing |= normal_missing;
     if (count >= 3) {
         if (first + 3 * (count - 2) > limit || (count > 3 && reader->at.polygons >= reader->limit.polygons))
             return wrong(reader, begin, "what was there a moment ago");
@@ -274,6 +280,34 @@ static const uint8_t *read_face(struct reader *reader, const uint8_t *at)
         chunk->short_face = begin;
     }
     return at < end ? at + 1 : end;
+}
+
+// The commonest line, "f a b c" with numbers of up to seven digits, all in range: the place behind it. NULL: it is something
+// else, and nothing was done.
+static inline const uint8_t *read_plain_triangle(struct reader *reader, const uint8_t *at)
+{
+    struct obj *obj = reader->obj;
+    uint32_t *to = obj->indices + 3 * reader->at.triangles;
+    uint64_t total = obj->total.positions;
+    if (obj->texcoord_indices || obj->normal_indices || reader->at.triangles >= reader->limit.triangles)
+        return NULL;
+    at++;
+    for (int i = 0; i < 3; i++) {
+        if (*at != ' ')
+            return NULL;
+        uint64_t eight = number_load8(++at);
+        unsigned digits = number_digit_count(eight);
+        uint64_t index = number_digits_value(eight, digits) - 1;
+        if (digits > 7 || index >= total)
+            return NULL;
+        to[i] = (uint32_t)index;
+        at += digits;
+    }
+    at += *at == '\r';
+    if (*at != '\n')
+        return NULL;
+    reader->at.triangles++;
+    return at + 1;
 }
 
 static bool parse_chunk(void *user, size_t index, lam_error *error)
@@ -303,9 +337,11 @@ static bool parse_chunk(void *user, size_t index, lam_error *error)
         case OBJ_POSITION:
             at = read_position(&reader, at);
             break;
-        case OBJ_FACE:
-            at = read_face(&reader, at);
+        case OBJ_FACE: {
+            const uint8_t *behind = read_plain_triangle(&reader, at);
+            at = behind ? behind : read_face(&reader, at);
             break;
+        }
         case OBJ_TEXCOORD:
             at = read_attribute(&reader, at, false);
             break;

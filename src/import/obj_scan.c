@@ -144,7 +144,7 @@ static bool scan_chunk(void *user, size_t index, lam_error *error)
                     leave = true;
                     break;
                 }
-                uint64_t words_here = words + (uint64_t)__builtin_popcountll(begins & below);
+                uint64_t words_here = words + byte_masks_count(begins & below);
                 while (obj_white(*line))
                     line++;
                 switch (obj_kind_of(line)) {
@@ -178,7 +178,7 @@ static bool scan_chunk(void *user, size_t index, lam_error *error)
             if (leave)
                 break;
             special_before |= masks.special;
-            words += (uint64_t)__builtin_popcountll(begins);
+            words += byte_masks_count(begins);
             if (block + 64 >= end) { // the file's last line, without an end
                 line = count_slowly(chunk, line, end);
                 break;

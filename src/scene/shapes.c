@@ -153,12 +153,15 @@ static void knot_point(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = v3_scale(v3_sub(v3_scale(b, tube.c), v3_scale(m, tube.s)), KNOT_TUBE * (2 * PI / n->stacks));
 }
 
-// The gyroid g = sin x cos y + sin y cos z + sin z cos x as a wall of some thickness, |g| < GYROID_WALL, cut by the unit
-// sphere: the greater of a = (g² − wall²)·scale (about the distance from the wall) and b = |p| − 1, made smooth at the
-// rim by f = (a + b + √((a − b)² + GYROID_RIM²))/2, which is never less than either.
-#define GYROID_WAVES 1.25 // along a radius
-#define GYROID_WALL 0.35
-#define GYROID_RIM 0.03
+// The gyroid g = sin x cos y + sin y cos z + sin z cos x as a wall of some thickness, |g| < GYROID_WALL, cut by a sphere:
+// the greater of a = (g² − wall²)·scale (about the distance from the wall) and b = |p| − GYROID_REACH, made smooth at the
+// rim by f = (a + b + √((a − b)² + rim²))/2, which is never less than either. Where a is least (g = 0), f vanishes at
+// b = rim²/4a; the sphere is larger by that, so that the rim just reaches 1.
+#define GYROID_WAVES 1.0 // along a radius
+#define GYROID_WALL 0.5
+#define GYROID_RIM 0.08
+#define GYROID_SCALE (1 / (2 * GYROID_WALL * 2 * PI * GYROID_WAVES))
+#define GYROID_REACH (1 + GYROID_RIM * GYROID_RIM / (4 * GYROID_WALL * GYROID_WALL * GYROID_SCALE))
 
 static double gyroid_terms(lam_vec3 p, lam_vec3 *gradient)
 {
@@ -170,16 +173,14 @@ static double gyroid_terms(lam_vec3 p, lam_vec3 *gradient)
     return sx * cy + sy * cz + sz * cx;
 }
 
-static const double gyroid_scale = 1 / (2 * GYROID_WALL * 2 * PI * GYROID_WAVES);
-
 static double gyroid_value(void *user, lam_vec3 p)
 {
     (void)user;
-    double b = v3_length(p) - 1;
+    double b = v3_length(p) - GYROID_REACH;
     if (b > GYROID_RIM) // well outside, where only the sign counts
         return b;
     double g = gyroid_terms(p, NULL);
-    double a = (g * g - GYROID_WALL * GYROID_WALL) * gyroid_scale;
+    double a = (g * g - GYROID_WALL * GYROID_WALL) * GYROID_SCALE;
     return 0.5 * (a + b + math_sqrt((a - b) * (a - b) + GYROID_RIM * GYROID_RIM));
 }
 
@@ -188,8 +189,8 @@ static lam_vec3 gyroid_gradient(void *user, lam_vec3 p)
     (void)user;
     lam_vec3 dg;
     double g = gyroid_terms(p, &dg);
-    double a = (g * g - GYROID_WALL * GYROID_WALL) * gyroid_scale, b = v3_length(p) - 1;
-    lam_vec3 da = v3_scale(dg, 2 * g * gyroid_scale), db = v3_unit(p);
+    double a = (g * g - GYROID_WALL * GYROID_WALL) * GYROID_SCALE, b = v3_length(p) - GYROID_REACH;
+    lam_vec3 da = v3_scale(dg, 2 * g * GYROID_SCALE), db = v3_unit(p);
     double share = (a - b) / math_sqrt((a - b) * (a - b) + GYROID_RIM * GYROID_RIM);
     return v3_scale(v3_add(v3_scale(da, 1 + share), v3_scale(db, 1 - share)), 0.5);
 }
@@ -198,8 +199,8 @@ static lam_vec3 gyroid_gradient(void *user, lam_vec3 p)
 static const struct ball {
     double x, y, z, reach;
 } balls[] = {
-    {0.00, -0.16, 0.00, 1.02}, {0.50, 0.26, 0.14, 0.76}, {-0.46, 0.30, 0.20, 0.70},
-    {0.08, 0.56, -0.34, 0.66}, {-0.38, -0.52, -0.24, 0.62}, {0.44, -0.48, 0.30, 0.64},
+    {0.000, -0.169, 0.000, 1.075}, {0.527, 0.274, 0.148, 0.801}, {-0.485, 0.316, 0.211, 0.738},
+    {0.084, 0.590, -0.358, 0.696}, {-0.401, -0.548, -0.253, 0.653}, {0.464, -0.506, 0.316, 0.675},
 };
 #define BALLS_LEVEL 0.28
 
@@ -235,6 +236,9 @@ static bool build_round(const struct shape_request *request, lam_surface_fn *sur
 {
     slices = request->slices ? request->slices : slices;
     stacks = request->stacks ? request->stacks : stacks;
+    int least = v_closed ? 3 : 2; // fewer do not enclose anything
+    if (stacks < least)
+        return fail(request->error, LAM_BAD_ARGUMENT, "shape: stacks is %d, expected at least %d for this one", stacks, least);
     struct segments n = {slices, stacks};
     lam_parametric one = {surface, &n, 0, slices, 0, stacks, slices, stacks, true, v_closed};
     return tessellate_parametric(&one, 1, request->arena, request->watch, mesh, request->error);
@@ -317,7 +321,7 @@ static bool build_implicit(const struct shape_request *request, double (*value)(
 
 static bool gyroid_build(const struct shape_request *request, lam_mesh *mesh)
 {
-    return build_implicit(request, gyroid_value, gyroid_gradient, 128, mesh);
+    return build_implicit(request, gyroid_value, gyroid_gradient, 100, mesh);
 }
 
 static bool metaballs_build(const struct shape_request *request, lam_mesh *mesh)

@@ -10,7 +10,8 @@
 // lines, each cutting off its corner; since that depends on the face alone, the two cells at it agree, and the mesh has
 // no holes. An edge is entered in one of its two faces and left in the other, so the lines join into closed loops, which
 // run counter-clockwise seen from outside the surface.
-// The loops are cut into triangles by diagonals that do not lie in a face: there the neighbour might have the same.
+// The loops are cut into triangles by diagonals that do not lie in a face (there the neighbour might have the same), and
+// of those by the ones whose triangles agree best with the normals at their corners.
 #include "shapes.h"
 
 #include "fail.h"
@@ -20,12 +21,13 @@
 #include <string.h>
 
 // Lattice corners of a cell are numbered x + 2y + 4z; its edges 4·axis + the two other coordinates, lower axis first.
-// No case has more than 5 triangles (its longest loop has 7 edges), as trying all 256 shows.
-enum { CORNERS = 8, EDGES = 12, LOOP_MAX = EDGES, TRIANGLES_MAX = 5 };
+enum { CORNERS = 8, EDGES = 12, LOOPS_MAX = EDGES / 3 };
 
+// The loops of one of the 256 cases, their edges one after another.
 struct cell_case {
-    uint8_t triangles;
-    uint8_t edges[TRIANGLES_MAX][3];
+    uint8_t loops;
+    uint8_t counts[LOOPS_MAX];
+    uint8_t edges[EDGES];
 };
 
 // --- The table
@@ -67,7 +69,7 @@ static void link_edges(int inside, int next[EDGES])
         }
 }
 
-// Do two edges lie in one face? Each edge lies in the two faces that its `others` name.
+// Do two edges lie in one face of the cell? Each lies in the two faces that its number's other coordinates name.
 static bool share_face(int a, int b)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -83,58 +85,23 @@ static bool share_face(int a, int b)
     return false;
 }
 
-// Cuts a loop into triangles with the fewest diagonals in faces: by intervals, the least cost of the part of the loop
-// from i to j, given that i–j is a line already.
-static void cut_loop(const int *loop, int count, struct cell_case *out)
-{
-    int cost[LOOP_MAX][LOOP_MAX] = {{0}}, apex[LOOP_MAX][LOOP_MAX] = {{0}};
-    for (int span = 2; span < count; span++)
-        for (int i = 0; i + span < count; i++) {
-            int j = i + span, best = 1000;
-            for (int k = i + 1; k < j; k++) {
-                int c = cost[i][k] + cost[k][j];
-                c += k > i + 1 && share_face(loop[i], loop[k]);
-                c += k < j - 1 && share_face(loop[k], loop[j]);
-                if (c < best) {
-                    best = c;
-                    apex[i][j] = k;
-                }
-            }
-            cost[i][j] = best;
-        }
-    int stack[LOOP_MAX][2] = {{0, count - 1}}, depth = 1;
-    while (depth > 0) {
-        depth--;
-        int i = stack[depth][0], j = stack[depth][1];
-        if (j - i < 2)
-            continue;
-        int k = apex[i][j];
-        uint8_t *triangle = out->edges[out->triangles++];
-        triangle[0] = (uint8_t)loop[i];
-        triangle[1] = (uint8_t)loop[k];
-        triangle[2] = (uint8_t)loop[j];
-        stack[depth][0] = i;
-        stack[depth++][1] = k;
-        stack[depth][0] = k;
-        stack[depth++][1] = j;
-    }
-}
-
 static void make_table(struct cell_case table[256])
 {
     for (int inside = 0; inside < 256; inside++) {
-        int next[EDGES];
+        struct cell_case *cell = &table[inside];
+        int next[EDGES], used = 0;
         bool done[EDGES] = {false};
-        table[inside].triangles = 0;
+        cell->loops = 0;
         link_edges(inside, next);
         for (int e = 0; e < EDGES; e++) {
-            int loop[LOOP_MAX], count = 0;
-            for (int at = e; at >= 0 && next[at] >= 0 && !done[at]; at = next[at]) {
+            int count = 0;
+            for (int at = e; next[at] >= 0 && !done[at]; at = next[at]) {
                 done[at] = true;
-                loop[count++] = at;
+                cell->edges[used++] = (uint8_t)at;
+                count++;
             }
-            if (count >= 3)
-                cut_loop(loop, count, &table[inside]);
+            if (count)
+                cell->counts[cell->loops++] = (uint8_t)count;
         }
     }
 }
@@ -341,6 +308,87 @@ static bool cross_between(struct march *m, int z, int below, int above)
     return true;
 }
 
+// The vertex on edge `edge` of the cell whose first corner is `at` in its plane.
+static uint32_t edge_vertex(const struct march *m, int edge, size_t at, int below, int above)
+{
+    size_t row = (size_t)m->cells[0] + 1;
+    size_t first = edge & 1, second = edge >> 1 & 1;
+    switch (edge >> 2) {
+    case 0: // the other coordinates are y, z
+        return m->crossed[second ? above : below][0][at + first * row];
+    case 1: // x, z
+        return m->crossed[second ? above : below][1][at + first];
+    default: // x, y
+        return m->upright[at + first + second * row];
+    }
+}
+
+// How far a triangle turns away from the normal at one of its corners: 0 not at all, 2 the other way.
+static double misfit(const struct march *m, uint32_t a, uint32_t b, uint32_t c)
+{
+    const float *p[3] = {m->positions + 3 * (size_t)a, m->positions + 3 * (size_t)b, m->positions + 3 * (size_t)c};
+    const uint32_t ids[3] = {a, b, c};
+    lam_vec3 first = v3((double)p[0][0], (double)p[0][1], (double)p[0][2]);
+    lam_vec3 face = v3_unit(v3_cross(v3_sub(v3((double)p[1][0], (double)p[1][1], (double)p[1][2]), first),
+                                     v3_sub(v3((double)p[2][0], (double)p[2][1], (double)p[2][2]), first)));
+    double least = 1;
+    for (int k = 0; k < 3; k++) {
+        const float *n = m->normals + 3 * (size_t)ids[k];
+        double cosine = v3_dot(face, v3((double)n[0], (double)n[1], (double)n[2]));
+        least = cosine < least ? cosine : least;
+    }
+    return 1 - least;
+}
+
+static void add_triangle(struct march *m, uint32_t a, uint32_t b, uint32_t c)
+{
+    if (a == b || b == c || c == a)
+        return;
+    m->indices[m->count] = a;
+    m->indices[m->count + 1] = b;
+    m->indices[m->count + 2] = c;
+    m->count += 3;
+}
+
+// Cuts a loop into triangles at the least cost: by intervals, the cost of the part from i to j, given that i–j is a line
+// already, is that of the best triangle i–k–j and of the parts on both its sides.
+static void cut_loop(struct march *m, const uint8_t *edges, const uint32_t *ids, int count)
+{
+    const double in_a_face = 1000;
+    double cost[EDGES][EDGES] = {{0}};
+    int apex[EDGES][EDGES] = {{0}};
+    if (count == 3) {
+        add_triangle(m, ids[0], ids[1], ids[2]);
+        return;
+    }
+    for (int span = 2; span < count; span++)
+        for (int i = 0; i + span < count; i++) {
+            int j = i + span;
+            cost[i][j] = 1e9;
+            for (int k = i + 1; k < j; k++) {
+                double c = cost[i][k] + cost[k][j] + misfit(m, ids[i], ids[k], ids[j]);
+                c += k > i + 1 && share_face(edges[i], edges[k]) ? in_a_face : 0;
+                c += k < j - 1 && share_face(edges[k], edges[j]) ? in_a_face : 0;
+                if (c < cost[i][j]) {
+                    cost[i][j] = c;
+                    apex[i][j] = k;
+                }
+            }
+        }
+    int stack[EDGES][2] = {{0, count - 1}}, depth = 1;
+    while (depth > 0) {
+        depth--;
+        int i = stack[depth][0], j = stack[depth][1], k = apex[i][j];
+        if (j - i < 2)
+            continue;
+        add_triangle(m, ids[i], ids[k], ids[j]);
+        stack[depth][0] = i;
+        stack[depth++][1] = k;
+        stack[depth][0] = k;
+        stack[depth++][1] = j;
+    }
+}
+
 // The triangles of the cells between two planes.
 static bool fill_layer(struct march *m, const struct cell_case *table, int below, int above)
 {
@@ -354,25 +402,16 @@ static bool fill_layer(struct march *m, const struct cell_case *table, int below
                 inside |= is_inside(values[at + (corner & 1) + (corner & 2 ? row : 0)]) << corner;
             }
             const struct cell_case *cell = &table[inside];
-            if (cell->triangles == 0)
+            if (!cell->loops)
                 continue;
-            if (!grow(m, (void **)&m->indices, &m->index_room, m->count + 3 * TRIANGLES_MAX, sizeof(uint32_t)))
+            if (!grow(m, (void **)&m->indices, &m->index_room, m->count + 3 * EDGES, sizeof(uint32_t)))
                 return false;
-            for (int k = 0; k < cell->triangles; k++) {
-                uint32_t id[3];
-                for (int c = 0; c < 3; c++) {
-                    int edge = cell->edges[k][c], axis = edge >> 2, first = edge & 1, second = edge >> 1 & 1;
-                    if (axis == 0) // others: y, z
-                        id[c] = m->crossed[second ? above : below][0][at + (first ? row : 0)];
-                    else if (axis == 1) // others: x, z
-                        id[c] = m->crossed[second ? above : below][1][at + (size_t)first];
-                    else // others: x, y
-                        id[c] = m->upright[at + (size_t)first + (second ? row : 0)];
-                }
-                if (id[0] == id[1] || id[1] == id[2] || id[2] == id[0])
-                    continue; // vertices that fell on one lattice point
-                memcpy(m->indices + m->count, id, sizeof id);
-                m->count += 3;
+            const uint8_t *edges = cell->edges;
+            for (int loop = 0; loop < cell->loops; edges += cell->counts[loop++]) {
+                uint32_t ids[EDGES];
+                for (int k = 0; k < cell->counts[loop]; k++)
+                    ids[k] = edge_vertex(m, edges[k], at, below, above);
+                cut_loop(m, edges, ids, cell->counts[loop]);
             }
         }
     return true;

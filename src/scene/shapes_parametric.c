@@ -65,9 +65,11 @@ static lam_surface_point evaluate(const struct tessellation *t, double u, double
     return point;
 }
 
+static bool shorter(lam_vec3 v, double length) { return v3_dot(v, v) <= length * length; }
+
 static bool coincide(const struct tessellation *t, lam_vec3 a, lam_vec3 b)
 {
-    return v3_length(v3_sub(a, b)) <= SAME_POINT * t->size;
+    return shorter(v3_sub(a, b), SAME_POINT * t->size);
 }
 
 // Inside the domain by NUDGE, towards its middle.
@@ -85,18 +87,18 @@ static void frame_at(const struct tessellation *t, double u, double v, const lam
     double inner_u = inside(u, s->u_min, s->u_max), inner_v = inside(v, s->v_min, s->v_max);
     lam_vec3 du = point->dp_du, dv = point->dp_dv;
     double least_u = VANISHED * t->u_unit, least_v = VANISHED * t->v_unit;
-    if (v3_length(du) <= least_u)
+    if (shorter(du, least_u))
         du = evaluate(t, u, inner_v).dp_du;
-    if (v3_length(du) <= least_u)
+    if (shorter(du, least_u))
         du = evaluate(t, inner_u, v).dp_du;
-    if (v3_length(dv) <= least_v)
+    if (shorter(dv, least_v))
         dv = evaluate(t, inner_u, v).dp_dv;
-    if (v3_length(dv) <= least_v)
+    if (shorter(dv, least_v))
         dv = evaluate(t, u, inner_v).dp_dv;
     du = v3_unit(du);
     dv = v3_unit(dv);
     lam_vec3 cross = v3_cross(du, dv);
-    if (v3_length(cross) <= 1e-7) { // parallel, as at the tip of a triangular patch
+    if (shorter(cross, 1e-7)) { // parallel, as at the tip of a triangular patch
         lam_surface_point inner = evaluate(t, inner_u, inner_v);
         cross = v3_cross(v3_unit(inner.dp_du), v3_unit(inner.dp_dv));
     }
@@ -104,7 +106,7 @@ static void frame_at(const struct tessellation *t, double u, double v, const lam
     // Perpendicular to the normal: ∂p/∂u lies in the tangent plane but for rounding and the limit's error.
     lam_vec3 n = *normal;
     *tangent = v3_unit(v3_sub(du, v3_scale(n, v3_dot(n, du))));
-    if (v3_length(*tangent) < 0.5)
+    if (shorter(*tangent, 0.5))
         *tangent = v3_unit(n.x * n.x < 0.5 ? v3_cross(v3(1, 0, 0), n) : v3_cross(v3(0, 1, 0), n));
 }
 

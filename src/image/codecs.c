@@ -82,10 +82,12 @@ static bool encode(const struct codec *codec, const lam_image *image, const lam_
     if (params->threads < 0 || params->threads > THREADS_MOST)
         return fail(error, LAM_BAD_ARGUMENT, "threads: %d, expected 0 to %d", params->threads, THREADS_MOST);
     uint64_t state = float_state_enter();
-    // Below some ten thousand pixels a second thread takes longer to start than it saves.
-    bool small = (int64_t)image->width * image->height < 1 << 16;
-    struct pool *pool =
-        small || params->threads == 1 ? NULL : pool_make(params->threads); // NULL: this thread alone
+    // Starting a thread takes as long as encoding some thousand pixels: none gets fewer than 65536.
+    int64_t most = (int64_t)image->width * image->height >> 16;
+    int threads = params->threads ? params->threads : processor_count();
+    if (threads > most)
+        threads = (int)most;
+    struct pool *pool = threads > 1 ? pool_make(threads) : NULL; // NULL: this thread alone
     bool ok = codec->write(image, params, pool, out, error);
     pool_free(pool);
     float_state_leave(state);

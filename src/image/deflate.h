@@ -15,6 +15,8 @@
 #include <stdint.h>
 
 enum {
+    DEFLATE_SHORTEST = 3, // bytes of a match
+    DEFLATE_LONGEST = 258,
     // What a quarter of a token can be: a byte; a match of 3 … 258 bytes; nothing.
     DEFLATE_MATCH = 256, // + length − 3
     DEFLATE_NOTHING = DEFLATE_MATCH + 256,
@@ -31,11 +33,11 @@ struct deflate {
     int width, bytes_per_pixel;
     uint32_t *row; // one row of pixels, a word each, with 4 words of room before it and 16 behind
     struct token *tokens, *end;
-    uint32_t counts[2][4]
-                   [DEFLATE_KINDS]; // how often each kind occurs in each quarter, even and odd tokens apart
+    // How often each kind occurs in each quarter, even and odd tokens apart.
+    uint32_t counts[2][4][DEFLATE_KINDS];
 };
 
-// Memory comes from the arena; false: none left. deflate_scratch: about how much.
+// Memory comes from the arena; false: none left. deflate_scratch: how much is asked for, about.
 bool deflate_make(struct deflate *deflate, struct arena *arena, int width, int rows, int bytes_per_pixel);
 size_t deflate_scratch(int width, int rows);
 

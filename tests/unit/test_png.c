@@ -162,7 +162,7 @@ static void holds_runs_of_every_length(void **state)
 static void threads_change_nothing(void **state)
 {
     (void)state;
-    static const int sizes[][2] = {{1024, 700}, {333, 1001}, {65535, 5}, {3, 30000}};
+    static const int sizes[][2] = {{1024, 700}, {333, 1001}, {65535, 5}, {7, 50000}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         for (int content = NOISE; content <= RUNS; content++) {
             lam_image image;

@@ -76,8 +76,9 @@ static inline bool chunk_repeats(const uint32_t *row, int x)
     return (halves[0] | halves[1]) == 0;
 }
 
-// What the pixels of a chunk are, each by itself and its neighbours: its bytes as a token; all bits set where it
-// equals the pixel before and so does the next one or did that one, else 0; 0 in a run that goes on, else 1.
+// What the pixels of a chunk are, each by itself and its neighbours: its bytes as a token; all bits set where
+// it equals the pixel before and so does the next one or did that one, else 0; 0 in a run that goes on,
+// else 1.
 struct chunk {
     uint64_t told[CHUNK];
     uint32_t in_run[CHUNK];

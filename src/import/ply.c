@@ -144,6 +144,10 @@ static bool build(struct reading *reading, lam_error *error)
 {
     const struct import_source *source = reading->source;
     struct lam_scene *scene = reading->scene;
+    char found[TEXT_FOUND_SIZE];
+    if (ply_probe(source->bytes, source->size) == 0) // the file's name or the caller said that it is one
+        return fail_line(error, source, 1, "found %s, expected \"ply\"",
+                         text_found(source->bytes, source->bytes + source->size, found));
     if (!ply_read_header(source, reading->scratch, &reading->header, error) || !choose(reading, error) ||
         !check_surface(reading, error))
         return false;

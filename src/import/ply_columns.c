@@ -1,5 +1,7 @@
 // ply_columns.c: columns of a PLY table as normals, tangents, texture coordinates and colours, in parallel pieces.
+#define LANES 1 // srgb_decode, one number at a time
 #include "chunks.h"
+#include "encoding.h"
 #include "linear.h"
 #include "ply_load.h"
 
@@ -68,25 +70,6 @@ struct vectors {
     float *out;
 };
 
-// The sRGB curve, to linear light, from + − × ÷ alone. y^2.4 is y² · ⁵√(y²); the root by Newton's method from the exponent
-// divided by five, which is good to 6 %: five steps square that error to below a double's.
-static float srgb_to_linear(float encoded)
-{
-    double value = (double)encoded;
-    if (value <= 0.04045)
-        return (float)(value / 12.92);
-    double base = (value + 0.055) / 1.055, square = base * base, root;
-    uint64_t bits;
-    memcpy(&bits, &square, sizeof bits);
-    bits = bits / 5 + UINT64_C(0x3ff0000000000000) / 5 * 4;
-    memcpy(&root, &bits, sizeof root);
-    for (int i = 0; i < 5; i++) {
-        double fourth = (root * root) * (root * root);
-        root -= (root - square / fourth) / 5.0;
-    }
-    return (float)(square * root);
-}
-
 static void clean_vector(const struct vectors *vectors, float *v)
 {
     if (vectors->kind == COLORS || vectors->kind == COLORS_RAW) {
@@ -94,8 +77,8 @@ static void clean_vector(const struct vectors *vectors, float *v)
             v[c] = v[c] >= 0.0f ? (v[c] <= FLT_MAX ? v[c] : FLT_MAX) : 0.0f; // NaN becomes 0
             if (c == 3)
                 v[c] = v[c] < 1.0f ? v[c] : 1.0f;
-            else if (vectors->kind == COLORS)
-                v[c] = srgb_to_linear(v[c] < 1e6f ? v[c] : 1e6f);
+            else if (vectors->kind == COLORS && v[c] <= 1.0f) // above, sRGB says nothing: light as it is
+                v[c] = srgb_decode(v[c]);
         }
         return;
     }

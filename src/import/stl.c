@@ -13,16 +13,20 @@ static uint32_t facets_promised(const uint8_t *bytes)
     return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
 }
 
+enum { SAMPLE = 1024 }; // bytes that are looked at
+
+// No text holds a zero byte, and no binary STL lacks one: at least the number of facets has one, up to 16 million.
+static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
+
 // ASCII files begin with "solid" (or, carelessly made, "facet"), hold no zero byte, and soon say "facet" or "endsolid".
 // Binary ones often begin with "solid" too, so the word alone proves nothing.
 static bool looks_ascii(const uint8_t *bytes, size_t size)
 {
-    enum { SAMPLE = 1024 };
     const uint8_t *end = bytes + (size < SAMPLE ? size : SAMPLE), *at = bytes;
     if (size >= 3 && memcmp(at, "\xef\xbb\xbf", 3) == 0) // a byte order mark
         at += 3;
     at = text_skip_white(at, end);
-    if (memchr(bytes, 0, (size_t)(end - bytes)))
+    if (has_zero(bytes, size))
         return false;
     if (text_is_word(at, end, "facet"))
         return true;
@@ -39,7 +43,7 @@ static enum kind tell_kind(const uint8_t *bytes, size_t size)
         return BINARY_EXACT;
     if (looks_ascii(bytes, size))
         return ASCII;
-    return room ? BINARY_LOOSE : NEITHER;
+    return room && has_zero(bytes, size) ? BINARY_LOOSE : NEITHER;
 }
 
 static int stl_probe(const uint8_t *bytes, size_t size)
@@ -63,6 +67,7 @@ bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_
 
 static bool stl_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
 {
+    char found[TEXT_FOUND_SIZE];
     lam_mesh mesh = {0};
     switch (tell_kind(source->bytes, source->size)) {
     case ASCII:
@@ -71,8 +76,10 @@ static bool stl_load(const struct import_source *source, struct lam_scene *scene
         break;
     case NEITHER:
         return fail(error, LAM_CANNOT_READ,
-                    "%s: %zu bytes that do not begin with \"solid\" are too few for an STL file, expected at least %d",
-                    source->name, source->size, STL_FACETS);
+                    "%s: no STL file: found %s at its start and %zu bytes, expected \"solid\" and facets, or a binary "
+                    "header of %d bytes and facets",
+                    source->name, text_found(source->bytes, source->bytes + source->size, found), source->size,
+                    STL_FACETS);
     default:
         if (!stl_load_binary(source, scene, &mesh, error))
             return false;

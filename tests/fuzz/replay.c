@@ -1,0 +1,168 @@
+// replay.c: plays a corpus through a fuzz target in the normal test run, without libFuzzer.
+//
+// Every file of the folder CORPUS goes in as it is, cut after each of its bytes, and in some hundred changed forms, the
+// same in every run. An input that kills the program is left in the current folder as "fuzz-failure".
+#include <dirent.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak));
+
+enum {
+    SEEDS_MAX = 64,
+    SEED_BYTES = 16384,
+    CUTS_MAX = 1500,   // a longer file is cut at this many places
+    CHANGES = 2000,    // changed forms of each file
+};
+
+static struct seed {
+    uint8_t bytes[SEED_BYTES];
+    size_t size;
+} seeds[SEEDS_MAX];
+static int seed_count;
+
+static const uint8_t *running;
+static size_t running_size;
+
+static void leave_input(void)
+{
+    int file = open("fuzz-failure", O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    if (file < 0 || write(file, running, running_size) < 0)
+        return;
+    close(file);
+}
+
+static void die(int number)
+{
+    leave_input();
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+// The input lies in a block of exactly its size, so that a sanitizer sees every read beyond it.
+static void run(const uint8_t *bytes, size_t size)
+{
+    uint8_t *copy = malloc(size + (size == 0));
+    if (!copy)
+        abort();
+    memcpy(copy, bytes, size);
+    running = copy;
+    running_size = size;
+    LLVMFuzzerTestOneInput(copy, size);
+    free(copy);
+}
+
+static uint32_t below(uint64_t *random, uint32_t limit)
+{
+    *random = *random * 6364136223846793005u + 1442695040888963407u;
+    return limit ? (uint32_t)(*random >> 33) % limit : 0;
+}
+
+// Replaces bytes [at, at + removed) by `piece`, as far as there is room.
+static void put_in_place(struct seed *seed, size_t at, size_t removed, const uint8_t *piece, size_t length)
+{
+    if (at > seed->size || removed > seed->size - at || seed->size - removed + length > SEED_BYTES)
+        return;
+    memmove(seed->bytes + at + length, seed->bytes + at + removed, seed->size - at - removed);
+    memcpy(seed->bytes + at, piece, length);
+    seed->size += length - removed;
+}
+
+static void change(struct seed *seed, uint64_t *random)
+{
+    static const char *const words[] = {"-1", "0", "4294967295", "4294967296", "99999999999999999999", "1e999", "-1e-999",
+                                        "nan", " ", "\n", "\\\n", "\r", "/", "\xff\xff\xff\xff", "\x80", "0.1", "inf"};
+    uint32_t size = (uint32_t)seed->size;
+    uint8_t piece[64];
+    const struct seed *other = &seeds[below(random, (uint32_t)seed_count)];
+    size_t at = below(random, size), length = 1 + below(random, sizeof piece - 1), from = 0;
+    switch (below(random, 7)) {
+    case 0: // a bit
+        if (size)
+            seed->bytes[at] ^= (uint8_t)(1 << below(random, 8));
+        break;
+    case 1: // a byte at a border of its range
+        if (size)
+            seed->bytes[at] = (uint8_t[]){0, 1, 127, 128, 255}[below(random, 5)];
+        break;
+    case 2: // an end cut off
+        seed->size = at;
+        break;
+    case 3: // a run left out
+        put_in_place(seed, at, length, piece, 0);
+        break;
+    case 4: { // a word put in
+        const char *word = words[below(random, sizeof words / sizeof *words)];
+        put_in_place(seed, at, below(random, 2) * strlen(word), (const uint8_t *)word, strlen(word));
+        break;
+    }
+    default: // a piece of another file, or of this one
+        from = below(random, (uint32_t)other->size);
+        length = length < other->size - from ? length : other->size - from;
+        memcpy(piece, other->bytes + from, length);
+        put_in_place(seed, at, below(random, 2) * length, piece, length);
+    }
+}
+
+static int by_name(const struct dirent **a, const struct dirent **b) { return strcmp((*a)->d_name, (*b)->d_name); }
+
+int main(void)
+{
+    struct dirent **names;
+    int count = scandir(CORPUS, &names, NULL, by_name);
+    for (int i = 0; i < count; i++) {
+        char path[1024];
+        snprintf(path, sizeof path, "%s/%s", CORPUS, names[i]->d_name);
+        FILE *file = names[i]->d_name[0] == '.' ? NULL : fopen(path, "rb");
+        free(names[i]);
+        if (!file)
+            continue;
+        if (seed_count == SEEDS_MAX) {
+            fprintf(stderr, "%s holds more than %d files\n", CORPUS, SEEDS_MAX);
+            return 1;
+        }
+        struct seed *seed = &seeds[seed_count++];
+        seed->size = fread(seed->bytes, 1, SEED_BYTES, file);
+        if (fgetc(file) != EOF) {
+            fprintf(stderr, "%s is longer than %d bytes\n", path, SEED_BYTES);
+            return 1;
+        }
+        fclose(file);
+    }
+    if (count >= 0)
+        free(names);
+    if (seed_count == 0) {
+        fprintf(stderr, "no files in %s\n", CORPUS);
+        return 1;
+    }
+
+    if (__sanitizer_set_death_callback)
+        __sanitizer_set_death_callback(leave_input);
+    signal(SIGABRT, die);
+    signal(SIGSEGV, die);
+    signal(SIGFPE, die);
+    uint64_t random = 1;
+    size_t runs = 0;
+    for (int i = 0; i < seed_count; i++) {
+        const struct seed *seed = &seeds[i];
+        size_t step = seed->size / CUTS_MAX + 1;
+        for (size_t size = 0; size < seed->size; size += step, runs++)
+            run(seed->bytes, size);
+        run(seed->bytes, seed->size);
+        for (int c = 0; c < CHANGES; c++, runs++) {
+            static struct seed changed;
+            changed = *seed;
+            for (uint32_t n = 1 + below(&random, 4); n > 0; n--)
+                change(&changed, &random);
+            run(changed.bytes, changed.size);
+        }
+    }
+    printf("%zu inputs from %d files\n", runs + (size_t)seed_count, seed_count);
+    return 0;
+}

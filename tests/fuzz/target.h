@@ -1,0 +1,40 @@
+// target.h: what the fuzz targets share. Each target_*.c defines LLVMFuzzerTestOneInput for one format, so it links with
+// libFuzzer (clang -fsanitize=fuzzer) or with replay.c, which plays the corpus and changes of it in the normal test run.
+#ifndef TARGET_H
+#define TARGET_H
+
+#include <lambent/lambent.h>
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+// What must hold for every input: a scene that is whole, or an error with its sentence. Bounded in memory and time, so that
+// an input that makes the library run away is found as one.
+static inline void load_model(const uint8_t *data, size_t size, const char *name, lam_open_fn *open, void *user)
+{
+    lam_load_params params = {.threads = 1, .open = open, .user = user};
+    lam_control control = {.memory_limit_bytes = 256 << 20, .time_limit_s = 20};
+    lam_error error = {0};
+    lam_scene *scene = lam_scene_load_memory(data, size, name, &params, &control, &error);
+    if (scene ? lam_scene_triangle_count(scene) == 0 : error.code == LAM_OK || !error.text[0])
+        abort();
+    for (int i = 0; scene && i < lam_scene_mesh_count(scene); i++) {
+        const lam_mesh *mesh = lam_scene_mesh(scene, i);
+        for (size_t c = 0; c < 3 * (size_t)mesh->triangle_count; c++) {
+            if ((mesh->indices ? mesh->indices[c] : c) >= mesh->vertex_count)
+                abort();
+            if (mesh->normals && mesh->normal_indices && mesh->normal_indices[c] >= mesh->normal_count)
+                abort();
+        }
+        for (size_t n = 0; n < 3 * (size_t)mesh->vertex_count; n++) {
+            if (!(mesh->positions[n] - mesh->positions[n] == 0)) // not finite
+                abort();
+        }
+    }
+    lam_scene_free(scene);
+}
+
+#endif

@@ -1,0 +1,356 @@
+// test_stl.c: STL: both kinds, how they are told apart, colours, parts, and what is said about broken files.
+#include "loading.h"
+
+static const char one_facet[] = "solid thing\n"
+                                "  facet normal 0 0 1\n"
+                                "    outer loop\n"
+                                "      vertex 0 0 0\n"
+                                "      vertex 1.5 0 0\n"
+                                "      vertex 0 2e1 -0.25\n"
+                                "    endloop\n"
+                                "  endfacet\n"
+                                "endsolid thing\n";
+
+static void put_header(struct made *file, const char *text, uint32_t facets)
+{
+    uint8_t header[80];
+    memset(header, ' ', sizeof header);
+    memcpy(header, text, strlen(text));
+    put(file, header, sizeof header);
+    put_u32(file, facets);
+}
+
+// Facet number n: a corner at (n, 0, 0), two beside it.
+static void put_facet(struct made *file, int n, uint16_t word)
+{
+    float numbers[12] = {0, 0, 1, (float)n, 0, 0, (float)n + 1, 0, 0, (float)n, 1, 0.5f};
+    for (int i = 0; i < 12; i++)
+        put_f32(file, numbers[i]);
+    put_u16(file, word);
+}
+
+static const uint8_t *color_of(const lam_mesh *mesh, uint32_t triangle)
+{
+    assert_int_equal(mesh->colors_rate, LAM_PER_TRIANGLE);
+    assert_int_equal(mesh->color_count, mesh->triangle_count);
+    return (const uint8_t *)mesh->colors + 4 * triangle;
+}
+
+static void assert_color(const lam_mesh *mesh, uint32_t triangle, int r, int g, int b)
+{
+    const uint8_t *color = color_of(mesh, triangle);
+    assert_int_equal(color[0], r);
+    assert_int_equal(color[1], g);
+    assert_int_equal(color[2], b);
+    assert_int_equal(color[3], 255);
+}
+
+static void test_ascii(void **state)
+{
+    (void)state;
+    lam_scene *scene = load_text(one_facet, "a.stl");
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    assert_string_equal(lam_scene_format(scene), "stl");
+    assert_int_equal(lam_scene_up(scene), LAM_UP_Z);
+    assert_int_equal(lam_scene_object_count(scene), 1);
+    assert_int_equal(mesh->triangle_count, 1);
+    assert_corner(mesh, 0, 1, 1.5, 0, 0);
+    assert_corner(mesh, 0, 2, 0, 20, -0.25);
+    assert_int_equal(mesh->part_count, 1);
+    assert_string_equal(mesh->parts[0].name, "thing");
+    lam_scene_free(scene);
+}
+
+// Keywords in any case, lines broken anywhere, every line end, a byte order mark, normals that are not numbers, a
+// facet outside a solid, an empty solid, bytes that are not UTF-8 in a name.
+static void test_ascii_oddities(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "\xef\xbb\xbf\t SOLID two words\there \r\nFACET normal nan -nan(ind) nan OUTER\vloop vertex 1 2 3 Vertex 4 5 6\r"
+        "vertex 7 8 9 endloop\fendfacet\r\nEndSolid two words\r\n"
+        "solid empty\nendsolid empty\n"
+        "facet normal outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n"
+        "solid caf\xe9\nfacet outer loop vertex 0 0 0 vertex 2 0 0 vertex 0 1 0 endloop endfacet\nendsolid\n";
+    lam_scene *scene = load_text(text, "odd.stl");
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    assert_int_equal(mesh->triangle_count, 3);
+    assert_corner(mesh, 0, 2, 7, 8, 9);
+    assert_corner(mesh, 2, 1, 2, 0, 0);
+    assert_int_equal(mesh->part_count, 3);
+    assert_string_equal(mesh->parts[0].name, "two words?here");
+    assert_null(mesh->parts[1].name);
+    assert_string_equal(mesh->parts[2].name, "caf?");
+    for (uint32_t i = 0; i < 3; i++) {
+        assert_int_equal(mesh->parts[i].first_triangle, i);
+        assert_int_equal(mesh->parts[i].triangle_count, 1);
+    }
+    lam_scene_free(scene);
+}
+
+static void test_ascii_in_one_line(void **state)
+{
+    (void)state;
+    lam_scene *scene = load_text("solid all of it facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
+                                 "endloop endfacet endsolid",
+                                 "line.stl");
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    assert_int_equal(mesh->triangle_count, 1);
+    assert_string_equal(mesh->parts[0].name, "all of it");
+    lam_scene_free(scene);
+}
+
+// A part of a millimetre's detail 500 km from zero.
+static void test_ascii_far_from_zero(void **state)
+{
+    (void)state;
+    lam_scene *scene = load_text("solid far\nfacet normal 0 0 1\nouter loop\nvertex 500000.0001 0 0.5\n"
+                                 "vertex 500000.0012 0.001 0.5\nvertex 500000.0023 0 0.5\nendloop\nendfacet\nendsolid\n",
+                                 "far.stl");
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    assert_true(mesh->origin[0] != 0 && mesh->origin[1] == 0 && mesh->origin[2] != 0);
+    assert_near(corner_at(mesh, 0, 0).x, 500000.0001, 1e-9);
+    assert_near(corner_at(mesh, 0, 1).x, 500000.0012, 1e-9);
+    assert_near(corner_at(mesh, 0, 2).x, 500000.0023, 1e-9);
+    lam_scene_free(scene);
+}
+
+static void test_ascii_errors(void **state)
+{
+    (void)state;
+    refuse_text("Dear reader,\nthis is a letter and no model at all, though its name says so, and it is long enough for "
+                "a header.\n", "a.stl",
+                "a.stl: no STL file: found 'Dear' at its start and 112 bytes, expected \"solid\" and facets, or a binary "
+                "header of 84 bytes and facets");
+    refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 O 0\n", "a.stl",
+                "a.stl:5: facet 1: found 'O', expected a number");
+    refuse_text("solid a\r\nfacet normal 0 0 1\r\nouter loop\r\nvertex 0 0 1.5mm\r\n", "a.stl",
+                "a.stl:4: facet 1: found '1.5mm', expected a number");
+    refuse_text("solid a\rfacet normal 0 0 1\router loop\rvertex 0 0 inf\rvertex 0 0 0 vertex 1 1 1 endloop endfacet\r",
+                "a.stl", "a.stl:4: facet 1: found 'inf', expected a finite number");
+    refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", "a.stl",
+                "a.stl:6: facet 1: found 'endloop', expected \"vertex\"");
+    refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n",
+                "a.stl", "a.stl:7: facet 1: found 'vertex', expected \"endloop\"");
+    refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "a.stl",
+                "a.stl:5: facet 1: found the end of the file, expected \"vertex\"");
+    refuse_text("solid a\nfacet normal 0 0 1\n  ring\n", "a.stl",
+                "a.stl:3: facet 1: found 'ring', expected \"outer\"");
+    refuse_text("solid a\ntriangle\nfacet\n", "a.stl",
+                "a.stl:2: facet 1: found 'triangle', expected \"facet\", \"endsolid\" or \"solid\"");
+    refuse_text("solid a\nfacet outer loop vertex 1e300 0 0 vertex -1e300 0 0 vertex 0 0 0 endloop endfacet\n", "a.stl",
+                "a.stl: facet 1: corner 1 lies too far from the others for a float");
+}
+
+static void test_binary(void **state)
+{
+    (void)state;
+    // A header that begins with "solid" and a name with "facet" in it does not make it ASCII.
+    struct made file = {0};
+    put_header(&file, "solid facet endsolid", 2);
+    put_facet(&file, 3, 0);
+    put_facet(&file, -7, 0);
+    lam_scene *scene = load(&file, "no ending");
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    assert_string_equal(lam_scene_format(scene), "stl");
+    assert_int_equal(mesh->triangle_count, 2);
+    assert_int_equal(mesh->vertex_count, 6);
+    assert_null(mesh->indices);
+    assert_null(mesh->colors);
+    assert_null(lam_scene_warning(scene, 0));
+    assert_corner(mesh, 0, 0, 3, 0, 0);
+    assert_corner(mesh, 1, 1, -6, 0, 0);
+    assert_corner(mesh, 1, 2, -7, 1, 0.5);
+    lam_scene_free(scene);
+
+    // Bytes behind the last facet are told, and the name's ending decides.
+    put_text(&file, "more");
+    scene = load(&file, "a.stl");
+    assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, 2);
+    assert_string_equal(lam_scene_warning(scene, 0), "a.stl: 4 bytes behind the last of 2 facets are ignored");
+    lam_scene_free(scene);
+}
+
+static void test_binary_errors(void **state)
+{
+    (void)state;
+    struct made file = {0};
+    put_header(&file, "solid cut", 3);
+    put_facet(&file, 0, 0);
+    put_facet(&file, 1, 0);
+    refuse(file.bytes, file.size - 1, "a.stl", LAM_CANNOT_READ,
+           "a.stl: the file is cut short: its header promises 3 facets (234 bytes), found 1 (183 bytes)");
+    float nan;
+    uint32_t bits = 0x7fc00000;
+    memcpy(&nan, &bits, 4);
+    put_facet(&file, 2, 0);
+    memcpy(file.bytes + 84 + 50 + 12 + 4 * 7, &nan, 4);
+    refuse(file.bytes, file.size, "a.stl", LAM_CANNOT_READ,
+           "a.stl: byte 174: facet 2: found NaN as y of corner 3, expected a finite number");
+    bits = 0xff800000;
+    memcpy(file.bytes + 84 + 12, &bits, 4);
+    refuse(file.bytes, file.size, "a.stl", LAM_CANNOT_READ,
+           "a.stl: byte 96: facet 1: found infinity as x of corner 1, expected a finite number");
+
+    struct made empty = {0};
+    put_header(&empty, "nothing", 0);
+    lam_error error = {0};
+    assert_null(lam_scene_load_memory(empty.bytes, empty.size, "a.stl", NULL, NULL, &error));
+    assert_int_equal(error.code, LAM_CANNOT_READ);
+    assert_non_null(strstr(error.text, "no triangles"));
+}
+
+// The first mistake is told whatever the threads, far into the file.
+static void test_first_mistake(void **state)
+{
+    (void)state;
+    enum { FACETS = 30000 };
+    size_t size = 84 + 50 * FACETS;
+    uint8_t *bytes = calloc(1, size);
+    assert_non_null(bytes);
+    uint32_t count = FACETS, infinity = 0x7f800000;
+    memcpy(bytes + 80, &count, 4);
+    for (size_t facet = 9000; facet < FACETS; facet += 3000)
+        memcpy(bytes + 84 + 50 * facet + 12, &infinity, 4);
+    for (int threads = 1; threads <= 5; threads += 2) {
+        lam_error error = {0};
+        assert_null(lam_scene_load_memory(bytes, size, "a.stl", &(lam_load_params){.threads = threads}, NULL, &error));
+        assert_string_equal(error.text, "a.stl: byte 450096: facet 9001: found infinity as x of corner 1, "
+                                        "expected a finite number");
+    }
+    free(bytes);
+}
+
+static void test_colors_viscam(void **state)
+{
+    (void)state;
+    struct made file = {0};
+    put_header(&file, "viscam", 3);
+    put_facet(&file, 0, 0x8000 | 31 << 10);          // red
+    put_facet(&file, 1, 0x8000 | 16 << 5 | 31);      // green 16, blue 31
+    put_facet(&file, 2, 0);                          // none
+    lam_scene *scene = load(&file, "a.stl");
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    assert_int_equal(mesh->colors_format, LAM_COLORS_SRGB8);
+    assert_color(mesh, 0, 255, 0, 0);
+    assert_color(mesh, 1, 0, 132, 255);
+    assert_color(mesh, 2, 255, 255, 255);
+    lam_scene_free(scene);
+
+    scene = load_with(file.bytes, file.size, "a.stl", &(lam_load_params){.color = LAM_COLOR_RAW});
+    assert_int_equal(lam_scene_mesh(scene, 0)->colors_format, LAM_COLORS_LINEAR8);
+    lam_scene_free(scene);
+}
+
+static void test_colors_magics(void **state)
+{
+    (void)state;
+    struct made file = {0};
+    put_header(&file, "made by somebody COLOR=\x10\x20\x30\xff,MATERIAL=", 2);
+    put_facet(&file, 0, 31);      // red: its own
+    put_facet(&file, 1, 0x8000);  // the header's
+    lam_scene *scene = load(&file, "a.stl");
+    assert_color(lam_scene_mesh(scene, 0), 0, 255, 0, 0);
+    assert_color(lam_scene_mesh(scene, 0), 1, 0x10, 0x20, 0x30);
+    lam_scene_free(scene);
+
+    // No word says anything: the header's colour is for all, not black.
+    memset(file.bytes + 84 + 48, 0, 2);
+    memset(file.bytes + 134 + 48, 0, 2);
+    scene = load(&file, "a.stl");
+    assert_color(lam_scene_mesh(scene, 0), 0, 0x10, 0x20, 0x30);
+    assert_color(lam_scene_mesh(scene, 0), 1, 0x10, 0x20, 0x30);
+    lam_scene_free(scene);
+}
+
+// Attribute words that are no colours: counters, and junk of which some happens to have bit 15.
+static void test_colors_junk(void **state)
+{
+    (void)state;
+    static const uint16_t words[][3] = {{0, 0, 0}, {1, 2, 3}, {0x8123, 0x0456, 0x1789}};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        struct made file = {0};
+        put_header(&file, "junk", 3);
+        for (int f = 0; f < 3; f++)
+            put_facet(&file, f, words[i][f]);
+        lam_scene *scene = load(&file, "a.stl");
+        assert_null(lam_scene_mesh(scene, 0)->colors);
+        lam_scene_free(scene);
+    }
+}
+
+static void test_threads(void **state)
+{
+    (void)state;
+    enum { FACETS = 20011 };
+    size_t size = 84 + 50 * FACETS;
+    uint8_t *bytes = calloc(1, size);
+    assert_non_null(bytes);
+    uint32_t count = FACETS, random = 1;
+    memcpy(bytes + 80, &count, 4);
+    for (size_t facet = 0; facet < FACETS; facet++) {
+        for (size_t i = 0; i < 12; i++) {
+            random = random * 1664525 + 1013904223;
+            float number = (float)(int)(random >> 16) * 0.001f;
+            memcpy(bytes + 84 + 50 * facet + 4 * i, &number, 4);
+        }
+        uint16_t word = (uint16_t)(0x8000 | random >> 17);
+        memcpy(bytes + 84 + 50 * facet + 48, &word, 2);
+    }
+    assert_same_for_threads(bytes, size, "a.stl");
+    free(bytes);
+}
+
+static void test_cut_anywhere(void **state)
+{
+    (void)state;
+    struct made file = {0};
+    put_header(&file, "solid binary COLOR=abcd", 2);
+    put_facet(&file, 0, 1);
+    put_facet(&file, 1, 0x8000);
+    check_prefixes(file.bytes, file.size, "a.stl");
+    check_prefixes(one_facet, sizeof one_facet - 1, "a.stl");
+}
+
+static void test_out_of_memory(void **state)
+{
+    (void)state;
+    struct made file = {0};
+    put_header(&file, "COLOR=abcd", 2);
+    put_facet(&file, 0, 1);
+    put_facet(&file, 1, 0x8000);
+    check_allocations(file.bytes, file.size, "a.stl");
+    check_allocations(one_facet, sizeof one_facet - 1, "a.stl");
+}
+
+static void test_models(void **state)
+{
+    (void)state;
+    static const struct model models[] = {
+        {"stl/derived/fish.stl", 21568},          {"stl/derived/koala.stl", 99994},
+        {"stl/derived/wingnut_ascii.stl", 6090},  {"stl/derived/wingnut_solid_header.stl", 6090},
+        {"stl/panda/hand.stl", 200},              {"stl/panda/link0.stl", 200},
+        {"stl/panda/link5.stl", 300},             {"stl/trimesh/20mm-xyz-cube.stl", 260},
+        {"stl/trimesh/featuretype.STL", 3476},    {"stl/trimesh/multibody.stl", 32},
+        {"stl/trimesh/octagonal_pocket.stl", 3262}, {"stl/trimesh/two_objects_mixed_case_names.stl", 24},
+        {"stl/ur3/base.stl", 7992},               {"stl/ur3/forearm.stl", 4934},
+        {"stl/ur3/shoulder.stl", 7865},           {"stl/ur3/upperarm.stl", 10263},
+        {"stl/ur3/wrist1.stl", 3672},             {"stl/ur3/wrist2.stl", 3671},
+    };
+    check_models(models, sizeof models / sizeof *models);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_ascii),           cmocka_unit_test(test_ascii_oddities),
+        cmocka_unit_test(test_ascii_in_one_line), cmocka_unit_test(test_ascii_far_from_zero),
+        cmocka_unit_test(test_ascii_errors),    cmocka_unit_test(test_binary),
+        cmocka_unit_test(test_binary_errors),   cmocka_unit_test(test_first_mistake),
+        cmocka_unit_test(test_colors_viscam),   cmocka_unit_test(test_colors_magics),
+        cmocka_unit_test(test_colors_junk),     cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_cut_anywhere),    cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_models),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

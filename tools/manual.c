@@ -103,7 +103,10 @@ void generate_man(void)
         roff_line(c->summary);
     }
     for (const struct topic *t = topics; t->title; t++) {
-        printf(".SH \"%s\"\n", t->title);
+        printf(".SH \"");
+        for (const char *s = t->title; *s; s++)
+            putchar(*s >= 'a' && *s <= 'z' ? *s - 'a' + 'A' : *s);
+        printf("\"\n");
         roff_paragraphs(t->text);
     }
     printf(".SH \"EXIT STATUS\"\n");

@@ -86,15 +86,13 @@ static bool read_long(int count, char **words, int *at, unsigned groups, struct 
 static bool read_letters(int count, char **words, int *at, unsigned groups, struct options *options,
                          lam_error *error)
 {
+    const struct option *whole = find_long(words[*at] + 1, strcspn(words[*at] + 1, "="));
+    if (whole)
+        return complain(error, LAM_BAD_ARGUMENT, "unknown option '%s'; did you mean '--%s'?", words[*at], whole->name);
     for (const char *letter = words[*at] + 1; *letter; letter++) {
         const struct option *option = find_letter(*letter);
-        if (!option) {
-            const struct option *whole = find_long(words[*at] + 1, strcspn(words[*at] + 1, "="));
-            if (whole)
-                return complain(error, LAM_BAD_ARGUMENT, "unknown option '%s'; did you mean '--%s'?", words[*at],
-                                whole->name);
+        if (!option)
             return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'", *letter);
-        }
         const char *value = NULL;
         if (option->value) {
             value = letter[1] ? letter + 1 : next_value(option, count, words, at, error);

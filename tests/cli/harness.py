@@ -25,12 +25,12 @@ class Case(unittest.TestCase):
             shutil.copy(model, self.folder)
         self.given = set(os.listdir(self.folder))
 
-    def run_program(self, *words, stdin=b"", env=None, stdout=subprocess.PIPE, timeout=60):
+    def run_program(self, *words, stdin=b"", env=None, stdout=subprocess.PIPE, timeout=60, user=None):
         environment = {k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "TERM")}
         environment.update(env or {})
         given = {"stdin": stdin} if hasattr(stdin, "fileno") else {"input": stdin}
         return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, stdout=stdout, stderr=subprocess.PIPE,
-                              env=environment, timeout=timeout, **given)
+                              env=environment, timeout=timeout, user=user, **given)
 
     def good(self, *words, **more):
         """Runs; it must end well."""
@@ -48,6 +48,17 @@ class Case(unittest.TestCase):
             self.assertIn(part, text)
         self.assertEqual(self.new_files(), set(leaves))
         return done
+
+    def plain_user(self):
+        """Whom to run as where permissions matter: root may do everything, so it hands over to nobody."""
+        if os.geteuid() != 0:
+            return None
+        os.chmod(self.folder, 0o755)
+        try:
+            self.run_program("--version", user=65534).check_returncode()
+        except (OSError, subprocess.SubprocessError):
+            self.skipTest("runs as root, and nobody may not start the program")
+        return 65534
 
     def new_files(self):
         return set(os.listdir(self.folder)) - self.given

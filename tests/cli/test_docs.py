@@ -43,7 +43,7 @@ class Docs(Case):
     def test_examples_are_right(self):
         # Every option of an example is one of the table's, and each example's command line is read without complaint.
         for line in re.findall(r"(?m)^  (lambent .*?)(?:  .*)?$", self.help().split("\nPicture:")[0]):
-            words = [w for w in line.split("<")[0].split()[1:] if not w.startswith("*")]
+            words = line.replace("*.stl", "cube.stl").split("<")[0].split()[1:]
             done = self.run_program(*words, "--memory-limit", "1k", stdin=b"")
             self.assertNotEqual(done.returncode, 1, (line, done.stderr))
 
@@ -75,8 +75,9 @@ class Docs(Case):
         page = self.good("generate", "man").stdout
         done = subprocess.run(["groff", "-man", "-ww", "-Tutf8", "-P-c"], input=page, capture_output=True, check=True)
         self.assertEqual(done.stderr, b"")
+        plain = re.sub(b".\b", b"", done.stdout)  # without overstriking
         for word in (b"--crease-angle", b"EXIT STATUS", b"EXAMPLES", b"NO_COLOR"):
-            self.assertIn(word, done.stdout)
+            self.assertIn(word, plain)
 
     def test_schema_describes_every_option_word(self):
         schema = (ROOT / "docs" / "report.schema.json").read_text()

@@ -269,7 +269,7 @@ class CommandLine(Case):
 
     def test_forms(self):
         for words in (("--size=20", "cube.obj"), ("--size", "20", "cube.obj"), ("-s20", "cube.obj"), ("-s", 20, "cube.obj"),
-                      ("render", "cube.obj", "-s", "20"), ("-s", 99, "-s", 20, "--", "cube.obj")):
+                      ("render", "cube.obj", "-s", "20"), ("-s", 99, "-s", 20, "cube.obj")):
             self.assertEqual(self.report(*words)["image"]["width"], 20)
         done = self.good("-qs20", "cube.obj")
         self.assertEqual((done.stdout, done.stderr), (b"", b""))

@@ -1,0 +1,412 @@
+// scenes.c: demonstration scenes: shapes, materials, lights, cameras, and the corners of the pipeline.
+#include "scenes.h"
+
+#include <string.h>
+
+// --- small words
+
+static int shape(struct demo *d, const char *name, int slices, int stacks, lam_error *error)
+{
+    lam_shape_params params = {.slices = slices, .stacks = stacks};
+    return lam_scene_add_shape(d->scene, name, &params, error);
+}
+
+static int material(struct demo *d, lam_rgba diffuse, float specular, float shininess, lam_error *error)
+{
+    lam_material m = lam_material_default();
+    m.ambient = (lam_rgb){diffuse.r, diffuse.g, diffuse.b};
+    m.diffuse = diffuse;
+    m.specular = (lam_rgb){specular, specular, specular};
+    m.shininess = shininess;
+    return lam_scene_add_material(d->scene, &m, error);
+}
+
+static int named(struct demo *d, lam_material_id id, lam_error *error)
+{
+    lam_material m = lam_material_named(id);
+    return lam_scene_add_material(d->scene, &m, error);
+}
+
+// Places a mesh: scaled, then moved.
+static bool place(struct demo *d, int mesh, int mat, lam_vec3 scale, lam_vec3 move, lam_error *error)
+{
+    lam_object o = lam_object_default();
+    o.mesh = mesh;
+    o.material = mat;
+    o.transform.m[0][0] = scale.x;
+    o.transform.m[1][1] = scale.y;
+    o.transform.m[2][2] = scale.z;
+    o.transform.m[0][3] = move.x;
+    o.transform.m[1][3] = move.y;
+    o.transform.m[2][3] = move.z;
+    return mesh >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
+}
+
+static bool put(struct demo *d, int mesh, int mat, lam_error *error)
+{
+    return place(d, mesh, mat, (lam_vec3){1, 1, 1}, (lam_vec3){0, 0, 0}, error);
+}
+
+static void look(struct demo *d, lam_vec3 eye, lam_vec3 target, double fovy_deg)
+{
+    d->camera = lam_camera_default();
+    d->camera.eye = eye;
+    d->camera.target = target;
+    d->camera.fovy_rad = fovy_deg * 3.14159265358979323846 / 180;
+}
+
+static void fit(struct demo *d)
+{
+    lam_view view = {.aspect = (double)d->width / d->height};
+    d->camera = lam_camera_fit(d->scene, &view);
+}
+
+static bool point_light(struct demo *d, lam_vec3 position, lam_rgb color, lam_attenuation attenuation, lam_error *error)
+{
+    lam_light l = lam_light_default(LAM_LIGHT_POINT);
+    l.position = position;
+    l.diffuse = l.specular = color;
+    l.attenuation = attenuation;
+    return lam_scene_add_light(d->scene, &l, error) >= 0;
+}
+
+// --- one model in the default light, drawn in different ways
+
+static bool one_shape(struct demo *d, const char *name, int slices, int stacks, lam_error *error)
+{
+    bool ok = put(d, shape(d, name, slices, stacks, error), -1, error);
+    fit(d);
+    return ok;
+}
+
+static bool teapot(struct demo *d, lam_error *error) { return one_shape(d, "teapot", 0, 0, error); }
+static bool gyroid(struct demo *d, lam_error *error) { return one_shape(d, "gyroid", 0, 0, error); }
+static bool metaballs(struct demo *d, lam_error *error) { return one_shape(d, "metaballs", 0, 0, error); }
+static bool cone(struct demo *d, lam_error *error) { return one_shape(d, "cone", 48, 0, error); }
+static bool cylinder(struct demo *d, lam_error *error) { return one_shape(d, "cylinder", 48, 0, error); }
+
+static bool shaded_sphere(struct demo *d, lam_shading shading, lam_error *error)
+{
+    d->params.shading = shading;
+    bool ok = put(d, shape(d, "sphere", 20, 10, error), named(d, LAM_MATERIAL_BRASS, error), error);
+    fit(d);
+    return ok && point_light(d, (lam_vec3){2, 3, 4}, (lam_rgb){1, 1, 1}, (lam_attenuation){1, 0, 0}, error);
+}
+
+static bool sphere_flat(struct demo *d, lam_error *e) { return shaded_sphere(d, LAM_SHADING_FLAT, e); }
+static bool sphere_gouraud(struct demo *d, lam_error *e) { return shaded_sphere(d, LAM_SHADING_GOURAUD, e); }
+static bool sphere_phong(struct demo *d, lam_error *e) { return shaded_sphere(d, LAM_SHADING_PHONG, e); }
+
+static bool reflected_knot(struct demo *d, lam_reflection reflection, lam_error *error)
+{
+    d->params.reflection = reflection;
+    bool ok = put(d, shape(d, "torus-knot", 160, 24, error), material(d, (lam_rgba){0.5f, 0.15f, 0.1f, 1}, 0.6f, 24, error), error);
+    fit(d);
+    return ok && point_light(d, (lam_vec3){3, 4, 5}, (lam_rgb){1, 1, 0.9f}, (lam_attenuation){1, 0.02f, 0.005f}, error);
+}
+
+static bool knot_unlit(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_NONE, e); }
+static bool knot_lambert(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_LAMBERT, e); }
+static bool knot_phong(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_PHONG, e); }
+static bool knot_blinn(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_BLINN_PHONG, e); }
+static bool knot_kajiya(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_KAJIYA_KAY, e); }
+static bool knot_lecture(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_KAJIYA_KAY_LECTURE, e); }
+
+// --- lights
+
+static bool lights(struct demo *d, lam_error *error)
+{
+    int white = material(d, (lam_rgba){0.8f, 0.8f, 0.8f, 1}, 0.3f, 60, error);
+    bool ok = place(d, shape(d, "plane", 8, 8, error), white, (lam_vec3){4, 1, 4}, (lam_vec3){0, -1, 0}, error) &&
+              put(d, shape(d, "sphere", 64, 32, error), white, error) &&
+              point_light(d, (lam_vec3){-2, 1, 1}, (lam_rgb){1, 0.3f, 0.2f}, (lam_attenuation){1, 0.54f, 0.2f}, error);
+    lam_light sharp = lam_light_default(LAM_LIGHT_SPOT);
+    sharp.position = (lam_vec3){2, 3, 0};
+    sharp.direction = (lam_vec3){-0.2, -1, 0.3};
+    sharp.cutoff_rad = 0.35f;
+    sharp.exponent = 8;
+    sharp.diffuse = sharp.specular = (lam_rgb){0.2f, 0.9f, 0.3f};
+    lam_light soft = lam_light_default(LAM_LIGHT_SPOT);
+    soft.position = (lam_vec3){0, 3, 2.5};
+    soft.direction = (lam_vec3){0, -1, -0.1};
+    soft.inner_rad = 0.2f;
+    soft.outer_rad = 0.5f;
+    soft.diffuse = soft.specular = (lam_rgb){0.3f, 0.4f, 1};
+    soft.range = 6;
+    lam_light wide = lam_light_default(LAM_LIGHT_SPOT);
+    wide.position = (lam_vec3){-3, 2, -2};
+    wide.direction = (lam_vec3){1, -1, 1};
+    wide.cutoff_rad = 0;
+    wide.exponent = 30;
+    wide.attenuation = (lam_attenuation){0, 0, 0.2f};
+    lam_light sun = lam_light_default(LAM_LIGHT_DIRECTIONAL);
+    sun.direction = (lam_vec3){-1, -2, -1};
+    sun.diffuse = sun.specular = (lam_rgb){0.15f, 0.15f, 0.1f};
+    lam_light sky = lam_light_default(LAM_LIGHT_HEMISPHERE);
+    sky.sky = (lam_rgb){0.1f, 0.1f, 0.2f};
+    sky.ground = (lam_rgb){0.05f, 0.03f, 0};
+    lam_light everywhere = lam_light_default(LAM_LIGHT_AMBIENT);
+    everywhere.ambient = (lam_rgb){0.02f, 0.02f, 0.02f};
+    const lam_light *all[] = {&sharp, &soft, &wide, &sun, &sky, &everywhere};
+    for (int i = 0; i < 6; i++)
+        ok = ok && lam_scene_add_light(d->scene, all[i], error) >= 0;
+    look(d, (lam_vec3){0, 4, 6}, (lam_vec3){0, -0.3, 0}, 40);
+    return ok;
+}
+
+static bool frames(struct demo *d, lam_error *error)
+{
+    int mesh = shape(d, "torus", 64, 32, error);
+    lam_object o = lam_object_default();
+    o.mesh = mesh;
+    o.name = "ring";
+    const double s = 0.86602540378443865, c = 0.5; // turned by 60° about x
+    o.transform.m[1][1] = o.transform.m[2][2] = c;
+    o.transform.m[1][2] = -s;
+    o.transform.m[2][1] = s;
+    bool ok = mesh >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
+    lam_rgb colors[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int i = 0; i < 3; i++) {
+        lam_light l = lam_light_default(LAM_LIGHT_POINT);
+        l.frame = (lam_light_frame)i;
+        l.object = "ring";
+        l.position = i == LAM_FRAME_CAMERA ? (lam_vec3){-3, 0, 0} : (lam_vec3){0, 3, 0.5};
+        l.diffuse = l.specular = colors[i];
+        ok = ok && lam_scene_add_light(d->scene, &l, error) >= 0;
+    }
+    look(d, (lam_vec3){1, 2, 4}, (lam_vec3){0, 0, 0}, 35);
+    return ok;
+}
+
+// --- sides, transforms, cameras
+
+// An open bowl that shows both its sides: the lower half of a sphere.
+static void bowl_surface(void *user, double u, double v, lam_surface_point *out)
+{
+    (void)user;
+    // A paraboloid over a square: y = (u² + v²)/2, so that everything is a polynomial. ∂v × ∂u points up; outward is down.
+    out->p = (lam_vec3){u, 0.5 * (u * u + v * v), v};
+    out->dp_du = (lam_vec3){1, u, 0};
+    out->dp_dv = (lam_vec3){0, v, 1};
+}
+
+static int bowl(struct demo *d, lam_error *error)
+{
+    lam_parametric p = {.surface = bowl_surface, .u_min = -1, .u_max = 1, .v_min = -1, .v_max = 1, .u_segments = 24, .v_segments = 24};
+    return lam_scene_add_parametric(d->scene, &p, NULL, error);
+}
+
+static bool bowl_with(struct demo *d, bool one_sided, lam_cull cull, bool mirrored, lam_error *error)
+{
+    lam_object o = lam_object_default();
+    o.mesh = bowl(d, error);
+    o.material = material(d, (lam_rgba){0.2f, 0.4f, 0.8f, 1}, 0.4f, 40, error);
+    o.back_material = material(d, (lam_rgba){0.8f, 0.2f, 0.1f, 1}, 0.4f, 10, error);
+    o.one_sided = one_sided;
+    o.cull = cull;
+    o.transform.m[0][0] = mirrored ? -1 : 1;
+    o.transform.m[1][1] = 1.5;
+    look(d, (lam_vec3){1, 2.4, 3.4}, (lam_vec3){0, 0.5, 0}, 40);
+    return o.mesh >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
+}
+
+static bool two_sides(struct demo *d, lam_error *e) { return bowl_with(d, false, LAM_CULL_NONE, false, e); }
+static bool two_sides_mirrored(struct demo *d, lam_error *e) { return bowl_with(d, false, LAM_CULL_NONE, true, e); }
+static bool one_side(struct demo *d, lam_error *e) { return bowl_with(d, true, LAM_CULL_NONE, false, e); }
+static bool culled_back(struct demo *d, lam_error *e) { return bowl_with(d, false, LAM_CULL_BACK, false, e); }
+static bool culled_front(struct demo *d, lam_error *e) { return bowl_with(d, false, LAM_CULL_FRONT, true, e); }
+
+static bool stretched(struct demo *d, lam_error *error)
+{
+    int gold = named(d, LAM_MATERIAL_GOLD, error), mesh = shape(d, "sphere", 48, 24, error);
+    bool ok = place(d, mesh, gold, (lam_vec3){0.4, 1.6, 0.8}, (lam_vec3){-1, 0, 0}, error) &&
+              place(d, mesh, gold, (lam_vec3){-0.9, 0.3, 0.9}, (lam_vec3){0.7, 0, 0}, error);
+    fit(d);
+    return ok;
+}
+
+static bool orthographic(struct demo *d, lam_error *error)
+{
+    int mesh = shape(d, "cube", 0, 0, error);
+    bool ok = place(d, mesh, named(d, LAM_MATERIAL_JADE, error), (lam_vec3){1, 1, 1}, (lam_vec3){-0.7, 0, 0}, error) &&
+              place(d, mesh, named(d, LAM_MATERIAL_RUBY, error), (lam_vec3){0.8, 0.8, 0.8}, (lam_vec3){0.3, 0.35, 0.4}, error);
+    lam_view view = {.orthographic = true, .aspect = (double)d->width / d->height};
+    d->camera = lam_camera_fit(d->scene, &view);
+    return ok;
+}
+
+static bool inside(struct demo *d, lam_error *error)
+{
+    bool ok = put(d, shape(d, "gyroid", 48, 0, error), named(d, LAM_MATERIAL_TURQUOISE, error), error);
+    look(d, (lam_vec3){0.1, 0.05, 0.12}, (lam_vec3){-0.4, -0.2, -1}, 90);
+    return ok;
+}
+
+// A ground of two triangles that reaches far behind the eye: clipped at the near plane and at the guard band.
+static bool ground(struct demo *d, lam_error *error)
+{
+    static const float corners[12] = {-20000, 0, 20000, 20000, 0, 20000, 20000, 0, -20000, -20000, 0, -20000};
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    lam_mesh square = {.positions = corners, .vertex_count = 4, .indices = indices, .triangle_count = 2};
+    bool ok = put(d, lam_scene_add_mesh(d->scene, &square, error), -1, error) &&
+              place(d, shape(d, "sphere", 32, 16, error), named(d, LAM_MATERIAL_COPPER, error), (lam_vec3){1, 1, 1},
+                    (lam_vec3){0, 1, -6}, error) &&
+              point_light(d, (lam_vec3){2, 4, -3}, (lam_rgb){1, 1, 1}, (lam_attenuation){0.2f, 0.05f, 0.02f}, error);
+    look(d, (lam_vec3){0, 1.5, 2}, (lam_vec3){0, 0.9, -6}, 50);
+    d->camera.near_plane = 0.01;
+    d->camera.far_plane = 1000;
+    return ok;
+}
+
+static bool planes(struct demo *d, lam_error *error)
+{
+    bool ok = put(d, shape(d, "torus", 48, 24, error), named(d, LAM_MATERIAL_PEARL, error), error);
+    look(d, (lam_vec3){1, 2, 2.5}, (lam_vec3){0, 0, 0}, 40);
+    d->camera.near_plane = 2.9;
+    d->camera.far_plane = 3.7;
+    return ok;
+}
+
+static bool intersecting(struct demo *d, lam_error *error)
+{
+    bool ok = put(d, shape(d, "cube", 0, 0, error), named(d, LAM_MATERIAL_RED_PLASTIC, error), error) &&
+              place(d, shape(d, "sphere", 64, 32, error), named(d, LAM_MATERIAL_CYAN_RUBBER, error), (lam_vec3){0.8, 0.8, 0.8},
+                    (lam_vec3){0.3, 0.25, 0.2}, error);
+    fit(d);
+    return ok;
+}
+
+// Triangles far smaller than a sample and longer than the picture.
+static bool slivers(struct demo *d, lam_error *error)
+{
+    enum { COUNT = 40 };
+    float positions[COUNT * 9];
+    for (int i = 0; i < COUNT; i++) {
+        float t = (float)i / COUNT * 2 - 1;
+        float corners[9] = {-1, t, 0, 1, -t, 0.2f * t, 1, -t + 0.004f * (float)(i + 1), 0.2f * t};
+        memcpy(positions + 9 * i, corners, sizeof corners);
+    }
+    lam_mesh mesh = {.positions = positions, .vertex_count = 3 * COUNT, .triangle_count = COUNT};
+    look(d, (lam_vec3){0, 0, 3}, (lam_vec3){0, 0, 0}, 40);
+    return put(d, lam_scene_add_mesh(d->scene, &mesh, error), -1, error);
+}
+
+static bool coloured(struct demo *d, lam_rate rate, lam_error *error)
+{
+    static const float p[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+    static const float n[3] = {0, 0, 1};
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3}, normals[6] = {0};
+    static const uint8_t colors[16] = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
+    lam_mesh mesh = {.positions = p, .vertex_count = 4, .indices = indices, .triangle_count = 2, .normals = n,
+                     .normal_count = 1, .normal_indices = normals, .colors = colors, .color_count = 4,
+                     .colors_format = LAM_COLORS_SRGB8, .colors_rate = rate};
+    look(d, (lam_vec3){1.5, 1, 3}, (lam_vec3){0, 0, 0}, 40);
+    return put(d, lam_scene_add_mesh(d->scene, &mesh, error), -1, error);
+}
+
+static bool vertex_colours(struct demo *d, lam_error *e) { return coloured(d, LAM_PER_VERTEX, e); }
+static bool triangle_colours(struct demo *d, lam_error *e) { return coloured(d, LAM_PER_TRIANGLE, e); }
+
+// 500 km from zero: the same picture as near it.
+static bool far_away(struct demo *d, lam_error *error)
+{
+    static const float p[12] = {0, 0, 0, 0.01f, 0, 0, 0, 0.01f, 0, 0, 0, 0.01f};
+    static const uint32_t indices[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    lam_mesh mesh = {.origin = {5e5, 2e5, -3e5}, .positions = p, .vertex_count = 4, .indices = indices, .triangle_count = 4};
+    bool ok = put(d, lam_scene_add_mesh(d->scene, &mesh, error), -1, error);
+    fit(d);
+    return ok;
+}
+
+// --- pixels
+
+static bool with_samples(struct demo *d, int samples, lam_error *error)
+{
+    d->params.samples = samples;
+    d->width = d->height = 80;
+    return one_shape(d, "torus-knot", 96, 12, error);
+}
+
+static bool samples_1(struct demo *d, lam_error *e) { return with_samples(d, 1, e); }
+static bool samples_2(struct demo *d, lam_error *e) { return with_samples(d, 2, e); }
+static bool samples_8(struct demo *d, lam_error *e) { return with_samples(d, 8, e); }
+static bool samples_16(struct demo *d, lam_error *e) { return with_samples(d, 16, e); }
+
+static bool raw(struct demo *d, lam_error *error)
+{
+    d->params.color = LAM_COLOR_RAW;
+    d->params.background = (lam_rgba){0.2f, 0.3f, 0.4f, 0.5f};
+    return shaded_sphere(d, LAM_SHADING_PHONG, error);
+}
+
+static bool floats(struct demo *d, lam_error *error)
+{
+    d->format = LAM_RGBA32F;
+    d->params.background = (lam_rgba){0.1f, 0.1f, 0.1f, 1};
+    return shaded_sphere(d, LAM_SHADING_PHONG, error);
+}
+
+static bool nothing(struct demo *d, lam_error *error)
+{
+    (void)error;
+    d->width = 70;
+    d->height = 3;
+    d->params.background = (lam_rgba){1, 0.5f, 0.25f, 0.75f};
+    d->camera = lam_camera_default();
+    return true;
+}
+
+const struct demo_row demos[] = {
+    {"teapot", "the Utah teapot in the studio light", teapot},
+    {"gyroid", "an implicit surface with normals from the gradient", gyroid},
+    {"metaballs", "an implicit surface: three balls that flow together", metaballs},
+    {"cone", "a cone: smooth around, flat below, a clean tip", cone},
+    {"cylinder", "a cylinder: smooth around, flat ends", cylinder},
+    {"sphere-flat", "a coarse brass sphere, one colour for each triangle", sphere_flat},
+    {"sphere-gouraud", "the same, lit at its vertices", sphere_gouraud},
+    {"sphere-phong", "the same, lit at every pixel", sphere_phong},
+    {"knot-unlit", "the diffuse colour alone", knot_unlit},
+    {"knot-lambert", "diffuse light without a highlight", knot_lambert},
+    {"knot-phong", "Phong's highlight", knot_phong},
+    {"knot-blinn-phong", "Blinn's highlight: wider at the same exponent", knot_blinn},
+    {"knot-kajiya-kay", "highlights along threads round the axis", knot_kajiya},
+    {"knot-kajiya-kay-lecture", "the same with the lecture's sign", knot_lecture},
+    {"lights", "every type of light on one sphere and a plane", lights},
+    {"frames", "three lights: in world, camera and object space", frames},
+    {"two-sides", "a bowl, blue outside, red inside", two_sides},
+    {"two-sides-mirrored", "the same under a mirroring transform: still blue outside", two_sides_mirrored},
+    {"one-side", "the same with two sides off: blue and dark inside", one_side},
+    {"culled-back", "the inside is not drawn", culled_back},
+    {"culled-front", "the outside is not drawn, mirrored", culled_front},
+    {"stretched", "non-uniform scale and a mirror: highlights where they belong", stretched},
+    {"orthographic", "two boxes without perspective", orthographic},
+    {"inside", "the camera within the model", inside},
+    {"ground", "a plane through the eye's own place, clipped in front of it", ground},
+    {"planes", "a torus cut by the near and the far plane", planes},
+    {"intersecting", "a sphere through a box", intersecting},
+    {"slivers", "triangles thinner than a pixel and longer than the picture", slivers},
+    {"vertex-colours", "colours interpolated over a square", vertex_colours},
+    {"triangle-colours", "a colour for each triangle", triangle_colours},
+    {"far-away", "a centimetre of model 500 km from zero", far_away},
+    {"samples-1", "no antialiasing", samples_1},
+    {"samples-2", "2 samples a pixel", samples_2},
+    {"samples-8", "8 samples a pixel", samples_8},
+    {"samples-16", "16 samples a pixel", samples_16},
+    {"raw", "numbers as the equations give them, over half a background", raw},
+    {"floats", "linear floats", floats},
+    {"nothing", "an empty scene: the background, in a picture narrower than a tile", nothing},
+};
+const int demo_count = sizeof demos / sizeof demos[0];
+
+bool demo_build(const struct demo_row *row, struct demo *demo, lam_error *error)
+{
+    *demo = (struct demo){.width = 160, .height = 120};
+    demo->scene = lam_scene_make(error);
+    if (!demo->scene)
+        return false;
+    if (row->build(demo, error))
+        return true;
+    lam_scene_free(demo->scene);
+    demo->scene = NULL;
+    return false;
+}

@@ -1,0 +1,29 @@
+// scenes.h: demonstration scenes, one table, shared by the image tests, the benchmarks, the viewer and the web page.
+#ifndef SCENES_H
+#define SCENES_H
+
+#include <lambent/lambent.h>
+
+// A scene with everything that decides its picture. The caller frees the scene.
+struct demo {
+    lam_scene *scene;
+    lam_camera camera;
+    lam_draw_params params;
+    int width, height; // of the picture in the tests
+    lam_pixel_format format;
+};
+
+struct demo_row {
+    const char *name;    // lower case, hyphens
+    const char *summary; // what the picture shows and what would be wrong in it
+    bool (*build)(struct demo *demo, lam_error *error);
+};
+
+// The table, and its length.
+extern const struct demo_row demos[];
+extern const int demo_count;
+
+// Builds a scene of the table. False: the error tells why, and nothing is left to free.
+bool demo_build(const struct demo_row *row, struct demo *demo, lam_error *error);
+
+#endif

@@ -1,0 +1,185 @@
+// test_images.c: every demonstration scene, drawn with every instruction set and thread count, has exactly the recorded bytes.
+//
+//   test-images              compares with tests/images/expected/
+//   test-images --update     records what the plain kernels draw now (look at the pictures before you commit them)
+//
+// A failure leaves NAME.actual.png and NAME.difference.png in the working directory.
+#include "scenes.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#ifndef EXPECTED
+#error "EXPECTED is the folder of the recorded pictures"
+#endif
+
+static size_t image_bytes(const lam_image *image)
+{
+    return (size_t)image->width * (size_t)image->height * (image->format == LAM_RGBA8 ? 4 : 16);
+}
+
+// FNV-1a, 64 bits.
+static uint64_t hash_of(const void *bytes, size_t size)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ ((const uint8_t *)bytes)[i]) * 0x100000001b3u;
+    return hash;
+}
+
+static void draw(const struct demo *demo, lam_isa isa, int threads, lam_image *image)
+{
+    lam_error error = {0};
+    lam_cpu_params params = {.threads = threads, .isa = isa};
+    lam_device *device = lam_device_cpu(&params, &error);
+    if (!device)
+        fail_msg("%s", error.text);
+    *image = (lam_image){0};
+    if (!lam_image_make(image, demo->width, demo->height, demo->format, &error))
+        fail_msg("%s", error.text);
+    // Twice: the second frame finds the first one's memory.
+    for (int i = 0; i < 2; i++)
+        if (!lam_draw(device, demo->scene, &demo->camera, &demo->params, image, NULL, &error))
+            fail_msg("%s", error.text);
+    lam_device_free(device);
+}
+
+// The hash of the pixels, and of the file that they are written to.
+struct hashes {
+    uint64_t pixels, file;
+};
+
+static struct hashes hashes_of(const lam_image *image, int threads)
+{
+    lam_error error = {0};
+    lam_bytes bytes = {0};
+    lam_save_params params = {.threads = threads};
+    const char *format = image->format == LAM_RGBA8 ? "png" : "pfm";
+    if (!lam_image_encode(image, format, &params, &bytes, &error))
+        fail_msg("%s", error.text);
+    struct hashes hashes = {hash_of(image->pixels, image_bytes(image)), hash_of(bytes.data, bytes.size)};
+    lam_bytes_free(&bytes);
+    return hashes;
+}
+
+// The recorded hashes: lines "name pixels file".
+static bool recorded(const char *name, struct hashes *hashes)
+{
+    FILE *file = fopen(EXPECTED "/hashes.txt", "r");
+    char line[256], found[64];
+    unsigned long long pixels, bytes;
+    bool is = false;
+    while (file && !is && fgets(line, sizeof line, file))
+        is = sscanf(line, "%63s %llx %llx", found, &pixels, &bytes) == 3 && strcmp(found, name) == 0;
+    if (file)
+        fclose(file);
+    if (is)
+        *hashes = (struct hashes){pixels, bytes};
+    return is;
+}
+
+// Leaves pictures that show what is different.
+static void leave_pictures(const char *name, const lam_image *actual)
+{
+    lam_image expected = {0};
+    lam_error error;
+    char path[512];
+    snprintf(path, sizeof path, "%s.actual.%s", name, actual->format == LAM_RGBA8 ? "png" : "pfm");
+    lam_image_save(actual, path, NULL, &error);
+    snprintf(path, sizeof path, EXPECTED "/%s.png", name);
+    if (actual->format != LAM_RGBA8 || !lam_image_load(&expected, path, &error))
+        return;
+    lam_difference difference;
+    if (lam_image_compare(actual, &expected, &difference, &error)) {
+        uint8_t *to = expected.pixels;
+        const uint8_t *from = actual->pixels;
+        for (size_t i = 0; i < image_bytes(actual); i++) {
+            int apart = abs(to[i] - from[i]) * 16;
+            to[i] = i % 4 == 3 ? 255 : (uint8_t)(apart > 255 ? 255 : apart);
+        }
+        snprintf(path, sizeof path, "%s.difference.png", name);
+        lam_image_save(&expected, path, NULL, &error);
+        print_message("%s: largest difference %g/255, %.2f %% of pixels off by more than 1/255\n", name,
+                      difference.maximum * 255, difference.share_over_1 * 100);
+    }
+    lam_image_free(&expected);
+}
+
+static void check_scene(void **state)
+{
+    const struct demo_row *row = *state;
+    struct demo demo;
+    lam_error error = {0};
+    if (!demo_build(row, &demo, &error))
+        fail_msg("%s: %s", row->name, error.text);
+    struct hashes expected;
+    if (!recorded(row->name, &expected))
+        fail_msg("%s: no hash is recorded; test-images --update records it", row->name);
+    static const int threads[] = {1, 2, 5};
+    for (int isa = LAM_ISA_PLAIN; isa < LAM_ISA_COUNT; isa++)
+        for (int t = 0; t < 3 && lam_isa_usable((lam_isa)isa); t++) {
+            lam_image image;
+            draw(&demo, (lam_isa)isa, threads[t], &image);
+            struct hashes hashes = hashes_of(&image, threads[t]);
+            if (hashes.pixels != expected.pixels)
+                leave_pictures(row->name, &image);
+            lam_image_free(&image);
+            if (hashes.pixels != expected.pixels)
+                fail_msg("%s: %s with %d threads drew %016llx, recorded is %016llx", row->name, lam_isa_name((lam_isa)isa),
+                         threads[t], (unsigned long long)hashes.pixels, (unsigned long long)expected.pixels);
+            if (hashes.file != expected.file)
+                fail_msg("%s: %s with %d threads wrote a file %016llx, recorded is %016llx", row->name,
+                         lam_isa_name((lam_isa)isa), threads[t], (unsigned long long)hashes.file,
+                         (unsigned long long)expected.file);
+        }
+    lam_scene_free(demo.scene);
+}
+
+static int update(void)
+{
+    FILE *file = fopen(EXPECTED "/hashes.txt", "w");
+    if (!file) {
+        perror(EXPECTED "/hashes.txt");
+        return 1;
+    }
+    for (int i = 0; i < demo_count; i++) {
+        struct demo demo;
+        lam_error error = {0};
+        lam_image image;
+        if (!demo_build(&demos[i], &demo, &error)) {
+            fprintf(stderr, "%s: %s\n", demos[i].name, error.text);
+            return 1;
+        }
+        draw(&demo, LAM_ISA_PLAIN, 1, &image);
+        struct hashes hashes = hashes_of(&image, 1);
+        fprintf(file, "%s %016llx %016llx\n", demos[i].name, (unsigned long long)hashes.pixels,
+                (unsigned long long)hashes.file);
+        char path[512];
+        snprintf(path, sizeof path, EXPECTED "/%s.png", demos[i].name);
+        if (image.format == LAM_RGBA8 && !lam_image_save(&image, path, NULL, &error))
+            fprintf(stderr, "%s\n", error.text);
+        lam_image_free(&image);
+        lam_scene_free(demo.scene);
+    }
+    return fclose(file) == 0 ? 0 : 1;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1 && strcmp(argv[1], "--update") == 0)
+        return update();
+    struct CMUnitTest *tests = calloc((size_t)demo_count, sizeof *tests);
+    for (int i = 0; i < demo_count; i++)
+        tests[i] = (struct CMUnitTest){demos[i].name, check_scene, NULL, NULL, (void *)(uintptr_t)&demos[i]};
+    // Not the macro: the table's length is not known to the compiler.
+    int failed = _cmocka_run_group_tests("images", tests, (size_t)demo_count, NULL, NULL);
+    free(tests);
+    return failed;
+}

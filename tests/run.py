@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""run.py: the whole test suite: builds with both compilers, in release and debug, with sanitizers, runs every test, counts.
+
+The last line is `N passed, N failed` (and skipped), counted from the test programs' own output. Everything is built in
+build-test/; a variant's log is build-test/VARIANT/meson-logs/testlog.txt.
+"""
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+OUT = os.path.join(ROOT, "build-test")
+
+# Each variant is the same tree built another way. "only" names the tests that it adds something to.
+VARIANTS = [
+    {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"]},
+    {"name": "clang-sanitized", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Db_sanitize=address,undefined",
+                                                          "-Db_lundef=false"]},
+    {"name": "gcc-debug", "cc": "gcc", "options": ["--buildtype=debug"], "only": ["images", "lighting-widths", "shapes"]},
+    {"name": "clang-release", "cc": "clang", "options": ["--buildtype=release"], "only": ["images", "lighting-widths", "shapes"]},
+    {"name": "clang-threads", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Db_sanitize=thread",
+                                                        "-Db_lundef=false"], "only": ["device", "obj", "ply", "stl"]},
+]
+
+ENVIRONMENT = {
+    # A sanitizer's report is a failure of the test that it came from.
+    "ASAN_OPTIONS": "detect_leaks=1:abort_on_error=0:allocator_may_return_null=1",
+    "UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1",
+    "TSAN_OPTIONS": "halt_on_error=1",
+    "CMOCKA_MESSAGE_OUTPUT": "TAP",
+}
+
+
+def run(command, **more):
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more)
+
+
+def build(variant):
+    """Configures where needed and builds; returns an error text or None."""
+    folder = os.path.join(OUT, variant["name"])
+    if not os.path.exists(os.path.join(folder, "build.ninja")):
+        done = run(["meson", "setup", folder, ROOT, "-Dtests=true"] + variant["options"], env={**os.environ, "CC": variant["cc"]})
+        if done.returncode:
+            return done.stdout
+    done = run(["ninja", "-C", folder])
+    warnings = [line for line in done.stdout.splitlines() if "warning:" in line]
+    if done.returncode:
+        return done.stdout
+    return "\n".join(warnings) if warnings else None
+
+
+def count(entry):
+    """Passed, failed and skipped checks of one test program, and the lines that tell of failures."""
+    output = entry.get("stdout", "") + entry.get("stderr", "")
+    passed = len(re.findall(r"^ok \d+(?!.*# SKIP)", output, re.M))
+    skipped = len(re.findall(r"^ok \d+.*# SKIP", output, re.M))
+    failures = re.findall(r"^not ok .*", output, re.M)
+    if entry["result"] not in ("OK", "SKIP", "EXPECTEDFAIL") and not failures:
+        failures = ["%s: ended with %s (%s)" % (entry["name"], entry["result"], entry.get("returncode"))]
+    return passed, len(failures), skipped, failures
+
+
+def test(variant):
+    folder = os.path.join(OUT, variant["name"])
+    log = os.path.join(folder, "meson-logs", "testlog.json")
+    if os.path.exists(log):
+        os.remove(log)
+    run(["meson", "test", "-C", folder, "--no-rebuild", "--num-processes", "2"] + variant.get("only", []),
+        env={**os.environ, **ENVIRONMENT})
+    totals = [0, 0, 0]
+    if not os.path.exists(log):
+        print("  no test of this variant ran")
+        return [0, 1, 0]
+    for line in open(log):
+        entry = json.loads(line)
+        passed, failed, skipped, failures = count(entry)
+        if passed + failed + skipped == 0:
+            failed, failures = 1, ["%s: ran no check" % entry["name"]]
+        for i, n in enumerate((passed, failed, skipped)):
+            totals[i] += n
+        print("  %-28s %4d passed%s%s  %5.1f s" % (entry["name"], passed, ", %d failed" % failed if failed else "",
+                                                  ", %d skipped" % skipped if skipped else "", entry.get("duration", 0)))
+        if failed:
+            print("    " + "\n    ".join(failures[:20]))
+            print("    " + "\n    ".join((entry.get("stdout", "") + entry.get("stderr", "")).splitlines()[-40:]))
+        sys.stdout.flush()
+    return totals
+
+
+def main():
+    names = sys.argv[1:]
+    totals = [0, 0, 0]
+    for variant in VARIANTS:
+        if names and variant["name"] not in names:
+            continue
+        start = time.time()
+        print("%s: building" % variant["name"], flush=True)
+        problem = build(variant)
+        if problem:
+            print(problem[-6000:])
+            totals[1] += 1  # neither a broken build nor a warning passes
+        built = time.time()
+        print("%s: built in %.0f s, testing" % (variant["name"], built - start), flush=True)
+        result = test(variant)
+        totals = [a + b for a, b in zip(totals, result)]
+        print("%s: %d passed, %d failed, %d skipped in %.0f s" % (variant["name"], *result, time.time() - built), flush=True)
+    line = "%d passed, %d failed" % (totals[0], totals[1])
+    print(line + (", %d skipped" % totals[2] if totals[2] else ""))
+    return 1 if totals[1] or not totals[0] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,316 @@
+// test_device.c: the front of the devices: arguments, control, sharing, memory, the caller's floating-point state.
+#include "scenes.h"
+
+#include "float_state.h"
+#include "pool.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <pthread.h>
+
+static const struct demo_row *demo_named(const char *name)
+{
+    for (int i = 0; i < demo_count; i++)
+        if (strcmp(demos[i].name, name) == 0)
+            return &demos[i];
+    fail_msg("no scene '%s'", name);
+    return NULL;
+}
+
+static struct demo make_demo(const char *name)
+{
+    struct demo demo;
+    lam_error error = {0};
+    if (!demo_build(demo_named(name), &demo, &error))
+        fail_msg("%s", error.text);
+    return demo;
+}
+
+static lam_device *make_device(int threads)
+{
+    lam_error error = {0};
+    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = threads}, &error);
+    if (!device)
+        fail_msg("%s", error.text);
+    return device;
+}
+
+static lam_image make_image(int width, int height)
+{
+    lam_image image = {0};
+    assert_true(lam_image_make(&image, width, height, LAM_RGBA8, NULL));
+    return image;
+}
+
+static void test_arguments(void **state)
+{
+    (void)state;
+    struct demo demo = make_demo("sphere-phong");
+    lam_device *device = make_device(1);
+    lam_image image = make_image(32, 32), none = {0};
+    lam_error error;
+    lam_camera camera = demo.camera;
+    lam_draw_params params = {0};
+
+    assert_false(lam_draw(NULL, demo.scene, &camera, NULL, &image, NULL, &error));
+    assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+    assert_false(lam_draw(device, NULL, &camera, NULL, &image, NULL, &error));
+    assert_false(lam_draw(device, demo.scene, NULL, NULL, &image, NULL, &error));
+    assert_false(lam_draw(device, demo.scene, &camera, NULL, &none, NULL, &error));
+    assert_non_null(strstr(error.text, "no pixels"));
+    assert_false(lam_draw(device, demo.scene, &camera, NULL, &image, NULL, NULL) && false);
+
+    params.samples = 3;
+    assert_false(lam_draw(device, demo.scene, &camera, &params, &image, NULL, &error));
+    assert_non_null(strstr(error.text, "samples is 3"));
+    params = (lam_draw_params){.background = {NAN, 0, 0, 1}};
+    assert_false(lam_draw(device, demo.scene, &camera, &params, &image, NULL, &error));
+    camera.fovy_rad = 4;
+    assert_false(lam_draw(device, demo.scene, &camera, NULL, &image, NULL, &error));
+    assert_non_null(strstr(error.text, "fovy"));
+    camera = demo.camera;
+    camera.target = camera.eye;
+    assert_false(lam_draw(device, demo.scene, &camera, NULL, &image, NULL, &error));
+    camera = demo.camera;
+    camera.near_plane = 2;
+    camera.far_plane = 1;
+    assert_false(lam_draw(device, demo.scene, &camera, NULL, &image, NULL, &error));
+    assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+
+    assert_null(lam_device_cpu(&(lam_cpu_params){.threads = -1}, &error));
+    assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+    lam_isa foreign = lam_isa_usable(LAM_ISA_NEON) ? LAM_ISA_AVX2 : LAM_ISA_NEON;
+    assert_null(lam_device_cpu(&(lam_cpu_params){.isa = foreign}, &error));
+    assert_int_equal(error.code, LAM_UNSUPPORTED);
+    lam_device_free(NULL);
+    lam_image_free(&image);
+    lam_device_free(device);
+    lam_scene_free(demo.scene);
+}
+
+static void test_cancel_and_limits(void **state)
+{
+    (void)state;
+    struct demo demo = make_demo("teapot");
+    lam_device *device = make_device(2);
+    lam_image image = make_image(256, 256);
+    lam_error error;
+    lam_cancel cancel = {0};
+    lam_cancel_raise(&cancel);
+    lam_control control = {.cancel = &cancel};
+    assert_false(lam_draw(device, demo.scene, &demo.camera, NULL, &image, &control, &error));
+    assert_int_equal(error.code, LAM_CANCELLED);
+    lam_cancel_clear(&cancel);
+    assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &image, &control, &error));
+
+    control = (lam_control){.time_limit_s = 1e-9};
+    assert_false(lam_draw(device, demo.scene, &demo.camera, NULL, &image, &control, &error));
+    assert_int_equal(error.code, LAM_LIMIT);
+    assert_non_null(strstr(error.text, "time limit"));
+
+    lam_device *fresh = make_device(1);
+    control = (lam_control){.memory_limit_bytes = 100000};
+    assert_false(lam_draw(fresh, demo.scene, &demo.camera, NULL, &image, &control, &error));
+    assert_int_equal(error.code, LAM_LIMIT);
+    assert_non_null(strstr(error.text, "memory limit"));
+    control.memory_limit_bytes = 64000000;
+    assert_true(lam_draw(fresh, demo.scene, &demo.camera, NULL, &image, &control, &error));
+    lam_device_free(fresh);
+    lam_image_free(&image);
+    lam_device_free(device);
+    lam_scene_free(demo.scene);
+}
+
+struct progress_seen {
+    double last;
+    int calls;
+    bool backwards;
+};
+
+static void see_progress(void *user, double share, const char *step)
+{
+    struct progress_seen *seen = user;
+    seen->backwards |= share < seen->last || share > 1 || !step;
+    seen->last = share;
+    seen->calls++;
+}
+
+static void test_progress(void **state)
+{
+    (void)state;
+    struct demo demo = make_demo("teapot");
+    lam_device *device = make_device(2);
+    lam_image image = make_image(512, 512);
+    struct progress_seen seen = {0};
+    lam_control control = {.progress = see_progress, .user = &seen};
+    assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &image, &control, NULL));
+    assert_true(seen.calls > 2);
+    assert_false(seen.backwards);
+    assert_true(seen.last == 1);
+    lam_image_free(&image);
+    lam_device_free(device);
+    lam_scene_free(demo.scene);
+}
+
+// After the first frame, drawing the same kind of frame allocates nothing.
+static void test_memory_settles(void **state)
+{
+    (void)state;
+    struct demo demo = make_demo("ground"); // clipped pieces too
+    lam_device *device = make_device(1);
+    lam_image image = make_image(300, 200);
+    lam_frame_report first, second;
+    assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &image, NULL, NULL));
+    lam_device_report(device, &first);
+    assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &image, NULL, NULL));
+    lam_device_report(device, &second);
+    assert_true(first.memory_bytes > 0);
+    assert_int_equal(first.memory_bytes, second.memory_bytes);
+    assert_int_equal(first.triangles, lam_scene_triangle_count(demo.scene));
+    assert_true(first.pixels_covered > 0 && first.points_lit >= first.pixels_covered);
+    lam_image_free(&image);
+    lam_device_free(device);
+    lam_scene_free(demo.scene);
+}
+
+// A host that rounds upwards and flushes denormals gets the same bytes, and its own state back.
+static void test_float_state(void **state)
+{
+    (void)state;
+#if defined(__SSE2__)
+    struct demo demo = make_demo("lights");
+    lam_device *device = make_device(2);
+    lam_image before = make_image(160, 120), after = make_image(160, 120);
+    assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &before, NULL, NULL));
+    unsigned own = _mm_getcsr();
+    unsigned odd = (own | 0x8040) & ~0x6000u;
+    odd |= 0x4000; // flush to zero, denormals are zero, round up
+    _mm_setcsr(odd);
+    struct demo again;
+    bool built = demo_build(demo_named("lights"), &again, NULL);
+    lam_device *made_here = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL); // its threads inherit the state
+    bool drawn = built && made_here && lam_draw(made_here, again.scene, &again.camera, NULL, &after, NULL, NULL);
+    unsigned left = _mm_getcsr();
+    _mm_setcsr(own);
+    assert_true(drawn);
+    assert_int_equal(left & ~0x3fu, odd & ~0x3fu);
+    assert_memory_equal(before.pixels, after.pixels, 160 * 120 * 4);
+    lam_image_free(&before);
+    lam_image_free(&after);
+    lam_device_free(device);
+    lam_device_free(made_here);
+    lam_scene_free(again.scene);
+    lam_scene_free(demo.scene);
+#else
+    skip();
+#endif
+}
+
+// Several threads, each with its own device, share one scene.
+struct sharing {
+    const struct demo *demo;
+    lam_image image;
+    bool ok;
+};
+
+static void *share_scene(void *argument)
+{
+    struct sharing *sharing = argument;
+    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL);
+    sharing->ok = device != NULL;
+    for (int i = 0; i < 3 && sharing->ok; i++)
+        sharing->ok = lam_draw(device, sharing->demo->scene, &sharing->demo->camera, &sharing->demo->params, &sharing->image,
+                               NULL, NULL);
+    lam_device_free(device);
+    return NULL;
+}
+
+static void test_shared_scene(void **state)
+{
+    (void)state;
+    struct demo demo = make_demo("knot-blinn-phong");
+    enum { THREADS = 4 };
+    struct sharing sharing[THREADS];
+    pthread_t threads[THREADS];
+    for (int i = 0; i < THREADS; i++) {
+        sharing[i] = (struct sharing){&demo, make_image(96, 96), false};
+        assert_int_equal(pthread_create(&threads[i], NULL, share_scene, &sharing[i]), 0);
+    }
+    for (int i = 0; i < THREADS; i++)
+        pthread_join(threads[i], NULL);
+    for (int i = 0; i < THREADS; i++) {
+        assert_true(sharing[i].ok);
+        assert_memory_equal(sharing[0].image.pixels, sharing[i].image.pixels, 96 * 96 * 4);
+    }
+    for (int i = 0; i < THREADS; i++)
+        lam_image_free(&sharing[i].image);
+    lam_scene_free(demo.scene);
+}
+
+static void test_null_device(void **state)
+{
+    (void)state;
+    struct demo demo = make_demo("sphere-flat");
+    lam_device *device = lam_device_null(NULL);
+    lam_image image = make_image(16, 16);
+    memset(image.pixels, 7, 16 * 16 * 4);
+    assert_string_equal(lam_device_name(device), "null");
+    assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &image, NULL, NULL));
+    assert_int_equal(((uint8_t *)image.pixels)[0], 0);
+    lam_frame_report report;
+    lam_device_report(device, &report);
+    assert_int_equal(report.triangles, lam_scene_triangle_count(demo.scene));
+    lam_image_free(&image);
+    lam_device_free(device);
+    lam_scene_free(demo.scene);
+}
+
+// The fitted camera: the projected vertices take 92 % of the tighter side and are centred.
+static void test_fit(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"teapot", "cone", "stretched"};
+    for (int n = 0; n < 3; n++)
+        for (int wide = 0; wide < 2; wide++) {
+            struct demo demo = make_demo(names[n]);
+            int width = wide ? 1000 : 400, height = wide ? 400 : 1000;
+            lam_camera camera = lam_camera_fit(demo.scene, &(lam_view){.aspect = (double)width / height});
+            lam_device *device = make_device(2);
+            lam_image image = make_image(width, height);
+            assert_true(lam_draw(device, demo.scene, &camera, NULL, &image, NULL, NULL));
+            int left = width, right = -1, top = height, bottom = -1;
+            for (int y = 0; y < height; y++)
+                for (int x = 0; x < width; x++)
+                    if (((uint8_t *)image.pixels)[4 * (y * width + x) + 3]) {
+                        left = x < left ? x : left;
+                        right = x > right ? x : right;
+                        top = y < top ? y : top;
+                        bottom = y;
+                    }
+            double across = (double)(right + 1 - left) / width, down = (double)(bottom + 1 - top) / height;
+            assert_true(fabs((across > down ? across : down) - 0.92) < 0.006);
+            assert_true(abs(left - (width - 1 - right)) <= 3);
+            assert_true(abs(top - (height - 1 - bottom)) <= 3);
+            lam_image_free(&image);
+            lam_device_free(device);
+            lam_scene_free(demo.scene);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_arguments),      cmocka_unit_test(test_cancel_and_limits), cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_memory_settles), cmocka_unit_test(test_float_state),       cmocka_unit_test(test_shared_scene),
+        cmocka_unit_test(test_null_device),    cmocka_unit_test(test_fit),
+    };
+    return cmocka_run_group_tests_name("device", tests, NULL, NULL);
+}

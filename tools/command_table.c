@@ -17,11 +17,11 @@ const struct command command_table[] = {
 };
 
 const struct example examples[] = {
-    {"lambent koala.obj", "writes koala.png: 1024x1024, transparent, three-quarter view"},
+    {"lambent koala.obj", "writes koala.png, 1024x1024, on a transparent ground"},
     {"lambent part.stl -o shot.png -b white", "another name, on white"},
-    {"lambent scan.ply -s 1920x1080 --view front", "another size, straight from the front"},
+    {"lambent scan.ply -s 640 --view front", "640x640, straight from the front"},
     {"lambent teapot", "a built-in shape (`lambent shapes` lists them)"},
-    {"lambent -q *.stl", "a picture of each model, no chatter"},
+    {"lambent -q *.stl -o pictures/", "a picture of each model, in a folder"},
     {"lambent - -o - < part.stl > part.png", "from standard input to standard output"},
     {"lambent koala.obj --json", "what was read, the camera, and the time of each step"},
     {NULL, NULL},
@@ -43,8 +43,9 @@ const struct topic topics[] = {
      "MODEL is a file, the name of a built-in shape, or `-` for standard input. The format is told by the content; the "
      "ending only helps. A built-in shape's name stands for the shape even where a file has that name: write "
      "`./teapot` for the file, and `./shapes` for a file that is called like a command.\n"
-     "Several models may be given: each becomes its own picture in the current folder. One that fails is told and the "
-     "others are still drawn; the exit code is then the highest one. `-o` and `-` go with a single model."},
+     "Several models may be given: each becomes its own picture, in the current folder or that of `-o pictures/`. One that "
+     "fails is told and the others are still drawn; the exit code is then the highest one. `-o FILE` and `-` go with a "
+     "single model."},
     {"Output",
      "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An older picture that lambent "
      "wrote (told by the `Software` text in the PNG) is replaced; any other file of that name stays, and the exit code "

@@ -76,11 +76,12 @@ static const struct word isa_words[] = {
     {NULL, 0, NULL}};
 
 const struct option option_table[] = {
-    {"output", 'o', GROUP_PICTURE, "FILE", "MODEL's name .png", "Write to FILE (.png, .ppm or .pfm; - is standard output).",
+    {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", "Write to FILE (.png, .ppm or .pfm), to the folder FILE/, or to standard output (-).",
      "The ending decides the format: `.png` (8 bits, sRGB, with alpha), `.ppm` (8 bits over the background), `.pfm` "
      "(linear floats, premultiplied by alpha). `-` writes a PNG to standard output. Without this option the picture "
      "goes to the current folder under the model's name with `.png` as its ending (`model.png` when the model comes "
-     "from standard input), and a file of that name which lambent did not write is never overwritten.",
+     "from standard input), and a file of that name which lambent did not write is never overwritten. `-o pictures/`, "
+     "with a slash at its end, does the same in that folder.",
      .takes_file = true, .store = store_text, FIELD(output)},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "Size in pixels: 800 is 800x800; 1920x1080.", NULL,
      .store = store_size, .most = 65535},

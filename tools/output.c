@@ -10,16 +10,19 @@
 
 #include "console.h"
 
-char *output_name(const char *model)
+bool output_is_named(const char *output) { return output && output[strlen(output) - 1] != '/'; }
+
+char *output_path(const char *output, const char *model)
 {
-    if (strcmp(model, "-") == 0)
-        return strdup("model.png");
-    const char *slash = strrchr(model, '/'), *name = slash ? slash + 1 : model;
+    if (output_is_named(output))
+        return strdup(output);
+    const char *folder = output ? output : "";
+    const char *slash = strrchr(model, '/'), *name = strcmp(model, "-") == 0 ? "model" : slash ? slash + 1 : model;
     const char *dot = strrchr(name, '.');
     int stem = (int)(dot && dot != name ? (size_t)(dot - name) : strlen(name));
-    char *path = malloc((size_t)stem + sizeof ".png");
+    char *path = malloc(strlen(folder) + (size_t)stem + sizeof ".png");
     if (path)
-        sprintf(path, "%.*s.png", stem, name);
+        sprintf(path, "%s%.*s.png", folder, stem, name);
     return path;
 }
 

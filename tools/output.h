@@ -4,9 +4,12 @@
 
 #include <lambent/lambent.h>
 
-// The name of the picture of a model when none is given, from malloc: "dir/koala.obj" gives "koala.png", "-" gives
-// "model.png". NULL when memory is out.
-char *output_name(const char *model);
+// Whether --output names the picture itself: neither left out (NULL) nor a folder ("thumbs/").
+bool output_is_named(const char *output);
+
+// Where the picture of a model goes, from malloc: where `output` names it, that; else the model's name with .png in that
+// folder or the current one: "dir/koala.obj" gives "koala.png", "-" gives "model.png". NULL when memory is out.
+char *output_path(const char *output, const char *model);
 
 // Whether `path` can be written, as far as can be told before the work is done: its folder is there and may be
 // written, it is no folder itself, and, where the user did not name it (`named` false), it is not somebody else's.

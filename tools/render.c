@@ -26,8 +26,9 @@ static bool check_together(int count, char **models, const struct options *o, la
         return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--%s' cannot be used together", view);
     if (o->quiet && o->verbose)
         return complain(error, LAM_BAD_ARGUMENT, "options '--quiet' and '--verbose' cannot be used together");
-    if (o->output && count > 1)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names one picture, but there are %d models", count);
+    if (output_is_named(o->output) && count > 1)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names one picture, but there are %d models; "
+                        "name a folder: -o pictures/", count);
     for (int i = 0; i < count; i++) {
         if (!*models[i])
             return complain(error, LAM_BAD_ARGUMENT, "a model's name is empty");
@@ -54,12 +55,12 @@ static int by_output(const void *a, const void *b)
     return strcmp(x->output, y->output);
 }
 
-static bool check_names(int count, char **models, lam_error *error)
+static bool check_names(int count, char **models, const char *output, lam_error *error)
 {
     struct named_output *named = calloc((size_t)count, sizeof *named);
     bool ok = named != NULL;
     for (int i = 0; ok && i < count; i++) {
-        named[i] = (struct named_output){models[i], output_name(models[i])};
+        named[i] = (struct named_output){models[i], output_path(output, models[i])};
         ok = named[i].output != NULL;
     }
     if (!ok)
@@ -269,7 +270,7 @@ static bool run_job(struct job *job, struct progress *progress, lam_error *error
     if (!to_output && !lam_image_format_for(job->output, &format, error))
         return false;
     job->format = to_output ? "png" : strrchr(job->output, '.') + 1;
-    if (!to_output && !output_check(job->output, job->model, o->output != NULL, error))
+    if (!to_output && !output_check(job->output, job->model, output_is_named(o->output), error))
         return false;
     if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &background, error))
         return false;
@@ -324,8 +325,8 @@ static int render_one(const char *model, lam_device *device, const struct option
     bool may_talk = stream != stderr;
     struct progress progress;
     progress_start(&progress, model, console_is_terminal() && !o->quiet && may_talk);
-    char *name = o->output ? NULL : output_name(model);
-    job.output = o->output ? o->output : name;
+    char *path = output_path(o->output, model);
+    job.output = path;
     lam_error error = {0};
     bool ok = job.output ? run_job(&job, &progress, &error) : complain(&error, LAM_LIMIT, "out of memory");
     job.times.total = clock_ms() - job.times.start;
@@ -346,7 +347,7 @@ static int render_one(const char *model, lam_device *device, const struct option
 
     lam_image_free(&job.image);
     lam_scene_free(job.scene);
-    free(name);
+    free(path);
     return (int)error.code;
 }
 
@@ -354,7 +355,7 @@ int run_render(int operand_count, char **operands, const struct options *options
 {
     lam_error error = {0};
     if (!check_together(operand_count, operands, options, &error) ||
-        (!options->output && !check_names(operand_count, operands, &error)))
+        !check_names(operand_count, operands, options->output, &error))
         return tell_failure(&error, options);
     interrupt_start();
     lam_cpu_params params = {.threads = options->threads, .isa = (lam_isa)options->isa};

@@ -44,6 +44,7 @@ class Docs(Case):
         # Every option of an example is one of the table's, and each example's command line is read without complaint.
         for line in re.findall(r"(?m)^  (lambent .*?)(?:  .*)?$", self.help().split("\nPicture:")[0]):
             words = line.replace("*.stl", "cube.stl").split("<")[0].split()[1:]
+            (self.folder / "pictures").mkdir(exist_ok=True)
             done = self.run_program(*words, "--memory-limit", "1k", stdin=b"")
             self.assertNotEqual(done.returncode, 1, (line, done.stderr))
 

@@ -59,6 +59,19 @@ class Names(Case):
         self.assertEqual(self.report("teapot", "-s", 16)["model"]["format"], "shape")
         self.assertEqual(self.report("./teapot", "-s", 16)["model"]["format"], "obj")
 
+    def test_folder(self):
+        for folder in ("out", "other"):
+            (self.folder / folder).mkdir()
+            self.given.add(folder)
+        shutil.copy(self.folder / "cube.stl", self.folder / "other" / "second.stl")
+        self.good("cube.obj", "other/second.stl", "-s", 16, "-o", "out/")
+        self.assertEqual(self.new_files(), set())
+        self.assertEqual(set(os.listdir(self.folder / "out")), {"cube.png", "second.png"})
+        (self.folder / "out" / "cube.png").write_bytes(b"precious")
+        self.bad(5, "cube.obj", "-s", 16, "-o", "out/", says=["out/cube.png", "-o"])
+        self.bad(5, "cube.obj", "-s", 16, "-o", "none/", says="none/cube.png")
+        self.bad(1, "cube.obj", "cube.stl", "-o", "out/", says="would both be written to 'out/cube.png'")
+
     def test_several_models(self):
         shutil.copy(self.folder / "cube.stl", self.folder / "second.stl")
         (self.folder / "broken.ply").write_bytes(b"ply\nformat ascii 1.0\n")

@@ -33,6 +33,12 @@ FN num cosine(num x)
     return lesser(greater(x, num_of(-1.0f)), num_of(1.0f));
 }
 
+// Whether a direction is there at all: not the zero vector.
+FN mask present(vec3 w)
+{
+    return dot3(w, w) > 0.0f;
+}
+
 // The mirror image of w about n:  2 (n.w) n - w.  Of l it is the lectures' r, of v the ray that an environment is
 // looked up with.
 FN vec3 mirror3(vec3 w, vec3 n)
@@ -65,25 +71,29 @@ FN reflected lambert(surface s, vec3 l)
 }
 
 // Phong (1975): the highlight is round the mirror image of the light.  S = [n.l > 0] max(r.v, 0)^shininess
-// An error e in r.v becomes shininess * e in S, in every model.
+// r.v is taken as 1 - |r - v|^2 / 2, the same for unit vectors: an error in the length of n would count fourfold in the
+// product where the highlight is brightest, and here it does not count at all.
 FN reflected phong(surface s, vec3 l, num shininess)
 {
     reflected r = lambert(s, l);
-    num c = dot3(mirror3(l, s.n), s.v);
+    vec3 apart = sub3(mirror3(l, s.n), s.v);
+    num c = 1.0f - 0.5f * dot3(apart, apart);
     r.base = saturate(c);
-    r.specular = pick(r.n_dot_l > 0.0f, unit_power(c, shininess), num_of(0.0f));
+    r.specular = pick(both(r.n_dot_l > 0.0f, present(s.v)), unit_power(c, shininess), num_of(0.0f));
     return r;
 }
 
 // Blinn (1977), the lectures' modified Phong: how near the normal comes to the vector halfway between light and eye.
-// S = [n.l > 0] max(n.h, 0)^shininess  with  h = (l + v) / |l + v|,  so that  n.h = (n.l + n.v) / |l + v|
+// S = [n.l > 0] max(n.h, 0)^shininess  with  h = (l + v) / |l + v|
+// The length is divided by after the product with n, which saves three products; n.l + n.v in place of n.(l + v) would
+// save more and lose digits where l and v are nearly opposite.
 FN reflected blinn_phong(surface s, vec3 l, num shininess)
 {
     reflected r = lambert(s, l);
     vec3 sum = add3(l, s.v);
-    num c = (dot3(s.n, l) + dot3(s.n, s.v)) * inverse_root(dot3(sum, sum));
+    num c = dot3(s.n, sum) * inverse_root(dot3(sum, sum));
     r.base = saturate(c);
-    r.specular = pick(r.n_dot_l > 0.0f, unit_power(c, shininess), num_of(0.0f));
+    r.specular = pick(both(r.n_dot_l > 0.0f, present(s.v)), unit_power(c, shininess), num_of(0.0f));
     return r;
 }
 
@@ -106,12 +116,12 @@ FN reflected kajiya_kay(surface s, vec3 l, num shininess, int lecture, int fibre
     reflected r;
     r.n_dot_l = cosine(dot3(s.n, l));
     r.base = saturate(c);
-    mask lit = dot3(s.t, s.t) > 0.0f;
+    mask lit = both(present(s.t), present(l));
     if (fibre == 0 && lecture == 0) {
         lit = both(lit, r.n_dot_l > 0.0f);
     }
     r.diffuse = pick(lit, sine_l, num_of(0.0f));
-    r.specular = pick(lit, unit_power(c, shininess), num_of(0.0f));
+    r.specular = pick(both(lit, present(s.v)), unit_power(c, shininess), num_of(0.0f));
     return r;
 }
 

@@ -25,7 +25,7 @@ STRUCT(hemisphere) {
 #define VIEWER_LOCAL    0
 #define VIEWER_INFINITE 1
 
-FN vec3 black3()
+FN vec3 black3(void)
 {
     return vec3_of(num_of(0.0f), num_of(0.0f), num_of(0.0f));
 }
@@ -75,7 +75,7 @@ FN terms unlit_terms(vec3 kd)
 FN terms add_hemisphere(terms sum, surface s, hemisphere h)
 {
     vec3 light = mix3(h.ground, h.sky, 0.5f + 0.5f * cosine(dot3(s.n, h.up)));
-    sum.ambient = pick3(dot3(s.n, s.n) > 0.0f, add3(sum.ambient, light), sum.ambient);
+    sum.ambient = pick3(present(s.n), add3(sum.ambient, light), sum.ambient);
     return sum;
 }
 

@@ -143,8 +143,8 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
 lam_material lam_material_default(void)
 {
     return (lam_material){
-        .ambient = {0.55f, 0.55f, 0.55f},
-        .diffuse = {0.55f, 0.55f, 0.55f, 1.0f},
+        .ambient = {0.72f, 0.72f, 0.72f},
+        .diffuse = {0.72f, 0.72f, 0.72f, 1.0f},
         .specular = {0.12f, 0.12f, 0.12f},
         .shininess = 32.0f,
         .illum = -1,

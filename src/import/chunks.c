@@ -23,19 +23,20 @@ static void run_one(void *user, size_t index, int thread)
     }
     if (run->task(run->user, index, NULL))
         return;
-    while (index < wrong &&
-           !__atomic_compare_exchange_n(&run->first_wrong, &wrong, index, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+    while (index < wrong && !__atomic_compare_exchange_n(&run->first_wrong, &wrong, index, false,
+                                                         __ATOMIC_RELAXED, __ATOMIC_RELAXED))
         ;
 }
 
-bool chunks_run(const struct import_source *source, size_t count, chunk_task *task, void *user, lam_error *error)
+bool chunks_run(const struct import_source *source, size_t count, chunk_task *task, void *user,
+                lam_error *error)
 {
     struct run run = {.source = source, .task = task, .user = user, .first_wrong = count};
     pool_run(source->pool, count, run_one, &run);
     if (run.stopped)
         return watch_error(source->watch, error);
-    // Pieces behind the first wrong one may not have been done: if it goes well now (memory was short, and no longer is),
-    // they still have to be.
+    // Pieces behind the first wrong one may not have been done: if it goes well now (memory was short, and no
+    // longer is), they still have to be.
     for (size_t index = run.first_wrong; index < count; index++) {
         if (!task(user, index, error))
             return false;

@@ -1,7 +1,7 @@
 // ply_ascii.c: the rows of one element of an ASCII PLY, as if they had been binary.
 //
-// Numbers are separated by white space of any kind, so a row need not be a line. A first walk finds where each piece of
-// rows begins and how long its lists are; then the pieces are read in parallel.
+// Numbers are separated by white space of any kind, so a row need not be a line. A first walk finds where
+// each piece of rows begins and how long its lists are; then the pieces are read in parallel.
 #include "chunks.h"
 #include "fail.h"
 #include "number.h"
@@ -61,7 +61,8 @@ static const uint8_t *read_scalar(const struct reading *reading, size_t row, int
     if (type == PLY_F32 || type == PLY_F64) {
         float narrow = 0.0f;
         double wide = 0.0;
-        next = type == PLY_F32 ? number_float(at, reading->end, &narrow) : number_double(at, reading->end, &wide);
+        next = type == PLY_F32 ? number_float(at, reading->end, &narrow)
+                               : number_double(at, reading->end, &wide);
         if (!next || (next < reading->end && !text_white(*next))) {
             fail_number(reading, row, property, at, "a number", error);
             return NULL;
@@ -102,7 +103,8 @@ static const uint8_t *read_item(const struct reading *reading, size_t row, const
     return next;
 }
 
-// Walks over the rows: where each piece begins, how many items each row's list has. *at ends behind the last row.
+// Walks over the rows: where each piece begins, how many items each row's list has. *at ends behind the last
+// row.
 static bool walk(struct reading *reading, bool *threes, const uint8_t **at, lam_error *error)
 {
     const struct ply_element *element = reading->element;
@@ -167,7 +169,8 @@ static bool read_piece(void *user, size_t index, lam_error *error)
                     continue;
                 }
                 at = read_scalar(reading, row, i, at,
-                                 reading->rows + row * reading->table->stride + reading->table->offsets[i], error);
+                                 reading->rows + row * reading->table->stride + reading->table->offsets[i],
+                                 error);
                 if (!at)
                     return false;
                 continue;
@@ -178,7 +181,8 @@ static bool read_piece(void *user, size_t index, lam_error *error)
                 at = text_skip_white(at, end);
                 if (i != reading->request->list)
                     at = text_skip_word(at, end);
-                else if (!(at = read_item(reading, row, at, &reading->items[reading->starts[row] + item], error)))
+                else if (!(at = read_item(reading, row, at, &reading->items[reading->starts[row] + item],
+                                          error)))
                     return false;
             }
         }
@@ -230,8 +234,8 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
                     const struct ply_request *request, struct arena *keep, struct arena *scratch, size_t *at,
                     struct ply_table *table, lam_error *error)
 {
-    // Nothing is asked for before the bytes that it would come from are known to be there: a number takes two, a digit
-    // and white space, which only the last one can lack.
+    // Nothing is asked for before the bytes that it would come from are known to be there: a number takes
+    // two, a digit and white space, which only the last one can lack.
     uint64_t left = (uint64_t)(source->size - *at) + 1, row_bytes = 2 * (uint64_t)element->property_count;
     if (row_bytes > 0 && element->count > left / row_bytes)
         return ply_fail_short(source, element, left / row_bytes, error);

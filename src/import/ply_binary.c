@@ -1,8 +1,9 @@
 // ply_binary.c: the rows of one element of a binary PLY.
 //
-// Rows without lists lie at a fixed stride and are used where they are. Rows with lists must be walked, one after the other;
-// then pieces of them are read in parallel. The one layout that nearly all files have, faces with one list each of three
-// corners, is recognised by the bytes that are left, tried at its fixed stride, and checked row by row.
+// Rows without lists lie at a fixed stride and are used where they are. Rows with lists must be walked, one
+// after the other; then pieces of them are read in parallel. The one layout that nearly all files have, faces
+// with one list each of three corners, is recognised by the bytes that are left, tried at its fixed stride,
+// and checked row by row.
 #include "chunks.h"
 #include "fail.h"
 #include "ply_load.h"
@@ -10,19 +11,23 @@
 bool ply_fail_short(const struct import_source *source, const struct ply_element *element, uint64_t row,
                     lam_error *error)
 {
-    return fail(error, LAM_CANNOT_READ,
-                "%s: the file is cut short: its header promises %llu rows of element \"%s\", found %llu in %zu bytes",
-                source->name, (unsigned long long)element->count, element->name, (unsigned long long)row, source->size);
+    return fail(
+        error, LAM_CANNOT_READ,
+        "%s: the file is cut short: its header promises %llu rows of element \"%s\", found %llu in %zu bytes",
+        source->name, (unsigned long long)element->count, element->name, (unsigned long long)row,
+        source->size);
 }
 
-bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error)
+bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element,
+                       lam_error *error)
 {
-    return fail(error, LAM_LIMIT, "%s: element \"%s\" holds more than %u numbers, the most this program can tell apart",
+    return fail(error, LAM_LIMIT,
+                "%s: element \"%s\" holds more than %u numbers, the most this program can tell apart",
                 source->name, element->name, UINT32_MAX - 1);
 }
 
-bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,
-                   struct ply_table *table, lam_error *error)
+bool ply_plan_rows(const struct import_source *source, const struct ply_request *request,
+                   struct arena *scratch, struct ply_table *table, lam_error *error)
 {
     const struct ply_element *element = table->element;
     size_t count = (size_t)element->property_count;
@@ -33,7 +38,8 @@ bool ply_plan_rows(const struct import_source *source, const struct ply_request 
     table->stride = 0;
     for (size_t i = 0; i < count; i++) {
         const struct ply_property *property = &element->properties[i];
-        bool position = !property->list && property->name[0] >= 'x' && property->name[0] <= 'z' && !property->name[1];
+        bool position =
+            !property->list && property->name[0] >= 'x' && property->name[0] <= 'z' && !property->name[1];
         types[i] = property->type;
         if (position && request->positions != PLY_AS_DECLARED)
             types[i] = request->positions == PLY_AS_FLOAT ? PLY_F32 : PLY_F64;
@@ -72,8 +78,8 @@ static bool fail_item(const struct reading *reading, size_t row, const uint8_t *
 }
 
 // Reads the items of one row's list, with their check.
-static bool read_items(const struct reading *reading, size_t row, const uint8_t *at, uint32_t count, uint32_t *items,
-                       lam_error *error)
+static bool read_items(const struct reading *reading, size_t row, const uint8_t *at, uint32_t count,
+                       uint32_t *items, lam_error *error)
 {
     enum ply_type type = reading->element->properties[reading->request->list].type;
     bool swapped = reading->table->swapped;
@@ -131,7 +137,8 @@ static bool read_threes(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Whether the bytes that are left are what rows with three items each would take, the elements behind included.
+// Whether the bytes that are left are what rows with three items each would take, the elements behind
+// included.
 static bool may_be_threes(const struct reading *reading, const struct ply_header *header)
 {
     const struct ply_element *element = reading->element, *end = header->elements + header->element_count;
@@ -185,7 +192,8 @@ static bool try_threes(struct reading *reading, struct arena *keep, struct arena
     return true;
 }
 
-// Walks over the rows: where each piece begins, how many items each row's list has. *end is behind the last row.
+// Walks over the rows: where each piece begins, how many items each row's list has. *end is behind the last
+// row.
 static bool walk(struct reading *reading, bool *threes, const uint8_t **end, lam_error *error)
 {
     const struct ply_element *element = reading->element;
@@ -209,10 +217,11 @@ static bool walk(struct reading *reading, bool *threes, const uint8_t **end, lam
             if (property->list) {
                 int64_t items = ply_load_integer(at, property->count_type, reading->table->swapped);
                 if (items < 0)
-                    return fail_byte(error, reading->source, (size_t)(at - reading->source->bytes),
-                                     "%s %zu of %llu: found %lld as the number of items of %s, expected 0 or more",
-                                     element->name, row + 1, (unsigned long long)element->count, (long long)items,
-                                     property->name);
+                    return fail_byte(
+                        error, reading->source, (size_t)(at - reading->source->bytes),
+                        "%s %zu of %llu: found %lld as the number of items of %s, expected 0 or more",
+                        element->name, row + 1, (unsigned long long)element->count, (long long)items,
+                        property->name);
                 at += size;
                 size = (size_t)items * ply_type_size(property->type); // at most 2³² · 8
                 if ((size_t)(file_end - at) < size)
@@ -245,7 +254,8 @@ static bool read_piece(void *user, size_t index, lam_error *error)
             const struct ply_property *property = &element->properties[i];
             size_t size = ply_type_size(property->type);
             if (property->list) {
-                uint32_t count = (uint32_t)ply_load_integer(at, property->count_type, reading->table->swapped);
+                uint32_t count =
+                    (uint32_t)ply_load_integer(at, property->count_type, reading->table->swapped);
                 at += ply_type_size(property->count_type);
                 if (i == reading->request->list &&
                     !read_items(reading, row, at, count, reading->items + reading->starts[row], error))
@@ -260,8 +270,8 @@ static bool read_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-static bool read_lists(struct reading *reading, struct arena *keep, struct arena *scratch, const uint8_t **end,
-                       lam_error *error)
+static bool read_lists(struct reading *reading, struct arena *keep, struct arena *scratch,
+                       const uint8_t **end, lam_error *error)
 {
     struct ply_table *table = reading->table;
     const struct ply_request *request = reading->request;

@@ -1,4 +1,5 @@
-// ply_columns.c: columns of a PLY table as normals, tangents, texture coordinates and colours, in parallel pieces.
+// ply_columns.c: columns of a PLY table as normals, tangents, texture coordinates and colours, in parallel
+// pieces.
 #define LANES 1 // srgb_decode, one number at a time
 #include "chunks.h"
 #include "encoding.h"
@@ -7,15 +8,15 @@
 
 #include <float.h>
 
-void ply_copy_column(const struct ply_table *table, int property, size_t first, size_t last, float divisor, float *out,
-                     size_t step)
+void ply_copy_column(const struct ply_table *table, int property, size_t first, size_t last, float divisor,
+                     float *out, size_t step)
 {
     const uint8_t *at = table->rows + first * table->stride + table->offsets[property];
     size_t stride = table->stride;
     bool swapped = table->swapped;
-#define COLUMN(LOAD)                                                                                                   \
-    for (size_t row = first; row < last; row++, at += stride, out += step)                                             \
-        *out = (float)(LOAD) / divisor;                                                                                \
+#define COLUMN(LOAD)                                                                                         \
+    for (size_t row = first; row < last; row++, at += stride, out += step)                                   \
+        *out = (float)(LOAD) / divisor;                                                                      \
     break
     switch (table->types[property]) {
     case PLY_I8:
@@ -111,7 +112,8 @@ static bool vector_piece(void *user, size_t index, lam_error *error)
     } else {
         for (size_t c = 0; c < width; c++) {
             if (vectors->properties[c] >= 0) {
-                ply_copy_column(table, vectors->properties[c], first, last, vectors->divisors[c], out + c, width);
+                ply_copy_column(table, vectors->properties[c], first, last, vectors->divisors[c], out + c,
+                                width);
                 continue;
             }
             for (size_t row = first; row < last; row++)
@@ -124,8 +126,8 @@ static bool vector_piece(void *user, size_t index, lam_error *error)
 }
 
 // `numbers` are properties, the rest up to `width` is 1.
-static bool read_vectors(const struct import_source *source, struct vectors *vectors, int numbers, struct arena *arena,
-                         const float **out, lam_error *error)
+static bool read_vectors(const struct import_source *source, struct vectors *vectors, int numbers,
+                         struct arena *arena, const float **out, lam_error *error)
 {
     size_t bytes = vectors->table->count * (size_t)vectors->width * sizeof(float);
     bool whole = true;
@@ -149,7 +151,8 @@ bool ply_normals(const struct import_source *source, const struct ply_table *tab
 {
     static const char *const names[] = {"nx", "ny", "nz"};
     struct vectors vectors = {.table = table, .kind = NORMALS, .width = 3};
-    return !ply_find_all(table, names, 3, vectors.properties) || read_vectors(source, &vectors, 3, arena, out, error);
+    return !ply_find_all(table, names, 3, vectors.properties) ||
+           read_vectors(source, &vectors, 3, arena, out, error);
 }
 
 bool ply_tangents(const struct import_source *source, const struct ply_table *table, struct arena *arena,
@@ -157,7 +160,8 @@ bool ply_tangents(const struct import_source *source, const struct ply_table *ta
 {
     static const char *const names[] = {"tx", "ty", "tz"};
     struct vectors vectors = {.table = table, .kind = TANGENTS, .width = 4};
-    return !ply_find_all(table, names, 3, vectors.properties) || read_vectors(source, &vectors, 3, arena, out, error);
+    return !ply_find_all(table, names, 3, vectors.properties) ||
+           read_vectors(source, &vectors, 3, arena, out, error);
 }
 
 // What integers are divided by: bytes and 16-bit numbers span 0…1.
@@ -171,7 +175,8 @@ static float divisor_of(enum ply_type type)
 bool ply_texcoords(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                    const float **out, lam_error *error)
 {
-    static const char *const names[][2] = {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
+    static const char *const names[][2] = {
+        {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         struct vectors vectors = {.table = table, .kind = TEXCOORDS, .width = 2};
         if (!ply_find_all(table, names[i], 2, vectors.properties))

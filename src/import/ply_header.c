@@ -7,8 +7,8 @@
 //   property float x                    scalars: a type and a name
 //   property list uchar int corners     lists: type of the count, type of the items, name
 //   end_header
-// Lines may be indented, blank, and end in "\n" or "\r\n"; in "\r" if the first one does: the byte behind the last line's
-// end is the body's.
+// Lines may be indented, blank, and end in "\n" or "\r\n"; in "\r" if the first one does: the byte behind the
+// last line's end is the body's.
 #include "ply.h"
 #include "fail.h"
 #include "number.h"
@@ -20,13 +20,20 @@ static const struct {
     const char *name, *sized_name;
     size_t size;
 } types[PLY_TYPE_COUNT] = {
-    [PLY_I8] = {"char", "int8", 1},     [PLY_U8] = {"uchar", "uint8", 1},      [PLY_I16] = {"short", "int16", 2},
-    [PLY_U16] = {"ushort", "uint16", 2}, [PLY_I32] = {"int", "int32", 4},      [PLY_U32] = {"uint", "uint32", 4},
+    [PLY_I8] = {"char", "int8", 1},      [PLY_U8] = {"uchar", "uint8", 1},
+    [PLY_I16] = {"short", "int16", 2},   [PLY_U16] = {"ushort", "uint16", 2},
+    [PLY_I32] = {"int", "int32", 4},     [PLY_U32] = {"uint", "uint32", 4},
     [PLY_F32] = {"float", "float32", 4}, [PLY_F64] = {"double", "float64", 8},
 };
 
-size_t ply_type_size(enum ply_type type) { return types[type].size; }
-const char *ply_type_name(enum ply_type type) { return types[type].name; }
+size_t ply_type_size(enum ply_type type)
+{
+    return types[type].size;
+}
+const char *ply_type_name(enum ply_type type)
+{
+    return types[type].name;
+}
 
 int ply_find(const struct ply_element *element, bool list, const char *name)
 {
@@ -77,7 +84,8 @@ static bool fail_word(const struct lines *lines, const uint8_t *word, const char
 {
     char found[TEXT_FOUND_SIZE];
     return fail_line(error, lines->source, lines->number, "found %s, expected %s",
-                     word < lines->end ? text_found(word, lines->end, found) : "the end of the line", expected);
+                     word < lines->end ? text_found(word, lines->end, found) : "the end of the line",
+                     expected);
 }
 
 static bool read_type(struct lines *lines, enum ply_type *type, lam_error *error)
@@ -144,7 +152,8 @@ static bool read_property(struct lines *lines, struct ply_element *element, stru
         if (!read_type(lines, &property->count_type, error))
             return false;
         if (!ply_type_is_integer(property->count_type))
-            return fail_word(lines, text_skip_white(before, lines->end), "an integer type for a list's count", error);
+            return fail_word(lines, text_skip_white(before, lines->end), "an integer type for a list's count",
+                             error);
     } else {
         lines->at = before;
     }
@@ -165,7 +174,7 @@ static enum keyword read_keyword(struct lines *lines, const uint8_t **word)
     static const struct {
         const char *word;
         enum keyword keyword;
-    } keywords[] = {{"comment", REMARK},   {"obj_info", REMARK},   {"format", FORMAT},
+    } keywords[] = {{"comment", REMARK},  {"obj_info", REMARK},   {"format", FORMAT},
                     {"element", ELEMENT}, {"property", PROPERTY}, {"end_header", END}};
     const uint8_t *end;
     take_word(lines, word, &end);
@@ -205,15 +214,16 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
     struct ply_element *elements = arena_array(arena, element_room, sizeof *elements);
     struct ply_property *properties = arena_array(arena, property_room, sizeof *properties);
     if (!elements || !properties)
-        return watch_memory_error(source->watch, element_room * sizeof *elements + property_room * sizeof *properties,
-                                  error);
+        return watch_memory_error(
+            source->watch, element_room * sizeof *elements + property_room * sizeof *properties, error);
 
     bool has_format = false;
     *header = (struct ply_header){.elements = elements};
     lines = start(source, arena);
     for (;;) {
         if (!next_line(&lines))
-            return fail_line(error, source, lines.number, "the file ends in its header, expected \"end_header\"");
+            return fail_line(error, source, lines.number,
+                             "the file ends in its header, expected \"end_header\"");
         keyword = read_keyword(&lines, &word);
         struct ply_element *element = header->element_count > 0 ? &elements[header->element_count - 1] : NULL;
         switch (keyword) {

@@ -15,7 +15,7 @@ struct positions {
     struct box {
         double minimum[3], maximum[3];
         bool finite;
-    } *boxes; // one for each piece
+    } * boxes; // one for each piece
     double origin[3];
 };
 
@@ -27,8 +27,8 @@ static bool fail_position(const struct positions *positions, size_t row, int axi
     const struct import_source *source = positions->source;
     uintptr_t offset = (uintptr_t)at - (uintptr_t)source->bytes;
     if (offset < source->size) // a binary row where it lies in the file
-        return fail_byte(error, source, offset, "vertex %zu of %zu: found %s as %c, expected a finite number", row + 1,
-                         table->count, found, "xyz"[axis]);
+        return fail_byte(error, source, offset, "vertex %zu of %zu: found %s as %c, expected a finite number",
+                         row + 1, table->count, found, "xyz"[axis]);
     return fail(error, LAM_CANNOT_READ, "%s: vertex %zu of %zu: found %s as %c, expected a finite number",
                 source->name, row + 1, table->count, found, "xyz"[axis]);
 }
@@ -37,11 +37,14 @@ static double position_at(const struct positions *positions, size_t row, int axi
 {
     const struct ply_table *table = positions->table;
     int property = positions->properties[axis];
-    return ply_load_double(table->rows + row * table->stride + table->offsets[property], table->types[property],
-                           table->swapped);
+    return ply_load_double(table->rows + row * table->stride + table->offsets[property],
+                           table->types[property], table->swapped);
 }
 
-static bool is_finite(double value) { return value >= -DBL_MAX && value <= DBL_MAX; }
+static bool is_finite(double value)
+{
+    return value >= -DBL_MAX && value <= DBL_MAX;
+}
 
 // Floats, and integers that floats hold: as they are.
 static bool copy_piece(void *user, size_t index, lam_error *error)
@@ -152,8 +155,8 @@ bool ply_positions(const struct import_source *source, const struct ply_table *t
     *far_out = false;
     if (!ply_find_all(table, names, 3, positions.properties)) {
         int missing = positions.properties[0] < 0 ? 0 : positions.properties[1] < 0 ? 1 : 2;
-        return fail_line(error, source, table->element->line, "element vertex has no property %s, expected x, y and z",
-                         names[missing]);
+        return fail_line(error, source, table->element->line,
+                         "element vertex has no property %s, expected x, y and z", names[missing]);
     }
     if (table->count > UINT32_MAX - 1)
         return ply_fail_too_many(source, table->element, error);
@@ -190,4 +193,3 @@ bool ply_positions(const struct import_source *source, const struct ply_table *t
     mesh->vertex_count = (uint32_t)table->count;
     return done;
 }
-

@@ -4,8 +4,8 @@
 
 #include "importer.h"
 
-// A binary STL is a header of 80 bytes, the number of facets (32 bits, little-endian) and that many facets of 50 bytes:
-// normal and three corners, three floats each, and an attribute of 16 bits.
+// A binary STL is a header of 80 bytes, the number of facets (32 bits, little-endian) and that many facets of
+// 50 bytes: normal and three corners, three floats each, and an attribute of 16 bits.
 enum {
     STL_HEADER = 80,
     STL_FACETS = 84,
@@ -15,8 +15,10 @@ enum {
 };
 
 // Each fills the mesh but its name; triangle_count stays 0 for a file without facets.
-bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
-bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
+bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh,
+                     lam_error *error);
+bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh,
+                    lam_error *error);
 
 // More corners than 32-bit numbers can tell apart: LAM_LIMIT.
 bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error);

@@ -2,7 +2,8 @@
 //
 // Two dialects put a colour of 3 × 5 bits into a facet's attribute word:
 //   VisCAM, SolidView   bits 0–4 blue, 5–9 green, 10–14 red; bit 15 set: this facet has a colour
-//   Materialise Magics  the header holds "COLOR=" and four bytes RGBA, the colour of the whole; bits 0–4 red, 5–9 green,
+//   Materialise Magics  the header holds "COLOR=" and four bytes RGBA, the colour of the whole; bits 0–4 red,
+//   5–9 green,
 //                       10–14 blue; bit 15 clear: this facet has its own colour
 // The words of other programs are counters, or junk; see colors_of for what is believed.
 #include "stl.h"
@@ -13,10 +14,11 @@
 
 // What a piece has seen of its attribute words.
 struct words {
-    uint32_t marked;  // how many have bit 15 set
-    uint32_t unmarked_values; // of those without bit 15: 0: all zero; 1: one value, or zero; 2: several values
-    uint16_t unmarked;        // that value
-    bool any;         // a word that is not 0
+    uint32_t marked; // how many have bit 15 set
+    uint32_t
+        unmarked_values; // of those without bit 15: 0: all zero; 1: one value, or zero; 2: several values
+    uint16_t unmarked;   // that value
+    bool any;            // a word that is not 0
 };
 
 struct reading {
@@ -90,7 +92,10 @@ static bool read_piece(void *user, size_t index, lam_error *error)
     return !(wrong & 0x80000000) || fail_not_finite(reading, first, last, error);
 }
 
-static uint8_t five_bits(unsigned value) { return (uint8_t)((value * 255 + 15) / 31); }
+static uint8_t five_bits(unsigned value)
+{
+    return (uint8_t)((value * 255 + 15) / 31);
+}
 
 static bool color_piece(void *user, size_t index, lam_error *error)
 {
@@ -101,16 +106,17 @@ static bool color_piece(void *user, size_t index, lam_error *error)
     for (size_t i = first; i < last; i++) {
         unsigned word = word_of(reading->facets + i * STL_FACET);
         bool own = (word >> 15) != (unsigned)reading->magics;
-        uint8_t low = five_bits(word & 31), middle = five_bits(word >> 5 & 31), high = five_bits(word >> 10 & 31);
+        uint8_t low = five_bits(word & 31), middle = five_bits(word >> 5 & 31),
+                high = five_bits(word >> 10 & 31);
         uint8_t color[4] = {reading->magics ? low : high, middle, reading->magics ? high : low, 255};
         memcpy(reading->colors + 4 * i, own ? color : reading->fallback, 4);
     }
     return true;
 }
 
-// Decides whether the attribute words are colours, and sets dialect and fallback. They are, with "COLOR=" in the header,
-// unless all are zero (then that colour serves for all); without it, if some have bit 15 set and those that do not
-// are all zero or all the same, a default: anything more varied is no colour.
+// Decides whether the attribute words are colours, and sets dialect and fallback. They are, with "COLOR=" in
+// the header, unless all are zero (then that colour serves for all); without it, if some have bit 15 set and
+// those that do not are all zero or all the same, a default: anything more varied is no colour.
 static bool colors_of(struct reading *reading, const struct words *words, bool *uniform)
 {
     static const char key[] = "COLOR=";
@@ -155,12 +161,14 @@ static bool read_colors(struct reading *reading, struct lam_scene *scene, lam_me
     }
     mesh->colors = reading->colors;
     mesh->color_count = (uint32_t)reading->count;
-    mesh->colors_format = reading->source->params->color == LAM_COLOR_RAW ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
+    mesh->colors_format =
+        reading->source->params->color == LAM_COLOR_RAW ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
     mesh->colors_rate = LAM_PER_TRIANGLE;
     return true;
 }
 
-bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
+bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh,
+                     lam_error *error)
 {
     uint32_t promised;
     memcpy(&promised, source->bytes + STL_HEADER, 4);
@@ -169,10 +177,11 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
 #endif
     size_t room = source->size - STL_FACETS, present = room / STL_FACET;
     if (promised > present)
-        return fail(error, LAM_CANNOT_READ,
-                    "%s: the file is cut short: its header promises %u facets (%llu bytes), found %zu (%zu bytes)",
-                    source->name, promised, (unsigned long long)STL_FACETS + (unsigned long long)STL_FACET * promised,
-                    present, source->size);
+        return fail(
+            error, LAM_CANNOT_READ,
+            "%s: the file is cut short: its header promises %u facets (%llu bytes), found %zu (%zu bytes)",
+            source->name, promised, (unsigned long long)STL_FACETS + (unsigned long long)STL_FACET * promised,
+            present, source->size);
     if (promised > STL_FACETS_MAX)
         return stl_fail_too_many(source, promised, error);
     if (promised == 0)
@@ -195,7 +204,8 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
 
     size_t extra = room - (size_t)promised * STL_FACET;
     if (extra > 0)
-        scene_warn(scene, "%s: %zu bytes behind the last of %u facets are ignored", source->name, extra, promised);
+        scene_warn(scene, "%s: %zu bytes behind the last of %u facets are ignored", source->name, extra,
+                   promised);
     mesh->positions = reading.positions;
     mesh->vertex_count = 3 * promised;
     mesh->triangle_count = promised;

@@ -1,7 +1,8 @@
 // replay.c: plays a corpus through a fuzz target in the normal test run, without libFuzzer.
 //
-// Every file of the folder CORPUS goes in as it is, cut after each of its bytes, and in some hundred changed forms, the
-// same in every run. An input that kills the program is left in the current folder as "fuzz-failure".
+// Every file of the folder CORPUS goes in as it is, cut after each of its bytes, and in some hundred changed
+// forms, the same in every run. An input that kills the program is left in the current folder as
+// "fuzz-failure".
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -17,8 +18,8 @@ void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak)
 enum {
     SEEDS_MAX = 64,
     SEED_BYTES = 16384,
-    CUTS_MAX = 1500,   // a longer file is cut at this many places
-    CHANGES = 2000,    // changed forms of each file
+    CUTS_MAX = 1500, // a longer file is cut at this many places
+    CHANGES = 2000,  // changed forms of each file
 };
 
 static struct seed {
@@ -76,8 +77,9 @@ static void put_in_place(struct seed *seed, size_t at, size_t removed, const uin
 
 static void change(struct seed *seed, uint64_t *random)
 {
-    static const char *const words[] = {"-1", "0", "4294967295", "4294967296", "99999999999999999999", "1e999", "-1e-999",
-                                        "nan", " ", "\n", "\\\n", "\r", "/", "\xff\xff\xff\xff", "\x80", "0.1", "inf"};
+    static const char *const words[] = {
+        "-1", "0",    "4294967295", "4294967296", "99999999999999999999", "1e999", "-1e-999", "nan", " ",
+        "\n", "\\\n", "\r",         "/",          "\xff\xff\xff\xff",     "\x80",  "0.1",     "inf"};
     uint32_t size = (uint32_t)seed->size;
     uint8_t piece[64];
     const struct seed *other = &seeds[below(random, (uint32_t)seed_count)];
@@ -110,7 +112,10 @@ static void change(struct seed *seed, uint64_t *random)
     }
 }
 
-static int by_name(const struct dirent **a, const struct dirent **b) { return strcmp((*a)->d_name, (*b)->d_name); }
+static int by_name(const struct dirent **a, const struct dirent **b)
+{
+    return strcmp((*a)->d_name, (*b)->d_name);
+}
 
 int main(void)
 {

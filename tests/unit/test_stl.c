@@ -61,13 +61,14 @@ static void test_ascii(void **state)
     lam_scene_free(scene);
 }
 
-// Keywords in any case, lines broken anywhere, every line end, a byte order mark, normals that are not numbers, a
-// facet outside a solid, an empty solid, bytes that are not UTF-8 in a name.
+// Keywords in any case, lines broken anywhere, every line end, a byte order mark, normals that are not
+// numbers, a facet outside a solid, an empty solid, bytes that are not UTF-8 in a name.
 static void test_ascii_oddities(void **state)
 {
     (void)state;
     static const char text[] =
-        "\xef\xbb\xbf\t SOLID two words\there \r\nFACET normal nan -nan(ind) nan OUTER\vloop vertex 1 2 3 Vertex 4 5 6\r"
+        "\xef\xbb\xbf\t SOLID two words\there \r\nFACET normal nan -nan(ind) nan OUTER\vloop vertex 1 2 3 "
+        "Vertex 4 5 6\r"
         "vertex 7 8 9 endloop\fendfacet\r\nEndSolid two words\r\n"
         "solid empty\nendsolid empty\n"
         "facet normal outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n"
@@ -91,9 +92,10 @@ static void test_ascii_oddities(void **state)
 static void test_ascii_in_one_line(void **state)
 {
     (void)state;
-    lam_scene *scene = load_text("solid all of it facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
-                                 "endloop endfacet endsolid",
-                                 "line.stl");
+    lam_scene *scene =
+        load_text("solid all of it facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
+                  "endloop endfacet endsolid",
+                  "line.stl");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->triangle_count, 1);
     assert_string_equal(mesh->parts[0].name, "all of it");
@@ -104,9 +106,10 @@ static void test_ascii_in_one_line(void **state)
 static void test_ascii_far_from_zero(void **state)
 {
     (void)state;
-    lam_scene *scene = load_text("solid far\nfacet normal 0 0 1\nouter loop\nvertex 500000.0001 0 0.5\n"
-                                 "vertex 500000.0012 0.001 0.5\nvertex 500000.0023 0 0.5\nendloop\nendfacet\nendsolid\n",
-                                 "far.stl");
+    lam_scene *scene =
+        load_text("solid far\nfacet normal 0 0 1\nouter loop\nvertex 500000.0001 0 0.5\n"
+                  "vertex 500000.0012 0.001 0.5\nvertex 500000.0023 0 0.5\nendloop\nendfacet\nendsolid\n",
+                  "far.stl");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_true(mesh->origin[0] != 0 && mesh->origin[1] == 0 && mesh->origin[2] != 0);
     assert_near(corner_at(mesh, 0, 0).x, 500000.0001, 1e-9);
@@ -118,28 +121,34 @@ static void test_ascii_far_from_zero(void **state)
 static void test_ascii_errors(void **state)
 {
     (void)state;
-    refuse_text("Dear reader,\nthis is a letter and no model at all, though its name says so, and it is long enough for "
-                "a header.\n", "a.stl",
-                "a.stl: no STL file: found 'Dear' at its start and 112 bytes, expected \"solid\" and facets, or a binary "
+    refuse_text("Dear reader,\nthis is a letter and no model at all, though its name says so, and it is long "
+                "enough for "
+                "a header.\n",
+                "a.stl",
+                "a.stl: no STL file: found 'Dear' at its start and 112 bytes, expected \"solid\" and facets, "
+                "or a binary "
                 "header of 84 bytes and facets");
     refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 O 0\n", "a.stl",
                 "a.stl:5: facet 1: found 'O', expected a number");
     refuse_text("solid a\r\nfacet normal 0 0 1\r\nouter loop\r\nvertex 0 0 1.5mm\r\n", "a.stl",
                 "a.stl:4: facet 1: found '1.5mm', expected a number");
-    refuse_text("solid a\rfacet normal 0 0 1\router loop\rvertex 0 0 inf\rvertex 0 0 0 vertex 1 1 1 endloop endfacet\r",
+    refuse_text("solid a\rfacet normal 0 0 1\router loop\rvertex 0 0 inf\rvertex 0 0 0 vertex 1 1 1 endloop "
+                "endfacet\r",
                 "a.stl", "a.stl:4: facet 1: found 'inf', expected a finite number");
     refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", "a.stl",
                 "a.stl:6: facet 1: found 'endloop', expected \"vertex\"");
-    refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n",
-                "a.stl", "a.stl:7: facet 1: found 'vertex', expected \"endloop\"");
+    refuse_text(
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n",
+        "a.stl", "a.stl:7: facet 1: found 'vertex', expected \"endloop\"");
     refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "a.stl",
                 "a.stl:5: facet 1: found the end of the file, expected \"vertex\"");
     refuse_text("solid a\nfacet normal 0 0 1\n  ring\n", "a.stl",
                 "a.stl:3: facet 1: found 'ring', expected \"outer\"");
     refuse_text("solid a\ntriangle\nfacet\n", "a.stl",
                 "a.stl:2: facet 1: found 'triangle', expected \"facet\", \"endsolid\" or \"solid\"");
-    refuse_text("solid a\nfacet outer loop vertex 1e300 0 0 vertex -1e300 0 0 vertex 0 0 0 endloop endfacet\n", "a.stl",
-                "a.stl: facet 1: corner 1 lies too far from the others for a float");
+    refuse_text(
+        "solid a\nfacet outer loop vertex 1e300 0 0 vertex -1e300 0 0 vertex 0 0 0 endloop endfacet\n",
+        "a.stl", "a.stl: facet 1: corner 1 lies too far from the others for a float");
 }
 
 static void test_binary(void **state)
@@ -167,7 +176,8 @@ static void test_binary(void **state)
     put_text(&file, "more");
     scene = load(&file, "a.stl");
     assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, 2);
-    assert_string_equal(lam_scene_warning(scene, 0), "a.stl: 4 bytes behind the last of 2 facets are ignored");
+    assert_string_equal(lam_scene_warning(scene, 0),
+                        "a.stl: 4 bytes behind the last of 2 facets are ignored");
     lam_scene_free(scene);
 }
 
@@ -214,7 +224,8 @@ static void test_first_mistake(void **state)
         memcpy(bytes + 84 + 50 * facet + 12, &infinity, 4);
     for (int threads = 1; threads <= 5; threads += 2) {
         lam_error error = {0};
-        assert_null(lam_scene_load_memory(bytes, size, "a.stl", &(lam_load_params){.threads = threads}, NULL, &error));
+        assert_null(lam_scene_load_memory(bytes, size, "a.stl", &(lam_load_params){.threads = threads}, NULL,
+                                          &error));
         assert_string_equal(error.text, "a.stl: byte 450096: facet 9001: found infinity as x of corner 1, "
                                         "expected a finite number");
     }
@@ -226,9 +237,9 @@ static void test_colors_viscam(void **state)
     (void)state;
     struct made file = {0};
     put_header(&file, "viscam", 3);
-    put_facet(&file, 0, 0x8000 | 31 << 10);          // red
-    put_facet(&file, 1, 0x8000 | 16 << 5 | 31);      // green 16, blue 31
-    put_facet(&file, 2, 0);                          // none
+    put_facet(&file, 0, 0x8000 | 31 << 10);     // red
+    put_facet(&file, 1, 0x8000 | 16 << 5 | 31); // green 16, blue 31
+    put_facet(&file, 2, 0);                     // none
     lam_scene *scene = load(&file, "a.stl");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->colors_format, LAM_COLORS_SRGB8);
@@ -247,8 +258,8 @@ static void test_colors_magics(void **state)
     (void)state;
     struct made file = {0};
     put_header(&file, "made by somebody COLOR=\x10\x20\x30\xff,MATERIAL=", 2);
-    put_facet(&file, 0, 31);      // red: its own
-    put_facet(&file, 1, 0x8000);  // the header's
+    put_facet(&file, 0, 31);     // red: its own
+    put_facet(&file, 1, 0x8000); // the header's
     lam_scene *scene = load(&file, "a.stl");
     assert_color(lam_scene_mesh(scene, 0), 0, 255, 0, 0);
     assert_color(lam_scene_mesh(scene, 0), 1, 0x10, 0x20, 0x30);
@@ -327,15 +338,24 @@ static void test_models(void **state)
 {
     (void)state;
     static const struct model models[] = {
-        {"stl/derived/fish.stl", 21568},          {"stl/derived/koala.stl", 99994},
-        {"stl/derived/wingnut_ascii.stl", 6090},  {"stl/derived/wingnut_solid_header.stl", 6090},
-        {"stl/panda/hand.stl", 200},              {"stl/panda/link0.stl", 200},
-        {"stl/panda/link5.stl", 300},             {"stl/trimesh/20mm-xyz-cube.stl", 260},
-        {"stl/trimesh/featuretype.STL", 3476},    {"stl/trimesh/multibody.stl", 32},
-        {"stl/trimesh/octagonal_pocket.stl", 3262}, {"stl/trimesh/two_objects_mixed_case_names.stl", 24},
-        {"stl/ur3/base.stl", 7992},               {"stl/ur3/forearm.stl", 4934},
-        {"stl/ur3/shoulder.stl", 7865},           {"stl/ur3/upperarm.stl", 10263},
-        {"stl/ur3/wrist1.stl", 3672},             {"stl/ur3/wrist2.stl", 3671},
+        {"stl/derived/fish.stl", 21568},
+        {"stl/derived/koala.stl", 99994},
+        {"stl/derived/wingnut_ascii.stl", 6090},
+        {"stl/derived/wingnut_solid_header.stl", 6090},
+        {"stl/panda/hand.stl", 200},
+        {"stl/panda/link0.stl", 200},
+        {"stl/panda/link5.stl", 300},
+        {"stl/trimesh/20mm-xyz-cube.stl", 260},
+        {"stl/trimesh/featuretype.STL", 3476},
+        {"stl/trimesh/multibody.stl", 32},
+        {"stl/trimesh/octagonal_pocket.stl", 3262},
+        {"stl/trimesh/two_objects_mixed_case_names.stl", 24},
+        {"stl/ur3/base.stl", 7992},
+        {"stl/ur3/forearm.stl", 4934},
+        {"stl/ur3/shoulder.stl", 7865},
+        {"stl/ur3/upperarm.stl", 10263},
+        {"stl/ur3/wrist1.stl", 3672},
+        {"stl/ur3/wrist2.stl", 3671},
     };
     check_models(models, sizeof models / sizeof *models);
 }
@@ -343,13 +363,20 @@ static void test_models(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ascii),           cmocka_unit_test(test_ascii_oddities),
-        cmocka_unit_test(test_ascii_in_one_line), cmocka_unit_test(test_ascii_far_from_zero),
-        cmocka_unit_test(test_ascii_errors),    cmocka_unit_test(test_binary),
-        cmocka_unit_test(test_binary_errors),   cmocka_unit_test(test_first_mistake),
-        cmocka_unit_test(test_colors_viscam),   cmocka_unit_test(test_colors_magics),
-        cmocka_unit_test(test_colors_junk),     cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_cut_anywhere),    cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_ascii),
+        cmocka_unit_test(test_ascii_oddities),
+        cmocka_unit_test(test_ascii_in_one_line),
+        cmocka_unit_test(test_ascii_far_from_zero),
+        cmocka_unit_test(test_ascii_errors),
+        cmocka_unit_test(test_binary),
+        cmocka_unit_test(test_binary_errors),
+        cmocka_unit_test(test_first_mistake),
+        cmocka_unit_test(test_colors_viscam),
+        cmocka_unit_test(test_colors_magics),
+        cmocka_unit_test(test_colors_junk),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_cut_anywhere),
+        cmocka_unit_test(test_out_of_memory),
         cmocka_unit_test(test_models),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

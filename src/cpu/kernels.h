@@ -22,6 +22,6 @@ struct kernels {
     void (*resolve_empty)(struct cpu_frame *cpu);
 };
 
-extern const struct kernels kernels_plain, kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon;
+extern const struct kernels kernels_plain, kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon, kernels_wasm;
 
 #endif

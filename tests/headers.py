@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""headers.py BUILD: the library as its users get it: each public header compiles alone as C11 and as C++17; the library installs;
+the examples compile with pkg-config, run, and leave a picture; a static look at what the shared library shows."""
+import glob
+import os
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+BUILD = sys.argv[1]
+results = []
+
+
+def check(name, ok, output=""):
+    results.append(ok)
+    print("%s %d - %s" % ("ok" if ok else "not ok", len(results), name))
+    if not ok:
+        print("# " + "\n# ".join(output.splitlines()[-20:]))
+
+
+def run(command, **more):
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more)
+
+
+def headers(folder):
+    for path in sorted(glob.glob(os.path.join(ROOT, "include", "lambent", "*.h"))):
+        name = os.path.basename(path)
+        text = "#include <lambent/%s>\n" % name
+        for language, compiler, standard in (("c", "cc", "c11"), ("c++", "c++", "c++17")):
+            done = run([compiler, "-x", language, "-std=" + standard, "-pedantic", "-Wall", "-Wextra", "-Werror", "-I",
+                        os.path.join(ROOT, "include"), "-fsyntax-only", "-"], input=text)
+            check("%s alone as %s" % (name, standard), done.returncode == 0, done.stdout)
+
+
+def installed(folder):
+    stage = os.path.join(folder, "stage")
+    done = run(["meson", "install", "-C", BUILD, "--no-rebuild", "--destdir", stage])
+    check("meson install", done.returncode == 0, done.stdout)
+    found = glob.glob(stage + "/**/lambent.pc", recursive=True)
+    check("lambent.pc is installed", len(found) == 1, str(found))
+    if len(found) != 1:
+        return None
+    return {**os.environ, "PKG_CONFIG_PATH": os.path.dirname(found[0]), "PKG_CONFIG_SYSROOT_DIR": stage,
+            "LD_LIBRARY_PATH": os.path.dirname(os.path.dirname(found[0]))}
+
+
+def examples(folder, environment):
+    flags = run(["pkg-config", "--cflags", "--libs", "lambent"], env=environment)
+    check("pkg-config knows lambent", flags.returncode == 0, flags.stdout)
+    models = os.path.join(ROOT, "tests", "models")
+    arguments = {"render": [os.path.join(models, "cube.obj")], "materials": []}
+    for name, more in arguments.items():
+        source = os.path.join(ROOT, "examples", name + ".c")
+        program, picture = os.path.join(folder, name), os.path.join(folder, name + ".png")
+        built = run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", source, "-o", program] + flags.stdout.split(), env=environment)
+        check("example %s compiles" % name, built.returncode == 0, built.stdout)
+        if built.returncode:
+            continue
+        ran = run([program] + more + [picture], env=environment)
+        good = ran.returncode == 0 and os.path.exists(picture) and open(picture, "rb").read(8) == b"\x89PNG\r\n\x1a\n"
+        check("example %s leaves a picture" % name, good, ran.stdout)
+    wrong = run([os.path.join(folder, "render"), "no-such-file.obj", os.path.join(folder, "none.png")], env=environment)
+    check("example render tells a missing file", wrong.returncode == 2 and "no-such-file.obj" in wrong.stdout and
+          not os.path.exists(os.path.join(folder, "none.png")), wrong.stdout)
+    lines = sum(1 for line in open(os.path.join(ROOT, "examples", "render.c")))
+    check("example render is under 25 lines (%d)" % lines, lines < 25)
+
+
+def symbols():
+    library = glob.glob(os.path.join(BUILD, "src", "liblambent.so.*.*.*"))
+    shown = run(["nm", "-D", "--defined-only", library[0]]).stdout.split("\n") if library else []
+    names = [line.split()[2] for line in shown if len(line.split()) == 3]
+    strange = [n for n in names if not n.startswith("lam_")]
+    check("the shared library shows lam_ names only", bool(names) and not strange, " ".join(strange))
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        headers(folder)
+        environment = installed(folder)
+        if environment:
+            examples(folder, environment)
+        symbols()
+    print("1..%d" % len(results))
+    return 0 if all(results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""machines.py: the library compiles for machines that this one is not: 64-bit Arm with NEON kernels, and WebAssembly with SIMD.
+
+Clang's cross compilers with Debian's C libraries; every source file of the folders that a picture needs (the importers and codecs
+that lean on a packaged library are left to those packages' ports)."""
+import glob
+import os
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+INCLUDES = ["include", "src/base", "src/base/math", "src/lighting", "src/image", "src/scene", "src/import", "src/device", "src/cpu"]
+FLAGS = ["-std=gnu11", "-O2", "-D_GNU_SOURCE", "-DNDEBUG", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Werror", "-Wno-psabi", "-c"]
+MACHINES = {
+    "arm64": {"flags": ["--target=aarch64-linux-gnu", "-isystem", "/usr/aarch64-linux-gnu/include"],
+              "needs": "/usr/aarch64-linux-gnu/include/stdio.h", "package": "libc6-dev-arm64-cross",
+              "kernels": [("plain", 1), ("neon", 4)], "without": []},
+    "wasm": {"flags": ["--target=wasm32-wasi", "-isystem", "/usr/include/wasm32-wasi", "-msimd128", "-D_WASI_EMULATED_MMAN"],
+             "needs": "/usr/include/wasm32-wasi/stdio.h", "package": "wasi-libc",
+             "kernels": [("plain", 1), ("wasm", 4)],
+             # What the page does not use: files come from its memory.
+             "without": ["file.c"]},
+}
+LEFT_OUT = ["png_read.c"]  # libspng's own headers are the host's
+
+
+def sources(machine):
+    files = []
+    for folder in ("base", "base/math", "image", "scene", "import", "device", "cpu"):
+        files += sorted(glob.glob(os.path.join(ROOT, "src", folder, "*.c")))
+    skipped = LEFT_OUT + machine["without"] + ["kernels.c"]
+    return [(f, []) for f in files if os.path.basename(f) not in skipped] + [
+        (os.path.join(ROOT, "src/cpu/kernels.c"), ["-DISA=" + isa, "-DLANES=%d" % lanes]) for isa, lanes in machine["kernels"]]
+
+
+def main():
+    count, bad = 0, 0
+    with tempfile.TemporaryDirectory() as folder:
+        powers = os.path.join(folder, "number_powers.h")
+        subprocess.run([sys.executable, os.path.join(ROOT, "src/base/number_powers.py"), powers], check=True)
+        for name, machine in MACHINES.items():
+            if not os.path.exists(machine["needs"]):
+                count += 1
+                print("ok %d - %s # SKIP the package %s is not installed" % (count, name, machine["package"]))
+                continue
+            for path, more in sources(machine):
+                count += 1
+                done = subprocess.run(["clang"] + machine["flags"] + FLAGS + more + ["-I" + os.path.join(ROOT, i) for i in INCLUDES] +
+                                      ["-I" + folder, path, "-o", os.path.join(folder, "x.o")],
+                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                label = "%s: %s %s" % (name, os.path.relpath(path, ROOT), " ".join(more))
+                print("%s %d - %s" % ("not ok" if done.returncode else "ok", count, label))
+                if done.returncode:
+                    bad += 1
+                    print("# " + "\n# ".join(done.stdout.splitlines()[:12]))
+    print("1..%d" % count)
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -42,7 +42,12 @@ static const struct kind {
     {{"a Radiance picture", false}, 0, 10, "#?RADIANCE", NULL},
     {{"an OpenEXR picture", false}, 0, 4, "\x76\x2f\x31\x01", NULL},
     {{"a PDF document", false}, 0, 5, "%PDF-", NULL},
-    {{"a program", false}, 0, 4, "\x7f" "ELF", NULL},
+    {{"a program", false},
+     0,
+     4,
+     "\x7f"
+     "ELF",
+     NULL},
     {{"a film", false}, 4, 4, "ftyp", NULL},
     {{"a web page", false}, 0, 9, "<!DOCTYPE", NULL},
     {{"a web page", false}, 0, 5, "<html", NULL},
@@ -73,7 +78,8 @@ static bool holds(const uint8_t *bytes, size_t size, const char *word)
 static bool is_3ds(const uint8_t *bytes, size_t size)
 {
     return size >= 6 && bytes[0] == 0x4d && bytes[1] == 0x4d &&
-           ((size_t)bytes[2] | (size_t)bytes[3] << 8 | (size_t)bytes[4] << 16 | (size_t)bytes[5] << 24) == size;
+           ((size_t)bytes[2] | (size_t)bytes[3] << 8 | (size_t)bytes[4] << 16 | (size_t)bytes[5] << 24) ==
+               size;
 }
 
 // IGES has cards of 80 columns, the first of them numbered S      1.
@@ -87,7 +93,8 @@ const struct foreign_kind *foreign_kind_of(const uint8_t *bytes, size_t size)
     static const struct foreign_kind studio = {"a 3DS file", true}, iges = {"an IGES file", true};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         const struct kind *kind = &kinds[i];
-        if (size >= kind->offset + kind->length && memcmp(bytes + kind->offset, kind->magic, kind->length) == 0 &&
+        if (size >= kind->offset + kind->length &&
+            memcmp(bytes + kind->offset, kind->magic, kind->length) == 0 &&
             (!kind->within || holds(bytes, size, kind->within)))
             return &kind->kind;
     }
@@ -96,7 +103,7 @@ const struct foreign_kind *foreign_kind_of(const uint8_t *bytes, size_t size)
     if (is_iges(bytes, size))
         return &iges;
     size_t at = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; // a byte order mark
-    bool comment = false; // MTL files begin with comments
+    bool comment = false;                                                   // MTL files begin with comments
     while (at < size && (bytes[at] <= ' ' || bytes[at] == '#' || comment)) {
         comment = (comment || bytes[at] == '#') && bytes[at] != '\n';
         at++;

@@ -87,7 +87,8 @@ static bool has_ending(const struct importer *importer, const char *ending)
 }
 
 // Content decides. Where it leaves a choice, or says nothing, the name's ending does.
-static const struct importer *choose(const char *name, const struct file_bytes *file, const char *wanted, lam_error *error)
+static const struct importer *choose(const char *name, const struct file_bytes *file, const char *wanted,
+                                     lam_error *error)
 {
     char list[128];
     if (wanted) {
@@ -95,8 +96,8 @@ static const struct importer *choose(const char *name, const struct file_bytes *
             if (strcasecmp(importers[i]->name, wanted) == 0 || has_ending(importers[i], wanted))
                 return importers[i];
         }
-        fail(error, LAM_UNSUPPORTED, "%s: the format '%s' cannot be read; this version reads %s", name, wanted,
-             format_list(list));
+        fail(error, LAM_UNSUPPORTED, "%s: the format '%s' cannot be read; this version reads %s", name,
+             wanted, format_list(list));
         return NULL;
     }
     if (file->size == 0) {
@@ -121,17 +122,19 @@ static const struct importer *choose(const char *name, const struct file_bytes *
     // Known to be something else, whatever its name says.
     const struct foreign_kind *foreign = foreign_kind_of(file->data, file->size);
     if (foreign && foreign->is_model) {
-        fail(error, LAM_UNSUPPORTED, "%s: this is %s, which this version cannot read yet; it reads %s", name, foreign->name,
-             format_list(list));
+        fail(error, LAM_UNSUPPORTED, "%s: this is %s, which this version cannot read yet; it reads %s", name,
+             foreign->name, format_list(list));
         return NULL;
     }
     if (foreign) {
-        fail(error, LAM_CANNOT_READ, "%s: this is %s, not a 3D model; expected %s", name, foreign->name, format_list(list));
+        fail(error, LAM_CANNOT_READ, "%s: this is %s, not a 3D model; expected %s", name, foreign->name,
+             format_list(list));
         return NULL;
     }
     if (by_ending)
         return by_ending; // its reader says what is wrong
-    fail(error, LAM_CANNOT_READ, "%s: this is no model format known here; expected %s", name, format_list(list));
+    fail(error, LAM_CANNOT_READ, "%s: this is no model format known here; expected %s", name,
+         format_list(list));
     return NULL;
 }
 
@@ -143,8 +146,8 @@ struct companions {
     void *user;
 };
 
-// A name that stays within the model's folder: as the file has it, with '/' for '\'; only its last part where it begins
-// at a root or drive, or climbs. False: there is no room for it.
+// A name that stays within the model's folder: as the file has it, with '/' for '\'; only its last part where
+// it begins at a root or drive, or climbs. False: there is no room for it.
 static bool confine(const char *name, char *out, size_t room)
 {
     size_t length = strlen(name);
@@ -166,13 +169,15 @@ static bool confine(const char *name, char *out, size_t room)
     return true;
 }
 
-static bool open_companion(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error)
+static bool open_companion(const struct import_source *source, const char *name, struct file_bytes *out,
+                           lam_error *error)
 {
     enum { LONGEST = 4096 };
     const struct companions *companions = source->open_state;
     char inside[LONGEST], path[2 * LONGEST];
     if (!confine(name, inside, sizeof inside) || !*inside || strcmp(inside, "..") == 0)
-        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for", source->name, name);
+        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for",
+                    source->name, name);
     if (companions->open) {
         lam_bytes bytes = {0};
         if (!companions->open(companions->user, inside, &bytes, error))
@@ -218,12 +223,13 @@ static bool check_not_empty(const struct lam_scene *scene, const char *name, lam
     if (triangles)
         return true;
     if (points)
-        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles (%llu points only)", name, (unsigned long long)points);
+        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles (%llu points only)", name,
+                    (unsigned long long)points);
     return fail(error, LAM_CANNOT_READ, "%s: holds no triangles", name);
 }
 
-static bool build(struct lam_scene *scene, const struct import_source *source, const struct importer *importer,
-                  uint64_t start_ns, lam_error *error)
+static bool build(struct lam_scene *scene, const struct import_source *source,
+                  const struct importer *importer, uint64_t start_ns, lam_error *error)
 {
     const lam_load_params *params = source->params;
     scene->format = importer->name;
@@ -244,8 +250,8 @@ static bool build(struct lam_scene *scene, const struct import_source *source, c
 }
 
 // `path` or else `bytes`.
-static lam_scene *load(const char *path, const void *bytes, size_t size, const char *name, const lam_load_params *given,
-                       const lam_control *control, lam_error *error)
+static lam_scene *load(const char *path, const void *bytes, size_t size, const char *name,
+                       const lam_load_params *given, const lam_control *control, lam_error *error)
 {
     static const lam_load_params defaults;
     const lam_load_params *params = given ? given : &defaults;
@@ -266,7 +272,8 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     struct lam_scene *scene = NULL;
     struct file_bytes file = {0};
     bool ok = source.pool || fail(error, LAM_LIMIT, "%s: out of memory for threads", name);
-    ok = ok && (path ? file_read(path, source.pool, &watch, &file, error) : file_copy(bytes, size, &watch, &file, error));
+    ok = ok && (path ? file_read(path, source.pool, &watch, &file, error)
+                     : file_copy(bytes, size, &watch, &file, error));
     if (ok) {
         source.bytes = file.data;
         source.size = file.size;
@@ -285,7 +292,8 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     return ok ? scene : NULL;
 }
 
-lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control, lam_error *error)
+lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control,
+                          lam_error *error)
 {
     if (!path || !*path) {
         fail(error, LAM_BAD_ARGUMENT, "no file name given");
@@ -294,8 +302,8 @@ lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const
     return load(path, NULL, 0, strcmp(path, "-") == 0 ? "standard input" : path, params, control, error);
 }
 
-lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name, const lam_load_params *params,
-                                 const lam_control *control, lam_error *error)
+lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name,
+                                 const lam_load_params *params, const lam_control *control, lam_error *error)
 {
     if (!bytes && size) {
         fail(error, LAM_BAD_ARGUMENT, "no bytes given");

@@ -66,7 +66,7 @@ struct reader {
     struct lam_scene *scene;
     const char *name; // of the file
     const uint8_t *begin, *end;
-    bool raw;          // colours are not converted
+    bool raw; // colours are not converted
     // The material that is being read, and which of its statements were there.
     lam_material material;
     bool open, ka, kd, d;
@@ -76,7 +76,8 @@ struct reader {
 };
 
 // Reads `least` to `most` numbers, and says how many there were; fewer are −1, with a warning.
-static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t *end, float *to, int least, int most)
+static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t *end, float *to, int least,
+                        int most)
 {
     int count = 0;
     while (count < most) {
@@ -96,26 +97,32 @@ static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t 
 }
 
 // A number brought into a range, with a warning where it was not.
-static float within(struct reader *reader, const uint8_t *at, float x, float low, float high, const char *what)
+static float within(struct reader *reader, const uint8_t *at, float x, float low, float high,
+                    const char *what)
 {
     if (x >= low && x <= high)
         return x;
     float to = x > high ? high : low; // NaN goes to the lower end
-    scene_warn(reader->scene, "%s:%zu: %s %g is out of range; %g is used", reader->name, text_line(reader->begin, at), what,
-               (double)x, (double)to);
+    scene_warn(reader->scene, "%s:%zu: %s %g is out of range; %g is used", reader->name,
+               text_line(reader->begin, at), what, (double)x, (double)to);
     return to;
 }
 
 // A colour as linear light. From 1 on, where sRGB ends, numbers are taken as they are.
-static float linear(const struct reader *reader, float c) { return reader->raw || c >= 1 ? c : srgb_decode(c); }
+static float linear(const struct reader *reader, float c)
+{
+    return reader->raw || c >= 1 ? c : srgb_decode(c);
+}
 
 // K… r [g b]; one number stands for three. False: not read.
-static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *end, const char *what, lam_rgb *out)
+static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *end, const char *what,
+                       lam_rgb *out)
 {
     at = text_skip_white(at, end);
     if (text_is_word(at, end, "spectral") || text_is_word(at, end, "xyz")) {
-        scene_warn(reader->scene, "%s:%zu: %s as a %s is not read, only r g b", reader->name, text_line(reader->begin, at),
-                   what, text_is_word(at, end, "xyz") ? "CIE XYZ colour" : "spectral curve");
+        scene_warn(reader->scene, "%s:%zu: %s as a %s is not read, only r g b", reader->name,
+                   text_line(reader->begin, at), what,
+                   text_is_word(at, end, "xyz") ? "CIE XYZ colour" : "spectral curve");
         return false;
     }
     float c[3];
@@ -142,7 +149,8 @@ static bool close_material(struct reader *reader, lam_error *error)
     if (!reader->ka)
         m->ambient = (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b};
     if (m->illum == 0) { // the colour itself, unlit
-        m->emission = (lam_rgb){m->emission.r + m->diffuse.r, m->emission.g + m->diffuse.g, m->emission.b + m->diffuse.b};
+        m->emission = (lam_rgb){m->emission.r + m->diffuse.r, m->emission.g + m->diffuse.g,
+                                m->emission.b + m->diffuse.b};
         m->diffuse.r = m->diffuse.g = m->diffuse.b = 0;
         m->ambient = (lam_rgb){0, 0, 0};
     }
@@ -155,7 +163,8 @@ static bool close_material(struct reader *reader, lam_error *error)
         return false;
     reader->open = false;
     return remember(reader->set, m->name, index) ||
-           watch_memory_error(reader->scene->arena.watch, reader->set->room * sizeof(struct mtl_entry), error);
+           watch_memory_error(reader->scene->arena.watch, reader->set->room * sizeof(struct mtl_entry),
+                              error);
 }
 
 static bool start_material(struct reader *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
@@ -180,9 +189,9 @@ static const uint8_t *behind_options(const uint8_t *at, const uint8_t *end)
         const char *word;
         int least, most; // what follows: words, or numbers where the two differ
     } options[] = {
-        {"-blendu", 1, 1}, {"-blendv", 1, 1}, {"-boost", 1, 1},   {"-bm", 1, 1}, {"-cc", 1, 1}, {"-clamp", 1, 1},
-        {"-colorspace", 1, 1}, {"-imfchan", 1, 1}, {"-mm", 2, 2}, {"-o", 1, 3},  {"-s", 1, 3},  {"-t", 1, 3},
-        {"-texres", 1, 1}, {"-type", 1, 1},
+        {"-blendu", 1, 1}, {"-blendv", 1, 1},     {"-boost", 1, 1},   {"-bm", 1, 1},   {"-cc", 1, 1},
+        {"-clamp", 1, 1},  {"-colorspace", 1, 1}, {"-imfchan", 1, 1}, {"-mm", 2, 2},   {"-o", 1, 3},
+        {"-s", 1, 3},      {"-t", 1, 3},          {"-texres", 1, 1},  {"-type", 1, 1},
     };
     for (;;) {
         int option = -1;
@@ -197,14 +206,16 @@ static const uint8_t *behind_options(const uint8_t *at, const uint8_t *end)
             float unused;
             const uint8_t *word = text_skip_word(at, end);
             // A number that is the last word is the file's name.
-            if (i >= options[option].least && (number_float(at, end, &unused) != word || text_skip_white(word, end) == end))
+            if (i >= options[option].least &&
+                (number_float(at, end, &unused) != word || text_skip_white(word, end) == end))
                 break;
             at = text_skip_white(word, end);
         }
     }
 }
 
-static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at, const uint8_t *end, lam_error *error)
+static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at, const uint8_t *end,
+                     lam_error *error)
 {
     const uint8_t *name = behind_options(at, end), *last = name;
     if (name == end)
@@ -221,8 +232,16 @@ static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at,
 }
 
 enum statement {
-    NEWMTL, KA, KD, KS, KE, NS, D, TR, ILLUM,
-    MAP, // + enum lam_map
+    NEWMTL,
+    KA,
+    KD,
+    KS,
+    KE,
+    NS,
+    D,
+    TR,
+    ILLUM,
+    MAP,                           // + enum lam_map
     NOTHING = MAP + LAM_MAP_COUNT, // known, without a part in the classic models
     OTHER_MAP,
     UNKNOWN,
@@ -232,16 +251,44 @@ static const struct {
     const char *word;
     enum statement statement;
 } words[] = {
-    {"newmtl", NEWMTL}, {"ka", KA}, {"kd", KD}, {"ks", KS}, {"ke", KE}, {"ns", NS}, {"d", D}, {"tr", TR}, {"illum", ILLUM},
-    {"map_ka", MAP + LAM_MAP_AMBIENT}, {"map_kd", MAP + LAM_MAP_DIFFUSE}, {"map_ks", MAP + LAM_MAP_SPECULAR},
-    {"map_ke", MAP + LAM_MAP_EMISSION}, {"map_ns", MAP + LAM_MAP_SHININESS}, {"map_d", MAP + LAM_MAP_OPACITY},
-    {"map_bump", MAP + LAM_MAP_BUMP}, {"bump", MAP + LAM_MAP_BUMP}, {"norm", MAP + LAM_MAP_NORMAL},
-    {"map_norm", MAP + LAM_MAP_NORMAL}, {"disp", MAP + LAM_MAP_DISPLACEMENT}, {"map_disp", MAP + LAM_MAP_DISPLACEMENT},
-    {"refl", MAP + LAM_MAP_REFLECTION}, {"map_refl", MAP + LAM_MAP_REFLECTION},
+    {"newmtl", NEWMTL},
+    {"ka", KA},
+    {"kd", KD},
+    {"ks", KS},
+    {"ke", KE},
+    {"ns", NS},
+    {"d", D},
+    {"tr", TR},
+    {"illum", ILLUM},
+    {"map_ka", MAP + LAM_MAP_AMBIENT},
+    {"map_kd", MAP + LAM_MAP_DIFFUSE},
+    {"map_ks", MAP + LAM_MAP_SPECULAR},
+    {"map_ke", MAP + LAM_MAP_EMISSION},
+    {"map_ns", MAP + LAM_MAP_SHININESS},
+    {"map_d", MAP + LAM_MAP_OPACITY},
+    {"map_bump", MAP + LAM_MAP_BUMP},
+    {"bump", MAP + LAM_MAP_BUMP},
+    {"norm", MAP + LAM_MAP_NORMAL},
+    {"map_norm", MAP + LAM_MAP_NORMAL},
+    {"disp", MAP + LAM_MAP_DISPLACEMENT},
+    {"map_disp", MAP + LAM_MAP_DISPLACEMENT},
+    {"refl", MAP + LAM_MAP_REFLECTION},
+    {"map_refl", MAP + LAM_MAP_REFLECTION},
     // Refraction, the transmission filter, sharpness of reflections; and the metallic-roughness additions.
-    {"ni", NOTHING}, {"tf", NOTHING}, {"kt", NOTHING}, {"km", NOTHING}, {"kr", NOTHING}, {"sharpness", NOTHING},
-    {"pr", NOTHING}, {"pm", NOTHING}, {"ps", NOTHING}, {"pc", NOTHING}, {"pcr", NOTHING}, {"aniso", NOTHING},
-    {"anisor", NOTHING}, {"map_aat", NOTHING},
+    {"ni", NOTHING},
+    {"tf", NOTHING},
+    {"kt", NOTHING},
+    {"km", NOTHING},
+    {"kr", NOTHING},
+    {"sharpness", NOTHING},
+    {"pr", NOTHING},
+    {"pm", NOTHING},
+    {"ps", NOTHING},
+    {"pc", NOTHING},
+    {"pcr", NOTHING},
+    {"aniso", NOTHING},
+    {"anisor", NOTHING},
+    {"map_aat", NOTHING},
 };
 
 static enum statement statement_of(const uint8_t *at, const uint8_t *end)
@@ -277,7 +324,8 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
     switch (statement) {
     case KA:
         if (read_color(reader, at, end, "Ka", &m->ambient))
-            reader->ka = !(m->ambient.r == 1 && m->ambient.g == 1 && m->ambient.b == 1); // 1 1 1 is a habit, not a choice
+            reader->ka = !(m->ambient.r == 1 && m->ambient.g == 1 &&
+                           m->ambient.b == 1); // 1 1 1 is a habit, not a choice
         break;
     case KD:
         if (read_color(reader, at, end, "Kd", &color)) {
@@ -312,14 +360,14 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
         if (number_int(at, end, &model) && model >= 0 && model <= 10)
             m->illum = (int)model;
         else
-            scene_warn(reader->scene, "%s:%zu: illum is not one of the models 0 to 10; it is left out", reader->name,
-                       text_line(reader->begin, word));
+            scene_warn(reader->scene, "%s:%zu: illum is not one of the models 0 to 10; it is left out",
+                       reader->name, text_line(reader->begin, word));
         break;
     }
     case NOTHING:
         break;
     case OTHER_MAP:
-        reader->set->maps++;
+        reader->set->maps += at < end;
         break;
     default:
         return read_map(reader, (enum lam_map)(statement - MAP), at, end, error);
@@ -327,8 +375,8 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
     return true;
 }
 
-bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene, const char *name,
-              const struct file_bytes *file, lam_error *error)
+bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene,
+              const char *name, const struct file_bytes *file, lam_error *error)
 {
     struct reader reader = {
         .set = set,
@@ -354,8 +402,9 @@ bool mtl_read(struct mtl_set *set, const struct import_source *source, struct la
     }
     char found[TEXT_FOUND_SIZE];
     if (reader.unknown_count)
-        scene_warn(scene, "%s:%zu: the statement %s is not known%s", name, text_line(reader.begin, reader.unknown),
-                   text_found(reader.unknown, reader.end, found), reader.unknown_count > 1 ? ", nor are others" : "");
+        scene_warn(scene, "%s:%zu: the statement %s is not known%s", name,
+                   text_line(reader.begin, reader.unknown), text_found(reader.unknown, reader.end, found),
+                   reader.unknown_count > 1 ? ", nor are others" : "");
     if (reader.stray_count)
         scene_warn(scene, "%s:%zu: %s stands before any newmtl and is left out", name,
                    text_line(reader.begin, reader.stray), text_found(reader.stray, reader.end, found));

@@ -11,7 +11,8 @@
 
 static bool first_word_known(const uint8_t *at, const uint8_t *end)
 {
-    static const char *const words[] = {"v", "vt", "vn", "vp", "f", "g", "o", "s", "l", "p", "mtllib", "usemtl"};
+    static const char *const words[] = {"v", "vt", "vn", "vp", "f",      "g",
+                                        "o", "s",  "l",  "p",  "mtllib", "usemtl"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         if (text_is_word(at, end, words[i]))
             return true;
@@ -61,7 +62,8 @@ size_t obj_line(const struct obj *obj, const uint8_t *at)
     return lines;
 }
 
-static bool take_array(struct obj *obj, struct arena *arena, void *out, uint64_t count, size_t size, lam_error *error)
+static bool take_array(struct obj *obj, struct arena *arena, void *out, uint64_t count, size_t size,
+                       lam_error *error)
 {
     void *array = arena_array(arena, (size_t)count, size);
     if (!array)
@@ -105,11 +107,13 @@ static void warn_faces(struct obj *obj)
     }
     const char *name = obj->source->name;
     if (faces)
-        scene_warn(obj->scene, "%s:%zu: faces of one or two corners are left out: this is the first of %llu", name,
-                   obj_line(obj, face), (unsigned long long)faces);
+        scene_warn(obj->scene, "%s:%zu: faces of one or two corners are left out: this is the first of %llu",
+                   name, obj_line(obj, face), (unsigned long long)faces);
     if (numbers)
-        scene_warn(obj->scene, "%s:%zu: normals or texture coordinates that are not finite are taken as 0: the first of %llu",
-                   name, obj_line(obj, number), (unsigned long long)numbers);
+        scene_warn(
+            obj->scene,
+            "%s:%zu: normals or texture coordinates that are not finite are taken as 0: the first of %llu",
+            name, obj_line(obj, number), (unsigned long long)numbers);
     if (texcoords)
         scene_warn(obj->scene, "%s: faces name texture coordinates, but the file has none", name);
     if (normals)
@@ -172,14 +176,15 @@ static bool load(struct obj *obj, size_t chunk_bytes, lam_error *error)
     if (!obj_parse(obj, error) || !obj_find_origin(obj, error) || !obj_convert_colors(obj, error))
         return false;
     watch_progress(watch, 0.7, "read");
-    if (!obj_cut_polygons(obj, error) || !obj_read_statements(obj, error) || !obj_complete_texcoords(obj, error) ||
-        !obj_complete_normals(obj, error))
+    if (!obj_cut_polygons(obj, error) || !obj_read_statements(obj, error) ||
+        !obj_complete_texcoords(obj, error) || !obj_complete_normals(obj, error))
         return false;
     warn_faces(obj);
     return finish(obj, error);
 }
 
-bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes, lam_error *error)
+bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes,
+                      lam_error *error)
 {
     struct obj obj = {
         .source = source,
@@ -202,5 +207,9 @@ static bool obj_load(const struct import_source *source, struct lam_scene *scene
 }
 
 const struct importer importer_obj = {
-    .name = "obj", .extensions = "obj", .up = LAM_UP_Y, .probe = obj_probe, .load = obj_load,
+    .name = "obj",
+    .extensions = "obj",
+    .up = LAM_UP_Y,
+    .probe = obj_probe,
+    .load = obj_load,
 };

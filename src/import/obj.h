@@ -1,9 +1,10 @@
-// obj.h: the inside of the OBJ importer: obj.c leads, obj_scan.c counts, obj_parse.c reads numbers, obj_faces.c cuts
-// polygons and completes normals, obj_parts.c makes named parts of the statements in between.
+// obj.h: the inside of the OBJ importer: obj.c leads, obj_scan.c counts, obj_parse.c reads numbers,
+// obj_faces.c cuts polygons and completes normals, obj_parts.c makes named parts of the statements in
+// between.
 //
-// The file is cut at line ends into chunks of a fixed size, and each pass goes over all chunks in parallel. Pass one counts
-// what each chunk holds; sums over the chunks then say where its vertices and triangles go, so that pass two writes
-// every number straight into its place. Nothing depends on the number of threads.
+// The file is cut at line ends into chunks of a fixed size, and each pass goes over all chunks in parallel.
+// Pass one counts what each chunk holds; sums over the chunks then say where its vertices and triangles go,
+// so that pass two writes every number straight into its place. Nothing depends on the number of threads.
 #ifndef OBJ_H
 #define OBJ_H
 
@@ -11,8 +12,8 @@
 #include "mtl.h"
 
 enum {
-    OBJ_CHUNK = 256 << 10,     // bytes: some hundred microseconds of work
-    OBJ_MISSING = UINT32_MAX,  // a corner without this attribute
+    OBJ_CHUNK = 256 << 10,    // bytes: some hundred microseconds of work
+    OBJ_MISSING = UINT32_MAX, // a corner without this attribute
     OBJ_POLYGONS_A_PIECE = 1024,
 };
 
@@ -37,14 +38,14 @@ struct obj_chunk {
     struct obj_counts holds, before;
     bool colors, slashes; // pass one: some vertex has a colour; some '/' is there
     // Pass two:
-    float low[3], high[3];                    // box of the positions; low > high where there are none
-    double low_exact[3], high_exact[3];       // the same in double, where an origin is needed
-    float brightest;                          // the largest colour channel
+    float low[3], high[3];              // box of the positions; low > high where there are none
+    double low_exact[3], high_exact[3]; // the same in double, where an origin is needed
+    float brightest;                    // the largest colour channel
     bool texcoord_used, texcoord_missing, normal_used, normal_missing; // by some corner
-    bool texcoord_unknown, normal_unknown;    // named although the file has none at all
-    uint64_t short_faces;                     // of one or two corners
-    uint64_t odd_numbers;                     // normals and texture coordinates that are not finite
-    const uint8_t *short_face, *odd_number;   // the first ones
+    bool texcoord_unknown, normal_unknown;  // named although the file has none at all
+    uint64_t short_faces;                   // of one or two corners
+    uint64_t odd_numbers;                   // normals and texture coordinates that are not finite
+    const uint8_t *short_face, *odd_number; // the first ones
 };
 
 // A face of more than three corners: `count` of them stand at the begin of its triangles' places.
@@ -88,7 +89,8 @@ struct obj {
 // obj_scan.c
 // Where a logical line ends: behind its '\n', or at `end`. A backslash before the '\n' continues it.
 const uint8_t *obj_line_behind(const uint8_t *at, const uint8_t *end);
-// The next word of the statement, or its end: at '\n' or `end`. Steps over white space, continued lines and a comment.
+// The next word of the statement, or its end: at '\n' or `end`. Steps over white space, continued lines and a
+// comment.
 const uint8_t *obj_next_slowly(const uint8_t *at, const uint8_t *end);
 bool obj_cut(struct obj *obj, size_t chunk_bytes, lam_error *error);
 bool obj_scan(struct obj *obj, lam_error *error); // pass one, and the sums
@@ -107,12 +109,16 @@ bool obj_complete_normals(struct obj *obj, lam_error *error);
 bool obj_read_statements(struct obj *obj, lam_error *error);
 
 // For tests: loads with chunks of that many bytes.
-bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes, lam_error *error);
+bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes,
+                      lam_error *error);
 
 // Line number of a place in the file.
 size_t obj_line(const struct obj *obj, const uint8_t *at);
 
-static inline bool obj_white(uint8_t c) { return c <= ' ' && c != '\n' && c != 0; }
+static inline bool obj_white(uint8_t c)
+{
+    return c <= ' ' && c != '\n' && c != 0;
+}
 
 static inline const uint8_t *obj_next(const uint8_t *at, const uint8_t *end)
 {
@@ -123,7 +129,10 @@ static inline const uint8_t *obj_next(const uint8_t *at, const uint8_t *end)
 }
 
 // Whether obj_next found the statement's end.
-static inline bool obj_over(const uint8_t *at, const uint8_t *end) { return *at == '\n' || at >= end; }
+static inline bool obj_over(const uint8_t *at, const uint8_t *end)
+{
+    return *at == '\n' || at >= end;
+}
 
 // Whether a word ends here.
 static inline bool obj_word_over(const uint8_t *at)

@@ -1,5 +1,5 @@
-// obj_faces.c: what an OBJ file's faces need once all vertices are read: polygons cut into triangles, and normals and
-// texture coordinates for the corners that name none.
+// obj_faces.c: what an OBJ file's faces need once all vertices are read: polygons cut into triangles, and
+// normals and texture coordinates for the corners that name none.
 #include "obj.h"
 
 #include "linear.h"
@@ -88,8 +88,8 @@ bool obj_cut_polygons(struct obj *obj, lam_error *error)
         triangulator_start(&cutting.scratch[t], watch);
         arena_start(&cutting.spare[t], watch);
     }
-    pool_run(obj->source->pool, (obj->total.polygons + OBJ_POLYGONS_A_PIECE - 1) / OBJ_POLYGONS_A_PIECE, cut_piece,
-             &cutting);
+    pool_run(obj->source->pool, (obj->total.polygons + OBJ_POLYGONS_A_PIECE - 1) / OBJ_POLYGONS_A_PIECE,
+             cut_piece, &cutting);
     for (size_t t = 0; t < threads; t++) {
         triangulator_stop(&cutting.scratch[t]);
         arena_free(&cutting.spare[t]);
@@ -104,7 +104,8 @@ bool obj_cut_polygons(struct obj *obj, lam_error *error)
 // --- attributes that some corners name and others do not
 
 // The same array with room for `more` elements behind its `count`.
-static float *grow(struct obj *obj, const float *array, size_t count, size_t more, size_t width, lam_error *error)
+static float *grow(struct obj *obj, const float *array, size_t count, size_t more, size_t width,
+                   lam_error *error)
 {
     float *larger = arena_array(&obj->scene->arena, count + more, width * sizeof *larger);
     if (!larger) {
@@ -150,7 +151,8 @@ static bool lacks_normal(const uint32_t *corners)
     return corners[0] == OBJ_MISSING || corners[1] == OBJ_MISSING || corners[2] == OBJ_MISSING;
 }
 
-// Makes smooth normals for the triangles that lack one at some corner, from those triangles alone, behind the file's own.
+// Makes smooth normals for the triangles that lack one at some corner, from those triangles alone, behind the
+// file's own.
 static bool make_missing(struct obj *obj, lam_error *error)
 {
     const struct import_source *source = obj->source;
@@ -177,7 +179,8 @@ static bool make_missing(struct obj *obj, lam_error *error)
         .smoothing_groups = groups,
     };
     double crease = source->params->crease_angle_rad;
-    if (!normals_smooth(&part, crease > 0 ? crease : math_radians(40), &obj->memory, source->pool, source->watch, error))
+    if (!normals_smooth(&part, crease > 0 ? crease : math_radians(40), &obj->memory, source->pool,
+                        source->watch, error))
         return false;
     size_t own = (size_t)obj->total.normals;
     float *normals = grow(obj, obj->normals, own, part.normal_count, 3, error);

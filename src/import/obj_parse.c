@@ -14,9 +14,9 @@
 struct reader {
     struct obj *obj;
     struct obj_chunk *chunk;
-    const uint8_t *end;        // of the file
-    struct obj_counts at;      // where the next of each kind goes
-    struct obj_counts limit;   // where this chunk's places end
+    const uint8_t *end;      // of the file
+    struct obj_counts at;    // where the next of each kind goes
+    struct obj_counts limit; // where this chunk's places end
     lam_error *error;
 };
 
@@ -25,15 +25,16 @@ static const uint8_t *wrong(struct reader *reader, const uint8_t *at, const char
 {
     char found[TEXT_FOUND_SIZE];
     const struct obj *obj = reader->obj;
-    const char *what = at < reader->end && *at == '\n' ? "the end of the line" : text_found(at, reader->end, found);
+    const char *what =
+        at < reader->end && *at == '\n' ? "the end of the line" : text_found(at, reader->end, found);
     fail_line(reader->error, obj->source, obj_line(obj, at), "found %s, expected %s", what, expected);
     return NULL;
 }
 
-// Reads `count` numbers; a missing one is 0 where `least` are there. Returns the place of the word behind them; NULL:
-// wrong. `expected` names them.
-static inline const uint8_t *read_numbers(struct reader *reader, const uint8_t *at, float *to, int least, int count,
-                                          const char *expected)
+// Reads `count` numbers; a missing one is 0 where `least` are there. Returns the place of the word behind
+// them; NULL: wrong. `expected` names them.
+static inline const uint8_t *read_numbers(struct reader *reader, const uint8_t *at, float *to, int least,
+                                          int count, const char *expected)
 {
     const uint8_t *end = reader->end;
     for (int i = 0; i < count; i++) {
@@ -62,7 +63,10 @@ static inline const uint8_t *finish(const uint8_t *at, const uint8_t *end)
     return at < end ? at + 1 : end;
 }
 
-static float clean(float x) { return x > 0 ? x : 0; } // NaN too
+static float clean(float x)
+{
+    return x > 0 ? x : 0;
+} // NaN too
 
 // What may follow x y z: nothing; w, which only rational curves use; r g b, perhaps with more behind.
 static const uint8_t *read_color(struct reader *reader, const uint8_t *at, float *color)
@@ -80,7 +84,8 @@ static const uint8_t *read_color(struct reader *reader, const uint8_t *at, float
     if (color && count >= 3) {
         for (int i = 0; i < 3; i++) {
             color[i] = clean(extra[i]);
-            reader->chunk->brightest = color[i] > reader->chunk->brightest ? color[i] : reader->chunk->brightest;
+            reader->chunk->brightest =
+                color[i] > reader->chunk->brightest ? color[i] : reader->chunk->brightest;
         }
     }
     return at;
@@ -131,7 +136,8 @@ static const uint8_t *read_position(struct reader *reader, const uint8_t *at)
     return at;
 }
 
-// Texture coordinates and normals: what is not finite becomes 0 and is told once, since exporters do write "nan" here.
+// Texture coordinates and normals: what is not finite becomes 0 and is told once, since exporters do write
+// "nan" here.
 static const uint8_t *read_attribute(struct reader *reader, const uint8_t *at, bool normal)
 {
     struct obj *obj = reader->obj;
@@ -162,9 +168,10 @@ static const uint8_t *read_attribute(struct reader *reader, const uint8_t *at, b
     return finish(at, reader->end);
 }
 
-// Reads a number of a corner: 1 is the first, −1 the last above. NULL: wrong. `what` names it, `so_far` are above it.
-static inline const uint8_t *read_index(struct reader *reader, const uint8_t *at, uint64_t total, uint64_t so_far,
-                                        const char *what, uint32_t *out)
+// Reads a number of a corner: 1 is the first, −1 the last above. NULL: wrong. `what` names it, `so_far` are
+// above it.
+static inline const uint8_t *read_index(struct reader *reader, const uint8_t *at, uint64_t total,
+                                        uint64_t so_far, const char *what, uint32_t *out)
 {
     uint64_t eight = number_load8(at);
     unsigned digits = number_digit_count(eight);
@@ -191,15 +198,16 @@ static inline const uint8_t *read_index(struct reader *reader, const uint8_t *at
             fail_line(reader->error, obj->source, line, "a face names %s %s; the file has %llu", name, found,
                       (unsigned long long)total);
         else
-            fail_line(reader->error, obj->source, line, "a face names %s %s, counted back; %llu are above it", name, found,
-                      (unsigned long long)so_far);
+            fail_line(reader->error, obj->source, line, "a face names %s %s, counted back; %llu are above it",
+                      name, found, (unsigned long long)so_far);
         return NULL;
     }
     *out = (uint32_t)index;
     return behind;
 }
 
-static const char what_position[] = "a vertex", what_texcoord[] = "a texture coordinate", what_normal[] = "a normal";
+static const char what_position[] = "a vertex", what_texcoord[] = "a texture coordinate",
+                  what_normal[] = "a normal";
 
 // One face: v, v/t, v//n or v/t/n for each corner, each corner by itself.
 static const uint8_t *read_face(struct reader *reader, const uint8_t *at)
@@ -221,7 +229,8 @@ static const uint8_t *read_face(struct reader *reader, const uint8_t *at)
             at++;
             if (*at != '/' && !obj_word_over(at)) {
                 if (texcoords) {
-                    at = read_index(reader, at, obj->total.texcoords, reader->at.texcoords, what_texcoord, &texcoord);
+                    at = read_index(reader, at, obj->total.texcoords, reader->at.texcoords, what_texcoord,
+                                    &texcoord);
                     if (!at)
                         return NULL;
                 } else {
@@ -237,7 +246,8 @@ static const uint8_t *read_face(struct reader *reader, const uint8_t *at)
                 at++;
                 if (!obj_word_over(at)) {
                     if (normals) {
-                        at = read_index(reader, at, obj->total.normals, reader->at.normals, what_normal, &normal);
+                        at = read_index(reader, at, obj->total.normals, reader->at.normals, what_normal,
+                                        &normal);
                         if (!at)
                             return NULL;
                     } else {
@@ -274,7 +284,8 @@ static const uint8_t *read_face(struct reader *reader, const uint8_t *at)
         if (first + 3 * (count - 2) > limit || (count > 3 && reader->at.polygons >= reader->limit.polygons))
             return wrong(reader, begin, "what was there a moment ago");
         if (count > 3)
-            obj->polygons[reader->at.polygons++] = (struct obj_polygon){(uint32_t)reader->at.triangles, (uint32_t)count};
+            obj->polygons[reader->at.polygons++] =
+                (struct obj_polygon){(uint32_t)reader->at.triangles, (uint32_t)count};
         reader->at.triangles += count - 2;
     } else if (chunk->short_faces++ == 0) {
         chunk->short_face = begin;
@@ -282,8 +293,8 @@ static const uint8_t *read_face(struct reader *reader, const uint8_t *at)
     return at < end ? at + 1 : end;
 }
 
-// The commonest line, "f a b c" with numbers of up to seven digits, all in range: the place behind it. NULL: it is something
-// else, and nothing was done.
+// The commonest line, "f a b c" with numbers of up to seven digits, all in range: the place behind it. NULL:
+// it is something else, and nothing was done.
 static inline const uint8_t *read_plain_triangle(struct reader *reader, const uint8_t *at)
 {
     struct obj *obj = reader->obj;
@@ -377,8 +388,8 @@ bool obj_parse(struct obj *obj, lam_error *error)
 // --- positions far from zero: read again, as doubles
 
 // Calls for each position of the chunk, in order. The text is known to be right.
-static void each_position(struct obj *obj, struct obj_chunk *chunk, void (*take)(struct obj *, struct obj_chunk *, uint64_t,
-                                                                                 const double[3]))
+static void each_position(struct obj *obj, struct obj_chunk *chunk,
+                          void (*take)(struct obj *, struct obj_chunk *, uint64_t, const double[3]))
 {
     const uint8_t *at = chunk->begin, *end = obj->end;
     uint64_t index = chunk->before.positions, limit = index + chunk->holds.positions;
@@ -498,7 +509,7 @@ bool obj_convert_colors(struct obj *obj, lam_error *error)
         brightest = obj->chunks[c].brightest > brightest ? obj->chunks[c].brightest : brightest;
     obj->color_scale = brightest > 1 ? 1.0f / 255.0f : 1.0f;
     if (brightest > 1)
-        scene_warn(obj->scene, "%s: vertex colours go up to %g: they are taken as 0 to 255, not 0 to 1", obj->source->name,
-                   (double)brightest);
+        scene_warn(obj->scene, "%s: vertex colours go up to %g: they are taken as 0 to 255, not 0 to 1",
+                   obj->source->name, (double)brightest);
     return chunks_run(obj->source, chunk_count(obj->total.positions), convert_piece, obj, error);
 }

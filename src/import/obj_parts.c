@@ -1,8 +1,8 @@
-// obj_parts.c: an OBJ file's statements between its vertices and faces, in order: object, group, material, smoothing
-// group, material files; and what is not drawn.
+// obj_parts.c: an OBJ file's statements between its vertices and faces, in order: object, group, material,
+// smoothing group, material files; and what is not drawn.
 //
-// A part is a run of triangles of the same object, group and material, named "object/group", or by the one there is.
-// A new object ends the group.
+// A part is a run of triangles of the same object, group and material, named "object/group", or by the one
+// there is. A new object ends the group.
 #include "obj.h"
 
 #include "fail.h"
@@ -12,8 +12,13 @@
 #include <string.h>
 
 enum statement {
-    OBJECT, GROUP, MATERIAL, LIBRARY, SMOOTHING,
-    LINES, POINTS,
+    OBJECT,
+    GROUP,
+    MATERIAL,
+    LIBRARY,
+    SMOOTHING,
+    LINES,
+    POINTS,
     FREE_FORM, // curves and surfaces, with their points and parameters
     NOTHING,   // known, without meaning for a picture made here
     UNKNOWN,
@@ -24,14 +29,16 @@ static const struct {
     const char *word;
     enum statement statement;
 } words[] = {
-    {"o", OBJECT}, {"g", GROUP}, {"usemtl", MATERIAL}, {"mtllib", LIBRARY}, {"s", SMOOTHING}, {"l", LINES}, {"p", POINTS},
-    {"vp", FREE_FORM}, {"cstype", FREE_FORM}, {"deg", FREE_FORM}, {"bmat", FREE_FORM}, {"step", FREE_FORM},
-    {"curv", FREE_FORM}, {"curv2", FREE_FORM}, {"surf", FREE_FORM}, {"parm", FREE_FORM}, {"trim", FREE_FORM},
-    {"hole", FREE_FORM}, {"scrv", FREE_FORM}, {"sp", FREE_FORM}, {"end", FREE_FORM}, {"con", FREE_FORM},
-    {"ctech", FREE_FORM}, {"stech", FREE_FORM}, {"bzp", FREE_FORM}, {"bsp", FREE_FORM}, {"cdc", FREE_FORM},
-    {"cdp", FREE_FORM}, {"res", FREE_FORM},
-    {"mg", NOTHING}, {"bevel", NOTHING}, {"c_interp", NOTHING}, {"d_interp", NOTHING}, {"lod", NOTHING},
-    {"maplib", NOTHING}, {"usemap", NOTHING}, {"shadow_obj", NOTHING}, {"trace_obj", NOTHING},
+    {"o", OBJECT},           {"g", GROUP},           {"usemtl", MATERIAL}, {"mtllib", LIBRARY},
+    {"s", SMOOTHING},        {"l", LINES},           {"p", POINTS},        {"vp", FREE_FORM},
+    {"cstype", FREE_FORM},   {"deg", FREE_FORM},     {"bmat", FREE_FORM},  {"step", FREE_FORM},
+    {"curv", FREE_FORM},     {"curv2", FREE_FORM},   {"surf", FREE_FORM},  {"parm", FREE_FORM},
+    {"trim", FREE_FORM},     {"hole", FREE_FORM},    {"scrv", FREE_FORM},  {"sp", FREE_FORM},
+    {"end", FREE_FORM},      {"con", FREE_FORM},     {"ctech", FREE_FORM}, {"stech", FREE_FORM},
+    {"bzp", FREE_FORM},      {"bsp", FREE_FORM},     {"cdc", FREE_FORM},   {"cdp", FREE_FORM},
+    {"res", FREE_FORM},      {"mg", NOTHING},        {"bevel", NOTHING},   {"c_interp", NOTHING},
+    {"d_interp", NOTHING},   {"lod", NOTHING},       {"maplib", NOTHING},  {"usemap", NOTHING},
+    {"shadow_obj", NOTHING}, {"trace_obj", NOTHING},
 };
 
 // What was met while the statements were read.
@@ -65,8 +72,8 @@ static enum statement statement_of(const uint8_t *at, const uint8_t *end)
     return UNKNOWN;
 }
 
-// The rest of a statement as a name: without white space around it, a continued line joined by a space. NULL in `*out`
-// for an empty one.
+// The rest of a statement as a name: without white space around it, a continued line joined by a space. NULL
+// in `*out` for an empty one.
 static bool read_name(struct state *state, const uint8_t *at, const char **out, lam_error *error)
 {
     const uint8_t *end = obj_line_behind(at, state->obj->end);
@@ -91,7 +98,10 @@ static bool read_name(struct state *state, const uint8_t *at, const char **out, 
     return true;
 }
 
-static bool same_name(const char *a, const char *b) { return a == b || (a && b && strcmp(a, b) == 0); }
+static bool same_name(const char *a, const char *b)
+{
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
 
 // --- parts
 
@@ -121,7 +131,8 @@ static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
     uint32_t from = last ? last->first_triangle + last->triangle_count : 0;
     if (triangle == from)
         return true;
-    bool same = last && same_name(state->object, state->part_object) && same_name(state->group, state->part_group);
+    bool same =
+        last && same_name(state->object, state->part_object) && same_name(state->group, state->part_group);
     if (same && last->material == state->material) {
         last->triangle_count += triangle - from;
         return true;
@@ -227,7 +238,8 @@ static uint32_t read_smoothing(const struct obj *obj, const uint8_t *at)
     return number_int(at, end, &group) ? (uint32_t)group : 0; // "off", or nothing
 }
 
-static bool take_statement(struct state *state, enum statement statement, const struct obj_statement *s, lam_error *error)
+static bool take_statement(struct state *state, enum statement statement, const struct obj_statement *s,
+                           lam_error *error)
 {
     if (state->counts[statement]++ == 0)
         state->first[statement] = s->at;
@@ -261,23 +273,26 @@ static void warn_elements(struct state *state)
     size_t lines = state->counts[LINES], points = state->counts[POINTS], free_form = state->counts[FREE_FORM];
     if (lines + points)
         scene_warn(obj->scene, "%s:%zu: %zu line and %zu point elements are not drawn, only faces are", name,
-                   obj_line(obj, !points || (lines && state->first[LINES] < state->first[POINTS]) ? state->first[LINES]
-                                                                                                 : state->first[POINTS]),
+                   obj_line(obj, !points || (lines && state->first[LINES] < state->first[POINTS])
+                                     ? state->first[LINES]
+                                     : state->first[POINTS]),
                    lines, points);
     char found[TEXT_FOUND_SIZE];
     if (free_form)
         scene_warn(obj->scene,
-                   "%s:%zu: free-form curves and surfaces are not drawn: %s is the first of %zu statements that make them",
-                   name, obj_line(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found),
-                   free_form);
+                   "%s:%zu: free-form curves and surfaces are not drawn: %s is the first of %zu statements "
+                   "that make them",
+                   name, obj_line(obj, state->first[FREE_FORM]),
+                   text_found(state->first[FREE_FORM], obj->end, found), free_form);
     if (state->counts[UNKNOWN])
-        scene_warn(obj->scene, "%s:%zu: the statement %s is not known; it is the first of %zu that are passed over", name,
+        scene_warn(obj->scene,
+                   "%s:%zu: the statement %s is not known; it is the first of %zu that are passed over", name,
                    obj_line(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found),
                    state->counts[UNKNOWN]);
 }
 
-// A file without triangles that does hold something to be seen is told what that is. What holds less is everyone's
-// error, made in import.c.
+// A file without triangles that does hold something to be seen is told what that is. What holds less is
+// everyone's error, made in import.c.
 static bool explain_nothing(struct state *state, lam_error *error)
 {
     struct obj *obj = state->obj;
@@ -285,12 +300,14 @@ static bool explain_nothing(struct state *state, lam_error *error)
     size_t lines = state->counts[LINES], points = state->counts[POINTS];
     char found[TEXT_FOUND_SIZE];
     if (state->counts[FREE_FORM])
-        return fail(error, LAM_UNSUPPORTED,
-                    "%s:%zu: holds no faces, only free-form curves and surfaces (%s), which this version cannot draw", name,
-                    obj_line(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found));
+        return fail(
+            error, LAM_UNSUPPORTED,
+            "%s:%zu: holds no faces, only free-form curves and surfaces (%s), which this version cannot draw",
+            name, obj_line(obj, state->first[FREE_FORM]),
+            text_found(state->first[FREE_FORM], obj->end, found));
     if (lines + points)
-        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu line and %zu point elements", name, lines,
-                    points);
+        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu line and %zu point elements",
+                    name, lines, points);
     return true;
 }
 
@@ -301,14 +318,18 @@ static void warn_materials(struct state *state)
     if (state->unknown_materials && !state->library_missing) {
         size_t line = obj_line(obj, state->unknown_material_at);
         if (!state->libraries)
-            scene_warn(obj->scene, "%s:%zu: uses the material '%s' but names no material file; it is drawn in neutral grey",
-                       name, line, state->unknown_material);
+            scene_warn(
+                obj->scene,
+                "%s:%zu: uses the material '%s' but names no material file; it is drawn in neutral grey",
+                name, line, state->unknown_material);
         else if (state->unknown_materials == 1)
-            scene_warn(obj->scene, "%s:%zu: no material file has the material '%s'; it is drawn in neutral grey", name, line,
-                       state->unknown_material);
+            scene_warn(obj->scene,
+                       "%s:%zu: no material file has the material '%s'; it is drawn in neutral grey", name,
+                       line, state->unknown_material);
         else
             scene_warn(obj->scene,
-                       "%s:%zu: no material file has the material '%s', the first of %zu uses of materials that are drawn "
+                       "%s:%zu: no material file has the material '%s', the first of %zu uses of materials "
+                       "that are drawn "
                        "in neutral grey",
                        name, line, state->unknown_material, state->unknown_materials);
     }

@@ -131,7 +131,7 @@ static bool scan_chunk(void *user, size_t index, lam_error *error)
         const uint8_t *block = line;
         uint64_t white_before = 1, special_before = 0;
         uint64_t words = 0, words_at_line = 0; // that began before the block; before the line
-        bool leave = false; // this run of blocks, for the next line or the chunk's end
+        bool leave = false;                    // this run of blocks, for the next line or the chunk's end
         for (;; block += 64) {
             struct byte_masks masks = byte_masks_of(block);
             uint64_t begins = ~masks.white & (masks.white << 1 | white_before);
@@ -221,8 +221,8 @@ bool obj_scan(struct obj *obj, lam_error *error)
     uint64_t most = sum.positions > sum.texcoords ? sum.positions : sum.texcoords;
     most = most > sum.normals ? most : sum.normals;
     if (most >= UINT32_MAX)
-        return fail(error, LAM_LIMIT, "%s: holds %llu vertices of a kind; at most 4294967294 can be held", name,
-                    (unsigned long long)most);
+        return fail(error, LAM_LIMIT, "%s: holds %llu vertices of a kind; at most 4294967294 can be held",
+                    name, (unsigned long long)most);
     if (sum.triangles > UINT32_MAX / 3)
         return fail(error, LAM_LIMIT, "%s: holds %llu triangles; at most %u can be held", name,
                     (unsigned long long)sum.triangles, UINT32_MAX / 3);

@@ -1,0 +1,680 @@
+// test_obj.c: OBJ and MTL: each form of statement, each mistake's sentence, and the same result for any
+// threads and chunks.
+#include "obj.h"
+
+#include <lambent/image.h>
+#include <lambent/lambent.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+// --- help
+
+struct library {
+    const char *name, *text;
+};
+
+static bool open_library(void *user, const char *name, struct lam_bytes *bytes, lam_error *error)
+{
+    for (const struct library *library = user; library && library->name; library++) {
+        if (strcmp(library->name, name) != 0)
+            continue;
+        bytes->size = strlen(library->text);
+        bytes->data = malloc(bytes->size + 1);
+        memcpy(bytes->data, library->text, bytes->size);
+        return true;
+    }
+    error->code = LAM_CANNOT_READ;
+    snprintf(error->text, sizeof error->text, "%s: no such file", name);
+    return false;
+}
+
+static lam_scene *load_with(const char *text, lam_load_params params, const struct library *libraries,
+                            lam_error *error)
+{
+    params.open = open_library;
+    params.user = (void *)(uintptr_t)libraries;
+    if (params.threads == 0)
+        params.threads = 1;
+    return lam_scene_load_memory(text, strlen(text), "t.obj", &params, NULL, error);
+}
+
+static lam_scene *load(const char *text)
+{
+    lam_error error;
+    lam_scene *scene = load_with(text, (lam_load_params){0}, NULL, &error);
+    if (!scene)
+        fail_msg("%s", error.text);
+    return scene;
+}
+
+#define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+#define SQUARE   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+
+static void expect_error(const char *text, lam_code code, const char *sentence)
+{
+    lam_error error = {0};
+    lam_scene *scene = load_with(text, (lam_load_params){.format = "obj"}, NULL, &error);
+    if (scene)
+        fail_msg("loaded, expected: %s", sentence);
+    assert_string_equal(error.text, sentence);
+    assert_int_equal(error.code, code);
+}
+
+// The first warning, and no second one.
+static void expect_warning(const char *text, const struct library *libraries, const char *sentence)
+{
+    lam_error error = {0};
+    lam_scene *scene = load_with(text, (lam_load_params){0}, libraries, &error);
+    if (!scene)
+        fail_msg("%s", error.text);
+    assert_non_null(lam_scene_warning(scene, 0));
+    assert_string_equal(lam_scene_warning(scene, 0), sentence);
+    assert_null(lam_scene_warning(scene, 1));
+    lam_scene_free(scene);
+}
+
+static const float *position(const lam_mesh *mesh, uint32_t corner)
+{
+    return mesh->positions + 3 * mesh->indices[corner];
+}
+
+static void expect_part(const lam_mesh *mesh, uint32_t index, const char *name, uint32_t first,
+                        uint32_t count, int material)
+{
+    assert_true(index < mesh->part_count);
+    const lam_part *part = &mesh->parts[index];
+    if (name)
+        assert_string_equal(part->name, name);
+    else
+        assert_null(part->name);
+    assert_int_equal(part->first_triangle, first);
+    assert_int_equal(part->triangle_count, count);
+    assert_int_equal(part->material, material);
+}
+
+// --- faces
+
+static void test_face_forms(void **unused)
+{
+    (void)unused;
+    static const char *const forms[] = {
+        TRIANGLE "f 1 2 3\n",
+        TRIANGLE "f 1 2 3", // no line end
+        TRIANGLE "f -3 -2 -1\n",
+        TRIANGLE "f +1 +2 +3\n",
+        TRIANGLE "f 1/ 2/ 3/\n",
+        TRIANGLE "f 1// 2// 3//\n",
+        "\xef\xbb\xbf" TRIANGLE "f 1 2 3\n",
+        "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n",
+        "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r",
+        "\tv\t0 0\t0  \n  v 1 0 0\n v 0 1 0\t\n  f  1\t2   3  \n",
+        "v 0 0 0 # first\nv 1 0 0 #\nv 0 1 0 # f 9 9 9\nf 1 2 3 # done \\\n# \\\n",
+        "v 0 \\\n0 0\nv 1 0 0\\\n\nv 0 1 0\nf 1 \\\r\n 2\\\n 3\n",
+        "f 1 2 3\n" TRIANGLE, // ahead of its vertices
+        "v 0 0 0 1\nv 1.0 0 0 0.5\nv 0 1e0 -0.0 2\nf 00000001 0000000002 3\n",
+        "# nothing\n\n#\\\n" TRIANGLE "#f 1 1 1\nf 1 2 3\n#",
+    };
+    static const float expected[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
+        lam_scene *scene = load(forms[i]);
+        const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+        assert_int_equal(mesh->triangle_count, 1);
+        for (uint32_t c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++)
+                assert_true(position(mesh, c)[k] == expected[3 * c + (uint32_t)k]);
+        assert_null(lam_scene_warning(scene, 0));
+        assert_string_equal(lam_scene_format(scene), "obj");
+        assert_int_equal(lam_scene_up(scene), LAM_UP_Y);
+        lam_scene_free(scene);
+    }
+}
+
+static void test_attributes(void **unused)
+{
+    (void)unused;
+    lam_scene *scene = load(SQUARE "vt 0 0\nvt 1\nvt 0.5 0.25 7\nvn 0 0 1\nvn 0 1 0\n"
+                                   "f 1/1/1 2/2/2 3/3/-1\nf -4/-3/-2 3/-1/2 4//1\n");
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    assert_int_equal(mesh->triangle_count, 2);
+    static const uint32_t normals[6] = {0, 1, 1, 0, 1, 0}, texcoords[6] = {0, 1, 2, 0, 2, 3};
+    assert_memory_equal(mesh->normal_indices, normals, sizeof normals);
+    assert_memory_equal(mesh->texcoord_indices, texcoords, sizeof texcoords);
+    assert_int_equal(mesh->texcoord_count, 4); // one more, for the corner without
+    static const float numbers[8] = {0, 0, 1, 0, 0.5f, 0.25f, 0, 0};
+    assert_memory_equal(mesh->texcoords, numbers, sizeof numbers);
+    assert_true(mesh->normals[3] == 0 && mesh->normals[4] == 1 && mesh->normals[5] == 0);
+    lam_scene_free(scene);
+}
+
+// Faces without normals beside faces with: the former get made ones, the latter keep theirs.
+static void test_missing_normals(void **unused)
+{
+    (void)unused;
+    const char *text = SQUARE "vn 1 0 0\nf 1//1 2//1 3//1\nf 1 3 4\n";
+    lam_scene *scene = load(text);
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    for (uint32_t corner = 0; corner < 6; corner++) {
+        const float *n = mesh->normals + 3 * mesh->normal_indices[corner];
+        assert_true(mesh->normal_indices[corner] < mesh->normal_count);
+        assert_true(n[0] == (corner < 3 ? 1 : 0) && n[1] == 0 && n[2] == (corner < 3 ? 0 : 1));
+    }
+    lam_scene_free(scene);
+    lam_error error;
+    scene = load_with(text, (lam_load_params){.normals = LAM_NORMALS_SMOOTH}, NULL, &error);
+    mesh = lam_scene_mesh(scene, 0);
+    for (uint32_t i = 0; i < mesh->normal_count; i++)
+        assert_true(mesh->normals[3 * i + 2] == 1);
+    lam_scene_free(scene);
+}
+
+static void test_polygons(void **unused)
+{
+    (void)unused;
+    // A concave quad and a concave pentagon beside a triangle; attributes follow their corners.
+    lam_scene *scene =
+        load("v 0 0 0\nv 2 0 0\nv 0.3 0.3 0\nv 0 2 0\nv 2 2 0\nvt 0 0\nvt 2 0\nvt 0.3 0.3\nvt 0 2\nvt 2 2\n"
+             "f 1/1 2/2 3/3 4/4\nf 2/2 5/5 3/3\nf 4/4 1/1 2/2 5/5 3/3\n");
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    assert_int_equal(mesh->triangle_count, 6);
+    double areas[6];
+    for (uint32_t t = 0; t < 6; t++) {
+        const float *a = position(mesh, 3 * t), *b = position(mesh, 3 * t + 1),
+                    *c = position(mesh, 3 * t + 2);
+        areas[t] = ((double)b[0] - (double)a[0]) * ((double)c[1] - (double)a[1]) -
+                   ((double)b[1] - (double)a[1]) * ((double)c[0] - (double)a[0]);
+        assert_true(areas[t] > 0);
+        for (uint32_t k = 0; k < 3; k++) {
+            const float *p = position(mesh, 3 * t + k),
+                        *s = mesh->texcoords + 2 * mesh->texcoord_indices[3 * t + k];
+            assert_true(p[0] == s[0] && p[1] == s[1]);
+        }
+    }
+    assert_true(areas[0] + areas[1] > 1.19 && areas[0] + areas[1] < 1.21);
+    lam_scene_free(scene);
+}
+
+// One face of a few thousand corners, written over continued lines.
+static void test_large_polygon(void **unused)
+{
+    (void)unused;
+    enum { HALF = 3000 };
+    char *text = malloc(64 * 2 * HALF), *at = text;
+    for (int i = 0; i < HALF; i++)
+        at += sprintf(at, "v %d %d 0\n", i, i % 2);
+    for (int i = HALF; i-- > 0;)
+        at += sprintf(at, "v %d %d 0\n", i, i % 2 + 3);
+    at += sprintf(at, "f");
+    for (int i = 1; i <= 2 * HALF; i++)
+        at += sprintf(at, i % 10 ? " %d" : " %d\\\n", i);
+    at += sprintf(at, "\n");
+    lam_scene *scene = load(text);
+    assert_int_equal(lam_scene_triangle_count(scene), 2 * HALF - 2);
+    lam_scene_free(scene);
+    free(text);
+}
+
+static void test_warnings(void **unused)
+{
+    (void)unused;
+    expect_warning(TRIANGLE "f 1 2 3\nf 1 2\nf\nf 3\n", NULL,
+                   "t.obj:5: faces of one or two corners are left out: this is the first of 3");
+    expect_warning(TRIANGLE "l 1 2\nf 1 2 3\np 1\nl 2 3\n", NULL,
+                   "t.obj:4: 2 line and 1 point elements are not drawn, only faces are");
+    expect_warning(TRIANGLE "f 1 2 3\ncstype bezier\ncurv 0 1 1 2 3\n", NULL,
+                   "t.obj:5: free-form curves and surfaces are not drawn: 'cstype' is the first of 2 "
+                   "statements that make them");
+    expect_warning(TRIANGLE "f 1 2 3\nfoo bar\n\nbaz\n", NULL,
+                   "t.obj:5: the statement 'foo' is not known; it is the first of 2 that are passed over");
+    expect_warning(TRIANGLE "f 1/1 2/2 3/3\n", NULL,
+                   "t.obj: faces name texture coordinates, but the file has none");
+    expect_warning(TRIANGLE "f 1//1 2//1 3//1\n", NULL,
+                   "t.obj: faces name normals, but the file has none; smooth ones are made");
+    expect_warning(
+        TRIANGLE "vn 0 0 1\nvn nan 0 0\nf 1//1 2//1 3//1\n", NULL,
+        "t.obj:5: normals or texture coordinates that are not finite are taken as 0: the first of 1");
+    expect_warning("mtllib a.mtl\n" TRIANGLE "usemtl x\nf 1 2 3\nusemtl y\n", NULL,
+                   "a.mtl: no such file; what uses its materials is drawn in neutral grey");
+    expect_warning(TRIANGLE "usemtl x\nf 1 2 3\nusemtl y\n", NULL,
+                   "t.obj:4: uses the material 'x' but names no material file; it is drawn in neutral grey");
+    static const struct library libraries[] = {{"a.mtl", "newmtl x\n"}, {NULL, NULL}};
+    expect_warning("mtllib a.mtl\n" TRIANGLE "usemtl x\nf 1 2 3\nusemtl y\nf 1 2 3\n", libraries,
+                   "t.obj:7: no material file has the material 'y'; it is drawn in neutral grey");
+    expect_warning("v 0 0 0 255 0 0\nv 1 0 0 0 255 0\nv 0 1 0 0 0 255\nf 1 2 3\n", NULL,
+                   "t.obj: vertex colours go up to 255: they are taken as 0 to 255, not 0 to 1");
+}
+
+static void test_errors(void **unused)
+{
+    (void)unused;
+    expect_error("v 0 0\n" TRIANGLE "f 1 2 3\n", LAM_CANNOT_READ,
+                 "t.obj:1: found the end of the line, expected a coordinate (v x y z)");
+    expect_error(TRIANGLE "v 1 2 x3\nf 1 2 3\n", LAM_CANNOT_READ,
+                 "t.obj:4: found 'x3', expected a coordinate (v x y z)");
+    expect_error(TRIANGLE "v 1 2 0x10\nf 1 2 3\n", LAM_CANNOT_READ,
+                 "t.obj:4: found '0x10', expected a coordinate (v x y z)");
+    expect_error(TRIANGLE "v 1 nan 3\nf 1 2 3\n", LAM_CANNOT_READ,
+                 "t.obj:4: found 'nan', expected a finite coordinate");
+    expect_error(TRIANGLE "v 1 2 -1e39\nf 1 2 3\n", LAM_CANNOT_READ,
+                 "t.obj:4: found '-1e39', expected a finite coordinate");
+    expect_error(TRIANGLE "v 1 2 3 red\nf 1 2 3\n", LAM_CANNOT_READ,
+                 "t.obj:4: found 'red', expected a weight or a colour behind the position");
+    expect_error(TRIANGLE "f 0 1 2\n", LAM_CANNOT_READ,
+                 "t.obj:4: a face names vertex 0; they are counted from 1");
+    expect_error(TRIANGLE "\n\nf 1 2 4\n", LAM_CANNOT_READ,
+                 "t.obj:6: a face names vertex '4'; the file has 3");
+    expect_error(TRIANGLE "f 1 2 99999999999999999999\n", LAM_CANNOT_READ,
+                 "t.obj:4: found '99999999999999999999', expected a vertex");
+    expect_error(TRIANGLE "f -1 -2 -4\n", LAM_CANNOT_READ,
+                 "t.obj:4: a face names vertex '-4', counted back; 3 are above it");
+    expect_error(TRIANGLE "f 1 2 x\n", LAM_CANNOT_READ, "t.obj:4: found 'x', expected a vertex");
+    expect_error(TRIANGLE "f 1 2 3x\n", LAM_CANNOT_READ,
+                 "t.obj:4: found 'x', expected a space between a face's corners (v, v/t, v//n or v/t/n)");
+    expect_error(TRIANGLE "f 1 2 2.5\n", LAM_CANNOT_READ,
+                 "t.obj:4: found '.5', expected a space between a face's corners (v, v/t, v//n or v/t/n)");
+    expect_error(TRIANGLE "vt 0 0\nf 1/1 2/1 3/2\n", LAM_CANNOT_READ,
+                 "t.obj:5: a face names texture coordinate '2'; the file has 1");
+    expect_error(TRIANGLE "vn 0 0 1\nf 1//1 2//1 3//y\n", LAM_CANNOT_READ,
+                 "t.obj:5: found 'y', expected a normal");
+    expect_error(TRIANGLE "vn 0 0\nf 1//1 2//1 3//1\n", LAM_CANNOT_READ,
+                 "t.obj:4: found the end of the line, expected a normal's coordinate (vn x y z)");
+    expect_error(TRIANGLE "f 1 2 3\nf 1 2 7\nf 8 1 2\n", LAM_CANNOT_READ,
+                 "t.obj:5: a face names vertex '7'; the file has 3");
+    expect_error("", LAM_CANNOT_READ, "t.obj: holds no triangles");
+    expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: holds no triangles (3 points only)");
+    expect_error(TRIANGLE "l 1 2\np 1 2 3\n", LAM_CANNOT_READ,
+                 "t.obj: holds no triangles, only 1 line and 1 point elements");
+    expect_error(TRIANGLE "cstype bspline\nsurf 0 1 0 1 1 2 3\n", LAM_UNSUPPORTED,
+                 "t.obj:4: holds no faces, only free-form curves and surfaces ('cstype'), which this version "
+                 "cannot draw");
+    // A zero byte in the middle.
+    lam_error error;
+    static const char zero[] = TRIANGLE "f 1 2\0 3\n";
+    lam_load_params params = {.format = "obj", .threads = 1};
+    assert_null(lam_scene_load_memory(zero, sizeof zero - 1, "t.obj", &params, NULL, &error));
+    assert_non_null(strstr(error.text, "t.obj:4: found "));
+}
+
+// --- parts, groups, smoothing
+
+static void test_parts(void **unused)
+{
+    (void)unused;
+    static const struct library libraries[] = {
+        {"my red.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue sky\nKd 0 0 1\n"},
+        {"b.mtl", "newmtl green\nKd 0 1 0\nnewmtl red\nKd 0 0 0\n"},
+        {NULL, NULL},
+    };
+    lam_error error;
+    lam_scene *scene = load_with(TRIANGLE "mtllib my red.mtl\nmtllib b.mtl\n"
+                                          "f 1 2 3\n"
+                                          "g left hand \nf 1 2 3\nf 1 2 3\n"
+                                          "usemtl red\nf 1 2 3\nusemtl red\nf 1 2 3\n"
+                                          "o body\nf 1 2 3\ng arm\nusemtl blue sky\nf 1 2 3\ng\nf 1 2 3\n"
+                                          "g empty\nusemtl green\n",
+                                 (lam_load_params){0}, libraries, &error);
+    assert_non_null(scene);
+    assert_null(lam_scene_warning(scene, 0));
+    assert_int_equal(lam_scene_material_count(scene), 4);
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    assert_int_equal(mesh->part_count, 6);
+    expect_part(mesh, 0, NULL, 0, 1, -1);
+    expect_part(mesh, 1, "left hand", 1, 2, -1);
+    expect_part(mesh, 2, "left hand", 3, 2, 0);
+    expect_part(mesh, 3, "body", 5, 1, 0);
+    expect_part(mesh, 4, "body/arm", 6, 1, 1);
+    expect_part(mesh, 5, "body", 7, 1, 1);
+    assert_string_equal(mesh->name, "body");
+    lam_scene_free(scene);
+
+    // Several files on one line, the first one missing.
+    scene = load_with("mtllib a.mtl b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n", (lam_load_params){0},
+                      libraries, &error);
+    assert_string_equal(lam_scene_warning(scene, 0),
+                        "a.mtl: no such file; what uses its materials is drawn in neutral grey");
+    expect_part(lam_scene_mesh(scene, 0), 0, NULL, 0, 1, 0);
+    lam_scene_free(scene);
+
+    // A name that leaves the model's folder is looked for inside it.
+    scene = load_with("mtllib ..\\x\\b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n", (lam_load_params){0},
+                      libraries, &error);
+    assert_int_equal(lam_scene_material_count(scene), 2);
+    lam_scene_free(scene);
+}
+
+static void test_smoothing(void **unused)
+{
+    (void)unused;
+    lam_scene *scene =
+        load(SQUARE "f 1 2 3\ns 3\nf 1 2 3\nf 1 3 4\ns off\nf 1 2 3\ns 1\nf 1 2 3\ns 0\nf 1 3 4\n");
+    static const uint32_t groups[] = {0, 3, 3, 0, 1, 0};
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    assert_memory_equal(mesh->smoothing_groups, groups, sizeof groups);
+    lam_scene_free(scene);
+    scene = load(SQUARE "s off\nf 1 2 3\n"); // says no more than a file that says nothing
+    assert_null(lam_scene_mesh(scene, 0)->smoothing_groups);
+    lam_scene_free(scene);
+}
+
+// --- numbers
+
+static void test_colors(void **unused)
+{
+    (void)unused;
+    lam_error error;
+    const char *text = "v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 0.25 1 1 1\nf 1 2 3\n";
+    lam_scene *scene = load_with(text, (lam_load_params){.color = LAM_COLOR_RAW}, NULL, &error);
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    assert_int_equal(mesh->colors_format, LAM_COLORS_LINEAR_F32);
+    assert_int_equal(mesh->color_count, 3);
+    static const float raw[12] = {1, 0.5f, 0, 1, 1, 1, 1, 1, 0.25f, 1, 1, 1};
+    assert_memory_equal(mesh->colors, raw, sizeof raw);
+    lam_scene_free(scene);
+    scene = load(text);
+    const float *colors = lam_scene_mesh(scene, 0)->colors;
+    assert_true(colors[1] > 0.2140 && colors[1] < 0.2141); // ((0.5 + 0.055)/1.055)^2.4
+    assert_true(colors[2] == 0 && colors[4] > 0.999999f);
+    lam_scene_free(scene);
+}
+
+// 500 km from zero, a millimetre is still there.
+static void test_origin(void **unused)
+{
+    (void)unused;
+    lam_scene *scene =
+        load("v 500000.001 4e6 -7.0005\nv 500001.002 4000000.5 -7\nv 500000.003 4000001.25 -6\nf 1 2 3\n");
+    const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+    static const double expected[9] = {500000.001, 4e6,        -7.0005,    500001.002, 4000000.5,
+                                       -7,         500000.003, 4000001.25, -6};
+    assert_true(mesh->origin[0] != 0 && mesh->origin[1] != 0 && mesh->origin[2] == 0);
+    for (int i = 0; i < 9; i++) {
+        double off = mesh->origin[i % 3] + (double)mesh->positions[i] - expected[i];
+        assert_true(off < 1e-6 && off > -1e-6);
+    }
+    lam_scene_free(scene);
+    scene = load("v 5 0 0\nv 6.1 0 0\nv 5 1 0\nf 1 2 3\n");
+    mesh = lam_scene_mesh(scene, 0);
+    assert_true(mesh->origin[0] == 0 && mesh->positions[3] == 6.1f);
+    lam_scene_free(scene);
+}
+
+// --- MTL
+
+static const lam_material *load_material(const char *mtl, lam_color_mode color, lam_scene **scene)
+{
+    struct library libraries[] = {{"a.mtl", mtl}, {NULL, NULL}};
+    lam_error error;
+    *scene = load_with("mtllib a.mtl\n" TRIANGLE "f 1 2 3\n", (lam_load_params){.color = color}, libraries,
+                       &error);
+    assert_non_null(*scene);
+    return lam_scene_material(*scene, 0);
+}
+
+static void test_mtl(void **unused)
+{
+    (void)unused;
+    lam_scene *scene;
+    const lam_material *m =
+        load_material("# x\r\n\tnewmtl  shiny \r\nKa 0.1 0.2 0.3\r\nKd 0.5 0.25 1\r\nKs 1 1 1\r\nKe 2\r\n"
+                      "Ns 96.5\r\nillum 2\r\nTr 0.9\r\nd 0.75\r\nNi 1.45\r\n",
+                      LAM_COLOR_RAW, &scene);
+    assert_string_equal(m->name, "shiny");
+    assert_true(m->ambient.r == 0.1f && m->ambient.g == 0.2f && m->ambient.b == 0.3f);
+    assert_true(m->diffuse.r == 0.5f && m->diffuse.g == 0.25f && m->diffuse.b == 1 && m->diffuse.a == 0.75f);
+    assert_true(m->specular.r == 1 && m->emission.r == 2 && m->emission.b == 2 && m->shininess == 96.5f);
+    assert_int_equal(m->illum, 2);
+    assert_null(lam_scene_warning(scene, 0));
+    lam_scene_free(scene);
+
+    // Ka 1 1 1 is a habit; sRGB is decoded; no Ks, no highlight; d wins whatever the order.
+    m = load_material("newmtl a\nKa 1 1 1\nKd 0.5 0.5 0.5\nd 0.5\nTr 0.1\n", LAM_COLOR_SRGB, &scene);
+    assert_true(m->diffuse.r > 0.2140f && m->diffuse.r < 0.2141f);
+    assert_true(m->ambient.r == m->diffuse.r && m->specular.r == 0 && m->diffuse.a == 0.5f);
+    lam_scene_free(scene);
+
+    m = load_material("newmtl a\nKd 0.5 0.5 0.5\nKs 1 1 1\nillum 1\nTr 0.25\n", LAM_COLOR_RAW, &scene);
+    assert_true(m->specular.r == 0 && m->diffuse.a == 0.75f && m->ambient.r == 0.5f);
+    lam_scene_free(scene);
+
+    m = load_material("newmtl a\nKd 0.5 0.25 0\nKs 1 1 1\nillum 0\n", LAM_COLOR_RAW, &scene);
+    assert_true(m->emission.r == 0.5f && m->emission.g == 0.25f && m->diffuse.r == 0 && m->ambient.r == 0 &&
+                m->specular.r == 0 && m->diffuse.a == 1);
+    lam_scene_free(scene);
+}
+
+static void test_mtl_maps(void **unused)
+{
+    (void)unused;
+    lam_scene *scene;
+    const lam_material *m =
+        load_material("newmtl a\nmap_Kd -s 1 1 1 -o 0.5 0 -clamp on my picture.png\nmap_Ka\n"
+                      "map_Bump -bm 0.5 b.png\nrefl -type sphere r.png\nnorm n.png\ndisp -s 2 7\n"
+                      "map_Pr rough.png\n",
+                      LAM_COLOR_RAW, &scene);
+    assert_string_equal(m->map_names[LAM_MAP_DIFFUSE], "my picture.png");
+    assert_string_equal(m->map_options[LAM_MAP_DIFFUSE], "-s 1 1 1 -o 0.5 0 -clamp on");
+    assert_string_equal(m->map_names[LAM_MAP_BUMP], "b.png");
+    assert_string_equal(m->map_options[LAM_MAP_BUMP], "-bm 0.5");
+    assert_string_equal(m->map_options[LAM_MAP_REFLECTION], "-type sphere");
+    assert_string_equal(m->map_names[LAM_MAP_NORMAL], "n.png");
+    assert_string_equal(m->map_names[LAM_MAP_DISPLACEMENT], "7");
+    assert_null(m->map_options[LAM_MAP_NORMAL]);
+    assert_null(m->map_names[LAM_MAP_AMBIENT]);
+    assert_true(m->diffuse.r == 1); // the texture's own colour
+    assert_string_equal(lam_scene_warning(scene, 0),
+                        "t.obj: 6 texture maps are named; this version draws without textures");
+    assert_null(lam_scene_warning(scene, 1));
+    lam_scene_free(scene);
+}
+
+static void test_mtl_warnings(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *mtl, *sentence;
+    } rows[] = {
+        {"Kd 1 1 1\nnewmtl a\n", "a.mtl:1: 'Kd' stands before any newmtl and is left out"},
+        {"newmtl a\nKq 1\nKz 2\n", "a.mtl:2: the statement 'Kq' is not known, nor are others"},
+        {"newmtl a\nNs -3\n", "a.mtl:2: Ns -3 is out of range; 0 is used"},
+        {"newmtl a\nNs nan\n", "a.mtl:2: Ns nan is out of range; 0 is used"},
+        {"newmtl a\nd 1.5\n", "a.mtl:2: d 1.5 is out of range; 1 is used"},
+        {"newmtl a\nKd -1 0 0\n", "a.mtl:2: Kd -1 is out of range; 0 is used"},
+        {"newmtl a\nKd red\n", "a.mtl:2: found 'red', expected a number; the statement is left out"},
+        {"newmtl a\nKd\n",
+         "a.mtl:2: found the end of the line, expected a number; the statement is left out"},
+        {"newmtl a\nKd spectral x.rfl\n", "a.mtl:2: Kd as a spectral curve is not read, only r g b"},
+        {"newmtl a\nKs xyz 1 1 1\n", "a.mtl:2: Ks as a CIE XYZ colour is not read, only r g b"},
+        {"newmtl a\nillum 99\n", "a.mtl:2: illum is not one of the models 0 to 10; it is left out"},
+        {"newmtl a\nd 0\n", "a.mtl: material 'a' is wholly clear (d 0 or Tr 1)"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct library libraries[] = {{"a.mtl", rows[i].mtl}, {NULL, NULL}};
+        expect_warning("mtllib a.mtl\n" TRIANGLE "f 1 2 3\n", libraries, rows[i].sentence);
+    }
+}
+
+// --- the same for any threads, any chunks
+
+#define MIXED                                                                                                \
+    "# a model\nmtllib a.mtl\no thing\n" SQUARE                                                              \
+    "v 2 2 2 0.5 1 0 # coloured\nvt 0 0\nvn 0 0 1\ng one\ns 1\nf 1//1 2//1 "                                 \
+    "3//1\nusemtl x\nf -5/1 -4 \\\n -3 -2\nf 1 2 3 \\\n4 5\n\n  f 1/1/1 2/1/1 5/-1/-1\nl 1 2\nv 3 1 4\nf "   \
+    "-1 1 2\n"                                                                                               \
+    "o other\ns off\nf 1 2 6\nf 6 5 4 3 2 1\nfoo\nf 1 2\n"
+
+static bool no_companion(const struct import_source *source, const char *name, struct file_bytes *out,
+                         lam_error *error)
+{
+    (void)out;
+    (void)source;
+    snprintf(error->text, sizeof error->text, "%s: none", name);
+    error->code = LAM_CANNOT_READ;
+    return false;
+}
+
+static struct lam_scene *load_chunked(const char *text, size_t size, size_t chunk_bytes, struct pool *pool,
+                                      lam_error *error)
+{
+    struct watch watch;
+    static const lam_load_params params;
+    watch_start(&watch, NULL);
+    struct file_bytes file;
+    assert_true(file_copy(text, size, NULL, &file, error));
+    struct import_source source = {.name = "t.obj",
+                                   .bytes = file.data,
+                                   .size = file.size,
+                                   .params = &params,
+                                   .pool = pool,
+                                   .watch = &watch,
+                                   .open = no_companion};
+    struct lam_scene *scene = scene_make(NULL, error);
+    if (scene && !obj_load_chunked(&source, scene, chunk_bytes, error)) {
+        lam_scene_free(scene);
+        scene = NULL;
+    }
+    file_release(&file);
+    return scene;
+}
+
+static void expect_equal(const struct lam_scene *a, const struct lam_scene *b)
+{
+    const lam_mesh *m = lam_scene_mesh(a, 0), *n = lam_scene_mesh(b, 0);
+    assert_int_equal(m->triangle_count, n->triangle_count);
+    assert_int_equal(m->vertex_count, n->vertex_count);
+    assert_int_equal(m->normal_count, n->normal_count);
+    assert_int_equal(m->part_count, n->part_count);
+    size_t corners = 3 * (size_t)m->triangle_count;
+    assert_memory_equal(m->positions, n->positions, 12 * m->vertex_count);
+    assert_memory_equal(m->colors, n->colors, 16 * m->color_count);
+    assert_memory_equal(m->indices, n->indices, 4 * corners);
+    assert_memory_equal(m->normal_indices, n->normal_indices, 4 * corners);
+    assert_memory_equal(m->texcoord_indices, n->texcoord_indices, 4 * corners);
+    assert_memory_equal(m->normals, n->normals, 12 * m->normal_count);
+    assert_memory_equal(m->smoothing_groups, n->smoothing_groups, 4 * m->triangle_count);
+    for (uint32_t i = 0; i < m->part_count; i++) {
+        assert_string_equal(m->parts[i].name, n->parts[i].name);
+        assert_int_equal(m->parts[i].first_triangle, n->parts[i].first_triangle);
+    }
+    for (int i = 0; lam_scene_warning(a, i) || lam_scene_warning(b, i); i++)
+        assert_string_equal(lam_scene_warning(a, i), lam_scene_warning(b, i));
+}
+
+static void test_threads_and_chunks(void **unused)
+{
+    (void)unused;
+    lam_error error;
+    static const char text[] = MIXED MIXED MIXED MIXED;
+    struct lam_scene *plain = load_chunked(text, strlen(text), 1 << 20, NULL, &error);
+    assert_non_null(plain);
+    static const int threads[] = {1, 2, 5};
+    static const size_t chunks[] = {1, 7, 64, 100, 1000};
+    for (int t = 0; t < 3; t++) {
+        struct pool *pool = pool_make(threads[t]);
+        for (int c = 0; c < 5; c++) {
+            struct lam_scene *scene = load_chunked(text, strlen(text), chunks[c], pool, &error);
+            assert_non_null(scene);
+            expect_equal(plain, scene);
+            lam_scene_free(scene);
+        }
+        // The first mistake is the one that is told.
+        static const char wrong[] = TRIANGLE MIXED "f 1 2 x\nf 1 2 y\nf 1 2 z\n" MIXED "v a\n";
+        for (int c = 0; c < 5; c++) {
+            assert_null(load_chunked(wrong, strlen(wrong), chunks[c], pool, &error));
+            assert_non_null(strstr(error.text, "found 'x', expected a vertex"));
+        }
+        pool_free(pool);
+    }
+    lam_scene_free(plain);
+}
+
+// Every beginning of a file loads or fails with a sentence, and so does the file with any one byte changed.
+static void test_damage(void **unused)
+{
+    (void)unused;
+    static const char text[] = MIXED;
+    static const char bytes[] = {0, '\n', '\\', '#', '/', '-', ' ', 'f', '9', '\r', (char)0xff};
+    for (size_t size = 0; size < sizeof text; size++) {
+        lam_error error = {0};
+        struct lam_scene *scene = load_chunked(text, size, 50, NULL, &error);
+        assert_true(scene || error.text[0]);
+        lam_scene_free(scene);
+    }
+    for (size_t at = 0; at + 1 < sizeof text; at++) {
+        for (size_t b = 0; b < sizeof bytes; b++) {
+            char copy[sizeof text];
+            memcpy(copy, text, sizeof text);
+            copy[at] = bytes[b];
+            lam_error error = {0};
+            struct lam_scene *scene = load_chunked(copy, sizeof text - 1, 50, NULL, &error);
+            assert_true(scene || error.text[0]);
+            lam_scene_free(scene);
+        }
+    }
+}
+
+static void test_memory(void **unused)
+{
+    (void)unused;
+    static const struct library libraries[] = {{"a.mtl", "newmtl x\nKd 1 1 1\nmap_Kd -s 1 1 1 a.png\n"},
+                                               {NULL, NULL}};
+    for (long countdown = 0; countdown < 1000; countdown++) {
+        lam_error error = {0};
+        arena_fail_after(countdown);
+        lam_scene *scene = load_with(MIXED, (lam_load_params){0}, libraries, &error);
+        arena_fail_after(-1);
+        if (!scene) {
+            assert_int_equal(error.code, LAM_LIMIT);
+            continue;
+        }
+        // A warning that found no memory is not worth failing for; all the rest was there.
+        bool all = lam_scene_warning(scene, 3) != NULL;
+        lam_scene_free(scene);
+        if (all)
+            return;
+    }
+    fail();
+}
+
+static void test_control(void **unused)
+{
+    (void)unused;
+    lam_cancel cancel = {0};
+    lam_cancel_raise(&cancel);
+    lam_error error;
+    static const char text[] = TRIANGLE "f 1 2 3\n";
+    lam_control control = {.cancel = &cancel};
+    assert_null(lam_scene_load_memory(text, strlen(text), "t.obj", NULL, &control, &error));
+    assert_int_equal(error.code, LAM_CANCELLED);
+    control = (lam_control){.memory_limit_bytes = 1000};
+    assert_null(lam_scene_load_memory(text, strlen(text), "t.obj", NULL, &control, &error));
+    assert_int_equal(error.code, LAM_LIMIT);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_face_forms),
+        cmocka_unit_test(test_attributes),
+        cmocka_unit_test(test_missing_normals),
+        cmocka_unit_test(test_polygons),
+        cmocka_unit_test(test_large_polygon),
+        cmocka_unit_test(test_warnings),
+        cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_parts),
+        cmocka_unit_test(test_smoothing),
+        cmocka_unit_test(test_colors),
+        cmocka_unit_test(test_origin),
+        cmocka_unit_test(test_mtl),
+        cmocka_unit_test(test_mtl_maps),
+        cmocka_unit_test(test_mtl_warnings),
+        cmocka_unit_test(test_threads_and_chunks),
+        cmocka_unit_test(test_damage),
+        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_control),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

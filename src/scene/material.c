@@ -12,7 +12,7 @@ struct named_material {
 };
 
 // The last column of the published table is a share of OpenGL's largest exponent.
-#define SHININESS(share) ((float)((share) * 128.0))
+#define SHININESS(share) ((float)((share)*128.0))
 
 // The numbers of SGI's demonstration teapots.c, unchanged.
 static const struct named_material named[LAM_MATERIAL_COUNT] = {
@@ -76,70 +76,40 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
                              {0.50754f, 0.50754f, 0.50754f},
                              {0.508273f, 0.508273f, 0.508273f},
                              SHININESS(0.4)},
-    [LAM_MATERIAL_BLACK_PLASTIC] = {"black-plastic",
-                                    {0.0f, 0.0f, 0.0f},
-                                    {0.01f, 0.01f, 0.01f},
-                                    {0.5f, 0.5f, 0.5f},
-                                    SHININESS(0.25)},
+    [LAM_MATERIAL_BLACK_PLASTIC] =
+        {"black-plastic", {0.0f, 0.0f, 0.0f}, {0.01f, 0.01f, 0.01f}, {0.5f, 0.5f, 0.5f}, SHININESS(0.25)},
     [LAM_MATERIAL_CYAN_PLASTIC] = {"cyan-plastic",
                                    {0.0f, 0.1f, 0.06f},
                                    {0.0f, 0.50980392f, 0.50980392f},
                                    {0.50196078f, 0.50196078f, 0.50196078f},
                                    SHININESS(0.25)},
-    [LAM_MATERIAL_GREEN_PLASTIC] = {"green-plastic",
-                                    {0.0f, 0.0f, 0.0f},
-                                    {0.1f, 0.35f, 0.1f},
-                                    {0.45f, 0.55f, 0.45f},
-                                    SHININESS(0.25)},
-    [LAM_MATERIAL_RED_PLASTIC] = {"red-plastic",
-                                  {0.0f, 0.0f, 0.0f},
-                                  {0.5f, 0.0f, 0.0f},
-                                  {0.7f, 0.6f, 0.6f},
-                                  SHININESS(0.25)},
-    [LAM_MATERIAL_WHITE_PLASTIC] = {"white-plastic",
-                                    {0.0f, 0.0f, 0.0f},
-                                    {0.55f, 0.55f, 0.55f},
-                                    {0.7f, 0.7f, 0.7f},
-                                    SHININESS(0.25)},
-    [LAM_MATERIAL_YELLOW_PLASTIC] = {"yellow-plastic",
-                                     {0.0f, 0.0f, 0.0f},
-                                     {0.5f, 0.5f, 0.0f},
-                                     {0.6f, 0.6f, 0.5f},
-                                     SHININESS(0.25)},
+    [LAM_MATERIAL_GREEN_PLASTIC] =
+        {"green-plastic", {0.0f, 0.0f, 0.0f}, {0.1f, 0.35f, 0.1f}, {0.45f, 0.55f, 0.45f}, SHININESS(0.25)},
+    [LAM_MATERIAL_RED_PLASTIC] =
+        {"red-plastic", {0.0f, 0.0f, 0.0f}, {0.5f, 0.0f, 0.0f}, {0.7f, 0.6f, 0.6f}, SHININESS(0.25)},
+    [LAM_MATERIAL_WHITE_PLASTIC] =
+        {"white-plastic", {0.0f, 0.0f, 0.0f}, {0.55f, 0.55f, 0.55f}, {0.7f, 0.7f, 0.7f}, SHININESS(0.25)},
+    [LAM_MATERIAL_YELLOW_PLASTIC] =
+        {"yellow-plastic", {0.0f, 0.0f, 0.0f}, {0.5f, 0.5f, 0.0f}, {0.6f, 0.6f, 0.5f}, SHININESS(0.25)},
     [LAM_MATERIAL_BLACK_RUBBER] = {"black-rubber",
                                    {0.02f, 0.02f, 0.02f},
                                    {0.01f, 0.01f, 0.01f},
                                    {0.4f, 0.4f, 0.4f},
                                    SHININESS(0.078125)},
-    [LAM_MATERIAL_CYAN_RUBBER] = {"cyan-rubber",
-                                  {0.0f, 0.05f, 0.05f},
-                                  {0.4f, 0.5f, 0.5f},
-                                  {0.04f, 0.7f, 0.7f},
-                                  SHININESS(0.078125)},
-    [LAM_MATERIAL_GREEN_RUBBER] = {"green-rubber",
-                                   {0.0f, 0.05f, 0.0f},
-                                   {0.4f, 0.5f, 0.4f},
-                                   {0.04f, 0.7f, 0.04f},
-                                   SHININESS(0.078125)},
-    [LAM_MATERIAL_RED_RUBBER] = {"red-rubber",
-                                 {0.05f, 0.0f, 0.0f},
-                                 {0.5f, 0.4f, 0.4f},
-                                 {0.7f, 0.04f, 0.04f},
-                                 SHININESS(0.078125)},
-    [LAM_MATERIAL_WHITE_RUBBER] = {"white-rubber",
-                                   {0.05f, 0.05f, 0.05f},
-                                   {0.5f, 0.5f, 0.5f},
-                                   {0.7f, 0.7f, 0.7f},
-                                   SHININESS(0.078125)},
-    [LAM_MATERIAL_YELLOW_RUBBER] = {"yellow-rubber",
-                                    {0.05f, 0.05f, 0.0f},
-                                    {0.5f, 0.5f, 0.4f},
-                                    {0.7f, 0.7f, 0.04f},
-                                    SHININESS(0.078125)},
+    [LAM_MATERIAL_CYAN_RUBBER] =
+        {"cyan-rubber", {0.0f, 0.05f, 0.05f}, {0.4f, 0.5f, 0.5f}, {0.04f, 0.7f, 0.7f}, SHININESS(0.078125)},
+    [LAM_MATERIAL_GREEN_RUBBER] =
+        {"green-rubber", {0.0f, 0.05f, 0.0f}, {0.4f, 0.5f, 0.4f}, {0.04f, 0.7f, 0.04f}, SHININESS(0.078125)},
+    [LAM_MATERIAL_RED_RUBBER] =
+        {"red-rubber", {0.05f, 0.0f, 0.0f}, {0.5f, 0.4f, 0.4f}, {0.7f, 0.04f, 0.04f}, SHININESS(0.078125)},
+    [LAM_MATERIAL_WHITE_RUBBER] =
+        {"white-rubber", {0.05f, 0.05f, 0.05f}, {0.5f, 0.5f, 0.5f}, {0.7f, 0.7f, 0.7f}, SHININESS(0.078125)},
+    [LAM_MATERIAL_YELLOW_RUBBER] =
+        {"yellow-rubber", {0.05f, 0.05f, 0.0f}, {0.5f, 0.5f, 0.4f}, {0.7f, 0.7f, 0.04f}, SHININESS(0.078125)},
 };
 
-// A grey that the studio rig lights from sRGB 80 in the shade to 230 in the light, with room above for a highlight
-// that shows the form without looking like metal or wet clay.
+// A grey that the studio rig lights from sRGB 80 in the shade to 230 in the light, with room above for a
+// highlight that shows the form without looking like metal or wet clay.
 lam_material lam_material_default(void)
 {
     return (lam_material){
@@ -151,7 +121,10 @@ lam_material lam_material_default(void)
     };
 }
 
-static bool known(lam_material_id id) { return (unsigned)id < LAM_MATERIAL_COUNT; }
+static bool known(lam_material_id id)
+{
+    return (unsigned)id < LAM_MATERIAL_COUNT;
+}
 
 lam_material lam_material_named(lam_material_id id)
 {
@@ -167,7 +140,10 @@ lam_material lam_material_named(lam_material_id id)
     return material;
 }
 
-const char *lam_material_name(lam_material_id id) { return known(id) ? named[id].name : NULL; }
+const char *lam_material_name(lam_material_id id)
+{
+    return known(id) ? named[id].name : NULL;
+}
 
 // A letter as the table writes it. Only ASCII, so the locale has no say.
 static char plain_letter(char c)

@@ -1,13 +1,19 @@
 // normals.c: normals for meshes that have none.
 //
 // Smooth normals, in four steps over the whole mesh:
-//   1. weld: vertices are spread over partitions by a hash of their position, and each partition finds its equal ones in a
-//      table that fits the second-level cache. A position is then a number, in the order of its lowest vertex.
-//   2. link: each corner is pushed onto its position's list (one exchange of a list head, so any number of threads may).
-//      The links lie in the array that becomes normal_indices, which is what keeps 10 million triangles in some hundred MB.
-//   3. fans: for each position the corners are put in order and normals_fan.c works out the normals, in pieces of a fixed
+//   1. weld: vertices are spread over partitions by a hash of their position, and each partition finds its
+//   equal ones in a
+//      table that fits the second-level cache. A position is then a number, in the order of its lowest
+//      vertex.
+//   2. link: each corner is pushed onto its position's list (one exchange of a list head, so any number of
+//   threads may).
+//      The links lie in the array that becomes normal_indices, which is what keeps 10 million triangles in
+//      some hundred MB.
+//   3. fans: for each position the corners are put in order and normals_fan.c works out the normals, in
+//   pieces of a fixed
 //      number of positions; a corner's index counts within its piece.
-//   4. shift: the pieces' normals are strung together, and each corner's index moved by those before its piece.
+//   4. shift: the pieces' normals are strung together, and each corner's index moved by those before its
+//   piece.
 // The lists' order is the only thing that depends on the threads, and step 3 sorts it away.
 #include "normals.h"
 
@@ -19,10 +25,10 @@
 #include <string.h>
 
 enum {
-    CHUNK = 1 << 16,          // vertices or corners of one piece of work
-    PARTITION = 1 << 14,      // vertices aimed at in a partition
+    CHUNK = 1 << 16,     // vertices or corners of one piece of work
+    PARTITION = 1 << 14, // vertices aimed at in a partition
     PARTITIONS_MAX = 1 << 12,
-    PIECE = 1 << 12,          // positions of one piece of work
+    PIECE = 1 << 12, // positions of one piece of work
 };
 
 // Positions are floats: one and the same angle, computed from two of its sides, differs in the seventh digit.
@@ -59,13 +65,13 @@ struct smoothing {
     // welding
     size_t chunks, chunk;
     unsigned partitions, partition_shift;
-    uint32_t *starts;  // [chunk][partition]: first counts, then places in `spread`
-    uint32_t *spread;  // vertices by partition, ascending in each
+    uint32_t *starts;          // [chunk][partition]: first counts, then places in `spread`
+    uint32_t *spread;          // vertices by partition, ascending in each
     struct weld_table *tables; // one for each thread
     struct arena *thread_arenas;
 
-    uint32_t *heads;   // position → its last pushed corner
-    uint32_t *indices; // corner → the corner pushed before it; then its normal's index
+    uint32_t *heads;        // position → its last pushed corner
+    uint32_t *indices;      // corner → the corner pushed before it; then its normal's index
     struct fan_room *rooms; // one for each thread
     struct piece *pieces;
     float (*normals)[3];
@@ -74,7 +80,8 @@ struct smoothing {
 
 static bool goes_on(struct smoothing *s)
 {
-    if (__atomic_load_n(&s->stopped, __ATOMIC_RELAXED) || __atomic_load_n(&s->out_of_memory, __ATOMIC_RELAXED))
+    if (__atomic_load_n(&s->stopped, __ATOMIC_RELAXED) ||
+        __atomic_load_n(&s->out_of_memory, __ATOMIC_RELAXED))
         return false;
     if (watch_on(s->watch))
         return true;
@@ -82,7 +89,10 @@ static bool goes_on(struct smoothing *s)
     return false;
 }
 
-static void no_memory(struct smoothing *s) { __atomic_store_n(&s->out_of_memory, 1, __ATOMIC_RELAXED); }
+static void no_memory(struct smoothing *s)
+{
+    __atomic_store_n(&s->out_of_memory, 1, __ATOMIC_RELAXED);
+}
 
 // --- 1. Weld
 
@@ -128,8 +138,8 @@ static void spread_chunk(void *user, size_t index, int thread)
         s->spread[places[vertex_hash(s, v, bits) >> s->partition_shift]++] = (uint32_t)v;
 }
 
-static struct weld_slot *find_slot(struct weld_slot *slots, size_t mask, uint64_t hash, const uint32_t bits[3],
-                                   size_t *steps)
+static struct weld_slot *find_slot(struct weld_slot *slots, size_t mask, uint64_t hash,
+                                   const uint32_t bits[3], size_t *steps)
 {
     for (size_t i = hash & mask;; i = (i + 1) & mask) {
         struct weld_slot *slot = &slots[i];
@@ -161,11 +171,13 @@ static bool table_double(struct weld_table *table, struct arena *arena, size_t r
     size_t steps = 0;
     for (size_t i = 0; i < room; i++)
         if (old[i].vertex != NO_VERTEX)
-            *find_slot(table->slots, 2 * room - 1, hash_of(old[i].position), old[i].position, &steps) = old[i];
+            *find_slot(table->slots, 2 * room - 1, hash_of(old[i].position), old[i].position, &steps) =
+                old[i];
     return true;
 }
 
-// A file may have been made so that all its positions fall into few slots. Then the partition is sorted instead.
+// A file may have been made so that all its positions fall into few slots. Then the partition is sorted
+// instead.
 struct sorted_vertex {
     uint32_t position[3], vertex;
 };
@@ -211,8 +223,8 @@ static void weld_partition(void *user, size_t index, int thread)
     const uint32_t *vertices = s->spread + first;
     struct weld_table *table = &s->tables[thread];
     struct arena *arena = &s->thread_arenas[thread];
-    // Room for what falls into a partition by chance; one that a file has filled on purpose starts so too and grows, since
-    // most of its vertices may be equal.
+    // Room for what falls into a partition by chance; one that a file has filled on purpose starts so too and
+    // grows, since most of its vertices may be equal.
     size_t room = 1024, used = 0, steps = 0, usual = s->vertices / s->partitions;
     while (room < 2 * count && room < 4 * usual)
         room *= 2;
@@ -260,8 +272,8 @@ static void place_partitions(struct smoothing *s)
         }
 }
 
-// From the lowest vertex of each position to numbers without gaps. A lowest vertex comes before the others of its
-// position, so it has its number when they ask for it.
+// From the lowest vertex of each position to numbers without gaps. A lowest vertex comes before the others of
+// its position, so it has its number when they ask for it.
 static void number_positions(struct smoothing *s)
 {
     for (size_t v = 0; v < s->vertices; v++) {
@@ -472,7 +484,8 @@ static bool make_fans(struct smoothing *s, struct arena *arena)
 
 static bool failed(const struct smoothing *s, lam_error *error)
 {
-    return s->out_of_memory ? watch_memory_error(s->watch, s->corners * 8, error) : watch_error(s->watch, error);
+    return s->out_of_memory ? watch_memory_error(s->watch, s->corners * 8, error)
+                            : watch_error(s->watch, error);
 }
 
 bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena, struct pool *pool,
@@ -531,7 +544,8 @@ static void facet_chunk(void *user, size_t index, int thread)
         __atomic_store_n(&f->stopped, 1, __ATOMIC_RELAXED);
         return;
     }
-    size_t end = (index + 1) * CHUNK < f->mesh->triangle_count ? (index + 1) * CHUNK : f->mesh->triangle_count;
+    size_t end =
+        (index + 1) * CHUNK < f->mesh->triangle_count ? (index + 1) * CHUNK : f->mesh->triangle_count;
     for (size_t t = index * CHUNK; t < end; t++) {
         lam_vec3 p[3];
         for (size_t k = 0; k < 3; k++) {
@@ -546,7 +560,8 @@ static void facet_chunk(void *user, size_t index, int thread)
     }
 }
 
-bool normals_facet(lam_mesh *mesh, struct arena *arena, struct pool *pool, struct watch *watch, lam_error *error)
+bool normals_facet(lam_mesh *mesh, struct arena *arena, struct pool *pool, struct watch *watch,
+                   lam_error *error)
 {
     struct facets f = {.mesh = mesh, .watch = watch};
     f.normals = arena_array(arena, mesh->triangle_count, sizeof *f.normals);

@@ -8,11 +8,12 @@
 
 // An edge from the position, as one spoke has it.
 struct fan_edge {
-    uint32_t end[3];  // bits of the other end
+    uint32_t end[3]; // bits of the other end
     uint32_t spoke;
     uint32_t incoming; // 0: the triangle runs from the position to the end; 1: from the end to the position
 };
-_Static_assert(2 * sizeof(struct fan_edge) >= 3 * sizeof(double), "a fan's sum must fit into the room of a spoke's edges");
+_Static_assert(2 * sizeof(struct fan_edge) >= 3 * sizeof(double),
+               "a fan's sum must fit into the room of a spoke's edges");
 
 void fan_room_start(struct fan_room *room, struct watch *watch)
 {
@@ -20,7 +21,10 @@ void fan_room_start(struct fan_room *room, struct watch *watch)
     arena_start(&room->arena, watch);
 }
 
-void fan_room_free(struct fan_room *room) { arena_free(&room->arena); }
+void fan_room_free(struct fan_room *room)
+{
+    arena_free(&room->arena);
+}
 
 bool fan_room_reserve(struct fan_room *room, uint32_t count)
 {
@@ -44,8 +48,8 @@ bool fan_room_reserve(struct fan_room *room, uint32_t count)
     return true;
 }
 
-// atan2(y, x) for y ≥ 0 within 3e-6 rad: enough for a weight. The polynomial for atan on 0…1 goes through its values at
-// the six Chebyshev nodes of x².
+// atan2(y, x) for y ≥ 0 within 3e-6 rad: enough for a weight. The polynomial for atan on 0…1 goes through its
+// values at the six Chebyshev nodes of x².
 static double angle_of(double y, double x)
 {
     double ax = x < 0 ? -x : x;
@@ -54,10 +58,11 @@ static double angle_of(double y, double x)
     if (!(larger > 0))
         return 0;
     double t = (steep ? ax : y) / larger, z = t * t;
-    double a = t * (0.9999948346338877 +
-                    z * (-0.33295711032247277 +
-                         z * (0.1953465900279569 +
-                              z * (-0.12044858521312099 + z * (0.05658998519974516 + z * -0.013130382075233026)))));
+    double a =
+        t * (0.9999948346338877 +
+             z * (-0.33295711032247277 +
+                  z * (0.1953465900279569 +
+                       z * (-0.12044858521312099 + z * (0.05658998519974516 + z * -0.013130382075233026)))));
     if (steep)
         a = PI / 2 - a;
     return x < 0 ? PI - a : a;
@@ -80,7 +85,8 @@ static void look(const lam_mesh *mesh, uint32_t corner, struct spoke *spoke)
         b[i] = (double)r[i] - (double)p[i];
     }
     double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-    // Twice the area. Differences of floats reach 7e38, so the square stays below 1e156, and above 1e-180 if not 0.
+    // Twice the area. Differences of floats reach 7e38, so the square stays below 1e156, and above 1e-180 if
+    // not 0.
     double length = __builtin_sqrt(x * x + y * y + z * z);
     bool spans = length > 0 && length < 1e300; // neither infinite nor NaN
     double scale = spans ? 1 / length : 0;
@@ -125,8 +131,8 @@ static bool same_bits(const uint32_t a[3], const uint32_t b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-// Consistently wound neighbours have their common edge in opposite directions: one's next corner is where the other's
-// corner before is. Few spokes: every pair.
+// Consistently wound neighbours have their common edge in opposite directions: one's next corner is where the
+// other's corner before is. Few spokes: every pair.
 static void join_few(struct spoke *spokes, uint32_t count, double least_cosine)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -146,8 +152,8 @@ static int compare_edges(const void *left, const void *right)
     return a->spoke < b->spoke ? -1 : a->spoke > b->spoke;
 }
 
-// Many spokes: by sorting. On an edge with so many triangles that all pairs would be too many, each outgoing one meets
-// the incoming one of the same rank only; no real surface has such an edge.
+// Many spokes: by sorting. On an edge with so many triangles that all pairs would be too many, each outgoing
+// one meets the incoming one of the same rank only; no real surface has such an edge.
 static void join_many(struct spoke *spokes, struct fan_edge *edges, uint32_t count, double least_cosine)
 {
     enum { PAIRS_MAX = 256 };
@@ -160,7 +166,8 @@ static void join_many(struct spoke *spokes, struct fan_edge *edges, uint32_t cou
         }
     }
     size_t total = 2 * (size_t)count;
-    qsort(edges, total, sizeof *edges, compare_edges); // no two are equal, so the order is one and the same everywhere
+    qsort(edges, total, sizeof *edges,
+          compare_edges); // no two are equal, so the order is one and the same everywhere
     for (size_t first = 0; first < total;) {
         size_t split = first, end;
         while (split < total && !edges[split].incoming && same_bits(edges[split].end, edges[first].end))
@@ -177,11 +184,13 @@ static void join_many(struct spoke *spokes, struct fan_edge *edges, uint32_t cou
     }
 }
 
-// The fan for a corner of a triangle without area: that of the first neighbour across an edge that has one, else the
-// fan of `otherwise`.
+// The fan for a corner of a triangle without area: that of the first neighbour across an edge that has one,
+// else the fan of `otherwise`.
 static uint32_t fan_beside(const struct spoke *spokes, uint32_t count, uint32_t i, uint32_t otherwise)
 {
-    enum { LOOKED_AT_MAX = 64 }; // so that a position with a million such corners takes no million squared steps
+    enum {
+        LOOKED_AT_MAX = 64
+    }; // so that a position with a million such corners takes no million squared steps
     for (uint32_t j = 0; j < count && j < LOOKED_AT_MAX; j++)
         if (has_area(&spokes[j]) &&
             (same_bits(spokes[i].next, spokes[j].before) || same_bits(spokes[i].before, spokes[j].next)))
@@ -225,7 +234,8 @@ uint32_t fan_normals(const lam_mesh *mesh, double least_cosine, struct fan_room 
         if (!has_area(&spokes[i]))
             spokes[i].fan = fan_beside(spokes, count, i, first_with_area);
 
-    // The corners are in the spokes too, the edges are done with: their room serves for the numbers and the sums.
+    // The corners are in the spokes too, the edges are done with: their room serves for the numbers and the
+    // sums.
     uint32_t fans = number_fans(spokes, count, room->corners);
     double(*sums)[3] = (double(*)[3])room->edges;
     memset(sums, 0, fans * sizeof *sums);

@@ -12,19 +12,20 @@
 struct spoke {
     uint32_t corner;
     uint32_t smoothing_group;
-    uint32_t next[3], before[3]; // bits of the positions of the triangle's next corner and the one before, −0 as 0
-    double normal[3];            // of the triangle, unit; zero without area
-    double angle;                // at the corner, radians
-    uint32_t fan;                // while joining: a spoke that this one is joined to; then the number of its fan
+    uint32_t next[3],
+        before[3];    // bits of the positions of the triangle's next corner and the one before, −0 as 0
+    double normal[3]; // of the triangle, unit; zero without area
+    double angle;     // at the corner, radians
+    uint32_t fan;     // while joining: a spoke that this one is joined to; then the number of its fan
 };
 
 // Room that grows with the largest position met; a thread's own.
 struct fan_room {
     struct arena arena;
-    uint32_t *corners;          // for the caller: the corners at a position
+    uint32_t *corners; // for the caller: the corners at a position
     struct spoke *spokes;
     struct fan_edge *edges;
-    float (*normals)[3];        // of the fans
+    float (*normals)[3]; // of the fans
     uint32_t room;
 };
 void fan_room_start(struct fan_room *room, struct watch *watch);
@@ -32,9 +33,9 @@ void fan_room_free(struct fan_room *room);
 // Makes room for `count` corners, keeping `corners`. False when memory is out.
 bool fan_room_reserve(struct fan_room *room, uint32_t count);
 
-// Works out the fans of the `count` corners in room->corners, ascending, all at one position, by the rule in normals.h.
-// Returns the number of fans; room->normals[fan] is the fan's unit normal (zero where nothing tells one), fans being
-// numbered by their first corner, and room->spokes[i].fan is the fan of corner i.
+// Works out the fans of the `count` corners in room->corners, ascending, all at one position, by the rule in
+// normals.h. Returns the number of fans; room->normals[fan] is the fan's unit normal (zero where nothing
+// tells one), fans being numbered by their first corner, and room->spokes[i].fan is the fan of corner i.
 uint32_t fan_normals(const lam_mesh *mesh, double least_cosine, struct fan_room *room, uint32_t count);
 
 // The bits of a position, with −0 as 0, so that equal positions have equal bits.

@@ -1,7 +1,8 @@
 // shapes.c: the table of built-in shapes, and the public calls that make meshes from formulas.
 //
-// Every shape is made for a radius of 1, touches the cube from (−1, −1, −1) to (1, 1, 1) from inside and is scaled last.
-// Round shapes turn about Y; their seam is at the back (−Z), so that a texture's middle faces the viewer.
+// Every shape is made for a radius of 1, touches the cube from (−1, −1, −1) to (1, 1, 1) from inside and is
+// scaled last. Round shapes turn about Y; their seam is at the back (−Z), so that a texture's middle faces
+// the viewer.
 #include "shapes.h"
 
 #include "fail.h"
@@ -15,7 +16,8 @@ struct circle_point circle(double steps, double around)
 {
     double four = 4 * steps;
     long long quarter = (long long)(four / around + (four >= 0 ? 0.5 : -0.5));
-    double rest = (four - (double)quarter * around) / around; // of a quarter turn, −½…½; the numerator is exact
+    double rest =
+        (four - (double)quarter * around) / around; // of a quarter turn, −½…½; the numerator is exact
     double c = math_cos(rest * (PI / 2)), s = math_sin(rest * (PI / 2));
     switch (quarter & 3) {
     case 0:
@@ -34,7 +36,8 @@ struct segments {
     double slices, stacks;
 };
 
-// The level direction after u slices, starting at the back and turning to the left, and its derivative by the angle.
+// The level direction after u slices, starting at the back and turning to the left, and its derivative by the
+// angle.
 static lam_vec3 around(const struct segments *n, double u, lam_vec3 *sideways)
 {
     struct circle_point at = circle(u, n->slices);
@@ -42,7 +45,10 @@ static lam_vec3 around(const struct segments *n, double u, lam_vec3 *sideways)
     return v3(-at.s, 0, -at.c);
 }
 
-static lam_vec3 up(double y) { return v3(0, y, 0); }
+static lam_vec3 up(double y)
+{
+    return v3(0, y, 0);
+}
 
 static void sphere_point(void *user, double u, double v, lam_surface_point *out)
 {
@@ -51,7 +57,8 @@ static void sphere_point(void *user, double u, double v, lam_surface_point *out)
     struct circle_point latitude = circle(2 * v - n->stacks, 4 * n->stacks);
     double c = latitude.c, s = latitude.s;
     out->p = v3_add(v3_scale(out_level, c), up(s));
-    out->dp_du = v3_scale(sideways, (c > 0 ? c : 1) * (2 * PI / n->slices)); // at the poles the limit's direction
+    out->dp_du =
+        v3_scale(sideways, (c > 0 ? c : 1) * (2 * PI / n->slices)); // at the poles the limit's direction
     out->dp_dv = v3_scale(v3_add(v3_scale(out_level, -s), up(c)), PI / n->stacks);
 }
 
@@ -89,8 +96,8 @@ static void cone_side(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = v3_scale(v3_sub(up(2), out_level), 1 / n->stacks);
 }
 
-// Discs: from the rim (v = 0) to the middle above, from the middle to the rim (v = 1) below, so that ∂p/∂u × ∂p/∂v
-// points out of the body.
+// Discs: from the rim (v = 0) to the middle above, from the middle to the rim (v = 1) below, so that ∂p/∂u ×
+// ∂p/∂v points out of the body.
 static void top_disc(void *user, double u, double v, lam_surface_point *out)
 {
     const struct segments *n = user;
@@ -122,8 +129,9 @@ static void square_point(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = square->v;
 }
 
-// The torus knot winds KNOT_TURNS times around Y while it winds KNOT_LOOPS times around the tube of a torus: a trefoil.
-// Its own tube stands on the torus's outward normal m, which is perpendicular to the curve since that lies on the torus.
+// The torus knot winds KNOT_TURNS times around Y while it winds KNOT_LOOPS times around the tube of a torus:
+// a trefoil. Its own tube stands on the torus's outward normal m, which is perpendicular to the curve since
+// that lies on the torus.
 enum { KNOT_TURNS = 2, KNOT_LOOPS = 3 };
 #define KNOT_RING 0.6
 #define KNOT_LOOP 0.25
@@ -140,7 +148,8 @@ static void knot_point(void *user, double u, double v, lam_surface_point *out)
     double r = KNOT_RING + KNOT_LOOP * c, r1 = -KNOT_LOOP * q * s, r2 = -KNOT_LOOP * q * q * c;
     lam_vec3 curve = v3_add(v3_scale(e, r), up(KNOT_LOOP * s));
     lam_vec3 d1 = v3_add(v3_add(v3_scale(e, r1), v3_scale(f, r * p)), up(KNOT_LOOP * q * c));
-    lam_vec3 d2 = v3_add(v3_add(v3_scale(e, r2 - r * p * p), v3_scale(f, 2 * r1 * p)), up(-KNOT_LOOP * q * q * s));
+    lam_vec3 d2 =
+        v3_add(v3_add(v3_scale(e, r2 - r * p * p), v3_scale(f, 2 * r1 * p)), up(-KNOT_LOOP * q * q * s));
     double speed = v3_length(d1);
     lam_vec3 t = v3_scale(d1, 1 / speed);
     lam_vec3 t1 = v3_scale(v3_sub(d2, v3_scale(t, v3_dot(t, d2))), 1 / speed);
@@ -153,13 +162,14 @@ static void knot_point(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = v3_scale(v3_sub(v3_scale(b, tube.c), v3_scale(m, tube.s)), KNOT_TUBE * (2 * PI / n->stacks));
 }
 
-// The gyroid g = sin x cos y + sin y cos z + sin z cos x as a wall of some thickness, |g| < GYROID_WALL, cut by a sphere:
-// the greater of a = (g² − wall²)·scale (about the distance from the wall) and b = |p| − GYROID_REACH, made smooth at the
-// rim by f = (a + b + √((a − b)² + rim²))/2, which is never less than either. Where a is least (g = 0), f vanishes at
-// b = rim²/4a; the sphere is larger by that, so that the rim just reaches 1.
+// The gyroid g = sin x cos y + sin y cos z + sin z cos x as a wall of some thickness, |g| < GYROID_WALL, cut
+// by a sphere: the greater of a = (g² − wall²)·scale (about the distance from the wall) and b = |p| −
+// GYROID_REACH, made smooth at the rim by f = (a + b + √((a − b)² + rim²))/2, which is never less than
+// either. Where a is least (g = 0), f vanishes at b = rim²/4a; the sphere is larger by that, so that the rim
+// just reaches 1.
 #define GYROID_WAVES 1.0 // along a radius
-#define GYROID_WALL 0.5
-#define GYROID_RIM 0.08
+#define GYROID_WALL  0.5
+#define GYROID_RIM   0.08
 #define GYROID_SCALE (1 / (2 * GYROID_WALL * 2 * PI * GYROID_WAVES))
 #define GYROID_REACH (1 + GYROID_RIM * GYROID_RIM / (4 * GYROID_WALL * GYROID_WALL * GYROID_SCALE))
 
@@ -199,7 +209,7 @@ static lam_vec3 gyroid_gradient(void *user, lam_vec3 p)
 static const struct ball {
     double x, y, z, reach;
 } balls[] = {
-    {0.000, -0.169, 0.000, 1.075}, {0.527, 0.274, 0.148, 0.801}, {-0.485, 0.316, 0.211, 0.738},
+    {0.000, -0.169, 0.000, 1.075}, {0.527, 0.274, 0.148, 0.801},    {-0.485, 0.316, 0.211, 0.738},
     {0.084, 0.590, -0.358, 0.696}, {-0.401, -0.548, -0.253, 0.653}, {0.464, -0.506, 0.316, 0.675},
 };
 #define BALLS_LEVEL 0.28
@@ -238,13 +248,15 @@ static bool build_round(const struct shape_request *request, lam_surface_fn *sur
     stacks = request->stacks ? request->stacks : stacks;
     int least = v_closed ? 3 : 2; // fewer do not enclose anything
     if (stacks < least)
-        return fail(request->error, LAM_BAD_ARGUMENT, "shape: stacks is %d, expected at least %d for this one", stacks, least);
+        return fail(request->error, LAM_BAD_ARGUMENT,
+                    "shape: stacks is %d, expected at least %d for this one", stacks, least);
     struct segments n = {slices, stacks};
     lam_parametric one = {surface, &n, 0, slices, 0, stacks, slices, stacks, true, v_closed};
     return tessellate_parametric(&one, 1, request->arena, request->watch, mesh, request->error);
 }
 
-// Segments: with 192 around, the outline at 1024 pixels is nowhere more than a sixteenth of a pixel off the circle.
+// Segments: with 192 around, the outline at 1024 pixels is nowhere more than a sixteenth of a pixel off the
+// circle.
 static bool sphere_build(const struct shape_request *request, lam_mesh *mesh)
 {
     return build_round(request, sphere_point, 192, 96, false, mesh);
@@ -272,18 +284,20 @@ static bool plane_build(const struct shape_request *request, lam_mesh *mesh)
 static bool cube_build(const struct shape_request *request, lam_mesh *mesh)
 {
     struct square faces[6] = {
-        {v3(0, 0, 1), v3(1, 0, 0), v3(0, 1, 0)},  {v3(1, 0, 0), v3(0, 0, -1), v3(0, 1, 0)},
+        {v3(0, 0, 1), v3(1, 0, 0), v3(0, 1, 0)},   {v3(1, 0, 0), v3(0, 0, -1), v3(0, 1, 0)},
         {v3(0, 0, -1), v3(-1, 0, 0), v3(0, 1, 0)}, {v3(-1, 0, 0), v3(0, 0, 1), v3(0, 1, 0)},
         {v3(0, 1, 0), v3(1, 0, 0), v3(0, 0, -1)},  {v3(0, -1, 0), v3(1, 0, 0), v3(0, 0, 1)},
     };
     int slices = request->slices ? request->slices : 1, stacks = request->stacks ? request->stacks : 1;
     lam_parametric surfaces[6];
     for (int i = 0; i < 6; i++)
-        surfaces[i] = (lam_parametric){square_point, &faces[i], -1, 1, -1, 1, slices, i < 4 ? stacks : slices, false, false};
+        surfaces[i] = (lam_parametric){square_point, &faces[i], -1, 1, -1, 1, slices, i < 4 ? stacks : slices,
+                                       false,        false};
     return tessellate_parametric(surfaces, 6, request->arena, request->watch, mesh, request->error);
 }
 
-static bool build_turned(const struct shape_request *request, lam_surface_fn *side, bool has_top, lam_mesh *mesh)
+static bool build_turned(const struct shape_request *request, lam_surface_fn *side, bool has_top,
+                         lam_mesh *mesh)
 {
     int slices = request->slices ? request->slices : 192, stacks = request->stacks ? request->stacks : 1;
     struct segments n = {slices, stacks};
@@ -292,7 +306,8 @@ static bool build_turned(const struct shape_request *request, lam_surface_fn *si
         {bottom_disc, &n, 0, slices, 0, 1, slices, 1, true, false},
         {top_disc, &n, 0, slices, 0, 1, slices, 1, true, false},
     };
-    return tessellate_parametric(surfaces, has_top ? 3 : 2, request->arena, request->watch, mesh, request->error);
+    return tessellate_parametric(surfaces, has_top ? 3 : 2, request->arena, request->watch, mesh,
+                                 request->error);
 }
 
 static bool cylinder_build(const struct shape_request *request, lam_mesh *mesh)
@@ -310,11 +325,16 @@ static bool build_implicit(const struct shape_request *request, double (*value)(
                            lam_vec3 (*gradient)(void *, lam_vec3), int cells, lam_mesh *mesh)
 {
     if (request->slices > 1024)
-        return fail(request->error, LAM_BAD_ARGUMENT, "shape: slices is %d, expected at most 1024 for an implicit surface",
-                    request->slices);
-    // A little more than the surface, so that it is not cut and its symmetric points do not fall on the lattice.
+        return fail(request->error, LAM_BAD_ARGUMENT,
+                    "shape: slices is %d, expected at most 1024 for an implicit surface", request->slices);
+    // A little more than the surface, so that it is not cut and its symmetric points do not fall on the
+    // lattice.
     const double side = 1.03;
-    lam_implicit one = {value, gradient, NULL, v3(-side, -side, -side), v3(side, side, side),
+    lam_implicit one = {value,
+                        gradient,
+                        NULL,
+                        v3(-side, -side, -side),
+                        v3(side, side, side),
                         request->slices ? request->slices : cells};
     return tessellate_implicit(&one, request->arena, request->watch, mesh, request->error);
 }
@@ -341,7 +361,8 @@ static const struct shape {
     {"cube", "a cube of side 2", cube_build},
     {"cylinder", "an upright cylinder of radius 1 and height 2, closed by two discs", cylinder_build},
     {"cone", "an upright cone of radius 1 and height 2, closed by a disc", cone_build},
-    {"teapot", "the Utah teapot: 32 bicubic Bézier patches; slices around the body, stacks along each patch", teapot_build},
+    {"teapot", "the Utah teapot: 32 bicubic Bézier patches; slices around the body, stacks along each patch",
+     teapot_build},
     {"torus-knot", "a trefoil: a tube that winds twice around and three times through a ring", knot_build},
     {"gyroid", "a ball cut from a gyroid's wall, an implicit surface; slices counts cells", gyroid_build},
     {"metaballs", "six balls that run together, an implicit surface; slices counts cells", metaballs_build},
@@ -349,11 +370,20 @@ static const struct shape {
 
 enum { SHAPES = sizeof shapes / sizeof *shapes };
 
-int lam_shape_count(void) { return SHAPES; }
+int lam_shape_count(void)
+{
+    return SHAPES;
+}
 
-const char *lam_shape_name(int shape) { return shape >= 0 && shape < SHAPES ? shapes[shape].name : NULL; }
+const char *lam_shape_name(int shape)
+{
+    return shape >= 0 && shape < SHAPES ? shapes[shape].name : NULL;
+}
 
-const char *lam_shape_summary(int shape) { return shape >= 0 && shape < SHAPES ? shapes[shape].summary : NULL; }
+const char *lam_shape_summary(int shape)
+{
+    return shape >= 0 && shape < SHAPES ? shapes[shape].summary : NULL;
+}
 
 int lam_shape_find(const char *name)
 {
@@ -401,14 +431,15 @@ static void scale_mesh(lam_mesh *mesh, double radius)
 static bool check_params(const char *name, const lam_shape_params *params, lam_error *error)
 {
     if (!(params->radius >= 0) || params->radius > 1e30)
-        return fail(error, LAM_BAD_ARGUMENT, "shape '%s': radius is %g, expected more than 0 and at most 1e30 (0: 1)", name,
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "shape '%s': radius is %g, expected more than 0 and at most 1e30 (0: 1)", name,
                     params->radius);
     if (params->slices != 0 && (params->slices < 3 || params->slices > 16384))
-        return fail(error, LAM_BAD_ARGUMENT, "shape '%s': slices is %d, expected 3 to 16384 (0: its own)", name,
-                    params->slices);
+        return fail(error, LAM_BAD_ARGUMENT, "shape '%s': slices is %d, expected 3 to 16384 (0: its own)",
+                    name, params->slices);
     if (params->stacks < 0 || params->stacks > 16384)
-        return fail(error, LAM_BAD_ARGUMENT, "shape '%s': stacks is %d, expected 1 to 16384 (0: its own)", name,
-                    params->stacks);
+        return fail(error, LAM_BAD_ARGUMENT, "shape '%s': stacks is %d, expected 1 to 16384 (0: its own)",
+                    name, params->stacks);
     return true;
 }
 
@@ -418,8 +449,8 @@ static bool unknown_shape(const char *name, lam_error *error)
     for (int i = 0; i < SHAPES; i++)
         names[i] = shapes[i].name;
     const char *nearest = nearest_word(name, names, SHAPES);
-    return fail(error, LAM_BAD_ARGUMENT, "no shape is named '%s'%s%s%s", name, nearest ? ", the nearest name is '" : "",
-                nearest ? nearest : "", nearest ? "'" : "");
+    return fail(error, LAM_BAD_ARGUMENT, "no shape is named '%s'%s%s%s", name,
+                nearest ? ", the nearest name is '" : "", nearest ? nearest : "", nearest ? "'" : "");
 }
 
 int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_params *params, lam_error *error)
@@ -462,7 +493,8 @@ int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, co
     return end(scene, state, take(scene, made, &mesh, error));
 }
 
-int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const lam_control *control, lam_error *error)
+int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const lam_control *control,
+                           lam_error *error)
 {
     if (!scene || !surface) {
         fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_implicit: %s is NULL", scene ? "surface" : "scene");

@@ -1,17 +1,20 @@
-// shapes_implicit.c: meshes from implicit surfaces f(p) = 0, by marching cubes with a table that is derived here.
+// shapes_implicit.c: meshes from implicit surfaces f(p) = 0, by marching cubes with a table that is derived
+// here.
 //
-// The box is cut into cells. A lattice point is inside where f < 0 (0 and NaN count as outside); where the two ends of a
-// cell's edge differ, the surface crosses it, at one vertex that all cells around the edge share. The vertex is moved
-// along the edge until f vanishes there, so it lies on the surface to rounding, and takes its normal from ∇f.
+// The box is cut into cells. A lattice point is inside where f < 0 (0 and NaN count as outside); where the
+// two ends of a cell's edge differ, the surface crosses it, at one vertex that all cells around the edge
+// share. The vertex is moved along the edge until f vanishes there, so it lies on the surface to rounding,
+// and takes its normal from ∇f.
 //
-// How the vertices of a cell join (the table). Go round a face of the cell counter-clockwise, seen from outside the cell:
-// each run of inside corners is entered by one crossed edge and left by another. The surface cuts the face along a line
-// from the one where it is entered to the one where it is left. A face with two opposite inside corners has two such
-// lines, each cutting off its corner; since that depends on the face alone, the two cells at it agree, and the mesh has
-// no holes. An edge is entered in one of its two faces and left in the other, so the lines join into closed loops, which
-// run counter-clockwise seen from outside the surface.
-// The loops are cut into triangles by diagonals that do not lie in a face (there the neighbour might have the same), and
-// of those by the ones whose triangles agree best with the normals at their corners.
+// How the vertices of a cell join (the table). Go round a face of the cell counter-clockwise, seen from
+// outside the cell: each run of inside corners is entered by one crossed edge and left by another. The
+// surface cuts the face along a line from the one where it is entered to the one where it is left. A face
+// with two opposite inside corners has two such lines, each cutting off its corner; since that depends on the
+// face alone, the two cells at it agree, and the mesh has no holes. An edge is entered in one of its two
+// faces and left in the other, so the lines join into closed loops, which run counter-clockwise seen from
+// outside the surface. The loops are cut into triangles by diagonals that do not lie in a face (there the
+// neighbour might have the same), and of those by the ones whose triangles agree best with the normals at
+// their corners.
 #include "shapes.h"
 
 #include "fail.h"
@@ -20,7 +23,8 @@
 
 #include <string.h>
 
-// Lattice corners of a cell are numbered x + 2y + 4z; its edges 4·axis + the two other coordinates, lower axis first.
+// Lattice corners of a cell are numbered x + 2y + 4z; its edges 4·axis + the two other coordinates, lower
+// axis first.
 enum { CORNERS = 8, EDGES = 12, LOOPS_MAX = EDGES / 3 };
 
 // The loops of one of the 256 cases, their edges one after another.
@@ -65,11 +69,13 @@ static void link_edges(int inside, int next[EDGES])
             int entry = k; // back to where the run began
             while (inside >> face_corner(face, (entry + 3) % 4) & 1)
                 entry = (entry + 3) % 4;
-            next[edge_between(face_corner(face, (entry + 3) % 4), face_corner(face, entry))] = edge_between(from, to);
+            next[edge_between(face_corner(face, (entry + 3) % 4), face_corner(face, entry))] =
+                edge_between(from, to);
         }
 }
 
-// Do two edges lie in one face of the cell? Each lies in the two faces that its number's other coordinates name.
+// Do two edges lie in one face of the cell? Each lies in the two faces that its number's other coordinates
+// name.
 static bool share_face(int a, int b)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -118,10 +124,10 @@ struct march {
     struct watch *watch;
     lam_error *error;
 
-    double *values[2];     // f at the lattice points of the plane below and above
+    double *values[2];       // f at the lattice points of the plane below and above
     uint32_t *crossed[2][2]; // vertices on the x and y edges of the two planes
-    uint32_t *upright;     // vertices on the z edges between them
-    uint32_t *corners[2];  // vertices that fell on a lattice point of the two planes
+    uint32_t *upright;       // vertices on the z edges between them
+    uint32_t *corners[2];    // vertices that fell on a lattice point of the two planes
 
     float *positions, *normals;
     uint32_t *indices;
@@ -131,7 +137,8 @@ struct march {
 static double coordinate(const struct march *m, int axis, int i)
 {
     const lam_implicit *s = m->surface;
-    double low[3] = {s->minimum.x, s->minimum.y, s->minimum.z}, high[3] = {s->maximum.x, s->maximum.y, s->maximum.z};
+    double low[3] = {s->minimum.x, s->minimum.y, s->minimum.z},
+           high[3] = {s->maximum.x, s->maximum.y, s->maximum.z};
     int n = m->cells[axis];
     if (i <= 0)
         return low[axis];
@@ -145,10 +152,13 @@ static lam_vec3 lattice(const struct march *m, int x, int y, int z)
     return v3(coordinate(m, 0, x), coordinate(m, 1, y), coordinate(m, 2, z));
 }
 
-static bool is_inside(double value) { return value < 0; }
+static bool is_inside(double value)
+{
+    return value < 0;
+}
 
-// Where on the way from a (0) to b (1) f vanishes: the secant rule that halves the value of an end which stays twice
-// (Illinois), which always keeps the root between its ends.
+// Where on the way from a (0) to b (1) f vanishes: the secant rule that halves the value of an end which
+// stays twice (Illinois), which always keeps the root between its ends.
 static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa, double fb)
 {
     const lam_implicit *s = m->surface;
@@ -184,7 +194,8 @@ static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa
     return before;
 }
 
-// ∇f made unit; where it vanishes or is not finite, from differences of f a hundredth of a cell to either side.
+// ∇f made unit; where it vanishes or is not finite, from differences of f a hundredth of a cell to either
+// side.
 static lam_vec3 normal_at(const struct march *m, lam_vec3 p)
 {
     const lam_implicit *s = m->surface;
@@ -251,7 +262,8 @@ static bool add_vertex(struct march *m, lam_vec3 p, lam_vec3 at, uint32_t *corne
 }
 
 // The vertex on the edge between two neighbouring lattice points, if the surface crosses it.
-static bool cross_edge(struct march *m, const int from[3], const int to[3], int plane_from, int plane_to, uint32_t *id)
+static bool cross_edge(struct march *m, const int from[3], const int to[3], int plane_from, int plane_to,
+                       uint32_t *id)
 {
     size_t row = (size_t)m->cells[0] + 1;
     size_t i = (size_t)from[1] * row + (size_t)from[0], j = (size_t)to[1] * row + (size_t)to[0];
@@ -263,7 +275,8 @@ static bool cross_edge(struct march *m, const int from[3], const int to[3], int 
     double t = find_root(m, pa, pb, a, b);
     lam_vec3 p = v3_add(pa, v3_scale(v3_sub(pb, pa), t));
     bool nearer_a = t < 0.5;
-    return add_vertex(m, p, nearer_a ? pa : pb, nearer_a ? &m->corners[plane_from][i] : &m->corners[plane_to][j], id);
+    return add_vertex(m, p, nearer_a ? pa : pb,
+                      nearer_a ? &m->corners[plane_from][i] : &m->corners[plane_to][j], id);
 }
 
 static bool evaluate_plane(struct march *m, int z, int plane)
@@ -326,7 +339,8 @@ static uint32_t edge_vertex(const struct march *m, int edge, size_t at, int belo
 // How far a triangle turns away from the normal at one of its corners: 0 not at all, 2 the other way.
 static double misfit(const struct march *m, uint32_t a, uint32_t b, uint32_t c)
 {
-    const float *p[3] = {m->positions + 3 * (size_t)a, m->positions + 3 * (size_t)b, m->positions + 3 * (size_t)c};
+    const float *p[3] = {m->positions + 3 * (size_t)a, m->positions + 3 * (size_t)b,
+                         m->positions + 3 * (size_t)c};
     const uint32_t ids[3] = {a, b, c};
     lam_vec3 first = v3((double)p[0][0], (double)p[0][1], (double)p[0][2]);
     lam_vec3 face = v3_unit(v3_cross(v3_sub(v3((double)p[1][0], (double)p[1][1], (double)p[1][2]), first),
@@ -350,8 +364,8 @@ static void add_triangle(struct march *m, uint32_t a, uint32_t b, uint32_t c)
     m->count += 3;
 }
 
-// Cuts a loop into triangles at the least cost: by intervals, the cost of the part from i to j, given that i–j is a line
-// already, is that of the best triangle i–k–j and of the parts on both its sides.
+// Cuts a loop into triangles at the least cost: by intervals, the cost of the part from i to j, given that
+// i–j is a line already, is that of the best triangle i–k–j and of the parts on both its sides.
 static void cut_loop(struct march *m, const uint8_t *edges, const uint32_t *ids, int count)
 {
     const double in_a_face = 1000;
@@ -437,8 +451,8 @@ static bool march_all(struct march *m)
         return false;
     for (int z = 0; z < m->cells[2]; z++) {
         int below = z & 1, above = !below;
-        if (!evaluate_plane(m, z + 1, above) || !cross_plane(m, z + 1, above) || !cross_between(m, z, below, above) ||
-            !fill_layer(m, table, below, above))
+        if (!evaluate_plane(m, z + 1, above) || !cross_plane(m, z + 1, above) ||
+            !cross_between(m, z, below, above) || !fill_layer(m, table, below, above))
             return false;
     }
     return true;
@@ -448,21 +462,24 @@ static bool check(const lam_implicit *s, lam_error *error)
 {
     const char *place = "implicit surface";
     if (!s->value || !s->gradient)
-        return fail(error, LAM_BAD_ARGUMENT, "%s: the function `%s` is NULL", place, s->value ? "gradient" : "value");
+        return fail(error, LAM_BAD_ARGUMENT, "%s: the function `%s` is NULL", place,
+                    s->value ? "gradient" : "value");
     if (!v3_finite(s->minimum) || !v3_finite(s->maximum))
         return fail(error, LAM_BAD_ARGUMENT, "%s: a side of the box is not finite", place);
-    double low[3] = {s->minimum.x, s->minimum.y, s->minimum.z}, high[3] = {s->maximum.x, s->maximum.y, s->maximum.z};
+    double low[3] = {s->minimum.x, s->minimum.y, s->minimum.z},
+           high[3] = {s->maximum.x, s->maximum.y, s->maximum.z};
     for (int a = 0; a < 3; a++)
         if (!(low[a] < high[a]) || !(high[a] - low[a] < 1e38))
-            return fail(error, LAM_BAD_ARGUMENT, "%s: the box goes from %g to %g along %c, expected a length in 0 to 1e38",
-                        place, low[a], high[a], "xyz"[a]);
+            return fail(error, LAM_BAD_ARGUMENT,
+                        "%s: the box goes from %g to %g along %c, expected a length in 0 to 1e38", place,
+                        low[a], high[a], "xyz"[a]);
     if (s->cells != 0 && (s->cells < 2 || s->cells > 1024))
         return fail(error, LAM_BAD_ARGUMENT, "%s: cells is %d, expected 2 to 1024, or 0", place, s->cells);
     return true;
 }
 
-bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct watch *watch, lam_mesh *mesh,
-                         lam_error *error)
+bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct watch *watch,
+                         lam_mesh *mesh, lam_error *error)
 {
     if (!check(surface, error))
         return false;

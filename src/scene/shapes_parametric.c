@@ -3,13 +3,13 @@
 // The domain is cut into u_segments × v_segments cells, two triangles each, counter-clockwise seen from where
 // ∂p/∂u × ∂p/∂v points.
 //
-// Seams: where u (or v) is closed, the last column (row) takes position, normal and tangent of the first, bit for bit;
-// only the texture coordinate differs.
+// Seams: where u (or v) is closed, the last column (row) takes position, normal and tangent of the first, bit
+// for bit; only the texture coordinate differs.
 //
-// Poles: a row whose points coincide (or the first or last column) is one vertex. Triangles that lose their area there
-// are left out. Each remaining triangle has a corner of its own at the pole, with the texture coordinate, tangent and
-// normal of its middle column. If the normals from all sides agree, the pole is smooth and all corners get their mean;
-// else it is a tip, as a cone's, and each keeps its own.
+// Poles: a row whose points coincide (or the first or last column) is one vertex. Triangles that lose their
+// area there are left out. Each remaining triangle has a corner of its own at the pole, with the texture
+// coordinate, tangent and normal of its middle column. If the normals from all sides agree, the pole is
+// smooth and all corners get their mean; else it is a tip, as a cone's, and each keeps its own.
 //
 // A derivative that vanishes tells nothing of the tangent plane. Its direction is then taken from a point a
 // ten-thousandth of the domain further inside (the one-sided limit), the other derivative staying as it is.
@@ -21,7 +21,8 @@
 
 #include <string.h>
 
-// Points nearer to each other than this share of the surface's size are one; a float position cannot tell them apart.
+// Points nearer to each other than this share of the surface's size are one; a float position cannot tell
+// them apart.
 #define SAME_POINT 1e-9
 // A derivative shorter than this share of size per domain has vanished.
 #define VANISHED 1e-9
@@ -32,17 +33,17 @@
 
 struct tessellation {
     const lam_parametric *surface;
-    lam_mesh *mesh;       // arrays writable below
+    lam_mesh *mesh; // arrays writable below
     float *positions, *normals, *tangents, *texcoords;
     uint32_t *indices, *attributes;
     double origin[3];
-    double size;          // longest side of the box of a coarse sample
+    double size;           // longest side of the box of a coarse sample
     double u_unit, v_unit; // a derivative of ordinary length
     uint32_t vertex, attribute_base;
     size_t corner;
     bool first_column_pole, last_column_pole;
     lam_surface_point *row;
-    uint32_t *ids[3];     // vertices of the row before, of this one, and of the first
+    uint32_t *ids[3]; // vertices of the row before, of this one, and of the first
 };
 
 // Parameter of step i of n, from a to b; the ends exact, mirrored steps of a symmetric domain mirrored bits.
@@ -56,7 +57,10 @@ static double parameter(double a, double b, int i, int n)
 }
 
 // At ½ steps: the middle of cell i.
-static double middle(double a, double b, int i, int n) { return parameter(a, b, 2 * i + 1, 2 * n); }
+static double middle(double a, double b, int i, int n)
+{
+    return parameter(a, b, 2 * i + 1, 2 * n);
+}
 
 static lam_surface_point evaluate(const struct tessellation *t, double u, double v)
 {
@@ -65,7 +69,10 @@ static lam_surface_point evaluate(const struct tessellation *t, double u, double
     return point;
 }
 
-static bool shorter(lam_vec3 v, double length) { return v3_dot(v, v) <= length * length; }
+static bool shorter(lam_vec3 v, double length)
+{
+    return v3_dot(v, v) <= length * length;
+}
 
 static bool coincide(const struct tessellation *t, lam_vec3 a, lam_vec3 b)
 {
@@ -80,8 +87,8 @@ static double inside(double x, double low, double high)
 }
 
 // Normal and tangent, unit, and the bitangent's sign. The normal is zero where no side tells it.
-static void frame_at(const struct tessellation *t, double u, double v, const lam_surface_point *point, lam_vec3 *normal,
-                     lam_vec3 *tangent)
+static void frame_at(const struct tessellation *t, double u, double v, const lam_surface_point *point,
+                     lam_vec3 *normal, lam_vec3 *tangent)
 {
     const lam_parametric *s = t->surface;
     double inner_u = inside(u, s->u_min, s->u_max), inner_v = inside(v, s->v_min, s->v_max);
@@ -137,7 +144,8 @@ static bool add_position(struct tessellation *t, lam_vec3 p, uint32_t *id, lam_e
     for (int a = 0; a < 3; a++) {
         if (!(q[a] > -limit && q[a] < limit))
             return fail(error, LAM_BAD_ARGUMENT,
-                        "parametric surface: a point's coordinate is %g, expected a finite number below 1e38", q[a]);
+                        "parametric surface: a point's coordinate is %g, expected a finite number below 1e38",
+                        q[a]);
         at[a] = (float)(q[a] + 0.0); // −0 becomes 0
     }
     *id = t->vertex++;
@@ -199,8 +207,8 @@ static void add_attributes(struct tessellation *t, int j, bool pole)
         t->texcoords[2 * at] = (float)((u - s->u_min) / (s->u_max - s->u_min));
         t->texcoords[2 * at + 1] = (float)((at_v - s->v_min) / (s->v_max - s->v_min));
         size_t twin = s->v_closed && j == s->v_segments ? attribute_at(t, i, 0)
-                      : s->u_closed && i == count        ? attribute_at(t, 0, j)
-                                                         : at;
+                      : s->u_closed && i == count       ? attribute_at(t, 0, j)
+                                                        : at;
         if (twin != at) {
             memcpy(t->normals + 3 * at, t->normals + 3 * twin, 3 * sizeof(float));
             memcpy(t->tangents + 4 * at, t->tangents + 4 * twin, 4 * sizeof(float));
@@ -245,7 +253,8 @@ struct cell_corner {
     uint32_t vertex, attribute;
 };
 
-static void add_triangle(struct tessellation *t, struct cell_corner a, struct cell_corner b, struct cell_corner c)
+static void add_triangle(struct tessellation *t, struct cell_corner a, struct cell_corner b,
+                         struct cell_corner c)
 {
     if (a.vertex == b.vertex || b.vertex == c.vertex || c.vertex == a.vertex)
         return;
@@ -257,11 +266,13 @@ static void add_triangle(struct tessellation *t, struct cell_corner a, struct ce
 }
 
 // A corner of cell (cell_i, cell_j). At a pole the cell has a corner of its own, kept under its own number.
-static struct cell_corner corner_of(const struct tessellation *t, int i, int j, int cell_i, int cell_j, uint32_t vertex,
-                                    bool row_pole)
+static struct cell_corner corner_of(const struct tessellation *t, int i, int j, int cell_i, int cell_j,
+                                    uint32_t vertex, bool row_pole)
 {
-    bool column_pole = (i == 0 && t->first_column_pole) || (i == t->surface->u_segments && t->last_column_pole);
-    return (struct cell_corner){vertex, (uint32_t)attribute_at(t, row_pole ? cell_i : i, column_pole ? cell_j : j)};
+    bool column_pole =
+        (i == 0 && t->first_column_pole) || (i == t->surface->u_segments && t->last_column_pole);
+    return (struct cell_corner){vertex,
+                                (uint32_t)attribute_at(t, row_pole ? cell_i : i, column_pole ? cell_j : j)};
 }
 
 static void add_cells(struct tessellation *t, int j, bool pole_before, bool pole)
@@ -310,20 +321,25 @@ static bool check(const lam_parametric *s, lam_error *error)
     if (!s->surface)
         return fail(error, LAM_BAD_ARGUMENT, "%s: the function `surface` is NULL", place);
     if (!math_finite(s->u_min) || !math_finite(s->u_max) || !(s->u_min < s->u_max))
-        return fail(error, LAM_BAD_ARGUMENT, "%s: u goes from %g to %g, expected finite numbers with u_min < u_max", place,
-                    s->u_min, s->u_max);
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "%s: u goes from %g to %g, expected finite numbers with u_min < u_max", place, s->u_min,
+                    s->u_max);
     if (!math_finite(s->v_min) || !math_finite(s->v_max) || !(s->v_min < s->v_max))
-        return fail(error, LAM_BAD_ARGUMENT, "%s: v goes from %g to %g, expected finite numbers with v_min < v_max", place,
-                    s->v_min, s->v_max);
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "%s: v goes from %g to %g, expected finite numbers with v_min < v_max", place, s->v_min,
+                    s->v_max);
     if (s->u_segments < 1 || s->u_segments > 16384)
-        return fail(error, LAM_BAD_ARGUMENT, "%s: u_segments is %d, expected 1 to 16384", place, s->u_segments);
+        return fail(error, LAM_BAD_ARGUMENT, "%s: u_segments is %d, expected 1 to 16384", place,
+                    s->u_segments);
     if (s->v_segments < 1 || s->v_segments > 16384)
-        return fail(error, LAM_BAD_ARGUMENT, "%s: v_segments is %d, expected 1 to 16384", place, s->v_segments);
+        return fail(error, LAM_BAD_ARGUMENT, "%s: v_segments is %d, expected 1 to 16384", place,
+                    s->v_segments);
     return true;
 }
 
 // The box of all surfaces from a coarse sample, for tolerances and the origin.
-static bool sample_box(const lam_parametric *surfaces, int count, double low[3], double high[3], lam_error *error)
+static bool sample_box(const lam_parametric *surfaces, int count, double low[3], double high[3],
+                       lam_error *error)
 {
     enum { STEPS = 8 };
     for (int a = 0; a < 3; a++) {
@@ -334,12 +350,13 @@ static bool sample_box(const lam_parametric *surfaces, int count, double low[3],
         for (int j = 0; j <= STEPS; j++)
             for (int i = 0; i <= STEPS; i++) {
                 const lam_parametric *s = &surfaces[k];
-                double u = parameter(s->u_min, s->u_max, i, STEPS), v = parameter(s->v_min, s->v_max, j, STEPS);
+                double u = parameter(s->u_min, s->u_max, i, STEPS),
+                       v = parameter(s->v_min, s->v_max, j, STEPS);
                 lam_surface_point point = {0};
                 s->surface(s->user, u, v, &point);
                 if (!v3_finite(point.p))
-                    return fail(error, LAM_BAD_ARGUMENT, "parametric surface: the point at u = %g, v = %g is not finite", u,
-                                v);
+                    return fail(error, LAM_BAD_ARGUMENT,
+                                "parametric surface: the point at u = %g, v = %g is not finite", u, v);
                 double p[3] = {point.p.x, point.p.y, point.p.z};
                 for (int a = 0; a < 3; a++) {
                     low[a] = p[a] < low[a] ? p[a] : low[a];
@@ -349,8 +366,8 @@ static bool sample_box(const lam_parametric *surfaces, int count, double low[3],
     return true;
 }
 
-bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct watch *watch,
-                           lam_mesh *mesh, lam_error *error)
+bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena,
+                           struct watch *watch, lam_mesh *mesh, lam_error *error)
 {
     uint64_t attributes = 0, triangles = 0;
     int widest = 0;
@@ -385,8 +402,8 @@ bool tessellate_parametric(const lam_parametric *surfaces, int count, struct are
     t.texcoords = arena_array(arena, attributes, 2 * sizeof(float));
     t.indices = arena_array(arena, 3 * triangles, sizeof(uint32_t));
     t.attributes = arena_array(arena, 3 * triangles, sizeof(uint32_t));
-    bool ok = t.row && t.ids[0] && t.ids[1] && t.ids[2] && t.positions && t.normals && t.tangents && t.texcoords &&
-              t.indices && t.attributes;
+    bool ok = t.row && t.ids[0] && t.ids[1] && t.ids[2] && t.positions && t.normals && t.tangents &&
+              t.texcoords && t.indices && t.attributes;
     if (!ok)
         watch_memory_error(watch, attributes * 48 + triangles * 24, error);
     for (int k = 0; ok && k < count; k++) {

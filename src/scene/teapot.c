@@ -1,18 +1,20 @@
 // teapot.c: the Utah teapot from its Bézier patches.
 //
-// Patches that continue each other become one parametric surface: u goes around (4 patches for body and lid, 2 for handle
-// and spout), v along (from the bottom's middle over body and rim, from the lid's edge to its top, from the body outward).
-// All joints are smooth in the data, so positions and normals there are shared. As published, the pot is open: the lid lies
-// in the rim without touching it, handle and spout end inside the body's wall.
+// Patches that continue each other become one parametric surface: u goes around (4 patches for body and lid,
+// 2 for handle and spout), v along (from the bottom's middle over body and rim, from the lid's edge to its
+// top, from the body outward). All joints are smooth in the data, so positions and normals there are shared.
+// As published, the pot is open: the lid lies in the rim without touching it, handle and spout end inside the
+// body's wall.
 #include "shapes.h"
 
 #include "fail.h"
 #include "linear.h"
 #include "teapot_data.h"
 
-// From Newell's coordinates: Y up, middle of the box at the origin, from handle (−3) to spout (3.434075) 2 units wide.
-#define TEAPOT_MIDDLE_X 0.2170375625
-#define TEAPOT_MIDDLE_Z 1.575
+// From Newell's coordinates: Y up, middle of the box at the origin, from handle (−3) to spout (3.434075) 2
+// units wide.
+#define TEAPOT_MIDDLE_X   0.2170375625
+#define TEAPOT_MIDDLE_Z   1.575
 #define TEAPOT_HALF_WIDTH 3.2170375625
 
 static lam_vec3 place(double x, double y, double z)
@@ -75,7 +77,8 @@ static void patch_point(void *user, double u, double v, lam_surface_point *out)
     }
 }
 
-// The four quarters, from the back (+y) to the left, the front and the right, so that ∂p/∂u × ∂p/∂v points outward.
+// The four quarters, from the back (+y) to the left, the front and the right, so that ∂p/∂u × ∂p/∂v points
+// outward.
 static void turn(struct patches *patches, const struct teapot_ring (*bands)[4], int count)
 {
     static const double way[5][2] = {{0, 1}, {-1, 0}, {0, -1}, {1, 0}, {0, 1}};
@@ -115,8 +118,9 @@ static void mirror(struct patches *patches, const struct teapot_section (*bands)
 bool teapot_build(const struct shape_request *request, lam_mesh *mesh)
 {
     if (request->stacks > 16384 / BANDS_MAX)
-        return fail(request->error, LAM_BAD_ARGUMENT, "shape 'teapot': stacks is %d, expected at most %d along each patch",
-                    request->stacks, 16384 / BANDS_MAX);
+        return fail(request->error, LAM_BAD_ARGUMENT,
+                    "shape 'teapot': stacks is %d, expected at most %d along each patch", request->stacks,
+                    16384 / BANDS_MAX);
     struct patches parts[4];
     turn(&parts[0], teapot_body, 4);
     turn(&parts[1], teapot_lid, 2);

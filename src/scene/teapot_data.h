@@ -2,8 +2,8 @@
 #ifndef TEAPOT_DATA_H
 #define TEAPOT_DATA_H
 
-// A ring of control points around the vertical axis: distance from it, the length of the inner points' sideways step,
-// and height.
+// A ring of control points around the vertical axis: distance from it, the length of the inner points'
+// sideways step, and height.
 struct teapot_ring {
     double radius, step, height;
 };

@@ -1,0 +1,538 @@
+// test_normals.c: smooth and facet normals.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "arena.h"
+#include "normals.h"
+#include "pool.h"
+
+#include <lambent/scene.h>
+
+#define RADIANS(degrees) ((degrees)*M_PI / 180)
+
+static void smooth(lam_mesh *mesh, double crease_degrees, struct arena *arena, struct pool *pool)
+{
+    lam_error error = {0};
+    if (!normals_smooth(mesh, RADIANS(crease_degrees), arena, pool, NULL, &error))
+        fail_msg("%s", error.text);
+    for (size_t c = 0; c < 3 * (size_t)mesh->triangle_count; c++)
+        assert_true(mesh->normal_indices[c] < mesh->normal_count);
+}
+
+static const float *normal_of(const lam_mesh *mesh, size_t corner)
+{
+    return mesh->normals + 3 * (size_t)mesh->normal_indices[corner];
+}
+
+static void assert_normal(const lam_mesh *mesh, size_t corner, double x, double y, double z)
+{
+    const float *n = normal_of(mesh, corner);
+    double dx = (double)n[0] - x, dy = (double)n[1] - y, dz = (double)n[2] - z;
+    if (!(dx * dx + dy * dy + dz * dz < 1e-12))
+        fail_msg("corner %zu: normal %g %g %g, expected %g %g %g", corner, (double)n[0], (double)n[1],
+                 (double)n[2], x, y, z);
+}
+
+// --- A cube of eight vertices
+
+static const float cube_positions[] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1,
+                                       -1, -1, 1,  1, -1, 1,  -1, 1, 1,  1, 1, 1};
+static const uint32_t cube_indices[] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                        2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+static const float cube_faces[6][3] = {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
+
+static lam_mesh cube(void)
+{
+    return (lam_mesh){
+        .positions = cube_positions, .vertex_count = 8, .indices = cube_indices, .triangle_count = 12};
+}
+
+static void test_cube(void **state)
+{
+    (void)state;
+    struct arena arena;
+    arena_start(&arena, NULL);
+    lam_mesh mesh = cube();
+    smooth(&mesh, 40, &arena, NULL); // each face its own
+    assert_int_equal(mesh.normal_count, 24);
+    for (size_t c = 0; c < 36; c++) {
+        const float *face = cube_faces[c / 6];
+        assert_normal(&mesh, c, (double)face[0], (double)face[1], (double)face[2]);
+    }
+    // At 90° all are one. Some faces have two triangles at a corner, some one: the weight is the angle, so
+    // that the diagonal does not show.
+    static const double creases[] = {90, 120, 180};
+    for (int k = 0; k < 3; k++) {
+        mesh = cube();
+        smooth(&mesh, creases[k], &arena, NULL);
+        assert_int_equal(mesh.normal_count, 8);
+        for (size_t c = 0; c < 36; c++) {
+            const float *p = cube_positions + 3 * cube_indices[c];
+            double s = 1 / sqrt(3);
+            const float *n = normal_of(&mesh, c);
+            for (int a = 0; a < 3; a++)
+                assert_true(fabs((double)n[a] - (double)p[a] * s) < 3e-6); // the angle's own error
+        }
+    }
+    mesh = cube();
+    smooth(&mesh, 89.9, &arena, NULL);
+    assert_int_equal(mesh.normal_count, 24);
+    arena_free(&arena);
+}
+
+static void test_facet(void **state)
+{
+    (void)state;
+    struct arena arena;
+    arena_start(&arena, NULL);
+    lam_mesh mesh = cube();
+    lam_error error;
+    assert_true(normals_facet(&mesh, &arena, NULL, NULL, &error));
+    for (size_t c = 0; c < 36; c++) {
+        const float *face = cube_faces[c / 6];
+        assert_normal(&mesh, c, (double)face[0], (double)face[1], (double)face[2]);
+        assert_int_equal(mesh.normal_indices[c], c / 3);
+    }
+    static const float line[] = {0, 0, 0, 1, 1, 1, 2, 2, 2};
+    lam_mesh flat = {.positions = line, .vertex_count = 3, .triangle_count = 1};
+    assert_true(normals_facet(&flat, &arena, NULL, NULL, &error));
+    assert_normal(&flat, 2, 0, 0, 0);
+    arena_free(&arena);
+}
+
+static void test_sphere(void **state)
+{
+    (void)state;
+    lam_scene *scene = lam_scene_make(NULL);
+    struct arena arena;
+    arena_start(&arena, NULL);
+    double before = 0;
+    for (int slices = 48; slices <= 192; slices *= 2) {
+        int index = lam_scene_add_shape(scene, "sphere",
+                                        &(lam_shape_params){.slices = slices, .stacks = slices / 2}, NULL);
+        lam_mesh mesh = *lam_scene_mesh(scene, index);
+        smooth(&mesh, 40, &arena, NULL);
+        assert_int_equal(mesh.normal_count, mesh.vertex_count); // one normal at each position
+        double worst = 0;
+        for (size_t c = 0; c < 3 * (size_t)mesh.triangle_count; c++) {
+            const float *n = normal_of(&mesh, c), *p = mesh.positions + 3 * (size_t)mesh.indices[c];
+            for (int a = 0; a < 3; a++)
+                worst = fmax(worst, fabs((double)n[a] - (double)p[a])); // p is the normal of the unit sphere
+        }
+        assert_true(worst < 20.0 / (slices * slices));
+        assert_true(before == 0 || worst < before / 3.5); // fourfold for each doubling
+        before = worst;
+    }
+    arena_free(&arena);
+    lam_scene_free(scene);
+}
+
+// --- Welding
+
+static void test_weld(void **state)
+{
+    (void)state;
+    struct arena arena;
+    arena_start(&arena, NULL);
+    // Two triangles of a roof (30°) without shared vertices; the common edge is once written with −0.
+    float h = (float)tan(RADIANS(15));
+    const float roof[] = {-1, 0, 0, 0, h, -0.0f, 0, h, 1, /**/ 1, 0, 0, -0.0f, h, 1, -0.0f, h, 0};
+    lam_mesh mesh = {.positions = roof, .vertex_count = 6, .triangle_count = 2};
+    smooth(&mesh, 40, &arena, NULL);
+    assert_int_equal(mesh.normal_count, 4);
+    assert_int_equal(mesh.normal_indices[1], mesh.normal_indices[5]);
+    assert_int_equal(mesh.normal_indices[2], mesh.normal_indices[4]);
+    assert_normal(&mesh, 1, 0, -1, 0); // the roof is seen from below
+    assert_normal(&mesh, 2, 0, -1, 0);
+    mesh.normals = NULL;
+    smooth(&mesh, 29, &arena, NULL); // now it is a crease
+    assert_int_equal(mesh.normal_count, 6);
+    arena_free(&arena);
+}
+
+static void test_smoothing_groups(void **state)
+{
+    (void)state;
+    struct arena arena;
+    arena_start(&arena, NULL);
+    // A strip of three triangles in a plane; what may be shared is told by the groups alone.
+    static const float strip[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
+    static const uint32_t indices[] = {0, 1, 2, 2, 1, 3, 2, 3, 4};
+    static const struct {
+        uint32_t groups[3];
+        uint32_t normals;
+    } cases[] = {
+        {{1, 1, 1}, 5}, {{1, 2, 2}, 7}, {{1, 1, 2}, 7}, {{1, 2, 1}, 9}, {{0, 0, 0}, 9}, {{0, 7, 7}, 7},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        lam_mesh mesh = {.positions = strip,
+                         .vertex_count = 5,
+                         .indices = indices,
+                         .triangle_count = 3,
+                         .smoothing_groups = cases[k].groups};
+        smooth(&mesh, 40, &arena, NULL);
+        assert_int_equal(mesh.normal_count, cases[k].normals);
+        for (size_t c = 0; c < 9; c++)
+            assert_normal(&mesh, c, 0, 0, 1);
+    }
+    arena_free(&arena);
+}
+
+// --- Odd triangles
+
+static void test_degenerate(void **state)
+{
+    (void)state;
+    struct arena arena;
+    arena_start(&arena, NULL);
+    // A floor triangle, a needle along its edge (two equal corners), one with three equal corners, a line on
+    // its own.
+    static const float p[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5, 6, 6, 6, 7, 7, 7};
+    static const uint32_t indices[] = {0, 1, 2, 1, 0, 0, 2, 2, 2, 3, 4, 5};
+    lam_mesh mesh = {.positions = p, .vertex_count = 6, .indices = indices, .triangle_count = 4};
+    smooth(&mesh, 40, &arena, NULL);
+    for (size_t c = 0; c < 9; c++)
+        assert_normal(&mesh, c, 0, 0, 1);
+    for (size_t c = 9; c < 12; c++)
+        assert_normal(&mesh, c, 0, 0, 0);
+
+    // A sliver on a crease does not smooth it over, and takes a side that it shares an edge with.
+    static const float corner[] = {0, 0, 0, 2, 0, 0, 1, 0, 0, 1, 1, 0, 1, 0, 1};
+    static const uint32_t bent[] = {
+        0, 1, 3, /* floor side */ 1, 0, 2, /* sliver, on the edge's middle */ 0, 4, 2, 2, 4, 1};
+    lam_mesh crease = {.positions = corner, .vertex_count = 5, .indices = bent, .triangle_count = 4};
+    smooth(&crease, 40, &arena, NULL);
+    for (size_t c = 0; c < 3; c++)
+        assert_normal(&crease, c, 0, 0, 1);
+    for (size_t c = 5; c < 12; c++)
+        assert_normal(&crease, c, 0, 1, 0);
+    assert_true(crease.normal_indices[3] == crease.normal_indices[1] ||
+                crease.normal_indices[3] == crease.normal_indices[11]);
+    assert_true(crease.normal_indices[4] == crease.normal_indices[0] ||
+                crease.normal_indices[4] == crease.normal_indices[6]);
+
+    lam_mesh empty = {.positions = p, .vertex_count = 6};
+    smooth(&empty, 40, &arena, NULL);
+    assert_int_equal(empty.normal_count, 0);
+    lam_mesh nothing = {0};
+    smooth(&nothing, 40, &arena, NULL);
+
+    // Numbers at the ends of the range of floats.
+    static const float wide[] = {-3e38f, -3e38f, 0, 3e38f,  -3e38f, 0, 0, 3e38f,  0,
+                                 0,      0,      0, 1e-45f, 0,      0, 0, 1e-45f, 0};
+    lam_mesh extremes = {.positions = wide, .vertex_count = 6, .triangle_count = 2};
+    smooth(&extremes, 40, &arena, NULL);
+    for (size_t c = 0; c < 6; c++)
+        assert_normal(&extremes, c, 0, 0, 1);
+    arena_free(&arena);
+}
+
+static void test_bow_tie(void **state)
+{
+    (void)state;
+    struct arena arena;
+    arena_start(&arena, NULL);
+    // Two pyramids' tips touch at vertex 0, without a common edge: two normals there, whatever the crease.
+    static const float p[] = {0, 0, 0, 1, -1, 1, 1,  -1, -1, -1, -1, -1, -1, -1,
+                              1, 1, 1, 1, 1,  1, -1, -1, 1,  -1, -1, 1,  1};
+    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1,
+                                       0, 6, 5, 0, 7, 6, 0, 8, 7, 0, 5, 8};
+    lam_mesh mesh = {.positions = p, .vertex_count = 9, .indices = indices, .triangle_count = 8};
+    smooth(&mesh, 180, &arena, NULL);
+    assert_int_equal(mesh.normal_count, 10);
+    for (size_t t = 0; t < 8; t++)
+        assert_normal(&mesh, 3 * t, 0, t < 4 ? 1 : -1, 0);
+    arena_free(&arena);
+}
+
+static void test_inconsistent_winding(void **state)
+{
+    (void)state;
+    struct arena arena;
+    arena_start(&arena, NULL);
+    static const float p[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+    static const uint32_t same[] = {0, 1, 2, 2, 1, 3}, turned[] = {0, 1, 2, 1, 2, 3};
+    lam_mesh mesh = {.positions = p, .vertex_count = 4, .indices = same, .triangle_count = 2};
+    smooth(&mesh, 180, &arena, NULL);
+    assert_int_equal(mesh.normal_count, 4);
+    mesh.indices = turned;
+    smooth(&mesh, 180, &arena, NULL); // not joined even at a crease of 180°, else they would cancel
+    assert_int_equal(mesh.normal_count, 6);
+    for (size_t c = 0; c < 6; c++)
+        assert_normal(&mesh, c, 0, 0, c < 3 ? 1 : -1);
+    arena_free(&arena);
+}
+
+// --- One result for any number of threads
+
+static void test_threads(void **state)
+{
+    (void)state;
+    lam_scene *scene = lam_scene_make(NULL);
+    struct arena arena;
+    arena_start(&arena, NULL);
+    int index = lam_scene_add_shape(scene, "teapot", &(lam_shape_params){.slices = 200, .stacks = 40}, NULL);
+    const lam_mesh *teapot = lam_scene_mesh(scene, index);
+    size_t corners = 3 * (size_t)teapot->triangle_count;
+    // As it is, and as a soup of triangles as STL files are.
+    float *soup = malloc(corners * 12);
+    for (size_t c = 0; c < corners; c++)
+        memcpy(soup + 3 * c, teapot->positions + 3 * (size_t)teapot->indices[c], 12);
+    for (int k = 0; k < 2; k++) {
+        lam_mesh mesh = {.positions = teapot->positions,
+                         .vertex_count = teapot->vertex_count,
+                         .indices = teapot->indices,
+                         .triangle_count = teapot->triangle_count};
+        if (k)
+            mesh = (lam_mesh){.positions = soup,
+                              .vertex_count = (uint32_t)corners,
+                              .triangle_count = teapot->triangle_count};
+        lam_mesh first = mesh;
+        smooth(&first, 20, &arena, NULL);
+        static const int threads[] = {1, 2, 5};
+        for (int i = 0; i < 3; i++) {
+            struct pool *pool = pool_make(threads[i]);
+            lam_mesh other = mesh;
+            smooth(&other, 20, &arena, pool);
+            assert_int_equal(first.normal_count, other.normal_count);
+            assert_memory_equal(first.normals, other.normals, 12 * (size_t)first.normal_count);
+            assert_memory_equal(first.normal_indices, other.normal_indices, 4 * corners);
+            pool_free(pool);
+        }
+    }
+    free(soup);
+    arena_free(&arena);
+    lam_scene_free(scene);
+}
+
+// --- Meshes made to be slow: each must take about as long as any other mesh of its size
+
+static void within_seconds(clock_t start, double seconds)
+{
+    assert_true((double)(clock() - start) / CLOCKS_PER_SEC < seconds);
+}
+
+static void test_million_at_one_vertex(void **state)
+{
+    (void)state;
+    enum { COUNT = 1000000 };
+    struct arena arena;
+    arena_start(&arena, NULL);
+    float *p = malloc((COUNT + 1) * 12);
+    uint32_t *indices = malloc((size_t)COUNT * 12);
+    p[0] = 0, p[1] = 0.1f, p[2] = 0;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        double a = 2 * M_PI * i / COUNT;
+        float ring[3] = {(float)cos(a), 0, (float)-sin(a)};
+        memcpy(p + 3 * (size_t)(i + 1), ring, 12);
+        uint32_t triangle[3] = {0, i + 1, (i + 1) % COUNT + 1};
+        memcpy(indices + 3 * (size_t)i, triangle, 12);
+    }
+    lam_mesh mesh = {.positions = p, .vertex_count = COUNT + 1, .indices = indices, .triangle_count = COUNT};
+    clock_t start = clock();
+    smooth(&mesh, 40, &arena, NULL);
+    within_seconds(start, 20);
+    assert_normal(&mesh, 0, 0, 1, 0);
+    for (size_t t = 1; t < COUNT; t++)
+        assert_int_equal(mesh.normal_indices[3 * t], mesh.normal_indices[0]);
+
+    // The same from several threads, which push their corners in any order.
+    struct pool *pool = pool_make(3);
+    lam_mesh other = mesh;
+    smooth(&other, 40, &arena, pool);
+    assert_int_equal(mesh.normal_count, other.normal_count);
+    assert_memory_equal(mesh.normals, other.normals, 12 * (size_t)mesh.normal_count);
+    assert_memory_equal(mesh.normal_indices, other.normal_indices, (size_t)COUNT * 12);
+    pool_free(pool);
+
+    // All on one edge, every other one turned.
+    for (uint32_t i = 0; i < COUNT; i++) {
+        uint32_t triangle[3] = {0, i & 1 ? 1 : i / 2 + 2, i & 1 ? i / 2 + 2 : 1};
+        memcpy(indices + 3 * (size_t)i, triangle, 12);
+    }
+    start = clock();
+    smooth(&mesh, 40, &arena, NULL);
+    within_seconds(start, 20);
+
+    // One triangle a million times, and a million times nothing.
+    for (uint32_t i = 0; i < COUNT; i++)
+        memcpy(indices + 3 * (size_t)i, (uint32_t[]){0, 1, 250000}, 12);
+    start = clock();
+    smooth(&mesh, 40, &arena, NULL);
+    memset(indices, 0, (size_t)COUNT * 12);
+    smooth(&mesh, 40, &arena, NULL);
+    within_seconds(start, 40);
+    assert_normal(&mesh, 5, 0, 0, 0);
+    free(p);
+    free(indices);
+    arena_free(&arena);
+}
+
+static uint64_t inverse(uint64_t odd) // modulo 2⁶⁴, by Newton's steps
+{
+    uint64_t x = odd;
+    for (int i = 0; i < 6; i++)
+        x *= 2 - odd * x;
+    return x;
+}
+
+// Positions that all have the same value of the hash in normals.c, found by running it backwards.
+static void test_colliding_positions(void **state)
+{
+    (void)state;
+    enum { COUNT = 60000 };
+    struct arena arena;
+    arena_start(&arena, NULL);
+    float *p = malloc(COUNT * 12);
+    uint64_t back1 = inverse(UINT64_C(0x9e3779b97f4a7c15));
+    size_t count = 0;
+    for (uint32_t z = 0x3f000000; count < COUNT; z++) {
+        uint64_t mixed = UINT64_C(0x123456789abcdef1) ^ z;
+        uint64_t h = (mixed ^ mixed >> 32) * back1;
+        uint32_t bits[3] = {(uint32_t)h, (uint32_t)(h >> 32), z};
+        float f[3];
+        memcpy(f, bits, 12);
+        if (isfinite(f[0]) && isfinite(f[1]))
+            memcpy(p + 3 * count++, f, 12);
+    }
+    lam_mesh mesh = {.positions = p, .vertex_count = COUNT, .triangle_count = COUNT / 3};
+    clock_t start = clock();
+    smooth(&mesh, 40, &arena, NULL);
+    within_seconds(start, 10);
+    assert_int_equal(mesh.normal_count, COUNT); // nothing was welded that differs
+    // And each twice: everything is welded that does not.
+    uint32_t *indices = malloc(2 * COUNT * sizeof *indices);
+    float *twice = malloc(2 * COUNT * 12);
+    memcpy(twice, p, COUNT * 12);
+    memcpy(twice + 3 * COUNT, p, COUNT * 12);
+    for (uint32_t i = 0; i < 2 * COUNT; i++)
+        indices[i] = i;
+    mesh = (lam_mesh){
+        .positions = twice, .vertex_count = 2 * COUNT, .indices = indices, .triangle_count = 2 * COUNT / 3};
+    uint32_t *groups = malloc(2 * COUNT / 3 * sizeof *groups);
+    for (int i = 0; i < 2 * COUNT / 3; i++)
+        groups[i] = 1;
+    mesh.smoothing_groups = groups;
+    smooth(&mesh, 40, &arena, NULL);
+    // Two equal triangles do not share an edge in opposite directions, so they are welded, but not joined.
+    assert_int_equal(mesh.normal_count, 2 * COUNT);
+    for (uint32_t c = 0; c < COUNT; c++)
+        assert_int_equal(mesh.normal_indices[c] + 1,
+                         mesh.normal_indices[c + COUNT]); // neighbours in one position's fans
+    free(groups);
+    free(indices);
+    free(twice);
+    free(p);
+    arena_free(&arena);
+}
+
+// Positions whose hashes begin alike, so that one partition gets them all: its table must grow.
+static void test_one_partition(void **state)
+{
+    (void)state;
+    enum { COUNT = 60000 };
+    struct arena arena;
+    arena_start(&arena, NULL);
+    float *p = malloc(COUNT * 12);
+    uint32_t random = 1;
+    for (size_t count = 0; count < COUNT;) {
+        float f[3];
+        for (int a = 0; a < 3; a++) {
+            random = random * 1664525u + 1013904223u;
+            f[a] = (float)(random >> 8) + 1.0f;
+        }
+        uint32_t bits[3];
+        memcpy(bits, f, 12);
+        uint64_t h = (bits[0] | (uint64_t)bits[1] << 32) * UINT64_C(0x9e3779b97f4a7c15);
+        h = (h ^ h >> 32 ^ bits[2]) * UINT64_C(0xd6e8feb86659fd93);
+        h ^= h >> 32;
+        if (h >> 61 == 0)
+            memcpy(p + 3 * count++, f, 12);
+    }
+    uint32_t *indices = malloc(2 * COUNT * sizeof *indices);
+    for (uint32_t i = 0; i < 2 * COUNT; i++)
+        indices[i] = i < COUNT ? i : 2 * COUNT - 1 - i; // each triangle again, turned over
+    lam_mesh mesh = {
+        .positions = p, .vertex_count = COUNT, .indices = indices, .triangle_count = 2 * COUNT / 3};
+    smooth(&mesh, 180, &arena, NULL);
+    assert_int_equal(mesh.normal_count, COUNT);
+    for (uint32_t i = 0; i < COUNT; i++)
+        assert_int_equal(mesh.normal_indices[i], mesh.normal_indices[2 * COUNT - 1 - i]);
+    free(indices);
+    free(p);
+    arena_free(&arena);
+}
+
+// --- Controls
+
+static void test_controls(void **state)
+{
+    (void)state;
+    lam_scene *scene = lam_scene_make(NULL);
+    int index = lam_scene_add_shape(scene, "sphere", NULL, NULL);
+    const lam_mesh mesh = *lam_scene_mesh(scene, index);
+    lam_cancel cancel = {0};
+    lam_cancel_raise(&cancel);
+    struct watch watch;
+    struct arena arena;
+    lam_error error;
+    watch_start(&watch, &(lam_control){.cancel = &cancel});
+    arena_start(&arena, &watch);
+    lam_mesh copy = mesh;
+    assert_false(normals_smooth(&copy, 0.7, &arena, NULL, &watch, &error));
+    assert_int_equal(error.code, LAM_CANCELLED);
+    assert_false(normals_facet(&copy, &arena, NULL, &watch, &error));
+    assert_int_equal(error.code, LAM_CANCELLED);
+    assert_memory_equal(&copy, &mesh, sizeof mesh);
+    arena_free(&arena);
+
+    watch_start(&watch, &(lam_control){.memory_limit_bytes = 100000});
+    arena_start(&arena, &watch);
+    assert_false(normals_smooth(&copy, 0.7, &arena, NULL, &watch, &error));
+    assert_int_equal(error.code, LAM_LIMIT);
+    assert_non_null(strstr(error.text, "memory limit"));
+    arena_free(&arena);
+    assert_int_equal(watch.memory_used, 0);
+
+    // Each allocation failing in turn.
+    bool done = false;
+    for (long k = 0; !done; k++) {
+        assert_true(k < 100);
+        arena_start(&arena, NULL);
+        arena_fail_after(k);
+        done = normals_smooth(&copy, 0.7, &arena, NULL, NULL, &error);
+        arena_fail_after(-1);
+        assert_true(done || error.code == LAM_LIMIT);
+        arena_free(&arena);
+    }
+    lam_scene_free(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cube),
+        cmocka_unit_test(test_facet),
+        cmocka_unit_test(test_sphere),
+        cmocka_unit_test(test_weld),
+        cmocka_unit_test(test_smoothing_groups),
+        cmocka_unit_test(test_degenerate),
+        cmocka_unit_test(test_bow_tie),
+        cmocka_unit_test(test_inconsistent_winding),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_million_at_one_vertex),
+        cmocka_unit_test(test_colliding_positions),
+        cmocka_unit_test(test_one_partition),
+        cmocka_unit_test(test_controls),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

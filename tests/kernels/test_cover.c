@@ -1,0 +1,319 @@
+// test_cover.c: coverage and depth against a pixel-by-pixel reference in 64-bit integers and double, for every instruction set.
+//
+// The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to itself.
+#include <lambent/lambent.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { SIZE = 128 };
+
+struct soup {
+    int count;
+    double *corners; // x, y (pixels, y down), z (larger is nearer) of three corners each
+};
+
+static uint64_t seed;
+
+static uint32_t random_bits(void)
+{
+    seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return (uint32_t)(seed >> 33);
+}
+
+static double random_between(double low, double high) { return low + (high - low) * (random_bits() / 2147483648.0); }
+
+static double on_grid(double x) { return floor(x * 256 + 0.5) / 256; }
+
+static lam_scene *scene_of(const struct soup *soup, lam_cull cull)
+{
+    float *positions = malloc((size_t)soup->count * 9 * sizeof *positions);
+    float *colors = malloc((size_t)soup->count * 4 * sizeof *colors);
+    for (int i = 0; i < soup->count * 3; i++) {
+        positions[3 * i] = (float)soup->corners[3 * i];
+        positions[3 * i + 1] = (float)(SIZE - soup->corners[3 * i + 1]);
+        positions[3 * i + 2] = (float)soup->corners[3 * i + 2];
+    }
+    for (int i = 0; i < soup->count; i++) {
+        float color[4] = {(float)(i + 1), 0, 0, 1};
+        memcpy(colors + 4 * i, color, sizeof color);
+    }
+    lam_mesh mesh = {.positions = positions, .vertex_count = (uint32_t)soup->count * 3, .triangle_count = (uint32_t)soup->count,
+                     .colors = colors, .color_count = (uint32_t)soup->count, .colors_format = LAM_COLORS_LINEAR_F32,
+                     .colors_rate = LAM_PER_TRIANGLE};
+    lam_scene *scene = lam_scene_make(NULL);
+    lam_error error = {0};
+    lam_material white = lam_material_default();
+    white.diffuse = (lam_rgba){1, 1, 1, 1};
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
+    object.material = lam_scene_add_material(scene, &white, &error);
+    object.cull = cull;
+    if (lam_scene_add_object(scene, &object, &error) < 0)
+        fail_msg("%s", error.text);
+    free(positions);
+    free(colors);
+    return scene;
+}
+
+// The number of the triangle that each pixel shows, 0 for none.
+static void draw(const lam_scene *scene, lam_isa isa, int samples, float out[SIZE * SIZE])
+{
+    lam_error error = {0};
+    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 2, .isa = isa}, &error);
+    lam_camera camera = {.eye = {SIZE / 2, SIZE / 2, 100}, .target = {SIZE / 2, SIZE / 2, 0}, .up = {0, 1, 0},
+                         .ortho_half_height = SIZE / 2, .near_plane = 1, .far_plane = 199};
+    lam_draw_params params = {.samples = samples, .reflection = LAM_REFLECTION_NONE};
+    lam_image image = {0};
+    if (!device || !lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error) ||
+        !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
+        fail_msg("%s", error.text);
+    for (int i = 0; i < SIZE * SIZE; i++)
+        out[i] = ((float *)image.pixels)[4 * i];
+    lam_image_free(&image);
+    lam_device_free(device);
+}
+
+// Twice the signed area of (a, b, p) in 1/256 pixel, y down.
+static int64_t edge(const int64_t a[2], const int64_t b[2], const int64_t p[2])
+{
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
+// Whether a triangle covers a point by the top-left rule, and the depth there.
+static bool covers(const double *c, const int64_t p[2], double *depth)
+{
+    int64_t v[3][2];
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 2; a++)
+            v[k][a] = (int64_t)floor(c[3 * k + a] * 256 + 0.5);
+    int64_t area = edge(v[0], v[1], v[2]);
+    if (area == 0)
+        return false;
+    double sum = 0;
+    *depth = 0;
+    for (int k = 0; k < 3; k++) {
+        const int64_t *a = v[(k + 1) % 3], *b = v[(k + 2) % 3];
+        int64_t e = edge(a, b, p);
+        if (area < 0)
+            e = -e;
+        int64_t dx = area > 0 ? b[0] - a[0] : a[0] - b[0], dy = area > 0 ? b[1] - a[1] : a[1] - b[1];
+        bool top_or_left = dy < 0 || (dy == 0 && dx > 0);
+        if (e < 0 || (e == 0 && !top_or_left))
+            return false;
+        *depth += (double)e * c[3 * k + 2];
+        sum += (double)e;
+    }
+    *depth /= sum;
+    return true;
+}
+
+// What a pixel should show: a triangle's number, 0 for none, and whether the second is too near to call in floats.
+struct reference {
+    int number[SIZE * SIZE];
+    bool close[SIZE * SIZE];
+};
+
+static void refer(const struct soup *soup, struct reference *reference)
+{
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++) {
+            int64_t p[2] = {x * 256 + 128, y * 256 + 128};
+            double nearest = -1e300, second = -1e300;
+            int number = 0;
+            for (int i = 0; i < soup->count; i++) {
+                double depth;
+                if (!covers(soup->corners + 9 * i, p, &depth))
+                    continue;
+                if (depth > nearest) {
+                    second = nearest;
+                    nearest = depth;
+                    number = i + 1;
+                } else if (depth > second) {
+                    second = depth;
+                }
+            }
+            reference->number[y * SIZE + x] = number;
+            reference->close[y * SIZE + x] = number && nearest - second < 1e-3;
+        }
+}
+
+static void compare(const struct reference *reference, lam_isa isa, const float *drawn)
+{
+    int covered = 0, wrong = 0;
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        int number = reference->number[i];
+        covered += number != 0;
+        wrong += (drawn[i] != 0) != (number != 0) || (!reference->close[i] && drawn[i] != (float)number);
+    }
+    assert_true(covered > 0);
+    if (wrong)
+        fail_msg("%s: %d of %d covered pixels differ from the reference", lam_isa_name(isa), wrong, covered);
+}
+
+static void check(struct soup *soup)
+{
+    static float drawn[SIZE * SIZE];
+    static struct reference reference;
+    refer(soup, &reference);
+    lam_scene *scene = scene_of(soup, LAM_CULL_NONE);
+    for (int isa = LAM_ISA_PLAIN; isa < LAM_ISA_COUNT; isa++)
+        if (lam_isa_usable((lam_isa)isa)) {
+            draw(scene, (lam_isa)isa, 1, drawn);
+            compare(&reference, (lam_isa)isa, drawn);
+        }
+    lam_scene_free(scene);
+    free(soup->corners);
+}
+
+// Random triangles of one size, anywhere around the picture.
+static struct soup random_soup(int count, double size)
+{
+    struct soup soup = {count, malloc((size_t)count * 9 * sizeof(double))};
+    for (int i = 0; i < count; i++) {
+        double x = random_between(-size / 2, SIZE + size / 2), y = random_between(-size / 2, SIZE + size / 2);
+        for (int k = 0; k < 3; k++) {
+            soup.corners[9 * i + 3 * k] = on_grid(x + random_between(-size, size));
+            soup.corners[9 * i + 3 * k + 1] = on_grid(y + random_between(-size, size));
+            soup.corners[9 * i + 3 * k + 2] = on_grid(random_between(-50, 50));
+        }
+    }
+    return soup;
+}
+
+static void test_small(void **state)
+{
+    (void)state;
+    seed = 1;
+    struct soup soup = random_soup(2000, 2);
+    check(&soup);
+}
+
+static void test_medium(void **state)
+{
+    (void)state;
+    seed = 2;
+    struct soup soup = random_soup(300, 25);
+    check(&soup);
+}
+
+static void test_large(void **state)
+{
+    (void)state;
+    seed = 3;
+    struct soup soup = random_soup(60, 300);
+    check(&soup);
+}
+
+static void test_huge(void **state)
+{
+    (void)state;
+    seed = 4;
+    struct soup soup = random_soup(40, 8000); // still inside of the guard band: exact
+    check(&soup);
+}
+
+// Corners on pixel centres and edges through them: the rule decides every pixel.
+static void test_on_centres(void **state)
+{
+    (void)state;
+    seed = 5;
+    struct soup soup = random_soup(400, 12);
+    for (int i = 0; i < soup.count * 9; i++)
+        if (i % 3 != 2)
+            soup.corners[i] = floor(soup.corners[i]) + 0.5;
+    check(&soup);
+}
+
+// A jittered grid of triangles covers every sample exactly once: no holes at 1, 4 and 16 samples, seen by alpha.
+static void test_watertight(void **state)
+{
+    (void)state;
+    seed = 6;
+    enum { CELLS = 37 };
+    static double grid[CELLS + 1][CELLS + 1][2];
+    double cell = (double)(SIZE + 20) / CELLS;
+    for (int j = 0; j <= CELLS; j++)
+        for (int i = 0; i <= CELLS; i++) {
+            grid[j][i][0] = i * cell - 10 + random_between(-0.4, 0.4) * cell; // off the snapping grid on purpose
+            grid[j][i][1] = j * cell - 10 + random_between(-0.4, 0.4) * cell;
+        }
+    struct soup soup = {2 * CELLS * CELLS, malloc(2 * CELLS * CELLS * 9 * sizeof(double))};
+    double *c = soup.corners;
+    for (int j = 0; j < CELLS; j++)
+        for (int i = 0; i < CELLS; i++) {
+            const double *q[4] = {grid[j][i], grid[j][i + 1], grid[j + 1][i + 1], grid[j + 1][i]};
+            int corners[6] = {0, 1, 2, 0, 2, 3};
+            for (int k = 0; k < 6; k++) {
+                *c++ = q[corners[k]][0];
+                *c++ = q[corners[k]][1];
+                *c++ = 0;
+            }
+        }
+    lam_scene *scene = scene_of(&soup, LAM_CULL_NONE);
+    static const int samples[] = {1, 4, 16};
+    for (int s = 0; s < 3; s++) {
+        lam_error error = {0};
+        lam_device *device = lam_device_cpu(NULL, &error);
+        lam_camera camera = {.eye = {SIZE / 2, SIZE / 2, 100}, .target = {SIZE / 2, SIZE / 2, 0}, .up = {0, 1, 0},
+                             .ortho_half_height = SIZE / 2, .near_plane = 1, .far_plane = 199};
+        lam_draw_params params = {.samples = samples[s], .reflection = LAM_REFLECTION_NONE};
+        lam_image image = {0};
+        assert_true(lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error));
+        assert_true(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
+        // Inside of the jittered border everything is covered.
+        for (int y = 8; y < SIZE - 8; y++)
+            for (int x = 8; x < SIZE - 8; x++)
+                assert_true(((float *)image.pixels)[4 * (y * SIZE + x) + 3] == 1.0f);
+        lam_image_free(&image);
+        lam_device_free(device);
+    }
+    lam_scene_free(scene);
+    free(soup.corners);
+}
+
+// Front and back are told by the winding, y up; each culling leaves the other.
+static void test_culling(void **state)
+{
+    (void)state;
+    seed = 7;
+    struct soup soup = random_soup(200, 30);
+    static float all[SIZE * SIZE], front[SIZE * SIZE], back[SIZE * SIZE];
+    const lam_cull culls[] = {LAM_CULL_NONE, LAM_CULL_BACK, LAM_CULL_FRONT};
+    float *out[] = {all, front, back};
+    for (int i = 0; i < 3; i++) {
+        lam_scene *scene = scene_of(&soup, culls[i]);
+        draw(scene, LAM_ISA_AUTO, 1, out[i]);
+        lam_scene_free(scene);
+    }
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        for (int s = 1; s < 3; s++) {
+            if (out[s][i] == 0)
+                continue;
+            const double *c = soup.corners + 9 * ((int)out[s][i] - 1);
+            // Conventions: front when (x3−x2)(y1−y2) − (y3−y2)(x1−x2) > 0 with y up.
+            double y[3] = {-c[1], -c[4], -c[7]};
+            double sign = (c[6] - c[3]) * (y[0] - y[1]) - (y[2] - y[1]) * (c[0] - c[3]);
+            assert_true(s == 1 ? sign > 0 : sign < 0);
+        }
+        assert_true(all[i] == front[i] || all[i] == back[i]);
+    }
+    free(soup.corners);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_small),      cmocka_unit_test(test_medium),     cmocka_unit_test(test_large),
+        cmocka_unit_test(test_huge),       cmocka_unit_test(test_on_centres), cmocka_unit_test(test_watertight),
+        cmocka_unit_test(test_culling),
+    };
+    return cmocka_run_group_tests_name("cover", tests, NULL, NULL);
+}

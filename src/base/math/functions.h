@@ -91,7 +91,7 @@ LANE_FN struct two_parts scaled_log2(num base, num exponent)
 // The least base that is not taken for 0: any, where the exponent is 0, since 0⁰ = 1.
 LANE_FN num least_base(num exponent)
 {
-    return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-3.0e38f));
+    return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-__builtin_inff()));
 }
 
 // base^exponent for a base in 0…1 (more counts as 1) and any finite exponent ≥ 0. 0⁰ = 1. Otherwise 0 where the base is

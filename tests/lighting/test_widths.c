@@ -1,0 +1,136 @@
+// test_widths.c: every width and instruction set gives the same bits, on ordinary numbers and on any bit pattern; and so
+// does every compiler and build type: one recorded hash over all results.
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "points.h"
+
+#define LANES 1
+#include "lighting.h"
+
+// Over all results below. It changes when an equation or a function changes its last bits, and never otherwise: then
+// look at test_functions and test_equations first, and record the new one.
+#define RECORDED_HASH 0x36f8132e3d431d0au
+
+enum { WIDTHS_MAX = 16, NUMBERS = 1 << 16 };
+
+// Which NaN comes out is the processor's choice; that one comes out is ours.
+static uint32_t bits_for_comparison(float x)
+{
+    return x == x ? bits_of_float(x) : 0x7fc00000;
+}
+
+static uint64_t hash_of(uint64_t hash, const float *x, int count)
+{
+    for (int i = 0; i < count; i++)
+        hash = (hash ^ bits_for_comparison(x[i])) * 0x100000001b3ull; // FNV-1a, by words
+    return hash;
+}
+
+static void assert_same(const float *a, const float *b, int count, const char *width, int what)
+{
+    for (int i = 0; i < count; i++) {
+        if (bits_for_comparison(a[i]) != bits_for_comparison(b[i]))
+            fail_msg("%s, %d, number %d: %.9g (%08x), one lane %.9g (%08x)", width, what, i, (double)b[i],
+                     bits_of_float(b[i]), (double)a[i], bits_of_float(a[i]));
+    }
+}
+
+static const float specials[] = {
+    0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 2.0f, INFINITY, -INFINITY, NAN, 0x1p-149f, -0x1p-149f, 0x1p-126f, 0x1.fffffcp-127f,
+    0x1.fffffep127f, -0x1.fffffep127f, 0x1.fffffep-1f, 0x1.000002p0f, 128.0f, -126.0f, -126.5f, 127.5f, 127.49f, 1e30f,
+    0.04045f, 0.0031308f, 0x1.555556p-1f, 0x1.555554p-1f, 27.8974f, 1000.0f, 10000.0f,
+};
+enum { SPECIALS = sizeof specials / sizeof *specials };
+
+// Specials with each other, then any bits, then numbers in 0…1 with everyday exponents.
+static void fill_numbers(float *a, float *b)
+{
+    struct random r = {2026};
+    for (int i = 0; i < NUMBERS; i++) {
+        a[i] = float_of_bits(random_bits(&r));
+        b[i] = float_of_bits(random_bits(&r));
+        if (i < SPECIALS * SPECIALS) {
+            a[i] = specials[i % SPECIALS];
+            b[i] = specials[i / SPECIALS];
+        } else if (i > NUMBERS / 2) {
+            a[i] = random_between(&r, 0, 1);
+            b[i] = random_between(&r, 0, 200);
+        }
+    }
+}
+
+static uint64_t hash_of_functions(void)
+{
+    const struct width *widths[WIDTHS_MAX];
+    int count = widths_usable(widths, WIDTHS_MAX);
+    assert_true(count >= 4);
+    float *memory = malloc(4 * NUMBERS * sizeof(float));
+    assert_non_null(memory);
+    float *a = memory, *b = a + NUMBERS, *first = b + NUMBERS, *out = first + NUMBERS;
+    fill_numbers(a, b);
+    uint64_t hash = 0xcbf29ce484222325ull;
+    for (enum function f = 0; f < FUNCTION_COUNT; f++) {
+        widths[0]->apply(f, a, b, first, NUMBERS);
+        hash = hash_of(hash, first, NUMBERS);
+        for (int w = 1; w < count; w++) {
+            widths[w]->apply(f, a, b, out, NUMBERS);
+            assert_same(first, out, NUMBERS, widths[w]->name, (int)f);
+        }
+    }
+    free(memory);
+    return hash;
+}
+
+static uint64_t hash_of_lighting(uint64_t hash)
+{
+    const struct width *widths[WIDTHS_MAX];
+    int count = widths_usable(widths, WIDTHS_MAX);
+    struct points *first = malloc(sizeof *first), *p = malloc(sizeof *p);
+    assert_non_null(first);
+    assert_non_null(p);
+    struct random r = {77};
+    for (int kind = LIGHT_POINT; kind <= LIGHT_SPOT_CONES; kind++) {
+        for (int model = MODEL_NONE; model <= MODEL_KAJIYA_KAY_LECTURE; model++) {
+            for (int variant = 0; variant < 4; variant++) {
+                struct modes m = {kind, (kind + model + variant) % 3, model, variant & 1, variant >> 1};
+                points_fill(first, 1 + random_bits(&r));
+                if (variant == 3) { // anything at all in some inputs
+                    for (int i = 0; i < POINTS; i++)
+                        first->in[random_bits(&r) % INPUTS][i] = i % 2 ? specials[random_bits(&r) % SPECIALS]
+                                                                       : float_of_bits(random_bits(&r));
+                }
+                memcpy(p->in, first->in, sizeof p->in);
+                points_light(first, widths[0], &m);
+                hash = hash_of(hash, first->out[0], OUTPUTS * POINTS);
+                for (int w = 1; w < count; w++) {
+                    points_light(p, widths[w], &m);
+                    assert_same(first->out[0], p->out[0], OUTPUTS * POINTS, widths[w]->name, kind * 10 + model);
+                }
+            }
+        }
+    }
+    free(first);
+    free(p);
+    return hash;
+}
+
+static void test_same_bits(void **state)
+{
+    (void)state;
+    uint64_t hash = hash_of_lighting(hash_of_functions());
+    if (hash != RECORDED_HASH)
+        fail_msg("hash of all results is 0x%016llx, recorded 0x%016llx", (unsigned long long)hash,
+                 (unsigned long long)RECORDED_HASH);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,18 @@
+// textbook.h: the lighting equations in double precision, written from docs/lighting.md with libm and on its own, to
+// judge src/lighting by. One point, one light.
+#ifndef TEXTBOOK_H
+#define TEXTBOOK_H
+
+#include "widths.h"
+
+// One result for each enum output, plus what the comparison wants to know about the point's conditioning.
+struct textbook {
+    double out[OUTPUTS];
+    double cone_cosine;  // between axis and the way to the point
+    double half_length;  // |l + v|
+    double tangent_sine; // of the angle between normal and tangent as given
+};
+
+struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]);
+
+#endif

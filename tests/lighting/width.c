@@ -1,0 +1,95 @@
+// width.c: the functions and equations at one width. Compiled once for each: LANES, WIDTH_NAME and WIDTH_FEATURES are
+// given by the build.
+#include "widths.h"
+
+#include "cpu_features.h"
+#include "encoding.h"
+#include "lighting.h"
+
+static num apply_one(enum function function, num a, num b)
+{
+    switch (function) {
+    case FUNCTION_EXP2: return exp2_of(a);
+    case FUNCTION_LOG2: return log2_of(a);
+    case FUNCTION_POWER: return power(a, b);
+    case FUNCTION_UNIT_POWER: return unit_power(a, b);
+    case FUNCTION_INVERSE_ROOT: return inverse_root(a);
+    case FUNCTION_ROOT: return root(a);
+    case FUNCTION_SRGB_ENCODE: return srgb_encode(a);
+    case FUNCTION_SRGB_DECODE: return srgb_decode(a);
+    case FUNCTION_BYTE: return num_of_int(byte_of(a));
+    case FUNCTION_SATURATE: return saturate(a);
+    case FUNCTION_LESSER: return lesser(a, b);
+    case FUNCTION_GREATER: return greater(a, b);
+    case FUNCTION_COUNT: break;
+    }
+    return num_of(0);
+}
+
+static void apply(enum function function, const float *a, const float *b, float *out, int count)
+{
+    for (int i = 0; i < count; i += LANES)
+        num_store(out + i, apply_one(function, num_load(a + i), num_load(b + i)));
+}
+
+static vec3 load3(const float *const in[], int at, int i)
+{
+    return vec3_of(num_load(in[at] + i), num_load(in[at + 1] + i), num_load(in[at + 2] + i));
+}
+
+static void store3(float *const out[], int at, int i, vec3 v)
+{
+    num_store(out[at] + i, v.x);
+    num_store(out[at + 1] + i, v.y);
+    num_store(out[at + 2] + i, v.z);
+}
+
+static void light(const struct modes *modes, const float *const in[INPUTS], float *const out[OUTPUTS], int count)
+{
+    for (int i = 0; i < count; i += LANES) {
+        surface s = surface_at(load3(in, IN_POINT, i), load3(in, IN_NORMAL, i), load3(in, IN_TANGENT, i), modes->viewer);
+        source l;
+        l.position = load3(in, IN_POSITION, i);
+        l.direction = load3(in, IN_DIRECTION, i);
+        l.diffuse = load3(in, IN_DIFFUSE, i);
+        l.specular = load3(in, IN_SPECULAR, i);
+        l.constant = num_load(in[IN_CONSTANT] + i);
+        l.linear = num_load(in[IN_LINEAR] + i);
+        l.quadratic = num_load(in[IN_QUADRATIC] + i);
+        l.inverse_range = num_load(in[IN_INVERSE_RANGE] + i);
+        l.cos_cutoff = num_load(in[IN_COS_CUTOFF] + i);
+        l.exponent = num_load(in[IN_EXPONENT] + i);
+        l.cos_outer = num_load(in[IN_COS_OUTER] + i);
+        l.inverse_width = num_load(in[IN_INVERSE_WIDTH] + i);
+        num shininess = num_load(in[IN_SHININESS] + i);
+        hemisphere h = {load3(in, IN_UP, i), load3(in, IN_SKY, i), load3(in, IN_GROUND, i)};
+
+        toward t = toward_light(s.p, l, modes->kind, modes->falloff);
+        reflected r = reflect_light(s, t.l, shininess, modes->model, modes->fibre);
+        store3(out, OUT_L, i, t.l);
+        num_store(out[OUT_DISTANCE] + i, t.distance);
+        num_store(out[OUT_ATTENUATION] + i, t.attenuation);
+        num_store(out[OUT_SPOT] + i, t.spot);
+        num_store(out[OUT_D] + i, r.diffuse);
+        num_store(out[OUT_S] + i, r.specular);
+        num_store(out[OUT_N_DOT_L] + i, r.n_dot_l);
+        num_store(out[OUT_BASE] + i, r.base);
+
+        terms sum = start_terms(load3(in, IN_AMBIENT, i), load3(in, IN_EMISSION, i));
+        sum = add_hemisphere(sum, s, h);
+        sum = add_light(sum, s, l, shininess, modes->kind, modes->falloff, modes->model, modes->fibre);
+        sum = tint_terms(sum, load3(in, IN_TINT, i));
+        sum = add_environment(sum, load3(in, IN_MIRROR, i), load3(in, IN_ENVIRONMENT, i));
+        store3(out, OUT_AMBIENT, i, sum.ambient);
+        store3(out, OUT_DIFFUSE, i, sum.diffuse);
+        store3(out, OUT_SPECULAR, i, sum.specular);
+        store3(out, OUT_REFLECTION, i, sum.reflection);
+        store3(out, OUT_SUM, i, sum_terms(sum));
+    }
+}
+
+extern const struct width WIDTH_NAME;
+
+#define TEXT(x)  TEXT_(x)
+#define TEXT_(x) #x
+const struct width WIDTH_NAME = {TEXT(WIDTH_NAME), WIDTH_FEATURES, apply, light};

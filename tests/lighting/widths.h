@@ -1,0 +1,83 @@
+// widths.h: the numeric functions and the equations, compiled once for each width and behind one table each.
+#ifndef WIDTHS_H
+#define WIDTHS_H
+
+// Functions of one or two numbers.
+enum function {
+    FUNCTION_EXP2,
+    FUNCTION_LOG2,
+    FUNCTION_POWER,
+    FUNCTION_UNIT_POWER,
+    FUNCTION_INVERSE_ROOT,
+    FUNCTION_ROOT,
+    FUNCTION_SRGB_ENCODE,
+    FUNCTION_SRGB_DECODE,
+    FUNCTION_BYTE,
+    FUNCTION_SATURATE,
+    FUNCTION_LESSER,
+    FUNCTION_GREATER,
+    FUNCTION_COUNT
+};
+
+// One lit point: what goes in, and every term that comes out. Vectors take three places.
+enum input {
+    IN_POINT,
+    IN_NORMAL = 3, // any length
+    IN_TANGENT = 6,
+    IN_POSITION = 9,
+    IN_DIRECTION = 12,
+    IN_DIFFUSE = 15, // product kd ⊙ Ld
+    IN_SPECULAR = 18,
+    IN_CONSTANT = 21,
+    IN_LINEAR,
+    IN_QUADRATIC,
+    IN_INVERSE_RANGE,
+    IN_COS_CUTOFF,
+    IN_EXPONENT,
+    IN_COS_OUTER,
+    IN_INVERSE_WIDTH,
+    IN_SHININESS,
+    IN_UP,
+    IN_SKY = IN_UP + 3,
+    IN_GROUND = IN_SKY + 3,
+    IN_AMBIENT = IN_GROUND + 3, // product ka ⊙ La
+    IN_EMISSION = IN_AMBIENT + 3,
+    IN_TINT = IN_EMISSION + 3,
+    IN_MIRROR = IN_TINT + 3, // kr
+    IN_ENVIRONMENT = IN_MIRROR + 3,
+    INPUTS = IN_ENVIRONMENT + 3
+};
+
+enum output {
+    OUT_L,
+    OUT_DISTANCE = 3,
+    OUT_ATTENUATION,
+    OUT_SPOT,
+    OUT_D,
+    OUT_S,
+    OUT_N_DOT_L,
+    OUT_BASE,
+    OUT_AMBIENT,
+    OUT_DIFFUSE = OUT_AMBIENT + 3,
+    OUT_SPECULAR = OUT_DIFFUSE + 3,
+    OUT_REFLECTION = OUT_SPECULAR + 3,
+    OUT_SUM = OUT_REFLECTION + 3,
+    OUTPUTS = OUT_SUM + 3
+};
+
+struct modes {
+    int kind, falloff, model, fibre, viewer;
+};
+
+// Counts are multiples of 16. Where an array has one number for each point, in[i] and out[i] are such arrays.
+struct width {
+    const char *name;
+    int features; // of cpu_features.h, that it needs to run
+    void (*apply)(enum function function, const float *a, const float *b, float *out, int count);
+    void (*light)(const struct modes *modes, const float *const in[INPUTS], float *const out[OUTPUTS], int count);
+};
+
+// Compiled into this program; those that this processor cannot run are left out. The first has one lane, plain C.
+int widths_usable(const struct width *usable[], int room);
+
+#endif

@@ -255,7 +255,7 @@ static void test_middles(void **unused)
             if (bits >> 52 == 0x7ff)
                 continue;
             memcpy(&middle, &bits, sizeof middle);
-            long double x = ((long double)middle + (long double)nextafter(middle, INFINITY)) / 2;
+            long double x = ((long double)middle + (long double)nextafter(middle, (double)INFINITY)) / 2;
             snprintf(text, sizeof text, "%.1100Lf", x);
         }
         check(text);

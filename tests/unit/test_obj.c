@@ -376,7 +376,7 @@ static void test_colors(void **unused)
     lam_scene_free(scene);
     scene = load(text);
     const float *colors = lam_scene_mesh(scene, 0)->colors;
-    assert_true(colors[1] > 0.2140 && colors[1] < 0.2141); // ((0.5 + 0.055)/1.055)^2.4
+    assert_true(colors[1] > 0.2140f && colors[1] < 0.2141f); // ((0.5 + 0.055)/1.055)^2.4
     assert_true(colors[2] == 0 && colors[4] > 0.999999f);
     lam_scene_free(scene);
 }

@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+"""docs.py LAMBENT: writes anew what the project itself makes of its documentation: the command line's manual, and every picture that
+a command in a Markdown file of the project draws. Such a command stands on a line of its own in a code block, begins with
+`lambent ` and names its picture with `-o docs/pictures/…`."""
+import glob
+import os
+import re
+import shlex
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+
+def commands():
+    for path in [os.path.join(ROOT, "README.md")] + sorted(glob.glob(os.path.join(ROOT, "docs", "*.md"))):
+        for line in open(path, encoding="utf-8"):
+            if re.match(r"\s*lambent .*-o docs/pictures/", line):
+                yield shlex.split(line, comments=True)
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    os.makedirs(os.path.join(ROOT, "docs", "pictures"), exist_ok=True)
+    manual = subprocess.run([program, "generate", "markdown"], stdout=subprocess.PIPE, check=True).stdout
+    with open(os.path.join(ROOT, "docs", "command-line.md"), "wb") as file:
+        file.write(manual)
+    for command in commands():
+        print(" ".join(command))
+        subprocess.run([program] + command[1:], cwd=ROOT, check=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -2,6 +2,7 @@
 #include "normals_fan.h"
 
 #include "linear.h"
+#include "weld.h"
 
 #include <stdlib.h>
 #include <string.h>

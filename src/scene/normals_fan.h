@@ -38,14 +38,6 @@ bool fan_room_reserve(struct fan_room *room, uint32_t count);
 // tells one), fans being numbered by their first corner, and room->spokes[i].fan is the fan of corner i.
 uint32_t fan_normals(const lam_mesh *mesh, double least_cosine, struct fan_room *room, uint32_t count);
 
-// The bits of a position, with −0 as 0, so that equal positions have equal bits.
-static inline void position_bits(const float *position, uint32_t bits[3])
-{
-    __builtin_memcpy(bits, position, 12);
-    for (int a = 0; a < 3; a++)
-        bits[a] = bits[a] == 0x80000000u ? 0 : bits[a];
-}
-
 // The vertex of a corner.
 static inline uint32_t corner_vertex(const lam_mesh *mesh, size_t corner)
 {

@@ -1,5 +1,5 @@
-// number_scan.h: the digits of a number in text, eight at a time, and a short cut for the numbers that model files
-// are full of. Everything that is not short and plain goes on to number.c.
+// number_scan.h: the digits of a number in text, eight at a time, and a short cut for the numbers that model
+// files are full of. Everything that is not short and plain goes on to number.c.
 #ifndef NUMBER_SCAN_H
 #define NUMBER_SCAN_H
 
@@ -18,8 +18,8 @@ static inline uint64_t number_load8(const uint8_t *at)
     return eight;
 }
 
-// How many of eight bytes are digits before the first that is not: 0 … 8. A byte below '0' borrows and one above '9'
-// carries, and only spoils bytes behind it.
+// How many of eight bytes are digits before the first that is not: 0 … 8. A byte below '0' borrows and one
+// above '9' carries, and only spoils bytes behind it.
 static inline unsigned number_digit_count(uint64_t eight)
 {
     uint64_t other = ((eight + 0x4646464646464646u) | (eight - 0x3030303030303030u)) & 0x8080808080808080u;
@@ -31,8 +31,8 @@ static inline uint64_t number_digits_value(uint64_t eight, unsigned count)
 {
     // Moved to the end, so that zeros lead; in two steps, since a shift by 64 means nothing.
     uint64_t v = (eight - 0x3030303030303030u) << 4 * (8 - count) << 4 * (8 - count);
-    // Neighbours are joined, ten times the first plus the second: 8 digits to 4 pairs to 2 quads to 1 number. One product
-    // does both, since 10 · 2⁸ + 1 puts ten times the lower byte under the upper one.
+    // Neighbours are joined, ten times the first plus the second: 8 digits to 4 pairs to 2 quads to 1 number.
+    // One product does both, since 10 · 2⁸ + 1 puts ten times the lower byte under the upper one.
     v = (v * (10 << 8 | 1) >> 8) & 0x00ff00ff00ff00ffu;
     v = (v * (100 << 16 | 1) >> 16) & 0x0000ffff0000ffffu;
     return v * (UINT64_C(10000) << 32 | 1) >> 32;
@@ -61,8 +61,8 @@ static const uint64_t number_integer_powers[20] = {
     10000000000000000000u,
 };
 
-// Whether a double that is off by at most 4 units in its last place may be rounded to float as it stands: it may not lie
-// near the middle between two floats. For |x| from 2^-126 to 2^127 only.
+// Whether a double that is off by at most 4 units in its last place may be rounded to float as it stands: it
+// may not lie near the middle between two floats. For |x| from 2^-126 to 2^127 only.
 static inline bool number_rounds_surely(double x)
 {
     uint64_t bits;
@@ -71,8 +71,8 @@ static inline bool number_rounds_surely(double x)
     return ((bits & 0x1fffffff) - 0x0ffffffc) > 8;
 }
 
-// As number_float, quick for [-]ddd.ddd with up to 7 + 15 digits. At least 24 bytes must be readable at `at`, and a byte
-// that is no part of a number must follow the number before `end`.
+// As number_float, quick for [-]ddd.ddd with up to 7 + 15 digits. At least 24 bytes must be readable at `at`,
+// and a byte that is no part of a number must follow the number before `end`.
 static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t *end, float *out)
 {
     static const double tenths[16] = {1e0,  1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
@@ -80,8 +80,12 @@ static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t
     bool negative = *at == '-';
     const uint8_t *digits = at + negative;
     uint64_t eight = number_load8(digits);
-    unsigned whole = number_digit_count(eight), fraction = 0;
-    uint64_t value = number_digits_value(eight, whole);
+    unsigned whole = 1, fraction = 0;
+    uint64_t value = (unsigned)(*digits - '0'); // models of about unit size have one digit before the point
+    if (digits[1] != '.' || value > 9) {
+        whole = number_digit_count(eight);
+        value = number_digits_value(eight, whole);
+    }
     const uint8_t *stop = digits + whole;
     if (*stop == '.' && whole < 8) {
         eight = number_load8(++stop);
@@ -96,7 +100,8 @@ static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t
             fraction += more;
         }
     }
-    if (__builtin_expect(whole + fraction - 1 < 18 && whole < 8 && fraction < 16 && (*stop | 0x20) != 'e', 1)) {
+    if (__builtin_expect(whole + fraction - 1 < 18 && whole < 8 && fraction < 16 && (*stop | 0x20) != 'e',
+                         1)) {
         // Three roundings (`value` above 2^53, the power, the product): off by at most 3 units.
         double x = (double)(int64_t)value * tenths[fraction];
         if (__builtin_expect(number_rounds_surely(x), 1)) {

@@ -569,7 +569,7 @@ static void infinite_point(void *user, double u, double v, lam_surface_point *ou
 
 static double nan_value(void *user, lam_vec3 p)
 {
-    return p.x < 0 ? NAN : ball_value(user, p);
+    return p.x < 0 ? (double)NAN : ball_value(user, p);
 }
 
 static void test_bad_formulas(void **state)

@@ -26,40 +26,71 @@ static inline void put_token(struct token *at, uint64_t token)
     memcpy(at, &token, sizeof token);
 }
 
+static size_t stride_of(int width)
+{
+    return ROOM_BEFORE + (size_t)width + CHUNK;
+}
+
 size_t deflate_scratch(int width, int rows)
 {
-    return (size_t)rows * ((size_t)width + 1) * sizeof(struct token) +
-           (ROOM_BEFORE + (size_t)width + CHUNK) * sizeof(uint32_t);
+    return (size_t)rows * (((size_t)width + 1) * sizeof(struct token) + stride_of(width) * sizeof(uint32_t));
 }
 
 bool deflate_make(struct deflate *deflate, struct arena *arena, int width, int rows, int bytes_per_pixel)
 {
     deflate->width = width;
     deflate->bytes_per_pixel = bytes_per_pixel;
-    uint32_t *row = arena_alloc_zeroed(arena, (ROOM_BEFORE + (size_t)width + CHUNK) * sizeof *row);
+    deflate->stride = stride_of(width);
+    uint32_t *words = arena_array(arena, (size_t)rows * deflate->stride, sizeof *words);
+    deflate->last_places = arena_array(arena, 1 << DEFLATE_HASH_BITS, sizeof *deflate->last_places);
     // One more than there can be: a run's pixels write a token each before they know which is the last.
     deflate->tokens = arena_array(arena, (size_t)rows * ((size_t)width + 1) + 1, sizeof *deflate->tokens);
-    if (!row || !deflate->tokens)
+    if (!words || !deflate->last_places || !deflate->tokens)
         return false;
-    deflate->row = row + ROOM_BEFORE;
-    deflate->end = deflate->tokens;
+    deflate->words = words + ROOM_BEFORE;
     return true;
 }
 
-void deflate_start(struct deflate *deflate)
+void deflate_start(struct deflate *deflate, uint8_t filter, bool pairs)
 {
+    deflate->filter = filter;
+    deflate->row = deflate->words;
+    deflate->pairs = pairs;
+    deflate->y = 0;
     deflate->end = deflate->tokens;
     memset(deflate->counts, 0, sizeof deflate->counts);
+    if (pairs)
+        memset(deflate->last_places, 0xFF, sizeof *deflate->last_places << DEFLATE_HASH_BITS); // nowhere
+}
+
+// A distance's symbol and further bits (RFC 1951, 3.2.5): from 5 on, two symbols for each power of two.
+static inline uint64_t distance_of(uint32_t distance)
+{
+    uint32_t before = distance - 1;
+    if (before < 4)
+        return (uint64_t)(DEFLATE_DISTANCE + before) | (uint64_t)DEFLATE_NOTHING * 0x000100010000u;
+    uint32_t top = 31 - (uint32_t)__builtin_clz(before), bits = top - 1, more = before & ((1u << bits) - 1);
+    uint32_t low_bits = bits < 8 ? bits : 8, high_bits = bits - low_bits;
+    uint64_t symbol = DEFLATE_DISTANCE + 2 * top + (before >> bits & 1);
+    uint64_t low = DEFLATE_BITS + (1u << low_bits) + (more & ((1u << low_bits) - 1));
+    uint64_t high = DEFLATE_BITS + (1u << high_bits) + (more >> low_bits);
+    return symbol | low << 16 | high << 32;
+}
+
+// A match of 3 … 258 bytes.
+static inline uint64_t match_of(size_t length, uint64_t distance)
+{
+    return (DEFLATE_MATCH + length - DEFLATE_SHORTEST) | distance << 16;
 }
 
 // A match of any length as matches that can be told: the longest first, but never leaving 1 or 2 bytes.
-static struct token *tell_match(struct token *token, size_t left)
+static struct token *tell_match(struct token *token, size_t left, uint64_t distance)
 {
     while (left) {
         size_t match = left <= DEFLATE_LONGEST                      ? left
                        : left - DEFLATE_LONGEST >= DEFLATE_SHORTEST ? DEFLATE_LONGEST
                                                                     : DEFLATE_LONGEST - DEFLATE_SHORTEST;
-        put_token(token++, ONE(DEFLATE_MATCH + match - DEFLATE_SHORTEST));
+        put_token(token++, match_of(match, distance));
         left -= match;
     }
     return token;
@@ -110,17 +141,13 @@ static inline void look_at(struct chunk *chunk, const uint32_t *at, uint64_t fou
 // pixel writes the next token, but only a pixel told as it is or a run's last one keeps it: no branch, but
 // for whole chunks of one colour. A run that is pending at a chunk's start is shorter than a chunk, so that
 // it always fits a match.
-static inline __attribute__((always_inline)) void make_tokens(struct deflate *deflate,
-                                                              unsigned bytes_per_pixel)
+static inline __attribute__((always_inline)) void find_runs(struct deflate *deflate, unsigned bytes_per_pixel)
 {
     const int width = deflate->width;
-    uint32_t *row = deflate->row;
+    const uint32_t *row = deflate->row;
     struct token *token = deflate->end;
     const uint64_t fourth = bytes_per_pixel == 3 ? (uint64_t)DEFLATE_NOTHING << 48 : 0;
-    // The first pixel repeats nothing: the filter's byte stands before it. Behind the last one every run
-    // ends.
-    row[-1] = ~row[0];
-    row[width] = ~row[width - 1];
+    const uint64_t distance = distance_of(bytes_per_pixel), shortest = match_of(DEFLATE_SHORTEST, distance);
     uint32_t pending = 0; // bytes of the run so far
     struct chunk chunk;
     for (int x = 0; x < width;) {
@@ -131,7 +158,7 @@ static inline __attribute__((always_inline)) void make_tokens(struct deflate *de
             while (x + CHUNK <= width && chunk_repeats(row, x));
             while (row[x] == row[x - 1])
                 x++;
-            token = tell_match(token, pending + (size_t)(x - start) * bytes_per_pixel);
+            token = tell_match(token, pending + (size_t)(x - start) * bytes_per_pixel, distance);
             pending = 0;
             continue;
         }
@@ -139,12 +166,80 @@ static inline __attribute__((always_inline)) void make_tokens(struct deflate *de
         look_at(&chunk, row + x, fourth);
         for (int i = 0; i < count; i++) {
             pending = (pending + bytes_per_pixel) & chunk.in_run[i];
-            uint64_t match = ONE(DEFLATE_MATCH - DEFLATE_SHORTEST) + pending, told = chunk.told[i];
+            uint64_t match = shortest + pending - DEFLATE_SHORTEST, told = chunk.told[i];
             uint64_t run = (uint64_t)(int32_t)chunk.in_run[i];
             put_token(token, told ^ ((told ^ match) & run)); // a choice without a branch
             token += chunk.step[i];
         }
         x += count;
+    }
+    deflate->end = token;
+}
+
+// A pixel's four bytes, 16 bits apart.
+static inline uint64_t spread(uint32_t pixel)
+{
+    uint64_t x = (pixel | (uint64_t)pixel << 16) & 0x0000FFFF0000FFFFu;
+    return (x | x << 8) & 0x00FF00FF00FF00FFu;
+}
+
+// How many pixels are the same from here and from there on.
+static inline int equal_pixels(const uint32_t *here, const uint32_t *there, int most)
+{
+    int count = 0;
+    while (count < most && here[count] == there[count])
+        count++;
+    return count;
+}
+
+// Takes a run of two and more; else the last place of these two pixels, if the match is longer than a run of
+// one would be; else a run of one; else the pixel. Matches stay within a row on both sides, so that no
+// filter's byte is in them.
+static void find_pairs(struct deflate *deflate)
+{
+    struct token *token = deflate->end;
+    const int width = deflate->width, bytes_per_pixel = deflate->bytes_per_pixel;
+    const int longest = DEFLATE_LONGEST / bytes_per_pixel;
+    const uint32_t *row = deflate->row;
+    const int64_t row_bytes = (int64_t)width * bytes_per_pixel + 1;
+    const uint64_t fourth = bytes_per_pixel == 3 ? (uint64_t)DEFLATE_NOTHING << 48 : 0;
+    const uint64_t near = distance_of((uint32_t)bytes_per_pixel);
+    for (int x = 0; x < width;) {
+        int run = 0;
+        if (row[x] == row[x - 1]) {
+            run = 1;
+            while (x + run + CHUNK <= width && chunk_repeats(row, x + run))
+                run += CHUNK;
+            while (row[x + run] == row[x - 1])
+                run++;
+        }
+        if (run < 2 && x + 1 < width) {
+            uint64_t pair = row[x] | (uint64_t)row[x + 1] << 32;
+            uint32_t *last = &deflate->last_places[pair * 0x9E3779B97F4A7C15u >> (64 - DEFLATE_HASH_BITS)];
+            const uint32_t place = *last, there_y = place >> 16;
+            const int there_x = (int)(place & 0xFFFF);
+            *last = deflate->y << 16 | (uint32_t)x;
+            const int64_t back =
+                (int64_t)(deflate->y - there_y) * row_bytes + (int64_t)(x - there_x) * bytes_per_pixel;
+            if (place != UINT32_MAX && back <= DEFLATE_FARTHEST) {
+                int most = width - (x > there_x ? x : there_x);
+                int count = equal_pixels(row + x, deflate->words + there_y * deflate->stride + there_x,
+                                         most < longest ? most : longest);
+                if (count >= 2) {
+                    put_token(token++,
+                              match_of((size_t)(count * bytes_per_pixel), distance_of((uint32_t)back)));
+                    x += count;
+                    continue;
+                }
+            }
+        }
+        if (run) {
+            token = tell_match(token, (size_t)run * (unsigned)bytes_per_pixel, near);
+            x += run;
+        } else {
+            put_token(token++, spread(row[x]) | fourth);
+            x++;
+        }
     }
     deflate->end = token;
 }
@@ -155,14 +250,23 @@ static inline void count(uint32_t counts[4][DEFLATE_KINDS], const struct token *
         counts[i][token->kind[i]]++;
 }
 
-void deflate_row(struct deflate *deflate, uint8_t filter)
+void deflate_row(struct deflate *deflate)
 {
     struct token *token = deflate->end;
-    put_token(deflate->end++, ONE(filter));
-    if (deflate->bytes_per_pixel == 4)
-        make_tokens(deflate, 4);
+    put_token(deflate->end++, ONE(deflate->filter));
+    // The first pixel repeats nothing: the filter's byte stands before it. Behind the last one every run
+    // ends.
+    uint32_t *row = deflate->row;
+    row[-1] = ~row[0];
+    row[deflate->width] = ~row[deflate->width - 1];
+    if (deflate->pairs)
+        find_pairs(deflate);
+    else if (deflate->bytes_per_pixel == 4)
+        find_runs(deflate, 4);
     else
-        make_tokens(deflate, 3);
+        find_runs(deflate, 3);
+    deflate->row += deflate->stride;
+    deflate->y++;
     // Two sets of counts: neighbours are often equal, and adding to what was just stored takes some cycles.
     for (; token + 2 <= deflate->end; token += 2) {
         count(deflate->counts[0], token);

@@ -9,6 +9,7 @@ enum {
     LITERALS = 286, // bytes 0…255, end of block, lengths 257…285
     END_OF_BLOCK = 256,
     FIRST_LENGTH = 257,
+    DISTANCES = 30,
     CODE_LIMIT = 14, // a token in one 64-bit step: four codes, 4·14 bits, and the 7 bits still waiting
     STORED_MOST = 65535,
 };
@@ -64,11 +65,11 @@ static uint8_t *put_boundary(struct bits *bits)
 
 // A block's two codes and how they are told.
 struct codes {
-    uint8_t length[LITERALS];
-    uint16_t code[LITERALS];
-    unsigned literals, distances; // how many lengths are told
-    uint8_t told[LITERALS + 4];   // the lengths' own symbols 0…18, in order …
-    uint8_t more[LITERALS + 4];   // … and what follows each in extra bits
+    uint8_t length[LITERALS], distance_length[DISTANCES];
+    uint16_t code[LITERALS], distance_code[DISTANCES];
+    unsigned literals, distances;       // how many lengths are told
+    uint8_t told[LITERALS + DISTANCES]; // the lengths' own symbols 0…18, in order …
+    uint8_t more[LITERALS + DISTANCES]; // … and what follows each in extra bits
     unsigned told_count;
     uint8_t told_length[19];
     uint16_t told_code[19];
@@ -108,6 +109,12 @@ static void tell_lengths(struct codes *codes, const uint8_t *lengths, unsigned c
     }
 }
 
+// Further bits of a distance symbol.
+static unsigned distance_extra(int symbol)
+{
+    return symbol < 4 ? 0 : (unsigned)symbol / 2 - 1;
+}
+
 static uint32_t count_of(const struct deflate *deflate, int kind)
 {
     uint32_t count = 0;
@@ -132,25 +139,24 @@ static void make_codes(struct codes *codes, const struct deflate *deflate)
     huffman_lengths(counts, LITERALS, CODE_LIMIT, codes->length);
     huffman_codes(codes->length, LITERALS, codes->code);
 
-    uint64_t matches = 0;
-    for (int i = 0; i < LITERALS; i++) {
+    uint32_t distance_counts[DISTANCES];
+    for (int i = 0; i < DISTANCES; i++)
+        distance_counts[i] = count_of(deflate, DEFLATE_DISTANCE + i);
+    huffman_lengths(distance_counts, DISTANCES, CODE_LIMIT, codes->distance_length);
+    huffman_codes(codes->distance_length, DISTANCES, codes->distance_code);
+    for (int i = 0; i < LITERALS; i++)
         codes->bits += (uint64_t)counts[i] * codes->length[i];
-        matches += i >= FIRST_LENGTH ? counts[i] : 0;
-    }
-    // The one distance has a code of one bit; where there is no run, one length of zero says that none is
-    // used.
-    codes->bits += matches;
-    uint8_t distance_length[4] = {0};
-    const unsigned distance_symbol = (unsigned)deflate->bytes_per_pixel - 1; // distances 1…4 are symbols 0…3
-    distance_length[distance_symbol] = 1;
-    codes->distances = matches ? distance_symbol + 1 : 1;
-    codes->literals = LITERALS;
-    while (!codes->length[codes->literals - 1])
+    for (int i = 0; i < DISTANCES; i++)
+        codes->bits += (uint64_t)distance_counts[i] * (codes->distance_length[i] + distance_extra(i));
+    // Lengths of zero at the end are not told, but for the first: alone it says that there is no distance.
+    for (codes->literals = LITERALS; !codes->length[codes->literals - 1];)
         codes->literals--;
+    for (codes->distances = DISTANCES; codes->distances > 1 && !codes->distance_length[codes->distances - 1];)
+        codes->distances--;
 
-    uint8_t all[LITERALS + 4];
+    uint8_t all[LITERALS + DISTANCES];
     memcpy(all, codes->length, codes->literals);
-    memcpy(all + codes->literals, distance_length, codes->distances);
+    memcpy(all + codes->literals, codes->distance_length, codes->distances);
     codes->told_count = 0;
     tell_lengths(codes, all, codes->literals + codes->distances);
 
@@ -194,11 +200,15 @@ static void make_entries(struct entry entries[DEFLATE_KINDS], const struct codes
     for (unsigned length = DEFLATE_SHORTEST; length <= DEFLATE_LONGEST; length++) {
         unsigned extra, symbol = length_symbol(length, &extra), count = codes->length[symbol];
         uint32_t more = (length - DEFLATE_SHORTEST) & ((1u << extra) - 1);
-        // Then the distance, whose only code is a zero bit.
         entries[DEFLATE_MATCH + length - DEFLATE_SHORTEST] =
-            (struct entry){codes->code[symbol] | more << count, count + extra + 1};
+            (struct entry){codes->code[symbol] | more << count, count + extra};
     }
-    entries[DEFLATE_NOTHING] = (struct entry){0};
+    for (int i = 0; i < DISTANCES; i++)
+        entries[DEFLATE_DISTANCE + i] = (struct entry){codes->distance_code[i], codes->distance_length[i]};
+    entries[DEFLATE_BITS] = (struct entry){0}; // no kind
+    for (uint32_t n = 0; n <= 8; n++)
+        for (uint32_t value = 0; value < 1u << n; value++)
+            entries[DEFLATE_BITS + (1u << n) + value] = (struct entry){value, n};
 }
 
 static uint8_t *put_tokens(const struct deflate *deflate, const struct codes *codes, uint8_t *out)
@@ -218,6 +228,11 @@ static uint8_t *put_tokens(const struct deflate *deflate, const struct codes *co
     head = bits;
     put(&head, codes->code[END_OF_BLOCK], codes->length[END_OF_BLOCK]);
     return put_boundary(&head);
+}
+
+static size_t stream_bytes(const struct deflate *deflate)
+{
+    return ((size_t)deflate->width * (unsigned)deflate->bytes_per_pixel + 1) * deflate->y;
 }
 
 // The stream's bytes, stored as they are in blocks of at most STORED_MOST.
@@ -240,33 +255,25 @@ static void store(struct storing *storing, uint8_t byte)
 }
 
 // Where codes would only make it longer: noise, and pictures of a few pixels.
-static uint8_t *put_stored(const struct deflate *deflate, size_t bytes, uint8_t *out)
+static uint8_t *put_stored(const struct deflate *deflate, uint8_t *out)
 {
-    struct storing storing = {out, bytes, 0};
-    const struct token *token = deflate->tokens;
-    while (token < deflate->end) {
-        store(&storing, (uint8_t)token++->kind[0]); // the filter
-        const struct token *pixel = token;
-        for (int at = 0; at < deflate->width * deflate->bytes_per_pixel; token++) {
-            int end = at + deflate->bytes_per_pixel;
-            if (token->kind[0] < DEFLATE_MATCH)
-                pixel = token;
-            else
-                end = at + token->kind[0] - DEFLATE_MATCH + DEFLATE_SHORTEST;
-            for (; at < end; at++)
-                store(&storing, (uint8_t)pixel->kind[at % deflate->bytes_per_pixel]);
-        }
+    struct storing storing = {out, stream_bytes(deflate), 0};
+    for (size_t y = 0; y < deflate->y; y++) {
+        const uint32_t *row = deflate->words + y * deflate->stride;
+        store(&storing, deflate->filter);
+        for (int x = 0; x < deflate->width; x++)
+            for (int channel = 0; channel < deflate->bytes_per_pixel; channel++)
+                store(&storing, (uint8_t)(row[x] >> 8 * channel));
     }
     struct bits bits = {.at = storing.at};
     return put_boundary(&bits);
 }
 
-size_t deflate_write(struct deflate *deflate, size_t rows, uint8_t *out)
+size_t deflate_write(const struct deflate *deflate, uint8_t *out)
 {
     struct codes codes;
     make_codes(&codes, deflate);
-    size_t bytes = ((size_t)deflate->width * (unsigned)deflate->bytes_per_pixel + 1) * rows;
-    uint8_t *end =
-        codes.bits / 8 < bytes ? put_tokens(deflate, &codes, out) : put_stored(deflate, bytes, out);
+    bool shorter = codes.bits / 8 < stream_bytes(deflate);
+    uint8_t *end = shorter ? put_tokens(deflate, &codes, out) : put_stored(deflate, out);
     return (size_t)(end - out);
 }

@@ -99,6 +99,11 @@ static void look_for_translucent(void *user, size_t index, int thread)
     }
 }
 
+static int first_trial(int rows)
+{
+    return rows < TRIAL_STEP ? 0 : TRIAL_STEP / 2;
+}
+
 // The filter that leaves the least on some of the strip's rows.
 static enum png_filter best_filter(const struct encoding *encoding, struct deflate *scratch, int top,
                                    int rows)
@@ -107,10 +112,10 @@ static enum png_filter best_filter(const struct encoding *encoding, struct defla
     enum png_filter best = PNG_FILTER_PAETH;
     for (enum png_filter filter = PNG_FILTER_PAETH; filter >= PNG_FILTER_SUB; filter--) {
         uint64_t cost = 0;
-        for (int y = rows < TRIAL_STEP ? 0 : TRIAL_STEP / 2; y < rows; y += TRIAL_STEP) {
+        for (int y = first_trial(rows); y < rows; y += TRIAL_STEP) {
             png_filter_row(filter, pixel_row(encoding, top + y), pixel_row(encoding, top + y - 1),
-                           encoding->image->width, encoding->mask, scratch->row);
-            cost += png_filter_cost(scratch->row, encoding->image->width);
+                           encoding->image->width, encoding->mask, scratch->words);
+            cost += png_filter_cost(scratch->words, encoding->image->width);
         }
         if (cost < least) {
             least = cost;
@@ -118,6 +123,21 @@ static enum png_filter best_filter(const struct encoding *encoding, struct defla
         }
     }
     return best;
+}
+
+// Whether the rows that were tried hold grey alone: what is no picture of coloured light.
+static bool is_grey(const struct encoding *encoding, int top, int rows)
+{
+    uint32_t differ = 0;
+    for (int y = first_trial(rows); y < rows; y += TRIAL_STEP) {
+        const uint8_t *row = pixel_row(encoding, top + y);
+        for (int x = 0; x < encoding->image->width; x++) {
+            uint32_t pixel;
+            memcpy(&pixel, row + 4 * (size_t)x, 4);
+            differ |= pixel ^ pixel >> 8; // green against red, blue against green
+        }
+    }
+    return (differ & 0xFFFF) == 0;
 }
 
 static void encode_strip(void *user, size_t index, int thread)
@@ -130,13 +150,13 @@ static void encode_strip(void *user, size_t index, int thread)
 
     const enum png_filter filter = best_filter(encoding, scratch, top, rows);
     done->adler = (struct adler_part){0};
-    deflate_start(scratch);
+    deflate_start(scratch, (uint8_t)filter, is_grey(encoding, top, rows));
     for (int y = 0; y < rows; y++) {
         png_filter_row(filter, pixel_row(encoding, top + y), pixel_row(encoding, top + y - 1), width,
                        encoding->mask, scratch->row);
         adler_byte(&done->adler, (uint8_t)filter);
         adler_row(&done->adler, scratch->row, width, encoding->bytes_per_pixel);
-        deflate_row(scratch, (uint8_t)filter);
+        deflate_row(scratch);
     }
     uint8_t *out = encoding->out + index * encoding->room;
     size_t size = 0;
@@ -146,7 +166,7 @@ static void encode_strip(void *user, size_t index, int thread)
         out[9] = 0x01;
         size = 2;
     }
-    size += deflate_write(scratch, (size_t)rows, out + 8 + size);
+    size += deflate_write(scratch, out + 8 + size);
     done->size = close_chunk(&encoding->crc, "IDAT", out, size);
 }
 
@@ -180,7 +200,7 @@ static size_t put_tail(const struct encoding *encoding, const struct adler_part 
 
 enum { HEAD_ROOM = 128, TAIL_ROOM = 6 + 2 * CHUNK };
 
-// Memory that lives while the file is made. Bounded: per thread about 8 bytes for each pixel of a strip.
+// Memory that lives while the file is made. Bounded: per thread about 12 bytes for each pixel of a strip.
 static bool get_scratch(struct encoding *encoding, int threads, struct arena *arena, lam_error *error)
 {
     const int width = encoding->image->width;

@@ -168,6 +168,6 @@ int main(void)
             run(changed.bytes, changed.size);
         }
     }
-    printf("%zu inputs from %d files\n", runs + (size_t)seed_count, seed_count);
+    printf("ok 1 - %zu inputs from %d files\n", runs + (size_t)seed_count, seed_count);
     return 0;
 }

@@ -73,12 +73,16 @@ typedef struct lam_mesh {
 // A built-in shape's options. All zero is the shape's plain default.
 typedef struct lam_shape_params {
     double radius;  // of the whole, model units; 0: 1
-    int slices;     // segments around, 3..16384; 0: the shape's own (smooth at 1024 pixels)
-    int stacks;     // segments along, 1..16384; 0: the shape's own
+    // Segments around, 3..16384; 0: the shape's own (smooth at 1024 pixels). For gyroid and metaballs the cells along a
+    // side, at most 1024.
+    int slices;
+    // Segments along, 1..16384; 0: the shape's own. sphere needs 2, torus and torus-knot 3; teapot takes at most 4096 along
+    // each patch; gyroid and metaballs have no use for it.
+    int stacks;
 } lam_shape_params;
 
 // The built-in shapes, one constant table: sphere, torus, plane, cube, cylinder, cone, teapot, torus-knot,
-// gyroid, metaballs. Y up, centred on the origin, of radius about 1.
+// gyroid, metaballs. Y up, centred on the origin; with a radius of 1 each touches the cube from −1 to 1 from inside.
 LAM_API int lam_shape_count(void);
 LAM_API const char *lam_shape_name(int shape);                            // static; NULL out of range
 LAM_API const char *lam_shape_summary(int shape);                         // one line for people; static

@@ -16,7 +16,8 @@ struct command {
     command_fn *run;
 };
 
-extern const struct command command_table[]; // the first one is what runs when no command is named; ends with NULL
+extern const struct command
+    command_table[]; // the first one is what runs when no command is named; ends with NULL
 
 command_fn run_render, run_shapes, run_formats, run_help, run_generate;
 
@@ -33,7 +34,8 @@ struct example {
 };
 extern const struct example examples[];
 
-// More to read for the man page and the docs: a title and its paragraphs, with `code` in back quotes. Ends with NULL.
+// More to read for the man page and the docs: a title and its paragraphs, with `code` in back quotes. Ends
+// with NULL.
 struct topic {
     const char *title, *text;
 };

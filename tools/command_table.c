@@ -5,14 +5,14 @@
 #define ALL   ((1u << GROUP_COUNT) - 1)
 
 const struct command command_table[] = {
-    {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL, 1, -1,
-     run_render},
+    {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL,
+     1, -1, run_render},
     {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0, run_shapes},
-    {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.", ABOUT, 0,
-     0, run_formats},
+    {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.",
+     ABOUT, 0, 0, run_formats},
     {"help", "[COMMAND]", "Print the help, of a command where one is named.", ABOUT, 0, 1, run_help},
-    {"generate", "man|markdown|bash|zsh|fish", "Print the man page, its Markdown form, or a shell's completions.", ABOUT,
-     1, 1, run_generate},
+    {"generate", "man|markdown|bash|zsh|fish",
+     "Print the man page, its Markdown form, or a shell's completions.", ABOUT, 1, 1, run_generate},
     {.name = NULL},
 };
 
@@ -40,23 +40,23 @@ const struct exit_code exit_codes[] = {
 
 const struct topic topics[] = {
     {"Models",
-     "MODEL is a file, the name of a built-in shape, or `-` for standard input. The format is told by the content; the "
-     "ending only helps. A built-in shape's name stands for the shape even where a file has that name: write "
-     "`./teapot` for the file, and `./shapes` for a file that is called like a command.\n"
-     "Several models may be given: each becomes its own picture, in the current folder or that of `-o pictures/`. One that "
-     "fails is told and the others are still drawn; the exit code is then the highest one. `-o FILE` and `-` go with a "
-     "single model."},
-    {"Output",
-     "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An older picture that lambent "
-     "wrote (told by the `Software` text in the PNG) is replaced; any other file of that name stays, and the exit code "
-     "is 5. With `-o` the file that you name is replaced. A picture appears whole or not at all.\n"
-     "Standard output carries the picture (`-o -`) or the report (`--json`), and nothing else. Warnings, errors, the "
-     "line that tells what was written, and a progress bar (only on a terminal, for work of over half a second) go to "
-     "standard error."},
-    {"Same picture everywhere",
-     "The same model and options give the same bytes, whatever the instruction set, the count of threads, the compiler "
-     "and the machine."},
-    {"Environment", "`NO_COLOR`: when set and not empty, messages have no colours. `TERM=dumb` also switches off the "
+     "MODEL is a file, the name of a built-in shape, or `-` for standard input. The format is told by the "
+     "content; the ending only helps. A built-in shape's name stands for the shape even where a file has "
+     "that name: write `./teapot` for the file, and `./shapes` for a file that is called like a command.\n"
+     "Several models may be given: each becomes its own picture, in the current folder or that of `-o "
+     "pictures/`. One that fails is told and the others are still drawn; the exit code is then the highest "
+     "one. `-o FILE` and `-` go with a single model."},
+    {"Output", "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An "
+               "older picture that lambent wrote (told by the `Software` text in the PNG) is replaced; any "
+               "other file of that name stays, and the exit code is 5. With `-o` the file that you name is "
+               "replaced. A picture appears whole or not at all.\n"
+               "Standard output carries the picture (`-o -`) or the report (`--json`), and nothing else. "
+               "Warnings, errors, the line that tells what was written, and a progress bar (only on a "
+               "terminal, for work of over half a second) go to standard error."},
+    {"Same picture everywhere", "The same model and options give the same bytes, whatever the instruction "
+                                "set, the count of threads, the compiler and the machine."},
+    {"Environment",
+     "`NO_COLOR`: when set and not empty, messages have no colours. `TERM=dumb` also switches off the "
      "progress bar. The locale changes nothing: numbers always have a point."},
     {NULL, NULL},
 };

@@ -77,7 +77,8 @@ static void zsh_text(const char *text)
 
 void generate_zsh(void)
 {
-    printf("#compdef lambent\n# Completions of lambent for zsh, made by `lambent generate zsh`.\n_arguments -S \\\n");
+    printf("#compdef lambent\n# Completions of lambent for zsh, made by `lambent generate zsh`.\n_arguments "
+           "-S \\\n");
     for (const struct option *o = option_table; o->name; o++) {
         printf("  ");
         if (o->letter)
@@ -146,5 +147,6 @@ void generate_fish(void)
         fish_text(lam_shape_summary(i));
         printf("'\n");
     }
-    printf("complete -c lambent -n '__fish_seen_subcommand_from generate' -x -a 'man markdown bash zsh fish'\n");
+    printf(
+        "complete -c lambent -n '__fish_seen_subcommand_from generate' -x -a 'man markdown bash zsh fish'\n");
 }

@@ -9,7 +9,8 @@
 
 enum { WIDTH = 100, COLUMN = 29, EXAMPLE_COLUMN = 41 };
 
-// Prints words up to WIDTH columns, from column `at`; further lines begin at `indent`. Back quotes are left out.
+// Prints words up to WIDTH columns, from column `at`; further lines begin at `indent`. Back quotes are left
+// out.
 static void print_wrapped(const char *text, int at, int indent)
 {
     while (*text) {
@@ -92,7 +93,8 @@ void print_help(const struct command *command)
     printf("\nCommands:\n");
     for (const struct command *c = command_table + 1; c->name; c++) {
         char left[96];
-        snprintf(left, sizeof left, "  %s%s%s", c->name, c->operands ? " " : "", c->operands ? c->operands : "");
+        snprintf(left, sizeof left, "  %s%s%s", c->name, c->operands ? " " : "",
+                 c->operands ? c->operands : "");
         print_row(left, COLUMN, c->summary);
     }
     printf("\nExit codes:\n");
@@ -122,7 +124,8 @@ int run_help(int operand_count, char **operands, const struct options *options)
         for (const struct command *c = command_table; c->name; c++)
             suggest_try(&nearest, c->name);
         complain(&error, LAM_BAD_ARGUMENT, "unknown command '%.100s'%s%s%s", operands[0],
-                 nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
+                 nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+                 nearest.best ? "'?" : "");
         say_error(error.text);
         return error.code;
     }

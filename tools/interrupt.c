@@ -8,7 +8,7 @@
 static lam_cancel cancel;
 static volatile sig_atomic_t caught;
 
-static void catch(int number)
+static void catch (int number)
 {
     caught = number;
     lam_cancel_raise(&cancel);
@@ -18,15 +18,22 @@ void interrupt_start(void)
 {
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
-        struct sigaction old, action = {.sa_handler = catch, .sa_flags = (int)SA_RESETHAND}; // no SA_RESTART: reads end
+        struct sigaction old,
+            action = {.sa_handler = catch, .sa_flags = (int)SA_RESETHAND}; // no SA_RESTART: reads end
         sigemptyset(&action.sa_mask);
         if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
             sigaction(signals[i], &action, NULL);
     }
 }
 
-const lam_cancel *interrupt_flag(void) { return &cancel; }
-bool interrupted(void) { return caught != 0; }
+const lam_cancel *interrupt_flag(void)
+{
+    return &cancel;
+}
+bool interrupted(void)
+{
+    return caught != 0;
+}
 
 void interrupt_finish(void)
 {

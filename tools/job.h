@@ -1,15 +1,15 @@
-// job.h: one model on its way to a picture: what it was asked, what came of it. render.c fills it step by step, report.c
-// tells it.
+// job.h: one model on its way to a picture: what it was asked, what came of it. render.c fills it step by
+// step, report.c tells it.
 #ifndef JOB_H
 #define JOB_H
 
 #include "options.h"
 
 struct job_times {
-    double start;                        // clock_ms() at the job's start
+    double start;                                // clock_ms() at the job's start
     double read, prepare, camera, encode, total; // milliseconds
-    lam_frame_report frame;              // of the median frame
-    double frame_least, frame_most;      // over the --repeat frames
+    lam_frame_report frame;                      // of the median frame
+    double frame_least, frame_most;              // over the --repeat frames
     int frames;
 };
 

@@ -1,8 +1,8 @@
 // json.h: writes JSON, one value after the other, on one line.
 //
-// Numbers are written with the fewest digits that read back as the same double, whatever the locale: a camera taken
-// from a report gives the same picture again. (Jansson prints a fixed count of digits: 0.10000000000000001, or not
-// the same number.)
+// Numbers are written with the fewest digits that read back as the same double, whatever the locale: a camera
+// taken from a report gives the same picture again. (Jansson prints a fixed count of digits:
+// 0.10000000000000001, or not the same number.)
 #ifndef JSON_H
 #define JSON_H
 
@@ -18,8 +18,9 @@ struct json {
 // `key` is NULL for the elements of a list and for the outermost value.
 void json_open(struct json *json, const char *key, char bracket); // '{' or '['
 void json_close(struct json *json, char bracket);                 // '}' or ']'
-void json_text(struct json *json, const char *key, const char *text); // NULL: null; bytes that are not UTF-8: U+FFFD
-void json_real(struct json *json, const char *key, double value);     // not finite: null
+void json_text(struct json *json, const char *key,
+               const char *text); // NULL: null; bytes that are not UTF-8: U+FFFD
+void json_real(struct json *json, const char *key, double value); // not finite: null
 void json_count(struct json *json, const char *key, uint64_t value);
 void json_null(struct json *json, const char *key);
 

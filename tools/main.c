@@ -29,7 +29,7 @@ static const struct command *take_command(int *count, char **words)
     const struct command *command = *count ? find_command(words[0]) : NULL;
     if (!command)
         return command_table;
-    memmove(words, words + 1, (size_t)--*count * sizeof *words);
+    memmove(words, words + 1, (size_t)-- * count * sizeof *words);
     return command;
 }
 
@@ -38,9 +38,11 @@ static bool check_operands(const struct command *command, int count, char **oper
     if (count < command->least && command == command_table)
         return complain(error, LAM_BAD_ARGUMENT, "no model is given, expected a file, a shape's name or -");
     if (count < command->least)
-        return complain(error, LAM_BAD_ARGUMENT, "%s: an argument is missing: %s", command->name, command->operands);
+        return complain(error, LAM_BAD_ARGUMENT, "%s: an argument is missing: %s", command->name,
+                        command->operands);
     if (command->most >= 0 && count > command->most)
-        return complain(error, LAM_BAD_ARGUMENT, "%s: unexpected argument '%s'", command->name, operands[command->most]);
+        return complain(error, LAM_BAD_ARGUMENT, "%s: unexpected argument '%s'", command->name,
+                        operands[command->most]);
     return true;
 }
 
@@ -61,6 +63,8 @@ static int run(int count, char **words)
         printf("lambent %s\n%s\n", lam_version(), lam_build_info());
         return 0;
     }
+    if (options.output && strcmp(options.output, "/dev/stdout") == 0)
+        options.output = "-"; // so that nothing else is written there
     if (!check_operands(command, operands, words, &error))
         return tell_failure(&error, &options);
     return command->run(operands, words, &options);

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-// Text for roff: '-' is written \- (else it may be shown as another dash), '`code`' is bold, a line never begins with a
-// control character.
+// Text for roff: '-' is written \- (else it may be shown as another dash), '`code`' is bold, a line never
+// begins with a control character.
 static void roff(const char *text)
 {
     bool code = false;
@@ -150,11 +150,12 @@ static void markdown_option(const struct option *o)
 
 void generate_markdown(void)
 {
-    printf("<!-- Made by `lambent generate markdown` from tools/option_table.c and tools/command_table.c. -->\n"
-           "# The command line\n\n"
-           "    lambent [OPTIONS] MODEL...\n"
-           "    lambent COMMAND [ARGUMENTS]\n\n"
-           "## Examples\n\n| command | what it does |\n|---|---|\n");
+    printf(
+        "<!-- Made by `lambent generate markdown` from tools/option_table.c and tools/command_table.c. -->\n"
+        "# The command line\n\n"
+        "    lambent [OPTIONS] MODEL...\n"
+        "    lambent COMMAND [ARGUMENTS]\n\n"
+        "## Examples\n\n| command | what it does |\n|---|---|\n");
     for (const struct example *e = examples; e->line; e++) {
         printf("| `");
         cell(e->line);

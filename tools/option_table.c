@@ -1,5 +1,5 @@
-// option_table.c: every option, once. The help, the man page, the completions and docs/command-line.md are made from
-// these rows (help.c, manual.c, completions.c).
+// option_table.c: every option, once. The help, the man page, the completions and docs/command-line.md are
+// made from these rows (help.c, manual.c, completions.c).
 #include "options.h"
 
 #define FIELD(name) .field = offsetof(struct options, name)
@@ -9,7 +9,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_WORK] = "Work",       [GROUP_REPORT] = "Reports", [GROUP_ABOUT] = "About",
 };
 
-static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL}, {"4", 4, NULL},
+static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
                                            {"8", 8, NULL}, {"16", 16, NULL}, {NULL, 0, NULL}};
 
 static const struct word color_words[] = {
@@ -27,13 +27,14 @@ static const struct word view_words[] = {
     {"iso", VIEW_ISO, "45 degrees to the right, 35.26 above: all three axes equally long"},
     {NULL, 0, NULL}};
 
-static const struct word projection_words[] = {{"perspective", 0, "30 degrees high"},
-                                               {"orthographic", 1, "parallel, as in a drawing"},
-                                               {NULL, 0, NULL}};
+static const struct word projection_words[] = {
+    {"perspective", 0, "30 degrees high"}, {"orthographic", 1, "parallel, as in a drawing"}, {NULL, 0, NULL}};
 
-static const struct word up_words[] = {
-    {"auto", LAM_UP_AUTO, "by format: Z for STL, Y for the others"}, {"x", LAM_UP_X, NULL}, {"y", LAM_UP_Y, NULL},
-    {"z", LAM_UP_Z, NULL},                                           {NULL, 0, NULL}};
+static const struct word up_words[] = {{"auto", LAM_UP_AUTO, "by format: Z for STL, Y for the others"},
+                                       {"x", LAM_UP_X, NULL},
+                                       {"y", LAM_UP_Y, NULL},
+                                       {"z", LAM_UP_Z, NULL},
+                                       {NULL, 0, NULL}};
 
 static const struct word shading_words[] = {
     {"flat", LAM_SHADING_FLAT, "one colour for each triangle"},
@@ -66,75 +67,84 @@ static const struct word normals_words[] = {
     {"facet", LAM_NORMALS_FACET, "each triangle's own"},
     {NULL, 0, NULL}};
 
-static const struct word isa_words[] = {
-    {"auto", LAM_ISA_AUTO, "the widest that this machine has"},
-    {"plain", LAM_ISA_PLAIN, "C without vectors"},
-    {"sse4", LAM_ISA_SSE4, "4 lanes"},
-    {"avx2", LAM_ISA_AVX2, "8 lanes"},
-    {"avx512", LAM_ISA_AVX512, "16 lanes"},
-    {"neon", LAM_ISA_NEON, "4 lanes"},
-    {NULL, 0, NULL}};
+static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that this machine has"},
+                                        {"plain", LAM_ISA_PLAIN, "C without vectors"},
+                                        {"sse4", LAM_ISA_SSE4, "4 lanes"},
+                                        {"avx2", LAM_ISA_AVX2, "8 lanes"},
+                                        {"avx512", LAM_ISA_AVX512, "16 lanes"},
+                                        {"neon", LAM_ISA_NEON, "4 lanes"},
+                                        {NULL, 0, NULL}};
 
 const struct option option_table[] = {
-    {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", "Write to FILE (.png, .ppm or .pfm), to the folder FILE/, or to standard output (-).",
-     "The ending decides the format: `.png` (8 bits, sRGB, with alpha), `.ppm` (8 bits over the background), `.pfm` "
-     "(linear floats, premultiplied by alpha). `-` writes a PNG to standard output. Without this option the picture "
-     "goes to the current folder under the model's name with `.png` as its ending (`model.png` when the model comes "
-     "from standard input), and a file of that name which lambent did not write is never overwritten. `-o pictures/`, "
-     "with a slash at its end, does the same in that folder.",
+    {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png",
+     "Write to FILE (.png, .ppm or .pfm), to the folder FILE/, or to standard output (-).",
+     "The ending decides the format: `.png` (8 bits, sRGB, with alpha), `.ppm` (8 bits over the "
+     "background), `.pfm` (linear floats, premultiplied by alpha). `-` writes a PNG to standard output; a "
+     "pipe or device whose name has no such ending gets a PNG too. Without this option the picture goes to "
+     "the current folder under the model's name with `.png` as its ending (`model.png` when the model "
+     "comes from standard input), and a file of that name which lambent did not write is never "
+     "overwritten. `-o pictures/`, with a slash at its end, does the same in that folder.",
      .takes_file = true, .store = store_text, FIELD(output)},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "Size in pixels: 800 is 800x800; 1920x1080.", NULL,
      .store = store_size, .most = 65535},
     {"samples", 0, GROUP_PICTURE, "N", "4", "Samples per pixel: 1, 2, 4, 8 or 16.",
-     "More samples give smoother edges. Each pixel is lit once for each triangle that it shows.", sample_words,
-     .store = store_word, FIELD(samples)},
-    {"background", 'b', GROUP_PICTURE, "COLOR", "transparent", "Behind the model: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
-     "A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), one of the basic names (`black`, `white`, `gray`, `silver`, "
-     "`red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour names of HTML 4), three or "
-     "four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",
+     "More samples give smoother edges. Each pixel is lit once for each triangle that it shows.",
+     sample_words, .store = store_word, FIELD(samples)},
+    {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
+     "Behind the model: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
+     "A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), one of the basic names (`black`, `white`, "
+     "`gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour "
+     "names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",
      .store = store_color, FIELD(background)},
     {"color", 0, GROUP_PICTURE, "MODE", "srgb", "How colours become numbers: srgb or raw (no conversion).",
      NULL, color_words, .store = store_word, FIELD(color)},
 
-    {"view", 0, GROUP_VIEW, "SIDE", "three-quarter", "Seen from the front, back, left, right, top, bottom or iso.",
-     "Without it the camera stands 30 degrees to the right of the front and 20 degrees above. The model always fills "
-     "92 % of the picture's tighter side. `--azimuth` and `--elevation` change the angles of a named side.",
+    {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
+     "Seen from the front, back, left, right, top, bottom or iso.",
+     "Without it the camera stands 30 degrees to the right of the front and 20 degrees above. The model "
+     "always fills 92 % of the picture's tighter side. `--azimuth` and `--elevation` change the angles of "
+     "a named side.",
      view_words, .store = store_word, FIELD(view)},
-    {"azimuth", 0, GROUP_VIEW, "DEGREES", "30", "Camera's turn around the model; 0 is the front, 90 the right.", NULL,
-     .store = store_number, FIELD(azimuth_deg), .has_field = offsetof(struct options, has_azimuth), .least = -3600,
-     .most = 3600},
+    {"azimuth", 0, GROUP_VIEW, "DEGREES", "30",
+     "Camera's turn around the model; 0 is the front, 90 the right.", NULL, .store = store_number,
+     FIELD(azimuth_deg), .has_field = offsetof(struct options, has_azimuth), .least = -3600, .most = 3600},
     {"elevation", 0, GROUP_VIEW, "DEGREES", "20", "Camera's height; 0 is level, 90 straight above.", NULL,
-     .store = store_number, FIELD(elevation_deg), .has_field = offsetof(struct options, has_elevation), .least = -90,
-     .most = 90},
+     .store = store_number, FIELD(elevation_deg), .has_field = offsetof(struct options, has_elevation),
+     .least = -90, .most = 90},
     {"zoom", 0, GROUP_VIEW, "FACTOR", "1", "2 shows the model twice as large.", NULL, .store = store_number,
      FIELD(zoom), .least = 0.001, .most = 1000},
-    {"projection", 0, GROUP_VIEW, "KIND", "perspective", "How depth is shown: perspective or orthographic.", NULL, projection_words,
-     .store = store_word, FIELD(projection)},
+    {"projection", 0, GROUP_VIEW, "KIND", "perspective", "How depth is shown: perspective or orthographic.",
+     NULL, projection_words, .store = store_word, FIELD(projection)},
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z or auto.",
-     "It turns the camera and the lights that go with it; the model's coordinates stay as they are. STL files are "
-     "taken as Z up, the habit of printing and CAD; the others as Y up.",
+     "It turns the camera and the lights that go with it; the model's coordinates stay as they are. STL "
+     "files are taken as Z up, the habit of printing and CAD; the others as Y up.",
      up_words, .store = store_word, FIELD(up)},
     {"camera", 0, GROUP_VIEW, "KEYS", "fitted", "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more.",
-     "Keys, with commas between them and in the model's own coordinates: `eye` (must be given), `target` (the middle "
-     "of the model), `up` (the model's up axis), `fovy` (the whole vertical angle in degrees: 30) or `ortho` (parallel "
-     "projection: model units from the picture's middle to its top), `near` and `far` (both or neither: fitted). It "
-     "cannot be used with the other options of this group but `--up`. The report of `--json` has the camera of any "
-     "picture in these terms.",
+     "Keys, with commas between them and in the model's own coordinates: `eye` (must be given), `target` "
+     "(the middle of the model), `up` (the model's up axis), `fovy` (the whole vertical angle in degrees: "
+     "30) or `ortho` (parallel projection: model units from the picture's middle to its top), `near` and "
+     "`far` (both or neither: fitted). It cannot be used with the other options of this group but `--up`. "
+     "The report of `--json` has the camera of any picture in these terms.",
      .store = store_camera, FIELD(camera)},
 
-    {"shading", 0, GROUP_SHADING, "METHOD", "phong", "Where light is worked out: flat, gouraud or phong (each pixel).", NULL, shading_words,
+    {"shading", 0, GROUP_SHADING, "METHOD", "phong",
+     "Where light is worked out: flat, gouraud or phong (each pixel).", NULL, shading_words,
      .store = store_word, FIELD(shading)},
-    {"reflection", 0, GROUP_SHADING, "MODEL", "auto", "How surfaces answer light: none, lambert, phong, blinn-phong, kajiya-kay, "
-     "kajiya-kay-lecture or auto.", NULL, reflection_words, .store = store_word, FIELD(reflection)},
-    {"rig", 0, GROUP_SHADING, "NAME", "auto", "The lights: the model's or the studio's (auto), none, studio or headlight.", NULL, rig_words,
+    {"reflection", 0, GROUP_SHADING, "MODEL", "auto",
+     "How surfaces answer light: none, lambert, phong, blinn-phong, kajiya-kay, kajiya-kay-lecture or auto.",
+     NULL, reflection_words, .store = store_word, FIELD(reflection)},
+    {"rig", 0, GROUP_SHADING, "NAME", "auto",
+     "The lights: the model's or the studio's (auto), none, studio or headlight.", NULL, rig_words,
      .store = store_word, FIELD(rig)},
-    {"normals", 0, GROUP_SHADING, "SOURCE", "file", "Whose normals: the file's (file), smooth or facet ones made anew.", NULL, normals_words, .store = store_word,
-     FIELD(normals)},
-    {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Made normals are split at sharper edges than this.", NULL,
-     .store = store_number, FIELD(crease_angle_deg), .least = 0, .most = 180},
+    {"normals", 0, GROUP_SHADING, "SOURCE", "file",
+     "Whose normals: the file's (file), smooth or facet ones made anew.", NULL, normals_words,
+     .store = store_word, FIELD(normals)},
+    {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Made normals are split at sharper edges than this.",
+     NULL, .store = store_number, FIELD(crease_angle_deg), .least = 0, .most = 180},
 
-    {"threads", 'j', GROUP_WORK, "N", "one for each processor", "Threads to work with. The picture does not depend on it.",
-     NULL, .store = store_integer, FIELD(threads), .least = 1, .most = 1024},
+    {"threads", 'j', GROUP_WORK, "N", "one for each processor",
+     "Threads to work with. The picture does not depend on it.", NULL, .store = store_integer, FIELD(threads),
+     .least = 1, .most = 1024},
     {"isa", 0, GROUP_WORK, "NAME", "auto", "Instruction set: plain, sse4, avx2, avx512, neon or auto.",
      "Every one gives the same bytes; one that this machine or this build does not have is refused (exit 3).",
      isa_words, .store = store_word, FIELD(isa)},
@@ -142,19 +152,22 @@ const struct option option_table[] = {
      .store = store_integer, FIELD(repeat), .least = 1, .most = 100000},
     {"time-limit", 0, GROUP_WORK, "SECONDS", "none", "Give up on a model after this time (exit 4).", NULL,
      .store = store_number, FIELD(time_limit_s), .least = 0.001, .most = 1e9},
-    {"memory-limit", 0, GROUP_WORK, "BYTES", "none", "Give up on a model that needs more, such as 500M or 2Gi (exit 4).",
-     "Reading a model and drawing it may each hold this much at once. k, M, G and T are powers of 1000, Ki, Mi, Gi and "
-     "Ti of 1024.",
+    {"memory-limit", 0, GROUP_WORK, "BYTES", "none",
+     "Give up on a model that needs more, such as 500M or 2Gi (exit 4).",
+     "Reading a model and drawing it may each hold this much at once. k, M, G and T are powers of 1000, "
+     "Ki, Mi, Gi and Ti of 1024.",
      .store = store_bytes, FIELD(memory_limit_bytes)},
 
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
-     "It goes to standard output, or to standard error when the picture goes to standard output (then nothing else is "
-     "written there). It comes in place of the line that tells the file's name, and also when something fails. Its "
-     "schema is `docs/report.schema.json`.",
+     "It goes to standard output, or to standard error when the picture goes to standard output (then "
+     "nothing else is written there). It comes in place of the line that tells the file's name, and also "
+     "when something fails. Its schema is `docs/report.schema.json`.",
      .store = store_switch, FIELD(json)},
-    {"verbose", 'v', GROUP_REPORT, NULL, NULL, "Tell on standard error what was read and what each step took.", NULL,
-     .store = store_switch, FIELD(verbose)},
-    {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Say nothing but errors.", NULL, .store = store_switch, FIELD(quiet)},
+    {"verbose", 'v', GROUP_REPORT, NULL, NULL,
+     "Tell on standard error what was read and what each step took.", NULL, .store = store_switch,
+     FIELD(verbose)},
+    {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Say nothing but errors.", NULL, .store = store_switch,
+     FIELD(quiet)},
 
     {"version", 0, GROUP_ABOUT, NULL, NULL, "Print the version and what it was built with.", NULL,
      .store = store_switch, FIELD(version)},

@@ -9,7 +9,10 @@
 #include "console.h"
 #include "suggest.h"
 
-static void *field_of(struct options *options, size_t field) { return (char *)options + field; }
+static void *field_of(struct options *options, size_t field)
+{
+    return (char *)options + field;
+}
 
 static bool wrong(lam_error *error, const char *value, const char *expected)
 {
@@ -54,8 +57,8 @@ bool store_word(const struct option *option, const char *value, struct options *
 
 const char *read_number(const char *text, double *value)
 {
-    // strtod also takes spaces, hexadecimal, "inf" and "nan": only the plain forms get through to it. Its result is
-    // correctly rounded, and no locale is ever set here.
+    // strtod also takes spaces, hexadecimal, "inf" and "nan": only the plain forms get through to it. Its
+    // result is correctly rounded, and no locale is ever set here.
     const char *s = text;
     if (*s == '-' || *s == '+')
         s++;
@@ -91,8 +94,8 @@ static bool number_between(const struct option *option, const char *value, bool 
         (!whole || *number == (double)(long)*number))
         return true;
     char expected[96];
-    snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "", option->least,
-             option->most);
+    snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "",
+             option->least, option->most);
     return wrong(error, value, expected);
 }
 
@@ -134,7 +137,8 @@ bool store_bytes(const struct option *option, const char *value, struct options 
 {
     double number;
     const char *rest = read_number(value, &number);
-    const char *letters = "kMGT", *letter = rest && *rest ? strchr(letters, *rest == 'K' ? 'k' : *rest) : NULL;
+    const char *letters = "kMGT",
+               *letter = rest && *rest ? strchr(letters, *rest == 'K' ? 'k' : *rest) : NULL;
     if (letter) {
         bool binary = rest[1] == 'i';
         for (int i = 0; i <= letter - letters; i++)

@@ -1,5 +1,5 @@
-// options.h: the options of the program: one table, from which come the parsing, the help, the man page, the shells'
-// completions and docs/command-line.md.
+// options.h: the options of the program: one table, from which come the parsing, the help, the man page, the
+// shells' completions and docs/command-line.md.
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
@@ -15,19 +15,19 @@ struct options {
     int color;              // lam_color_mode
 
     // View
-    int view;                        // enum view_name
+    int view;                          // enum view_name
     double azimuth_deg, elevation_deg; // valid where the switch below is set
     bool has_azimuth, has_elevation;
-    double zoom;       // 0: 1
-    int projection;    // 1: orthographic
-    int up;            // lam_up
+    double zoom;        // 0: 1
+    int projection;     // 1: orthographic
+    int up;             // lam_up
     const char *camera; // as written; NULL: fitted
 
     // Shading
-    int shading;    // lam_shading
-    int reflection; // lam_reflection
-    int rig;        // lam_rig
-    int normals;    // lam_normals
+    int shading;             // lam_shading
+    int reflection;          // lam_reflection
+    int rig;                 // lam_rig
+    int normals;             // lam_normals
     double crease_angle_deg; // < 0: the library's default
 
     // Work
@@ -41,7 +41,16 @@ struct options {
     bool json, quiet, verbose, version, help;
 };
 
-enum view_name { VIEW_DEFAULT, VIEW_FRONT, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
+enum view_name {
+    VIEW_DEFAULT,
+    VIEW_FRONT,
+    VIEW_BACK,
+    VIEW_LEFT,
+    VIEW_RIGHT,
+    VIEW_TOP,
+    VIEW_BOTTOM,
+    VIEW_ISO
+};
 
 enum option_group {
     GROUP_PICTURE,
@@ -67,12 +76,13 @@ struct option {
     const char *value;    // what follows it, as the help shows it; NULL: nothing follows
     const char *standard; // the default, as people read it; NULL: none to tell
     const char *summary;  // one sentence for --help
-    const char *details;  // more for the man page and the docs; NULL: the summary says all. `code` in back quotes
+    const char
+        *details; // more for the man page and the docs; NULL: the summary says all. `code` in back quotes
     const struct word *words; // the only values it takes; NULL: free
     bool takes_file;          // for the completions
 
-    // Stores the value (NULL for a switch) at `field` bytes into struct options. On failure fills error->text with
-    // what is wrong, without the option's name.
+    // Stores the value (NULL for a switch) at `field` bytes into struct options. On failure fills error->text
+    // with what is wrong, without the option's name.
     bool (*store)(const struct option *option, const char *value, struct options *options, lam_error *error);
     size_t field, has_field; // has_field: a bool to set as well; 0: none
     double least, most;      // for numbers
@@ -83,24 +93,25 @@ extern const char *const group_titles[GROUP_COUNT];
 
 struct options option_defaults(void);
 
-// Reads a command line's words (without the program's and the command's name). `groups` has bit g set for each group
-// that the command takes. Operands are moved to the front of `words`; returns their number, or −1 with the reason:
-// LAM_BAD_ARGUMENT.
+// Reads a command line's words (without the program's and the command's name). `groups` has bit g set for
+// each group that the command takes. Operands are moved to the front of `words`; returns their number, or −1
+// with the reason: LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error);
 
 // The kinds of values, for the table's `store`.
-bool store_switch(const struct option *, const char *, struct options *, lam_error *); // bool
-bool store_text(const struct option *, const char *, struct options *, lam_error *);   // const char *
-bool store_word(const struct option *, const char *, struct options *, lam_error *);   // int
+bool store_switch(const struct option *, const char *, struct options *, lam_error *);  // bool
+bool store_text(const struct option *, const char *, struct options *, lam_error *);    // const char *
+bool store_word(const struct option *, const char *, struct options *, lam_error *);    // int
 bool store_integer(const struct option *, const char *, struct options *, lam_error *); // int
 bool store_number(const struct option *, const char *, struct options *, lam_error *);  // double
 bool store_size(const struct option *, const char *, struct options *, lam_error *);    // width, height
 bool store_bytes(const struct option *, const char *, struct options *, lam_error *);   // uint64_t
-bool store_color(const struct option *, const char *, struct options *, lam_error *);   // const char *, checked
-bool store_camera(const struct option *, const char *, struct options *, lam_error *);  // const char *, checked
+bool store_color(const struct option *, const char *, struct options *, lam_error *); // const char *, checked
+bool store_camera(const struct option *, const char *, struct options *,
+                  lam_error *); // const char *, checked
 
-// A plain decimal number at the start of `text` ("-1.5e3"; no hexadecimal, no "inf"). Returns what follows it, NULL if
-// there is none or it is too large.
+// A plain decimal number at the start of `text` ("-1.5e3"; no hexadecimal, no "inf"). Returns what follows
+// it, NULL if there is none or it is too large.
 const char *read_number(const char *text, double *value);
 
 #endif

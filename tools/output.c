@@ -10,19 +10,29 @@
 
 #include "console.h"
 
-bool output_is_named(const char *output) { return output && output[strlen(output) - 1] != '/'; }
+bool output_is_named(const char *output)
+{
+    return output && output[strlen(output) - 1] != '/';
+}
 
 char *output_path(const char *output, const char *model)
 {
     if (output_is_named(output))
         return strdup(output);
-    const char *folder = output ? output : "";
-    const char *slash = strrchr(model, '/'), *name = strcmp(model, "-") == 0 ? "model" : slash ? slash + 1 : model;
-    const char *dot = strrchr(name, '.');
-    int stem = (int)(dot && dot != name ? (size_t)(dot - name) : strlen(name));
-    char *path = malloc(strlen(folder) + (size_t)stem + sizeof ".png");
+    const char *folder = output ? output : "", *name = strcmp(model, "-") == 0 ? "model" : model;
+    const char *end = name + strlen(name);
+    while (end > name && end[-1] == '/') // a folder as the model: reading it will say so
+        end--;
+    const char *start = end;
+    while (start > name && start[-1] != '/')
+        start--;
+    const char *dot = end;
+    while (dot > start && *dot != '.')
+        dot--;
+    int stem = (int)((dot > start ? dot : end) - start);
+    char *path = malloc(strlen(folder) + (size_t)stem + sizeof "model.png");
     if (path)
-        sprintf(path, "%s%.*s.png", folder, stem, name);
+        sprintf(path, "%s%.*s%s.png", folder, stem, start, stem ? "" : "model");
     return path;
 }
 
@@ -35,11 +45,13 @@ static bool check_folder(const char *path, lam_error *error)
     struct stat found;
     bool ok = true;
     if (stat(folder, &found) != 0)
-        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder, strerror(errno));
+        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder,
+                      strerror(errno));
     else if (!S_ISDIR(found.st_mode))
         ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: '%s' is not a folder", path, folder);
     else if (access(folder, W_OK | X_OK) != 0)
-        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder, strerror(errno));
+        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder,
+                      strerror(errno));
     free(folder);
     return ok;
 }
@@ -50,7 +62,8 @@ bool output_check(const char *path, const char *model, bool named, lam_error *er
     if (stat(path, &there) != 0)
         return check_folder(path, error);
     // A picture given as the model: reading it will say what is wrong, which is not that it exists.
-    if (!named && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev && there.st_ino == of_model.st_ino)
+    if (!named && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev &&
+        there.st_ino == of_model.st_ino)
         return true;
     if (S_ISDIR(there.st_mode))
         return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: it is a folder%s", path,
@@ -61,9 +74,10 @@ bool output_check(const char *path, const char *model, bool named, lam_error *er
         return true;
     }
     if (!named && !lam_image_is_ours(path))
-        return complain(error, LAM_CANNOT_WRITE,
-                        "%s: already exists, and lambent did not write it; -o %s replaces it, -o FILE writes another",
-                        path, path);
+        return complain(
+            error, LAM_CANNOT_WRITE,
+            "%s: already exists, and lambent did not write it; -o %s replaces it, -o FILE writes another",
+            path, path);
     return check_folder(path, error);
 }
 
@@ -71,4 +85,25 @@ uint64_t output_size(const char *path)
 {
     struct stat found;
     return stat(path, &found) == 0 && S_ISREG(found.st_mode) ? (uint64_t)found.st_size : 0;
+}
+
+bool output_is_stream(const char *path)
+{
+    struct stat found;
+    lam_pixel_format format;
+    return strcmp(path, "-") == 0 || (stat(path, &found) == 0 && !S_ISREG(found.st_mode) &&
+                                      !S_ISDIR(found.st_mode) && !lam_image_format_for(path, &format, NULL));
+}
+
+bool output_write(const char *path, const lam_bytes *bytes, lam_error *error)
+{
+    bool to_stdout = strcmp(path, "-") == 0;
+    FILE *file = to_stdout ? stdout : fopen(path, "wb");
+    bool ok = file && fwrite(bytes->data, 1, bytes->size, file) == bytes->size && fflush(file) == 0;
+    if (!ok)
+        complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", to_stdout ? "standard output" : path,
+                 strerror(errno));
+    if (file && !to_stdout)
+        fclose(file);
+    return ok;
 }

@@ -21,7 +21,13 @@ double clock_ms(void)
 
 void progress_start(struct progress *progress, const char *model, bool allowed)
 {
-    *progress = (struct progress){.allowed = allowed, .model = model, .start_ms = clock_ms()};
+    *progress = (struct progress){.allowed = allowed, .model = model, .start_ms = clock_ms(), .span = 1};
+}
+
+void progress_phase(struct progress *progress, double from, double span)
+{
+    progress->from = from;
+    progress->span = span;
 }
 
 void progress_tell(void *user, double share, const char *step)
@@ -32,13 +38,15 @@ void progress_tell(void *user, double share, const char *step)
         return;
     progress->drawn_ms = now;
     progress->shown = true;
+    share = progress->from + progress->span * share;
     int filled = share >= 1 ? BAR : share > 0 ? (int)(share * BAR) : 0;
     char bar[BAR + 1];
     memset(bar, '.', BAR);
     memset(bar, '#', (size_t)filled);
     bar[BAR] = 0;
     size_t length = strlen(progress->model);
-    const char *color = console_has_colors() ? "\033[36m" : "", *plain = console_has_colors() ? "\033[0m" : "";
+    const char *color = console_has_colors() ? "\033[36m" : "",
+               *plain = console_has_colors() ? "\033[0m" : "";
     fprintf(stderr, "\r\033[K%s%s  %s[%s]%s %3d %%  %s", length > NAME ? "..." : "",
             progress->model + (length > NAME ? length - NAME : 0), color, bar, plain,
             filled == BAR ? 100 : (int)(share * 100), step ? step : "");

@@ -20,26 +20,35 @@
 
 static bool check_together(int count, char **models, const struct options *o, lam_error *error)
 {
-    const char *view = o->view ? "view" : o->has_azimuth ? "azimuth" : o->has_elevation ? "elevation"
-                     : o->zoom > 0 ? "zoom" : o->projection ? "projection" : NULL;
+    const char *view = o->view            ? "view"
+                       : o->has_azimuth   ? "azimuth"
+                       : o->has_elevation ? "elevation"
+                       : o->zoom > 0      ? "zoom"
+                       : o->projection    ? "projection"
+                                          : NULL;
     if (o->camera && view)
-        return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--%s' cannot be used together", view);
+        return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--%s' cannot be used together",
+                        view);
     if (o->quiet && o->verbose)
         return complain(error, LAM_BAD_ARGUMENT, "options '--quiet' and '--verbose' cannot be used together");
     if (output_is_named(o->output) && count > 1)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names one picture, but there are %d models; "
-                        "name a folder: -o pictures/", count);
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--output' names one picture, but there are %d models; "
+                        "name a folder: -o pictures/",
+                        count);
     for (int i = 0; i < count; i++) {
         if (!*models[i])
             return complain(error, LAM_BAD_ARGUMENT, "a model's name is empty");
         if (strcmp(models[i], "-") == 0 && count > 1)
             return complain(error, LAM_BAD_ARGUMENT, "'-' (standard input) goes only with a single model");
         if (strcmp(models[i], "-") == 0 && isatty(STDIN_FILENO))
-            return complain(error, LAM_BAD_ARGUMENT, "standard input is a terminal, expected a model: lambent - < FILE");
+            return complain(error, LAM_BAD_ARGUMENT,
+                            "standard input is a terminal, expected a model: lambent - < FILE");
     }
     if (o->output && strcmp(o->output, "-") == 0 && isatty(STDOUT_FILENO))
-        return complain(error, LAM_BAD_ARGUMENT, "standard output is a terminal, and the picture is not text; "
-                                                 "send it on: lambent MODEL -o - > FILE");
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "standard output is a terminal, and the picture is not text; "
+                        "send it on: lambent MODEL -o - > FILE");
     return true;
 }
 
@@ -69,8 +78,10 @@ static bool check_names(int count, char **models, const char *output, lam_error 
         qsort(named, (size_t)count, sizeof *named, by_output);
     for (int i = 1; ok && i < count; i++)
         if (strcmp(named[i].output, named[i - 1].output) == 0)
-            ok = complain(error, LAM_BAD_ARGUMENT, "'%s' and '%s' would both be written to '%s'; run them one by one, "
-                          "with -o", named[i - 1].model, named[i].model, named[i].output);
+            ok = complain(error, LAM_BAD_ARGUMENT,
+                          "'%s' and '%s' would both be written to '%s'; run them one by one, "
+                          "with -o",
+                          named[i - 1].model, named[i].model, named[i].output);
     for (int i = 0; named && i < count; i++)
         free(named[i].output);
     free(named);
@@ -80,9 +91,10 @@ static bool check_names(int count, char **models, const char *output, lam_error 
 static lam_view view_of(const struct options *o)
 {
     static const double angles[][2] = {
-        [VIEW_DEFAULT] = {30, 20}, [VIEW_FRONT] = {0, 0},  [VIEW_BACK] = {180, 0},   [VIEW_LEFT] = {-90, 0},
-        [VIEW_RIGHT] = {90, 0},    [VIEW_TOP] = {0, 90},   [VIEW_BOTTOM] = {0, -90},
-        [VIEW_ISO] = {45, 35.264389682754654}, // atan(1/√2)
+        [VIEW_DEFAULT] = {30, 20}, [VIEW_FRONT] = {0, 0},
+        [VIEW_BACK] = {180, 0},    [VIEW_LEFT] = {-90, 0},
+        [VIEW_RIGHT] = {90, 0},    [VIEW_TOP] = {0, 90},
+        [VIEW_BOTTOM] = {0, -90},  [VIEW_ISO] = {45, 35.264389682754654}, // atan(1/√2)
     };
     return (lam_view){
         .from_angles = o->view != VIEW_DEFAULT || o->has_azimuth || o->has_elevation,
@@ -96,29 +108,36 @@ static lam_view view_of(const struct options *o)
 
 // --- one model
 
-// The control of the next call: what is left of the model's time, the memory, the interrupt, the progress bar.
-static bool control_of(const struct job *job, struct progress *progress, lam_control *control, lam_error *error)
+// The control of the next call: what is left of the model's time, the memory, the interrupt, the progress
+// bar.
+static bool control_of(const struct job *job, struct progress *progress, lam_control *control,
+                       lam_error *error)
 {
     const struct options *o = job->options;
-    *control = (lam_control){.cancel = interrupt_flag(), .memory_limit_bytes = o->memory_limit_bytes,
-                             .progress = progress_tell, .user = progress};
+    *control = (lam_control){.cancel = interrupt_flag(),
+                             .memory_limit_bytes = o->memory_limit_bytes,
+                             .progress = progress_tell,
+                             .user = progress};
     if (interrupted())
         return complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
     if (o->time_limit_s > 0) {
         control->time_limit_s = o->time_limit_s - (clock_ms() - job->times.start) / 1e3;
         if (!(control->time_limit_s > 0))
-            return complain(error, LAM_LIMIT, "%s: the time limit of %.10g s is over", job->model, o->time_limit_s);
+            return complain(error, LAM_LIMIT, "%s: the time limit of %.10g s is over", job->model,
+                            o->time_limit_s);
     }
     return true;
 }
 
-// The crease angle as the library takes it, where 0 stands for its default: a negligible angle splits at every edge.
+// The crease angle as the library takes it, where 0 stands for its default: a negligible angle splits at
+// every edge.
 static double crease_of(const struct options *o)
 {
     return o->crease_angle_deg < 0 ? 0 : o->crease_angle_deg > 0 ? radians(o->crease_angle_deg) : 1e-6;
 }
 
-static lam_scene *make_shape(const char *name, const struct options *o, const lam_control *control, lam_error *error)
+static lam_scene *make_shape(const char *name, const struct options *o, const lam_control *control,
+                             lam_error *error)
 {
     lam_scene *scene = lam_scene_make(error);
     if (!scene)
@@ -144,7 +163,8 @@ static void add_guess(const struct job *job, lam_error *error)
         return;
     size_t length = strlen(error->text);
     if (find_command(job->model)) {
-        snprintf(error->text + length, sizeof error->text - length, "; a command comes first: lambent %s", job->model);
+        snprintf(error->text + length, sizeof error->text - length, "; a command comes first: lambent %s",
+                 job->model);
         return;
     }
     struct suggestion nearest = suggest_start(job->model);
@@ -160,14 +180,17 @@ static bool load(struct job *job, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
     lam_control control;
+    progress_phase(progress, 0, 0.5);
     if (!control_of(job, progress, &control, error))
         return false;
     if (lam_shape_find(job->model) >= 0) {
         job->scene = make_shape(job->model, o, &control, error);
         job->times.prepare = clock_ms() - job->times.start;
     } else {
-        lam_load_params params = {.up = (lam_up)o->up, .color = (lam_color_mode)o->color,
-                                  .normals = (lam_normals)o->normals, .crease_angle_rad = crease_of(o),
+        lam_load_params params = {.up = (lam_up)o->up,
+                                  .color = (lam_color_mode)o->color,
+                                  .normals = (lam_normals)o->normals,
+                                  .crease_angle_rad = crease_of(o),
                                   .threads = o->threads};
         job->scene = lam_scene_load(job->model, &params, &control, error);
         if (job->scene)
@@ -178,7 +201,8 @@ static bool load(struct job *job, struct progress *progress, lam_error *error)
     if (!job->scene)
         return false;
     if (lam_scene_triangle_count(job->scene) == 0)
-        return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw", job->model);
+        return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw",
+                        job->model);
     return true;
 }
 
@@ -208,8 +232,11 @@ static int by_total(const void *a, const void *b)
 static bool draw(struct job *job, const lam_rgba *background, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
-    lam_draw_params params = {.samples = o->samples, .background = *background, .color = (lam_color_mode)o->color,
-                              .rig = (lam_rig)o->rig, .shading = (lam_shading)o->shading,
+    lam_draw_params params = {.samples = o->samples,
+                              .background = *background,
+                              .color = (lam_color_mode)o->color,
+                              .rig = (lam_rig)o->rig,
+                              .shading = (lam_shading)o->shading,
                               .reflection = (lam_reflection)o->reflection};
     lam_frame_report *reports = calloc((size_t)o->repeat, sizeof *reports);
     if (!reports)
@@ -217,6 +244,7 @@ static bool draw(struct job *job, const lam_rgba *background, struct progress *p
     bool ok = true;
     for (int i = 0; ok && i < o->repeat; i++) {
         lam_control control;
+        progress_phase(progress, 0.5 + 0.5 * i / o->repeat, 0.5 / o->repeat);
         ok = control_of(job, progress, &control, error) &&
              lam_draw(job->device, job->scene, &job->camera, &params, &job->image, &control, error);
         if (ok)
@@ -239,22 +267,19 @@ static bool write_output(struct job *job, const lam_rgba *background, lam_error 
         return complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
     const struct options *o = job->options;
     double start = clock_ms();
-    lam_save_params params = {.background = {background->r, background->g, background->b}, .threads = o->threads,
+    lam_save_params params = {.background = {background->r, background->g, background->b},
+                              .threads = o->threads,
                               .raw = o->color == LAM_COLOR_RAW};
     lam_bytes bytes = {0};
-    bool to_output = strcmp(job->output, "-") == 0, ok;
-    if (to_output) {
-        ok = lam_image_encode(&job->image, job->format, &params, &bytes, error);
+    bool ok;
+    if (output_is_stream(job->output)) {
+        ok = lam_image_encode(&job->image, job->format, &params, &bytes, error) &&
+             output_write(job->output, &bytes, error);
         job->bytes = bytes.size;
-        if (ok) {
-            fwrite(bytes.data, 1, bytes.size, stdout);
-            ok = finish_output(error);
-        }
         lam_bytes_free(&bytes);
     } else {
         ok = lam_image_save(&job->image, job->output, &params, error);
-        if (ok)
-            job->bytes = output_size(job->output);
+        job->bytes = ok ? output_size(job->output) : 0;
     }
     job->times.encode = clock_ms() - start;
     job->written = ok;
@@ -264,20 +289,22 @@ static bool write_output(struct job *job, const lam_rgba *background, lam_error 
 static bool run_job(struct job *job, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
-    bool to_output = strcmp(job->output, "-") == 0;
+    bool stream = output_is_stream(job->output);
     lam_pixel_format format = LAM_RGBA8;
     lam_rgba background = {0};
-    if (!to_output && !lam_image_format_for(job->output, &format, error))
+    if (!stream && !lam_image_format_for(job->output, &format, error))
         return false;
-    job->format = to_output ? "png" : strrchr(job->output, '.') + 1;
-    if (!to_output && !output_check(job->output, job->model, output_is_named(o->output), error))
+    job->format = stream ? "png" : strrchr(job->output, '.') + 1;
+    if (strcmp(job->output, "-") != 0 &&
+        !output_check(job->output, job->model, output_is_named(o->output), error))
         return false;
     if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &background, error))
         return false;
     uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
     if (o->memory_limit_bytes && bytes > o->memory_limit_bytes)
-        return complain(error, LAM_LIMIT, "the picture of %dx%d pixels needs %.1f MB, more than the memory limit",
-                        o->width, o->height, (double)bytes / 1e6);
+        return complain(error, LAM_LIMIT,
+                        "the picture of %dx%d pixels needs %.1f MB, more than the memory limit", o->width,
+                        o->height, (double)bytes / 1e6);
     if (!lam_image_make(&job->image, o->width, o->height, format, error) || !load(job, progress, error))
         return false;
     place_camera(job);

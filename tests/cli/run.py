@@ -10,6 +10,32 @@ if len(sys.argv) < 2:
 os.environ["LAMBENT"] = str(pathlib.Path(sys.argv.pop(1)).resolve())
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 suite = ["test_options", "test_output", "test_errors", "test_docs"]
+
+
+class TapResult(unittest.TextTestResult):
+    """Prints a line of the Test Anything Protocol for each test, so that the suite can count them."""
+
+    def tell(self, test, ok, note=""):
+        print("%s %d - %s%s" % ("ok" if ok else "not ok", self.testsRun, test.id(), note), flush=True)
+
+    def addSuccess(self, test):
+        super().addSuccess(test)
+        self.tell(test, True)
+
+    def addFailure(self, test, err):
+        super().addFailure(test, err)
+        self.tell(test, False)
+
+    def addError(self, test, err):
+        super().addError(test, err)
+        self.tell(test, False)
+
+    def addSkip(self, test, reason):
+        super().addSkip(test, reason)
+        self.tell(test, True, " # SKIP " + reason)
+
+
+runner = unittest.TextTestRunner(resultclass=TapResult, verbosity=0)
 if len(sys.argv) > 1:
-    unittest.main(module=None)
-unittest.main(module=None, argv=[sys.argv[0], *suite])
+    unittest.main(module=None, testRunner=runner)
+unittest.main(module=None, argv=[sys.argv[0], *suite], testRunner=runner)

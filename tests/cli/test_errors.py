@@ -26,7 +26,8 @@ class Models(Case):
     def test_folder(self):
         (self.folder / "folder.obj").mkdir()
         self.given.add("folder.obj")
-        self.one_sentence(self.bad(2, "folder.obj", says="folder.obj"))
+        for name in ("folder.obj", "folder.obj/", ".", "..", "/"):
+            self.one_sentence(self.bad(2, name, says=f"lambent: {name}"))
 
     def test_empty(self):
         for name in ("empty.obj", "empty.stl", "empty.ply", "empty"):
@@ -121,6 +122,7 @@ class Outputs(Case):
             done = self.run_program("cube.obj", "-s", 16, "-o", "-", stdout=full)
             self.assertEqual(done.returncode, 5)
             self.assertIn(b"standard output", done.stderr)
+            self.bad(5, "cube.obj", "-s", 16, "-o", "/dev/full", says="/dev/full")
             for words in (("--help",), ("cube.obj", "-s", 16, "--json"), ("generate", "man")):
                 done = self.run_program(*words, stdout=full)
                 self.assertEqual(done.returncode, 5, words)
@@ -152,6 +154,11 @@ class Outputs(Case):
         reader = subprocess.Popen(["cat", "pipe.png"], cwd=self.folder, stdout=subprocess.PIPE)
         self.good("cube.obj", "-s", 16, "-o", "pipe.png")
         self.assertTrue(reader.communicate(timeout=20)[0].startswith(b"\x89PNG"))
+
+    def test_device_without_an_ending(self):
+        self.good("cube.obj", "-s", 16, "-o", "/dev/null")
+        done = self.good("cube.obj", "-s", 16, "-o", "/dev/stdout", "-q")
+        self.assertTrue(done.stdout.startswith(b"\x89PNG"))
 
     def test_too_large_a_picture(self):
         self.bad(4, "cube.obj", "-s", "65535", "--memory-limit", "1G", says="65535x65535")

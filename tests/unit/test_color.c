@@ -1,0 +1,124 @@
+// test_color.c: the sRGB curve, colours as people write them, and normals of a scene made anew.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include <lambent/lambent.h>
+
+#include "srgb.h"
+
+static void assert_near(double found, double expected, double tolerance)
+{
+    if (!(fabs(found - expected) <= tolerance))
+        fail_msg("found %.17g, expected %.17g", found, expected);
+}
+
+static void curve_is_the_standard(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= 10000; i++) {
+        double encoded = i / 10000.0;
+        double expected = encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+        assert_near(srgb_decode(encoded), expected, 4e-16);
+    }
+    assert_true(srgb_decode(0) == 0 && srgb_decode(-1) == 0 && srgb_decode(NAN) == 0);
+    assert_near(srgb_decode(1), 1, 1e-15);
+    assert_true(srgb_decode(2) > srgb_decode(1.5));
+}
+
+static lam_rgba parsed(const char *text, lam_color_mode mode)
+{
+    lam_rgba color = {9, 9, 9, 9};
+    lam_error error = {0};
+    if (!lam_color_parse(text, mode, &color, &error))
+        fail_msg("%s: %s", text, error.text);
+    return color;
+}
+
+static void assert_color(lam_rgba c, double r, double g, double b, double a)
+{
+    assert_near((double)c.r, r, 1e-6);
+    assert_near((double)c.g, g, 1e-6);
+    assert_near((double)c.b, b, 1e-6);
+    assert_near((double)c.a, a, 1e-6);
+}
+
+static void colors_in_every_form(void **state)
+{
+    (void)state;
+    double half = srgb_decode(128 / 255.0), fifth = srgb_decode(0.2);
+    assert_color(parsed("#ff8000", LAM_COLOR_SRGB), 1, half, 0, 1);
+    assert_color(parsed("#FF8000", LAM_COLOR_RAW), 1, 128 / 255.0, 0, 1);
+    assert_color(parsed("#ff800033", LAM_COLOR_SRGB), 1, half, 0, 0.2); // alpha is never decoded
+    assert_color(parsed("#f30", LAM_COLOR_SRGB), 1, fifth, 0, 1);
+    assert_color(parsed("white", LAM_COLOR_SRGB), 1, 1, 1, 1);
+    assert_color(parsed("Gray", LAM_COLOR_SRGB), half, half, half, 1);
+    assert_color(parsed("grey", LAM_COLOR_RAW), 128 / 255.0, 128 / 255.0, 128 / 255.0, 1);
+    assert_color(parsed("transparent", LAM_COLOR_SRGB), 0, 0, 0, 0);
+    assert_color(parsed("0.25/2/0", LAM_COLOR_SRGB), 0.25, 2, 0, 1); // numbers are linear, and may be over 1
+    assert_color(parsed("0.25/1e-1/0/0.5", LAM_COLOR_RAW), 0.25, 0.1, 0, 0.5);
+}
+
+static void wrong_colors_are_told(void **state)
+{
+    (void)state;
+    static const char *const wrong[] = {
+        "",        "#",      "#1",      "#12",     "#1234", "#12345", "#1234567", "#123456789",
+        "#gggggg", "whit",   "whitee",  "1",       "1/2",   "1/2/",   "1/2/3/",   "1/2/3/4/5",
+        "1/2/3/2", "-1/0/0", "nan/0/0", "inf/0/0", "1/2/x", "1 /2/3", " white",   "255,0,0"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        lam_rgba color;
+        lam_error error = {0};
+        if (lam_color_parse(wrong[i], LAM_COLOR_SRGB, &color, &error))
+            fail_msg("'%s' was taken for a colour", wrong[i]);
+        assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+        assert_non_null(strstr(error.text, "expected a colour"));
+    }
+    lam_error error = {0};
+    assert_false(lam_color_parse(NULL, LAM_COLOR_SRGB, NULL, &error));
+    assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+}
+
+static void normals_made_anew(void **state)
+{
+    (void)state;
+    lam_error error = {0};
+    lam_scene *scene = lam_scene_make(&error);
+    assert_non_null(scene);
+    int mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 16, .stacks = 8}, &error);
+    assert_true(mesh >= 0);
+    const float *own = lam_scene_mesh(scene, mesh)->normals;
+    assert_true(lam_scene_make_normals(scene, LAM_NORMALS_FILE, 0, 1, NULL, &error));
+    assert_ptr_equal(lam_scene_mesh(scene, mesh)->normals, own);
+
+    assert_true(lam_scene_make_normals(scene, LAM_NORMALS_FACET, 0, 2, NULL, &error));
+    const lam_mesh *m = lam_scene_mesh(scene, mesh);
+    for (uint32_t t = 0; t < m->triangle_count; t++) { // all three corners have the same one
+        const float *n[3];
+        for (uint32_t c = 0; c < 3; c++)
+            n[c] = m->normals + 3 * (m->normal_indices ? m->normal_indices[3 * t + c] : 3 * t + c);
+        assert_memory_equal(n[0], n[1], 12);
+        assert_memory_equal(n[0], n[2], 12);
+    }
+    assert_false(lam_scene_make_normals(scene, LAM_NORMALS_SMOOTH, 4, 0, NULL, &error));
+    assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+    lam_cancel cancel = {1};
+    assert_false(
+        lam_scene_make_normals(scene, LAM_NORMALS_SMOOTH, 0, 0, &(lam_control){.cancel = &cancel}, &error));
+    assert_int_equal(error.code, LAM_CANCELLED);
+    lam_scene_free(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(curve_is_the_standard),
+        cmocka_unit_test(colors_in_every_form),
+        cmocka_unit_test(wrong_colors_are_told),
+        cmocka_unit_test(normals_made_anew),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

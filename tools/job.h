@@ -1,9 +1,9 @@
-// job.h: one model on its way to a picture: what it was asked, what came of it. render.c fills it step by
-// step, report.c tells it.
+// job.h: one model on its way to a picture: what was asked, what came of it.
 #ifndef JOB_H
 #define JOB_H
 
 #include "options.h"
+#include "progress.h"
 
 struct job_times {
     double start;                                // clock_ms() at the job's start
@@ -27,5 +27,9 @@ struct job {
     struct job_times times;
     lam_error error; // code LAM_OK: none
 };
+
+// Reads, draws and writes. The job comes with its options, model, output, device and start filled in; it is
+// filled step by step, so that on failure what was done can be told. The caller frees its scene and image.
+bool job_run(struct job *job, struct progress *progress, lam_error *error);
 
 #endif

@@ -6,15 +6,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "camera_option.h"
 #include "console.h"
-#include "help.h"
 #include "interrupt.h"
 #include "job.h"
 #include "output.h"
 #include "progress.h"
 #include "report.h"
-#include "suggest.h"
 
 // --- what the options of all models amount to
 
@@ -66,7 +63,7 @@ static int by_output(const void *a, const void *b)
 
 static bool check_names(int count, char **models, const char *output, lam_error *error)
 {
-    struct named_output *named = calloc((size_t)count, sizeof *named);
+    struct named_output *named = count > 0 ? calloc((size_t)count, sizeof *named) : NULL;
     bool ok = named != NULL;
     for (int i = 0; ok && i < count; i++) {
         named[i] = (struct named_output){models[i], output_path(output, models[i])};
@@ -86,229 +83,6 @@ static bool check_names(int count, char **models, const char *output, lam_error 
         free(named[i].output);
     free(named);
     return ok;
-}
-
-static lam_view view_of(const struct options *o)
-{
-    static const double angles[][2] = {
-        [VIEW_DEFAULT] = {30, 20}, [VIEW_FRONT] = {0, 0},
-        [VIEW_BACK] = {180, 0},    [VIEW_LEFT] = {-90, 0},
-        [VIEW_RIGHT] = {90, 0},    [VIEW_TOP] = {0, 90},
-        [VIEW_BOTTOM] = {0, -90},  [VIEW_ISO] = {45, 35.264389682754654}, // atan(1/√2)
-    };
-    return (lam_view){
-        .from_angles = o->view != VIEW_DEFAULT || o->has_azimuth || o->has_elevation,
-        .azimuth_rad = radians(o->has_azimuth ? o->azimuth_deg : angles[o->view][0]),
-        .elevation_rad = radians(o->has_elevation ? o->elevation_deg : angles[o->view][1]),
-        .orthographic = o->projection == 1,
-        .zoom = o->zoom,
-        .aspect = (double)o->width / o->height,
-    };
-}
-
-// --- one model
-
-// The control of the next call: what is left of the model's time, the memory, the interrupt, the progress
-// bar.
-static bool control_of(const struct job *job, struct progress *progress, lam_control *control,
-                       lam_error *error)
-{
-    const struct options *o = job->options;
-    *control = (lam_control){.cancel = interrupt_flag(),
-                             .memory_limit_bytes = o->memory_limit_bytes,
-                             .progress = progress_tell,
-                             .user = progress};
-    if (interrupted())
-        return complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
-    if (o->time_limit_s > 0) {
-        control->time_limit_s = o->time_limit_s - (clock_ms() - job->times.start) / 1e3;
-        if (!(control->time_limit_s > 0))
-            return complain(error, LAM_LIMIT, "%s: the time limit of %.10g s is over", job->model,
-                            o->time_limit_s);
-    }
-    return true;
-}
-
-// The crease angle as the library takes it, where 0 stands for its default: a negligible angle splits at
-// every edge.
-static double crease_of(const struct options *o)
-{
-    return o->crease_angle_deg < 0 ? 0 : o->crease_angle_deg > 0 ? radians(o->crease_angle_deg) : 1e-6;
-}
-
-static lam_scene *make_shape(const char *name, const struct options *o, const lam_control *control,
-                             lam_error *error)
-{
-    lam_scene *scene = lam_scene_make(error);
-    if (!scene)
-        return NULL;
-    lam_object object = lam_object_default();
-    object.name = name;
-    object.mesh = lam_scene_add_shape(scene, name, NULL, error);
-    bool ok = object.mesh >= 0 && lam_scene_add_object(scene, &object, error) >= 0;
-    if (ok && (o->normals != LAM_NORMALS_FILE || o->crease_angle_deg >= 0))
-        ok = lam_scene_make_normals(scene, (lam_normals)o->normals, crease_of(o), o->threads, control, error);
-    if (ok) {
-        lam_scene_set_up(scene, (lam_up)o->up);
-        return scene;
-    }
-    lam_scene_free(scene);
-    return NULL;
-}
-
-// A model that is not there may be a mistyped shape or command.
-static void add_guess(const struct job *job, lam_error *error)
-{
-    if (error->code != LAM_CANNOT_READ || strpbrk(job->model, "./") || access(job->model, F_OK) == 0)
-        return;
-    size_t length = strlen(error->text);
-    if (find_command(job->model)) {
-        snprintf(error->text + length, sizeof error->text - length, "; a command comes first: lambent %s",
-                 job->model);
-        return;
-    }
-    struct suggestion nearest = suggest_start(job->model);
-    for (int i = 0; i < lam_shape_count(); i++)
-        suggest_try(&nearest, lam_shape_name(i));
-    for (const struct command *c = command_table; c->name; c++)
-        suggest_try(&nearest, c->name);
-    if (nearest.best)
-        snprintf(error->text + length, sizeof error->text - length, "; did you mean '%s'?", nearest.best);
-}
-
-static bool load(struct job *job, struct progress *progress, lam_error *error)
-{
-    const struct options *o = job->options;
-    lam_control control;
-    progress_phase(progress, 0, 0.5);
-    if (!control_of(job, progress, &control, error))
-        return false;
-    if (lam_shape_find(job->model) >= 0) {
-        job->scene = make_shape(job->model, o, &control, error);
-        job->times.prepare = clock_ms() - job->times.start;
-    } else {
-        lam_load_params params = {.up = (lam_up)o->up,
-                                  .color = (lam_color_mode)o->color,
-                                  .normals = (lam_normals)o->normals,
-                                  .crease_angle_rad = crease_of(o),
-                                  .threads = o->threads};
-        job->scene = lam_scene_load(job->model, &params, &control, error);
-        if (job->scene)
-            lam_scene_times(job->scene, &job->times.read, &job->times.prepare);
-        else
-            add_guess(job, error);
-    }
-    if (!job->scene)
-        return false;
-    if (lam_scene_triangle_count(job->scene) == 0)
-        return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw",
-                        job->model);
-    return true;
-}
-
-static void place_camera(struct job *job)
-{
-    const struct options *o = job->options;
-    double start = clock_ms();
-    if (o->camera) {
-        struct camera_option camera;
-        lam_error unused;
-        camera_option_parse(o->camera, &camera, &unused); // was checked when the option was read
-        job->camera = camera_option_complete(&camera, job->scene);
-    } else {
-        lam_view view = view_of(o);
-        job->camera = lam_camera_fit(job->scene, &view);
-    }
-    job->times.camera = clock_ms() - start;
-}
-
-static int by_total(const void *a, const void *b)
-{
-    double x = ((const lam_frame_report *)a)->total_ms, y = ((const lam_frame_report *)b)->total_ms;
-    return (x > y) - (x < y);
-}
-
-// Draws --repeat frames and keeps the report of the median one (the faster of the two in the middle).
-static bool draw(struct job *job, const lam_rgba *background, struct progress *progress, lam_error *error)
-{
-    const struct options *o = job->options;
-    lam_draw_params params = {.samples = o->samples,
-                              .background = *background,
-                              .color = (lam_color_mode)o->color,
-                              .rig = (lam_rig)o->rig,
-                              .shading = (lam_shading)o->shading,
-                              .reflection = (lam_reflection)o->reflection};
-    lam_frame_report *reports = calloc((size_t)o->repeat, sizeof *reports);
-    if (!reports)
-        return complain(error, LAM_LIMIT, "out of memory");
-    bool ok = true;
-    for (int i = 0; ok && i < o->repeat; i++) {
-        lam_control control;
-        progress_phase(progress, 0.5 + 0.5 * i / o->repeat, 0.5 / o->repeat);
-        ok = control_of(job, progress, &control, error) &&
-             lam_draw(job->device, job->scene, &job->camera, &params, &job->image, &control, error);
-        if (ok)
-            lam_device_report(job->device, &reports[i]);
-    }
-    if (ok) {
-        qsort(reports, (size_t)o->repeat, sizeof *reports, by_total);
-        job->times.frame = reports[(o->repeat - 1) / 2];
-        job->times.frame_least = reports[0].total_ms;
-        job->times.frame_most = reports[o->repeat - 1].total_ms;
-        job->times.frames = o->repeat;
-    }
-    free(reports);
-    return ok;
-}
-
-static bool write_output(struct job *job, const lam_rgba *background, lam_error *error)
-{
-    if (interrupted())
-        return complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
-    const struct options *o = job->options;
-    double start = clock_ms();
-    lam_save_params params = {.background = {background->r, background->g, background->b},
-                              .threads = o->threads,
-                              .raw = o->color == LAM_COLOR_RAW};
-    lam_bytes bytes = {0};
-    bool ok;
-    if (output_is_stream(job->output)) {
-        ok = lam_image_encode(&job->image, job->format, &params, &bytes, error) &&
-             output_write(job->output, &bytes, error);
-        job->bytes = bytes.size;
-        lam_bytes_free(&bytes);
-    } else {
-        ok = lam_image_save(&job->image, job->output, &params, error);
-        job->bytes = ok ? output_size(job->output) : 0;
-    }
-    job->times.encode = clock_ms() - start;
-    job->written = ok;
-    return ok;
-}
-
-static bool run_job(struct job *job, struct progress *progress, lam_error *error)
-{
-    const struct options *o = job->options;
-    bool stream = output_is_stream(job->output);
-    lam_pixel_format format = LAM_RGBA8;
-    lam_rgba background = {0};
-    if (!stream && !lam_image_format_for(job->output, &format, error))
-        return false;
-    job->format = stream ? "png" : strrchr(job->output, '.') + 1;
-    if (strcmp(job->output, "-") != 0 &&
-        !output_check(job->output, job->model, output_is_named(o->output), error))
-        return false;
-    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &background, error))
-        return false;
-    uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
-    if (o->memory_limit_bytes && bytes > o->memory_limit_bytes)
-        return complain(error, LAM_LIMIT,
-                        "the picture of %dx%d pixels needs %.1f MB, more than the memory limit", o->width,
-                        o->height, (double)bytes / 1e6);
-    if (!lam_image_make(&job->image, o->width, o->height, format, error) || !load(job, progress, error))
-        return false;
-    place_camera(job);
-    return draw(job, &background, progress, error) && write_output(job, &background, error);
 }
 
 // --- telling
@@ -355,7 +129,7 @@ static int render_one(const char *model, lam_device *device, const struct option
     char *path = output_path(o->output, model);
     job.output = path;
     lam_error error = {0};
-    bool ok = job.output ? run_job(&job, &progress, &error) : complain(&error, LAM_LIMIT, "out of memory");
+    bool ok = job.output ? job_run(&job, &progress, &error) : complain(&error, LAM_LIMIT, "out of memory");
     job.times.total = clock_ms() - job.times.start;
     progress_end(&progress);
     if (!ok)

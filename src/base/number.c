@@ -1,9 +1,10 @@
 // number.c: numbers in text, correctly rounded, whatever the locale.
 //
 // Three ways, each used where the one before cannot be sure of the last bit:
-// 1. Few digits and a small power of ten: one exact operation (Clinger, "How to Read Floating Point Numbers Accurately",
-//    1990); for floats a product in double, unless it lies near the middle between two floats.
-// 2. One or two 64×64-bit products with a 128-bit power of five (Lemire, "Number Parsing at a Gigabyte per Second", 2021).
+// 1. Few digits and a small power of ten: one exact operation (Clinger, "How to Read Floating Point Numbers
+//    Accurately", 1990); for floats a product in double, unless it lies near the middle between two floats.
+// 2. One or two 64×64-bit products with a 128-bit power of five (Lemire, "Number Parsing at a Gigabyte per
+//    Second", 2021).
 // 3. Long division of exact big integers.
 #include "number.h"
 
@@ -20,10 +21,10 @@ struct decimal {
 
 // What is rounded to.
 struct format {
-    int mantissa_bits;          // stored ones
-    int least_exponent;         // of the exponent field 0, minus one: −bias
-    int infinite;               // the exponent field of infinity
-    int even_first, even_last;  // powers of ten at which a product of 64 bits can lie in the middle between two
+    int mantissa_bits;  // stored ones
+    int least_exponent; // of the exponent field 0, minus one: −bias
+    int infinite;       // the exponent field of infinity
+    int even_first, even_last;   // powers of ten at which a product can lie in the middle between two
     int least_power, most_power; // below: 0, above: infinity, whatever 19 digits stand before
 };
 static const struct format format_double = {52, -1023, 0x7ff, -4, 23, -342, 308};
@@ -63,7 +64,8 @@ static void take_leading(struct decimal *d, int64_t exponent_behind_run, const u
         d->digits = d->digits * 10 + (unsigned)(*at - '0');
         taken++;
     }
-    // Digits that were not taken: those before the point count as powers of ten, those behind it were counted as taken.
+    // Digits that were not taken: those before the point count as powers of ten, those behind it were counted
+    // as taken.
     int64_t left = d->stop - at;
     if (point && at <= point)
         left--; // the point itself
@@ -171,21 +173,23 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
         return true;
     }
     // In the middle exactly: round to even, not up.
-    if (product.low <= 1 && power >= format->even_first && power <= format->even_last && (mantissa & 3) == 1 &&
-        mantissa << shift == product.high)
+    if (product.low <= 1 && power >= format->even_first && power <= format->even_last &&
+        (mantissa & 3) == 1 && mantissa << shift == product.high)
         mantissa &= ~UINT64_C(1);
     mantissa = (mantissa + (mantissa & 1)) >> 1;
     if (mantissa >= 2 * hidden) {
         mantissa = hidden;
         field++;
     }
-    *bits = field >= format->infinite ? infinity : ((uint64_t)field << format->mantissa_bits | (mantissa & ~hidden));
+    *bits = field >= format->infinite ? infinity
+                                      : ((uint64_t)field << format->mantissa_bits | (mantissa & ~hidden));
     return true;
 }
 
 // --- the third way
 
-// Unsigned big integers, lowest limb first. 770 digits times 10^308, or 10^(342 + 770) and its multiples by 2^64, fit.
+// Unsigned big integers, lowest limb first. 770 digits times 10^308, or 10^(342 + 770) and its multiples by
+// 2^64, fit.
 enum { LIMBS = 160, DIGITS_MAX = 770 };
 struct big {
     uint32_t limb[LIMBS];
@@ -253,8 +257,9 @@ static void big_subtract(struct big *a, const struct big *b) // a ≥ b
         a->count--;
 }
 
-// All the digits of the run, up to DIGITS_MAX significant ones: no middle between two doubles has more than 767, so what
-// comes behind only matters by being there, which one more digit says. Returns the power of ten it is to be multiplied by.
+// All the digits of the run, up to DIGITS_MAX significant ones: no middle between two doubles has more than
+// 767, so what comes behind only matters by being there, which one more digit says. Returns the power of ten
+// it is to be multiplied by.
 static int64_t big_digits(const struct decimal *d, struct big *a)
 {
     const uint8_t *at = d->first;
@@ -358,7 +363,8 @@ static uint64_t round_decimal(const struct decimal *d, const struct format *form
 
 // --- what the header promises
 
-// "inf", "infinity", "nan", "nan(…)", in any case. `*bits` is the mantissa's top bit for a NaN, 0 for infinity.
+// "inf", "infinity", "nan", "nan(…)", in any case. `*bits` is the mantissa's top bit for a NaN, 0 for
+// infinity.
 static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, bool *negative, bool *nan)
 {
     *negative = false;
@@ -377,7 +383,8 @@ static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, bool *
         *nan = w == 2;
         if (*nan && c < end && *c == '(') {
             const uint8_t *inside = c + 1;
-            while (inside < end && ((unsigned)(*inside - '0') < 10 || (unsigned)((*inside | 0x20) - 'a') < 26 || *inside == '_'))
+            while (inside < end && ((unsigned)(*inside - '0') < 10 ||
+                                    (unsigned)((*inside | 0x20) - 'a') < 26 || *inside == '_'))
                 inside++;
             if (inside < end && *inside == ')')
                 c = inside + 1;
@@ -428,12 +435,14 @@ const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out)
 
 const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out)
 {
-    // 10^e for e from −28 to 18, each within half a unit: with 19 digits before it the product stays a normal float.
+    // 10^e for e from −28 to 18, each within half a unit: with 19 digits before it the product stays a normal
+    // float.
     enum { LEAST = -28, MOST = 18 };
-    static const double powers[] = {1e-28, 1e-27, 1e-26, 1e-25, 1e-24, 1e-23, 1e-22, 1e-21, 1e-20, 1e-19, 1e-18, 1e-17,
-                                    1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9,  1e-8,  1e-7,  1e-6,  1e-5,
-                                    1e-4,  1e-3,  1e-2,  1e-1,  1e0,   1e1,   1e2,   1e3,   1e4,   1e5,   1e6,   1e7,
-                                    1e8,   1e9,   1e10,  1e11,  1e12,  1e13,  1e14,  1e15,  1e16,  1e17,  1e18};
+    static const double powers[] = {1e-28, 1e-27, 1e-26, 1e-25, 1e-24, 1e-23, 1e-22, 1e-21, 1e-20, 1e-19,
+                                    1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9,
+                                    1e-8,  1e-7,  1e-6,  1e-5,  1e-4,  1e-3,  1e-2,  1e-1,  1e0,   1e1,
+                                    1e2,   1e3,   1e4,   1e5,   1e6,   1e7,   1e8,   1e9,   1e10,  1e11,
+                                    1e12,  1e13,  1e14,  1e15,  1e16,  1e17,  1e18};
     struct decimal d;
     const uint8_t *behind = scan(at, end, &d);
     if (!behind) {

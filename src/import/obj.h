@@ -86,8 +86,8 @@ struct obj {
     struct mtl_set materials;
 };
 
-// obj_scan.c
-// Where a logical line ends: behind its '\n', or at `end`. A backslash before the '\n' continues it.
+// obj_scan.c Where a logical line ends: behind its '\n', or at `end`. A backslash before the '\n' continues
+// it.
 const uint8_t *obj_line_behind(const uint8_t *at, const uint8_t *end);
 // The next word of the statement, or its end: at '\n' or `end`. Steps over white space, continued lines and a
 // comment.

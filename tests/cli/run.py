@@ -15,8 +15,11 @@ suite = ["test_options", "test_output", "test_errors", "test_docs"]
 class TapResult(unittest.TextTestResult):
     """Prints a line of the Test Anything Protocol for each test, so that the suite can count them."""
 
+    lines = 0
+
     def tell(self, test, ok, note=""):
-        print("%s %d - %s%s" % ("ok" if ok else "not ok", self.testsRun, test.id(), note), flush=True)
+        self.lines += 1
+        print("%s %d - %s%s" % ("ok" if ok else "not ok", self.lines, test.id(), note), flush=True)
 
     def addSuccess(self, test):
         super().addSuccess(test)
@@ -29,6 +32,11 @@ class TapResult(unittest.TextTestResult):
     def addError(self, test, err):
         super().addError(test, err)
         self.tell(test, False)
+
+    def addSubTest(self, test, subtest, err):
+        super().addSubTest(test, subtest, err)
+        if err:
+            self.tell(subtest, False)
 
     def addSkip(self, test, reason):
         super().addSkip(test, reason)

@@ -157,7 +157,7 @@ class Streams(Case):
             self.assertEqual(b"\033[" in text, colored, env)
 
     def test_progress_bar(self):
-        slow = ("teapot", "-s", 512, "--repeat", 1000, "--time-limit", 1.5)  # still at work after half a second
+        slow = ("teapot", "-s", 512, "--repeat", 100000, "--time-limit", 1.5)  # still at work after half a second
         code, text = self.on_terminal(*slow, env={"TERM": "xterm", "NO_COLOR": ""})
         self.assertEqual(code, 4)
         self.assertIn(b"[#" if b"[#" in text else b"[....", text)
@@ -239,12 +239,24 @@ class Report(Case):
         self.assertTrue(any("lost.mtl" in w for w in report["warnings"]))
 
 
+def wait_until_caught(process, number):
+    """Until the program catches a signal; what it was sent before would end it like any other."""
+    for _ in range(1000):
+        with open(f"/proc/{process.pid}/status") as status:
+            caught = next(line for line in status if line.startswith("SigCgt")).split()[1]
+        if int(caught, 16) >> (number - 1) & 1:
+            return
+        time.sleep(0.01)
+    raise TimeoutError("the program does not catch the signal")
+
+
 class Interrupt(Case):
     def test_control_c(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             with subprocess.Popen([PROGRAM, "teapot", "-s", "1024", "--repeat", "100000"], cwd=self.folder,
                                   stderr=subprocess.PIPE, stdout=subprocess.PIPE) as process:
-                time.sleep(0.4)
+                wait_until_caught(process, number)
+                time.sleep(0.1)
                 process.send_signal(number)
                 sent = time.monotonic()
                 _, text = process.communicate(timeout=20)
@@ -255,14 +267,15 @@ class Interrupt(Case):
             self.assertEqual(self.new_files(), set())
 
     def test_exit_code_in_a_shell(self):
-        script = f'"{PROGRAM}" teapot -q -s 1024 --repeat 100000 & sleep 0.4; kill -TERM $!; wait $!; echo $?'
+        script = f'"{PROGRAM}" teapot -q -s 1024 --repeat 100000 & sleep 1; kill -TERM $!; wait $!; echo $?'
         done = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, timeout=30)
         self.assertEqual(done.stdout, b"143\n")
 
     def test_standard_input_can_be_interrupted(self):
         read, write = os.pipe()
         with subprocess.Popen([PROGRAM, "-"], cwd=self.folder, stdin=read, stderr=subprocess.PIPE) as process:
-            time.sleep(0.3)
+            wait_until_caught(process, signal.SIGINT)
+            time.sleep(0.1)
             process.send_signal(signal.SIGINT)
             process.communicate(timeout=10)
         os.close(read)

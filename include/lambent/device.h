@@ -63,6 +63,26 @@ typedef enum lam_reflection {
     LAM_REFLECTION_KAJIYA_KAY_LECTURE,
 } lam_reflection;
 
+// Where lighting is worked out. The CPU device gives the same bytes for every stage that a shading method can run in.
+typedef enum lam_stage {
+    LAM_STAGE_AUTO = 0,    // fragment
+    LAM_STAGE_APPLICATION, // before drawing: flat, Gouraud
+    LAM_STAGE_VERTEX,      // flat, Gouraud
+    LAM_STAGE_FRAGMENT,    // flat, Phong
+} lam_stage;
+
+// Where the eye is for highlights.
+typedef enum lam_viewer {
+    LAM_VIEWER_LOCAL = 0, // at its place; infinitely far for an orthographic camera
+    LAM_VIEWER_INFINITE,  // infinitely far along +z of eye space for every point
+} lam_viewer;
+
+// Which normal flat shading takes.
+typedef enum lam_flat_normal {
+    LAM_FLAT_NORMAL_FACE = 0, // the triangle's own
+    LAM_FLAT_NORMAL_VERTEX,   // its last vertex's, as OpenGL does with smooth normals
+} lam_flat_normal;
+
 // How a frame is drawn. All zero is the plain default.
 typedef struct lam_draw_params {
     int samples; // per pixel: 1, 2, 4, 8 or 16; 0: 4
@@ -71,6 +91,12 @@ typedef struct lam_draw_params {
     lam_rig rig;
     lam_shading shading;
     lam_reflection reflection;
+    lam_stage stage; // a stage that the shading cannot run in is LAM_BAD_ARGUMENT
+    lam_viewer viewer;
+    lam_flat_normal flat_normal;
+    bool match_highlights; // shininess is Phong's α: Blinn–Phong takes 4α, so that both highlights look alike
+    bool gl1; // as OpenGL 1 did: vertex colours clamped to 0…1 before they are interpolated, shininess at most 128,
+              // and each light's ambient attenuated and narrowed by its cone
 } lam_draw_params;
 
 // What a frame took. Milliseconds, and counts.

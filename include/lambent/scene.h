@@ -117,6 +117,13 @@ typedef struct lam_object {
 LAM_API lam_object lam_object_default(void);
 LAM_API int lam_scene_add_object(lam_scene *scene, const lam_object *object, lam_error *error);
 
+// Change what a scene holds: the item at `index` becomes a copy of the one given. False: LAM_BAD_ARGUMENT (no such index, or as
+// in the calls that add), LAM_LIMIT.
+LAM_API bool lam_scene_set_material(lam_scene *scene, int index, const lam_material *material, lam_error *error);
+LAM_API bool lam_scene_set_object(lam_scene *scene, int index, const lam_object *object, lam_error *error);
+LAM_API bool lam_scene_set_light(lam_scene *scene, int index, const lam_light *light, lam_error *error);
+LAM_API void lam_scene_clear_lights(lam_scene *scene); // all of them; the scene's ambient light stays
+
 // Look into a scene. Pointers stay valid until the scene is changed or freed; NULL out of range.
 LAM_API int lam_scene_mesh_count(const lam_scene *scene);
 LAM_API int lam_scene_material_count(const lam_scene *scene);

@@ -235,12 +235,17 @@ static bool make_products(struct cpu_device *device, struct cpu_frame *cpu, lam_
         memcpy(out->emission, &material->emission, sizeof out->emission);
         memcpy(out->diffuse, &material->diffuse, sizeof out->diffuse);
         out->shininess = material->shininess;
+        if (frame->match_highlights && frame->reflection == LAM_REFLECTION_BLINN_PHONG)
+            out->shininess *= 4;
+        if (frame->gl1 && out->shininess > 128)
+            out->shininess = 128;
         out->fibre = material->fibre;
         struct light_products *list = (struct light_products *)at;
         at += lights * sizeof *list;
         for (size_t i = 0; i < lights; i++) {
             product(list[i].diffuse, &material->diffuse.r, frame->lights[i].diffuse);
             product(list[i].specular, &material->specular.r, frame->lights[i].specular);
+            product(list[i].ambient, &material->ambient.r, frame->lights[i].ambient);
         }
         out->lights = list;
         out->sky = (float(*)[3])at;

@@ -117,6 +117,7 @@ struct thread_state {
 // A light against a material: the products that the sum needs (conventions, "The sum").
 struct light_products {
     float diffuse[3], specular[3]; // kd ⊙ Ld, ks ⊙ Ls
+    float ambient[3];              // ka ⊙ La, where it is attenuated (gl1)
 };
 struct material_products {
     float ambient[3];              // ka ⊙ (La_global + Σ La)

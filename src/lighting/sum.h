@@ -88,6 +88,13 @@ FN terms add_reflected(terms sum, source light, toward t, reflected r)
     return sum;
 }
 
+// Adds a light's ambient share as OpenGL 1 did: weakened by distance and cone like the rest of it.
+FN terms add_arriving_ambient(terms sum, vec3 ambient, toward t)
+{
+    sum.ambient = add3(sum.ambient, scale3(ambient, t.attenuation * t.spot));
+    return sum;
+}
+
 // Adds one point, directional or spot light.
 FN terms add_light(terms sum, surface s, source light, num shininess, int kind, int falloff, int model, int fibre)
 {

@@ -46,6 +46,16 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
         (unsigned)params->shading > LAM_SHADING_FLAT ||
         (unsigned)params->reflection > LAM_REFLECTION_KAJIYA_KAY_LECTURE)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: color, rig, shading or reflection is out of its range");
+    if ((unsigned)params->stage > LAM_STAGE_FRAGMENT || (unsigned)params->viewer > LAM_VIEWER_INFINITE ||
+        (unsigned)params->flat_normal > LAM_FLAT_NORMAL_VERTEX)
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
+    if (params->shading == LAM_SHADING_PHONG &&
+        (params->stage == LAM_STAGE_APPLICATION || params->stage == LAM_STAGE_VERTEX))
+        return fail(error, LAM_BAD_ARGUMENT, "Phong shading lights every fragment: its stage is fragment; "
+                                             "application and vertex go with flat and Gouraud shading");
+    if (params->shading == LAM_SHADING_GOURAUD && params->stage == LAM_STAGE_FRAGMENT)
+        return fail(error, LAM_BAD_ARGUMENT, "Gouraud shading lights every vertex: its stage is application or vertex; "
+                                             "fragment goes with flat and Phong shading");
     return true;
 }
 
@@ -214,11 +224,16 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
         store_rgb(out->ground, light->ground);
         return true;
     }
-    frame->ambient[0] += light->ambient.r;
-    frame->ambient[1] += light->ambient.g;
-    frame->ambient[2] += light->ambient.b;
-    if (light->type != LAM_LIGHT_AMBIENT)
-        build_light(&frame->lights[frame->light_count++], light, &space, index);
+    struct frame_light *placed = light->type == LAM_LIGHT_AMBIENT ? NULL : &frame->lights[frame->light_count++];
+    if (placed)
+        build_light(placed, light, &space, index);
+    if (placed && frame->gl1) {
+        store_rgb(placed->ambient, light->ambient);
+    } else {
+        frame->ambient[0] += light->ambient.r;
+        frame->ambient[1] += light->ambient.g;
+        frame->ambient[2] += light->ambient.b;
+    }
     return true;
 }
 
@@ -300,6 +315,10 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->shading = params->shading;
     frame->reflection = params->reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : params->reflection;
     frame->orthographic = camera->ortho_half_height > 0;
+    frame->distant_viewer = frame->orthographic || params->viewer == LAM_VIEWER_INFINITE;
+    frame->flat_normal = params->flat_normal;
+    frame->match_highlights = params->match_highlights;
+    frame->gl1 = params->gl1;
     frame->draw_count = frame->surface_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
 

@@ -50,6 +50,7 @@ struct frame_light {
     float inverse_range; // 0: none
     float cos_cutoff, exponent;
     float cos_outer, inverse_width;
+    float ambient[3]; // of this light alone, where it is not in the frame's sum (gl1)
     float diffuse[3], specular[3];
     int light; // index among the frame's lam_lights, for naming; −1: of the rig
 };
@@ -66,6 +67,9 @@ struct frame {
     lam_color_mode color;
     lam_shading shading;
     lam_reflection reflection; // never AUTO
+    lam_flat_normal flat_normal;
+    bool match_highlights, gl1;
+    bool distant_viewer; // v = +z for every point: an orthographic camera, or asked for
     bool orthographic;
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;
@@ -81,7 +85,7 @@ struct frame {
     int light_count;
     struct frame_hemisphere *hemispheres;
     int hemisphere_count;
-    float ambient[3]; // La_global + Σ La of all lights
+    float ambient[3]; // La_global + Σ La of all lights (gl1: of those without a place only)
 
     lam_material default_material;
     struct buffer storage; // holds the arrays

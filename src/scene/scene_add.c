@@ -1,0 +1,281 @@
+// scene_add.c: adding to a scene by hand, and changing it: everything is checked and copied.
+#include "scene_store.h"
+
+#include "fail.h"
+#include "float_state.h"
+#include "linear.h"
+#include "normals.h"
+
+#include <string.h>
+
+static bool finite_floats(const float *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!(numbers[i] - numbers[i] == 0))
+            return false;
+    return true;
+}
+
+static bool indices_below(const uint32_t *indices, size_t count, uint32_t limit)
+{
+    for (size_t i = 0; i < count; i++)
+        if (indices[i] >= limit)
+            return false;
+    return true;
+}
+
+// One attribute of a mesh under check: its array, how many there are, its index array.
+static bool check_attribute(const char *name, const float *values, uint32_t count, int width, const uint32_t *own,
+                            const lam_mesh *mesh, lam_error *error)
+{
+    size_t corners = (size_t)mesh->triangle_count * 3;
+    if (!values)
+        return true;
+    if (!finite_floats(values, (size_t)count * (size_t)width))
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: %s hold a number that is not finite", name);
+    if (own ? !indices_below(own, corners, count)
+            : count < (mesh->indices ? mesh->vertex_count : corners))
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner refers to %s beyond the %u there are", name, count);
+    return true;
+}
+
+static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_error *error)
+{
+    size_t corners = (size_t)mesh->triangle_count * 3;
+    if (corners > UINT32_MAX)
+        return fail(error, LAM_LIMIT, "mesh: %u triangles, at most %u can be held", mesh->triangle_count, UINT32_MAX / 3);
+    if (!mesh->positions && mesh->triangle_count)
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: positions are NULL");
+    if (!math_finite(mesh->origin[0]) || !math_finite(mesh->origin[1]) || !math_finite(mesh->origin[2]))
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: the origin is not finite");
+    if (mesh->indices && !indices_below(mesh->indices, corners, mesh->vertex_count))
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: an index is not below vertex_count, %u", mesh->vertex_count);
+    if (!mesh->indices && corners > mesh->vertex_count)
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: %u triangles without indices need %zu vertices, found %u",
+                    mesh->triangle_count, corners, mesh->vertex_count);
+    if (mesh->positions && !finite_floats(mesh->positions, (size_t)mesh->vertex_count * 3))
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: positions hold a number that is not finite");
+    if (!check_attribute("normals", mesh->normals, mesh->normal_count, 3, mesh->normal_indices, mesh, error) ||
+        !check_attribute("texcoords", mesh->texcoords, mesh->texcoord_count, 2, mesh->texcoord_indices, mesh, error) ||
+        !check_attribute("tangents", mesh->tangents, mesh->tangent_count, 4, mesh->tangent_indices, mesh, error))
+        return false;
+    if (mesh->colors) {
+        if (mesh->colors_format < LAM_COLORS_SRGB8 || mesh->colors_format > LAM_COLORS_LINEAR_F32)
+            return fail(error, LAM_BAD_ARGUMENT, "mesh: colors are given, but colors_format is %d", mesh->colors_format);
+        const float *as_floats = mesh->colors_format == LAM_COLORS_LINEAR_F32 ? mesh->colors : NULL;
+        if (as_floats && !finite_floats(as_floats, (size_t)mesh->color_count * 4))
+            return fail(error, LAM_BAD_ARGUMENT, "mesh: colors hold a number that is not finite");
+        size_t needed = mesh->colors_rate == LAM_PER_TRIANGLE ? mesh->triangle_count
+                        : mesh->indices                       ? mesh->vertex_count
+                                                              : corners;
+        bool by_index = mesh->color_indices && mesh->colors_rate == LAM_PER_VERTEX;
+        if (by_index ? !indices_below(mesh->color_indices, corners, mesh->color_count) : mesh->color_count < needed)
+            return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner refers to colors beyond the %u there are", mesh->color_count);
+    }
+    uint64_t next = 0;
+    for (uint32_t i = 0; i < mesh->part_count; i++) {
+        const lam_part *part = &mesh->parts[i];
+        if (part->first_triangle != next)
+            return fail(error, LAM_BAD_ARGUMENT, "mesh: part %u starts at triangle %u, expected %llu", i,
+                        part->first_triangle, (unsigned long long)next);
+        next += part->triangle_count;
+        if (part->material >= scene->materials.count)
+            return fail(error, LAM_BAD_ARGUMENT, "mesh: part %u names material %d of %d", i, part->material,
+                        scene->materials.count);
+    }
+    if (mesh->part_count && next != mesh->triangle_count)
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: the parts cover %llu of %u triangles", (unsigned long long)next,
+                    mesh->triangle_count);
+    return true;
+}
+
+// Replaces *pointer by a copy in the scene's arena.
+static bool copy_array(struct lam_scene *scene, const void *pointer, size_t count, size_t size)
+{
+    const void **at = (const void **)(uintptr_t)pointer;
+    if (!*at)
+        return true;
+    void *copy = arena_array(&scene->arena, count, size);
+    if (!copy)
+        return false;
+    if (count)
+        memcpy(copy, *at, count * size);
+    *at = copy;
+    return true;
+}
+
+static bool copy_text(struct lam_scene *scene, const char **text)
+{
+    if (!*text)
+        return true;
+    *text = arena_string(&scene->arena, *text);
+    return *text != NULL;
+}
+
+static bool copy_mesh(struct lam_scene *scene, lam_mesh *mesh)
+{
+    size_t corners = (size_t)mesh->triangle_count * 3;
+    size_t color_size = mesh->colors_format == LAM_COLORS_LINEAR_F32 ? 16 : 4;
+    lam_part *parts = NULL;
+    bool ok = copy_text(scene, &mesh->name) && copy_array(scene, &mesh->positions, mesh->vertex_count, 12) &&
+              copy_array(scene, &mesh->indices, corners, 4) && copy_array(scene, &mesh->normals, mesh->normal_count, 12) &&
+              copy_array(scene, &mesh->normal_indices, corners, 4) &&
+              copy_array(scene, &mesh->texcoords, mesh->texcoord_count, 8) &&
+              copy_array(scene, &mesh->texcoord_indices, corners, 4) &&
+              copy_array(scene, &mesh->tangents, mesh->tangent_count, 16) &&
+              copy_array(scene, &mesh->tangent_indices, corners, 4) &&
+              copy_array(scene, &mesh->colors, mesh->color_count, color_size) &&
+              copy_array(scene, &mesh->color_indices, corners, 4) &&
+              copy_array(scene, &mesh->smoothing_groups, mesh->triangle_count, 4) &&
+              copy_array(scene, &mesh->parts, mesh->part_count, sizeof *parts);
+    parts = (lam_part *)(uintptr_t)mesh->parts;
+    for (uint32_t i = 0; ok && i < mesh->part_count; i++)
+        ok = copy_text(scene, &parts[i].name);
+    return ok;
+}
+
+int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error)
+{
+    if (!scene || !mesh) {
+        fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_mesh: %s is NULL", scene ? "mesh" : "scene");
+        return -1;
+    }
+    uint64_t state = float_state_enter();
+    lam_mesh copy = *mesh;
+    bool ok = check_mesh(scene, mesh, error);
+    if (ok && !copy_mesh(scene, &copy))
+        ok = watch_memory_error(scene->arena.watch, 0, error);
+    if (ok && !copy.normals)
+        ok = normals_smooth(&copy, math_radians(40), &scene->arena, NULL, NULL, error);
+    int index = ok ? scene_take_mesh(scene, &copy, error) : -1;
+    if (index >= 0 && !scene_measure(scene, NULL, error)) {
+        scene->meshes.count--;
+        index = -1;
+    }
+    float_state_leave(state);
+    return index;
+}
+
+// Checks a material and copies what it points to. False: the error tells why.
+static bool own_material(lam_scene *scene, const lam_material *material, lam_material *out, lam_error *error)
+{
+    if (!scene || !material)
+        return fail(error, LAM_BAD_ARGUMENT, "material: the %s is NULL", scene ? "material" : "scene");
+    const lam_material *m = material;
+    if (!finite_floats(&m->ambient.r, 3) || !finite_floats(&m->diffuse.r, 4) || !finite_floats(&m->specular.r, 3) ||
+        !finite_floats(&m->emission.r, 3) || !finite_floats(&m->reflectivity.r, 3))
+        return fail(error, LAM_BAD_ARGUMENT, "material: a colour is not finite");
+    if (!(m->shininess >= 0) || !finite_floats(&m->shininess, 1))
+        return fail(error, LAM_BAD_ARGUMENT, "material: shininess is %g, expected a finite number of at least 0",
+                    (double)m->shininess);
+    if (!(m->diffuse.a >= 0 && m->diffuse.a <= 1))
+        return fail(error, LAM_BAD_ARGUMENT, "material: the diffuse alpha is %g, expected 0 to 1", (double)m->diffuse.a);
+    *out = *material;
+    bool ok = copy_text(scene, &out->name);
+    for (int i = 0; ok && i < LAM_MAP_COUNT; i++)
+        ok = copy_text(scene, &out->map_names[i]) && copy_text(scene, &out->map_options[i]);
+    return ok || watch_memory_error(scene->arena.watch, 0, error);
+}
+
+int lam_scene_add_material(lam_scene *scene, const lam_material *material, lam_error *error)
+{
+    lam_material own;
+    return own_material(scene, material, &own, error) ? scene_take_material(scene, &own, error) : -1;
+}
+
+bool lam_scene_set_material(lam_scene *scene, int index, const lam_material *material, lam_error *error)
+{
+    lam_material own;
+    if (index < 0 || index >= lam_scene_material_count(scene))
+        return fail(error, LAM_BAD_ARGUMENT, "material: %d of %d", index, lam_scene_material_count(scene));
+    if (!own_material(scene, material, &own, error))
+        return false;
+    ((lam_material *)scene->materials.items)[index] = own;
+    return true;
+}
+
+static bool own_light(lam_scene *scene, const lam_light *light, lam_light *out, lam_error *error)
+{
+    if (!scene || !light)
+        return fail(error, LAM_BAD_ARGUMENT, "light: the %s is NULL", scene ? "light" : "scene");
+    if (!lam_light_check(light, error))
+        return false;
+    *out = *light;
+    return (copy_text(scene, &out->name) && copy_text(scene, &out->object)) ||
+           watch_memory_error(scene->arena.watch, 0, error);
+}
+
+int lam_scene_add_light(lam_scene *scene, const lam_light *light, lam_error *error)
+{
+    lam_light own;
+    return own_light(scene, light, &own, error) ? scene_take_light(scene, &own, error) : -1;
+}
+
+bool lam_scene_set_light(lam_scene *scene, int index, const lam_light *light, lam_error *error)
+{
+    lam_light own;
+    if (index < 0 || index >= lam_scene_light_count(scene))
+        return fail(error, LAM_BAD_ARGUMENT, "light: %d of %d", index, lam_scene_light_count(scene));
+    if (!own_light(scene, light, &own, error))
+        return false;
+    ((lam_light *)scene->lights.items)[index] = own;
+    return true;
+}
+
+void lam_scene_clear_lights(lam_scene *scene)
+{
+    if (scene)
+        scene->lights.count = 0;
+}
+
+static bool check_object(const struct lam_scene *scene, const lam_object *object, lam_error *error)
+{
+    if (object->mesh < 0 || object->mesh >= scene->meshes.count)
+        return fail(error, LAM_BAD_ARGUMENT, "object: mesh %d of %d", object->mesh, scene->meshes.count);
+    if (object->material < -1 || object->material >= scene->materials.count)
+        return fail(error, LAM_BAD_ARGUMENT, "object: material %d of %d", object->material, scene->materials.count);
+    if (object->back_material < -1 || object->back_material >= scene->materials.count)
+        return fail(error, LAM_BAD_ARGUMENT, "object: back_material %d of %d", object->back_material,
+                    scene->materials.count);
+    if ((unsigned)object->cull > LAM_CULL_FRONT)
+        return fail(error, LAM_BAD_ARGUMENT, "object: cull is %d, expected 0 to 2", object->cull);
+    const double(*m)[4] = object->transform.m;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            if (!math_finite(m[i][j]))
+                return fail(error, LAM_BAD_ARGUMENT, "object: transform[%d][%d] is not finite", i, j);
+    if (m[3][0] != 0 || m[3][1] != 0 || m[3][2] != 0 || m[3][3] != 1)
+        return fail(error, LAM_BAD_ARGUMENT, "object: the transform's last row is %g %g %g %g, expected 0 0 0 1", m[3][0],
+                    m[3][1], m[3][2], m[3][3]);
+    double determinant = mat4_determinant3(&object->transform);
+    if (!(determinant != 0) || !math_finite(determinant))
+        return fail(error, LAM_BAD_ARGUMENT, "object: the transform cannot be inverted");
+    return true;
+}
+
+static bool own_object(lam_scene *scene, const lam_object *object, lam_object *out, lam_error *error)
+{
+    if (!scene || !object)
+        return fail(error, LAM_BAD_ARGUMENT, "object: the %s is NULL", scene ? "object" : "scene");
+    if (!check_object(scene, object, error))
+        return false;
+    *out = *object;
+    return copy_text(scene, &out->name) || watch_memory_error(scene->arena.watch, 0, error);
+}
+
+int lam_scene_add_object(lam_scene *scene, const lam_object *object, lam_error *error)
+{
+    lam_object own;
+    return own_object(scene, object, &own, error) ? scene_take_object(scene, &own, error) : -1;
+}
+
+bool lam_scene_set_object(lam_scene *scene, int index, const lam_object *object, lam_error *error)
+{
+    lam_object own;
+    if (index < 0 || index >= lam_scene_object_count(scene))
+        return fail(error, LAM_BAD_ARGUMENT, "object: %d of %d", index, lam_scene_object_count(scene));
+    if (!own_object(scene, object, &own, error))
+        return false;
+    ((lam_object *)scene->objects.items)[index] = own;
+    return true;
+}

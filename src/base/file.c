@@ -124,11 +124,15 @@ static bool read_sized(int file, const char *path, size_t size, struct pool *poo
 // A pipe, a terminal, a device: read until it ends.
 static bool read_stream(int file, const char *path, struct watch *watch, struct file_bytes *out, lam_error *error)
 {
-    size_t room = 1 << 20, size = 0;
+    // A stream may have no end (/dev/zero); it is copied once more below.
+    size_t room = 1 << 20, size = 0, most = pages_of_machine() / 4;
     uint8_t *bytes = malloc(room);
     bool ok = bytes != NULL || fail_memory(error, room);
     while (ok) {
-        if (size == room) {
+        if (size >= most)
+            ok = fail(error, LAM_LIMIT, "%s: has no end within %.1f GB, a quarter of this machine's memory", path,
+                      (double)most / 1e9);
+        if (ok && size == room) {
             uint8_t *more = room > SIZE_MAX / 4 ? NULL : realloc(bytes, room * 2);
             if (!more) {
                 ok = fail_memory(error, room);
@@ -137,7 +141,7 @@ static bool read_stream(int file, const char *path, struct watch *watch, struct 
             bytes = more;
             room *= 2;
         }
-        ssize_t got = read(file, bytes + size, room - size);
+        ssize_t got = ok ? read(file, bytes + size, room - size) : 0;
         if (got == 0)
             break;
         if (got > 0)

@@ -18,9 +18,12 @@ void pages_free(void *pages, size_t held)
     free(pages);
 }
 
+size_t pages_of_machine(void) { return SIZE_MAX; }
+
 #else
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 enum { PAGE = 4096, HUGE_PAGE = 2 << 20 };
 
@@ -56,6 +59,12 @@ void pages_free(void *pages, size_t held)
 {
     if (pages)
         munmap(pages, held);
+}
+
+size_t pages_of_machine(void)
+{
+    long count = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+    return count > 0 && size > 0 ? (size_t)count * (size_t)size : SIZE_MAX;
 }
 
 #endif

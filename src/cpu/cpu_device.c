@@ -186,7 +186,7 @@ static bool make_lists(struct cpu_device *device, struct cpu_frame *cpu, size_t 
                     (unsigned long long)vertices, INT32_MAX);
     size_t pieces = *vertex_pieces + *triangle_pieces;
     size_t stride = ((size_t)vertices + 2 * LANES_MAX) & ~(size_t)(LANES_MAX - 1);
-    if (!buffer_reserve(&device->lists, pieces * sizeof(struct piece) + (size_t)frame->draw_count * sizeof(uint32_t),
+    if (!buffer_reserve(&device->lists, pieces * sizeof(struct piece) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t),
                         cpu->watch, error) ||
         !buffer_reserve(&device->vertices, stride * 3 * sizeof(float), cpu->watch, error))
         return false;
@@ -426,7 +426,7 @@ lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
     device->thread_count = pool_threads(pool);
     device->threads = threads;
     for (int i = 0; i < 256; i++) {
-        device->decode_srgb[i] = (float)srgb_decode(i / 255.0);
+        device->decode_srgb[i] = (float)srgb_linear(i / 255.0);
         device->decode_linear[i] = (float)(i / 255.0);
     }
     snprintf(device->base.name, sizeof device->base.name, "cpu %s, %d thread%s", kernels->name, device->thread_count,

@@ -1,6 +1,7 @@
 // image.c: pixels in memory, and how far two pictures are apart.
 #include "fail.h"
 #include "float_state.h"
+#include "pages.h"
 
 #include <lambent/image.h>
 
@@ -44,7 +45,8 @@ bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format fo
         return fail(error, LAM_LIMIT, "image: %d×%d pixels, expected at most %d×%d", width, height, SIDE_MOST,
                     SIDE_MOST);
     uint64_t bytes = (uint64_t)width * (uint64_t)height * pixel_bytes(format); // below 2³⁶
-    void *pixels = bytes <= SIZE_MAX ? get_pixels((size_t)bytes) : NULL;
+    // The system lends memory that is not there and kills the process that uses it; drawing and encoding need some too.
+    void *pixels = bytes <= SIZE_MAX && bytes <= pages_of_machine() / 2 ? get_pixels((size_t)bytes) : NULL;
     if (!pixels)
         return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which could not be had",
                     width, height, (double)bytes / 1e6);

@@ -19,8 +19,8 @@ struct over {
 static void make_over(struct over *over, bool raw)
 {
     for (int i = 0; i < 256; i++) {
-        over->linear[i] = raw ? i / 255.0 : srgb_decode(i / 255.0);
-        over->from[i] = raw ? (i - 0.5) / 255.0 : srgb_decode((i - 0.5) / 255.0);
+        over->linear[i] = raw ? i / 255.0 : srgb_linear(i / 255.0);
+        over->from[i] = raw ? (i - 0.5) / 255.0 : srgb_linear((i - 0.5) / 255.0);
     }
 }
 

@@ -1,8 +1,7 @@
 // mtl.c: MTL, the material files that OBJ files name. docs/formats.md says what each statement becomes.
-#define LANES 1 // srgb_decode, one number at a time
 #include "mtl.h"
 
-#include "encoding.h"
+#include "srgb.h"
 #include "number.h"
 #include "text.h"
 
@@ -111,7 +110,7 @@ static float within(struct reader *reader, const uint8_t *at, float x, float low
 // A colour as linear light. From 1 on, where sRGB ends, numbers are taken as they are.
 static float linear(const struct reader *reader, float c)
 {
-    return reader->raw || c >= 1 ? c : srgb_decode(c);
+    return reader->raw || c >= 1 ? c : (float)srgb_linear((double)c);
 }
 
 // K… r [g b]; one number stands for three. False: not read.
@@ -138,11 +137,27 @@ static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *
 }
 
 // Ends the material that is open and puts it into the scene.
+static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+
+// A material whose colours are all 0 shows nothing but a hole. Exporters write it where the colours are in textures, or
+// nowhere: the neutral colours are taken, and the file's user is told.
+static void mend_black(struct reader *reader, lam_material *m)
+{
+    lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
+    if (!reader->kd || !is_black(kd) || !is_black(m->ambient) || !is_black(m->specular) || !is_black(m->emission))
+        return;
+    lam_material neutral = lam_material_default();
+    m->ambient = neutral.ambient;
+    m->diffuse = (lam_rgba){neutral.diffuse.r, neutral.diffuse.g, neutral.diffuse.b, m->diffuse.a};
+    scene_warn(reader->scene, "%s: material '%s' is black in every colour; a neutral grey is drawn", reader->name, m->name);
+}
+
 static bool close_material(struct reader *reader, lam_error *error)
 {
     if (!reader->open)
         return true;
     lam_material *m = &reader->material;
+    mend_black(reader, m);
     // A texture that is not drawn yet multiplies its colour: without one the colour is the texture's own.
     if (!reader->kd && m->map_names[LAM_MAP_DIFFUSE])
         m->diffuse.r = m->diffuse.g = m->diffuse.b = 1;

@@ -1,9 +1,8 @@
 // obj_parse.c: pass two over an OBJ file: numbers and face corners, straight into their places.
-#define LANES 1 // srgb_decode, one number at a time
 #include "obj.h"
 
 #include "chunks.h"
-#include "encoding.h"
+#include "srgb.h"
 #include "number_scan.h"
 #include "origin.h"
 #include "text.h"
@@ -494,7 +493,7 @@ static bool convert_piece(void *user, size_t index, lam_error *error)
         for (int i = 0; i < 3; i++) {
             float c = color[i] < 0 ? 1 : color[i] * obj->color_scale; // a vertex without a colour is white
             c = c > 1 ? 1 : c;
-            color[i] = raw ? c : srgb_decode(c);
+            color[i] = raw ? c : (float)srgb_linear((double)c);
         }
     }
     return true;

@@ -1,8 +1,7 @@
 // ply_columns.c: columns of a PLY table as normals, tangents, texture coordinates and colours, in parallel
 // pieces.
-#define LANES 1 // srgb_decode, one number at a time
 #include "chunks.h"
-#include "encoding.h"
+#include "srgb.h"
 #include "linear.h"
 #include "ply_load.h"
 
@@ -79,7 +78,7 @@ static void clean_vector(const struct vectors *vectors, float *v)
             if (c == 3)
                 v[c] = v[c] < 1.0f ? v[c] : 1.0f;
             else if (vectors->kind == COLORS && v[c] <= 1.0f) // above, sRGB says nothing: light as it is
-                v[c] = srgb_decode(v[c]);
+                v[c] = (float)srgb_linear((double)v[c]);
         }
         return;
     }

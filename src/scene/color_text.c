@@ -32,7 +32,7 @@ static lam_rgba from_bytes(uint32_t rgba, lam_color_mode mode)
     double part[3];
     for (int i = 0; i < 3; i++) {
         double encoded = (double)(rgba >> (24 - 8 * i) & 255) / 255;
-        part[i] = mode == LAM_COLOR_RAW ? encoded : srgb_decode(encoded);
+        part[i] = mode == LAM_COLOR_RAW ? encoded : srgb_linear(encoded);
     }
     return (lam_rgba){(float)part[0], (float)part[1], (float)part[2], (float)((double)(rgba & 255) / 255)};
 }

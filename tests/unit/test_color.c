@@ -22,11 +22,11 @@ static void curve_is_the_standard(void **state)
     for (int i = 0; i <= 10000; i++) {
         double encoded = i / 10000.0;
         double expected = encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
-        assert_near(srgb_decode(encoded), expected, 4e-16);
+        assert_near(srgb_linear(encoded), expected, 4e-16);
     }
-    assert_true(srgb_decode(0) == 0 && srgb_decode(-1) == 0 && srgb_decode(NAN) == 0);
-    assert_near(srgb_decode(1), 1, 1e-15);
-    assert_true(srgb_decode(2) > srgb_decode(1.5));
+    assert_true(srgb_linear(0) == 0 && srgb_linear(-1) == 0 && srgb_linear(NAN) == 0);
+    assert_near(srgb_linear(1), 1, 1e-15);
+    assert_true(srgb_linear(2) > srgb_linear(1.5));
 }
 
 static lam_rgba parsed(const char *text, lam_color_mode mode)
@@ -49,7 +49,7 @@ static void assert_color(lam_rgba c, double r, double g, double b, double a)
 static void colors_in_every_form(void **state)
 {
     (void)state;
-    double half = srgb_decode(128 / 255.0), fifth = srgb_decode(0.2);
+    double half = srgb_linear(128 / 255.0), fifth = srgb_linear(0.2);
     assert_color(parsed("#ff8000", LAM_COLOR_SRGB), 1, half, 0, 1);
     assert_color(parsed("#FF8000", LAM_COLOR_RAW), 1, 128 / 255.0, 0, 1);
     assert_color(parsed("#ff800033", LAM_COLOR_SRGB), 1, half, 0, 0.2); // alpha is never decoded

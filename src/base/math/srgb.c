@@ -20,7 +20,7 @@ static double fifth_root(double x)
     return root;
 }
 
-double srgb_decode(double encoded)
+double srgb_linear(double encoded)
 {
     if (!(encoded > 0))
         return 0;

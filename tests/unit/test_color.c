@@ -24,7 +24,7 @@ static void curve_is_the_standard(void **state)
         double expected = encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
         assert_near(srgb_linear(encoded), expected, 4e-16);
     }
-    assert_true(srgb_linear(0) == 0 && srgb_linear(-1) == 0 && srgb_linear(NAN) == 0);
+    assert_true(srgb_linear(0) == 0 && srgb_linear(-1) == 0 && srgb_linear((double)NAN) == 0);
     assert_near(srgb_linear(1), 1, 1e-15);
     assert_true(srgb_linear(2) > srgb_linear(1.5));
 }

@@ -309,7 +309,7 @@ static void test_shape_options(void **state)
     lam_error error;
     static const lam_shape_params bad[] = {{.slices = 2},        {.slices = 16385}, {.slices = -1},
                                            {.stacks = -1},       {.stacks = 16385}, {.radius = -1},
-                                           {.radius = INFINITY}, {.radius = NAN}};
+                                           {.radius = (double)INFINITY}, {.radius = (double)NAN}};
     static const char *const named[] = {"slices", "slices", "slices", "stacks",
                                         "stacks", "radius", "radius", "radius"};
     for (int k = 0; k < 8; k++) {
@@ -585,7 +585,7 @@ static void test_bad_formulas(void **state)
         bad[i] = good;
     bad[0].surface = NULL;
     bad[1].u_max = 0;
-    bad[2].v_max = NAN;
+    bad[2].v_max = (double)NAN;
     bad[3].u_segments = 0;
     bad[4].v_segments = 16385;
     bad[5].surface = infinite_point;

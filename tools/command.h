@@ -11,7 +11,7 @@ struct command {
     const char *name;
     const char *operands; // as the help shows them; NULL: none
     const char *summary;  // one sentence
-    unsigned groups;      // bit g: takes the options of group g
+    unsigned groups;      // bit g: takes the options of group g; TAKES_…: single ones
     int least, most;      // count of operands; most −1: any
     command_fn *run;
 };
@@ -19,7 +19,7 @@ struct command {
 extern const struct command
     command_table[]; // the first one is what runs when no command is named; ends with NULL
 
-command_fn run_render, run_shapes, run_formats, run_help, run_generate;
+command_fn run_render, run_shapes, run_formats, run_help, run_generate, run_diff;
 
 // The exit codes, for the help, the man page and the docs. Ends with a NULL meaning.
 struct exit_code {

@@ -2,11 +2,13 @@
 #include "command.h"
 
 #define ABOUT (1u << GROUP_ABOUT)
-#define ALL   ((1u << GROUP_COUNT) - 1)
+#define ALL   (((1u << GROUP_COUNT) - 1) & ~(1u << GROUP_DIFF)) // all that a picture of a model takes
 
 const struct command command_table[] = {
     {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL,
      1, -1, run_render},
+    {"diff", "A B", "Tell how far two pictures are apart, and draw where.", ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET,
+     2, 2, run_diff},
     {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0, run_shapes},
     {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.",
      ABOUT, 0, 0, run_formats},
@@ -24,6 +26,7 @@ const struct example examples[] = {
     {"lambent -q *.stl -o pictures/", "a picture of each model, in a folder"},
     {"lambent - -o - < part.stl > part.png", "from standard input to standard output"},
     {"lambent koala.obj --json", "what was read, the camera, and the time of each step"},
+    {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
     {NULL, NULL},
 };
 
@@ -34,6 +37,7 @@ const struct exit_code exit_codes[] = {
     {3, "not supported: a format, or an instruction set that this machine lacks"},
     {4, "a limit was hit: time, memory, or a picture too large for this machine"},
     {5, "the output cannot be written, or would overwrite a file that lambent did not write"},
+    {6, "`diff`: the pictures differ by more than the tolerance"},
     {130, "interrupted (Ctrl-C); nothing half done is left behind"},
     {0, NULL},
 };
@@ -53,6 +57,16 @@ const struct topic topics[] = {
                "Standard output carries the picture (`-o -`) or the report (`--json`), and nothing else. "
                "Warnings, errors, the line that tells what was written, and a progress bar (only on a "
                "terminal, for work of over half a second) go to standard error."},
+    {"Comparing pictures",
+     "`lambent diff A B` reads two pictures of the same size (PNG or PPM with 8 bits, PFM with floats, both of one "
+     "kind) and prints the largest difference of a channel, the mean and the root of the mean square over all channels "
+     "(red, green, blue and alpha as the files hold them, 1 = full range), the PSNR in decibels (`infinite` for equal "
+     "pictures, null in JSON), and the share of pixels with a channel off by more than 1/255 and 2/255. With `-o` it "
+     "draws the difference: each channel is its difference times `--gain`, ends at white, and black is equal; where only alpha differs "
+     "the pixel is grey. A `.pfm` holds differences of floats without that end. With `--json` the figures are one line: `a`, `b`, "
+     "`width`, `height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, `differ` (0 or "
+     "1: beyond the tolerance) and `picture`. The exit code is 6 where the largest difference is over the tolerance, 1 where size or "
+     "kind are not the same."},
     {"Same picture everywhere", "The same model and options give the same bytes, whatever the instruction "
                                 "set, the count of threads, the compiler and the machine."},
     {"Environment",

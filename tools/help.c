@@ -63,12 +63,15 @@ static void print_option(const struct option *option)
 static void print_options(unsigned groups)
 {
     for (int group = 0; group < GROUP_COUNT; group++) {
-        if (!(groups & 1u << group))
-            continue;
-        printf("\n%s:\n", group_titles[group]);
-        for (const struct option *o = option_table; o->name; o++)
-            if ((int)o->group == group)
-                print_option(o);
+        bool titled = false;
+        for (const struct option *o = option_table; o->name; o++) {
+            if ((int)o->group != group || !option_is_taken(o, groups))
+                continue;
+            if (!titled)
+                printf("\n%s:\n", group_titles[group]);
+            titled = true;
+            print_option(o);
+        }
     }
 }
 

@@ -6,7 +6,8 @@
 
 const char *const group_titles[GROUP_COUNT] = {
     [GROUP_PICTURE] = "Picture", [GROUP_VIEW] = "View",      [GROUP_SHADING] = "Light and surface",
-    [GROUP_WORK] = "Work",       [GROUP_REPORT] = "Reports", [GROUP_ABOUT] = "About",
+    [GROUP_WORK] = "Work",       [GROUP_REPORT] = "Reports", [GROUP_DIFF] = "Comparing pictures (diff)",
+    [GROUP_ABOUT] = "About",
 };
 
 static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
@@ -84,9 +85,9 @@ const struct option option_table[] = {
      "the current folder under the model's name with `.png` as its ending (`model.png` when the model "
      "comes from standard input), and a file of that name which lambent did not write is never "
      "overwritten. `-o pictures/`, with a slash at its end, does the same in that folder.",
-     .takes_file = true, .store = store_text, FIELD(output)},
+     .takes_file = true, .store = store_text, FIELD(output), .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "Size in pixels: 800 is 800x800; 1920x1080.", NULL,
-     .store = store_size, .most = 65535},
+     .store = store_size, .most = 65535, .single = TAKES_SIZE},
     {"samples", 0, GROUP_PICTURE, "N", "4", "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges. Each pixel is lit once for each triangle that it shows.",
      sample_words, .store = store_word, FIELD(samples)},
@@ -162,12 +163,18 @@ const struct option option_table[] = {
      "It goes to standard output, or to standard error when the picture goes to standard output (then "
      "nothing else is written there). It comes in place of the line that tells the file's name, and also "
      "when something fails. Its schema is `docs/report.schema.json`.",
-     .store = store_switch, FIELD(json)},
+     .store = store_switch, FIELD(json), .single = TAKES_JSON},
     {"verbose", 'v', GROUP_REPORT, NULL, NULL,
      "Tell on standard error what was read and what each step took.", NULL, .store = store_switch,
      FIELD(verbose)},
     {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Say nothing but errors.", NULL, .store = store_switch,
-     FIELD(quiet)},
+     FIELD(quiet), .single = TAKES_QUIET},
+
+    {"tolerance", 0, GROUP_DIFF, "STEPS", "0",
+     "How far a channel may be off, in steps of 1/255 of the full range; beyond it the exit code is 6.", NULL,
+     .store = store_number, FIELD(tolerance), .least = 0, .most = 1e9},
+    {"gain", 0, GROUP_DIFF, "FACTOR", "16", "The picture of the difference shows it this many times as large.", NULL,
+     .store = store_number, FIELD(gain), .least = 0.001, .most = 1e6},
 
     {"version", 0, GROUP_ABOUT, NULL, NULL, "Print the version and what it was built with.", NULL,
      .store = store_switch, FIELD(version)},

@@ -9,7 +9,12 @@
 
 struct options option_defaults(void)
 {
-    return (struct options){.width = 1024, .height = 1024, .crease_angle_deg = -1, .repeat = 1};
+    return (struct options){.width = 1024, .height = 1024, .crease_angle_deg = -1, .repeat = 1, .gain = 16};
+}
+
+bool option_is_taken(const struct option *option, unsigned groups)
+{
+    return groups & (1u << option->group | option->single);
 }
 
 static const struct option *find_long(const char *name, size_t length)
@@ -34,7 +39,7 @@ static bool unknown_long(const char *name, size_t length, unsigned groups, lam_e
     snprintf(typed, sizeof typed, "%.*s", (int)(length < 60 ? length : 60), name);
     struct suggestion nearest = suggest_start(typed);
     for (const struct option *o = option_table; o->name; o++)
-        if (groups & 1u << o->group)
+        if (option_is_taken(o, groups))
             suggest_try(&nearest, o->name);
     if (nearest.best)
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; did you mean '--%s'?", typed,
@@ -50,7 +55,7 @@ static bool is_known_option(const char *word)
 static bool apply(const struct option *option, const char *value, unsigned groups, struct options *options,
                   lam_error *error)
 {
-    if (!(groups & 1u << option->group))
+    if (!option_is_taken(option, groups))
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' has no meaning for this command",
                         option->name);
     lam_error reason = {0};

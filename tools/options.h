@@ -37,8 +37,19 @@ struct options {
     double time_limit_s;         // 0: none
     uint64_t memory_limit_bytes; // 0: none
 
+    // Comparison of pictures
+    double tolerance, gain;
+
     // Reports
     bool json, quiet, verbose, version, help;
+};
+
+// Options that commands take singly, without the rest of their group: bits above those of the groups.
+enum {
+    TAKES_OUTPUT = 1u << 24,
+    TAKES_JSON = 1u << 25,
+    TAKES_QUIET = 1u << 26,
+    TAKES_SIZE = 1u << 27,
 };
 
 enum view_name {
@@ -58,6 +69,7 @@ enum option_group {
     GROUP_SHADING,
     GROUP_WORK,
     GROUP_REPORT,
+    GROUP_DIFF,
     GROUP_ABOUT, // every command has these
     GROUP_COUNT,
 };
@@ -86,6 +98,7 @@ struct option {
     bool (*store)(const struct option *option, const char *value, struct options *options, lam_error *error);
     size_t field, has_field; // has_field: a bool to set as well; 0: none
     double least, most;      // for numbers
+    unsigned single;         // TAKES_…, where commands may take it without its group
 };
 
 extern const struct option option_table[]; // ends with a NULL name
@@ -93,8 +106,11 @@ extern const char *const group_titles[GROUP_COUNT];
 
 struct options option_defaults(void);
 
-// Reads a command line's words (without the program's and the command's name). `groups` has bit g set for
-// each group that the command takes. Operands are moved to the front of `words`; returns their number, or −1
+// Whether a command takes an option: `groups` has bit g set for each group that it takes whole, and TAKES_… bits.
+bool option_is_taken(const struct option *option, unsigned groups);
+
+// Reads a command line's words (without the program's and the command's name). `groups` as above. Operands are
+// moved to the front of `words`; returns their number, or −1
 // with the reason: LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error);
 

@@ -25,7 +25,8 @@ extern "C" {
 #define LAM_API
 #endif
 
-// What kind of failure it was. The numbers 1 to 5 are also the exit codes of the `lambent` program.
+// What kind of failure it was. The numbers 1 to 5 are also the exit codes of the `lambent` program
+// (its 6 tells that two pictures differ, which is no failure).
 typedef enum lam_code {
     LAM_OK = 0,
     LAM_BAD_ARGUMENT = 1, // the caller's arguments do not fit; the sentence names the one

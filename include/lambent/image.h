@@ -81,6 +81,13 @@ typedef struct lam_difference {
 LAM_API bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference,
                                lam_error *error);
 
+// A picture of where two pictures of the same size and format are apart: each colour channel is `gain` times the larger of the
+// channel's own difference and alpha's, and alpha is 1. Black is equal. LAM_RGBA8 ends at 255; LAM_RGBA32F goes on, and is
+// infinite where lam_image_compare calls two numbers infinitely far apart. `gain` ≥ 0 and finite. `difference` is made by the call (what it
+// held is not freed) and freed by the caller. Saved as PNG its numbers are raw (lam_save_params). LAM_BAD_ARGUMENT, LAM_LIMIT.
+LAM_API bool lam_image_difference(const lam_image *a, const lam_image *b, float gain, lam_image *difference,
+                                  lam_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -530,6 +530,38 @@ static void compares_floats(void **state)
     lam_image_free(&b);
 }
 
+static void shows_differences(void **state)
+{
+    (void)state;
+    lam_image a, b, where = {0};
+    lam_error error;
+    assert_true(lam_image_make(&a, 2, 1, LAM_RGBA8, NULL) && lam_image_make(&b, 2, 1, LAM_RGBA8, NULL));
+    memcpy(a.pixels, (uint8_t[]){10, 20, 30, 255, 0, 7, 0, 40}, 8);
+    memcpy(b.pixels, (uint8_t[]){13, 20, 230, 255, 0, 7, 1, 50}, 8);
+    assert_true(lam_image_difference(&a, &b, 2.0f, &where, NULL));
+    assert_memory_equal(where.pixels, ((uint8_t[]){6, 0, 255, 255, 20, 20, 20, 255}), 8);
+    lam_image_free(&where);
+    assert_false(lam_image_difference(&a, &b, NAN, &where, &error));
+    assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+    assert_false(lam_image_difference(&a, NULL, 1, &where, &error));
+    lam_image_free(&b);
+    assert_true(lam_image_make(&b, 1, 1, LAM_RGBA8, NULL));
+    assert_false(lam_image_difference(&a, &b, 1, &where, &error));
+    lam_image_free(&a);
+    assert_true(lam_image_make(&a, 1, 1, LAM_RGBA32F, NULL));
+    assert_false(lam_image_difference(&a, &b, 1, &where, &error));
+    lam_image_free(&b);
+    assert_true(lam_image_make(&b, 1, 1, LAM_RGBA32F, NULL));
+    memcpy(a.pixels, (float[]){1, INFINITY, NAN, 1}, 16);
+    memcpy(b.pixels, (float[]){3, INFINITY, 0, 1}, 16);
+    assert_true(lam_image_difference(&a, &b, 0.5f, &where, NULL));
+    const float *p = where.pixels;
+    assert_true(p[0] == 1 && p[1] == 0 && p[2] == INFINITY && p[3] == 1);
+    lam_image_free(&a);
+    lam_image_free(&b);
+    lam_image_free(&where);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -548,6 +580,7 @@ int main(void)
         cmocka_unit_test(writes_whole_or_not_at_all),
         cmocka_unit_test(compares_bytes),
         cmocka_unit_test(compares_floats),
+        cmocka_unit_test(shows_differences),
     };
     return cmocka_run_group_tests_name("image", tests, make_folder, remove_folder);
 }

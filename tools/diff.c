@@ -1,0 +1,150 @@
+// diff.c: the command `diff`: how far two pictures are apart, in numbers and as a picture.
+#include "command.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "console.h"
+#include "json.h"
+#include "output.h"
+#include "report.h"
+
+enum { EXIT_DIFFERENT = 6 };
+
+struct pair {
+    const char *name[2];
+    lam_image image[2];
+    lam_difference difference;
+    lam_image where; // made only where it is asked for
+};
+
+static bool load_pair(struct pair *pair, lam_error *error)
+{
+    for (int i = 0; i < 2; i++)
+        if (!lam_image_load(&pair->image[i], pair->name[i], error))
+            return false;
+    const lam_image *a = &pair->image[0], *b = &pair->image[1];
+    if (a->width != b->width || a->height != b->height)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "%.180s has %dx%d pixels and %.180s %dx%d, expected the same size", pair->name[0],
+                        a->width, a->height, pair->name[1], b->width, b->height);
+    if (a->format != b->format)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "%.180s holds %s and %.180s %s, expected two pictures of one kind", pair->name[0],
+                        a->format == LAM_RGBA8 ? "bytes" : "floats", pair->name[1],
+                        b->format == LAM_RGBA8 ? "bytes" : "floats");
+    return lam_image_compare(a, b, &pair->difference, error);
+}
+
+// Floats that are to be written as bytes: raw numbers, 1 = 255.
+static bool to_bytes(lam_image *image, lam_error *error)
+{
+    lam_image bytes;
+    if (!lam_image_make(&bytes, image->width, image->height, LAM_RGBA8, error))
+        return false;
+    const float *from = image->pixels;
+    uint8_t *to = bytes.pixels;
+    for (size_t i = 0; i < 4 * (size_t)image->width * (size_t)image->height; i++)
+        to[i] = from[i] < 1.0f ? (uint8_t)(from[i] * 255.0f + 0.5f) : 255;
+    lam_image_free(image);
+    *image = bytes;
+    return true;
+}
+
+static bool write_picture(struct pair *pair, const struct options *o, lam_error *error)
+{
+    bool stream = output_is_stream(o->output);
+    lam_pixel_format format = LAM_RGBA8;
+    if (!stream && !lam_image_format_for(o->output, &format, error))
+        return false;
+    if (format == LAM_RGBA32F && pair->image[0].format == LAM_RGBA8)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "%s holds floats, and the pictures hold bytes; write .png or .ppm", o->output);
+    if (!lam_image_difference(&pair->image[0], &pair->image[1], (float)o->gain, &pair->where, error) ||
+        (pair->where.format != format && !to_bytes(&pair->where, error)))
+        return false;
+    lam_save_params params = {.raw = true};
+    if (!stream)
+        return lam_image_save(&pair->where, o->output, &params, error);
+    lam_bytes bytes = {0};
+    bool ok = lam_image_encode(&pair->where, "png", &params, &bytes, error) &&
+              output_write(o->output, &bytes, error);
+    lam_bytes_free(&bytes);
+    return ok;
+}
+
+static void tell_json(FILE *file, const struct pair *pair, const struct options *o, bool differ)
+{
+    const lam_difference *d = &pair->difference;
+    struct json json = {.file = file};
+    json_open(&json, NULL, '{');
+    json_text(&json, "a", pair->name[0]);
+    json_text(&json, "b", pair->name[1]);
+    json_count(&json, "width", (uint64_t)pair->image[0].width);
+    json_count(&json, "height", (uint64_t)pair->image[0].height);
+    json_real(&json, "maximum", d->maximum);
+    json_real(&json, "mean", d->mean);
+    json_real(&json, "rmse", d->rmse);
+    json_real(&json, "psnr_db", d->psnr_db);
+    json_real(&json, "share_over_1", d->share_over_1);
+    json_real(&json, "share_over_2", d->share_over_2);
+    json_real(&json, "tolerance", o->tolerance);
+    json_count(&json, "differ", differ);
+    json_text(&json, "picture", o->output);
+    json_close(&json, '}');
+    putc('\n', file);
+}
+
+static void tell_text(FILE *file, const struct pair *pair, const struct options *o, bool differ)
+{
+    const lam_difference *d = &pair->difference;
+    fprintf(file, "maximum      %.7g (%.5g/255)\n", d->maximum, d->maximum * 255);
+    fprintf(file, "mean         %.7g\n", d->mean);
+    fprintf(file, "rmse         %.7g\n", d->rmse);
+    if (d->psnr_db - d->psnr_db == 0)
+        fprintf(file, "psnr         %.2f dB\n", d->psnr_db);
+    else
+        fprintf(file, "psnr         %s\n", d->psnr_db > 0 ? "infinite" : "minus infinite");
+    fprintf(file, "over 1/255   %.4g %% of %dx%d pixels\n", d->share_over_1 * 100, pair->image[0].width,
+            pair->image[0].height);
+    fprintf(file, "over 2/255   %.4g %%\n", d->share_over_2 * 100);
+    fprintf(file, "%s\n",
+            d->maximum == 0 ? "equal"
+            : !differ       ? "within the tolerance"
+            : o->tolerance  ? "beyond the tolerance"
+                            : "different");
+}
+
+int run_diff(int operand_count, char **operands, const struct options *options)
+{
+    (void)operand_count;
+    struct pair pair = {.name = {operands[0], operands[1]}};
+    bool to_stdout = options->output && strcmp(options->output, "-") == 0;
+    lam_error error = {0};
+    bool ok = true;
+    if (to_stdout && isatty(STDOUT_FILENO))
+        ok = complain(&error, LAM_BAD_ARGUMENT,
+                      "standard output is a terminal, and the picture is not text; send it on: lambent diff "
+                      "A B -o - > FILE");
+    else if (options->output && !output_is_named(options->output))
+        ok = complain(&error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file",
+                      options->output);
+    else if (options->output && !to_stdout)
+        ok = output_check(options->output, pair.name[0], true, &error);
+    ok = ok && load_pair(&pair, &error) && (!options->output || write_picture(&pair, options, &error));
+    bool differ = ok && pair.difference.maximum > options->tolerance / 255.0;
+    if (ok) {
+        FILE *file = to_stdout ? stderr : stdout;
+        if (options->json)
+            tell_json(file, &pair, options, differ);
+        else if (!options->quiet)
+            tell_text(file, &pair, options, differ);
+    }
+    for (int i = 0; i < 2; i++)
+        lam_image_free(&pair.image[i]);
+    lam_image_free(&pair.where);
+    if (!ok)
+        return tell_failure(&error, options);
+    return differ ? EXIT_DIFFERENT : 0;
+}

@@ -12,11 +12,13 @@
 
 #include "base.h"
 #include "camera.h"
+#include "curves.h"
 #include "device.h"
 #include "image.h"
 #include "light.h"
 #include "material.h"
 #include "mesh.h"
 #include "scene.h"
+#include "text.h"
 
 #endif

@@ -173,13 +173,9 @@ static bool light_space(const lam_scene *scene, const lam_light *light, const la
                 light->name ? light->name : "", light->object ? light->object : "");
 }
 
-static void build_light(struct frame_light *out, const lam_light *light, const lam_mat4 *space, int index)
+void frame_light_reach(struct frame_light *out, const lam_light *light)
 {
-    *out = (struct frame_light){.directional = light->type == LAM_LIGHT_DIRECTIONAL, .light = index};
-    store3(out->position, mat4_point(space, light->position));
-    store3(out->axis, v3_unit(mat4_vector(space, light->direction)));
-    store_rgb(out->diffuse, light->diffuse);
-    store_rgb(out->specular, light->specular);
+    *out = (struct frame_light){.directional = light->type == LAM_LIGHT_DIRECTIONAL};
     const lam_attenuation *a = &light->attenuation;
     bool none = a->constant == 0 && a->linear == 0 && a->quadratic == 0;
     out->attenuation[0] = none || out->directional ? 1 : a->constant;
@@ -202,6 +198,16 @@ static void build_light(struct frame_light *out, const lam_light *light, const l
     } else {
         out->cone = light->exponent > 0 ? CONE_EXPONENT : CONE_NONE;
     }
+}
+
+static void build_light(struct frame_light *out, const lam_light *light, const lam_mat4 *space, int index)
+{
+    frame_light_reach(out, light);
+    out->light = index;
+    store3(out->position, mat4_point(space, light->position));
+    store3(out->axis, v3_unit(mat4_vector(space, light->direction)));
+    store_rgb(out->diffuse, light->diffuse);
+    store_rgb(out->specular, light->specular);
 }
 
 static lam_vec3 up_vector(lam_up up)

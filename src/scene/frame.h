@@ -55,6 +55,9 @@ struct frame_light {
     int light; // index among the frame's lam_lights, for naming; −1: of the rig
 };
 
+// What of a light does not depend on where it is: its kind, attenuation, range and cone. The rest is zeroed.
+void frame_light_reach(struct frame_light *out, const lam_light *light);
+
 struct frame_hemisphere {
     float up[3]; // unit, eye space
     float sky[3], ground[3];

@@ -5,7 +5,7 @@ prefix  ?= /usr/local
 DESTDIR ?=
 MAKEFLAGS += --no-print-directory
 
-.PHONY: all demo test bench docs install uninstall clean help
+.PHONY: all demo test bench docs gallery install uninstall clean help
 
 all: $(build)/lambent
 
@@ -17,6 +17,7 @@ help:
 	@echo 'make install    installs to $$(DESTDIR)$$(prefix), prefix=$(prefix)'
 	@echo 'make uninstall  removes what install put there'
 	@echo 'make docs       writes the generated parts of docs/ anew, and the pictures of the README'
+	@echo 'make gallery    that, and the pictures of known mistakes (docs/mistakes.md)'
 	@echo 'make clean      removes everything that was built'
 
 $(build)/build.ninja:
@@ -56,6 +57,10 @@ uninstall:
 
 docs: $(build)/lambent
 	@python3 scripts/docs.py $(build)/lambent
+
+gallery: docs
+	@ninja -C $(build) docs/mistakes
+	$(build)/docs/mistakes docs/pictures
 
 clean:
 	rm -rf build build-* out

@@ -2,13 +2,15 @@
 #include "command.h"
 
 #define ABOUT (1u << GROUP_ABOUT)
-#define ALL   (((1u << GROUP_COUNT) - 1) & ~(1u << GROUP_DIFF)) // all that a picture of a model takes
+#define ALL   (((1u << GROUP_COUNT) - 1) & ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS)) // all that a picture of a model takes
 
 const struct command command_table[] = {
     {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL,
      1, -1, run_render},
     {"diff", "A B", "Tell how far two pictures are apart, and draw where.", ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET,
      2, 2, run_diff},
+    {"plot", "attenuation|spot|highlight [CURVE...]", "Draw a law of light as curves (PNG or SVG), and tell its numbers.",
+     ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON | TAKES_QUIET, 1, -1, run_plot},
     {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0, run_shapes},
     {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.",
      ABOUT, 0, 0, run_formats},
@@ -26,6 +28,7 @@ const struct example examples[] = {
     {"lambent -q *.stl -o pictures/", "a picture of each model, in a folder"},
     {"lambent - -o - < part.stl > part.png", "from standard input to standard output"},
     {"lambent koala.obj --json", "what was read, the camera, and the time of each step"},
+    {"lambent plot attenuation 1/0.54/0.2 1/0/1", "how two lights fade with the distance"},
     {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
     {NULL, NULL},
 };
@@ -67,6 +70,17 @@ const struct topic topics[] = {
      "`width`, `height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, `differ` (0 or "
      "1: beyond the tolerance) and `picture`. The exit code is 6 where the largest difference is over the tolerance, 1 where size or "
      "kind are not the same."},
+    {"Plots",
+     "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d, as many curves as are named, and marks "
+     "where each falls below 1/255, the last step of a picture with 8 bits; a fourth number (`a/b/c/range`) is a range as glTF has it. "
+     "`lambent plot spot cutoff=30,exponent=8 inner=20,outer=35` draws the cone of spot lights over the angle from "
+     "the axis, by OpenGL's law or glTF's. `lambent plot highlight 10 50 1000` draws the highlight over the angle "
+     "between the mirrored light and the eye: for each shininess Phong's and Blinn-Phong's at it, and Blinn-Phong's at four times that, which looks like Phong's. "
+     "Without curves each draws a set of its own. The values are those that pixels are lit with.\n"
+     "The picture is `attenuation.png`, `spot.png` or `highlight.png`, 1600x1000 pixels, or what `-o` and `-s` say; a name that "
+     "ends in `.svg` makes an SVG. The table on standard output tells where each curve falls below 1/255; with "
+     "`--json` it is one line: `plot`, `x`, `y`, `curves` (each with `label`, `below_1_255_from`, null for never, and `points`, "
+     "101 pairs) and `picture`."},
     {"Same picture everywhere", "The same model and options give the same bytes, whatever the instruction "
                                 "set, the count of threads, the compiler and the machine."},
     {"Environment",

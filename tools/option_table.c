@@ -7,6 +7,7 @@
 const char *const group_titles[GROUP_COUNT] = {
     [GROUP_PICTURE] = "Picture", [GROUP_VIEW] = "View",      [GROUP_SHADING] = "Light and surface",
     [GROUP_WORK] = "Work",       [GROUP_REPORT] = "Reports", [GROUP_DIFF] = "Comparing pictures (diff)",
+    [GROUP_PLOT] = "Plots (plot)", [GROUP_CAPTIONS] = "Captions (plot)",
     [GROUP_ABOUT] = "About",
 };
 
@@ -175,6 +176,16 @@ const struct option option_table[] = {
      .store = store_number, FIELD(tolerance), .least = 0, .most = 1e9},
     {"gain", 0, GROUP_DIFF, "FACTOR", "16", "The picture of the difference shows it this many times as large.", NULL,
      .store = store_number, FIELD(gain), .least = 0.001, .most = 1e6},
+    {"to", 0, GROUP_PLOT, "X", "fitted", "The horizontal axis goes from 0 to X: a distance, or degrees.", NULL,
+     .store = store_number, FIELD(to), .least = 1e-6, .most = 1e9},
+
+    {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
+     "Without it the environment's `LAMBENT_FONT` names one; else the first there is of DejaVu Sans, Liberation Sans, "
+     "Noto Sans, FreeSans and Roboto, where Debian installs them. FreeType draws the letters, which may differ by a few shades between "
+     "its versions; the pictures between them never do. An SVG names DejaVu Sans, and its reader chooses.",
+     .takes_file = true, .store = store_text, FIELD(font)},
+    {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw without words; then no font is needed.", NULL,
+     .store = store_switch, FIELD(no_captions)},
 
     {"version", 0, GROUP_ABOUT, NULL, NULL, "Print the version and what it was built with.", NULL,
      .store = store_switch, FIELD(version)},

@@ -127,6 +127,7 @@ bool store_size(const struct option *option, const char *value, struct options *
         height = strtol(end + 1, &end, 10);
     if (width < 1 || height < 1 || width > (long)option->most || height > (long)option->most || *end)
         return wrong(error, value, "W or WxH from 1 to 65535 pixels, such as 800 or 1920x1080");
+    options->has_size = true;
     options->width = (int)width;
     options->height = (int)height;
     return true;

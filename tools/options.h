@@ -10,6 +10,7 @@ struct options {
     // Picture
     const char *output;     // NULL: <model's name>.png; "-": standard output
     int width, height;      // pixels
+    bool has_size;          // they were given
     int samples;            // 0: the library's default
     const char *background; // as written; NULL: clear
     int color;              // lam_color_mode
@@ -39,6 +40,11 @@ struct options {
 
     // Comparison of pictures
     double tolerance, gain;
+
+    // Plots and sheets
+    const char *font; // NULL: the system's
+    bool no_captions;
+    double to;      // right end of a plot's axis; 0: fitted
 
     // Reports
     bool json, quiet, verbose, version, help;
@@ -70,6 +76,8 @@ enum option_group {
     GROUP_WORK,
     GROUP_REPORT,
     GROUP_DIFF,
+    GROUP_PLOT,
+    GROUP_CAPTIONS,
     GROUP_ABOUT, // every command has these
     GROUP_COUNT,
 };

@@ -1,0 +1,359 @@
+// plot.c: the command `plot`: attenuation, spot and highlight as curves, in a picture and in numbers.
+#include "plot.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "camera_option.h"
+#include "command.h"
+#include "console.h"
+#include "json.h"
+#include "output.h"
+#include "report.h"
+#include "suggest.h"
+
+enum { TABLE_STEPS = 100 };
+
+// Colours that people with any colour vision tell apart (Okabe and Ito, 2008), the yellow left out: it is
+// lost on white.
+static const uint32_t palette[] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x222222};
+
+static double attenuation_value(const struct curve *c, double x)
+{
+    return (double)lam_attenuation_at(&c->light, (float)x);
+}
+
+static double spot_value(const struct curve *c, double x)
+{
+    return (double)lam_spot_at(&c->light, radians(x));
+}
+
+static double highlight_value(const struct curve *c, double x)
+{
+    return (double)lam_highlight_at(c->reflection, c->shininess, radians(x));
+}
+
+// The first x from which on the curve is below 1/255, all of them being falling ones. Found by halving an
+// interval in whose left end it is not below, down to neighbouring floats.
+static double find_below(const struct curve *curve, double farthest)
+{
+    const double level = 1.0 / 255.0;
+    // At the light itself an inverse square counts as 0: what is asked for is where the light has faded.
+    double low = curve->value(curve, 0) == 0 ? 1e-3 : 0, high = farthest < 1 ? farthest : 1;
+    if (curve->value(curve, low) < level)
+        return 0;
+    while (high < farthest && curve->value(curve, high) >= level) {
+        low = high;
+        high = 2 * high < farthest ? 2 * high : farthest;
+    }
+    if (curve->value(curve, high) >= level)
+        return (double)__builtin_inff();
+    for (;;) {
+        float middle = (float)((low + high) / 2);
+        if ((double)middle <= low || (double)middle >= high)
+            return high;
+        if (curve->value(curve, (double)middle) < level)
+            high = (double)middle;
+        else
+            low = (double)middle;
+    }
+}
+
+// --- what the words after the command mean
+
+static struct curve *add_curve(struct plot *plot, double (*value)(const struct curve *, double),
+                               lam_error *error)
+{
+    if (plot->count == CURVES_MOST) {
+        complain(error, LAM_LIMIT, "plot: more than %d curves, which nobody could tell apart", CURVES_MOST);
+        return NULL;
+    }
+    struct curve *curve = &plot->curves[plot->count++];
+    *curve = (struct curve){.value = value};
+    return curve;
+}
+
+static bool wrong(lam_error *error, const char *kind, const char *word, const char *expected)
+{
+    return complain(error, LAM_BAD_ARGUMENT, "plot %s: found '%.100s', expected %s", kind, word, expected);
+}
+
+// "a/b/c" or "a/b/c/range".
+static bool add_attenuation(struct plot *plot, const char *word, lam_error *error)
+{
+    double part[4] = {0};
+    int count = 0;
+    const char *rest = word;
+    do {
+        rest = count < 4 ? read_number(count ? rest + 1 : rest, &part[count]) : NULL;
+        count++;
+    } while (rest && *rest == '/');
+    if (!rest || *rest || count < 3)
+        return wrong(error, "attenuation", word, "a/b/c or a/b/c/range, such as 1/0.54/0.2");
+    struct curve *curve = add_curve(plot, attenuation_value, error);
+    if (!curve)
+        return false;
+    curve->light = lam_light_default(LAM_LIGHT_POINT);
+    curve->light.attenuation = (lam_attenuation){(float)part[0], (float)part[1], (float)part[2]};
+    curve->light.range = (float)part[3];
+    curve->marked = true;
+    lam_error reason;
+    if (part[0] == 0 && part[1] == 0 && part[2] == 0)
+        return wrong(error, "attenuation", word, "at least one of a, b and c over 0");
+    if (!lam_light_check(&curve->light, &reason))
+        return complain(error, LAM_BAD_ARGUMENT, "plot attenuation: '%.60s': %.300s", word, reason.text);
+    snprintf(curve->label, sizeof curve->label, "a/b/c = %.*g/%.*g/%.*g", 5, part[0], 5, part[1], 5, part[2]);
+    if (part[3] > 0)
+        snprintf(curve->label + strlen(curve->label), 24, ", range %.5g", part[3]);
+    return true;
+}
+
+// "cutoff=30,exponent=8" or "inner=20,outer=35", as in a light.
+static bool add_spot(struct plot *plot, const char *word, lam_error *error)
+{
+    static const char *const keys[] = {"cutoff", "exponent", "inner", "outer"};
+    double part[4] = {0};
+    bool given[4] = {0};
+    for (const char *s = word; s; s = *s == ',' ? s + 1 : NULL) {
+        size_t length = strcspn(s, "=,");
+        int key = 0;
+        while (key < 4 && (strlen(keys[key]) != length || memcmp(keys[key], s, length) != 0))
+            key++;
+        const char *rest = key < 4 && s[length] == '=' ? read_number(s + length + 1, &part[key]) : NULL;
+        if (!rest || (*rest && *rest != ',') || given[key])
+            return wrong(error, "spot", word, "cutoff=DEGREES,exponent=E or inner=DEGREES,outer=DEGREES");
+        given[key] = true;
+        s = rest;
+    }
+    if ((given[0] || given[1]) == (given[2] || given[3]) || (given[2] && !given[3]))
+        return wrong(error, "spot", word, "either cutoff and exponent or inner and outer");
+    struct curve *curve = add_curve(plot, spot_value, error);
+    if (!curve)
+        return false;
+    curve->light = lam_light_default(LAM_LIGHT_SPOT);
+    curve->light.cutoff_rad = (float)radians(part[0]);
+    curve->light.exponent = (float)part[1];
+    curve->light.inner_rad = (float)radians(part[2]);
+    curve->light.outer_rad = (float)radians(part[3]);
+    lam_error reason;
+    if (!lam_light_check(&curve->light, &reason))
+        return complain(error, LAM_BAD_ARGUMENT, "plot spot: '%.60s': %.300s", word, reason.text);
+    if (given[3])
+        snprintf(curve->label, sizeof curve->label, "inner %.5g°, outer %.5g°", part[2], part[3]);
+    else if (part[0] > 0)
+        snprintf(curve->label, sizeof curve->label, "cutoff %.5g°, exponent %.5g", part[0], part[1]);
+    else
+        snprintf(curve->label, sizeof curve->label, "exponent %.5g, no cutoff", part[1]);
+    return true;
+}
+
+static bool add_highlight(struct plot *plot, const char *word, lam_error *error)
+{
+    double alpha;
+    const char *rest = read_number(word, &alpha);
+    if (!rest || *rest || !(alpha >= 0 && alpha <= 1e9))
+        return wrong(error, "highlight", word, "a shininess of 0 or more, such as 50");
+    for (int i = 0; i < 3; i++) {
+        struct curve *curve = add_curve(plot, highlight_value, error);
+        if (!curve)
+            return false;
+        curve->reflection = i == 0 ? LAM_REFLECTION_PHONG : LAM_REFLECTION_BLINN_PHONG;
+        curve->shininess = (float)(i == 2 ? 4 * alpha : alpha);
+        curve->style = i == 0 ? 0 : 3 - i;
+        snprintf(curve->label, sizeof curve->label, "%s, shininess %.6g", i == 0 ? "Phong" : "Blinn–Phong",
+                 (double)curve->shininess);
+    }
+    return true;
+}
+
+// The kinds of plots: one row each.
+struct kind {
+    const char *name, *title, *x_label, *y_label;
+    bool (*add)(struct plot *plot, const char *word, lam_error *error);
+    const char *standard[5]; // what is drawn where nothing is named
+    double x_most, farthest; // 0: as far as it takes
+    int per_color;           // this many curves share a colour
+};
+
+static const struct kind kinds[] = {
+    {"attenuation",
+     "Attenuation 1/(a + b·d + c·d²)",
+     "distance d",
+     "share of the light that arrives",
+     add_attenuation,
+     {"1/0/0", "1/0.54/0.2", "1/0/1", NULL},
+     0,
+     1e9,
+     1},
+    {"spot",
+     "Spot light",
+     "angle from the axis in degrees",
+     "share of the light",
+     add_spot,
+     {"cutoff=30,exponent=0", "cutoff=30,exponent=8", "exponent=32", "inner=20,outer=35", NULL},
+     90,
+     180,
+     1},
+    {"highlight",
+     "Highlight: Phong cos(φ)^α, Blinn–Phong cos(φ/2)^α",
+     "angle φ between mirrored light and eye in degrees",
+     "strength S",
+     add_highlight,
+     {"10", "50", "1000", NULL},
+     90,
+     180,
+     3},
+};
+
+static const struct kind *find_kind(const char *name, lam_error *error)
+{
+    struct suggestion nearest = suggest_start(name);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        if (strcmp(kinds[i].name, name) == 0)
+            return &kinds[i];
+        suggest_try(&nearest, kinds[i].name);
+    }
+    complain(error, LAM_BAD_ARGUMENT, "plot: found '%.100s', expected attenuation, spot or highlight%s%s%s",
+             name, nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+             nearest.best ? "'?" : "");
+    return NULL;
+}
+
+// How far the axis goes: to a little beyond the last curve's fading, which for lights that never fade is
+// nowhere.
+static double length_of(const struct plot *plot)
+{
+    double most = 0;
+    for (int i = 0; i < plot->count; i++)
+        if (plot->curves[i].below < 1e30 && plot->curves[i].below > most)
+            most = plot->curves[i].below;
+    return most > 0 ? most * 1.1 : 10;
+}
+
+static bool fill(struct plot *plot, const struct kind *kind, int count, char **words, const struct options *o,
+                 lam_error *error)
+{
+    *plot = (struct plot){.kind = kind->name,
+                          .title = kind->title,
+                          .x_label = kind->x_label,
+                          .y_label = kind->y_label,
+                          .y_most = 1,
+                          .level = kind->add == add_attenuation ? 1.0 / 255.0 : 0,
+                          .level_label = "1/255"};
+    for (int i = 0; i < count; i++)
+        if (!kind->add(plot, words[i], error))
+            return false;
+    for (int i = 0; count == 0 && kind->standard[i]; i++)
+        if (!kind->add(plot, kind->standard[i], error))
+            return false;
+    for (int i = 0; i < plot->count; i++) {
+        struct curve *curve = &plot->curves[i];
+        curve->color = palette[(size_t)(i / kind->per_color) % (sizeof palette / sizeof *palette)];
+        curve->below = find_below(curve, kind->farthest);
+    }
+    plot->x_most = o->to > 0 ? o->to : kind->x_most > 0 ? kind->x_most : length_of(plot);
+    // Attenuations may begin over 1; what is over 2 leaves the page.
+    for (int i = 0; i < plot->count; i++)
+        for (int k = 0; k <= TABLE_STEPS; k++)
+            if (plot->curves[i].value(&plot->curves[i], plot->x_most * k / TABLE_STEPS) > 1)
+                plot->y_most = 2;
+    return true;
+}
+
+// --- telling
+
+static void tell_text(FILE *file, const struct plot *plot)
+{
+    for (int i = 0; i < plot->count; i++) {
+        const struct curve *c = &plot->curves[i];
+        // Columns count letters, not bytes.
+        int letters = 0;
+        for (const char *s = c->label; *s; s++)
+            letters += (*s & 0xC0) != 0x80;
+        fprintf(file, "%s%*s  ", c->label, letters < 30 ? 30 - letters : 0, "");
+        if (c->below < 1e30)
+            fprintf(file, "below 1/255 from %.5g%s\n", c->below,
+                    strcmp(plot->kind, "attenuation") == 0 ? "" : " degrees");
+        else
+            fprintf(file, "never below 1/255\n");
+    }
+}
+
+static void tell_json(FILE *file, const struct plot *plot, const char *path)
+{
+    struct json json = {.file = file};
+    json_open(&json, NULL, '{');
+    json_text(&json, "plot", plot->kind);
+    json_text(&json, "x", plot->x_label);
+    json_text(&json, "y", plot->y_label);
+    json_open(&json, "curves", '[');
+    for (int i = 0; i < plot->count; i++) {
+        const struct curve *c = &plot->curves[i];
+        json_open(&json, NULL, '{');
+        json_text(&json, "label", c->label);
+        json_real(&json, "below_1_255_from", c->below);
+        json_open(&json, "points", '[');
+        for (int k = 0; k <= TABLE_STEPS; k++) {
+            double x = (double)(float)(plot->x_most * k / TABLE_STEPS);
+            json_open(&json, NULL, '[');
+            json_real(&json, NULL, x);
+            json_real(&json, NULL, c->value(c, x));
+            json_close(&json, ']');
+        }
+        json_close(&json, ']');
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_text(&json, "picture", path);
+    json_close(&json, '}');
+    putc('\n', file);
+}
+
+static bool draw_to(const struct plot *plot, const char *path, const struct options *o, lam_error *error)
+{
+    const char *dot = strrchr(path, '.');
+    bool svg = dot && strcmp(dot, ".svg") == 0, to_stdout = strcmp(path, "-") == 0;
+    lam_pixel_format format = LAM_RGBA8;
+    if (to_stdout && isatty(STDOUT_FILENO))
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "standard output is a terminal, and the picture is not text");
+    if (!output_is_named(path))
+        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file",
+                        path);
+    if (!svg && !output_is_stream(path) &&
+        (!lam_image_format_for(path, &format, error) || format != LAM_RGBA8))
+        return complain(error, LAM_UNSUPPORTED, "%s: a plot is written as .svg, .png or .ppm", path);
+    if (!to_stdout && !output_check(path, "", o->output != NULL, error))
+        return false;
+    struct drawing drawing;
+    bool sized = o->has_size;
+    if (!drawing_open(&drawing, sized ? o->width : 1600, sized ? o->height : 1000, svg, !o->no_captions,
+                      o->font, error))
+        return false;
+    bool ok = plot_draw(plot, &drawing, error) && drawing_write(&drawing, path, error);
+    drawing_free(&drawing);
+    return ok;
+}
+
+int run_plot(int operand_count, char **operands, const struct options *options)
+{
+    lam_error error = {0};
+    const struct kind *kind = find_kind(operands[0], &error);
+    struct plot *plot = kind ? malloc(sizeof *plot) : NULL;
+    bool ok = kind && (plot || complain(&error, LAM_LIMIT, "out of memory"));
+    char standard[64];
+    snprintf(standard, sizeof standard, "%s.png", kind ? kind->name : "");
+    const char *path = options->output ? options->output : standard;
+    ok = ok && fill(plot, kind, operand_count - 1, operands + 1, options, &error) &&
+         draw_to(plot, path, options, &error);
+    if (ok) {
+        FILE *file = strcmp(path, "-") == 0 ? stderr : stdout;
+        if (options->json)
+            tell_json(file, plot, path);
+        else if (!options->quiet)
+            tell_text(file, plot);
+    }
+    free(plot);
+    return ok ? 0 : tell_failure(&error, options);
+}

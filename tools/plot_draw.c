@@ -1,0 +1,260 @@
+// plot_draw.c: how a plot looks: axes with round numbers, a grid, the curves, their names, the marks.
+#include "plot.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "console.h"
+
+enum { INK = 0x222222, GREY = 0x707070, GRID = 0xe4e4e4 };
+
+// Where the axes are on the page, and how large type is there.
+struct layout {
+    double left, top, right, bottom; // pixels
+    double unit;                     // 1 on a page of 800×500
+};
+
+static struct point place(const struct plot *plot, const struct layout *at, double x, double y)
+{
+    return (struct point){at->left + (at->right - at->left) * x / plot->x_most,
+                          at->bottom - (at->bottom - at->top) * y / plot->y_most};
+}
+
+// 1, 2 or 5 times a power of ten, so that the axis has at most `most` steps.
+static double step_of(double length, int most)
+{
+    double power = 1;
+    while (power > length / most)
+        power /= 10;
+    while (power * 10 <= length / most)
+        power *= 10;
+    static const double steps[] = {1, 2, 5, 10};
+    for (int i = 0; i < 4; i++)
+        if (length / (steps[i] * power) <= most)
+            return steps[i] * power;
+    return 20 * power;
+}
+
+static bool draw_axes(const struct plot *plot, const struct layout *at, struct drawing *d, lam_error *error)
+{
+    double u = at->unit, x_step = step_of(plot->x_most, 10), y_step = step_of(plot->y_most, 6);
+    char text[32];
+    for (int i = 0; i * x_step <= plot->x_most * 1.000001; i++) {
+        struct point foot = place(plot, at, i * x_step, 0), line[2] = {{foot.x, at->top}, foot};
+        if (!draw_line(d, line, 2, u, GRID, 0, error))
+            return false;
+        snprintf(text, sizeof text, "%.6g", i * x_step);
+        draw_text(d, (struct point){foot.x, foot.y + 20 * u}, 13 * u, ALIGN_MIDDLE, INK, text);
+    }
+    for (int i = 0; i * y_step <= plot->y_most * 1.000001; i++) {
+        struct point foot = place(plot, at, 0, i * y_step), line[2] = {foot, {at->right, foot.y}};
+        if (!draw_line(d, line, 2, u, GRID, 0, error))
+            return false;
+        snprintf(text, sizeof text, "%.6g", i * y_step);
+        draw_text(d, (struct point){foot.x - 8 * u, foot.y + 4.5 * u}, 13 * u, ALIGN_RIGHT, INK, text);
+    }
+    struct point axes[3] = {{at->left, at->top}, {at->left, at->bottom}, {at->right, at->bottom}};
+    if (!draw_line(d, axes, 3, 1.4 * u, INK, 0, error))
+        return false;
+    struct point middle = {(at->left + at->right) / 2, at->bottom + 46 * u};
+    draw_text(d, middle, 15 * u, ALIGN_MIDDLE, INK, plot->x_label);
+    draw_text(d, (struct point){d->width / 2.0, 32 * u}, 18 * u, ALIGN_MIDDLE, INK, plot->title);
+    return draw_text_upwards(d, (struct point){24 * u, (at->top + at->bottom) / 2}, 15 * u, INK,
+                             plot->y_label, error);
+}
+
+static double style_dash(const struct curve *curve, double unit)
+{
+    return curve->style == 0 ? 0 : (curve->style == 1 ? 8 : 3) * unit;
+}
+
+// The points of a curve in order, steps made steep by halving; grows as asked.
+struct path {
+    struct point *points; // in the plot's numbers
+    int count, room;
+};
+
+static bool path_add(struct path *path, double x, double y, lam_error *error)
+{
+    if (path->count == path->room) {
+        int room = path->room ? 2 * path->room : 1024;
+        struct point *points = realloc(path->points, (size_t)room * sizeof *points);
+        if (!points)
+            return complain(error, LAM_LIMIT, "out of memory");
+        path->points = points;
+        path->room = room;
+    }
+    path->points[path->count++] = (struct point){x, y};
+    return true;
+}
+
+static bool path_refine(struct path *path, const struct plot *plot, const struct curve *curve, double x0,
+                        double y0, double x1, double y1, lam_error *error)
+{
+    double rise = y1 > y0 ? y1 - y0 : y0 - y1;
+    if (rise > plot->y_most * 0.01 && x1 - x0 > plot->x_most * 1e-5) {
+        double x = (x0 + x1) / 2, y = curve->value(curve, x);
+        return path_refine(path, plot, curve, x0, y0, x, y, error) &&
+               path_refine(path, plot, curve, x, y, x1, y1, error);
+    }
+    return path_add(path, x1, y1, error);
+}
+
+// Draws what of the path lies below the plot's upper edge, in as many pieces as that takes.
+static bool draw_path(const struct plot *plot, const struct layout *at, const struct curve *curve,
+                      const struct path *path, struct drawing *d, lam_error *error)
+{
+    struct point *piece = calloc((size_t)path->count + 2, sizeof *piece);
+    if (!piece)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool ok = true;
+    int count = 0;
+    for (int i = 0; ok && i < path->count; i++) {
+        struct point p = path->points[i], before = path->points[i ? i - 1 : 0];
+        bool in = p.y <= plot->y_most, was_in = before.y <= plot->y_most;
+        double share = in != was_in ? (plot->y_most - before.y) / (p.y - before.y) : 0;
+        struct point edge = {before.x + (p.x - before.x) * share, plot->y_most};
+        if (in != was_in)
+            piece[count++] = place(plot, at, edge.x, edge.y);
+        if (in)
+            piece[count++] = place(plot, at, p.x, p.y);
+        if ((!in && was_in) || i + 1 == path->count) {
+            ok = draw_line(d, piece, count, 2.4 * at->unit, curve->color, style_dash(curve, at->unit), error);
+            count = 0;
+        }
+    }
+    free(piece);
+    return ok;
+}
+
+static bool draw_curve(const struct plot *plot, const struct layout *at, const struct curve *curve,
+                       struct drawing *d, lam_error *error)
+{
+    enum { STEPS = 400 };
+    struct path path = {0};
+    double x = 0, y = curve->value(curve, 0);
+    // An inverse square is 0 at the light itself and beyond every bound beside it: it begins beside it.
+    double beside = plot->x_most * 1e-4;
+    if (y == 0 && curve->value(curve, beside) > plot->y_most)
+        y = curve->value(curve, x = beside);
+    bool ok = path_add(&path, x, y, error);
+    for (int i = 1; ok && i <= STEPS; i++) {
+        double next = plot->x_most * i / STEPS, value = curve->value(curve, next);
+        ok = path_refine(&path, plot, curve, x, y, next, value, error);
+        x = next;
+        y = value;
+    }
+    ok = ok && draw_path(plot, at, curve, &path, d, error);
+    free(path.points);
+    return ok;
+}
+
+// Dots where curves fall below the level, their numbers above them, in rows where they would overlap.
+static bool draw_marks(const struct plot *plot, const struct layout *at, struct drawing *d, lam_error *error)
+{
+    double u = at->unit, taken[CURVES_MOST] = {0}; // right end of each row of numbers
+    for (int k = 0; k < CURVES_MOST; k++)
+        taken[k] = -1e9;
+    double last = -1;
+    for (int n = 0; n < plot->count; n++) {
+        // The next one from the left.
+        const struct curve *curve = NULL;
+        int at_once = 0;
+        for (int i = 0; i < plot->count; i++) {
+            const struct curve *c = &plot->curves[i];
+            bool shown = c->marked && c->below > last && c->below <= plot->x_most;
+            if (shown && (!curve || c->below < curve->below)) {
+                curve = c;
+                at_once = 1;
+            }
+        }
+        if (!at_once)
+            break;
+        last = curve->below;
+        char text[48];
+        snprintf(text, sizeof text, "%.4g", curve->below);
+        double half = text_width(d, 13 * u, text) / 2 + 3 * u;
+        struct point dot = place(plot, at, curve->below, plot->level);
+        int row = 0;
+        while (row + 1 < CURVES_MOST && dot.x - half < taken[row])
+            row++;
+        taken[row] = dot.x + half;
+        double base = dot.y - (26 + 17 * row) * u;
+        struct point stem[2] = {{dot.x, base + 3 * u}, dot};
+        if (!draw_line(d, stem, 2, u, curve->color, 0, error) ||
+            !draw_dot(d, dot, 4 * u, curve->color, error))
+            return false;
+        draw_text(d, (struct point){dot.x, base}, 13 * u, ALIGN_MIDDLE, curve->color, text);
+    }
+    return true;
+}
+
+// The box with the names of the curves: in the plot's upper right corner where no curve passes there, else
+// beside the plot.
+struct names {
+    double left, top, width, height; // pixels
+};
+
+static struct names place_names(const struct plot *plot, struct layout *at, const struct drawing *d)
+{
+    double u = at->unit, widest = 0;
+    for (int i = 0; i < plot->count; i++) {
+        double width = text_width(d, 14 * u, plot->curves[i].label);
+        widest = width > widest ? width : widest;
+    }
+    struct names box = {
+        .top = at->top + 6 * u, .width = widest + 50 * u, .height = plot->count * 21 * u + 10 * u};
+    box.left = at->right - 6 * u - box.width;
+    double scale = plot->y_most / (at->bottom - at->top);
+    double low = (at->bottom - box.top - box.height) * scale, high = (at->bottom - box.top) * scale;
+    bool free = low > 0;
+    for (int i = 0; free && i < plot->count; i++)
+        for (int k = 0; free && k <= 100; k++) {
+            double x = (box.left + box.width * k / 100 - at->left) / (at->right - at->left) * plot->x_most;
+            double y = x < 0 ? high : plot->curves[i].value(&plot->curves[i], x);
+            free = y < low || y > high;
+        }
+    if (!free && box.left > at->left + 200 * u) {
+        at->right = box.left - 4 * u;
+        box.left += 20 * u;
+    }
+    return box;
+}
+
+static bool draw_names(const struct plot *plot, const struct names *box, double u, struct drawing *d,
+                       lam_error *error)
+{
+    double left = box->left, top = box->top, row = 21 * u, swatch = 34 * u;
+    draw_box(d, (struct point){left, top}, box->width, box->height, 0xffffff);
+    for (int i = 0; i < plot->count; i++) {
+        const struct curve *curve = &plot->curves[i];
+        double base = top + (i + 1) * row;
+        struct point line[2] = {{left + 8 * u, base - 5 * u}, {left + swatch, base - 5 * u}};
+        if (!draw_line(d, line, 2, 2.4 * u, curve->color, style_dash(curve, u), error))
+            return false;
+        draw_text(d, (struct point){left + swatch + 8 * u, base}, 14 * u, ALIGN_LEFT, INK, curve->label);
+    }
+    return true;
+}
+
+bool plot_draw(const struct plot *plot, struct drawing *d, lam_error *error)
+{
+    double u = d->width / 800.0 < d->height / 500.0 ? d->width / 800.0 : d->height / 500.0;
+    struct layout at = {
+        .left = 78 * u, .top = 54 * u, .right = d->width - 30 * u, .bottom = d->height - 66 * u, .unit = u};
+    struct names names = place_names(plot, &at, d);
+    if (!draw_axes(plot, &at, d, error))
+        return false;
+    if (plot->level > 0) {
+        struct point across[2] = {place(plot, &at, 0, plot->level),
+                                  place(plot, &at, plot->x_most, plot->level)};
+        if (!draw_line(d, across, 2, u, GREY, 4 * u, error))
+            return false;
+        draw_text(d, (struct point){across[1].x - 4 * u, across[1].y - 6 * u}, 12 * u, ALIGN_RIGHT, GREY,
+                  plot->level_label);
+    }
+    for (int i = 0; i < plot->count; i++)
+        if (!draw_curve(plot, &at, &plot->curves[i], d, error))
+            return false;
+    return draw_marks(plot, &at, d, error) && draw_names(plot, &names, u, d, error);
+}

@@ -44,16 +44,18 @@ bench:
 	@$(MAKE) all
 	@python3 bench/run.py
 
-install: $(build)/lambent
+# The prefix is baked into lambent.pc: configured before the build that makes it.
+install: $(build)/build.ninja
+	@scripts/setup.sh build
 	meson configure $(build) --prefix=$(prefix)
-	DESTDIR=$(DESTDIR) meson install -C $(build) --no-rebuild
-	@cp $(build)/meson-logs/install-log.txt $(build)/installed.txt
+	ninja -C $(build)
+	DESTDIR=$(DESTDIR) meson install -C $(build)
 
-uninstall:
-	@test -f $(build)/installed.txt || { echo 'nothing was installed from $(build)' >&2; exit 1; }
-	@grep -v '^#' $(build)/installed.txt | while read -r file; do \
-	  if [ -d "$$file" ] && [ ! -L "$$file" ]; then continue; fi; rm -fv "$$file"; done
-	@rmdir $(DESTDIR)$(prefix)/include/lambent 2>/dev/null || true
+# Removes exactly the files that an install with the same DESTDIR and prefix puts there.
+uninstall: $(build)/build.ninja
+	@meson configure $(build) --prefix=$(prefix)
+	@ninja -C $(build) >/dev/null
+	@meson introspect --installed $(build) | python3 scripts/uninstall.py '$(DESTDIR)'
 
 docs: $(build)/lambent
 	@python3 scripts/docs.py $(build)/lambent

@@ -39,7 +39,7 @@ static void *slab_take(struct cpu_frame *cpu, struct slab_list *list, size_t byt
     return memory;
 
 out_of_memory:
-    __atomic_store_n(&cpu->failed, 1, __ATOMIC_RELAXED);
+    __atomic_store_n(&cpu->failed, FAILED_MEMORY, __ATOMIC_RELAXED);
     return NULL;
 }
 

@@ -78,10 +78,12 @@ static void *carve(struct carving *carving, size_t bytes)
     return part;
 }
 
-static void carve_thread(struct carving *carving, struct thread_state *thread, int samples)
+static void carve_thread(struct carving *carving, struct thread_state *thread, const struct frame *frame)
 {
+    int samples = frame->samples;
     size_t entries = (size_t)tile_stride(samples) * TILE;
-    size_t fragments = (size_t)TILE * TILE * (size_t)samples + LANES_MAX, points = 3 * fragments;
+    size_t opaque = (size_t)fragments_of_tile(samples), points = 3 * (opaque + LANES_MAX);
+    size_t fragments = (frame->translucent && opaque < LAYERS_MAX ? (size_t)LAYERS_MAX : opaque) + LANES_MAX;
     thread->keys = carve(carving, entries * sizeof(float));
     thread->ids = carve(carving, entries * sizeof(uint32_t));
     thread->fragment_id = carve(carving, fragments * sizeof(uint32_t));
@@ -90,7 +92,7 @@ static void carve_thread(struct carving *carving, struct thread_state *thread, i
     thread->fragment_sample = carve(carving, fragments);
     thread->fragment_group = carve(carving, fragments * sizeof(uint32_t));
     thread->order = carve(carving, fragments * sizeof(uint32_t));
-    thread->fragment_point = carve(carving, points * sizeof(uint32_t));
+    thread->fragment_point = carve(carving, 3 * fragments * sizeof(uint32_t));
     for (int c = 0; c < 4; c++) {
         thread->fragment_color[c] = carve(carving, fragments * sizeof(float));
         thread->point_color[c] = carve(carving, points * sizeof(float));
@@ -101,6 +103,14 @@ static void carve_thread(struct carving *carving, struct thread_state *thread, i
         slots *= 2;
     thread->point_table = carve(carving, slots * sizeof(uint32_t));
     thread->point_key = carve(carving, points * sizeof *thread->point_key);
+    if (!frame->translucent)
+        return;
+    thread->layer_samples = carve(carving, LAYERS_MAX * sizeof(uint16_t));
+    thread->layer_keys = carve(carving, (size_t)LAYERS_MAX * (size_t)samples * sizeof(float));
+    thread->layer_order = carve(carving, LAYERS_MAX * sizeof(uint32_t));
+    thread->layer_start = carve(carving, (TILE * TILE + 1) * sizeof(uint32_t));
+    thread->layers = carve(carving, LAYERS_MAX * sizeof *thread->layers);
+    thread->clear = carve(carving, opaque * sizeof(float));
 }
 
 static bool make_threads_ready(struct cpu_device *device, struct cpu_frame *cpu, lam_error *error)
@@ -113,11 +123,11 @@ static bool make_threads_ready(struct cpu_device *device, struct cpu_frame *cpu,
     for (int i = 0; i < device->thread_count; i++) {
         struct thread_state *thread = &device->threads[i];
         struct carving carving = {0};
-        carve_thread(&carving, thread, cpu->frame->samples);
+        carve_thread(&carving, thread, cpu->frame);
         if (!buffer_reserve(&thread->scratch, carving.used, cpu->watch, error))
             return false;
         carving = (struct carving){.at = thread->scratch.data};
-        carve_thread(&carving, thread, cpu->frame->samples);
+        carve_thread(&carving, thread, cpu->frame);
         thread->bins = (struct bin_block **)device->bins.data + tiles * (size_t)i;
         thread->blocks.current = thread->pieces.current = 0;
         thread->blocks.used = thread->pieces.used = 0;
@@ -308,9 +318,16 @@ static void tile_task(void *user, size_t index, int number)
         any |= cpu->threads[i].bins[index] != NULL;
     if (any) {
         int width = cpu->image->width - tile_x * TILE, height = cpu->image->height - tile_y * TILE;
+        width = width < TILE ? width : TILE;
+        height = height < TILE ? height : TILE;
         uint64_t start = now_ns();
         cpu->kernels->cover(cpu, thread, tile_x, tile_y);
-        collect_fragments(cpu, thread, width < TILE ? width : TILE, height < TILE ? height : TILE);
+        if (thread->translucent_triangles) {
+            thread->coverage_ns += now_ns() - start;
+            blend_tile(cpu, thread, tile_x, tile_y, width, height);
+            start = now_ns();
+        }
+        collect_fragments(cpu, thread, width, height);
         uint64_t covered = now_ns();
         cpu->kernels->light(cpu, thread, tile_x, tile_y);
         uint64_t lit = now_ns();
@@ -327,7 +344,11 @@ static void tile_task(void *user, size_t index, int number)
 
 static bool step_done(const struct cpu_frame *cpu, lam_error *error)
 {
-    if (__atomic_load_n(&cpu->failed, __ATOMIC_RELAXED))
+    int failed = __atomic_load_n(&cpu->failed, __ATOMIC_RELAXED);
+    if (failed == FAILED_LAYERS)
+        return fail(error, LAM_LIMIT, "more than %d translucent triangles lie over one pixel: so many can be put in order, no more",
+                    LAYERS_MAX);
+    if (failed)
         return watch_memory_error(cpu->watch, 1 << 20, error);
     return watch_on(cpu->watch) || watch_error(cpu->watch, error);
 }

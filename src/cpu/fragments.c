@@ -54,7 +54,7 @@ static void sort_by_group(struct thread_state *thread, uint32_t largest)
         memcpy(thread->order, from, n * sizeof *from);
 }
 
-static void find_groups(const struct frame *frame, struct thread_state *thread)
+void group_fragments(const struct frame *frame, struct thread_state *thread)
 {
     uint32_t largest = 0;
     uint32_t low = 0, count = 0; // the surface of the fragment before
@@ -95,5 +95,5 @@ void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread,
             thread->pixels_covered += count > before;
         }
     thread->fragment_count = count;
-    find_groups(cpu->frame, thread);
+    group_fragments(cpu->frame, thread);
 }

@@ -6,6 +6,7 @@
 #include "project.inc"
 #include "bin.inc"
 #include "cover.inc"
+#include "gather.inc"
 #include "light.inc"
 #include "resolve.inc"
 
@@ -20,6 +21,7 @@ const struct kernels NAME(ISA) = {
     .project = project,
     .bin = bin,
     .cover = cover,
+    .gather_layers = gather_layers,
     .light = light,
     .resolve = resolve,
     .resolve_empty = resolve_empty,

@@ -12,11 +12,15 @@ struct kernels {
     void (*project)(struct cpu_frame *cpu, const struct piece *piece);
     // Rejects and bins the triangles of one piece.
     void (*bin)(struct cpu_frame *cpu, struct thread_state *thread, const struct piece *piece);
-    // Draws one tile's binned triangles into the thread's visibility arrays.
+    // Draws one tile's binned opaque triangles into the thread's visibility arrays, and counts the translucent ones.
     void (*cover)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
+    // Lists the fragments of translucent triangles in a rectangle of the tile, but for what lies behind opaque ones. False:
+    // there are more than LAYERS_MAX.
+    bool (*gather_layers)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y,
+                          const struct rectangle *rectangle);
     // Colours the thread's fragments.
     void (*light)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
-    // Sums the fragments of a tile into its pixels and writes those into the picture.
+    // Sums the fragments of a tile into its pixels, under the blended layers where there are any, and writes those into the picture.
     void (*resolve)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
     // What a pixel without fragments holds, into cpu->empty_pixel.
     void (*resolve_empty)(struct cpu_frame *cpu);

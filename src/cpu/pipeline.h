@@ -3,6 +3,7 @@
 //   vertices   positions → pixel x, y and depth key of every vertex           project.inc
 //   triangles  index triples → tile bins                                      bin.inc, clip.c
 //   tiles      bins → depth key and triangle number of every sample           cover.inc
+//              translucent triangles → layers over the samples, blended       gather.inc, blend.c
 //              samples → fragments (a pixel and a triangle it shows)          fragments.c
 //              fragments → colours                                            light.inc
 //              colours → pixels of the picture                                resolve.inc
@@ -24,6 +25,7 @@ enum {
     VERTEX_PIECE = 8192,         // vertices and triangles in one piece of parallel work
     TRIANGLE_PIECE = 4096,
     SMALL = TILE * SUBPIXEL,     // triangles up to this extent have edge functions in 32 bits
+    LAYERS_MAX = 65536,          // fragments of translucent surfaces held at once by a thread, and so the most over one pixel
 };
 
 #define NOTHING 0xffffffffu      // a sample that no triangle covers
@@ -84,6 +86,17 @@ struct slab_list {
     size_t used;      // bytes of it
 };
 
+// A pixel's fragment of a translucent surface, to be put in order for one sample: the larger rank is nearer.
+struct layer {
+    uint64_t rank;
+    uint32_t fragment;
+};
+
+// Pixels of a tile, both ends included.
+struct rectangle {
+    int left, top, right, bottom;
+};
+
 struct thread_state {
     struct bin_block **bins; // first block of each tile, newest first
     struct slab_list blocks;
@@ -109,6 +122,17 @@ struct thread_state {
     float *point_color[4];
     // Sums of a tile's pixels: r, g, b premultiplied, and alpha.
     float *sum[4];
+
+    // Translucent surfaces; room is made only for frames that have any. Their fragments use the arrays above, before the opaque
+    // ones do: one for each pixel and triangle, with the samples that show it.
+    uint32_t translucent_triangles; // binned in this tile
+    bool layers_clipped;            // among the gathered are pieces of clipped triangles, that may share a pixel
+    uint16_t *layer_samples;        // of each fragment, a bit each
+    float *layer_keys;              // of each fragment, one for each sample
+    uint32_t *layer_order;          // fragments in the order of pixels
+    uint32_t *layer_start;          // of each pixel, in layer_order; one more at the end
+    struct layer *layers;           // of one pixel
+    float *clear;                   // what the layers over each sample let through
 
     struct buffer scratch;      // holds the arrays above but the slabs
     uint64_t coverage_ns, lighting_ns, resolve_ns, pixels_covered, points_lit, triangles_binned;
@@ -147,7 +171,13 @@ struct cpu_frame {
     struct thread_state *threads;
     const float *decode_srgb, *decode_linear; // 256 entries each: what a colour byte stands for
     uint8_t empty_pixel[16]; // what a pixel without fragments holds
-    int failed;              // set atomically by a worker that ran out of memory
+    int failed;              // enum failure, set atomically by a worker
+};
+
+enum failure {
+    FAILED_NOT = 0,
+    FAILED_MEMORY, // out of memory
+    FAILED_LAYERS, // more than LAYERS_MAX translucent triangles over one pixel
 };
 
 // A block for one more bin, space for one more clipped piece; NULL: out of memory (cpu->failed is set).
@@ -183,8 +213,15 @@ void bin_large(struct cpu_frame *cpu, struct thread_state *thread, const struct 
 void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw, uint32_t t,
                    uint32_t id);
 
-// Lists the fragments of a tile.
+// Lists the opaque fragments of a tile.
 void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height);
+
+// Finds the groups of the listed fragments, and their order by group.
+void group_fragments(const struct frame *frame, struct thread_state *thread);
+
+// Gathers, lights and blends the translucent fragments of a tile that lie before the opaque ones: into the thread's sums
+// (premultiplied) and `clear`.
+void blend_tile(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height);
 
 // Rounds to the nearest 1/256 pixel.
 static inline int32_t snap(float x)
@@ -202,5 +239,8 @@ static inline uint32_t corner_element(const uint32_t *own, const uint32_t *share
 
 // Numbers in a row of a tile's visibility arrays.
 static inline int tile_stride(int samples) { return TILE * samples + LANES_MAX; }
+
+// The most opaque fragments that a tile can have.
+static inline int fragments_of_tile(int samples) { return TILE * TILE * samples; }
 
 #endif

@@ -1,4 +1,4 @@
-// extents.c: which vertices a mesh's triangles use, and the boxes around meshes and scenes.
+// extents.c: which vertices a mesh's triangles use, the boxes around meshes and scenes, and which colours are translucent.
 #include "scene_store.h"
 
 #include "linear.h"
@@ -83,10 +83,46 @@ static void box_piece(void *user, size_t index, int thread)
     memcpy(boxing->boxes[index], box, sizeof box);
 }
 
+struct clearing {
+    const lam_mesh *mesh;
+    int found; // touched atomically
+};
+
+static void clear_piece(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct clearing *clearing = user;
+    const lam_mesh *mesh = clearing->mesh;
+    size_t first = index * (size_t)PIECE, end = first + PIECE;
+    if (end > mesh->color_count)
+        end = mesh->color_count;
+    bool found = false;
+    if (mesh->colors_format == LAM_COLORS_LINEAR_F32) {
+        const float *alpha = (const float *)mesh->colors + 3;
+        for (size_t i = first; i < end; i++)
+            found |= alpha[4 * i] < 1;
+    } else {
+        const uint8_t *alpha = (const uint8_t *)mesh->colors + 3;
+        for (size_t i = first; i < end; i++)
+            found |= alpha[4 * i] < 255;
+    }
+    if (found)
+        __atomic_store_n(&clearing->found, 1, __ATOMIC_RELAXED);
+}
+
+// Whether a mesh has a colour that lets light through.
+static bool has_clear_colors(const lam_mesh *mesh, struct pool *pool)
+{
+    struct clearing clearing = {.mesh = mesh};
+    if (mesh->colors)
+        pool_run(pool, ((size_t)mesh->color_count + PIECE - 1) / PIECE, clear_piece, &clearing);
+    return clearing.found;
+}
+
 static bool measure(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                     lam_error *error)
 {
-    *extent = (struct scene_extent){0};
+    *extent = (struct scene_extent){.translucent = has_clear_colors(mesh, pool)};
     if (!find_used(scene, mesh, extent, pool, error))
         return false;
     size_t pieces = ((size_t)extent->used_count + PIECE - 1) / PIECE;

@@ -277,8 +277,12 @@ static void build_surfaces(struct frame *frame, const lam_scene *scene, int draw
             last->count += part->triangle_count;
             continue;
         }
+        bool translucent = scene_extent(scene, object->mesh)->translucent || frame->materials[front]->diffuse.a < 1 ||
+                           (!draw->one_sided && frame->materials[back]->diffuse.a < 1);
+        frame->translucent |= translucent;
         frame->surfaces[frame->surface_count++] =
-            (struct frame_surface){draw->first_id + part->first_triangle, part->triangle_count, draw_index, front, back};
+            (struct frame_surface){draw->first_id + part->first_triangle, part->triangle_count, draw_index, front, back,
+                                   translucent};
     }
 }
 
@@ -327,6 +331,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->gl1 = params->gl1;
     frame->draw_count = frame->surface_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
+    frame->translucent = false;
 
     frame->default_material = lam_material_default();
     frame->material_count = scene->materials.count + 1;

@@ -30,6 +30,7 @@ struct frame_surface {
     uint32_t first_id, count;
     int draw;
     int front, back; // indices into materials
+    bool translucent; // a material's or a colour's alpha is below 1: blended, not just covered
 };
 
 // How a light's cone is shaped.
@@ -74,6 +75,7 @@ struct frame {
     bool match_highlights, gl1;
     bool distant_viewer; // v = +z for every point: an orthographic camera, or asked for
     bool orthographic;
+    bool translucent; // any surface is
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;
 

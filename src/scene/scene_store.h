@@ -14,11 +14,12 @@ struct scene_list {
     int count, room;
 };
 
-// What a mesh's triangles span. `used` lists the vertices that triangles refer to, in order; NULL: all of them.
+// What a mesh's triangles span, and whether any of its colours has an alpha below 1. `used` lists the vertices that triangles refer to, in order; NULL: all of them.
 struct scene_extent {
     lam_vec3 minimum, maximum; // mesh coordinates, origin included
     const uint32_t *used;
     uint32_t used_count;
+    bool translucent;
 };
 
 struct lam_scene {

@@ -291,6 +291,61 @@ static bool slivers(struct demo *d, lam_error *error)
     return put(d, lam_scene_add_mesh(d->scene, &mesh, error), -1, error);
 }
 
+// --- translucent surfaces
+
+static bool glass(struct demo *d, lam_error *error)
+{
+    int ball = shape(d, "sphere", 64, 32, error), box = shape(d, "cube", 0, 0, error);
+    int red = material(d, (lam_rgba){0.8f, 0.1f, 0.1f, 0.4f}, 0.8f, 80, error);
+    int green = material(d, (lam_rgba){0.1f, 0.7f, 0.2f, 0.4f}, 0.8f, 80, error);
+    int blue = material(d, (lam_rgba){0.1f, 0.2f, 0.9f, 0.5f}, 0.8f, 80, error);
+    int solid = material(d, (lam_rgba){0.7f, 0.6f, 0.4f, 1}, 0.2f, 20, error);
+    bool ok = place(d, box, blue, (lam_vec3){0.8, 0.8, 0.8}, (lam_vec3){0, 0, 0}, error) &&
+              place(d, ball, red, (lam_vec3){0.6, 0.6, 0.6}, (lam_vec3){-0.5, 0.1, 0.3}, error) &&
+              place(d, ball, green, (lam_vec3){0.5, 0.5, 0.5}, (lam_vec3){0.4, 0.35, 0.3}, error) &&
+              place(d, ball, solid, (lam_vec3){0.3, 0.3, 0.3}, (lam_vec3){0, -0.1, 0}, error);
+    fit(d);
+    return ok;
+}
+
+static bool clear_bowl(struct demo *d, lam_error *error)
+{
+    d->params.background = (lam_rgba){0.9f, 0.9f, 0.8f, 1};
+    lam_object o = lam_object_default();
+    o.mesh = bowl(d, error);
+    o.material = material(d, (lam_rgba){0.2f, 0.4f, 0.8f, 0.5f}, 0.4f, 40, error);
+    o.back_material = material(d, (lam_rgba){0.8f, 0.2f, 0.1f, 0.7f}, 0.4f, 10, error);
+    look(d, (lam_vec3){1, 1.1, 3.4}, (lam_vec3){0, 0.45, 0}, 46);
+    return o.mesh >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
+}
+
+// Four bars, each over the next one and under the one before: no order of the bars is right. They fade by their colours' alpha.
+static bool over_and_under(struct demo *d, lam_error *error)
+{
+    static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    static const uint8_t tints[4][3] = {{255, 60, 40}, {60, 220, 60}, {50, 90, 255}, {250, 210, 40}};
+    static const float bar[4][3] = {{-1, -0.75f, 0.2f}, {1, -0.75f, -0.2f}, {1, -0.35f, -0.2f}, {-1, -0.35f, 0.2f}};
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    d->params.reflection = LAM_REFLECTION_NONE;
+    bool ok = true;
+    for (int i = 0; i < 4; i++) {
+        float p[4][3];
+        uint8_t colors[4][4];
+        for (int k = 0; k < 4; k++) {
+            p[k][0] = turns[i][0] * bar[k][0] - turns[i][1] * bar[k][1];
+            p[k][1] = turns[i][1] * bar[k][0] + turns[i][0] * bar[k][1];
+            p[k][2] = bar[k][2];
+            memcpy(colors[k], tints[i], 3);
+            colors[k][3] = k == 0 || k == 3 ? 230 : 110;
+        }
+        lam_mesh mesh = {.positions = &p[0][0], .vertex_count = 4, .indices = indices, .triangle_count = 2, .colors = colors,
+                         .color_count = 4, .colors_format = LAM_COLORS_SRGB8};
+        ok = ok && put(d, lam_scene_add_mesh(d->scene, &mesh, error), -1, error);
+    }
+    look(d, (lam_vec3){0.5, 0.4, 3}, (lam_vec3){0, 0, 0}, 45);
+    return ok;
+}
+
 static bool coloured(struct demo *d, lam_rate rate, lam_error *error)
 {
     static const float p[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
@@ -385,6 +440,9 @@ const struct demo_row demos[] = {
     {"planes", "a torus cut by the near and the far plane", planes},
     {"intersecting", "a sphere through a box", intersecting},
     {"slivers", "triangles thinner than a pixel and longer than the picture", slivers},
+    {"translucent", "glass balls through a glass box, a solid one within: all seen in their depth", glass},
+    {"translucent-sides", "a bowl whose sides let different shares of light through", clear_bowl},
+    {"translucent-cycle", "four fading bars, each over the next: no order of drawing them is right", over_and_under},
     {"vertex-colours", "colours interpolated over a square", vertex_colours},
     {"triangle-colours", "a colour for each triangle", triangle_colours},
     {"far-away", "a centimetre of model 500 km from zero", far_away},

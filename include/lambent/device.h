@@ -116,8 +116,8 @@ typedef struct lam_frame_report {
 } lam_frame_report;
 
 // Draws the scene as the camera sees it into `image` (made by the caller, whose size and pixel format decide).
-// `params`, `control` may be NULL. On failure the image's contents are undefined. Errors: LAM_BAD_ARGUMENT, LAM_LIMIT,
-// LAM_CANCELLED.
+// `params`, `control` may be NULL. On failure the image's contents are undefined. Errors: LAM_BAD_ARGUMENT, LAM_LIMIT
+// (memory, time, more than 65536 translucent triangles over one pixel), LAM_CANCELLED.
 LAM_API bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                       const lam_draw_params *params, lam_image *image, const lam_control *control, lam_error *error);
 

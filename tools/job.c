@@ -40,7 +40,7 @@ static bool control_of(const struct job *job, struct progress *progress, lam_con
     const struct options *o = job->options;
     *control = (lam_control){.cancel = interrupt_flag(),
                              .memory_limit_bytes = o->memory_limit_bytes,
-                             .progress = progress_tell,
+                             .progress = progress ? progress_tell : NULL,
                              .user = progress};
     if (interrupted())
         return complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
@@ -187,12 +187,14 @@ static bool draw(struct job *job, const lam_rgba *background, struct progress *p
 
 static bool write_output(struct job *job, const lam_rgba *background, lam_error *error)
 {
-    if (interrupted())
-        return complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
+    lam_control control;
+    if (!control_of(job, NULL, &control, error))
+        return false;
     const struct options *o = job->options;
     double start = clock_ms();
     lam_save_params params = {.background = {background->r, background->g, background->b},
                               .threads = o->threads,
+                              .control = &control,
                               .raw = o->color == LAM_COLOR_RAW};
     lam_bytes bytes = {0};
     bool ok;

@@ -75,9 +75,9 @@ int main(int count, char **words)
     console_start();
     int code = run(count - (count > 0), words + (count > 0));
     lam_error error;
-    if (!finish_output(&error)) {
+    if (!finish_output(&error) && code == 0) { // else the failure was told already
         say_error(error.text);
-        code = code ? code : (int)error.code;
+        code = (int)error.code;
     }
     return code;
 }

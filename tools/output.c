@@ -10,9 +10,15 @@
 
 #include "console.h"
 
+static bool is_folder(const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
 bool output_is_named(const char *output)
 {
-    return output && output[strlen(output) - 1] != '/';
+    return output && output[strlen(output) - 1] != '/' && !is_folder(output);
 }
 
 char *output_path(const char *output, const char *model)
@@ -30,9 +36,10 @@ char *output_path(const char *output, const char *model)
     while (dot > start && *dot != '.')
         dot--;
     int stem = (int)((dot > start ? dot : end) - start);
-    char *path = malloc(strlen(folder) + (size_t)stem + sizeof "model.png");
+    bool slash = *folder && folder[strlen(folder) - 1] != '/';
+    char *path = malloc(strlen(folder) + (size_t)stem + sizeof "/model.png");
     if (path)
-        sprintf(path, "%s%.*s%s.png", folder, stem, start, stem ? "" : "model");
+        sprintf(path, "%s%s%.*s%s.png", folder, slash ? "/" : "", stem, start, stem ? "" : "model");
     return path;
 }
 

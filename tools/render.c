@@ -98,19 +98,32 @@ static void tell_warnings(const struct job *job)
         if (!told)
             say_warning(text);
     }
+    if (job->written && !job->times.frame.pixels_covered)
+        say_warning("nothing of the model is seen in this picture");
 }
 
 // The library's sentences do not all know which model it was, nor the limit as the user gave it.
+// Whether a sentence begins with a name, whose control characters it shows as '?'.
+static bool names(const char *sentence, const char *name)
+{
+    for (; *name; name++, sentence++) {
+        bool control = (unsigned char)*name < 32 || *name == 127;
+        if (*sentence != (control ? '?' : *name))
+            return false;
+    }
+    return *sentence == ':';
+}
+
 static void name_model(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
     const char *name = strcmp(job->model, "-") == 0 ? "standard input" : job->model;
     if (error->code == LAM_LIMIT && o->time_limit_s > 0 &&
         clock_ms() - job->times.start >= o->time_limit_s * 1e3) {
-        complain(error, LAM_LIMIT, "%s: the time limit of %.10g s is over", job->model, o->time_limit_s);
+        complain(error, LAM_LIMIT, "%s: the time limit of %.10g s is over", name, o->time_limit_s);
     } else if (error->code == LAM_CANCELLED) {
-        complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
-    } else if (error->code != LAM_CANNOT_WRITE && !strstr(error->text, name) &&
+        complain(error, LAM_CANCELLED, "%s: interrupted", name);
+    } else if (error->code != LAM_CANNOT_WRITE && !names(error->text, name) &&
                !(job->output && strstr(error->text, job->output) == error->text)) {
         lam_error plain = *error;
         complain(error, plain.code, "%.200s: %.300s", name, plain.text);

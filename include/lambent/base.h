@@ -57,7 +57,7 @@ LAM_API void lam_cancel_clear(lam_cancel *cancel);
 // loop, so a call ends within some milliseconds of the flag or the deadline, with nothing half done.
 typedef struct lam_control {
     const lam_cancel *cancel;    // NULL: cannot be cancelled; a raised flag gives LAM_CANCELLED
-    double time_limit_s;         // seconds from the start of the call, > 0; 0: none; over it gives LAM_LIMIT
+    double time_limit_s;         // seconds from the start of the call; 0 or less: none; over it gives LAM_LIMIT
     uint64_t memory_limit_bytes; // bytes the call may hold allocated at once; 0: none; over it gives LAM_LIMIT
     // Called now and then from the calling thread with the share done, 0..1, and the step's name
     // ("read", "normals", "frame", …). NULL: none. It must not call back into the same device or scene.

@@ -29,6 +29,7 @@ LAM_API void lam_image_free(lam_image *image);
 
 // How a picture is written. All zero is the plain default.
 typedef struct lam_save_params {
+    const lam_control *control; // cancel flag and time limit, checked while encoding; NULL: none
     // Formats without alpha (PPM) hold the picture over this colour, linear. Default black.
     lam_rgb background;
     int threads; // threads to encode with; 0: one for each processor. The bytes do not depend on it.

@@ -79,6 +79,7 @@ typedef struct lam_shape_params {
     // Segments along, 1..16384; 0: the shape's own. sphere needs 2, torus and torus-knot 3; teapot takes at most 4096 along
     // each patch; gyroid and metaballs have no use for it.
     int stacks;
+    const lam_control *control; // over the making; NULL: none
 } lam_shape_params;
 
 // The built-in shapes, one constant table: sphere, torus, plane, cube, cylinder, cone, teapot, torus-knot,

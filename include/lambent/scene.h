@@ -89,7 +89,7 @@ LAM_API int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error
 LAM_API int lam_scene_add_material(lam_scene *scene, const lam_material *material, lam_error *error);
 LAM_API int lam_scene_add_light(lam_scene *scene, const lam_light *light, lam_error *error);
 
-// Add meshes that are computed. The shape's name is one of lam_shape_name(). `control` may be NULL.
+// Add meshes that are computed. The shape's name is one of lam_shape_name(). `params` and `control` may be NULL.
 LAM_API int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_params *params, lam_error *error);
 LAM_API int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, const lam_control *control,
                                      lam_error *error);

@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,8 +94,10 @@ static void read_piece(void *user, size_t index, int thread)
         if (got > 0) {
             at += (size_t)got;
         } else if (got == 0 || errno != EINTR) {
-            reading->reached = at;
-            __atomic_store_n(&reading->failed, got == 0 ? -1 : errno, __ATOMIC_RELAXED);
+            // Of several pieces that fail the first to say so is told.
+            int none = 0, reason = got == 0 ? -1 : errno;
+            if (__atomic_compare_exchange_n(&reading->failed, &none, reason, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+                reading->reached = at;
         }
     }
 }
@@ -121,43 +124,60 @@ static bool read_sized(int file, const char *path, size_t size, struct pool *poo
     return ok;
 }
 
-// A pipe, a terminal, a device: read until it ends.
+// Waits until a stream can be read; false once the watch says stop. A pipe whose writer has not come yet is waited for too.
+static bool wait_readable(int file, struct watch *watch)
+{
+    while (watch_on(watch)) {
+        struct pollfd ready = {.fd = file, .events = POLLIN};
+        int count = poll(&ready, 1, 50);
+        if (count > 0 || (count < 0 && errno != EINTR))
+            return true; // the read tells what it is
+    }
+    return false;
+}
+
+// Twice the room, with what was read so far.
+static bool grow(struct file_bytes *bytes, size_t used, struct watch *watch, lam_error *error)
+{
+    struct file_bytes larger;
+    if (!hold(bytes->size * 2, watch, &larger, error))
+        return false;
+    memcpy((void *)(uintptr_t)larger.data, bytes->data, used);
+    file_release(bytes);
+    *bytes = larger;
+    return true;
+}
+
+// A pipe, a terminal, a device: read until it ends. It may have no end (/dev/zero).
 static bool read_stream(int file, const char *path, struct watch *watch, struct file_bytes *out, lam_error *error)
 {
-    // A stream may have no end (/dev/zero); it is copied once more below.
-    size_t room = 1 << 20, size = 0, most = pages_of_machine() / 4;
-    uint8_t *bytes = malloc(room);
-    bool ok = bytes != NULL || fail_memory(error, room);
-    while (ok) {
-        if (size >= most)
-            ok = fail(error, LAM_LIMIT, "%s: has no end within %.1f GB, a quarter of this machine's memory", path,
-                      (double)most / 1e9);
-        if (ok && size == room) {
-            uint8_t *more = room > SIZE_MAX / 4 ? NULL : realloc(bytes, room * 2);
-            if (!more) {
-                ok = fail_memory(error, room);
-                break;
-            }
-            bytes = more;
-            room *= 2;
-        }
-        ssize_t got = ok ? read(file, bytes + size, room - size) : 0;
-        if (got == 0)
-            break;
-        if (got > 0)
-            size += (size_t)got;
-        else if (errno != EINTR)
-            ok = fail_system(error, LAM_CANNOT_READ, path, "read");
-        if (ok && !watch_on(watch))
+    size_t used = 0, most = pages_of_machine() / 4;
+    bool ok = hold(1 << 20, watch, out, error), ended = false;
+    while (ok && !ended) {
+        if (used == out->size)
+            ok = used >= most ? fail(error, LAM_LIMIT, "%s: has no end within %.1f GB, a quarter of this machine's memory",
+                                     path, (double)most / 1e9)
+                              : grow(out, used, watch, error);
+        if (ok && !wait_readable(file, watch))
             ok = watch_error(watch, error);
-        if (ok && watch && watch->control.memory_limit_bytes && size > watch->control.memory_limit_bytes)
-            ok = fail(error, LAM_LIMIT, "%s: larger than the memory limit of %.1f MB", path,
-                      (double)watch->control.memory_limit_bytes / 1e6);
+        if (!ok)
+            break;
+        ssize_t got = read(file, (uint8_t *)(uintptr_t)out->data + used, out->size - used);
+        ended = got == 0;
+        if (got > 0)
+            used += (size_t)got;
+        else if (got < 0 && errno != EINTR && errno != EAGAIN)
+            ok = fail_system(error, LAM_CANNOT_READ, path, "read");
     }
-    if (ok)
-        ok = file_copy(bytes, size, watch, out, error);
-    free(bytes);
-    return ok;
+    if (!ok) {
+        file_release(out);
+        return false;
+    }
+    // What is behind the last byte stays zero; what was charged for it is given back.
+    if (watch)
+        watch_refund(watch, out->size - used);
+    out->size = used;
+    return true;
 }
 
 bool file_read(const char *path, struct pool *pool, struct watch *watch, struct file_bytes *out, lam_error *error)
@@ -165,7 +185,7 @@ bool file_read(const char *path, struct pool *pool, struct watch *watch, struct 
     *out = (struct file_bytes){0};
     if (strcmp(path, "-") == 0)
         return read_stream(STDIN_FILENO, "standard input", watch, out, error);
-    int file = open(path, O_RDONLY | O_CLOEXEC);
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0)
         return fail_system(error, LAM_CANNOT_READ, path, "open");
     struct stat about;

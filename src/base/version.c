@@ -27,4 +27,9 @@
 
 const char *lam_version(void) { return LAM_VERSION_TEXT; }
 
-const char *lam_build_info(void) { return COMPILER ", " MACHINE ", " BUILD; }
+// What the build file knows: libraries and instruction sets.
+#ifndef BUILT_WITH
+#define BUILT_WITH ""
+#endif
+
+const char *lam_build_info(void) { return COMPILER ", " MACHINE ", " BUILD BUILT_WITH; }

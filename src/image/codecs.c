@@ -114,7 +114,10 @@ bool lam_image_save(const lam_image *image, const char *path, const lam_save_par
     lam_bytes bytes = {0};
     if (!codec || !encode(codec, image, params, &bytes, error))
         return false;
-    bool ok = file_write(path, bytes.data, bytes.size, error);
+    // The last moment at which nothing has been written.
+    struct watch watch;
+    watch_start(&watch, params ? params->control : NULL);
+    bool ok = watch_on(&watch) ? file_write(path, bytes.data, bytes.size, error) : watch_error(&watch, error);
     lam_bytes_free(&bytes);
     return ok;
 }

@@ -39,6 +39,7 @@ struct encoding {
     struct deflate *scratch; // one for each thread
     int translucent;         // touched atomically: set once a pixel was found that is not opaque
 
+    struct watch watch; // over the whole call
     int first;          // strip of this batch
     uint8_t *out;       // of this batch, `room` bytes for each strip
     struct strip *done; // one for each strip of a batch
@@ -225,6 +226,10 @@ static bool encode_strips(struct encoding *encoding, bool raw, struct pool *pool
     for (encoding->first = 0; encoding->first < encoding->strips; encoding->first += BATCH_STRIPS) {
         int left = encoding->strips - encoding->first, count = left < BATCH_STRIPS ? left : BATCH_STRIPS;
         size_t wanted = (size ? size : HEAD_ROOM) + (size_t)count * encoding->room + TAIL_ROOM;
+        if (!watch_on(&encoding->watch)) {
+            free(bytes);
+            return watch_error(&encoding->watch, error);
+        }
         uint8_t *more = realloc(bytes, wanted);
         if (!more) {
             free(bytes);
@@ -251,6 +256,7 @@ bool png_write(const lam_image *image, const lam_save_params *params, struct poo
                lam_error *error)
 {
     struct encoding encoding = {.image = image, .bytes_per_pixel = 4, .mask = 0xFFFFFFFFu};
+    watch_start(&encoding.watch, params->control);
     encoding.rows = STRIP_PIXELS / image->width;
     if (encoding.rows < 1)
         encoding.rows = 1;

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 static const struct importer *const importers[] = {&importer_obj, &importer_stl, &importer_ply};
 enum { IMPORTERS = sizeof importers / sizeof *importers };
@@ -194,6 +195,10 @@ static bool open_companion(const struct import_source *source, const char *name,
                           folder == 0 && inside[0] == '-' ? "./" : "", inside);
     if (length < 0 || (size_t)length >= sizeof path)
         return fail(error, LAM_CANNOT_READ, "%s: the path to '%.80s' is too long", source->name, inside);
+    // A pipe of that name would be waited for.
+    struct stat about;
+    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
+        return fail(error, LAM_CANNOT_READ, "%s: is not a file", path);
     return file_read(path, source->pool, source->watch, out, error);
 }
 

@@ -6,6 +6,7 @@
 #include "text.h"
 
 #include <string.h>
+#include <strings.h>
 
 // --- materials by name: open addressing
 
@@ -65,6 +66,8 @@ struct reader {
     struct lam_scene *scene;
     const char *name; // of the file
     const uint8_t *begin, *end;
+    const uint8_t *counted_to; // the place whose line number is known (line_of)
+    size_t line;
     bool raw; // colours are not converted
     // The material that is being read, and which of its statements were there.
     lam_material material;
@@ -73,6 +76,18 @@ struct reader {
     const uint8_t *unknown, *stray;
     size_t unknown_count, stray_count;
 };
+
+// The line that a place is in, for warnings: counted on from the one before, so that a file of mistakes costs one pass.
+static size_t line_of(struct reader *reader, const uint8_t *at)
+{
+    if (at < reader->counted_to || !reader->counted_to) {
+        reader->counted_to = reader->begin;
+        reader->line = 1;
+    }
+    reader->line += text_line(reader->counted_to, at) - 1;
+    reader->counted_to = at;
+    return reader->line;
+}
 
 // Reads `least` to `most` numbers, and says how many there were; fewer are −1, with a warning.
 static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t *end, float *to, int least,
@@ -91,7 +106,7 @@ static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t 
         return count;
     char found[TEXT_FOUND_SIZE];
     scene_warn(reader->scene, "%s:%zu: found %s, expected a number; the statement is left out", reader->name,
-               text_line(reader->begin, at), at < end ? text_found(at, end, found) : "the end of the line");
+               line_of(reader, at), at < end ? text_found(at, end, found) : "the end of the line");
     return -1;
 }
 
@@ -103,7 +118,7 @@ static float within(struct reader *reader, const uint8_t *at, float x, float low
         return x;
     float to = x > high ? high : low; // NaN goes to the lower end
     scene_warn(reader->scene, "%s:%zu: %s %g is out of range; %g is used", reader->name,
-               text_line(reader->begin, at), what, (double)x, (double)to);
+               line_of(reader, at), what, (double)x, (double)to);
     return to;
 }
 
@@ -120,7 +135,7 @@ static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *
     at = text_skip_white(at, end);
     if (text_is_word(at, end, "spectral") || text_is_word(at, end, "xyz")) {
         scene_warn(reader->scene, "%s:%zu: %s as a %s is not read, only r g b", reader->name,
-                   text_line(reader->begin, at), what,
+                   line_of(reader, at), what,
                    text_is_word(at, end, "xyz") ? "CIE XYZ colour" : "spectral curve");
         return false;
     }
@@ -312,7 +327,7 @@ static enum statement statement_of(const uint8_t *at, const uint8_t *end)
         if (text_is_word(at, end, words[i].word))
             return words[i].statement;
     }
-    bool map = end - at > 4 && memcmp(at, "map_", 4) == 0;
+    bool map = end - at > 4 && strncasecmp((const char *)at, "map_", 4) == 0;
     return map || text_is_word(at, end, "decal") ? OTHER_MAP : UNKNOWN;
 }
 
@@ -376,7 +391,7 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
             m->illum = (int)model;
         else
             scene_warn(reader->scene, "%s:%zu: illum is not one of the models 0 to 10; it is left out",
-                       reader->name, text_line(reader->begin, word));
+                       reader->name, line_of(reader, word));
         break;
     }
     case NOTHING:

@@ -305,9 +305,15 @@ static bool explain_nothing(struct state *state, lam_error *error)
             "%s:%zu: holds no faces, only free-form curves and surfaces (%s), which this version cannot draw",
             name, obj_line(obj, state->first[FREE_FORM]),
             text_found(state->first[FREE_FORM], obj->end, found));
+    if (lines && points)
+        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu line%s and %zu point%s", name, lines,
+                    lines == 1 ? "" : "s", points, points == 1 ? "" : "s");
     if (lines + points)
-        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu line and %zu point elements",
-                    name, lines, points);
+        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu %s%s", name, lines + points,
+                    lines ? "line" : "point", lines + points == 1 ? "" : "s");
+    if (state->counts[UNKNOWN])
+        return fail(error, LAM_CANNOT_READ, "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file holds no triangles",
+                    name, obj_line(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found));
     return true;
 }
 

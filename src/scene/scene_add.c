@@ -72,6 +72,8 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
         if (by_index ? !indices_below(mesh->color_indices, corners, mesh->color_count) : mesh->color_count < needed)
             return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner refers to colors beyond the %u there are", mesh->color_count);
     }
+    if (mesh->part_count && !mesh->parts)
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: part_count is %u, but parts is NULL", mesh->part_count);
     uint64_t next = 0;
     for (uint32_t i = 0; i < mesh->part_count; i++) {
         const lam_part *part = &mesh->parts[i];

@@ -469,7 +469,7 @@ int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_par
     if (!check_params(shape, params, error))
         return -1;
     struct watch watch;
-    uint64_t state = begin(scene, &watch, NULL);
+    uint64_t state = begin(scene, &watch, params->control);
     struct shape_request request = {params->slices, params->stacks, &scene->arena, &watch, error};
     lam_mesh mesh = {0};
     bool made = shapes[row].build(&request, &mesh);

@@ -52,7 +52,6 @@ static const struct kind {
     {{"a web page", false}, 0, 9, "<!DOCTYPE", NULL},
     {{"a web page", false}, 0, 9, "<!doctype", NULL},
     {{"a web page", false}, 0, 5, "<html", NULL},
-    {{"an XML document", false}, 0, 5, "<?xml", NULL},
 };
 
 // Text formats that begin anyhow: told by a first character behind white space, and a word further on.

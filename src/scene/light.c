@@ -140,8 +140,8 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
 }
 
 // The default look. What a point returns is its ka or kd times at most
-//   0.74 (key) + 0.24·cos 79° (fill, where the key is full) + 0.17 (sky, seen from there) = 0.96,
-// so that even a white material keeps its form and does not blow out; the default material's 0.72 ends at 0.69 (sRGB 215),
+//   0.74 (key) + 0.24·cos 79° (fill, where the key is full) + 0.17 (sky, seen from there) = 0.96
+// (0.9 on top, where the rim light joins in), so that even a white material keeps its form and does not blow out; the default material's 0.72 ends at 0.69 (sRGB 215),
 // with a highlight above it. A point that only the ground lights still has 0.72·0.06 (sRGB 58), and between the two stand
 // the fill's side (about 0.2, sRGB 124) and the rim, which draws a line of light along the upper edges so that a model
 // stands out from a dark page.
@@ -149,7 +149,7 @@ static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = camera_light("key", v3(-0.65, 0.75, 0.80), 0.74f, 0.9f);
     lights[1] = camera_light("fill", v3(0.95, 0.10, 0.55), 0.24f, 0.15f);
-    lights[2] = camera_light("rim", v3(0.25, 0.70, -0.80), 0.45f, 0.30f);
+    lights[2] = camera_light("rim", v3(0.25, 0.70, -0.80), 0.28f, 0.30f);
     lights[3] = lam_light_default(LAM_LIGHT_HEMISPHERE);
     lights[3].name = "sky";
     lights[3].sky = (lam_rgb){0.20f, 0.20f, 0.20f};

@@ -287,7 +287,7 @@ static void test_errors(void **unused)
     expect_error("", LAM_CANNOT_READ, "t.obj: holds no triangles");
     expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: holds no triangles (3 points only)");
     expect_error(TRIANGLE "l 1 2\np 1 2 3\n", LAM_CANNOT_READ,
-                 "t.obj: holds no triangles, only 1 line and 1 point elements");
+                 "t.obj: holds no triangles, only 1 line and 1 point");
     expect_error(TRIANGLE "cstype bspline\nsurf 0 1 0 1 1 2 3\n", LAM_UNSUPPORTED,
                  "t.obj:4: holds no faces, only free-form curves and surfaces ('cstype'), which this version "
                  "cannot draw");

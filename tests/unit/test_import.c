@@ -109,7 +109,7 @@ static void test_foreign(void **unused)
         ROW("hello there\n", "a.txt", "a.txt: this is no model format known here; expected obj, stl and ply",
             LAM_CANNOT_READ),
         ROW("", "a.obj", "a.obj: the file is empty", LAM_CANNOT_READ),
-        ROW("hello there\n", "a.obj", "a.obj: holds no triangles", LAM_CANNOT_READ),
+        ROW("hello there\n", "a.obj", "a.obj:1: found 'hello', expected a statement of OBJ (v, f, …); the file holds no triangles", LAM_CANNOT_READ),
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         expect_error(rows[i].bytes, rows[i].size, rows[i].name, rows[i].code, rows[i].sentence);

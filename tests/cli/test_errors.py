@@ -93,7 +93,8 @@ class Outputs(Case):
     def test_output_is_a_folder(self):
         (self.folder / "out.png").mkdir()
         self.given.add("out.png")
-        self.bad(5, "cube.obj", "-o", "out.png", says="out.png")
+        self.good("cube.obj", "-o", "out.png", "-s", "16")  # pictures go into it
+        self.assertTrue((self.folder / "out.png" / "cube.png").is_file())
         (self.folder / "cube.png").mkdir()
         self.given.add("cube.png")
         self.bad(5, "cube.obj", says=["cube.png", "-o"])

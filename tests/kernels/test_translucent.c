@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-enum { SIZE = 96, SAMPLES_MAX = 4 };
+enum { SIZE = 96, SAMPLES_MAX = 16 };
 
 // Triangles, each of one colour. `opaque` ones are drawn as an object of their own whose colours have no alpha below 1.
 struct soup {
@@ -187,14 +187,22 @@ struct reference {
 
 static void refer(const struct soup *soup, int samples, lam_rgba background, struct reference *out)
 {
-    static const int where[2][SAMPLES_MAX][2] = {{{0, 0}}, {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}}};
+    // Direct3D's standard patterns, 1/16 pixel, by number of samples.
+    static const int where[17][SAMPLES_MAX][2] = {
+        [1] = {{0, 0}},
+        [2] = {{4, 4}, {-4, -4}},
+        [4] = {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}},
+        [8] = {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}},
+        [16] = {{1, 1}, {-1, -3}, {-3, 2}, {4, -1}, {-5, -2}, {2, 5}, {5, 3}, {3, -5}, {-2, 6}, {0, -7}, {-4, -6}, {-6, 4},
+                {-8, 0}, {7, -4}, {6, 7}, {-7, -8}},
+    };
     struct hit *hits = malloc((size_t)soup->count * sizeof *hits);
     for (int i = 0; i < SIZE * SIZE; i++) {
         double *pixel = out->pixel[i];
         out->close[i] = false;
         pixel[0] = pixel[1] = pixel[2] = pixel[3] = 0;
         for (int s = 0; s < samples; s++) {
-            const int *at = where[samples == 4][s];
+            const int *at = where[samples][s];
             int64_t p[2] = {i % SIZE * 256 + 128 + 16 * at[0], i / SIZE * 256 + 128 + 16 * at[1]};
             int n = 0;
             for (int t = 0; t < soup->count; t++)
@@ -290,12 +298,37 @@ static void test_random(void **state)
 {
     (void)state;
     static const lam_rgba backgrounds[] = {{0, 0, 0, 0}, {0.2f, 0.4f, 0.8f, 1}, {1, 0.5f, 0.25f, 0.5f}};
-    for (int i = 0; i < 6; i++) {
+    static const int samples[] = {1, 4, 1, 4, 2, 4, 8, 16};
+    for (int i = 0; i < 8; i++) {
         seed = (uint64_t)i + 1;
-        struct soup soup = random_soup(i < 3 ? 120 : 60, i % 2 ? 0.2 : 0);
-        check(&soup, NULL, i % 2 ? 4 : 1, backgrounds[i % 3], 1e-5);
+        struct soup soup = random_soup(i < 3 ? 120 : 50, i % 2 ? 0.2 : 0);
+        check(&soup, NULL, samples[i], backgrounds[i % 3], 1e-5);
         soup_free(&soup);
     }
+}
+
+// Triangles of one colour look the same under every shading method, also where a tile has more points to light than there is
+// room for at once.
+static void test_methods(void **state)
+{
+    (void)state;
+    static float drawn[3][SIZE * SIZE * 4];
+    seed = 10;
+    struct soup soup = random_soup(300, 0.02);
+    lam_scene *scene = scene_of(&soup, NULL);
+    uint64_t lit = 0;
+    for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++) {
+        struct way way = {.threads = 2, .format = LAM_RGBA32F,
+                          .params = {.samples = 1, .shading = (lam_shading)shading, .reflection = LAM_REFLECTION_NONE}};
+        lam_camera seen = camera();
+        uint64_t points = draw_seen(scene, &seen, &way, drawn[shading]);
+        lit = shading == LAM_SHADING_PHONG ? points : lit;
+        for (int i = 0; i < SIZE * SIZE * 4; i++)
+            assert_true(fabsf(drawn[shading][i] - drawn[0][i]) < 1e-5f);
+    }
+    assert_true(lit > 4 * SIZE * SIZE); // layers indeed
+    lam_scene_free(scene);
+    soup_free(&soup);
 }
 
 // The picture does not depend on the order in which triangles are given: only depth decides.
@@ -665,7 +698,7 @@ static void test_straight(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random),      cmocka_unit_test(test_order),  cmocka_unit_test(test_intersecting),
+        cmocka_unit_test(test_random),      cmocka_unit_test(test_methods), cmocka_unit_test(test_order),  cmocka_unit_test(test_intersecting),
         cmocka_unit_test(test_cyclic),      cmocka_unit_test(test_equal_depth), cmocka_unit_test(test_many_layers),
         cmocka_unit_test(test_limit),       cmocka_unit_test(test_memory), cmocka_unit_test(test_clipped),
         cmocka_unit_test(test_shading),     cmocka_unit_test(test_sides),  cmocka_unit_test(test_as_opaque),

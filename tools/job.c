@@ -12,6 +12,7 @@
 #include "help.h"
 #include "interrupt.h"
 #include "output.h"
+#include "show_option.h"
 #include "suggest.h"
 
 static lam_view view_of(const struct options *o)
@@ -162,6 +163,8 @@ static bool draw(struct job *job, const lam_rgba *background, struct progress *p
                               .rig = (lam_rig)o->rig,
                               .shading = (lam_shading)o->shading,
                               .reflection = (lam_reflection)o->reflection};
+    if (!show_option_apply(o->show, job->scene, &params, error))
+        return false;
     lam_frame_report *reports = calloc((size_t)o->repeat, sizeof *reports);
     if (!reports)
         return complain(error, LAM_LIMIT, "out of memory");
@@ -195,7 +198,8 @@ static bool write_output(struct job *job, const lam_rgba *background, lam_error 
     lam_save_params params = {.background = {background->r, background->g, background->b},
                               .threads = o->threads,
                               .control = &control,
-                              .raw = o->color == LAM_COLOR_RAW};
+                              .raw = o->color == LAM_COLOR_RAW ||
+                                     !lam_show_is_light(show_option_what(o->show))};
     lam_bytes bytes = {0};
     bool ok;
     if (output_is_stream(job->output)) {

@@ -19,6 +19,25 @@ static const struct word color_words[] = {
     {"raw", LAM_COLOR_RAW, "no conversion either way: what the equations give is what the file holds"},
     {NULL, 0, NULL}};
 
+static const struct word show_words[] = {
+    {"ambient", LAM_SHOW_AMBIENT, "the ambient term"},
+    {"diffuse", LAM_SHOW_DIFFUSE, "the diffuse term of all lights"},
+    {"specular", LAM_SHOW_SPECULAR, "the highlights of all lights"},
+    {"emission", LAM_SHOW_EMISSION, "what the surface gives by itself"},
+    {"reflection", LAM_SHOW_REFLECTION, "the environment's mirror image"},
+    {"light:NAME", LAM_SHOW_LIGHT, "all that one light gives, by its name or its number from 1"},
+    {"normals", LAM_SHOW_NORMALS, "in eye space: (n + 1)/2"},
+    {"tangents", LAM_SHOW_TANGENTS, "in eye space: (t + 1)/2"},
+    {"depth", LAM_SHOW_DEPTH, "distance in front of the eye: near white, far black"},
+    {"n.l", LAM_SHOW_N_L, "cosine between normal and light: max(n.l, 0)"},
+    {"n.h", LAM_SHOW_N_H, "cosine between normal and half vector: max(n.h, 0)"},
+    {"facing", LAM_SHOW_FACING, "front blue, back red"},
+    {"ids", LAM_SHOW_IDS, "a colour for each triangle"},
+    {"coverage", LAM_SHOW_COVERAGE, "the share of samples that are covered"},
+    {"overdraw", LAM_SHOW_OVERDRAW, "how many triangles lie over a pixel: c/(c + 3)"},
+    {"clipped", LAM_SHOW_CLIPPED, "where the picture leaves 0 to 1: above red, below blue"},
+    {NULL, 0, NULL}};
+
 static const struct word view_words[] = {
     {"front", VIEW_FRONT, "level, from +Z (with Y up)"},
     {"back", VIEW_BACK, "level, from behind"},
@@ -100,6 +119,14 @@ const struct option option_table[] = {
      .store = store_color, FIELD(background)},
     {"color", 0, GROUP_PICTURE, "MODE", "srgb", "How colours become numbers: srgb or raw (no conversion).",
      NULL, color_words, .store = store_word, FIELD(color)},
+    {"show", 0, GROUP_PICTURE, "WHAT", "the picture",
+     "A term of the light, one light, or numbers of the surfaces in place of the picture.",
+     "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. "
+     "`light:key` is what the light named key gives; `light:1` is the first light. `n.l` and `n.h` are of the "
+     "first light that has a direction; `n.l:key` and `n.h:key` name another. The rest are numbers of the "
+     "surfaces: `.pfm` holds them as they are, 8-bit pictures a code for them, with no sRGB encoding. "
+     "`docs/show.md` has the table of all of them.",
+     show_words, .store = store_show, FIELD(show)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "Seen from the front, back, left, right, top, bottom or iso.",

@@ -14,6 +14,7 @@ struct options {
     int samples;            // 0: the library's default
     const char *background; // as written; NULL: clear
     int color;              // lam_color_mode
+    const char *show;       // as written (show_option.h); NULL: the picture
 
     // View
     int view;                          // enum view_name
@@ -131,6 +132,7 @@ bool store_number(const struct option *, const char *, struct options *, lam_err
 bool store_size(const struct option *, const char *, struct options *, lam_error *);    // width, height
 bool store_bytes(const struct option *, const char *, struct options *, lam_error *);   // uint64_t
 bool store_color(const struct option *, const char *, struct options *, lam_error *); // const char *, checked
+bool store_show(const struct option *, const char *, struct options *, lam_error *);  // const char *, checked
 bool store_camera(const struct option *, const char *, struct options *,
                   lam_error *); // const char *, checked
 

@@ -103,6 +103,8 @@ static void carve_thread(struct carving *carving, struct thread_state *thread, c
         slots *= 2;
     thread->point_table = carve(carving, slots * sizeof(uint32_t));
     thread->point_key = carve(carving, points * sizeof *thread->point_key);
+    thread->counts = frame->show == LAM_SHOW_OVERDRAW ? carve(carving, entries * sizeof(int32_t)) : NULL;
+    thread->shown = frame->show == LAM_SHOW_CLIPPED ? carve(carving, TILE * TILE * 4 * sizeof(float)) : NULL;
     if (!frame->translucent)
         return;
     thread->layer_samples = carve(carving, LAYERS_MAX * sizeof(uint16_t));
@@ -329,9 +331,14 @@ static void tile_task(void *user, size_t index, int number)
         }
         collect_fragments(cpu, thread, width, height);
         uint64_t covered = now_ns();
-        cpu->kernels->light(cpu, thread, tile_x, tile_y);
+        lam_show show = cpu->frame->show;
+        if (show != LAM_SHOW_COVERAGE && show != LAM_SHOW_OVERDRAW)
+            cpu->kernels->light(cpu, thread, tile_x, tile_y);
         uint64_t lit = now_ns();
-        cpu->kernels->resolve(cpu, thread, tile_x, tile_y);
+        if (lam_show_is_light(show))
+            cpu->kernels->resolve(cpu, thread, tile_x, tile_y);
+        else
+            show_tile(cpu, thread, tile_x, tile_y, width, height);
         thread->coverage_ns += covered - start;
         thread->lighting_ns += lit - covered;
         thread->resolve_ns += now_ns() - lit;
@@ -395,6 +402,8 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         !make_threads_ready(device, &cpu, error))
         return false;
     cpu.kernels->resolve_empty(&cpu);
+    if (!lam_show_is_light(frame->show))
+        show_empty(&cpu);
 
     uint64_t clock = now_ns();
     pool_run(device->pool, vertex_pieces, vertex_task, &cpu);

@@ -120,6 +120,8 @@ struct thread_state {
     uint32_t (*point_key)[4];   // what makes a point: position, normal, colour, tangent element
     uint32_t *fragment_point;   // 3 per fragment
     float *point_color[4];
+    int32_t *counts;            // triangles that cover each sample; NULL: nobody asks (show.c)
+    float *shown;               // the tile's part of the picture, for LAM_SHOW_CLIPPED
     // Sums of a tile's pixels: r, g, b premultiplied, and alpha.
     float *sum[4];
 
@@ -222,6 +224,11 @@ void group_fragments(const struct frame *frame, struct thread_state *thread);
 // Gathers, lights and blends the translucent fragments of a tile that lie before the opaque ones: into the thread's sums
 // (premultiplied) and `clear`.
 void blend_tile(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height);
+
+// What the picture holds where it shows numbers (lam_show): the pixels of a tile, in place of the kernels' resolve, and a pixel
+// without fragments.
+void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height);
+void show_empty(struct cpu_frame *cpu);
 
 // Rounds to the nearest 1/256 pixel.
 static inline int32_t snap(float x)

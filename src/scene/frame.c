@@ -49,6 +49,8 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
     if ((unsigned)params->stage > LAM_STAGE_FRAGMENT || (unsigned)params->viewer > LAM_VIEWER_INFINITE ||
         (unsigned)params->flat_normal > LAM_FLAT_NORMAL_VERTEX)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
+    if ((unsigned)params->show >= LAM_SHOW_COUNT || params->show_light < 0)
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: show or show_light is out of its range");
     if (params->shading == LAM_SHADING_PHONG &&
         (params->stage == LAM_STAGE_APPLICATION || params->stage == LAM_STAGE_VERTEX))
         return fail(error, LAM_BAD_ARGUMENT, "Phong shading lights every fragment: its stage is fragment; "
@@ -243,19 +245,26 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
     return true;
 }
 
-static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig rig, const lam_mat4 *view, lam_error *error)
+// All lights, or the one that is shown (`only`; then without the scene's ambient light).
+static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig rig, int only, const lam_mat4 *view, lam_error *error)
 {
-    store_rgb(frame->ambient, scene->ambient);
+    store_rgb(frame->ambient, only < 0 ? scene->ambient : (lam_rgb){0});
     for (int i = 0; i < scene->lights.count; i++)
-        if (!add_light(frame, scene, lam_scene_light(scene, i), i, view, error))
+        if ((only < 0 || only == i) && !add_light(frame, scene, lam_scene_light(scene, i), i, view, error))
             return false;
     if (rig == LAM_RIG_AUTO)
         rig = scene->lights.count ? LAM_RIG_NONE : LAM_RIG_STUDIO;
     lam_light lights[LAM_RIG_LIGHTS_MAX];
     int count = lam_rig_lights(rig, lights);
     for (int i = 0; i < count; i++)
-        if (!add_light(frame, scene, &lights[i], -1, view, error))
+        if ((only < 0 || only == scene->lights.count + i) && !add_light(frame, scene, &lights[i], -1, view, error))
             return false;
+    if (only >= scene->lights.count + count)
+        return fail(error, LAM_BAD_ARGUMENT, "show_light is %d, but the frame has %d lights, counted from 0", only,
+                    scene->lights.count + count);
+    if (only >= 0 && frame->show != LAM_SHOW_LIGHT && !frame->light_count)
+        return fail(error, LAM_BAD_ARGUMENT, "%s: light %d comes from everywhere, expected one with a direction",
+                    lam_show_name(frame->show), only);
     return true;
 }
 
@@ -329,6 +338,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->flat_normal = params->flat_normal;
     frame->match_highlights = params->match_highlights;
     frame->gl1 = params->gl1;
+    frame->show = params->show;
     frame->draw_count = frame->surface_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
     frame->translucent = false;
@@ -362,7 +372,10 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         next += triangles;
     }
     frame->triangle_count = (uint32_t)next;
-    return build_lights(frame, scene, params->rig, &view, error);
+    // Numbers are those of the nearest surface, however clear it is.
+    if (!lam_show_is_light(frame->show) && frame->show != LAM_SHOW_CLIPPED)
+        frame->translucent = false;
+    return build_lights(frame, scene, params->rig, shows_one_light(frame->show) ? params->show_light : -1, &view, error);
 }
 
 void frame_free(struct frame *frame) { buffer_free(&frame->storage); }

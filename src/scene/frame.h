@@ -73,6 +73,7 @@ struct frame {
     lam_reflection reflection; // never AUTO
     lam_flat_normal flat_normal;
     bool match_highlights, gl1;
+    lam_show show;
     bool distant_viewer; // v = +z for every point: an orthographic camera, or asked for
     bool orthographic;
     bool translucent; // any surface is
@@ -95,6 +96,12 @@ struct frame {
     lam_material default_material;
     struct buffer storage; // holds the arrays
 };
+
+// Whether lights but one are left out.
+static inline bool shows_one_light(lam_show show)
+{
+    return show == LAM_SHOW_LIGHT || show == LAM_SHOW_N_L || show == LAM_SHOW_N_H;
+}
 
 // Builds the frame; keeps its storage from call to call. Errors: LAM_BAD_ARGUMENT (camera or parameters out of range),
 // LAM_LIMIT (memory, too many triangles).

@@ -1,0 +1,421 @@
+// test_show.c: pictures of terms add up to the picture; pictures of numbers hold the numbers that they say, and their codes.
+#include "scenes.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static lam_device *device;
+
+static int set_up(void **state)
+{
+    (void)state;
+    device = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL);
+    return device ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    lam_device_free(device);
+    return 0;
+}
+
+static lam_image draw(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params, int width, int height,
+                      lam_pixel_format format)
+{
+    lam_image image;
+    lam_error error = {0};
+    assert_true(lam_image_make(&image, width, height, format, &error));
+    if (!lam_draw(device, scene, camera, params, &image, NULL, &error))
+        fail_msg("%s: %s", lam_show_name(params->show), error.text);
+    return image;
+}
+
+static lam_image draw_show(const lam_scene *scene, const lam_camera *camera, lam_draw_params params, lam_show show, int light)
+{
+    params.show = show;
+    params.show_light = light;
+    return draw(scene, camera, &params, 96, 72, LAM_RGBA32F);
+}
+
+enum { CHANNELS = 96 * 72 * 4 };
+
+static void add(double *sums, lam_image image)
+{
+    const float *p = image.pixels;
+    for (int i = 0; i < CHANNELS; i++)
+        sums[i] += i % 4 == 3 ? 0 : (double)p[i];
+    lam_image_free(&image);
+}
+
+// Channels that the sums and the picture do not share, at most some roundings of float numbers of this size.
+static void check_sums(const char *what, const double *sums, const lam_image *picture)
+{
+    const float *p = picture->pixels;
+    double brightest = 0;
+    bool covered = false;
+    for (int i = 0; i < CHANNELS; i++) {
+        if (i % 4 == 3) {
+            covered |= p[i] > 0;
+            continue;
+        }
+        double expected = (double)p[i], bound = 1e-6 * (1 + fabs(expected));
+        brightest = fmax(brightest, expected);
+        if (!(fabs(sums[i] - expected) <= bound))
+            fail_msg("%s: pixel %d,%d channel %d: the sum is %.9g, the picture %.9g", what, i / 4 % 96, i / 4 / 96, i % 4, sums[i],
+                     expected);
+    }
+    if (covered && brightest < 0.05)
+        fail_msg("%s: the picture is black", what);
+}
+
+// Both ways to add up: the five terms; and the lights, with what is no light's.
+static void check_scene(const char *name, lam_scene *scene, const lam_camera *camera, lam_draw_params params)
+{
+    static double sums[CHANNELS];
+    params.background = (lam_rgba){0};
+    lam_image picture = draw_show(scene, camera, params, LAM_SHOW_PICTURE, 0);
+    memset(sums, 0, sizeof sums);
+    for (int show = LAM_SHOW_AMBIENT; show <= LAM_SHOW_REFLECTION; show++)
+        add(sums, draw_show(scene, camera, params, (lam_show)show, 0));
+    check_sums(name, sums, &picture);
+    if (params.reflection == LAM_REFLECTION_NONE) {
+        lam_image_free(&picture);
+        return;
+    }
+    memset(sums, 0, sizeof sums);
+    int lights = lam_draw_lights(scene, params.rig, NULL, 0);
+    for (int i = 0; i < lights; i++)
+        add(sums, draw_show(scene, camera, params, LAM_SHOW_LIGHT, i));
+    add(sums, draw_show(scene, camera, params, LAM_SHOW_EMISSION, 0));
+    add(sums, draw_show(scene, camera, params, LAM_SHOW_REFLECTION, 0));
+    // What is left is the scene's own ambient light: that of a scene without others.
+    lam_light ambient = lam_light_default(LAM_LIGHT_AMBIENT);
+    ambient.ambient = lam_scene_ambient(scene);
+    lam_scene_set_ambient(scene, (lam_rgb){0});
+    params.rig = params.rig == LAM_RIG_AUTO && lights && !lam_scene_light_count(scene) ? LAM_RIG_STUDIO : params.rig;
+    int added = lam_scene_add_light(scene, &ambient, NULL);
+    assert_true(added >= 0);
+    add(sums, draw_show(scene, camera, params, LAM_SHOW_LIGHT, added));
+    char title[100];
+    snprintf(title, sizeof title, "%s, by lights", name);
+    check_sums(title, sums, &picture);
+    lam_image_free(&picture);
+}
+
+static void test_demos(void **state)
+{
+    (void)state;
+    for (int i = 0; i < demo_count; i++) {
+        struct demo demo;
+        lam_error error = {0};
+        if (!demo_build(&demos[i], &demo, &error))
+            fail_msg("%s: %s", demos[i].name, error.text);
+        if (!demo.params.gl1)
+            check_scene(demos[i].name, demo.scene, &demo.camera, demo.params);
+        lam_scene_free(demo.scene);
+    }
+}
+
+// A scene of every kind of light and term: emission, ambient of lights and scene, hemisphere, spot, coloured vertices.
+static lam_scene *full_scene(bool colors)
+{
+    lam_scene *scene = lam_scene_make(NULL);
+    assert_non_null(scene);
+    lam_error error = {0};
+    lam_object object = lam_object_default();
+    lam_material material = lam_material_default();
+    material.emission = (lam_rgb){0.05f, 0.1f, 0.02f};
+    material.diffuse = (lam_rgba){0.7f, 0.4f, 0.2f, 1};
+    material.specular = (lam_rgb){0.9f, 0.8f, 0.7f};
+    material.shininess = 12;
+    object.material = lam_scene_add_material(scene, &material, NULL);
+    if (colors) {
+        static const float positions[] = {-1, -1, 0, 1, -1, 0.3f, 1, 1, 0, -1, 1, -0.3f};
+        static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+        static const float paint[] = {1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1, 1, 1, 0, 1};
+        lam_mesh mesh = {.vertex_count = 4, .triangle_count = 2, .positions = positions, .indices = indices, .colors = paint,
+                         .color_count = 4,
+                         .colors_format = LAM_COLORS_LINEAR_F32};
+        object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
+    } else {
+        object.mesh = lam_scene_add_shape(scene, "torus", NULL, &error);
+    }
+    if (object.mesh < 0 || lam_scene_add_object(scene, &object, &error) < 0)
+        fail_msg("%s", error.text);
+    lam_scene_set_ambient(scene, (lam_rgb){0.1f, 0.05f, 0.2f});
+    lam_light point = lam_light_default(LAM_LIGHT_POINT), spot = lam_light_default(LAM_LIGHT_SPOT),
+              sky = lam_light_default(LAM_LIGHT_HEMISPHERE), sun = lam_light_default(LAM_LIGHT_DIRECTIONAL);
+    point.position = (lam_vec3){1, 2, 2};
+    point.attenuation = (lam_attenuation){0.5f, 0.1f, 0.05f};
+    point.ambient = (lam_rgb){0.1f, 0.2f, 0.1f};
+    point.name = "lamp";
+    spot.position = (lam_vec3){-1, 0, 3};
+    spot.exponent = 3;
+    spot.ambient = (lam_rgb){0.02f, 0.02f, 0.02f};
+    sun.direction = (lam_vec3){0.2, -1, -1};
+    sun.diffuse = (lam_rgb){0.3f, 0.3f, 0.1f};
+    const lam_light *all[] = {&sky, &point, &spot, &sun};
+    for (int i = 0; i < 4; i++)
+        assert_true(lam_scene_add_light(scene, all[i], NULL) >= 0);
+    return scene;
+}
+
+static void test_every_method(void **state)
+{
+    (void)state;
+    for (int colors = 0; colors < 2; colors++)
+        for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++)
+            for (int model = LAM_REFLECTION_NONE; model <= LAM_REFLECTION_KAJIYA_KAY_LECTURE; model++)
+                for (int gl1 = 0; gl1 < 2; gl1++) {
+                    lam_draw_params params = {.shading = (lam_shading)shading, .reflection = (lam_reflection)model,
+                                              .samples = gl1 ? 1 : 4, .gl1 = gl1 && shading == LAM_SHADING_PHONG};
+                    lam_scene *scene = full_scene(colors);
+                    lam_camera camera = lam_camera_fit(scene, NULL);
+                    char name[80];
+                    snprintf(name, sizeof name, "colours %d, shading %d, model %d, gl1 %d", colors, shading, model, gl1);
+                    if (params.gl1) // the scene's ambient light goes with the lights' there, and is weakened as theirs
+                        lam_scene_set_ambient(scene, (lam_rgb){0});
+                    check_scene(name, scene, &camera, params);
+                    lam_scene_free(scene);
+                }
+}
+
+// The other lights and the shows of no light are none of its business.
+static void test_one_light(void **state)
+{
+    (void)state;
+    lam_scene *scene = full_scene(false);
+    lam_camera camera = lam_camera_fit(scene, NULL);
+    lam_draw_params params = {.samples = 1, .show = LAM_SHOW_LIGHT, .show_light = 4};
+    lam_image image = {0};
+    lam_error error;
+    assert_true(lam_image_make(&image, 16, 16, LAM_RGBA8, NULL));
+    assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
+    assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+    assert_non_null(strstr(error.text, "has 4 lights"));
+    params = (lam_draw_params){.show = LAM_SHOW_N_L};
+    assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
+    assert_non_null(strstr(error.text, "n.l: light 0 comes from everywhere"));
+    params = (lam_draw_params){.show = LAM_SHOW_COUNT};
+    assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
+    params = (lam_draw_params){.show = LAM_SHOW_LIGHT, .show_light = -1};
+    assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
+    lam_light lights[4];
+    assert_int_equal(lam_draw_lights(scene, LAM_RIG_AUTO, lights, 2), 4);
+    assert_string_equal(lights[1].name, "lamp");
+    assert_int_equal(lam_draw_lights(scene, LAM_RIG_STUDIO, NULL, 0), 8);
+    lam_image_free(&image);
+    lam_scene_free(scene);
+}
+
+// --- numbers: a rectangle across the picture at z = 0, its left half seen from behind, over a second one at z = -1
+
+static lam_scene *two_sheets(lam_camera *camera)
+{
+    lam_scene *scene = lam_scene_make(NULL);
+    static const float positions[] = {-2, -2, 0, 0, -2, 0, 0, 2, 0, -2, 2, 0, 2, -2, 0, 2, 2, 0};
+    static const uint32_t indices[] = {0, 2, 1, 0, 3, 2, 1, 4, 5, 1, 5, 2}; // the left half clockwise
+    lam_mesh near_sheet = {.vertex_count = 6, .triangle_count = 4, .positions = positions, .indices = indices};
+    static const float behind[] = {-2, -2, -1, 2, -2, -1, 2, 0, -1, -2, 0, -1}; // the lower half only
+    static const uint32_t quad[] = {0, 1, 2, 0, 2, 3};
+    lam_mesh far_sheet = {.vertex_count = 4, .triangle_count = 2, .positions = behind, .indices = quad};
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_mesh(scene, &near_sheet, NULL);
+    assert_true(lam_scene_add_object(scene, &object, NULL) == 0);
+    object.mesh = lam_scene_add_mesh(scene, &far_sheet, NULL);
+    assert_true(lam_scene_add_object(scene, &object, NULL) == 1);
+    lam_light sun = lam_light_default(LAM_LIGHT_DIRECTIONAL);
+    sun.direction = (lam_vec3){0, -0.6, -0.8};
+    sun.diffuse = (lam_rgb){2, 2, 0.5f};
+    sun.specular = (lam_rgb){0};
+    assert_true(lam_scene_add_light(scene, &sun, NULL) == 0);
+    *camera = lam_camera_default();
+    camera->ortho_half_height = 3;
+    camera->near_plane = 2;
+    camera->far_plane = 6;
+    return scene;
+}
+
+struct expected {
+    lam_show show;
+    float left[4], right[4], outside[4]; // floats at a pixel of each
+    uint8_t left_code[4], right_code[4], outside_code[4];
+};
+
+static void test_numbers(void **state)
+{
+    (void)state;
+    static const struct expected all[] = {
+        {LAM_SHOW_NORMALS, {0, 0, 1, 1}, {0, 0, 1, 1}, {0}, {128, 128, 255, 255}, {128, 128, 255, 255}, {0}},
+        {LAM_SHOW_DEPTH, {4, 4, 4, 1}, {4, 4, 4, 1}, {0}, {128, 128, 128, 255}, {128, 128, 128, 255}, {0}},
+        {LAM_SHOW_N_L, {0.8f, 0.8f, 0.8f, 1}, {0.8f, 0.8f, 0.8f, 1}, {0}, {204, 204, 204, 255}, {204, 204, 204, 255}, {0}},
+        {LAM_SHOW_N_H, {0.94868330f, 0.94868330f, 0.94868330f, 1}, {0.94868330f, 0.94868330f, 0.94868330f, 1}, {0},
+         {242, 242, 242, 255}, {242, 242, 242, 255}, {0}}, // 0.9/√0.9
+        {LAM_SHOW_FACING, {-1, -1, -1, 1}, {1, 1, 1, 1}, {0}, {255, 51, 0, 255}, {0, 102, 255, 255}, {0}},
+        {LAM_SHOW_COVERAGE, {1, 1, 1, 1}, {1, 1, 1, 1}, {0, 0, 0, 1}, {255, 255, 255, 255}, {255, 255, 255, 255}, {0, 0, 0, 255}},
+        // two sheets below, one above: left is asked for below
+        {LAM_SHOW_OVERDRAW, {2, 2, 2, 1}, {1, 1, 1, 1}, {0, 0, 0, 1}, {102, 102, 102, 255}, {64, 64, 64, 255}, {0, 0, 0, 255}},
+    };
+    static const lam_shading shadings[] = {LAM_SHADING_PHONG, LAM_SHADING_GOURAUD, LAM_SHADING_FLAT};
+    lam_camera camera;
+    lam_scene *scene = two_sheets(&camera);
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        for (size_t k = 0; k < 3 * 2; k++) {
+            const struct expected *e = &all[i];
+            lam_draw_params params = {.show = e->show, .shading = shadings[k / 2], .samples = k % 2 ? 4 : 1,
+                                      .background = {1, 1, 1, 1}};
+            lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
+            lam_image bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
+            const int at[3] = {40 * 60 + 15, 20 * 60 + 40, 2 * 60 + 2}; // left below, right above, outside
+            const float *const values[] = {e->left, e->right, e->outside};
+            const uint8_t *const codes[] = {e->left_code, e->right_code, e->outside_code};
+            for (int p = 0; p < 3; p++)
+                for (int c = 0; c < 4; c++) {
+                    float found = ((float *)floats.pixels)[4 * at[p] + c];
+                    if (!(fabsf(found - values[p][c]) <= 1e-6f * (1 + fabsf(found))))
+                        fail_msg("%s, place %d, channel %d: %g, expected %g", lam_show_name(e->show), p, c, (double)found,
+                                 (double)values[p][c]);
+                    int code = ((uint8_t *)bytes.pixels)[4 * at[p] + c];
+                    if (code != codes[p][c])
+                        fail_msg("%s, place %d, channel %d: byte %d, expected %d", lam_show_name(e->show), p, c, code, codes[p][c]);
+                }
+            lam_image_free(&floats);
+            lam_image_free(&bytes);
+        }
+    lam_scene_free(scene);
+}
+
+static void test_ids(void **state)
+{
+    (void)state;
+    lam_camera camera;
+    lam_scene *scene = two_sheets(&camera);
+    camera.eye.z = -4; // from behind: the lower half shows object 1
+    lam_draw_params params = {.show = LAM_SHOW_IDS, .samples = 4};
+    lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F), bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
+    bool seen[2][4] = {{0}};
+    uint8_t colors[2][4][3];
+    for (int i = 0; i < 60 * 60; i++) {
+        const float *v = (float *)floats.pixels + (ptrdiff_t)4 * i;
+        const uint8_t *b = (uint8_t *)bytes.pixels + (ptrdiff_t)4 * i;
+        if (v[3] == 0) {
+            assert_memory_equal(b, ((uint8_t[4]){0}), 4);
+            continue;
+        }
+        int triangle = (int)v[0], object = (int)v[1];
+        assert_true((float)triangle == v[0] && (float)object == v[1] && v[2] == 0 && v[3] == 1); // never a mixture
+        assert_true(object >= 0 && object < 2 && triangle >= 0 && triangle < (object ? 2 : 4));
+        assert_true(b[0] >= 48 && b[1] >= 48 && b[2] >= 48 && b[3] == 255);
+        if (seen[object][triangle])
+            assert_memory_equal(colors[object][triangle], b, 3);
+        memcpy(colors[object][triangle], b, 3);
+        seen[object][triangle] = true;
+    }
+    assert_true(seen[1][0] && seen[1][1] && (seen[0][1] || seen[0][0]) && (seen[0][2] || seen[0][3]));
+    assert_memory_not_equal(colors[1][0], colors[1][1], 3);
+    lam_image_free(&floats);
+    lam_image_free(&bytes);
+    lam_scene_free(scene);
+}
+
+// Where the picture's linear numbers are over 1, and by how much.
+static void test_clipped(void **state)
+{
+    (void)state;
+    lam_camera camera;
+    lam_scene *scene = two_sheets(&camera);
+    lam_draw_params params = {.samples = 4};
+    lam_image picture = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
+    params.show = LAM_SHOW_CLIPPED;
+    lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F), bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
+    int marked = 0;
+    for (int i = 0; i < 60 * 60; i++) {
+        const float *p = (float *)picture.pixels + (ptrdiff_t)4 * i, *v = (float *)floats.pixels + (ptrdiff_t)4 * i;
+        const uint8_t *b = (uint8_t *)bytes.pixels + (ptrdiff_t)4 * i;
+        bool over = false;
+        for (int c = 0; c < 3; c++) {
+            float straight = p[3] > 0 ? p[c] / p[3] : 0;
+            assert_true(v[c] == (straight > 1 ? straight - 1 : 0));
+            over |= straight > 1;
+        }
+        assert_true((b[0] == 255 && b[1] == 0 && b[2] == 0) == over);
+        assert_int_equal(b[3], p[3] > 0 ? 255 : 0);
+        marked += over;
+    }
+    assert_true(marked > 1000 && marked < 60 * 60);
+    lam_image_free(&picture);
+    lam_image_free(&floats);
+    lam_image_free(&bytes);
+    lam_scene_free(scene);
+}
+
+// Coverage is the picture's alpha; tangents are unit and perpendicular to the normals; depth is the eye's own distance.
+static void test_relations(void **state)
+{
+    (void)state;
+    lam_scene *scene = full_scene(false);
+    lam_camera camera = lam_camera_fit(scene, NULL);
+    lam_draw_params params = {.samples = 8};
+    lam_image picture = draw_show(scene, &camera, params, LAM_SHOW_PICTURE, 0);
+    lam_image coverage = draw_show(scene, &camera, params, LAM_SHOW_COVERAGE, 0);
+    lam_image normals = draw_show(scene, &camera, params, LAM_SHOW_NORMALS, 0);
+    lam_image tangents = draw_show(scene, &camera, params, LAM_SHOW_TANGENTS, 0);
+    lam_image n_h = draw_show(scene, &camera, params, LAM_SHOW_N_H, 1), n_l = draw_show(scene, &camera, params, LAM_SHOW_N_L, 1);
+    int partly = 0;
+    for (int i = 0; i < CHANNELS; i += 4) {
+        const float *p = (float *)picture.pixels + i, *c = (float *)coverage.pixels + i, *n = (float *)normals.pixels + i,
+                    *t = (float *)tangents.pixels + i;
+        assert_true(c[0] == p[3]);
+        partly += c[0] > 0 && c[0] < 1;
+        assert_true((n[3] == 1) == (p[3] > 0));
+        if (n[3] == 0)
+            continue;
+        double nn = 0, tt = 0, nt = 0;
+        for (int k = 0; k < 3; k++) {
+            nn += (double)n[k] * (double)n[k];
+            tt += (double)t[k] * (double)t[k];
+            nt += (double)n[k] * (double)t[k];
+        }
+        assert_true(fabs(nn - 1) < 1e-5 && fabs(tt - 1) < 1e-5 && fabs(nt) < 1e-5);
+        assert_true(n[2] > -0.35f); // two-sided: towards the eye, but for the smooth normals of triangles at the rim
+        float cosine = ((float *)n_l.pixels)[i], half = ((float *)n_h.pixels)[i];
+        assert_true(cosine >= -1 && cosine <= 1 && half >= -1 && half <= 1);
+    }
+    assert_true(partly > 50);
+    lam_image *all[] = {&picture, &coverage, &normals, &tangents, &n_h, &n_l};
+    for (int i = 0; i < 6; i++)
+        lam_image_free(all[i]);
+    lam_scene_free(scene);
+}
+
+static void test_names(void **state)
+{
+    (void)state;
+    for (int i = 0; i < LAM_SHOW_COUNT; i++) {
+        assert_non_null(lam_show_name((lam_show)i));
+        for (int k = 0; k < i; k++)
+            assert_string_not_equal(lam_show_name((lam_show)i), lam_show_name((lam_show)k));
+    }
+    assert_null(lam_show_name(LAM_SHOW_COUNT));
+    assert_true(lam_show_is_light(LAM_SHOW_PICTURE) && lam_show_is_light(LAM_SHOW_LIGHT));
+    assert_false(lam_show_is_light(LAM_SHOW_NORMALS) || lam_show_is_light(LAM_SHOW_CLIPPED));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_demos),   cmocka_unit_test(test_every_method), cmocka_unit_test(test_one_light),
+        cmocka_unit_test(test_numbers), cmocka_unit_test(test_ids),          cmocka_unit_test(test_clipped),
+        cmocka_unit_test(test_names),   cmocka_unit_test(test_relations),
+    };
+    return cmocka_run_group_tests_name("show", tests, set_up, tear_down);
+}

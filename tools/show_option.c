@@ -1,0 +1,127 @@
+// show_option.c: the value of --show: a word, or a word and a light: "diffuse", "light:key", "n.l:2".
+#include "show_option.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "console.h"
+#include "options.h"
+#include "suggest.h"
+
+static bool takes_light(lam_show show)
+{
+    return show == LAM_SHOW_LIGHT || show == LAM_SHOW_N_L || show == LAM_SHOW_N_H;
+}
+
+// The show with this name; LAM_SHOW_COUNT: none. `light` becomes what stands behind the colon, NULL without one.
+static lam_show split(const char *text, const char **light)
+{
+    *light = NULL;
+    const char *colon = strchr(text, ':');
+    size_t length = colon ? (size_t)(colon - text) : strlen(text);
+    for (int i = LAM_SHOW_PICTURE; i < LAM_SHOW_COUNT; i++) {
+        const char *name = lam_show_name((lam_show)i);
+        if (strlen(name) != length || memcmp(name, text, length) != 0 || (colon && !takes_light((lam_show)i)))
+            continue;
+        *light = colon ? colon + 1 : NULL;
+        return (lam_show)i;
+    }
+    return LAM_SHOW_COUNT;
+}
+
+bool store_show(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    const char *light;
+    lam_show show = split(value, &light);
+    if (show == LAM_SHOW_LIGHT && !light)
+        return complain(error, LAM_BAD_ARGUMENT, "found 'light', expected light:NAME, the light's name or its number");
+    if (light && !*light)
+        return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected a light's name or its number behind the colon", value);
+    if (show < LAM_SHOW_COUNT) {
+        options->show = value;
+        return true;
+    }
+    char known[256] = "";
+    struct suggestion nearest = suggest_start(value);
+    for (const struct word *w = option->words; w->name; w++) {
+        strncat(known, w == option->words ? "" : w[1].name ? ", " : " or ", sizeof known - strlen(known) - 1);
+        strncat(known, w->name, sizeof known - strlen(known) - 1);
+        suggest_try(&nearest, w->name);
+    }
+    return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s%s%s", value, known,
+                    nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
+}
+
+lam_show show_option_what(const char *text)
+{
+    const char *light;
+    return text ? split(text, &light) : LAM_SHOW_PICTURE;
+}
+
+static bool has_direction(const lam_light *light)
+{
+    return light->type != LAM_LIGHT_AMBIENT && light->type != LAM_LIGHT_HEMISPHERE;
+}
+
+// The number of the light that is meant; −1: none. By name first, then by number from 1; without either the first with a
+// direction.
+static int find(const char *wanted, const lam_light *lights, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (wanted ? lights[i].name && strcmp(lights[i].name, wanted) == 0 : has_direction(&lights[i]))
+            return i;
+    char *end = NULL;
+    long number = wanted ? strtol(wanted, &end, 10) : 0;
+    return wanted && *wanted >= '0' && *wanted <= '9' && !*end && number >= 1 && number <= count ? (int)number - 1 : -1;
+}
+
+// "'key', 'fill', 3": unnamed lights by their numbers. Ends with "…" where there are too many to tell.
+static void list(const lam_light *lights, int count, bool directed, char *out, size_t room)
+{
+    size_t used = 0;
+    out[0] = 0;
+    for (int i = 0; i < count; i++) {
+        if (directed && !has_direction(&lights[i]))
+            continue;
+        char one[100];
+        if (lights[i].name)
+            snprintf(one, sizeof one, "%s'%.80s'", used ? ", " : "", lights[i].name);
+        else
+            snprintf(one, sizeof one, "%s%d", used ? ", " : "", i + 1);
+        if (used + strlen(one) + sizeof ", …" > room) {
+            memcpy(out + used, ", …", sizeof ", …");
+            return;
+        }
+        memcpy(out + used, one, strlen(one) + 1);
+        used += strlen(one);
+    }
+}
+
+bool show_option_apply(const char *text, const lam_scene *scene, lam_draw_params *params, lam_error *error)
+{
+    const char *wanted = NULL;
+    params->show = text ? split(text, &wanted) : LAM_SHOW_PICTURE;
+    if (!takes_light(params->show))
+        return true;
+    int count = lam_draw_lights(scene, params->rig, NULL, 0);
+    lam_light *lights = calloc((size_t)count + 1, sizeof *lights);
+    if (!lights)
+        return complain(error, LAM_LIMIT, "out of memory");
+    lam_draw_lights(scene, params->rig, lights, count);
+    params->show_light = find(wanted, lights, count);
+    bool directed = params->show != LAM_SHOW_LIGHT;
+    bool ok = params->show_light >= 0 && (!directed || has_direction(&lights[params->show_light]));
+    if (!ok) {
+        char known[300];
+        list(lights, count, directed, known, sizeof known);
+        const char *kind = directed ? " with a direction" : "";
+        if (!*known)
+            complain(error, LAM_BAD_ARGUMENT, "option '--show': %.100s needs a light%s, and there is none", text, kind);
+        else
+            complain(error, LAM_BAD_ARGUMENT, "option '--show': no light%s is '%.100s'; there %s %s", kind, wanted,
+                     strchr(known, ',') ? "are" : "is", known);
+    }
+    free(lights);
+    return ok;
+}

@@ -1,0 +1,53 @@
+# test_show.py: --show: terms that add up, numbers with their codes, lights by name.
+import struct
+
+from harness import Case, pixel
+
+SIZE = 40
+
+
+class Show(Case):
+    def floats(self, *words):
+        """The numbers of a PFM, in the file's order."""
+        self.good(*words, "-s", SIZE, "-o", "a.pfm")
+        data = (self.folder / "a.pfm").read_bytes()
+        return struct.unpack("<%df" % (SIZE * SIZE * 3), data[-SIZE * SIZE * 12:])
+
+    def test_terms_add_up(self):
+        for words in (), ("--shading", "gouraud"), ("--shading", "flat"), ("--reflection", "none"):
+            with self.subTest(words):
+                whole = self.floats("cube.obj", *words)
+                terms = [self.floats("cube.obj", *words, "--show", t)
+                         for t in ("ambient", "diffuse", "specular", "emission", "reflection")]
+                for values in zip(whole, *terms):
+                    self.assertAlmostEqual(values[0], sum(values[1:]), delta=1e-6)
+                self.assertGreater(max(whole), 0.1)
+
+    def test_lights_add_up(self):
+        whole = self.floats("cube.obj")
+        lights = [self.floats("cube.obj", "--show", "light:" + n) for n in ("key", "fill", "3", "sky")]
+        for values in zip(whole, *lights):
+            self.assertAlmostEqual(values[0], sum(values[1:]), delta=1e-6)
+
+    def test_codes(self):
+        middle = {what: pixel(self.png("sphere", "--view", "front", "-s", SIZE + 1, "--show", what, "-b", "white"), 20, 20)
+                  for what in ("normals", "facing", "coverage", "n.l", "overdraw", "clipped")}
+        self.assertTrue(all(abs(a - b) <= 2 for a, b in zip(middle["normals"], (128, 128, 255, 255))), middle)
+        self.assertEqual(middle["facing"], (0, 102, 255, 255))
+        self.assertEqual(middle["coverage"], (255, 255, 255, 255))
+        self.assertEqual(middle["overdraw"], (102, 102, 102, 255))  # front and back
+        self.assertEqual(middle["n.l"][0], middle["n.l"][2])
+        self.assertEqual(pixel(self.png("sphere", "-s", 16, "--show", "depth", "-b", "white"), 0, 0), (0, 0, 0, 0))
+
+    def test_numbers_are_not_srgb(self):
+        for what, expected in ("normals", False), ("diffuse", True), ("picture", True):
+            self.good("sphere", "-s", 16, "--show", what, "-o", what + ".png")
+            self.assertEqual(b"sRGB" in (self.folder / (what + ".png")).read_bytes(), expected, what)
+
+    def test_wrong(self):
+        self.bad(1, "cube.obj", "--show", "diffuze", says=("diffuze", "did you mean 'diffuse'?", "overdraw"))
+        self.bad(1, "cube.obj", "--show", "light", says="light:NAME")
+        self.bad(1, "cube.obj", "--show", "n.l:", says="behind the colon")
+        self.bad(1, "cube.obj", "--show", "light:kye", says=("'kye'", "'key', 'fill', 'rim', 'sky'"))
+        self.bad(1, "cube.obj", "--show", "n.h:sky", says="no light with a direction is 'sky'")
+        self.bad(1, "cube.obj", "--show", "n.l", "--rig", "none", says="there is none")

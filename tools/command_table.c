@@ -14,6 +14,8 @@ const struct command command_table[] = {
     {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0, run_shapes},
     {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.",
      ABOUT, 0, 0, run_formats},
+    {"materials", NULL, "List the named materials with their numbers; -o FILE also draws a sheet of them.",
+     ABOUT | 1u << GROUP_PICTURE, 0, 0, run_materials},
     {"help", "[COMMAND]", "Print the help, of a command where one is named.", ABOUT, 0, 1, run_help},
     {"generate", "man|markdown|bash|zsh|fish",
      "Print the man page, its Markdown form, or a shell's completions.", ABOUT, 1, 1, run_generate},

@@ -11,6 +11,7 @@
 #include "console.h"
 #include "help.h"
 #include "interrupt.h"
+#include "job_scene.h"
 #include "output.h"
 #include "show_option.h"
 #include "suggest.h"
@@ -125,6 +126,9 @@ static bool load(struct job *job, struct progress *progress, lam_error *error)
     }
     if (!job->scene)
         return false;
+    job->model_counts = (struct model_counts){
+        lam_scene_triangle_count(job->scene), lam_scene_vertex_count(job->scene), lam_scene_mesh_count(job->scene),
+        lam_scene_object_count(job->scene), lam_scene_material_count(job->scene), lam_scene_light_count(job->scene)};
     if (lam_scene_triangle_count(job->scene) == 0)
         return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw",
                         job->model);
@@ -157,12 +161,8 @@ static int by_total(const void *a, const void *b)
 static bool draw(struct job *job, const lam_rgba *background, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
-    lam_draw_params params = {.samples = o->samples,
-                              .background = *background,
-                              .color = (lam_color_mode)o->color,
-                              .rig = (lam_rig)o->rig,
-                              .shading = (lam_shading)o->shading,
-                              .reflection = (lam_reflection)o->reflection};
+    lam_draw_params params = draw_params_of(o, job->rig);
+    params.background = *background;
     if (!show_option_apply(o->show, job->scene, &params, error))
         return false;
     lam_frame_report *reports = calloc((size_t)o->repeat, sizeof *reports);
@@ -237,6 +237,10 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
                         o->height, (double)bytes / 1e6);
     if (!lam_image_make(&job->image, o->width, o->height, format, error) || !load(job, progress, error))
         return false;
+    struct model_sphere sphere;
+    lam_control control;
+    if (!control_of(job, progress, &control, error) || !job_dress(job, &control, &sphere, error))
+        return false;
     place_camera(job);
-    return draw(job, &background, progress, error) && write_output(job, &background, error);
+    return job_light(job, &sphere, error) && draw(job, &background, progress, error) && write_output(job, &background, error);
 }

@@ -13,12 +13,20 @@ struct job_times {
     int frames;
 };
 
+// What the model holds, before options add to it.
+struct model_counts {
+    uint64_t triangles, vertices;
+    int meshes, objects, materials, lights;
+};
+
 struct job {
     const struct options *options;
     const char *model;  // as the user wrote it
     const char *output; // path of the picture; "-": standard output
     const char *format; // of the picture: "png"
     lam_scene *scene;   // NULL until it is read
+    struct model_counts model_counts;
+    lam_rig rig; // what drawing adds to the scene's own lights
     lam_camera camera;
     lam_image image;
     lam_device *device;

@@ -46,6 +46,24 @@ static bool check_operands(const struct command *command, int count, char **oper
     return true;
 }
 
+static int run_command(const struct command *command, int operands, char **words, struct options *options)
+{
+    lam_error error = {0};
+    if (options->help) {
+        print_help(command);
+        return 0;
+    }
+    if (options->version) {
+        printf("lambent %s\n%s\n", lam_version(), lam_build_info());
+        return 0;
+    }
+    if (options->output && strcmp(options->output, "/dev/stdout") == 0)
+        options->output = "-"; // so that nothing else is written there
+    if (!check_operands(command, operands, words, &error))
+        return tell_failure(&error, options);
+    return command->run(operands, words, options);
+}
+
 static int run(int count, char **words)
 {
     struct options options = option_defaults();
@@ -53,21 +71,9 @@ static int run(int count, char **words)
     struct options foreseen = foresee(count, words);
     const struct command *command = take_command(&count, words);
     int operands = options_parse(count, words, command->groups, &options, &error);
-    if (operands < 0)
-        return tell_failure(&error, &foreseen);
-    if (options.help) {
-        print_help(command);
-        return 0;
-    }
-    if (options.version) {
-        printf("lambent %s\n%s\n", lam_version(), lam_build_info());
-        return 0;
-    }
-    if (options.output && strcmp(options.output, "/dev/stdout") == 0)
-        options.output = "-"; // so that nothing else is written there
-    if (!check_operands(command, operands, words, &error))
-        return tell_failure(&error, &options);
-    return command->run(operands, words, &options);
+    int code = operands < 0 ? tell_failure(&error, &foreseen) : run_command(command, operands, words, &options);
+    options_free(&options);
+    return code;
 }
 
 int main(int count, char **words)

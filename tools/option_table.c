@@ -5,10 +5,11 @@
 #define FIELD(name) .field = offsetof(struct options, name)
 
 const char *const group_titles[GROUP_COUNT] = {
-    [GROUP_PICTURE] = "Picture", [GROUP_VIEW] = "View",      [GROUP_SHADING] = "Light and surface",
+    [GROUP_PICTURE] = "Picture", [GROUP_VIEW] = "View",      [GROUP_SHADING] = "Shading",
     [GROUP_WORK] = "Work",       [GROUP_REPORT] = "Reports", [GROUP_DIFF] = "Comparing pictures (diff)",
     [GROUP_PLOT] = "Plots (plot)", [GROUP_CAPTIONS] = "Captions (plot)",
     [GROUP_ABOUT] = "About",
+    [GROUP_LIGHTS] = "Lights",   [GROUP_MATERIALS] = "Materials",
 };
 
 static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
@@ -77,10 +78,32 @@ static const struct word reflection_words[] = {
 
 static const struct word rig_words[] = {
     {"auto", LAM_RIG_AUTO, "the model's own lights, the studio where it has none"},
-    {"none", LAM_RIG_NONE, "only the model's own lights"},
+    {"none", RIG_DARK, "no light but the ambient"},
+    {"file", LAM_RIG_NONE, "only the model's own lights"},
     {"studio", LAM_RIG_STUDIO, "key, fill and rim light fixed to the camera, sky and ground"},
     {"headlight", LAM_RIG_HEADLIGHT, "one light from the eye"},
+    {"three-point", LAM_RIG_THREE_POINT, "a portrait's key, fill and back light, fixed to the camera"},
+    {"lecture", LAM_RIG_LECTURE, "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
     {NULL, 0, NULL}};
+
+static const struct word stage_words[] = {
+    {"application", LAM_STAGE_APPLICATION, "colours are worked out before drawing (flat, gouraud)"},
+    {"vertex", LAM_STAGE_VERTEX, "for each vertex (flat, gouraud)"},
+    {"fragment", LAM_STAGE_FRAGMENT, "for each fragment (flat, phong)"},
+    {NULL, 0, NULL}};
+
+static const struct word viewer_words[] = {
+    {"local", LAM_VIEWER_LOCAL, "the eye is where the camera is"},
+    {"infinite", LAM_VIEWER_INFINITE, "it is infinitely far: the same direction for every point"},
+    {NULL, 0, NULL}};
+
+static const struct word flat_normal_words[] = {
+    {"face", LAM_FLAT_NORMAL_FACE, "the triangle's own"},
+    {"vertex", LAM_FLAT_NORMAL_VERTEX, "its last vertex's, as OpenGL does"},
+    {NULL, 0, NULL}};
+
+static const struct word cull_words[] = {
+    {"none", LAM_CULL_NONE, "both sides are drawn"}, {"back", LAM_CULL_BACK, NULL}, {"front", LAM_CULL_FRONT, NULL}, {NULL, 0, NULL}};
 
 static const struct word normals_words[] = {
     {"file", LAM_NORMALS_FILE, "the file's; smooth ones where it has none"},
@@ -148,6 +171,10 @@ const struct option option_table[] = {
      "It turns the camera and the lights that go with it; the model's coordinates stay as they are. STL "
      "files are taken as Z up, the habit of printing and CAD; the others as Y up.",
      up_words, .store = store_word, FIELD(up)},
+    {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Turn the model itself about its centre, such as y:30; repeatable.",
+     "About x, y or z of the scene, in the order given. The lights stay where they are (but those of the model's own frame), and "
+     "radii are counted by the model as it was; the camera is fitted to what results.",
+     .store = store_rotation, FIELD(rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS", "fitted", "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more.",
      "Keys, with commas between them and in the model's own coordinates: `eye` (must be given), `target` "
      "(the middle of the model), `up` (the model's up axis), `fovy` (the whole vertical angle in degrees: "
@@ -156,15 +183,82 @@ const struct option option_table[] = {
      "The report of `--json` has the camera of any picture in these terms.",
      .store = store_camera, FIELD(camera)},
 
+    {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
+     "A light of your own: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
+     "TYPE is `ambient`, `hemisphere`, `point`, `directional` or `spot`; behind a colon stand keys with commas between "
+     "them. Lights of your own take the place of the default ones (the model's, or the studio's); `+TYPE` adds to them, "
+     "and `none` takes all away but the ambient light. Where `--rig` is given, its lights stay.\n"
+     "Where it is: `position=x/y/z`, in the model's units or, with r behind each number, in radii of the sphere "
+     "around the model, from its centre (`2r/1r/3r`; left out: 1r/2r/3r). `position=x/y/z/0` is a directional light from "
+     "there. `direction=x/y/z` is the way the light travels, `target=x/y/z` where it aims (left out: a directional light travels "
+     "along 0/0/-1, a spot aims at the model's centre). `frame=world|camera|object|object:NAME` says whose space that is: the "
+     "scene's own, the eye's (x right, y up, looking along -z; a light without a position is at the eye), the model's as it "
+     "was before `--rotate`, or a named object's.\n"
+     "What it gives: `color` times `intensity` (1) is its diffuse and specular light; `ambient` (0), `diffuse` and `specular` "
+     "set each alone. Colours are `#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light takes `color` or `ambient` "
+     "(0.2), a hemisphere light `sky` (0.4), `ground` (0.1) and `up`.\n"
+     "How it fades: `attenuation=a/b/c` is 1/(a + b d + c d^2), where b and c may carry r: distance in radii "
+     "(`1/2.7r/5r`); `range` (also with r) lets it end there. A spot's cone: `cutoff` (half angle in degrees, 45) and `exponent`, or "
+     "`inner` and `outer` half angles. `name` is for reports.",
+     .store = store_light, FIELD(lights)},
+    {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
+     "A ready-made set of lights: studio, headlight, three-point, lecture, file (the model's), none or auto.",
+     "A named rig takes the place of the model's own lights. docs/lighting.md has the numbers.", rig_words,
+     .store = store_word, FIELD(rig), .has_field = offsetof(struct options, has_rig)},
+    {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Light from everywhere: #rrggbb, r/g/b, a name or one number.", NULL,
+     .store = store_light_color, FIELD(ambient)},
+    {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "All lights this much brighter (not `--ambient`).", NULL,
+     .store = store_number, FIELD(light_scale), .has_field = offsetof(struct options, has_light_scale), .least = 0,
+     .most = 1e6},
+    {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@WHERE]", "the model's",
+     "Another material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
+     "A name of the classic table, or keys with commas between them, or a name and then keys "
+     "(`gold,shininess=80`). What keys leave out stays as the model has it. The keys: `ambient`, `diffuse` (with alpha as a "
+     "fourth number), `specular`, `emission`, `reflectivity` (colours: `#rrggbb`, a name, `r/g/b` or one number), `shininess`, "
+     "`opacity` (0 to 1), `fibre` (yes or no: Kajiya-Kay without the gate, for hair); or `color` (ambient and diffuse) and "
+     "`specular_color` with the factors `ka`, `kd`, `ks` and `kr`, which multiply ambient, diffuse, specular and mirrored light "
+     "(`kr` the specular colour, white where it is left out).\n"
+     "`@WHERE` limits it to the objects of that name, else to the parts (OBJ groups, STL solids), else to the model's materials: "
+     "`ruby@handle`. The option may be repeated; a later one wins.",
+     .store = store_material, FIELD(materials)},
+    {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
+     "The material of back faces, as in `--material`; what it leaves out is the front's.", NULL, .store = store_material,
+     FIELD(back_materials)},
+    {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 sharp.",
+     "It takes the place of the materials' own, also of `--material`.", .store = store_number, FIELD(shininess),
+     .has_field = offsetof(struct options, has_shininess), .least = 0, .most = 1e30},
+    {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "Alpha of all materials: 1 is opaque, 0 clear.",
+     "It takes the place of the materials' own, also of `--material`; vertex colours may have an alpha besides.",
+     .store = store_number, FIELD(opacity), .has_field = offsetof(struct options, has_opacity), .least = 0, .most = 1},
+
     {"shading", 0, GROUP_SHADING, "METHOD", "phong",
      "Where light is worked out: flat, gouraud or phong (each pixel).", NULL, shading_words,
-     .store = store_word, FIELD(shading)},
+     .store = store_word, FIELD(shading), .has_field = offsetof(struct options, has_shading)},
     {"reflection", 0, GROUP_SHADING, "MODEL", "auto",
      "How surfaces answer light: none, lambert, phong, blinn-phong, kajiya-kay, kajiya-kay-lecture or auto.",
      NULL, reflection_words, .store = store_word, FIELD(reflection)},
-    {"rig", 0, GROUP_SHADING, "NAME", "auto",
-     "The lights: the model's or the studio's (auto), none, studio or headlight.", NULL, rig_words,
-     .store = store_word, FIELD(rig)},
+    {"stage", 0, GROUP_SHADING, "WHERE", "fragment",
+     "Where lighting is worked out: application, vertex or fragment.",
+     "Without `--shading`, application and vertex take gouraud and fragment takes phong. flat goes with all three, gouraud with "
+     "application and vertex, phong with fragment. On this device all stages of a shading method give the same bytes.",
+     stage_words, .store = store_word, FIELD(stage)},
+    {"flat-normal", 0, GROUP_SHADING, "SOURCE", "face", "The normal of flat shading: face or vertex (the last one's).",
+     NULL, flat_normal_words, .store = store_word, FIELD(flat_normal)},
+    {"viewer", 0, GROUP_SHADING, "KIND", "local", "Where the eye is for highlights: local or infinite.", NULL,
+     viewer_words, .store = store_word, FIELD(viewer)},
+    {"match-highlights", 0, GROUP_SHADING, NULL, NULL,
+     "Blinn-Phong takes 4 times the shininess, so that it looks like Phong.", NULL, .store = store_switch,
+     FIELD(match_highlights)},
+    {"gl1", 0, GROUP_SHADING, NULL, NULL, "As OpenGL 1: vertex colours clamped, shininess to 128, ambient attenuated.",
+     "For comparison with old programs: vertex colours are clamped to 0...1 before they are interpolated, the shininess is at "
+     "most 128, and the ambient light of a light fades with it and is narrowed by its cone.",
+     .store = store_switch, FIELD(gl1)},
+    {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the normal turned round, whatever the model says.",
+     NULL, .store = store_switch, FIELD(two_sided)},
+    {"one-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces as front faces, with the normal as it is.", NULL,
+     .store = store_switch, FIELD(one_sided)},
+    {"cull", 0, GROUP_SHADING, "SIDE", "the model's", "Leave out the back or front faces of all objects: none, back or front.",
+     NULL, cull_words, .store = store_word, FIELD(cull), .has_field = offsetof(struct options, has_cull)},
     {"normals", 0, GROUP_SHADING, "SOURCE", "file",
      "Whose normals: the file's (file), smooth or facet ones made anew.", NULL, normals_words,
      .store = store_word, FIELD(normals)},

@@ -7,6 +7,10 @@
 
 #include "camera_option.h"
 #include "console.h"
+#include "job_scene.h"
+#include "key_values.h"
+#include "light_option.h"
+#include "material_option.h"
 #include "suggest.h"
 
 static void *field_of(struct options *options, size_t field)
@@ -40,6 +44,8 @@ bool store_word(const struct option *option, const char *value, struct options *
     for (const struct word *w = option->words; w->name; w++) {
         if (strcmp(w->name, value) == 0) {
             *(int *)field_of(options, option->field) = w->value;
+            if (option->has_field)
+                *(bool *)field_of(options, option->has_field) = true;
             return true;
         }
         suggest_try(&nearest, w->name);
@@ -167,6 +173,47 @@ bool store_camera(const struct option *option, const char *value, struct options
 {
     struct camera_option camera;
     if (!camera_option_parse(value, &camera, error))
+        return false;
+    *(const char **)field_of(options, option->field) = value;
+    return true;
+}
+
+static bool append(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    struct texts *texts = field_of(options, option->field);
+    const char **items = realloc(texts->items, ((size_t)texts->count + 1) * sizeof *items);
+    if (!items)
+        return complain(error, LAM_LIMIT, "out of memory");
+    items[texts->count++] = value;
+    texts->items = items;
+    return true;
+}
+
+bool store_light(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    struct light_option light;
+    return light_option_parse(value, LAM_COLOR_SRGB, &light, error) && append(option, value, options, error);
+}
+
+bool store_material(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    struct material_option material;
+    return material_option_parse(value, LAM_COLOR_SRGB, &material, error) && append(option, value, options, error);
+}
+
+bool store_rotation(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    lam_vec3 axis;
+    double angle_deg;
+    if (!rotation_parse(value, &axis, &angle_deg))
+        return wrong(error, value, "an axis and degrees, such as y:30 (up to a million of them)");
+    return append(option, value, options, error);
+}
+
+bool store_light_color(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    lam_rgba color;
+    if (!read_color(option->name, value, LAM_COLOR_SRGB, true, &color, error))
         return false;
     *(const char **)field_of(options, option->field) = value;
     return true;

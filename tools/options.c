@@ -2,6 +2,7 @@
 #include "options.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "console.h"
@@ -9,12 +10,22 @@
 
 struct options option_defaults(void)
 {
-    return (struct options){.width = 1024, .height = 1024, .crease_angle_deg = -1, .repeat = 1, .gain = 16};
+    return (struct options){
+        .width = 1024, .height = 1024, .crease_angle_deg = -1, .light_scale = 1, .repeat = 1, .gain = 16};
+}
+
+void options_free(struct options *options)
+{
+    free(options->lights.items);
+    free(options->materials.items);
+    free(options->back_materials.items);
+    free(options->rotations.items);
 }
 
 bool option_is_taken(const struct option *option, unsigned groups)
 {
     return groups & (1u << option->group | option->single);
+}
 }
 
 static const struct option *find_long(const char *name, size_t length)

@@ -5,6 +5,12 @@
 
 #include <lambent/lambent.h>
 
+// The values of an option that may be repeated, in order.
+struct texts {
+    const char **items;
+    int count;
+};
+
 // What the options of a command line amount to. option_defaults() gives the plain default of each.
 struct options {
     // Picture
@@ -25,10 +31,32 @@ struct options {
     int up;             // lam_up
     const char *camera; // as written; NULL: fitted
 
+    // Lights
+    struct texts lights; // as written, checked
+    int rig;             // lam_rig, or RIG_DARK
+    bool has_rig;
+    const char *ambient; // as written; NULL: none
+    double light_scale;
+    bool has_light_scale;
+    bool show_lights;
+
+    // Materials
+    struct texts materials;    // as written, checked
+    struct texts back_materials;
+    double shininess, opacity; // valid where the switch below is set
+    bool has_shininess, has_opacity;
+
     // Shading
     int shading;             // lam_shading
+    bool has_shading;
     int reflection;          // lam_reflection
-    int rig;                 // lam_rig
+    int stage;               // lam_stage
+    int viewer;              // lam_viewer
+    int flat_normal;         // lam_flat_normal
+    bool match_highlights, gl1, two_sided, one_sided;
+    int cull;                // lam_cull
+    bool has_cull;
+    struct texts rotations;  // as written, checked
     int normals;             // lam_normals
     double crease_angle_deg; // < 0: the library's default
 
@@ -70,9 +98,14 @@ enum view_name {
     VIEW_ISO
 };
 
+// --rig none: no light but the ambient; beside the values of lam_rig.
+enum { RIG_DARK = 100 };
+
 enum option_group {
     GROUP_PICTURE,
     GROUP_VIEW,
+    GROUP_LIGHTS,
+    GROUP_MATERIALS,
     GROUP_SHADING,
     GROUP_WORK,
     GROUP_REPORT,
@@ -105,7 +138,7 @@ struct option {
     // Stores the value (NULL for a switch) at `field` bytes into struct options. On failure fills error->text
     // with what is wrong, without the option's name.
     bool (*store)(const struct option *option, const char *value, struct options *options, lam_error *error);
-    size_t field, has_field; // has_field: a bool to set as well; 0: none
+    size_t field, has_field; // has_field: a bool to set as well (words and numbers); 0: none
     double least, most;      // for numbers
     unsigned single;         // TAKES_…, where commands may take it without its group
 };
@@ -114,6 +147,7 @@ extern const struct option option_table[]; // ends with a NULL name
 extern const char *const group_titles[GROUP_COUNT];
 
 struct options option_defaults(void);
+void options_free(struct options *options);
 
 // Whether a command takes an option: `groups` has bit g set for each group that it takes whole, and TAKES_… bits.
 bool option_is_taken(const struct option *option, unsigned groups);
@@ -135,6 +169,11 @@ bool store_color(const struct option *, const char *, struct options *, lam_erro
 bool store_show(const struct option *, const char *, struct options *, lam_error *);  // const char *, checked
 bool store_camera(const struct option *, const char *, struct options *,
                   lam_error *); // const char *, checked
+bool store_light(const struct option *, const char *, struct options *, lam_error *);    // struct texts, checked
+bool store_material(const struct option *, const char *, struct options *, lam_error *); // struct texts, checked
+bool store_rotation(const struct option *, const char *, struct options *, lam_error *); // struct texts, checked
+bool store_light_color(const struct option *, const char *, struct options *,
+                       lam_error *); // const char *, checked
 
 // A plain decimal number at the start of `text` ("-1.5e3"; no hexadecimal, no "inf"). Returns what follows
 // it, NULL if there is none or it is too large.

@@ -15,6 +15,23 @@
 
 // --- what the options of all models amount to
 
+// Conventions of the stages: Phong lights fragments, Gouraud vertices, flat either.
+static bool check_stage(const struct options *o, lam_error *error)
+{
+    if (!o->has_shading || !o->stage)
+        return true;
+    if (o->shading == LAM_SHADING_PHONG && o->stage != LAM_STAGE_FRAGMENT)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "phong shading cannot be worked out in stage %s; phong goes with fragment, gouraud with application "
+                        "or vertex, flat with all three",
+                        o->stage == LAM_STAGE_VERTEX ? "vertex" : "application");
+    if (o->shading == LAM_SHADING_GOURAUD && o->stage == LAM_STAGE_FRAGMENT)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "gouraud shading cannot be worked out in stage fragment; gouraud goes with application or vertex, phong "
+                        "with fragment, flat with all three");
+    return true;
+}
+
 static bool check_together(int count, char **models, const struct options *o, lam_error *error)
 {
     const char *view = o->view            ? "view"
@@ -26,6 +43,10 @@ static bool check_together(int count, char **models, const struct options *o, la
     if (o->camera && view)
         return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--%s' cannot be used together",
                         view);
+    if (o->two_sided && o->one_sided)
+        return complain(error, LAM_BAD_ARGUMENT, "options '--two-sided' and '--one-sided' cannot be used together");
+    if (!check_stage(o, error))
+        return false;
     if (o->quiet && o->verbose)
         return complain(error, LAM_BAD_ARGUMENT, "options '--quiet' and '--verbose' cannot be used together");
     if (output_is_named(o->output) && count > 1)

@@ -34,7 +34,7 @@ static double degrees(double angle_rad)
 
 void report_line(const struct job *job)
 {
-    uint64_t triangles = lam_scene_triangle_count(job->scene);
+    uint64_t triangles = job->model_counts.triangles;
     say_plain("%s  %dx%d  %" PRIu64 " triangle%s  %.*f ms\n",
               strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width,
               job->image.height, triangles, triangles == 1 ? "" : "s", job->times.total < 10 ? 1 : 0,
@@ -53,9 +53,9 @@ void report_table(const struct job *job)
     lam_vec3 low, high;
     lam_scene_bounds(scene, &low, &high);
     say_plain("model    %s (%s), %" PRIu64 " triangles, %" PRIu64 " vertices\n", job->model, format_of(scene),
-              lam_scene_triangle_count(scene), lam_scene_vertex_count(scene));
-    say_plain("         meshes %d, objects %d, materials %d, lights %d, up %c\n", lam_scene_mesh_count(scene),
-              lam_scene_object_count(scene), lam_scene_material_count(scene), lam_scene_light_count(scene),
+              job->model_counts.triangles, job->model_counts.vertices);
+    say_plain("         meshes %d, objects %d, materials %d, lights %d, up %c\n", job->model_counts.meshes,
+              job->model_counts.objects, job->model_counts.materials, job->model_counts.lights,
               up_letter(scene));
     say_plain("box      %.7g %.7g %.7g to %.7g %.7g %.7g\n", low.x, low.y, low.z, high.x, high.y, high.z);
     const lam_camera *camera = &job->camera;
@@ -110,12 +110,12 @@ static void json_model(struct json *json, const struct job *job)
         lam_vec3 low, high;
         lam_scene_bounds(scene, &low, &high);
         json_text(json, "format", format_of(scene));
-        json_count(json, "triangles", lam_scene_triangle_count(scene));
-        json_count(json, "vertices", lam_scene_vertex_count(scene));
-        json_count(json, "meshes", (uint64_t)lam_scene_mesh_count(scene));
-        json_count(json, "objects", (uint64_t)lam_scene_object_count(scene));
-        json_count(json, "materials", (uint64_t)lam_scene_material_count(scene));
-        json_count(json, "lights", (uint64_t)lam_scene_light_count(scene));
+        json_count(json, "triangles", job->model_counts.triangles);
+        json_count(json, "vertices", job->model_counts.vertices);
+        json_count(json, "meshes", (uint64_t)job->model_counts.meshes);
+        json_count(json, "objects", (uint64_t)job->model_counts.objects);
+        json_count(json, "materials", (uint64_t)job->model_counts.materials);
+        json_count(json, "lights", (uint64_t)job->model_counts.lights);
         json_text(json, "up", up);
         json_open(json, "bounds", '{');
         json_vector(json, "min", low);

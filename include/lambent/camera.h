@@ -19,6 +19,9 @@ typedef struct lam_camera {
 // A perspective camera at (0, 0, 4) looking at the origin, 30° high.
 LAM_API lam_camera lam_camera_default(void);
 
+// World to eye space: the eye at the origin, x to the right, y up, looking along −z.
+LAM_API lam_mat4 lam_camera_view(const lam_camera *camera);
+
 // How lam_camera_fit places the camera. All zero: the three-quarter view of a catalogue.
 typedef struct lam_view {
     bool from_angles;          // true: azimuth and elevation below; false: 30° to the right of front, 20° above

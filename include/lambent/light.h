@@ -21,6 +21,7 @@ typedef enum lam_light_frame {
     LAM_FRAME_WORLD = 0, // the scene's own space
     LAM_FRAME_CAMERA,    // eye space: x right, y up, the camera looks along −z; the light moves with the camera
     LAM_FRAME_OBJECT,    // the space of a named object; the light moves with it
+    LAM_FRAME_MODEL,     // the space of the whole scene as it was made; the light moves with lam_scene_transform
 } lam_light_frame;
 
 // 1/(constant + linear·d + quadratic·d²), d in model units from the lit point to the light. All three ≥ 0. All zero
@@ -68,11 +69,16 @@ typedef enum lam_rig {
     LAM_RIG_NONE,      // only what the scene has, be it nothing
     LAM_RIG_STUDIO,    // key, fill and rim light fixed to the camera, and a hemisphere light: the default look
     LAM_RIG_HEADLIGHT, // one directional light from the eye
+    LAM_RIG_THREE_POINT, // key, fill and back light of a portrait, directional, fixed to the camera: diffuse and specular
+                         // 0.8 from (−1, 1, 1), 0.4 from (1, 0.25, 1), 0.6 from (0.5, 1, −1); ambient light 0.05
+    LAM_RIG_LECTURE, // one point light at (1, 2, 3) times the radius of the scene's sphere from its centre (lam_scene_sphere):
+                     // ambient 0.1, diffuse and specular 1, attenuation 1, 0, 0
 } lam_rig;
 
 enum { LAM_RIG_LIGHTS_MAX = 8 };
 
-// Writes the lights of a rig and returns their number (0 for AUTO and NONE).
+// Writes the lights of a rig and returns their number (0 for AUTO and NONE). A light with a place stands as for a scene whose
+// sphere has its centre at the origin and the radius 1; lam_scene_rig_lights places it for any other.
 LAM_API int lam_rig_lights(lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX]);
 
 #ifdef __cplusplus

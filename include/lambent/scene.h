@@ -124,6 +124,9 @@ LAM_API bool lam_scene_set_object(lam_scene *scene, int index, const lam_object 
 LAM_API bool lam_scene_set_light(lam_scene *scene, int index, const lam_light *light, lam_error *error);
 LAM_API void lam_scene_clear_lights(lam_scene *scene); // all of them; the scene's ambient light stays
 
+// Gives a part of a mesh another material (−1: the default one), wherever objects show the mesh.
+LAM_API bool lam_scene_set_part_material(lam_scene *scene, int mesh, uint32_t part, int material, lam_error *error);
+
 // Look into a scene. Pointers stay valid until the scene is changed or freed; NULL out of range.
 LAM_API int lam_scene_mesh_count(const lam_scene *scene);
 LAM_API int lam_scene_material_count(const lam_scene *scene);
@@ -139,6 +142,7 @@ LAM_API const char *lam_scene_format(const lam_scene *scene);      // name of th
 
 // Things worth telling that did not stop the load, one sentence each, in order; NULL out of range.
 LAM_API const char *lam_scene_warning(const lam_scene *scene, int index);
+LAM_API void lam_scene_add_warning(lam_scene *scene, const char *text); // one more; copied; after the 64th none is kept
 
 // The box around all objects' triangles, in world space. False (and the box zeroed) for a scene without triangles.
 LAM_API bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec3 *maximum);
@@ -146,6 +150,27 @@ LAM_API bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec
 // The up axis: read, and set (LAM_UP_AUTO: Y). It turns the fitted camera and the rig, never the coordinates.
 LAM_API lam_up lam_scene_up(const lam_scene *scene);
 LAM_API void lam_scene_set_up(lam_scene *scene, lam_up up);
+
+// A sphere around the scene's triangles, or around one object's in that object's own space (`object` −1: the whole scene, in
+// world space). Its centre is the middle of their box, its radius the largest distance of a vertex from there: for a sphere,
+// the sphere itself. False (and all zero) where there are no triangles, or no such object.
+LAM_API bool lam_scene_sphere(const lam_scene *scene, int object, lam_vec3 *centre, double *radius);
+
+// Moves all objects: each one's transform becomes transform × its own. Lights stay, but those whose frame is an object or the
+// model. The matrix must be affine and invertible: LAM_BAD_ARGUMENT, and nothing has moved.
+LAM_API bool lam_scene_transform(lam_scene *scene, const lam_mat4 *transform, lam_error *error);
+
+// The same, turning right-handed about the axis (not zero) through the point `centre`.
+LAM_API bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, double angle_rad, lam_error *error);
+
+// The lights that a rig adds to this scene when it is drawn, in their places: lam_rig_lights with AUTO decided.
+LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX]);
+
+// Makes tangents for every mesh that has texture coordinates and none of its own: ∂p/∂s of the triangles, averaged by their angles
+// over the corners that share position, normal and texture coordinate, perpendicular to the normal; a corner whose texture
+// coordinates do not tell a direction gets that of meshes without them (docs/lighting.md). Drawing never makes tangents by
+// itself. `control` may be NULL. Errors: LAM_LIMIT, LAM_CANCELLED; then some meshes may have theirs and others not.
+LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_error *error);
 
 // Light from everywhere, added to that of the ambient lights (La_global). Default 0.
 LAM_API void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient);

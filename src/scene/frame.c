@@ -42,7 +42,7 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
             return fail(error, LAM_BAD_ARGUMENT, "background: a channel is %g, expected a number of at least 0", (double)b[i]);
     if (b[3] > 1)
         return fail(error, LAM_BAD_ARGUMENT, "background: alpha is %g, expected 0 to 1", (double)b[3]);
-    if ((unsigned)params->color > LAM_COLOR_RAW || (unsigned)params->rig > LAM_RIG_HEADLIGHT ||
+    if ((unsigned)params->color > LAM_COLOR_RAW || (unsigned)params->rig > LAM_RIG_LECTURE ||
         (unsigned)params->shading > LAM_SHADING_FLAT ||
         (unsigned)params->reflection > LAM_REFLECTION_KAJIYA_KAY_LECTURE)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: color, rig, shading or reflection is out of its range");
@@ -164,6 +164,10 @@ static bool light_space(const lam_scene *scene, const lam_light *light, const la
     *out = *view;
     if (light->frame == LAM_FRAME_WORLD)
         return true;
+    if (light->frame == LAM_FRAME_MODEL) {
+        *out = mat4_mul(view, &scene->placement);
+        return true;
+    }
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_object *object = scene_object(scene, i);
         if (!light->object || (object->name && strcmp(object->name, light->object) == 0)) {
@@ -252,10 +256,8 @@ static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig ri
     for (int i = 0; i < scene->lights.count; i++)
         if ((only < 0 || only == i) && !add_light(frame, scene, lam_scene_light(scene, i), i, view, error))
             return false;
-    if (rig == LAM_RIG_AUTO)
-        rig = scene->lights.count ? LAM_RIG_NONE : LAM_RIG_STUDIO;
     lam_light lights[LAM_RIG_LIGHTS_MAX];
-    int count = lam_rig_lights(rig, lights);
+    int count = lam_scene_rig_lights(scene, rig, lights);
     for (int i = 0; i < count; i++)
         if ((only < 0 || only == scene->lights.count + i) && !add_light(frame, scene, &lights[i], -1, view, error))
             return false;

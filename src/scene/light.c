@@ -107,8 +107,8 @@ bool lam_light_check(const lam_light *light, lam_error *error)
     if ((unsigned)light->type > LAM_LIGHT_SPOT)
         return fail(error, LAM_BAD_ARGUMENT, "light: type is %d, expected 0 to %d", (int)light->type,
                     (int)LAM_LIGHT_SPOT);
-    if ((unsigned)light->frame > LAM_FRAME_OBJECT)
-        return bad(error, light, "frame", (double)light->frame, "0 (world), 1 (camera) or 2 (object)");
+    if ((unsigned)light->frame > LAM_FRAME_MODEL)
+        return bad(error, light, "frame", (double)light->frame, "0 (world), 1 (camera), 2 (object) or 3 (model)");
     if (light->type == LAM_LIGHT_HEMISPHERE)
         return COLOR_FITS(light, sky, error) && COLOR_FITS(light, ground, error) && VECTOR_FITS(light, up, error);
     if (!COLOR_FITS(light, ambient, error))
@@ -163,6 +163,29 @@ static int headlight(lam_light lights[LAM_RIG_LIGHTS_MAX])
     return 1;
 }
 
+// A portrait's three lights. Where key and fill both arrive in full a point returns its kd times 0.8 + 0.4·cos 73° + 0.05,
+// below 1; on the fill's own side the ratio of key to fill is 2 to 1.
+static int three_point(lam_light lights[LAM_RIG_LIGHTS_MAX])
+{
+    lights[0] = camera_light("key", v3(-1.0, 1.0, 1.0), 0.8f, 0.8f);
+    lights[1] = camera_light("fill", v3(1.0, 0.25, 1.0), 0.4f, 0.4f);
+    lights[2] = camera_light("back", v3(0.5, 1.0, -1.0), 0.6f, 0.6f);
+    lights[3] = lam_light_default(LAM_LIGHT_AMBIENT);
+    lights[3].name = "ambient";
+    lights[3].ambient = (lam_rgb){0.05f, 0.05f, 0.05f};
+    return 4;
+}
+
+// What a first program of a lighting course sets up.
+static int lecture(lam_light lights[LAM_RIG_LIGHTS_MAX])
+{
+    lights[0] = lam_light_default(LAM_LIGHT_POINT);
+    lights[0].name = "lecture";
+    lights[0].position = v3(1.0, 2.0, 3.0);
+    lights[0].ambient = (lam_rgb){0.1f, 0.1f, 0.1f};
+    return 1;
+}
+
 int lam_rig_lights(lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     switch (rig) {
@@ -170,6 +193,10 @@ int lam_rig_lights(lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX])
         return studio(lights);
     case LAM_RIG_HEADLIGHT:
         return headlight(lights);
+    case LAM_RIG_THREE_POINT:
+        return three_point(lights);
+    case LAM_RIG_LECTURE:
+        return lecture(lights);
     case LAM_RIG_AUTO:
     case LAM_RIG_NONE:
         break;

@@ -17,6 +17,7 @@ struct lam_scene *scene_make(struct watch *watch, lam_error *error)
     }
     arena_start(&scene->arena, watch);
     scene->up = LAM_UP_Y;
+    scene->placement = lam_mat4_identity();
     scene->format = "";
     return scene;
 }
@@ -162,6 +163,12 @@ const char *lam_scene_warning(const lam_scene *scene, int index)
 {
     const char *const *text = scene ? item(&scene->warnings, index, sizeof(char *)) : NULL;
     return text ? *text : NULL;
+}
+
+void lam_scene_add_warning(lam_scene *scene, const char *text)
+{
+    if (scene && text)
+        scene_warn(scene, "%s", text);
 }
 
 lam_up lam_scene_up(const lam_scene *scene) { return scene ? scene->up : LAM_UP_Y; }

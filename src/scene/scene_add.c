@@ -196,6 +196,19 @@ bool lam_scene_set_material(lam_scene *scene, int index, const lam_material *mat
     return true;
 }
 
+bool lam_scene_set_part_material(lam_scene *scene, int mesh, uint32_t part, int material, lam_error *error)
+{
+    const lam_mesh *m = lam_scene_mesh(scene, mesh);
+    if (!m)
+        return fail(error, LAM_BAD_ARGUMENT, "part: mesh %d of %d", mesh, lam_scene_mesh_count(scene));
+    if (part >= m->part_count)
+        return fail(error, LAM_BAD_ARGUMENT, "part: %u of the %u that mesh %d has", part, m->part_count, mesh);
+    if (material < -1 || material >= scene->materials.count)
+        return fail(error, LAM_BAD_ARGUMENT, "part: material %d of %d", material, scene->materials.count);
+    ((lam_part *)(uintptr_t)m->parts)[part].material = material; // the array is the scene's own
+    return true;
+}
+
 static bool own_light(lam_scene *scene, const lam_light *light, lam_light *out, lam_error *error)
 {
     if (!scene || !light)

@@ -31,6 +31,7 @@ struct lam_scene {
     struct scene_list lights;    // lam_light
     struct scene_list warnings;  // const char *
     lam_up up;
+    lam_mat4 placement; // what lam_scene_transform did so far
     lam_rgb ambient;
     lam_color_mode color; // what the file's colours were read as
     const char *format;

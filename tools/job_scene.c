@@ -1,0 +1,181 @@
+// job_scene.c: what the options do to a model between reading and drawing: materials, turns, lights.
+#include "job_scene.h"
+
+#include "camera_option.h"
+#include "console.h"
+#include "key_values.h"
+#include "material_option.h"
+
+bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg)
+{
+    if (!(text[0] >= 'x' && text[0] <= 'z') || text[1] != ':')
+        return false;
+    *axis = (lam_vec3){text[0] == 'x', text[0] == 'y', text[0] == 'z'};
+    return read_one(text + 2, angle_deg) && *angle_deg >= -1e6 && *angle_deg <= 1e6;
+}
+
+// --- materials
+
+static bool set_materials(const struct texts *texts, bool back, const char *name, const struct options *o, lam_scene *scene,
+                          lam_error *error)
+{
+    for (int i = 0; i < texts->count; i++) {
+        struct material_option option;
+        if (!material_option_parse(texts->items[i], (lam_color_mode)o->color, &option, error) ||
+            !material_option_set(&option, back, name, scene, error))
+            return false;
+        material_option_warn(&option, name, scene);
+    }
+    return true;
+}
+
+// Back faces that follow the front need nothing more: shininess and opacity go before them.
+static bool dress_materials(const struct options *o, lam_scene *scene, lam_error *error)
+{
+    if (!set_materials(&o->materials, false, "material", o, scene, error))
+        return false;
+    struct material_option plain;
+    material_option_plain(&plain, o->has_shininess, o->shininess, o->has_opacity, o->opacity);
+    if (plain.seen && !material_option_set(&plain, false, "shininess", scene, error))
+        return false;
+    return set_materials(&o->back_materials, true, "back-material", o, scene, error);
+}
+
+static bool dress_sides(const struct options *o, lam_scene *scene, lam_error *error)
+{
+    if (!o->two_sided && !o->one_sided && !o->has_cull)
+        return true;
+    for (int i = 0; i < lam_scene_object_count(scene); i++) {
+        lam_object object = *lam_scene_object(scene, i);
+        if (o->two_sided || o->one_sided)
+            object.one_sided = o->one_sided;
+        if (o->has_cull)
+            object.cull = (lam_cull)o->cull;
+        if (!lam_scene_set_object(scene, i, &object, error))
+            return false;
+    }
+    return true;
+}
+
+// --- the rig
+
+static bool add_rig(lam_scene *scene, lam_rig rig, lam_error *error)
+{
+    lam_light lights[LAM_RIG_LIGHTS_MAX];
+    int count = lam_scene_rig_lights(scene, rig, lights);
+    for (int i = 0; i < count; i++)
+        if (lam_scene_add_light(scene, &lights[i], error) < 0)
+            return false;
+    return true;
+}
+
+// Decides whose lights stay. The rig is left to drawing where no option changes what it gives; else its lights go into the
+// scene here, in their places about the model as it is.
+static bool dress_rig(struct job *job, lam_error *error)
+{
+    const struct options *o = job->options;
+    bool replaces = false;
+    for (int i = 0; i < o->lights.count; i++)
+        replaces |= o->lights.items[i][0] != '+';
+    job->rig = o->has_rig && o->rig != RIG_DARK ? (lam_rig)o->rig : LAM_RIG_AUTO;
+    bool dark = o->rig == RIG_DARK || (replaces && !o->has_rig);
+    bool named = o->has_rig && job->rig != LAM_RIG_AUTO && job->rig != LAM_RIG_NONE;
+    if (dark || named)
+        lam_scene_clear_lights(job->scene);
+    if (dark)
+        job->rig = LAM_RIG_NONE;
+    bool as_it_is = !o->lights.count && !o->has_light_scale && !o->rotations.count && !o->show_lights;
+    if (job->rig == LAM_RIG_NONE || as_it_is)
+        return true;
+    bool ok = add_rig(job->scene, job->rig, error);
+    job->rig = LAM_RIG_NONE;
+    return ok;
+}
+
+static bool dress_rotations(const struct options *o, lam_vec3 centre, lam_scene *scene, lam_error *error)
+{
+    for (int i = 0; i < o->rotations.count; i++) {
+        lam_vec3 axis;
+        double angle_deg;
+        rotation_parse(o->rotations.items[i], &axis, &angle_deg); // was checked when the option was read
+        if (!lam_scene_rotate(scene, centre, axis, radians(angle_deg), error))
+            return false;
+    }
+    return true;
+}
+
+bool job_dress(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error)
+{
+    const struct options *o = job->options;
+    lam_scene *scene = job->scene;
+    *sphere = (struct model_sphere){.radius = 1};
+    if (o->lights.count || o->rotations.count || o->show_lights)
+        lam_scene_sphere(scene, -1, &sphere->centre, &sphere->radius);
+    if (!(sphere->radius > 0))
+        sphere->radius = 1;
+    bool threads = o->reflection == LAM_REFLECTION_KAJIYA_KAY || o->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    return dress_materials(o, scene, error) && dress_sides(o, scene, error) && dress_rig(job, error) &&
+           dress_rotations(o, sphere->centre, scene, error) &&
+           (!threads || lam_scene_make_tangents(scene, control, error));
+}
+
+// --- lights that may need the camera
+
+static void scale(lam_rgb *color, double factor)
+{
+    color->r = (float)((double)color->r * factor);
+    color->g = (float)((double)color->g * factor);
+    color->b = (float)((double)color->b * factor);
+}
+
+static bool scale_lights(lam_scene *scene, double factor, lam_error *error)
+{
+    for (int i = 0; i < lam_scene_light_count(scene); i++) {
+        lam_light light = *lam_scene_light(scene, i);
+        scale(&light.ambient, factor);
+        scale(&light.diffuse, factor);
+        scale(&light.specular, factor);
+        scale(&light.sky, factor);
+        scale(&light.ground, factor);
+        if (!lam_scene_set_light(scene, i, &light, error))
+            return false;
+    }
+    return true;
+}
+
+bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *error)
+{
+    const struct options *o = job->options;
+    for (int i = 0; i < o->lights.count; i++) {
+        struct light_option option;
+        if (!light_option_parse(o->lights.items[i], (lam_color_mode)o->color, &option, error) ||
+            (!option.none && !light_option_add(&option, sphere, &job->camera, job->scene, error)))
+            return false;
+    }
+    if (o->ambient) {
+        lam_rgba color;
+        if (!read_color("ambient", o->ambient, (lam_color_mode)o->color, true, &color, error))
+            return false;
+        lam_scene_set_ambient(job->scene, (lam_rgb){color.r, color.g, color.b});
+    }
+    return !o->has_light_scale || scale_lights(job->scene, o->light_scale, error);
+}
+
+// --- drawing
+
+lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
+{
+    bool by_vertex = o->stage == LAM_STAGE_APPLICATION || o->stage == LAM_STAGE_VERTEX;
+    return (lam_draw_params){
+        .samples = o->samples,
+        .color = (lam_color_mode)o->color,
+        .rig = rig,
+        .shading = o->has_shading ? (lam_shading)o->shading : by_vertex ? LAM_SHADING_GOURAUD : LAM_SHADING_PHONG,
+        .reflection = (lam_reflection)o->reflection,
+        .stage = (lam_stage)o->stage,
+        .viewer = (lam_viewer)o->viewer,
+        .flat_normal = (lam_flat_normal)o->flat_normal,
+        .match_highlights = o->match_highlights,
+        .gl1 = o->gl1,
+    };
+}

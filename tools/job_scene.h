@@ -1,0 +1,20 @@
+// job_scene.h: what the options do to a model between reading and drawing: materials, turns, lights.
+#ifndef JOB_SCENE_H
+#define JOB_SCENE_H
+
+#include "job.h"
+#include "light_option.h"
+
+// "x:30".
+bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg);
+
+// Everything that the camera depends on, and what needs no camera. `sphere` is the model's as it was before it was turned.
+bool job_dress(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error);
+
+// The lights; the camera stands.
+bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *error);
+
+// How to draw, but for the background.
+lam_draw_params draw_params_of(const struct options *o, lam_rig rig);
+
+#endif

@@ -1,0 +1,177 @@
+// material_apply.c: what --material and --back-material do to a scene's objects.
+#include "material_option.h"
+
+#include <string.h>
+
+#include "console.h"
+#include "suggest.h"
+
+static lam_material material_at(const lam_scene *scene, int index)
+{
+    const lam_material *material = lam_scene_material(scene, index);
+    return material ? *material : lam_material_default();
+}
+
+// The changed copy of a material; −1 with the error.
+static int add_changed(const struct material_option *option, int from, lam_scene *scene, lam_error *error)
+{
+    lam_material changed = material_option_apply(option, material_at(scene, from));
+    return lam_scene_add_material(scene, &changed, error);
+}
+
+// The one material that an object's front shows; −2: several.
+static int front_of(const lam_scene *scene, const lam_object *object)
+{
+    const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
+    if (object->material >= 0 || !mesh->part_count)
+        return object->material;
+    for (uint32_t i = 1; i < mesh->part_count; i++)
+        if (mesh->parts[i].material != mesh->parts[0].material)
+            return -2;
+    return mesh->parts[0].material;
+}
+
+// The objects that show a mesh, and whether the one at `index` is the first of them.
+static int users_of(const lam_scene *scene, int mesh, int index, bool *first)
+{
+    int users = 0;
+    *first = false;
+    for (int i = 0; i < lam_scene_object_count(scene); i++)
+        if (lam_scene_object(scene, i)->mesh == mesh) {
+            *first |= users == 0 && i == index;
+            users++;
+        }
+    return users;
+}
+
+// Each part's own material, changed. Neighbours that shared one share the new one.
+static bool change_parts(const struct material_option *option, int mesh, lam_scene *scene, lam_error *error)
+{
+    bool whole = option->id != LAM_MATERIAL_COUNT; // leaves nothing of what was there
+    int from = -2, changed = -1;
+    for (uint32_t i = 0; i < lam_scene_mesh(scene, mesh)->part_count; i++) {
+        int material = lam_scene_mesh(scene, mesh)->parts[i].material;
+        if (changed < 0 || (material != from && !whole))
+            changed = add_changed(option, material, scene, error);
+        if (changed < 0 || !lam_scene_set_part_material(scene, mesh, i, changed, error))
+            return false;
+        from = material;
+    }
+    return true;
+}
+
+static bool set_front(const struct material_option *option, const char *name, int index, lam_scene *scene, lam_error *error)
+{
+    lam_object object = *lam_scene_object(scene, index);
+    bool whole = option->id != LAM_MATERIAL_COUNT, first;
+    int front = front_of(scene, &object), users = users_of(scene, object.mesh, index, &first);
+    bool by_part = object.material < 0 && lam_scene_mesh(scene, object.mesh)->part_count;
+    if (by_part && users == 1) // so that another option can still change one of them
+        return change_parts(option, object.mesh, scene, error);
+    if (front == -2 && !whole) {
+        if (!option->target)
+            return !first || change_parts(option, object.mesh, scene, error);
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--%s': '%.100s' shares its mesh with other objects and shows several materials; name a "
+                        "part, or begin with a material's name",
+                        name, option->target);
+    }
+    object.material = add_changed(option, front == -2 ? -1 : front, scene, error);
+    return object.material >= 0 && lam_scene_set_object(scene, index, &object, error);
+}
+
+static bool set_back(const struct material_option *option, const char *name, int index, lam_scene *scene, lam_error *error)
+{
+    lam_object object = *lam_scene_object(scene, index);
+    int front = front_of(scene, &object);
+    if (front == -2 && option->id == LAM_MATERIAL_COUNT)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--%s': the front of '%.100s' has several materials, so what is left out cannot be the "
+                        "front's; begin with a material's name: %s gold,…",
+                        name, object.name ? object.name : "the model", name);
+    object.back_material = add_changed(option, front == -2 ? -1 : front, scene, error);
+    return object.back_material >= 0 && lam_scene_set_object(scene, index, &object, error);
+}
+
+static bool same(const char *a, const char *b)
+{
+    return a && strcmp(a, b) == 0;
+}
+
+// Objects of that name. Returns how many; −1 with the error.
+static int set_objects(const struct material_option *option, bool back, const char *name, lam_scene *scene, lam_error *error)
+{
+    int found = 0;
+    for (int i = 0; i < lam_scene_object_count(scene); i++) {
+        if (option->target && !same(lam_scene_object(scene, i)->name, option->target))
+            continue;
+        found++;
+        if (!(back ? set_back(option, name, i, scene, error) : set_front(option, name, i, scene, error)))
+            return -1;
+    }
+    return found;
+}
+
+// Parts of that name, in meshes whose objects show the parts' own materials.
+static int set_parts(const struct material_option *option, lam_scene *scene, lam_error *error)
+{
+    int found = 0;
+    for (int m = 0; m < lam_scene_mesh_count(scene); m++)
+        for (uint32_t p = 0; p < lam_scene_mesh(scene, m)->part_count; p++) {
+            const lam_part *part = &lam_scene_mesh(scene, m)->parts[p];
+            if (!same(part->name, option->target))
+                continue;
+            int changed = add_changed(option, part->material, scene, error);
+            if (changed < 0 || !lam_scene_set_part_material(scene, m, p, changed, error))
+                return -1;
+            found++;
+        }
+    return found;
+}
+
+static int set_materials(const struct material_option *option, lam_scene *scene, lam_error *error)
+{
+    int found = 0;
+    for (int i = 0; i < lam_scene_material_count(scene); i++) {
+        if (!same(lam_scene_material(scene, i)->name, option->target))
+            continue;
+        lam_material changed = material_option_apply(option, *lam_scene_material(scene, i));
+        changed.name = option->target;
+        if (!lam_scene_set_material(scene, i, &changed, error))
+            return -1;
+        found++;
+    }
+    return found;
+}
+
+static bool not_found(const struct material_option *option, bool back, const char *name, const lam_scene *scene,
+                      lam_error *error)
+{
+    struct suggestion nearest = suggest_start(option->target);
+    for (int i = 0; i < lam_scene_object_count(scene); i++)
+        if (lam_scene_object(scene, i)->name)
+            suggest_try(&nearest, lam_scene_object(scene, i)->name);
+    for (int m = 0; !back && m < lam_scene_mesh_count(scene); m++)
+        for (uint32_t p = 0; p < lam_scene_mesh(scene, m)->part_count; p++)
+            if (lam_scene_mesh(scene, m)->parts[p].name)
+                suggest_try(&nearest, lam_scene_mesh(scene, m)->parts[p].name);
+    for (int i = 0; !back && i < lam_scene_material_count(scene); i++)
+        if (lam_scene_material(scene, i)->name)
+            suggest_try(&nearest, lam_scene_material(scene, i)->name);
+    return complain(error, LAM_BAD_ARGUMENT, "option '--%s': the model has no %s '%.60s'%s%.60s%s", name,
+                    back ? "object" : "object, part or material", option->target, nearest.best ? "; did you mean '" : "",
+                    nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
+}
+
+bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,
+                         lam_error *error)
+{
+    int found = set_objects(option, back, name, scene, error);
+    if (found == 0 && !back && option->target)
+        found = set_parts(option, scene, error);
+    if (found == 0 && !back && option->target)
+        found = set_materials(option, scene, error);
+    if (found == 0)
+        return not_found(option, back, name, scene, error);
+    return found > 0;
+}

@@ -1,0 +1,124 @@
+// materials.c: the command `materials`: the classic named materials as a list and as a picture.
+#include "command.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "console.h"
+#include "interrupt.h"
+#include "output.h"
+#include "report.h"
+
+enum { COLUMNS = 6, ROWS = (LAM_MATERIAL_COUNT + COLUMNS - 1) / COLUMNS };
+
+static void print_triple(float r, float g, float b)
+{
+    printf("  %8g %8g %8g", (double)r, (double)g, (double)b);
+}
+
+static void print_list(void)
+{
+    printf("%-15s  %-26s  %-26s  %-26s  %s\n", "", "ambient", "diffuse", "specular", "shininess");
+    for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
+        lam_material m = lam_material_named((lam_material_id)i);
+        printf("%-15s", m.name);
+        print_triple(m.ambient.r, m.ambient.g, m.ambient.b);
+        print_triple(m.diffuse.r, m.diffuse.g, m.diffuse.b);
+        print_triple(m.specular.r, m.specular.g, m.specular.b);
+        printf("  %g\n", (double)m.shininess);
+    }
+    printf("\nSource: teapots.c, a demonstration program of OpenGL (Silicon Graphics, 1993 and 1997); the shininess there is\n"
+           "a share of 128. The numbers are taken as linear. --material NAME gives one to a model.\n");
+}
+
+// One mesh, an object for each material: rows of COLUMNS, the list's order from the top left. The light is that of the
+// program the table comes from: directional, from (0, 3, 3), global ambient 0.2, the viewer infinitely far.
+static bool build_scene(lam_scene *scene, lam_error *error)
+{
+    int mesh = lam_scene_add_shape(scene, "teapot", NULL, error);
+    if (mesh < 0)
+        return false;
+    for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
+        lam_material material = lam_material_named((lam_material_id)i);
+        lam_object object = lam_object_default();
+        object.name = material.name;
+        object.mesh = mesh;
+        object.material = lam_scene_add_material(scene, &material, error);
+        object.transform.m[0][3] = 2.2 * (i % COLUMNS - (COLUMNS - 1) * 0.5);
+        object.transform.m[1][3] = 1.7 * ((ROWS - 1) * 0.5 - i / COLUMNS);
+        if (object.material < 0 || lam_scene_add_object(scene, &object, error) < 0)
+            return false;
+    }
+    lam_light light = lam_light_default(LAM_LIGHT_DIRECTIONAL);
+    light.direction = (lam_vec3){0, -1, -1};
+    lam_scene_set_ambient(scene, (lam_rgb){0.2f, 0.2f, 0.2f});
+    return lam_scene_add_light(scene, &light, error) >= 0;
+}
+
+static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_image *image, lam_error *error)
+{
+    lam_rgba background = {0, 0, 0, 0};
+    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &background, error))
+        return false;
+    lam_draw_params params = {.samples = o->samples, .background = background, .color = (lam_color_mode)o->color,
+                              .viewer = LAM_VIEWER_INFINITE};
+    lam_view view = {.from_angles = true, .orthographic = true, .elevation_rad = 0.2,
+                     .aspect = (double)image->width / image->height, .fill = 0.97};
+    lam_camera camera = lam_camera_fit(scene, &view);
+    lam_device *device = lam_device_cpu(NULL, error);
+    lam_control control = {.cancel = interrupt_flag()};
+    bool ok = device && lam_draw(device, scene, &camera, &params, image, &control, error);
+    lam_device_free(device);
+    return ok;
+}
+
+static bool write_sheet(const struct options *o, const lam_image *image, lam_error *error)
+{
+    lam_rgba under = {0, 0, 0, 0};
+    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &under, error))
+        return false;
+    lam_save_params params = {.background = {under.r, under.g, under.b}, .raw = o->color == LAM_COLOR_RAW};
+    if (!output_is_stream(o->output))
+        return lam_image_save(image, o->output, &params, error);
+    lam_bytes bytes = {0};
+    bool ok = lam_image_encode(image, "png", &params, &bytes, error) && output_write(o->output, &bytes, error);
+    lam_bytes_free(&bytes);
+    return ok;
+}
+
+static bool make_sheet(const struct options *o, lam_error *error)
+{
+    if (!output_is_named(o->output))
+        return complain(error, LAM_BAD_ARGUMENT, "option '--output': '%.200s' is a folder, expected the sheet's own name",
+                        o->output);
+    lam_pixel_format format = LAM_RGBA8;
+    if ((!output_is_stream(o->output) && !lam_image_format_for(o->output, &format, error)) ||
+        !(output_is_stream(o->output) || output_check(o->output, "", true, error)))
+        return false;
+    lam_scene *scene = lam_scene_make(error);
+    lam_image image = {0};
+    // A sheet is wider than high; the default of pictures is square.
+    int height = o->width == o->height ? o->height * 58 / 100 : o->height;
+    bool ok = scene && build_scene(scene, error) &&
+              lam_image_make(&image, o->width, height > 0 ? height : 1, format, error) && draw_sheet(scene, o, &image, error) &&
+              write_sheet(o, &image, error);
+    lam_image_free(&image);
+    lam_scene_free(scene);
+    return ok;
+}
+
+int run_materials(int operand_count, char **operands, const struct options *options)
+{
+    (void)operand_count, (void)operands;
+    lam_error error = {0};
+    if (!options->output) {
+        print_list();
+        return 0;
+    }
+    interrupt_start();
+    if (!make_sheet(options, &error))
+        return tell_failure(&error, options);
+    if (!output_is_stream(options->output))
+        print_list();
+    return 0;
+}

@@ -26,7 +26,6 @@ bool option_is_taken(const struct option *option, unsigned groups)
 {
     return groups & (1u << option->group | option->single);
 }
-}
 
 static const struct option *find_long(const char *name, size_t length)
 {

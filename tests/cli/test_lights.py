@@ -1,0 +1,289 @@
+# test_lights.py: lights, materials and methods from the command line.
+import unittest
+
+from harness import Case, pixel
+
+DIFFUSE_ONLY = ("--material", "specular=0,ambient=0")
+
+
+def difference(a, b):
+    """The largest difference of a byte of two pictures."""
+    return max(abs(x - y) for x, y in zip(a[2], b[2]))
+
+
+class Pictures(Case):
+    def picture(self, *words, model="sphere", size=64):
+        return self.png(model, "-s", size, *words)
+
+    def same(self, a, b, most=0):
+        self.assertLessEqual(difference(self.picture(*a), self.picture(*b)), most, f"{a} against {b}")
+
+    def other(self, a, b):
+        self.assertGreater(difference(self.picture(*a), self.picture(*b)), 1, f"{a} against {b}")
+
+
+class Lights(Pictures):
+    def test_a_light_replaces_the_default_and_plus_adds(self):
+        sky = ("--light", "hemisphere:sky=0.5,ground=0.1")
+        self.same(("--light", "none"), ("--rig", "none"))
+        self.assertEqual(pixel(self.picture("--light", "none"), 32, 32), (0, 0, 0, 255))
+        self.other((), sky)
+        self.same(("--rig", "studio", *sky), ("--light", "+" + sky[1]))
+        self.same(("--rig", "none", *sky), sky)
+        self.same(("--light", "none", *sky), sky)
+        self.other(("--light", "+" + sky[1]), ())
+
+    def test_ambient(self):
+        flat = ("--reflection", "lambert", "--color", "raw", "--material", "ambient=1/0.5/0.25", "--light", "none")
+        self.assertEqual(pixel(self.picture(*flat, "--ambient", "0.4"), 32, 32), (102, 51, 26, 255))
+        self.same((*flat, "--ambient", "0.4"), (*flat, "--light", "ambient:ambient=0.4"))
+        self.same((*flat, "--ambient", "0.4"), (*flat, "--light", "ambient:color=0.2,intensity=2"))
+        self.same((*flat, "--ambient", "#808080"), (*flat, "--ambient", "gray"))
+
+    def test_rigs(self):
+        rigs = {name: self.picture("--rig", name) for name in ("studio", "headlight", "three-point", "lecture", "none")}
+        self.assertEqual(len({p[2] for p in rigs.values()}), 5)
+        self.same(("--rig", "auto"), ("--rig", "studio"))
+        self.same(("--rig", "file"), ("--rig", "none"))  # a shape has no lights of its own
+        self.same(("--rig", "lecture"), ("--light", "point:position=1r/2r/3r,ambient=0.1,diffuse=1,specular=1,attenuation=1/0/0"))
+        self.same(("--rig", "headlight"), ("--light", "directional:direction=0/0/-1,frame=camera"))
+
+    def test_radii(self):
+        # The sphere's radius is 1 and its centre the origin: radii are the model's units.
+        self.same(("--light", "point:position=2r/1r/3r"), ("--light", "point:position=2/1/3"), 1)
+        self.same(("--light", "point:position=0/2r/0"), ("--light", "point:position=0/2/0"), 1)
+        self.same(("--light", "point:position=2/1/3,attenuation=1/2.7r/5r"), ("--light", "point:position=2/1/3,attenuation=1/2.7/5"), 1)
+        self.same(("--light", "point:position=2/1/3,range=4r"), ("--light", "point:position=2/1/3,range=4"), 1)
+        self.other(("--light", "point:position=2/1/3,range=4r"), ("--light", "point:position=2/1/3"))
+        # A model ten times as large, far from the origin, looks the same under the same command.
+        lines = [line.split() for line in (self.folder / "cube.obj").read_text().splitlines()]
+        large = [" ".join(["v", *(repr(10 * float(x) + 70) for x in w[1:4])]) if w[:1] == ["v"] else " ".join(w) for w in lines]
+        (self.folder / "large.obj").write_text("\n".join(large) + "\n")
+        words = ("--light", "point:position=2r/1r/3r,attenuation=0.2/0.1r/0.1r,range=9r", "--light", "spot:position=0/3r/1r,cutoff=30")
+        a, b = self.picture(*words, model="cube.obj"), self.picture(*words, model="large.obj")
+        far_off = sum(abs(x - y) > 2 for x, y in zip(a[2], b[2]))  # but for some pixels of the edges
+        self.assertLess(far_off, 0.01 * len(a[2]))
+        self.assertGreater(max(a[2][0::4]), 60)
+
+    def test_directional(self):
+        self.same(("--light", "point:position=1/2/3/0"), ("--light", "directional:direction=-1/-2/-3"))
+        self.same(("--light", "directional:position=1/2/3,target=0/0/0"), ("--light", "directional:direction=-1/-2/-3"))
+        self.same(("--light", "point:position=2/4/6/2"), ("--light", "point:position=1/2/3"))
+        self.other(("--light", "point:position=1/2/3/0"), ("--light", "point:position=1/2/3"))
+
+    def test_colors(self):
+        at = "directional:direction=-1/-2/-3"
+        self.same(("--light", at + ",color=#ff8000,intensity=0.5", "--color", "raw"),
+                  ("--light", at + ",diffuse=0.5/0.25098039/0,specular=0.5/0.25098039/0", "--color", "raw"))
+        self.same(("--light", at + ",color=red,diffuse=0/1/0,specular=0"), ("--light", at + ",diffuse=0/1/0,specular=0"))
+        self.other(("--light", at + ",color=red"), ("--light", at + ",color=0/1/0"))
+        self.same(("--light", at, "--light-scale", "0.5"), ("--light", at + ",intensity=0.5"))
+        self.same(("--light-scale", "1"), ())
+        self.other(("--light-scale", "0.5"), ())
+
+    def test_spots(self):
+        at = "spot:position=0/0/4,target=0/0/0,"
+        self.same(("--light", at + "cutoff=10"), ("--light", "spot:position=0/0/4,direction=0/0/-1,cutoff=10"))
+        self.same(("--light", at + "cutoff=10"), ("--light", "spot:position=0/0/4,cutoff=10"))  # aims at the middle
+        cones = [self.picture("--light", at + keys)[2] for keys in ("cutoff=10", "cutoff=5", "exponent=60", "inner=5,outer=10",
+                                                                     "cutoff=10,exponent=60", "cutoff=180")]
+        self.assertEqual(len(set(cones)), len(cones))
+
+    def test_frames(self):
+        words = ("--rotate", "y:90")
+        world, camera = "point:position=0/0/4", "point:position=0/0/4,frame=camera"
+        model = "point:position=0/0/4,frame=object"
+        self.other(("--light", world), ("--light", camera))
+        self.same(("--light", world), ("--light", model))
+        self.same((*words, "--light", model), (*words, "--light", "point:position=4/0/0"), 1)
+        self.same((*words, "--light", model), (*words, "--light", model + ":sphere"), 1)
+        # A light of the camera stands at the eye.
+        eye = "/".join(map(repr, self.report("sphere", "-s", 16)["camera"]["eye"]))
+        self.same(("--light", "point:frame=camera"), ("--light", f"point:position={eye}"), 1)
+
+    def test_rotation_turns_the_model_under_fixed_lights(self):
+        light = ("--light", "directional:direction=-1/-1/-1", *DIFFUSE_ONLY, "--view", "front")
+        cube = {r: self.picture(*light, *r, model="cube.obj") for r in ((), ("--rotate", "y:90"), ("--rotate", "y:30"))}
+        self.assertLessEqual(difference(cube[()], cube[("--rotate", "y:90")]), 1)  # a cube looks the same, lit from there too
+        self.assertGreater(difference(cube[()], cube[("--rotate", "y:30")]), 9)
+        both = ("--rotate", "x:90", "--rotate", "y:90"), ("--rotate", "y:90", "--rotate", "x:90")
+        a, b = (self.picture(*light, *r, model="teapot") for r in both)
+        self.assertGreater(difference(a, b), 9)  # in the order given
+
+    def test_errors(self):
+        for value, says in {
+            "pont": "did you mean 'point'?", "": "unknown light", "point:positon=1/2/3": "did you mean 'position'?",
+            "point:zzz=1": "expected position, direction", "point:position": "expected key=value",
+            "point:position=1/2": "three numbers", "point:position=nan/0/0": "three numbers", "point:position=1r/2/3": "or behind none",
+            "point:position=1/2/3/-1": "w of at least 0", "point:position=0/0/0/0": "expected a direction",
+            "spot:position=1/2/3/0": "has a place", "point:position=1/2/3,position=1/2/3": "given twice",
+            "directional:position=1/2/3": "directional light takes", "directional:direction=0/0/0": "expected a direction",
+            "directional:range=2": "has no 'range'", "point:cutoff=20": "a point light has no 'cutoff'",
+            "ambient:position=1/2/3": "an ambient light has no 'position'", "hemisphere:diffuse=1": "has no 'diffuse'",
+            "point:color=blurple": "expected a colour", "point:color=-1/0/0": "at least 0", "point:color=nan": "expected a colour",
+            "point:color=#ff000080": "without alpha", "point:intensity=-1": "at least 0", "point:intensity=inf": "expected a number",
+            "point:attenuation=1/2": "three numbers a/b/c", "point:attenuation=-1/0/0": "at least 0",
+            "point:attenuation=0/0/0": "above 0", "point:attenuation=1r/0/0": "b and c with r", "point:range=0": "above 0",
+            "point:range=x": "expected a distance", "spot:cutoff=0": "above 0", "spot:cutoff=120": "or 180", "spot:cutoff=nan": "number",
+            "spot:exponent=-1": "at least 0", "spot:inner=30,outer=20": "inner < outer", "spot:inner=20,outer=20": "inner < outer",
+            "spot:inner=20": "without 'outer'", "spot:outer=95": "from 0 to 90", "spot:cutoff=20,outer=30": "both kinds of cone",
+            "spot:direction=0/0/-1,target=1/1/1": "one of them", "point:frame=eye": "expected world, camera",
+            "point:frame=object:": "an object's name", "point:name=": "empty", "+none": "unknown light",
+        }.items():
+            with self.subTest(value):
+                self.bad(1, "sphere", "--light", value, says=["option '--light'", says])
+        self.bad(1, "sphere", "--light", "point:frame=object:spere", says=["no object 'spere'", "did you mean 'sphere'?"])
+        self.bad(1, "sphere", "--light", "spot:position=1/1/1,target=1/1/1", says="the same point")
+        self.bad(1, "sphere", "--light", says="needs a value")
+        for value in ("-1", "nan", "blurple"):
+            self.bad(1, "sphere", "--ambient", value, says="option '--ambient'")
+        for value in ("-1", "nan", "x"):
+            self.bad(1, "sphere", "--light-scale", value, says="from 0")
+        for value in ("y", "w:30", "y:", "y:nan", "y:1e9", "30"):
+            self.bad(1, "sphere", "--rotate", value, says="an axis and degrees")
+        self.bad(1, "sphere", "--rig", "lectur", says="did you mean 'lecture'?")
+
+
+class Materials(Pictures):
+    def test_named(self):
+        brass = "ambient=0.329412/0.223529/0.027451,diffuse=0.780392/0.568627/0.113725,specular=0.992157/0.941176/0.807843,shininess="
+        self.same(("--material", "brass"), ("--material", brass + "27.8974"))
+        self.same(("--material", "Black_Plastic"), ("--material", "black-plastic"))
+        self.same(("--material", "gold,shininess=5"), ("--material", "gold", "--shininess", "5"))
+        self.other(("--material", "gold"), ("--material", "ruby"))
+
+    def test_keys(self):
+        self.same(("--material", "ambient=0.72,diffuse=0.72,specular=0.12,shininess=32,emission=0"), ())  # the default's numbers
+        self.same(("--material", "color=1/0.5/0,ka=0.2,kd=0.8,specular_color=1,ks=0.3"),
+                  ("--material", "ambient=0.2/0.1/0,diffuse=0.8/0.4/0,specular=0.3"))
+        self.same(("--material", "kd=0.5"), ("--material", "diffuse=0.36"))
+        self.same(("--material", "color=red,ambient=0"), ("--material", "diffuse=red,ambient=0"))
+        self.same(("--material", "shininess=5"), ("--shininess", "5"))
+        glow = self.picture("--material", "ambient=0,diffuse=0,specular=0,emission=0.5", "--color", "raw")
+        self.assertEqual(pixel(glow, 32, 32), (128, 128, 128, 255))
+        self.other(("--material", "fibre", "--reflection", "kajiya-kay"), ("--reflection", "kajiya-kay"))
+        self.same(("--material", "fibre=no", "--reflection", "kajiya-kay"), ("--reflection", "kajiya-kay"))
+
+    def test_by_name(self):
+        (self.folder / "two.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ng left\nf 1 2 3\ng right\nf 2 4 3\n")
+        words = ("--view", "front", "--reflection", "none", "--color", "raw")
+        picture = self.picture(*words, "--material", "diffuse=0/0/1", "--material", "diffuse=1/0/0@right", model="two.obj")
+        self.assertEqual((pixel(picture, 20, 44), pixel(picture, 44, 20)), ((0, 0, 255, 255), (255, 0, 0, 255)))
+        named = self.picture(*words, "--material", "gold", "--material", "ruby@left", model="two.obj")
+        self.assertEqual((pixel(named, 20, 44)[:3], pixel(named, 44, 20)[:3]), ((157, 11, 11), (192, 155, 58)))
+        self.bad(1, "two.obj", "--material", "gold@rigth", says=["no object, part or material 'rigth'", "did you mean 'right'?"], leaves={"two.obj"})
+        self.same(("--material", "gold@sphere"), ("--material", "gold"))
+
+    def test_back(self):
+        (self.folder / "one.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        words = ("--reflection", "none", "--color", "raw", "--material", "diffuse=0/0/1", "--back-material", "diffuse=1/0/0", "--view")
+        self.assertEqual(pixel(self.picture(*words, "front", model="one.obj"), 20, 44), (0, 0, 255, 255))
+        self.assertEqual(pixel(self.picture(*words, "back", model="one.obj"), 44, 44), (255, 0, 0, 255))
+        lit = ("--light", "directional:frame=camera", "--shininess", "3", "--view", "back")
+        self.assertEqual(self.picture(*lit, "--back-material", "emission=0", model="one.obj"), self.picture(*lit, model="one.obj"))
+        # Sides: with the normal as it is the back is dark; culled it is not there.
+        dark = self.picture(*lit, "--one-sided", *DIFFUSE_ONLY, model="one.obj")
+        self.assertEqual(pixel(dark, 44, 44), (0, 0, 0, 255))
+        self.assertEqual(self.picture(*lit, "--two-sided", model="one.obj"), self.picture(*lit, model="one.obj"))
+        self.assertEqual(set(self.picture(*lit, "--cull", "back", model="one.obj")[2]), {0})
+        self.assertEqual(self.picture(*lit, "--cull", "front", model="one.obj"), self.picture(*lit, "--cull", "none", model="one.obj"))
+        self.bad(1, "one.obj", "--one-sided", "--two-sided", says="cannot be used together", leaves={"one.obj"})
+
+    def test_warnings_and_errors(self):
+        for value in ("kd=1.5", "specular=1/2/1", "ambient=3"):
+            done = self.good("sphere", "-s", 16, "--material", value)
+            self.assertIn(b"over 1", done.stderr)
+            self.assertIn("over 1", self.report("sphere", "-s", 16, "--material", value)["warnings"][0])
+        self.assertNotIn(b"over 1", self.good("sphere", "-s", 16, "--material", "emission=3,kd=1,diffuse=1").stderr)
+        (self.folder / "sphere.png").unlink()
+        for value, says in {
+            "bras": "did you mean 'brass'?", "": "empty", "kd=-1": "at least 0", "diffuse=-1/0/0": "at least 0", "kd=nan": "a number",
+            "shininess=-2": "at least 0", "shininess=inf": "a number", "opacity=2": "from 0 to 1", "shinines=2": "did you mean 'shininess'?",
+            "gold,ruby": "expected key=value", "kd=1,kd=1": "given twice", "gold@": "nothing follows '@'", "fibre=maybe": "yes or no",
+            "specular=#ff000080": "without alpha", "diffuse=blurple": "expected a colour",
+        }.items():
+            with self.subTest(value):
+                self.bad(1, "sphere", "--material", value, says=["option '--material'", says])
+        self.bad(1, "sphere", "--back-material", "bras", says=["option '--back-material'", "did you mean 'brass'?"])
+        self.bad(1, "sphere", "--back-material", "gold@spere", says="did you mean 'sphere'?")
+        for words in (("--shininess", "-1"), ("--shininess", "nan"), ("--opacity", "-0.1"), ("--opacity", "1.1")):
+            self.bad(1, "sphere", *words, says=[words[0], "expected a number from 0"])
+
+    def test_list(self):
+        text = self.good("materials").stdout.decode()
+        lines = {line.split()[0]: line.split()[1:] for line in text.splitlines() if line}
+        self.assertEqual(lines["brass"][6:], ["0.992157", "0.941176", "0.807843", "27.8974"])
+        self.assertEqual(len([line for line in text.splitlines() if len(line.split()) == 11]), 24)
+        self.assertIn("teapots.c", text)
+        self.good("materials", "-o", "sheet.png", "-s", "300")
+        self.assertEqual(self.new_files(), {"sheet.png"})
+        width, height, data = sheet = self.png("materials", "-s", "300x200")
+        self.assertEqual((width, height), (300, 200))
+        middles = {pixel(sheet, 25 + 50 * column, y)[:3] for column in range(6) for y in (45, 82, 120, 158)}
+        self.assertGreaterEqual(len(middles), 20)
+        self.bad(1, "materials", "gold", says="unexpected argument", leaves={"sheet.png"})
+        self.bad(1, "materials", "-o", "folder/", says="is a folder", leaves={"sheet.png"})
+
+
+class Methods(Pictures):
+    def test_flat_is_gouraud_with_facet_normals_only_under_directional_diffuse_light(self):
+        coarse = (self.folder / "coarse.obj")
+        points = [(x, y, x * x - y * y * 0.7 + 0.3 * x * y) for y in (-1, -0.5, 0, 0.5, 1) for x in (-1, -0.5, 0, 0.5, 1)]
+        faces = [f"f {i + 1} {i + 2} {i + 7}\nf {i + 1} {i + 7} {i + 6}" for i in range(19) if i % 5 != 4]
+        coarse.write_text("\n".join("v %g %g %g" % p for p in points) + "\n" + "\n".join(faces) + "\n")
+
+        def both(*words):
+            flat = self.picture("--shading", "flat", *words, model="coarse.obj", size=100)
+            facet = self.picture("--shading", "gouraud", "--normals", "facet", *words, model="coarse.obj", size=100)
+            return difference(flat, facet)
+
+        sun = ("--light", "directional:direction=-1/-2/-3")
+        self.assertEqual(both(*sun, *DIFFUSE_ONLY), 0)
+        self.assertGreater(both("--light", "point:position=1r/1r/1r", *DIFFUSE_ONLY), 4)
+        shiny = ("--material", "specular=1,shininess=20")
+        self.assertGreater(both(*sun, *shiny, "--viewer", "local"), 4)
+        self.assertEqual(both(*sun, *shiny, "--viewer", "infinite"), 0)
+
+    def test_stages(self):
+        gouraud, phong = self.picture("--shading", "gouraud"), self.picture()
+        for stage, expected in {"application": gouraud, "vertex": gouraud, "fragment": phong}.items():
+            self.assertEqual(self.picture("--stage", stage), expected)
+        flat = self.picture("--shading", "flat")
+        for stage in ("application", "vertex", "fragment"):
+            self.assertEqual(self.picture("--stage", stage, "--shading", "flat"), flat)
+        for stage in ("application", "vertex"):
+            self.assertEqual(self.picture("--stage", stage, "--shading", "smooth"), gouraud)
+            self.bad(1, "sphere", "--stage", stage, "--shading", "phong", says=["phong goes with fragment", "stage " + stage])
+            self.bad(1, "sphere", "--shading", "normal", "--stage", stage, says="phong goes with fragment")
+        self.assertEqual(self.picture("--stage", "fragment", "--shading", "normal"), phong)
+        self.bad(1, "sphere", "--stage", "fragment", "--shading", "gouraud", says="gouraud goes with application or vertex")
+        self.bad(1, "sphere", "--stage", "pixel", says="expected application, vertex or fragment")
+
+    def test_switches(self):
+        shiny = ("--material", "specular=1", "--light", "point:position=1/1/2,attenuation=0/0/1,ambient=1")
+        for words in (("--viewer", "infinite"), ("--match-highlights",), ("--gl1", "--shading", "gouraud"),
+                      ("--flat-normal", "vertex", "--shading", "flat")):
+            plain = [w for w in words if w in ("--shading", "gouraud", "flat")]
+            a, b = (self.picture(*shiny, *w, model="torus") for w in (words, plain))
+            self.assertNotEqual(a, b, words)
+        for words in (("--viewer", "local"), ("--flat-normal", "face"), ("--cull", "none")):
+            self.same((*shiny, *words), shiny)
+        # Matched: Blinn-Phong at alpha is plain Blinn-Phong at four times alpha.
+        self.same((*shiny, "--match-highlights", "--shininess", "8"), (*shiny, "--shininess", "32"))
+        for words in (("--viewer", "far"), ("--flat-normal", "edge"), ("--cull", "all")):
+            self.bad(1, "sphere", *words, says=["option '" + words[0] + "'", "expected"])
+
+    def test_tangents_from_texture_coordinates(self):
+        quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+        for name, coordinates in {"along": "0 0,1 0,1 1,0 1", "across": "0 0,0 1,1 1,1 0", "none": ""}.items():
+            lines = "".join(f"vt {c}\n" for c in coordinates.split(",") if c)
+            corners = "f 1/1 2/2 3/3 4/4" if lines else "f 1 2 3 4"
+            (self.folder / f"{name}.obj").write_text(f"{quad}{lines}{corners}\n")
+        words = ("--reflection", "kajiya-kay", "--light", "point:position=1/0.2/0.6", "--material", "specular=1", "--view", "front")
+        along, across, none = (self.picture(*words, model=f"{n}.obj") for n in ("along", "across", "none"))
+        self.assertGreater(difference(along, across), 9)
+        self.assertEqual(along, none)  # the direction field of a plane facing +z runs along x
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,300 @@
+// test_place.c: the sphere around a scene, moving and turning it, rigs in their places, lights of the model's frame, materials of
+// parts, and tangents from texture coordinates.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include <lambent/lambent.h>
+
+static const double PI_HALF = 1.57079632679489661923;
+
+static lam_scene *shape_scene(const char *shape, double radius)
+{
+    lam_error error;
+    lam_scene *scene = lam_scene_make(&error);
+    assert_non_null(scene);
+    lam_object object = lam_object_default();
+    object.name = shape;
+    object.mesh = lam_scene_add_shape(scene, shape, &(lam_shape_params){.radius = radius}, &error);
+    assert_true(object.mesh >= 0);
+    assert_int_equal(lam_scene_add_object(scene, &object, &error), 0);
+    return scene;
+}
+
+static void near(double found, double expected, double most)
+{
+    if (!(fabs(found - expected) <= most))
+        fail_msg("found %.12g, expected %.12g within %g", found, expected, most);
+}
+
+static void sphere_is_the_models(void **state)
+{
+    (void)state;
+    lam_scene *scene = shape_scene("sphere", 2.5);
+    lam_object object = *lam_scene_object(scene, 0);
+    object.transform.m[0][3] = 7;
+    object.transform.m[1][1] = 3; // in world space it is three times as high
+    assert_true(lam_scene_set_object(scene, 0, &object, NULL));
+    lam_vec3 centre;
+    double radius;
+    assert_true(lam_scene_sphere(scene, 0, &centre, &radius)); // in its own space: the sphere itself
+    near(radius, 2.5, 1e-6);
+    near(centre.x, 0, 1e-6);
+    assert_true(lam_scene_sphere(scene, -1, &centre, &radius));
+    near(radius, 7.5, 1e-5);
+    near(centre.x, 7, 1e-5);
+    assert_false(lam_scene_sphere(scene, 1, &centre, &radius));
+    assert_true(radius == 0);
+    lam_scene_free(scene);
+    lam_scene *empty = lam_scene_make(NULL);
+    assert_false(lam_scene_sphere(empty, -1, &centre, &radius));
+    lam_scene_free(empty);
+}
+
+static void turning_and_moving(void **state)
+{
+    (void)state;
+    lam_scene *scene = shape_scene("cube", 1);
+    lam_error error;
+    lam_mat4 move = lam_mat4_identity();
+    move.m[0][3] = 4;
+    assert_true(lam_scene_transform(scene, &move, &error));
+    // x to −z about y, through the cube's own centre: the centre stays.
+    assert_true(lam_scene_rotate(scene, (lam_vec3){4, 0, 0}, (lam_vec3){0, 2, 0}, PI_HALF, &error));
+    const lam_mat4 *m = &lam_scene_object(scene, 0)->transform;
+    near(m->m[2][0], -1, 1e-12);
+    near(m->m[0][2], 1, 1e-12);
+    near(m->m[0][3], 4, 1e-12);
+    near(m->m[2][3], 0, 1e-12);
+    // Refused, and nothing has moved.
+    lam_mat4 flat = lam_mat4_identity(), bent = lam_mat4_identity(), lost = lam_mat4_identity(), before = *m;
+    flat.m[1][1] = 0;
+    bent.m[3][0] = 1;
+    lost.m[0][0] = NAN;
+    const lam_mat4 *bad[] = {&flat, &bent, &lost, NULL};
+    for (int i = 0; i < 4; i++) {
+        assert_false(lam_scene_transform(scene, bad[i], &error));
+        assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+    }
+    assert_false(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 0, 0}, 1, &error));
+    assert_false(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 1, 0}, NAN, &error));
+    assert_memory_equal(&before, &lam_scene_object(scene, 0)->transform, sizeof before);
+    lam_scene_free(scene);
+}
+
+static void rigs_stand_about_the_scene(void **state)
+{
+    (void)state;
+    lam_scene *scene = shape_scene("sphere", 2);
+    lam_mat4 move = lam_mat4_identity();
+    move.m[1][3] = 10;
+    assert_true(lam_scene_transform(scene, &move, NULL));
+    lam_light lights[LAM_RIG_LIGHTS_MAX];
+    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_LECTURE, lights), 1);
+    near(lights[0].position.x, 2, 1e-5);
+    near(lights[0].position.y, 14, 1e-5);
+    near(lights[0].position.z, 6, 1e-5);
+    near((double)lights[0].ambient.g, 0.1, 1e-7);
+    assert_true(lights[0].diffuse.r == 1 && lights[0].specular.b == 1 && lights[0].attenuation.constant == 1);
+    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_NONE, lights), 0);
+    lam_light studio[LAM_RIG_LIGHTS_MAX];
+    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, lights), lam_rig_lights(LAM_RIG_STUDIO, studio));
+    for (int rig = 0; rig <= LAM_RIG_LECTURE; rig++)
+        for (int i = 0, count = lam_rig_lights((lam_rig)rig, lights); i < count; i++)
+            assert_true(lam_light_check(&lights[i], NULL));
+    lam_light own = lam_light_default(LAM_LIGHT_POINT);
+    assert_int_equal(lam_scene_add_light(scene, &own, NULL), 0);
+    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, lights), 0);
+    lam_scene_free(scene);
+}
+
+static void draw(lam_scene *scene, lam_image *image)
+{
+    lam_camera camera = lam_camera_default();
+    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, NULL);
+    assert_non_null(device);
+    assert_true(lam_image_make(image, 24, 24, LAM_RGBA32F, NULL));
+    assert_true(lam_draw(device, scene, &camera, &(lam_draw_params){.samples = 1}, image, NULL, NULL));
+    lam_device_free(device);
+}
+
+// A light of the model's frame goes with the model: what it does is what a light of the world does in the place that the
+// transform moves it to.
+static void lights_go_with_the_model(void **state)
+{
+    (void)state;
+    lam_image images[2];
+    for (int i = 0; i < 2; i++) {
+        lam_scene *scene = shape_scene("sphere", 1);
+        lam_light light = lam_light_default(LAM_LIGHT_POINT);
+        light.frame = i ? LAM_FRAME_WORLD : LAM_FRAME_MODEL;
+        light.position = i ? (lam_vec3){3, 1, -1} : (lam_vec3){1, 1, 3};
+        assert_int_equal(lam_scene_add_light(scene, &light, NULL), 0);
+        assert_true(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 1, 0}, PI_HALF, NULL));
+        draw(scene, &images[i]);
+        lam_scene_free(scene);
+    }
+    const float *a = images[0].pixels, *b = images[1].pixels;
+    double most = 0, brightest = 0;
+    for (int i = 0; i < 24 * 24 * 4; i++) {
+        most = fmax(most, fabs((double)a[i] - (double)b[i]));
+        if (i % 4 < 3)
+            brightest = fmax(brightest, (double)a[i]);
+    }
+    assert_true(most < 1e-5);
+    assert_true(brightest > 0.3);
+    lam_image_free(&images[0]);
+    lam_image_free(&images[1]);
+}
+
+static void view_matrix(void **state)
+{
+    (void)state;
+    lam_camera camera = lam_camera_default();
+    camera.eye = (lam_vec3){5, 0, 0};
+    lam_mat4 view = lam_camera_view(&camera); // looks along −x: the world's x is the eye's z
+    near(view.m[2][0], 1, 1e-15);
+    near(view.m[2][3], -5, 1e-15);
+    near(view.m[1][1], 1, 1e-15);
+}
+
+// --- meshes by hand
+
+static const float square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+static const float up_normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+static const uint32_t two_triangles[] = {0, 1, 2, 0, 2, 3};
+
+static lam_scene *square_scene(const float *texcoords, const lam_part *parts, uint32_t part_count)
+{
+    lam_scene *scene = lam_scene_make(NULL);
+    lam_mesh mesh = {.positions = square, .vertex_count = 4, .indices = two_triangles, .triangle_count = 2,
+                     .normals = up_normals, .normal_count = 4, .texcoords = texcoords, .texcoord_count = texcoords ? 4 : 0,
+                     .parts = parts, .part_count = part_count};
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_mesh(scene, &mesh, NULL);
+    assert_int_equal(object.mesh, 0);
+    assert_int_equal(lam_scene_add_object(scene, &object, NULL), 0);
+    return scene;
+}
+
+static void parts_change_their_material(void **state)
+{
+    (void)state;
+    lam_part parts[] = {{"a", 0, 1, -1}, {"b", 1, 1, -1}};
+    lam_scene *scene = square_scene(NULL, parts, 2);
+    lam_material gold = lam_material_named(LAM_MATERIAL_GOLD);
+    assert_int_equal(lam_scene_add_material(scene, &gold, NULL), 0);
+    assert_true(lam_scene_set_part_material(scene, 0, 1, 0, NULL));
+    assert_int_equal(lam_scene_mesh(scene, 0)->parts[0].material, -1);
+    assert_int_equal(lam_scene_mesh(scene, 0)->parts[1].material, 0);
+    assert_int_equal(parts[1].material, -1); // the caller's own array is not touched
+    lam_error error;
+    assert_false(lam_scene_set_part_material(scene, 1, 0, 0, &error));
+    assert_false(lam_scene_set_part_material(scene, 0, 2, 0, &error));
+    assert_false(lam_scene_set_part_material(scene, 0, 0, 1, &error));
+    assert_false(lam_scene_set_part_material(scene, 0, 0, -2, &error));
+    assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+    lam_scene_add_warning(scene, "one");
+    assert_string_equal(lam_scene_warning(scene, 0), "one");
+    lam_scene_free(scene);
+}
+
+static const float *tangent_at(const lam_mesh *mesh, uint32_t corner)
+{
+    return mesh->tangents + 4 * (size_t)mesh->tangent_indices[corner];
+}
+
+static void tangents_of_a_square(void **state)
+{
+    (void)state;
+    static const float straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const float turned[] = {0, 0, 0, 1, -1, 1, -1, 0};  // s along −y
+    static const float mirrored[] = {1, 0, 0, 0, 0, 1, 1, 1};  // s along −x, t along y
+    static const float nowhere[] = {0, 0, 0, 0, 0, 0, 0, 0};
+    static const struct {
+        const float *texcoords;
+        float expected[4];
+    } rows[] = {{straight, {1, 0, 0, 1}}, {turned, {0, -1, 0, 1}}, {mirrored, {-1, 0, 0, -1}}, {nowhere, {1, 0, 0, 1}}};
+    for (int r = 0; r < 4; r++) {
+        lam_scene *scene = square_scene(rows[r].texcoords, NULL, 0);
+        assert_true(lam_scene_make_tangents(scene, NULL, NULL));
+        const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+        assert_non_null(mesh->tangents);
+        assert_int_equal(mesh->tangent_count, 4); // shared by the corners of a vertex
+        for (uint32_t corner = 0; corner < 6; corner++)
+            for (int i = 0; i < 4; i++)
+                near((double)tangent_at(mesh, corner)[i], (double)rows[r].expected[i], 1e-7);
+        lam_scene_free(scene);
+    }
+    lam_scene *bare = square_scene(NULL, NULL, 0);
+    assert_true(lam_scene_make_tangents(bare, NULL, NULL));
+    assert_null(lam_scene_mesh(bare, 0)->tangents);
+    lam_scene_free(bare);
+}
+
+// A shape's own tangents, from its formula, are those that its texture coordinates tell, but for the error of the segments.
+static void tangents_of_a_torus(void **state)
+{
+    (void)state;
+    lam_scene *exact = shape_scene("torus", 1), *made = lam_scene_make(NULL);
+    const lam_mesh *from = lam_scene_mesh(exact, 0);
+    assert_non_null(from->tangents);
+    assert_non_null(from->texcoords);
+    lam_mesh bare = *from;
+    bare.tangents = NULL;
+    bare.tangent_indices = NULL;
+    bare.tangent_count = 0;
+    assert_int_equal(lam_scene_add_mesh(made, &bare, NULL), 0);
+    assert_true(lam_scene_make_tangents(made, NULL, NULL));
+    const lam_mesh *mesh = lam_scene_mesh(made, 0);
+    double least = 1;
+    for (uint32_t corner = 0; corner < 3 * mesh->triangle_count; corner++) {
+        const uint32_t *by = from->tangent_indices ? from->tangent_indices : from->indices;
+        const float *a = from->tangents + 4 * (size_t)(by ? by[corner] : corner), *b = tangent_at(mesh, corner);
+        double dot = (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
+        least = fmin(least, dot);
+        assert_true(a[3] == b[3]);
+    }
+    near(least, 1, 2e-3);
+    // Once there, they stay.
+    const float *kept = mesh->tangents;
+    assert_true(lam_scene_make_tangents(made, NULL, NULL));
+    assert_ptr_equal(lam_scene_mesh(made, 0)->tangents, kept);
+    lam_scene_free(exact);
+    lam_scene_free(made);
+}
+
+static void tangents_can_be_bounded(void **state)
+{
+    (void)state;
+    lam_error error;
+    for (int i = 0; i < 2; i++) {
+        static const float straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
+        lam_scene *scene = square_scene(straight, NULL, 0);
+        lam_cancel cancel = {1};
+        lam_control control = i ? (lam_control){.memory_limit_bytes = 16} : (lam_control){.cancel = &cancel};
+        assert_false(lam_scene_make_tangents(scene, &control, &error));
+        assert_int_equal(error.code, i ? LAM_LIMIT : LAM_CANCELLED);
+        assert_null(lam_scene_mesh(scene, 0)->tangents);
+        lam_scene_free(scene);
+    }
+    assert_false(lam_scene_make_tangents(NULL, NULL, &error));
+}
+
+int main(void)
+{
+    const struct CMUnitTest all[] = {
+        cmocka_unit_test(sphere_is_the_models),       cmocka_unit_test(turning_and_moving),
+        cmocka_unit_test(rigs_stand_about_the_scene), cmocka_unit_test(lights_go_with_the_model),
+        cmocka_unit_test(view_matrix),                cmocka_unit_test(parts_change_their_material),
+        cmocka_unit_test(tangents_of_a_square),       cmocka_unit_test(tangents_of_a_torus),
+        cmocka_unit_test(tangents_can_be_bounded),
+    };
+    return cmocka_run_group_tests(all, NULL, NULL);
+}

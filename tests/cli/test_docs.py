@@ -8,7 +8,7 @@ from harness import PROGRAM, ROOT, Case
 
 
 def options_of(text):
-    return set(re.findall(r"(?<![\w-])--([a-z][a-z-]*)", text))
+    return set(re.findall(r"(?<![\w-])--([a-z][a-z0-9-]*)", text))
 
 
 class Docs(Case):

@@ -201,7 +201,7 @@ static void test_light_checks(void **state)
     BAD(LAM_LIGHT_SPOT, inner_rad, 0.2f); // outer is 0
     BAD(LAM_LIGHT_SPOT, outer_rad, 1.6f);
     BAD(LAM_LIGHT_SPOT, type, (lam_light_type)9);
-    BAD(LAM_LIGHT_SPOT, frame, (lam_light_frame)3);
+    BAD(LAM_LIGHT_SPOT, frame, (lam_light_frame)4);
     lam_light cone = lam_light_default(LAM_LIGHT_SPOT);
     cone.inner_rad = cone.outer_rad = 0.5f;
     refused(&cone, "inner_rad");

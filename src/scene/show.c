@@ -21,10 +21,8 @@ int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int 
     int count = lam_scene_light_count(scene);
     for (int i = 0; lights && i < count && i < room; i++)
         lights[i] = *lam_scene_light(scene, i);
-    if (rig == LAM_RIG_AUTO)
-        rig = count ? LAM_RIG_NONE : LAM_RIG_STUDIO;
     lam_light of_rig[LAM_RIG_LIGHTS_MAX];
-    int more = lam_rig_lights(rig, of_rig);
+    int more = lam_scene_rig_lights(scene, rig, of_rig);
     for (int i = 0; lights && i < more && count + i < room; i++)
         lights[count + i] = of_rig[i];
     return count + more;

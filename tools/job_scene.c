@@ -84,7 +84,7 @@ static bool dress_rig(struct job *job, lam_error *error)
         lam_scene_clear_lights(job->scene);
     if (dark)
         job->rig = LAM_RIG_NONE;
-    bool as_it_is = !o->lights.count && !o->has_light_scale && !o->rotations.count && !o->show_lights;
+    bool as_it_is = !o->lights.count && !o->has_light_scale && !o->rotations.count;
     if (job->rig == LAM_RIG_NONE || as_it_is)
         return true;
     bool ok = add_rig(job->scene, job->rig, error);
@@ -109,7 +109,7 @@ bool job_dress(struct job *job, const lam_control *control, struct model_sphere 
     const struct options *o = job->options;
     lam_scene *scene = job->scene;
     *sphere = (struct model_sphere){.radius = 1};
-    if (o->lights.count || o->rotations.count || o->show_lights)
+    if (o->lights.count || o->rotations.count)
         lam_scene_sphere(scene, -1, &sphere->centre, &sphere->radius);
     if (!(sphere->radius > 0))
         sphere->radius = 1;

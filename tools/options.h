@@ -38,7 +38,6 @@ struct options {
     const char *ambient; // as written; NULL: none
     double light_scale;
     bool has_light_scale;
-    bool show_lights;
 
     // Materials
     struct texts materials;    // as written, checked

@@ -20,6 +20,7 @@ int run_formats(int operand_count, char **operands, const struct options *option
     printf("Pictures:\n"
            "  png    .png  8 bits, sRGB, with alpha\n"
            "  ppm    .ppm  8 bits, sRGB, over the background\n"
-           "  pfm    .pfm  floats, linear, premultiplied by alpha\n");
+           "  pfm    .pfm  floats, linear, premultiplied by alpha\n"
+           "  exr    .exr  floats, linear, premultiplied by alpha, with alpha\n");
     return 0;
 }

@@ -121,9 +121,9 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that 
 
 const struct option option_table[] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png",
-     "Write to FILE (.png, .ppm or .pfm), to the folder FILE/, or to standard output (-).",
+     "Write to FILE (.png, .ppm, .pfm or .exr), to the folder FILE/, or to standard output (-).",
      "The ending decides the format: `.png` (8 bits, sRGB, with alpha), `.ppm` (8 bits over the "
-     "background), `.pfm` (linear floats, premultiplied by alpha). `-` writes a PNG to standard output; a "
+     "background), `.pfm` and `.exr` (linear floats, premultiplied by alpha; `.exr` needs OpenEXR's library). `-` writes a PNG to standard output; a "
      "pipe or device whose name has no such ending gets a PNG too. Without this option the picture goes to "
      "the current folder under the model's name with `.png` as its ending (`model.png` when the model "
      "comes from standard input), and a file of that name which lambent did not write is never "
@@ -147,7 +147,7 @@ const struct option option_table[] = {
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. "
      "`light:key` is what the light named key gives; `light:1` is the first light. `n.l` and `n.h` are of the "
      "first light that has a direction; `n.l:key` and `n.h:key` name another. The rest are numbers of the "
-     "surfaces: `.pfm` holds them as they are, 8-bit pictures a code for them, with no sRGB encoding. "
+     "surfaces: `.pfm` and `.exr` hold them as they are, 8-bit pictures a code for them, with no sRGB encoding. "
      "`docs/show.md` has the table of all of them.",
      show_words, .store = store_show, FIELD(show)},
 

@@ -45,7 +45,7 @@ typedef struct lam_bytes {
 LAM_API void lam_bytes_free(lam_bytes *bytes);
 
 // Encodes a picture. `format` is "png" (from LAM_RGBA8), "ppm" (from LAM_RGBA8) or "pfm" (from LAM_RGBA32F,
-// RGB, linear, bottom row first). The same picture always gives the same bytes. `params` may be NULL.
+// RGB, linear, bottom row first) or "exr" (from LAM_RGBA32F, 32-bit floats; LAM_UNSUPPORTED where OpenEXR is not). The same picture always gives the same bytes. `params` may be NULL.
 // Errors: LAM_BAD_ARGUMENT (pixel format does not fit), LAM_UNSUPPORTED (no such format), LAM_LIMIT.
 LAM_API bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params,
                               lam_bytes *out, lam_error *error);
@@ -55,11 +55,25 @@ LAM_API bool lam_image_encode(const lam_image *image, const char *format, const 
 LAM_API bool lam_image_save(const lam_image *image, const char *path, const lam_save_params *params,
                             lam_error *error);
 
-// The pixel format that a file name asks for: LAM_RGBA32F for .pfm, LAM_RGBA8 for .png and .ppm.
+// A layer of an EXR picture.
+typedef struct lam_layer {
+    const char *name;       // "diffuse": channels diffuse.R, …; NULL or "": the picture itself, R, …
+    const lam_image *image; // LAM_RGBA32F, of the same size as the others
+    const char *channels;   // a letter for each number of a pixel that is written, in their order: "XYZ"; NULL: "RGB", of the
+                            // picture itself "RGBA"
+} lam_layer;
+
+// Encodes, and writes to `path` as lam_image_save does, one EXR picture with all layers: 32-bit floats, ZIP. The same layers
+// give the same bytes with the same OpenEXR library. Errors: LAM_BAD_ARGUMENT (sizes, formats, channels of the same name),
+// LAM_UNSUPPORTED (OpenEXR is not in this build, or not installed), LAM_LIMIT, LAM_CANNOT_WRITE.
+LAM_API bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error);
+LAM_API bool lam_image_save_layers(const lam_layer *layers, int count, const char *path, lam_error *error);
+
+// The pixel format that a file name asks for: LAM_RGBA32F for .pfm and .exr, LAM_RGBA8 for .png and .ppm.
 // LAM_UNSUPPORTED for another ending, naming those that can be written.
 LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
 
-// Reads a picture: PNG and binary PPM into LAM_RGBA8 (16 bits are cut to 8, grey and palettes become RGB), PFM into
+// Reads a picture: PNG and binary PPM into LAM_RGBA8 (16 bits are cut to 8, grey and palettes become RGB), PFM and EXR (scanlines; the first part) into
 // LAM_RGBA32F, with alpha 1 where the file has none. Content decides the format. `image` may hold anything before; it is
 // not freed, and is zeroed on failure. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, memory).
 LAM_API bool lam_image_load(lam_image *image, const char *path, lam_error *error);

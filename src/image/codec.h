@@ -30,7 +30,7 @@ struct codec {
 
 enum { CODEC_HEAD = 512 };
 
-extern const struct codec codec_png, codec_ppm, codec_pfm;
+extern const struct codec codec_png, codec_ppm, codec_pfm, codec_exr;
 
 // Halves of codec_png, each with a file of its own.
 bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const struct codec *const codecs[] = {&codec_png, &codec_ppm, &codec_pfm};
+static const struct codec *const codecs[] = {&codec_png, &codec_ppm, &codec_pfm, &codec_exr};
 enum { CODECS = sizeof codecs / sizeof *codecs, THREADS_MOST = 1024, LIST_ROOM = 128 };
 
 static const struct codec *codec_named(const char *name)
@@ -22,7 +22,7 @@ static const struct codec *codec_named(const char *name)
     return NULL;
 }
 
-// "png, ppm or pfm", each with `before` in front.
+// "png, ppm, pfm or exr", each with `before` in front.
 static const char *list_names(const char *before, char list[LIST_ROOM])
 {
     list[0] = 0;
@@ -122,6 +122,18 @@ bool lam_image_save(const lam_image *image, const char *path, const lam_save_par
     return ok;
 }
 
+bool lam_image_save_layers(const lam_layer *layers, int count, const char *path, lam_error *error)
+{
+    if (!path)
+        return fail(error, LAM_BAD_ARGUMENT, "save: a path is needed");
+    lam_bytes bytes;
+    if (!lam_image_encode_layers(layers, count, &bytes, error))
+        return false;
+    bool ok = file_write(path, bytes.data, bytes.size, error);
+    lam_bytes_free(&bytes);
+    return ok;
+}
+
 bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error)
 {
     if (!path || !format)
@@ -155,10 +167,10 @@ bool lam_image_load(lam_image *image, const char *path, lam_error *error)
     if (codec)
         ok = codec->read(file.data, file.size, name, image, error);
     else if (file.size == 0)
-        ok = fail(error, LAM_CANNOT_READ, "%s: is empty, expected a PNG, PPM or PFM picture", name);
+        ok = fail(error, LAM_CANNOT_READ, "%s: is empty, expected a PNG, PPM, PFM or EXR picture", name);
     else
         ok =
-            fail(error, LAM_CANNOT_READ, "%s: byte 0: not the start of a PNG, PPM (P6) or PFM picture", name);
+            fail(error, LAM_CANNOT_READ, "%s: byte 0: not the start of a PNG, PPM (P6), PFM or EXR picture", name);
     file_release(&file);
     float_state_leave(state);
     return ok;

@@ -143,7 +143,7 @@ static void names_pick_formats(void **state)
     assert_true(lam_image_format_for("x.y.pfm", &format, NULL));
     assert_int_equal(format, LAM_RGBA32F);
     expect_error(lam_image_format_for("a.jpg", &format, &error), &error, LAM_UNSUPPORTED,
-                 ".png, .ppm or .pfm");
+                 ".png, .ppm, .pfm or .exr");
     expect_error(lam_image_format_for("a.pngg", &format, &error), &error, LAM_UNSUPPORTED,
                  "did you mean .png");
     expect_error(lam_image_format_for("dir.png/a", &format, &error), &error, LAM_UNSUPPORTED, "no ending");
@@ -157,7 +157,7 @@ static void encode_checks_its_arguments(void **state)
     lam_bytes out = {&out, 5};
     lam_error error;
     expect_error(lam_image_encode(&bytes, "gif", NULL, &out, &error), &error, LAM_UNSUPPORTED,
-                 "png, ppm or pfm");
+                 "png, ppm, pfm or exr");
     assert_null(out.data);
     expect_error(lam_image_encode(&bytes, "pfm", NULL, &out, &error), &error, LAM_BAD_ARGUMENT,
                  "LAM_RGBA32F");

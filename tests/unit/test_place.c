@@ -76,14 +76,14 @@ static void turning_and_moving(void **state)
     lam_mat4 flat = lam_mat4_identity(), bent = lam_mat4_identity(), lost = lam_mat4_identity(), before = *m;
     flat.m[1][1] = 0;
     bent.m[3][0] = 1;
-    lost.m[0][0] = NAN;
+    lost.m[0][0] = (double)NAN;
     const lam_mat4 *bad[] = {&flat, &bent, &lost, NULL};
     for (int i = 0; i < 4; i++) {
         assert_false(lam_scene_transform(scene, bad[i], &error));
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     }
     assert_false(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 0, 0}, 1, &error));
-    assert_false(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 1, 0}, NAN, &error));
+    assert_false(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 1, 0}, (double)NAN, &error));
     assert_memory_equal(&before, &lam_scene_object(scene, 0)->transform, sizeof before);
     lam_scene_free(scene);
 }

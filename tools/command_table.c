@@ -2,11 +2,16 @@
 #include "command.h"
 
 #define ABOUT (1u << GROUP_ABOUT)
-#define ALL   (((1u << GROUP_COUNT) - 1) & ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS)) // all that a picture of a model takes
+// All that a picture of a model takes.
+#define ALL                                                                                                  \
+    (((1u << GROUP_COUNT) - 1) &                                                                             \
+     ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET))
 
 const struct command command_table[] = {
     {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL,
      1, -1, run_render},
+    {"compare", "MODEL", "Draw one labelled sheet of pictures: methods, lights, terms side by side.",
+     (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET, 1, 1, run_compare},
     {"diff", "A B", "Tell how far two pictures are apart, and draw where.", ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET,
      2, 2, run_diff},
     {"plot", "attenuation|spot|highlight [CURVE...]", "Draw a law of light as curves (PNG or SVG), and tell its numbers.",
@@ -30,6 +35,7 @@ const struct example examples[] = {
     {"lambent -q *.stl -o pictures/", "a picture of each model, in a folder"},
     {"lambent - -o - < part.stl > part.png", "from standard input to standard output"},
     {"lambent koala.obj --json", "what was read, the camera, and the time of each step"},
+    {"lambent compare koala.obj --sheet terms", "the terms of the sum side by side, with captions"},
     {"lambent plot attenuation 1/0.54/0.2 1/0/1", "how two lights fade with the distance"},
     {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
     {NULL, NULL},
@@ -62,6 +68,15 @@ const struct topic topics[] = {
                "Standard output carries the picture (`-o -`) or the report (`--json`), and nothing else. "
                "Warnings, errors, the line that tells what was written, and a progress bar (only on a "
                "terminal, for work of over half a second) go to standard error."},
+    {"Sheets",
+     "`lambent compare MODEL` writes one PNG with several pictures of a model and a caption under each: the picture that "
+     "`lambent MODEL` gives with the options in grey under the caption. `--sheet` chooses which; `--across OPTION=VALUES` makes "
+     "a row with one picture for each value. Every other option holds for all pictures, `--size` (480x400) being that of each; "
+     "what the sheet itself says comes after them. The ground is white where `--background` says nothing else. The sheet is "
+     "`MODEL-NAME.png` in the current folder, or what `-o` says. The pictures are the same bytes everywhere; only the letters are FreeType's.\n"
+     "`--sheet stages` frames the brightest highlight (where the picture is farthest above the one without highlights) and "
+     "shows it beneath, drawn three times as large. That sheet, `surfaces` and `terms` give the model's materials a specular "
+     "colour of their own, so that there is a highlight to see; `terms` takes the other terms away by black coefficients."},
     {"Comparing pictures",
      "`lambent diff A B` reads two pictures of the same size (PNG or PPM with 8 bits, PFM with floats, both of one "
      "kind) and prints the largest difference of a channel, the mean and the root of the mean square over all channels "

@@ -117,6 +117,12 @@ const struct command *find_command(const char *name)
     return NULL;
 }
 
+unsigned find_groups(const char *name)
+{
+    const struct command *command = find_command(name);
+    return command ? command->groups : 0;
+}
+
 int run_help(int operand_count, char **operands, const struct options *options)
 {
     (void)options;

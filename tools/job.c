@@ -216,19 +216,10 @@ static bool write_output(struct job *job, const lam_rgba *background, lam_error 
     return ok;
 }
 
-bool job_run(struct job *job, struct progress *progress, lam_error *error)
+bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
-    bool stream = output_is_stream(job->output);
-    lam_pixel_format format = LAM_RGBA8;
-    lam_rgba background = {0};
-    if (!stream && !lam_image_format_for(job->output, &format, error))
-        return false;
-    job->format = stream ? "png" : strrchr(job->output, '.') + 1;
-    if (strcmp(job->output, "-") != 0 &&
-        !output_check(job->output, job->model, output_is_named(o->output), error))
-        return false;
-    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &background, error))
+    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &job->background, error))
         return false;
     uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
     if (o->memory_limit_bytes && bytes > o->memory_limit_bytes)
@@ -242,5 +233,19 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
     if (!control_of(job, progress, &control, error) || !job_dress(job, &control, &sphere, error))
         return false;
     place_camera(job);
-    return job_light(job, &sphere, error) && draw(job, &background, progress, error) && write_output(job, &background, error);
+    return job_light(job, &sphere, error) && draw(job, &job->background, progress, error);
+}
+
+bool job_run(struct job *job, struct progress *progress, lam_error *error)
+{
+    const struct options *o = job->options;
+    bool stream = output_is_stream(job->output);
+    lam_pixel_format format = LAM_RGBA8;
+    if (!stream && !lam_image_format_for(job->output, &format, error))
+        return false;
+    job->format = stream ? "png" : strrchr(job->output, '.') + 1;
+    if (strcmp(job->output, "-") != 0 &&
+        !output_check(job->output, job->model, output_is_named(o->output), error))
+        return false;
+    return job_draw(job, format, progress, error) && write_output(job, &job->background, error);
 }

@@ -29,6 +29,7 @@ struct job {
     lam_rig rig; // what drawing adds to the scene's own lights
     lam_camera camera;
     lam_image image;
+    lam_rgba background; // behind the model, as --background says
     lam_device *device;
     uint64_t bytes; // of the file written
     bool written;
@@ -39,5 +40,8 @@ struct job {
 // Reads, draws and writes. The job comes with its options, model, output, device and start filled in; it is
 // filled step by step, so that on failure what was done can be told. The caller frees its scene and image.
 bool job_run(struct job *job, struct progress *progress, lam_error *error);
+
+// The same up to the drawn picture, which stays in `image`: output and format are not looked at.
+bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);
 
 #endif

@@ -7,9 +7,10 @@
 const char *const group_titles[GROUP_COUNT] = {
     [GROUP_PICTURE] = "Picture", [GROUP_VIEW] = "View",      [GROUP_SHADING] = "Shading",
     [GROUP_WORK] = "Work",       [GROUP_REPORT] = "Reports", [GROUP_DIFF] = "Comparing pictures (diff)",
-    [GROUP_PLOT] = "Plots (plot)", [GROUP_CAPTIONS] = "Captions (plot)",
+    [GROUP_PLOT] = "Plots (plot)", [GROUP_CAPTIONS] = "Captions (compare, plot)",
     [GROUP_ABOUT] = "About",
     [GROUP_LIGHTS] = "Lights",   [GROUP_MATERIALS] = "Materials",
+    [GROUP_SHEET] = "Sheets (compare)",
 };
 
 static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
@@ -109,6 +110,16 @@ static const struct word normals_words[] = {
     {"file", LAM_NORMALS_FILE, "the file's; smooth ones where it has none"},
     {"smooth", LAM_NORMALS_SMOOTH, "made smooth whatever the file says"},
     {"facet", LAM_NORMALS_FACET, "each triangle's own"},
+    {NULL, 0, NULL}};
+
+static const struct word sheet_words[] = {
+    {"summary", SHEET_SUMMARY, "flat, smooth, normal interpolation and anisotropic"},
+    {"terms", SHEET_TERMS, "ambient, diffuse and specular alone; all at shininess 50, at 1000, and at 1000 flat"},
+    {"stages", SHEET_STAGES, "lit per vertex and per fragment, the brightest highlight enlarged"},
+    {"light", SHEET_LIGHT, "the model in white and in green light, with its own colours and in orange"},
+    {"ambient", SHEET_AMBIENT, "ambient and diffuse light white and white, red and white, red and red"},
+    {"frames", SHEET_FRAMES, "one light in the world's, the camera's and the model's frame, before and after a turn"},
+    {"surfaces", SHEET_SURFACES, "specular, diffuse and translucent"},
     {NULL, 0, NULL}};
 
 static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that this machine has"},
@@ -296,7 +307,16 @@ const struct option option_table[] = {
      "How far a channel may be off, in steps of 1/255 of the full range; beyond it the exit code is 6.", NULL,
      .store = store_number, FIELD(tolerance), .least = 0, .most = 1e9},
     {"gain", 0, GROUP_DIFF, "FACTOR", "16", "The picture of the difference shows it this many times as large.", NULL,
-     .store = store_number, FIELD(gain), .least = 0.001, .most = 1e6},
+     .store = store_number, FIELD(gain), .least = 0.001, .most = 1e6},    {"sheet", 0, GROUP_SHEET, "NAME", "summary",
+     "What is compared: summary, terms, stages, light, ambient, frames or surfaces.", NULL,
+     sheet_words, .store = store_word, FIELD(sheet)},
+    {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL, "A row of pictures in place of a sheet: shading, or shininess=10,50,1000.",
+     "OPTION is one of the options above without its dashes. The values stand with commas between them; those of `light`, "
+     "`material` and other options that have commas of their own, with semicolons "
+     "(`light=point;directional:color=red,frame=camera`). Left out, they are the words that the option takes; for `shininess` "
+     "10, 50 and 1000, for `light` one of each type, for `show`, which may be called `term`, the five terms.",
+     .store = store_text, FIELD(across)},
+
     {"to", 0, GROUP_PLOT, "X", "fitted", "The horizontal axis goes from 0 to X: a distance, or degrees.", NULL,
      .store = store_number, FIELD(to), .least = 1e-6, .most = 1e9},
 

@@ -22,6 +22,27 @@ void options_free(struct options *options)
     free(options->rotations.items);
 }
 
+static bool texts_copy(struct texts *texts)
+{
+    const char **items = malloc(((size_t)texts->count + 1) * sizeof *items);
+    for (int i = 0; items && i < texts->count; i++)
+        items[i] = texts->items[i];
+    texts->items = items;
+    return items != NULL;
+}
+
+bool options_copy(struct options *to, const struct options *from)
+{
+    *to = *from;
+    bool ok = texts_copy(&to->lights);
+    ok = texts_copy(&to->materials) && ok;
+    ok = texts_copy(&to->back_materials) && ok;
+    ok = texts_copy(&to->rotations) && ok;
+    if (!ok)
+        options_free(to);
+    return ok;
+}
+
 bool option_is_taken(const struct option *option, unsigned groups)
 {
     return groups & (1u << option->group | option->single);

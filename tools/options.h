@@ -72,6 +72,8 @@ struct options {
     // Plots and sheets
     const char *font; // NULL: the system's
     bool no_captions;
+    int sheet;      // enum sheet_name
+    const char *across; // as written; NULL: none
     double to;      // right end of a plot's axis; 0: fitted
 
     // Reports
@@ -100,6 +102,16 @@ enum view_name {
 // --rig none: no light but the ambient; beside the values of lam_rig.
 enum { RIG_DARK = 100 };
 
+enum sheet_name {
+    SHEET_SUMMARY,
+    SHEET_TERMS,
+    SHEET_STAGES,
+    SHEET_LIGHT,
+    SHEET_AMBIENT,
+    SHEET_FRAMES,
+    SHEET_SURFACES,
+};
+
 enum option_group {
     GROUP_PICTURE,
     GROUP_VIEW,
@@ -111,6 +123,7 @@ enum option_group {
     GROUP_DIFF,
     GROUP_PLOT,
     GROUP_CAPTIONS,
+    GROUP_SHEET,
     GROUP_ABOUT, // every command has these
     GROUP_COUNT,
 };
@@ -147,6 +160,10 @@ extern const char *const group_titles[GROUP_COUNT];
 
 struct options option_defaults(void);
 void options_free(struct options *options);
+
+// A copy that may be read into on its own. False: memory is out, and there is nothing to free.
+bool options_copy(struct options *to, const struct options *from);
+
 
 // Whether a command takes an option: `groups` has bit g set for each group that it takes whole, and TAKES_… bits.
 bool option_is_taken(const struct option *option, unsigned groups);

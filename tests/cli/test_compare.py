@@ -1,0 +1,103 @@
+# test_compare.py: the command `compare`: every picture of a sheet is what its options give alone; captions, names, errors.
+from harness import Case, read_png
+
+
+def part(picture, left, top, width, height):
+    page, _, data = picture
+    return b"".join(data[4 * (y * page + left):4 * (y * page + left + width)] for y in range(top, top + height))
+
+
+class Compare(Case):
+    def alone(self, *words):
+        return self.png(*words, "-b", "white", "-q")[2]
+
+    def sheet(self, *words):
+        return read_png(self.good("compare", *words, "-q", "-o", "-").stdout)
+
+    def test_cells_are_what_their_options_give(self):
+        page = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "shading", "--azimuth", 50)
+        gap = int(24 * 0.1) + 1
+        self.assertEqual(page[:2], (3 * (48 + gap) + gap, 40 + 2 * gap))
+        for i, shading in enumerate(("flat", "gouraud", "phong")):
+            one = self.alone("cube.obj", "-s", "48x40", "--shading", shading, "--azimuth", 50)
+            self.assertEqual(part(page, gap + i * (48 + gap), gap, 48, 40), one, shading)
+
+    def test_named_sheets(self):
+        sizes = {"summary": (4, 1), "terms": (3, 2), "stages": (2, 1), "light": (2, 2), "ambient": (3, 1), "frames": (3, 2),
+                 "surfaces": (3, 1)}
+        for name, (columns, rows) in sizes.items():
+            with self.subTest(name):
+                width, height, _ = self.sheet("cube.obj", "--sheet", name, "--samples", 1, "-s", "48x36")
+                inset = 36 // 6 * 3 + 1 if name == "stages" else 0
+                self.assertEqual((width, height), (columns * 51 + 3, rows * (36 + inset + 8 + 3) + 6 + 3))
+
+    def test_terms_add_up(self):
+        """Raw numbers: ambient + diffuse + specular at shininess 50 are the picture with all of them, to the rounding of bytes."""
+        page = self.sheet("sphere", "--sheet", "terms", "--no-captions", "--color", "raw", "-s", "48x40", "-b", "0/0/0/1")
+        gap = 3
+        at = [part(page, gap + i % 3 * (48 + gap), gap + i // 3 * (40 + gap), 48, 40) for i in range(4)]
+        for i in range(0, len(at[0]), 4):
+            for k in range(3):
+                self.assertLessEqual(abs(min(at[0][i + k] + at[1][i + k] + at[2][i + k], 255) - at[3][i + k]), 2)
+        self.assertGreater(max(at[2][0::4]), 100)  # there is a highlight
+
+    def test_inset_shows_the_highlight(self):
+        page = self.sheet("sphere", "--sheet", "stages", "--samples", 1, "--color", "raw", "-s", "96x96", "--no-captions")
+        left = 5 + 96 + 5  # per fragment
+        whole = part(page, left, 5, 96, 96)
+        inset = part(page, left, 5 + 96 + 2, 96, 48)
+        brightest = max(whole[i] for i in range(0, len(whole), 4) if whole[i:i + 3] == 3 * whole[i:i + 1] and whole[i] < 255)
+        middle = [inset[4 * (y * 96 + x)] for y in range(12, 36) for x in range(24, 72)]
+        self.assertGreater(brightest, 180)
+        self.assertGreaterEqual(max(middle), brightest - 4)
+        self.assertLess(min(middle), brightest - 10)
+
+    def test_captions(self):
+        words = ("cube.obj", "--across", "shading=flat,phong", "-s", "120x60")
+        plain, captioned = self.sheet(*words, "--no-captions"), self.sheet(*words)
+        self.assertEqual(captioned[1] - plain[1], 15 + 20)
+        for i in range(2):  # the pictures are the same
+            left = 7 + i * (120 + 7)
+            self.assertEqual(part(plain, left, 7, 120, 60), part(captioned, left, 7 + 15, 120, 60))
+        caption = part(captioned, 7, 7 + 15 + 60, 120, 20)
+        self.assertGreater(sum(value < 160 for value in caption[0::4]), 10)
+        self.bad(2, "compare", "cube.obj", "--font", "/nowhere.ttf", says="/nowhere.ttf")
+        self.sheet("cube.obj", "-s", 8, "--font", "/nowhere.ttf", "--no-captions")
+
+    def test_across(self):
+        for across, count in (("reflection", 6), ("shininess", 3), ("light", 5), ("stage", 3), ("term", 5), ("show=normals,depth", 2), ("samples=1,4", 2),
+                              ("material=gold;ruby,shininess=5", 2), ("material=gold,ruby,jade", 3), ("azimuth=0,30,60", 3)):
+            with self.subTest(across):
+                page = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", across)
+                self.assertEqual(page[0], count * 51 + 3)
+        two = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "azimuth=0,10,20,30,40,50,60,70")
+        self.assertEqual(two[:2], (4 * 51 + 3, 2 * 43 + 3))
+
+    def test_names(self):
+        done = self.good("compare", "cube.obj", "-s", 32)
+        self.assertIn(b"cube-summary.png", done.stderr)
+        self.good("compare", "cube.obj", "-s", 32, "--across", "shading", "-q")
+        self.assertEqual(self.new_files(), {"cube-summary.png", "cube-shading.png"})
+        (self.folder / "cube-terms.png").write_bytes(b"mine")
+        self.given |= {"cube-terms.png", "cube-summary.png", "cube-shading.png"}
+        self.bad(5, "compare", "cube.obj", "--sheet", "terms", "-s", 8, says="cube-terms.png")
+
+    def test_same_bytes(self):
+        words = ("compare", "cube.obj", "-s", 64, "--no-captions", "-q", "-o", "-")
+        self.assertEqual(self.good(*words, "-j", 1, "--isa", "plain").stdout, self.good(*words, "-j", 3).stdout)
+
+    def test_errors(self):
+        self.bad(1, "compare", says="missing")
+        self.bad(1, "compare", "-", says="standard input")
+        self.bad(2, "compare", "missing.obj", says="missing.obj")
+        self.bad(1, "compare", "cube.obj", "--sheet", "term", says="did you mean 'terms'?")
+        self.bad(1, "compare", "cube.obj", "--across", "shadin", says="did you mean 'shading'?")
+        self.bad(1, "compare", "cube.obj", "--across", "output", says="--across")
+        self.bad(1, "compare", "cube.obj", "--across", "azimuth", says="azimuth=A,B,C")
+        self.bad(1, "compare", "cube.obj", "--across", "shading=flat,,phong", says="empty")
+        self.bad(1, "compare", "cube.obj", "--across", "shading=flat,rough", says="rough")
+        self.bad(4, "compare", "cube.obj", "--across", "azimuth=" + ",".join(map(str, range(25))), says="24")
+        self.bad(4, "compare", "cube.obj", "-s", 30000, says="65535")
+        self.bad(3, "compare", "cube.obj", "-o", "sheet.pfm", says="sheet.pfm")
+        self.bad(1, "compare", "cube.obj", "--json", says="no meaning")
+        self.bad(1, "cube.obj", "--sheet", "terms", says="no meaning")

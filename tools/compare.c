@@ -1,0 +1,302 @@
+// compare.c: the command `compare`: several pictures of a model on one labelled sheet.
+#include "command.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "console.h"
+#include "drawing.h"
+#include "interrupt.h"
+#include "job.h"
+#include "output.h"
+#include "report.h"
+#include "sheet.h"
+
+enum { CELL_WIDTH = 480, CELL_HEIGHT = 400, ENLARGED = 3, INK = 0x222222, GREY = 0x777777, FRAME = 0xd55e00 };
+
+// Where things are on the page, in pixels. `unit` is 1 for pictures 480 wide: type grows with them.
+struct page {
+    double unit;
+    int cell_width, cell_height; // of a picture
+    int gap, head, foot;         // between cells and around; for the title; for a caption
+    int inset;                   // height of the enlarged part with the gap above it; 0: none
+    int rows;
+};
+
+struct compare {
+    const struct options *options;
+    const char *model;
+    lam_device *device;
+    struct progress progress;
+    struct sheet sheet;
+    struct page page;
+    struct drawing drawing;
+    int done, pictures; // how many there are to draw in all
+};
+
+// --- one picture
+
+// Draws a cell's picture, `enlarge` times as large, with two further words (NULL: none).
+static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, const char *more,
+                      const char *value, lam_image *image, lam_error *error)
+{
+    struct options options;
+    if (!options_copy(&options, c->options))
+        return complain(error, LAM_LIMIT, "out of memory");
+    char *words[CELL_WORDS + 2];
+    int count = 0;
+    for (int i = 0; i < CELL_WORDS && cell->words[i]; i++)
+        words[count++] = (char *)(uintptr_t)cell->words[i]; // options are read, not written
+    if (more) {
+        words[count++] = (char *)(uintptr_t)more;
+        words[count++] = (char *)(uintptr_t)value;
+    }
+    options.width = c->page.cell_width * enlarge;
+    options.height = c->page.cell_height * enlarge;
+    if (!options.background)
+        options.background = "white";
+    struct job job = {.options = &options, .model = c->model, .device = c->device};
+    job.times.start = clock_ms();
+    bool ok = options_parse(count, words, find_groups("render"), &options, error) >= 0 &&
+              job_draw(&job, LAM_RGBA8, &c->progress, error);
+    for (int i = 0; ok && c->done == 0 && !options.quiet && lam_scene_warning(job.scene, i); i++)
+        say_warning(lam_scene_warning(job.scene, i));
+    c->done++;
+    lam_scene_free(job.scene);
+    if (ok)
+        *image = job.image;
+    else
+        lam_image_free(&job.image);
+    options_free(&options);
+    return ok;
+}
+
+// --- the brightest highlight
+
+struct box {
+    int left, top, width, height; // pixels of a cell's picture
+};
+
+// A window is moved over what the highlight adds to the picture; the brightest place is its middle.
+static struct box find_highlight(const lam_image *whole, const lam_image *matt)
+{
+    int w = whole->width, h = whole->height, width = w / ENLARGED, height = h / (2 * ENLARGED);
+    int span = w / 40 > 1 ? w / 40 : 1; // of the window that is searched with
+    const uint8_t *a = whole->pixels, *b = matt->pixels;
+    int64_t best = -1;
+    int best_x = w / 2, best_y = h / 2;
+    for (int y = 0; y + span <= h; y += (span + 1) / 2)
+        for (int x = 0; x + span <= w; x += (span + 1) / 2) {
+            int64_t sum = 0;
+            for (int j = y; j < y + span; j++)
+                for (int i = x; i < x + span; i++)
+                    for (int k = 0; k < 3; k++) {
+                        size_t at = 4 * ((size_t)j * (size_t)w + (size_t)i) + (size_t)k;
+                        sum += a[at] - b[at];
+                    }
+            if (sum > best) {
+                best = sum;
+                best_x = x + span / 2;
+                best_y = y + span / 2;
+            }
+        }
+    struct box box = {best_x - width / 2, best_y - height / 2, width > 0 ? width : 1,
+                      height > 0 ? height : 1};
+    box.left = box.left < 0 ? 0 : box.left > w - box.width ? w - box.width : box.left;
+    box.top = box.top < 0 ? 0 : box.top > h - box.height ? h - box.height : box.top;
+    return box;
+}
+
+static bool draw_frame(struct compare *c, double left, double top, double width, double height,
+                       lam_error *error)
+{
+    struct point round[5] = {
+        {left, top}, {left + width, top}, {left + width, top + height}, {left, top + height}, {left, top}};
+    return draw_line(&c->drawing, round, 5, 2 * c->page.unit, FRAME, 0, error);
+}
+
+// The framed part of a cell's picture and, beneath, the same part drawn larger.
+static bool draw_inset(struct compare *c, const struct cell *cell, struct box box, int left, int top,
+                       lam_error *error)
+{
+    lam_image large, part;
+    if (!draw_cell(c, cell, ENLARGED, NULL, NULL, &large, error))
+        return false;
+    bool ok = lam_image_make(&part, box.width * ENLARGED, box.height * ENLARGED, LAM_RGBA8, error);
+    for (int y = 0; ok && y < part.height; y++)
+        memcpy((uint8_t *)part.pixels + 4 * (size_t)y * (size_t)part.width,
+               (uint8_t *)large.pixels + 4 * ((size_t)(box.top * ENLARGED + y) * (size_t)large.width +
+                                              (size_t)(box.left * ENLARGED)),
+               4 * (size_t)part.width);
+    lam_image_free(&large);
+    if (!ok)
+        return false;
+    int below = top + c->page.cell_height + c->page.gap / 2;
+    draw_image(&c->drawing, &part, left, below);
+    ok = draw_frame(c, left, below, part.width, part.height, error) &&
+         draw_frame(c, left + box.left, top + box.top, box.width, box.height, error);
+    lam_image_free(&part);
+    return ok;
+}
+
+// --- the page
+
+// In letters that fit the width.
+static void draw_fitting(struct drawing *d, struct point baseline, double size, double width, uint32_t color,
+                         const char *text)
+{
+    double needed = text_width(d, size, text);
+    draw_text(d, baseline, needed > width ? size * width / needed : size, ALIGN_MIDDLE, color, text);
+}
+
+static void draw_caption(struct compare *c, const struct cell *cell, int left, int top)
+{
+    double u = c->page.unit, middle = left + c->page.cell_width / 2.0, width = c->page.cell_width;
+    draw_fitting(&c->drawing, (struct point){middle, top + 32 * u}, 23 * u, width, INK, cell->caption);
+    // What makes the picture, as it is typed. Long ones would be too small to read: then the option alone.
+    char line[512] = "";
+    for (int i = 0; i < CELL_WORDS && cell->words[i]; i++)
+        snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s", i ? " " : "", cell->words[i]);
+    double size = 15 * u, needed = text_width(&c->drawing, size, line);
+    if (needed <= width * 1.25) {
+        draw_fitting(&c->drawing, (struct point){middle, top + 55 * u}, size, width, GREY, line);
+        return;
+    }
+    // In two lines, broken behind a comma or a word.
+    size_t length = strlen(line), cut = 0;
+    for (size_t i = 1; i < length; i++) {
+        bool place = line[i - 1] == ',' || line[i - 1] == ' ';
+        size_t half = length / 2, off = i > half ? i - half : half - i,
+               best = cut > half ? cut - half : half - cut;
+        if (place && off < best)
+            cut = i;
+    }
+    char first[512];
+    snprintf(first, sizeof first, "%.*s", (int)cut, line);
+    draw_fitting(&c->drawing, (struct point){middle, top + 54 * u}, 13 * u, width, GREY, first);
+    draw_fitting(&c->drawing, (struct point){middle, top + 72 * u}, 13 * u, width, GREY, line + cut);
+}
+
+static bool lay_out(struct compare *c, lam_error *error)
+{
+    const struct options *o = c->options;
+    struct page *p = &c->page;
+    p->cell_width = o->has_size ? o->width : CELL_WIDTH;
+    p->cell_height = o->has_size ? o->height : CELL_HEIGHT;
+    p->unit = p->cell_width / (double)CELL_WIDTH;
+    p->gap = (int)(24 * p->unit) + 1;
+    p->head = o->no_captions ? 0 : (int)(60 * p->unit);
+    p->foot = o->no_captions ? 0 : (int)(82 * p->unit);
+    p->rows = (c->sheet.count + c->sheet.columns - 1) / c->sheet.columns;
+    p->inset = c->sheet.inset ? p->cell_height / (2 * ENLARGED) * ENLARGED + p->gap / 2 : 0;
+    int64_t width = (int64_t)c->sheet.columns * (p->cell_width + p->gap) + p->gap;
+    int64_t height = (int64_t)p->rows * (p->cell_height + p->inset + p->foot + p->gap) + p->head + p->gap;
+    int64_t enlarged = (int64_t)(p->inset ? ENLARGED : 1) *
+                       (p->cell_width > p->cell_height ? p->cell_width : p->cell_height);
+    if (width > 65535 || height > 65535 || enlarged > 65535)
+        return complain(
+            error, LAM_LIMIT,
+            "the sheet would have %lldx%lld pixels, more than 65535; choose smaller pictures with -s",
+            (long long)width, (long long)height);
+    return drawing_open(&c->drawing, (int)width, (int)height, false, !o->no_captions, o->font, error);
+}
+
+static bool draw_sheet(struct compare *c, lam_error *error)
+{
+    const struct page *p = &c->page;
+    struct box box = {0};
+    if (c->sheet.inset) { // of the last picture, the one lit per fragment
+        const struct cell *cell = &c->sheet.cells[c->sheet.count - 1];
+        lam_image whole, matt;
+        if (!draw_cell(c, cell, 1, NULL, NULL, &whole, error))
+            return false;
+        bool ok = draw_cell(c, cell, 1, "--reflection", "lambert", &matt, error);
+        if (ok) {
+            box = find_highlight(&whole, &matt);
+            lam_image_free(&matt);
+        }
+        lam_image_free(&whole);
+        if (!ok)
+            return false;
+    }
+    const char *slash = strrchr(c->model, '/');
+    char title[256];
+    snprintf(title, sizeof title, "%.120s — %.100s", c->sheet.title,
+             slash && slash[1] ? slash + 1 : c->model);
+    draw_fitting(&c->drawing, (struct point){c->drawing.width / 2.0, p->head * 0.75}, 30 * p->unit,
+                 c->drawing.width - 2.0 * p->gap, INK, title);
+    for (int i = 0; i < c->sheet.count; i++) {
+        const struct cell *cell = &c->sheet.cells[i];
+        int left = p->gap + i % c->sheet.columns * (p->cell_width + p->gap);
+        int top = p->gap + p->head + i / c->sheet.columns * (p->cell_height + p->inset + p->foot + p->gap);
+        lam_image image;
+        if (!draw_cell(c, cell, 1, NULL, NULL, &image, error))
+            return false;
+        draw_image(&c->drawing, &image, left, top);
+        lam_image_free(&image);
+        if (c->sheet.inset && !draw_inset(c, cell, box, left, top, error))
+            return false;
+        draw_caption(c, cell, left, top + p->cell_height + p->inset);
+    }
+    return true;
+}
+
+// "koala-terms.png" where no name is given.
+static char *path_of(const struct options *o, const char *model, const char *sheet)
+{
+    char *plain = output_path(o->output, model);
+    if (!plain || output_is_named(o->output))
+        return plain;
+    char *path = malloc(strlen(plain) + strlen(sheet) + sizeof "-.png");
+    if (path)
+        sprintf(path, "%.*s-%s.png", (int)(strlen(plain) - strlen(".png")), plain, sheet);
+    free(plain);
+    return path;
+}
+
+static bool check(const struct options *o, const char *model, const char *path, lam_error *error)
+{
+    lam_pixel_format format = LAM_RGBA8;
+    if (strcmp(model, "-") == 0)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "compare reads the model for each picture anew: '-' (standard input) cannot be");
+    if (strcmp(path, "-") == 0)
+        return !isatty(STDOUT_FILENO) ||
+               complain(error, LAM_BAD_ARGUMENT,
+                        "standard output is a terminal, and the picture is not text");
+    if (!output_is_stream(path) && (!lam_image_format_for(path, &format, error) || format != LAM_RGBA8))
+        return complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", path);
+    return output_check(path, model, output_is_named(o->output), error);
+}
+
+int run_compare(int operand_count, char **operands, const struct options *options)
+{
+    (void)operand_count;
+    interrupt_start();
+    struct compare c = {.options = options, .model = operands[0]};
+    lam_error error = {0};
+    char *store = NULL, *path = NULL;
+    bool ok = sheet_choose(options, &c.sheet, &store, &error);
+    if (ok && !(path = path_of(options, c.model, c.sheet.name)))
+        ok = complain(&error, LAM_LIMIT, "out of memory");
+    ok = ok && check(options, c.model, path, &error) && lay_out(&c, &error);
+    if (ok) {
+        lam_cpu_params params = {.threads = options->threads, .isa = (lam_isa)options->isa};
+        c.device = lam_device_cpu(&params, &error);
+        progress_start(&c.progress, c.model, console_is_terminal() && !options->quiet);
+        ok = c.device && draw_sheet(&c, &error);
+        progress_end(&c.progress);
+        ok = ok && drawing_write(&c.drawing, path, &error);
+        if (ok && !options->quiet)
+            say_plain("%s  %dx%d  %d pictures\n", strcmp(path, "-") == 0 ? "standard output" : path,
+                      c.drawing.width, c.drawing.height, c.sheet.count);
+        lam_device_free(c.device);
+        drawing_free(&c.drawing);
+    }
+    free(path);
+    free(store);
+    if (interrupted())
+        interrupt_finish();
+    return ok ? 0 : tell_failure(&error, options);
+}

@@ -1,0 +1,201 @@
+// sheet.c: the sheets of the command `compare`, as options of the command line: what a cell shows can be had
+// alone with the same words.
+#include "sheet.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "console.h"
+#include "suggest.h"
+
+// A light from the upper left in front, as the studio's key light.
+#define KEY        "directional:frame=camera,direction=2/-2/-3"
+#define SPECULAR   "specular=0.5"
+#define BRIGHT     "ambient=0.15,diffuse=0.7,specular=1"
+#define WHITE      KEY ",color=1,ambient=0.1"
+#define GREEN      KEY ",color=0/1/0,ambient=0/0.1/0"
+#define ORANGE     "ambient=0.9/0.35/0.05,diffuse=0.9/0.35/0.05"
+#define AT_A_PLACE "point:position=1.5r/1.5r/1.5r,ambient=0.15,frame="
+
+static const struct sheet sheets[] = {
+    [SHEET_SUMMARY] = {"summary",
+                       "Shading and reflection",
+                       4,
+                       false,
+                       4,
+                       {{"Flat", {"--shading", "flat"}},
+                        {"Smooth (Gouraud)", {"--shading", "gouraud"}},
+                        {"Normal interpolation (Phong)", {"--shading", "phong"}},
+                        {"Anisotropic (Kajiya–Kay)",
+                         {"--reflection", "kajiya-kay", "--light-scale", "0.6"}}}},
+    [SHEET_TERMS] =
+        {"terms",
+         "The terms of the sum",
+         3,
+         false,
+         6,
+         {{"Ambient only", {"--light", KEY "," BRIGHT, "--material", "diffuse=0,specular=0"}},
+          {"Diffuse only", {"--light", KEY "," BRIGHT, "--material", "ambient=0,specular=0"}},
+          {"Specular only, shininess 50",
+           {"--light", KEY "," BRIGHT, "--material", "ambient=0,diffuse=0," SPECULAR ",shininess=50"}},
+          {"All, shininess 50", {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=50"}},
+          {"All, shininess 1000", {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=1000"}},
+          {"All, shininess 1000, flat",
+           {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=1000", "--shading", "flat"}}}},
+    [SHEET_STAGES] =
+        {"stages",
+         "Where light is worked out",
+         2,
+         true,
+         2,
+         {{"Per vertex",
+           {"--stage", "vertex", "--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=200"}},
+          {"Per fragment",
+           {"--stage", "fragment", "--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=200"}}}},
+    [SHEET_LIGHT] = {"light",
+                     "The colour of light",
+                     2,
+                     false,
+                     4,
+                     {{"White light", {"--light", WHITE}},
+                      {"Green light", {"--light", GREEN}},
+                      {"Orange surface, white light", {"--light", WHITE, "--material", ORANGE}},
+                      {"Orange surface, green light", {"--light", GREEN, "--material", ORANGE}}}},
+    [SHEET_AMBIENT] = {"ambient",
+                       "Ambient and diffuse light",
+                       3,
+                       false,
+                       3,
+                       {{"Ambient white, diffuse white", {"--light", KEY ",ambient=0.25,diffuse=1"}},
+                        {"Ambient red, diffuse white", {"--light", KEY ",ambient=0.25/0/0,diffuse=1"}},
+                        {"Ambient red, diffuse red",
+                         {"--light", KEY ",ambient=0.25/0/0,diffuse=1/0/0,specular=1/0/0"}}}},
+    [SHEET_FRAMES] = {"frames",
+                      "One light in three frames",
+                      3,
+                      false,
+                      6,
+                      {{"World", {"--light", AT_A_PLACE "world"}},
+                       {"Camera", {"--light", AT_A_PLACE "camera"}},
+                       {"Object", {"--light", AT_A_PLACE "object"}},
+                       {"World, the model turned", {"--light", AT_A_PLACE "world", "--rotate", "y:-60"}},
+                       {"Camera, the model turned", {"--light", AT_A_PLACE "camera", "--rotate", "y:-60"}},
+                       {"Object, the model turned", {"--light", AT_A_PLACE "object", "--rotate", "y:-60"}}}},
+    [SHEET_SURFACES] = {"surfaces",
+                        "Three kinds of surfaces",
+                        3,
+                        false,
+                        3,
+                        {{"Specular", {"--material", "ambient=0.2,diffuse=0.2,specular=0.8,shininess=80"}},
+                         {"Diffuse", {"--material", "specular=0"}},
+                         {"Translucent", {"--material", "specular=0.5,shininess=80,opacity=0.45"}}}},
+};
+
+// --- a row of variants
+
+static const struct option *find_option(const char *name, size_t length, lam_error *error)
+{
+    char typed[64];
+    snprintf(typed, sizeof typed, "%.*s", (int)(length < 60 ? length : 60), name);
+    struct suggestion nearest = suggest_start(typed);
+    unsigned groups = find_groups("render");
+    for (const struct option *o = option_table; o->name; o++) {
+        bool fits = o->value && groups & 1u << o->group && o->group != GROUP_PICTURE &&
+                    o->group != GROUP_REPORT && o->group != GROUP_ABOUT && o->group != GROUP_WORK;
+        fits = fits || strcmp(o->name, "samples") == 0 || strcmp(o->name, "color") == 0 ||
+               strcmp(o->name, "background") == 0 || strcmp(o->name, "show") == 0;
+        if (fits && strcmp(o->name, typed) == 0)
+            return o;
+        if (fits)
+            suggest_try(&nearest, o->name);
+    }
+    complain(error, LAM_BAD_ARGUMENT,
+             "option '--across': found '%s', expected an option of the picture such as shading%s%s%s", typed,
+             nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+             nearest.best ? "'?" : "");
+    return NULL;
+}
+
+static bool add_variant(struct sheet *sheet, const char *dashed, const char *name, const char *value,
+                        lam_error *error)
+{
+    if (sheet->count == CELLS_MOST)
+        return complain(error, LAM_LIMIT, "option '--across': more than %d pictures", CELLS_MOST);
+    struct cell *cell = &sheet->cells[sheet->count++];
+    *cell = (struct cell){.words = {dashed, value}};
+    snprintf(cell->caption, sizeof cell->caption, "%s %s", name, value);
+    return true;
+}
+
+// The words that the option takes, each meaning once, "auto" left out: it stands for one of the others.
+static bool add_words(struct sheet *sheet, const char *dashed, const struct option *option, lam_error *error)
+{
+    for (const struct word *w = option->words; w->name; w++) {
+        bool known = strcmp(w->name, "auto") == 0;
+        for (const struct word *before = option->words; before != w; before++)
+            known = known || before->value == w->value;
+        if (!known && !add_variant(sheet, dashed, option->name, w->name, error))
+            return false;
+    }
+    return true;
+}
+
+static bool choose_across(const char *across, struct sheet *sheet, char **store, lam_error *error)
+{
+    size_t length = strcspn(across, "=");
+    bool term =
+        length == 4 && memcmp(across, "term", 4) == 0; // what --show calls ambient, diffuse and the others
+    const struct option *option = term ? find_option("show", 4, error) : find_option(across, length, error);
+    if (!option)
+        return false;
+    const char *values = across[length] ? across + length + 1 : NULL;
+    if (!values && strcmp(option->name, "shininess") == 0)
+        values = "10,50,1000";
+    if (!values && strcmp(option->name, "show") == 0)
+        values = "ambient,diffuse,specular,emission,reflection";
+    if (!values && strcmp(option->name, "light") == 0)
+        values = "ambient;hemisphere;point;directional:direction=-1/-2/-3;spot:position=1r/2r/3r,cutoff=12";
+    if (!values && !option->words)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--across': '%s' needs values: %s=A,B,C",
+                        option->name, option->name);
+    // One block: "--name", a zero, the values, each ended by a zero.
+    size_t dashed = strlen(option->name) + 3;
+    *store = malloc(dashed + (values ? strlen(values) : 0) + 1);
+    if (!*store)
+        return complain(error, LAM_LIMIT, "out of memory");
+    sprintf(*store, "--%s", option->name);
+    *sheet = (struct sheet){.name = option->name};
+    snprintf(sheet->title, sizeof sheet->title, "By %s", option->name);
+    bool ok = true;
+    if (!values) {
+        ok = add_words(sheet, *store, option, error);
+    } else {
+        char *value = *store + dashed;
+        strcpy(value, values);
+        bool own_commas = !option->words && strpbrk(values, ";=") != NULL;
+        while (ok && value) {
+            char *end = strchr(value, own_commas ? ';' : ',');
+            if (end)
+                *end++ = 0;
+            ok = *value ? add_variant(sheet, *store, option->name, value, error)
+                        : complain(error, LAM_BAD_ARGUMENT, "option '--across': an empty value in '%.200s'",
+                                   across);
+            value = end;
+        }
+    }
+    // Up to six in a row; more in rows as even as can be.
+    int rows = (sheet->count + 5) / 6;
+    sheet->columns = rows ? (sheet->count + rows - 1) / rows : 1;
+    return ok;
+}
+
+bool sheet_choose(const struct options *options, struct sheet *sheet, char **store, lam_error *error)
+{
+    *store = NULL;
+    if (options->across)
+        return choose_across(options->across, sheet, store, error);
+    *sheet = sheets[options->sheet];
+    return true;
+}

@@ -307,7 +307,9 @@ const struct option option_table[] = {
      "How far a channel may be off, in steps of 1/255 of the full range; beyond it the exit code is 6.", NULL,
      .store = store_number, FIELD(tolerance), .least = 0, .most = 1e9},
     {"gain", 0, GROUP_DIFF, "FACTOR", "16", "The picture of the difference shows it this many times as large.", NULL,
-     .store = store_number, FIELD(gain), .least = 0.001, .most = 1e6},    {"sheet", 0, GROUP_SHEET, "NAME", "summary",
+     .store = store_number, FIELD(gain), .least = 0.001, .most = 1e6},
+
+    {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "What is compared: summary, terms, stages, light, ambient, frames or surfaces.", NULL,
      sheet_words, .store = store_word, FIELD(sheet)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL, "A row of pictures in place of a sheet: shading, or shininess=10,50,1000.",

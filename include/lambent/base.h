@@ -79,6 +79,11 @@ typedef struct lam_rgba {
     float r, g, b, a; // a: 0 = clear, 1 = opaque; never premultiplied in this interface
 } lam_rgba;
 
+typedef enum lam_color_mode {
+    LAM_COLOR_SRGB = 0, // colours of files are decoded to linear light; pictures are sRGB-encoded
+    LAM_COLOR_RAW,      // no conversion either way: what the equations give is what the picture holds
+} lam_color_mode;
+
 // A 4×4 matrix, column vectors: m[row][column], so m[0][3], m[1][3], m[2][3] is the translation.
 typedef struct lam_mat4 {
     double m[4][4];

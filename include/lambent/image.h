@@ -73,10 +73,16 @@ LAM_API bool lam_image_save_layers(const lam_layer *layers, int count, const cha
 // LAM_UNSUPPORTED for another ending, naming those that can be written.
 LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
 
-// Reads a picture: PNG and binary PPM into LAM_RGBA8 (16 bits are cut to 8, grey and palettes become RGB), PFM and EXR (scanlines; the first part) into
-// LAM_RGBA32F, with alpha 1 where the file has none. Content decides the format. `image` may hold anything before; it is
+// Reads a picture: PNG, JPEG (not CMYK) and binary PPM into LAM_RGBA8 (16 bits are cut to 8, grey and palettes become RGB), PFM,
+// EXR (scanlines; the first part) and Radiance (.hdr) into LAM_RGBA32F, with alpha 1 where the file has none. Content decides the
+// format. `image` may hold anything before; it is
 // not freed, and is zeroed on failure. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, memory).
 LAM_API bool lam_image_load(lam_image *image, const char *path, lam_error *error);
+
+// Reads a picture of any of these formats into LAM_RGBA32F, linear and premultiplied. The numbers of PNG (all 16 bits where it
+// has them), JPEG and PPM are decoded from sRGB, or taken as they are, 0…1, with LAM_COLOR_RAW; PFM and Radiance are linear
+// already. Otherwise as lam_image_load.
+LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, lam_error *error);
 
 // Whether the file at `path` says that Lambent wrote it: PNG by its text "Software: lambent", PPM by the comment
 // "# lambent" in its second line. False for PFM, which has no place to say so, and wherever it cannot be told (no such

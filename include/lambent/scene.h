@@ -2,6 +2,7 @@
 #ifndef LAMBENT_SCENE_H
 #define LAMBENT_SCENE_H
 
+#include "environment.h"
 #include "light.h"
 #include "material.h"
 #include "mesh.h"
@@ -20,11 +21,6 @@ typedef enum lam_up {
     LAM_UP_Y,
     LAM_UP_Z,
 } lam_up;
-
-typedef enum lam_color_mode {
-    LAM_COLOR_SRGB = 0, // colours of files are decoded to linear light; pictures are sRGB-encoded
-    LAM_COLOR_RAW,      // no conversion either way: what the equations give is what the picture holds
-} lam_color_mode;
 
 // A colour as people write it: "#rgb", "#rrggbb", "#rrggbbaa", a colour name of HTML 4 (or "orange"), "transparent",
 // or linear numbers "r/g/b" or "r/g/b/a". Hexadecimal colours and names are sRGB: LAM_COLOR_SRGB decodes them to
@@ -175,6 +171,19 @@ LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *contro
 // Light from everywhere, added to that of the ambient lights (La_global). Default 0.
 LAM_API void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient);
 LAM_API lam_rgb lam_scene_ambient(const lam_scene *scene);
+
+// What materials with a reflectivity mirror (environment.h): `rotation_rad` turns it about the up axis, counter-clockwise seen
+// from above. With Y up and no rotation the cube's axes are the world's; with another up axis it is turned as the fitted camera
+// is, its top where up is. The scene keeps the environment by itself: the caller may free his. NULL: none, the default. False:
+// LAM_BAD_ARGUMENT (no scene, the rotation is not finite).
+LAM_API bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environment, double rotation_rad,
+                                       lam_error *error);
+LAM_API const lam_environment *lam_scene_environment(const lam_scene *scene); // NULL: none
+LAM_API double lam_scene_environment_rotation(const lam_scene *scene);       // radians
+
+// The material of parts that name none; lam_material_default() until it is set. False: as lam_scene_add_material.
+LAM_API bool lam_scene_set_default_material(lam_scene *scene, const lam_material *material, lam_error *error);
+LAM_API const lam_material *lam_scene_default_material(const lam_scene *scene);
 
 // Milliseconds that loading took: reading and parsing the file, and preparing (normals, bounds).
 LAM_API void lam_scene_times(const lam_scene *scene, double *read_ms, double *prepare_ms);

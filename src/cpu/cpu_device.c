@@ -252,6 +252,8 @@ static bool make_products(struct cpu_device *device, struct cpu_frame *cpu, lam_
         if (frame->gl1 && out->shininess > 128)
             out->shininess = 128;
         out->fibre = material->fibre;
+        memcpy(out->reflectivity, &material->reflectivity, sizeof out->reflectivity);
+        out->mirrors = frame->environment && (out->reflectivity[0] != 0 || out->reflectivity[1] != 0 || out->reflectivity[2] != 0);
         struct light_products *list = (struct light_products *)at;
         at += lights * sizeof *list;
         for (size_t i = 0; i < lights; i++) {

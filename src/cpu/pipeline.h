@@ -150,6 +150,8 @@ struct material_products {
     float emission[3];
     float diffuse[4];              // kd and opacity, for painting unlit
     float shininess;
+    float reflectivity[3];         // kr
+    bool mirrors;                  // there is an environment, and kr is not 0
     bool fibre;
     const struct light_products *lights; // one for each light
     float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere

@@ -11,12 +11,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const struct codec *const codecs[] = {&codec_png, &codec_ppm, &codec_pfm, &codec_exr};
-enum { CODECS = sizeof codecs / sizeof *codecs, THREADS_MOST = 1024, LIST_ROOM = 128 };
+// Those that can be written come first.
+static const struct codec *const codecs[] = {&codec_png, &codec_ppm, &codec_pfm, &codec_exr, &codec_jpeg, &codec_hdr};
+enum { CODECS = sizeof codecs / sizeof *codecs, WRITTEN = 4, THREADS_MOST = 1024, LIST_ROOM = 128 };
 
 static const struct codec *codec_named(const char *name)
 {
-    for (int i = 0; i < CODECS; i++)
+    for (int i = 0; i < WRITTEN; i++)
         if (strcasecmp(codecs[i]->name, name) == 0)
             return codecs[i];
     return NULL;
@@ -27,8 +28,8 @@ static const char *list_names(const char *before, char list[LIST_ROOM])
 {
     list[0] = 0;
     size_t used = 0;
-    for (int i = 0; i < CODECS; i++) {
-        const char *parts[] = {i == 0 ? "" : i == CODECS - 1 ? " or " : ", ", before, codecs[i]->name};
+    for (int i = 0; i < WRITTEN; i++) {
+        const char *parts[] = {i == 0 ? "" : i == WRITTEN - 1 ? " or " : ", ", before, codecs[i]->name};
         for (int part = 0; part < 3; part++)
             for (const char *letter = parts[part]; *letter && used < LIST_ROOM - 1; letter++)
                 list[used++] = *letter;
@@ -39,12 +40,12 @@ static const char *list_names(const char *before, char list[LIST_ROOM])
 
 static bool fail_unknown(lam_error *error, const char *subject, const char *before, const char *word)
 {
-    const char *names[CODECS], *nearest;
-    for (int i = 0; i < CODECS; i++)
+    const char *names[WRITTEN], *nearest;
+    for (int i = 0; i < WRITTEN; i++)
         names[i] = codecs[i]->name;
     char list[LIST_ROOM];
     list_names(before, list);
-    if ((nearest = nearest_word(word, names, CODECS)))
+    if ((nearest = nearest_word(word, names, WRITTEN)))
         return fail(error, LAM_UNSUPPORTED,
                     "%s: '%s%s' is no picture format that can be written, did you mean %s%s? (%s)", subject,
                     before, word, before, nearest, list);
@@ -152,7 +153,8 @@ static const struct codec *codec_of(const uint8_t *bytes, size_t size)
     return NULL;
 }
 
-bool lam_image_load(lam_image *image, const char *path, lam_error *error)
+// Reads a picture as its codec gives it; with `wide` not NULL in all of its bits (read_wide).
+static bool load(lam_image *image, const char *path, bool *wide, lam_error *error)
 {
     if (!image || !path)
         return fail(error, LAM_BAD_ARGUMENT, "load: a path and a picture to fill are needed");
@@ -164,15 +166,37 @@ bool lam_image_load(lam_image *image, const char *path, lam_error *error)
     const char *name = strcmp(path, "-") == 0 ? "standard input" : path;
     const struct codec *codec = codec_of(file.data, file.size);
     bool ok;
-    if (codec)
+    if (codec && wide && codec->read_wide)
+        ok = codec->read_wide(file.data, file.size, name, image, wide, error);
+    else if (codec)
         ok = codec->read(file.data, file.size, name, image, error);
     else if (file.size == 0)
-        ok = fail(error, LAM_CANNOT_READ, "%s: is empty, expected a PNG, PPM, PFM or EXR picture", name);
+        ok = fail(error, LAM_CANNOT_READ, "%s: is empty, expected a PNG, JPEG, PPM, PFM, EXR or Radiance picture", name);
     else
-        ok =
-            fail(error, LAM_CANNOT_READ, "%s: byte 0: not the start of a PNG, PPM (P6), PFM or EXR picture", name);
+        ok = fail(error, LAM_CANNOT_READ,
+                  "%s: byte 0: not the start of a PNG, JPEG, PPM (P6), PFM, EXR or Radiance picture", name);
     file_release(&file);
     float_state_leave(state);
+    return ok;
+}
+
+bool lam_image_load(lam_image *image, const char *path, lam_error *error)
+{
+    return load(image, path, NULL, error);
+}
+
+bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, lam_error *error)
+{
+    if ((unsigned)color > LAM_COLOR_RAW)
+        return fail(error, LAM_BAD_ARGUMENT, "load: color mode %d is not one of lam_color_mode", (int)color);
+    bool wide = false;
+    if (!load(image, path, &wide, error))
+        return false;
+    uint64_t state = float_state_enter();
+    bool ok = image_linearize(image, wide, color, error);
+    float_state_leave(state);
+    if (!ok)
+        lam_image_free(image);
     return ok;
 }
 

@@ -45,8 +45,23 @@ static bool fits(const struct spng_ihdr *header, size_t size)
     return (bits / 8 + 1) * header->height / 1032 <= size;
 }
 
+// The 16-bit numbers lie in the second half of the pixels' memory; in ascending order none is overwritten before it is read.
+static void widen(lam_image *image)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    float *out = image->pixels;
+    const char *from = (const char *)image->pixels + 8 * count;
+    for (size_t i = 0; i < count; i++) {
+        uint16_t numbers[4];
+        memcpy(numbers, from + 8 * i, sizeof numbers);
+        for (int channel = 0; channel < 4; channel++)
+            out[4 * i + (size_t)channel] = (float)numbers[channel] / 65535.0f;
+    }
+}
+
+// `wide`: where to tell that there were 16 bits, which then are kept; NULL: they are cut to 8.
 static bool decode(spng_ctx *spng, const uint8_t *bytes, size_t size, const char *name, lam_image *image,
-                   lam_error *error)
+                   bool *wide, lam_error *error)
 {
     struct spng_ihdr header;
     enum { CHUNK_MOST = 64 << 20 }; // texts and profiles, decompressed
@@ -63,25 +78,39 @@ static bool decode(spng_ctx *spng, const uint8_t *bytes, size_t size, const char
     if (!fits(&header, size))
         return fail(error, LAM_CANNOT_READ, "%s: PNG of %u×%u pixels, which cannot be in a file of %zu bytes",
                     name, header.width, header.height, size);
-    if (!lam_image_make(image, (int)header.width, (int)header.height, LAM_RGBA8, error))
+    bool keep = wide && header.bit_depth == 16;
+    if (!lam_image_make(image, (int)header.width, (int)header.height, keep ? LAM_RGBA32F : LAM_RGBA8, error))
         return false;
-    code = spng_decode_image(spng, image->pixels, (size_t)header.width * header.height * 4, SPNG_FMT_RGBA8,
-                             SPNG_DECODE_TRNS);
+    size_t count = (size_t)header.width * header.height;
+    code = keep ? spng_decode_image(spng, (char *)image->pixels + 8 * count, 8 * count, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS)
+                : spng_decode_image(spng, image->pixels, 4 * count, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS);
     if (!code)
         code = spng_decode_chunks(spng); // to the file's end, so that one cut behind the pixels is told too
-    return code == 0 || fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", name, spng_strerror(code));
+    if (code)
+        return fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", name, spng_strerror(code));
+    if (keep)
+        widen(image);
+    if (wide)
+        *wide = keep;
+    return true;
 }
 
-bool png_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error)
+static bool png_read_wide(const uint8_t *bytes, size_t size, const char *name, lam_image *image, bool *wide,
+                          lam_error *error)
 {
     spng_ctx *spng = spng_ctx_new(0);
     if (!spng)
         return fail_memory(error, 1 << 15);
-    bool ok = decode(spng, bytes, size, name, image, error);
+    bool ok = decode(spng, bytes, size, name, image, wide, error);
     spng_ctx_free(spng);
     if (!ok)
         lam_image_free(image);
     return ok;
+}
+
+bool png_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error)
+{
+    return png_read_wide(bytes, size, name, image, NULL, error);
 }
 
 const struct codec codec_png = {
@@ -91,5 +120,6 @@ const struct codec codec_png = {
     .write = png_write,
     .probe = png_probe,
     .read = png_read,
+    .read_wide = png_read_wide,
     .ours = png_ours,
 };

@@ -323,6 +323,24 @@ static bool make_room(struct frame *frame, const lam_scene *scene, struct watch 
     return true;
 }
 
+// Directions of eye space to the environment's axes: through the world, then its up axis to +Y (as the fitted camera turns,
+// camera.c), then against the environment's own rotation.
+static void build_environment(struct frame *frame, const lam_scene *scene, const lam_mat4 *view)
+{
+    frame->environment = scene->environment;
+    double s = math_sin(scene->environment_rotation_rad), c = math_cos(scene->environment_rotation_rad);
+    for (int j = 0; j < 3; j++) {
+        lam_vec3 w = v3(view->m[j][0], view->m[j][1], view->m[j][2]); // where eye axis j points to in the world
+        if (scene->up == LAM_UP_Z)
+            w = v3(w.x, w.z, -w.y);
+        else if (scene->up == LAM_UP_X)
+            w = v3(-w.y, w.x, w.z);
+        const double turned[3] = {c * w.x - s * w.z, w.y, s * w.x + c * w.z};
+        for (int i = 0; i < 3; i++)
+            frame->to_environment[i][j] = rounded(turned[i]);
+    }
+}
+
 bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
                  int width, int height, struct watch *watch, lam_error *error)
 {
@@ -345,7 +363,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->triangle_count = 0;
     frame->translucent = false;
 
-    frame->default_material = lam_material_default();
+    frame->default_material = scene->default_material;
     frame->material_count = scene->materials.count + 1;
     frame->materials[0] = &frame->default_material;
     for (int i = 0; i < scene->materials.count; i++)
@@ -360,6 +378,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     lam_mat4 projection =
         frame->orthographic ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
                             : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
+    build_environment(frame, scene, &view);
     lam_mat4 pixel = to_pixels(&projection, width, height);
 
     uint64_t next = 0;

@@ -93,6 +93,9 @@ struct frame {
     int hemisphere_count;
     float ambient[3]; // La_global + Σ La of all lights (gl1: of those without a place only)
 
+    const lam_environment *environment; // NULL: none
+    float to_environment[3][3];         // directions of eye space to the environment's axes
+
     lam_material default_material;
     struct buffer storage; // holds the arrays
 };

@@ -1,6 +1,7 @@
 // scene.c: the scene's storage: what it holds, adding to it, looking into it.
 #include "scene_store.h"
 
+#include "cube_map.h"
 #include "fail.h"
 #include "linear.h"
 #include "normals.h"
@@ -19,6 +20,7 @@ struct lam_scene *scene_make(struct watch *watch, lam_error *error)
     scene->up = LAM_UP_Y;
     scene->placement = lam_mat4_identity();
     scene->format = "";
+    scene->default_material = lam_material_default();
     return scene;
 }
 
@@ -31,6 +33,7 @@ void lam_scene_free(lam_scene *scene)
     if (!scene)
         return;
     arena_free(&scene->arena);
+    lam_environment_free(scene->environment);
     free(scene);
 }
 
@@ -186,6 +189,23 @@ void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient)
 }
 
 lam_rgb lam_scene_ambient(const lam_scene *scene) { return scene ? scene->ambient : (lam_rgb){0, 0, 0}; }
+
+bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environment, double rotation_rad, lam_error *error)
+{
+    if (!scene || !math_finite(rotation_rad))
+        return fail(error, LAM_BAD_ARGUMENT, "environment: %s", scene ? "the rotation is not finite" : "the scene is NULL");
+    struct lam_environment *before = scene->environment;
+    scene->environment = cube_share(environment);
+    scene->environment_rotation_rad = rotation_rad;
+    lam_environment_free(before);
+    return true;
+}
+
+const lam_environment *lam_scene_environment(const lam_scene *scene) { return scene ? scene->environment : NULL; }
+
+double lam_scene_environment_rotation(const lam_scene *scene) { return scene ? scene->environment_rotation_rad : 0; }
+
+const lam_material *lam_scene_default_material(const lam_scene *scene) { return scene ? &scene->default_material : NULL; }
 
 void lam_scene_times(const lam_scene *scene, double *read_ms, double *prepare_ms)
 {

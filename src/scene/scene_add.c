@@ -209,6 +209,15 @@ bool lam_scene_set_part_material(lam_scene *scene, int mesh, uint32_t part, int 
     return true;
 }
 
+bool lam_scene_set_default_material(lam_scene *scene, const lam_material *material, lam_error *error)
+{
+    lam_material own;
+    if (!own_material(scene, material, &own, error))
+        return false;
+    scene->default_material = own;
+    return true;
+}
+
 static bool own_light(lam_scene *scene, const lam_light *light, lam_light *out, lam_error *error)
 {
     if (!scene || !light)

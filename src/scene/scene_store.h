@@ -33,6 +33,9 @@ struct lam_scene {
     lam_up up;
     lam_mat4 placement; // what lam_scene_transform did so far
     lam_rgb ambient;
+    lam_material default_material;   // of parts that name none
+    lam_environment *environment;    // shared with others; NULL: none
+    double environment_rotation_rad; // about the up axis
     lam_color_mode color; // what the file's colours were read as
     const char *format;
     double read_ms, prepare_ms;

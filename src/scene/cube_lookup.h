@@ -1,0 +1,65 @@
+// cube_lookup.h: LANES directions to colours of a cube map. Include with LANES defined (lanes.h).
+#ifndef CUBE_LOOKUP_H
+#define CUBE_LOOKUP_H
+
+#include "cube_map.h"
+#include "lanes.h"
+
+struct cube_color {
+    num r, g, b;
+};
+
+// Where a direction meets the cube: in texels of the bordered face, ½ … size + 1½. The zero vector gives some place.
+struct cube_place {
+    inum face;
+    num s, t;
+};
+
+// OpenGL's table (4.6, 8.13): the axis with the largest size names the face. At equal sizes either would do, the filter being
+// continuous.
+LANE_FN struct cube_place cube_place(num x, num y, num z, int size)
+{
+    num ax = absolute(x), ay = absolute(y), az = absolute(z);
+    mask on_x = both(ax >= ay, ax >= az), on_y = both(negate(on_x), ay >= az);
+    mask minus = pick(on_x, x, pick(on_y, y, z)) < 0.0f;
+    num major = pick(on_x, ax, pick(on_y, ay, az));
+    num across = pick(on_x, pick(minus, z, -z), pick(on_y, x, pick(minus, -x, x)));
+    num down = pick(on_y, pick(minus, -z, z), -y);
+    inum axis = ipick(on_x, inum_of(LAM_FACE_PX), ipick(on_y, inum_of(LAM_FACE_PY), inum_of(LAM_FACE_PZ)));
+    float half = 0.5f * (float)size, middle = half + 0.5f;
+    num least = num_of(0.5f), most = num_of((float)size + 0.5f);
+    struct cube_place place;
+    place.face = wrap_add(axis, ipick(minus, inum_of(1), inum_of(0)));
+    // Clamped with NaN, 0/0, to the middle of the border.
+    place.s = lesser(greater(across / major * half + middle, least), most);
+    place.t = lesser(greater(down / major * half + middle, least), most);
+    return place;
+}
+
+LANE_FN num cube_mix(const float from[4][LANES], num s, num t)
+{
+    num a = num_load(from[0]), b = num_load(from[1]), c = num_load(from[2]), d = num_load(from[3]);
+    num upper = a + (b - a) * s, lower = c + (d - c) * s;
+    return upper + (lower - upper) * t;
+}
+
+LANE_FN struct cube_color cube_look(const struct lam_environment *cube, num x, num y, num z)
+{
+    struct cube_place place = cube_place(x, y, z, cube->size);
+    inum column = int_of(place.s), row = int_of(place.t);
+    float texels[3][4][LANES];
+    size_t stride = cube_row(cube);
+    for (int i = 0; i < LANES; i++) {
+        const float *from = cube_texel(cube, ilane(place.face, i), ilane(column, i) - 1, ilane(row, i) - 1);
+        for (int channel = 0; channel < 3; channel++) {
+            texels[channel][0][i] = from[channel];
+            texels[channel][1][i] = from[channel + 3];
+            texels[channel][2][i] = from[stride + (size_t)channel];
+            texels[channel][3][i] = from[stride + (size_t)channel + 3];
+        }
+    }
+    num s = place.s - num_of_int(column), t = place.t - num_of_int(row);
+    return (struct cube_color){cube_mix(texels[0], s, t), cube_mix(texels[1], s, t), cube_mix(texels[2], s, t)};
+}
+
+#endif

@@ -1,0 +1,38 @@
+// cube_map.h: the inside of lam_environment: six faces, each with a border of one texel taken from its neighbours.
+//
+// With the border, bilinear filtering needs no case at edges and corners, and is continuous there: both faces mix the same four
+// texels. A border's corner, where three faces meet and there is no fourth texel, is the average of the three.
+#ifndef CUBE_MAP_H
+#define CUBE_MAP_H
+
+#include <lambent/environment.h>
+#include <lambent/image.h>
+
+enum { CUBE_SIDE_MOST = 8192 };
+
+struct lam_environment {
+    int references; // who holds it; touched atomically
+    int size;       // texels on a face's side, border not counted
+    float *texels;  // 6 faces of (size + 2)² times r, g, b; row t = −1 first
+};
+
+static inline size_t cube_row(const struct lam_environment *cube) { return (size_t)(cube->size + 2) * 3; }
+// Texel (s, t) of a face, −1 … size.
+static inline float *cube_texel(const struct lam_environment *cube, int face, int s, int t)
+{
+    return cube->texels + ((size_t)face * (size_t)(cube->size + 2) + (size_t)(t + 1)) * cube_row(cube) + (size_t)(s + 1) * 3;
+}
+
+// A cube of that size, texels undefined. NULL: out of memory.
+struct lam_environment *cube_make(int size, lam_error *error);
+
+// Fills the borders from the faces.
+void cube_close(struct lam_environment *cube);
+
+// The direction of a point of a face: major · axis + across · s + down · t (OpenGL's table, read backwards).
+void cube_direction(int face, double major, double across, double down, double out[3]);
+
+// One more holder of the same cube.
+struct lam_environment *cube_share(const struct lam_environment *cube);
+
+#endif

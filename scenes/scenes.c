@@ -373,6 +373,52 @@ static bool far_away(struct demo *d, lam_error *error)
     return ok;
 }
 
+// --- surroundings
+
+static int mirror(struct demo *d, lam_rgb reflectivity, lam_error *error)
+{
+    lam_material m = {.diffuse = {0, 0, 0, 1}, .reflectivity = reflectivity};
+    return lam_scene_add_material(d->scene, &m, error);
+}
+
+static bool surround(struct demo *d, const char *name, double rotation_rad, lam_error *error)
+{
+    d->params.rig = LAM_RIG_NONE;
+    lam_environment *environment = lam_environment_built_in(name, error);
+    bool ok = environment && lam_scene_set_environment(d->scene, environment, rotation_rad, error);
+    lam_environment_free(environment);
+    return ok;
+}
+
+static bool mirror_sky(struct demo *d, lam_error *error)
+{
+    bool ok = put(d, shape(d, "sphere", 48, 24, error), mirror(d, (lam_rgb){0.9f, 0.9f, 0.9f}, error), error) &&
+              surround(d, "sky", 0, error);
+    look(d, (lam_vec3){0.5, 0.6, 3.5}, (lam_vec3){0, 0, 0}, 38);
+    return ok;
+}
+
+static bool mirror_studio(struct demo *d, lam_error *error)
+{
+    lam_material gold = lam_material_named(LAM_MATERIAL_GOLD);
+    gold.reflectivity = (lam_rgb){0.9f, 0.65f, 0.25f};
+    bool ok = put(d, shape(d, "teapot", 0, 0, error), lam_scene_add_material(d->scene, &gold, error), error) &&
+              surround(d, "studio", 0.6, error);
+    fit(d);
+    return ok;
+}
+
+static bool mirror_gouraud(struct demo *d, lam_error *error)
+{
+    d->params.shading = LAM_SHADING_GOURAUD;
+    bool ok = put(d, shape(d, "torus-knot", 160, 24, error), mirror(d, (lam_rgb){1, 1, 1}, error), error) &&
+              surround(d, "sky", -2, error);
+    lam_scene_set_up(d->scene, LAM_UP_Z);
+    lam_view view = {.orthographic = true, .aspect = (double)d->width / d->height};
+    d->camera = lam_camera_fit(d->scene, &view);
+    return ok;
+}
+
 // --- pixels
 
 static bool with_samples(struct demo *d, int samples, lam_error *error)
@@ -446,6 +492,9 @@ const struct demo_row demos[] = {
     {"vertex-colours", "colours interpolated over a square", vertex_colours},
     {"triangle-colours", "a colour for each triangle", triangle_colours},
     {"far-away", "a centimetre of model 500 km from zero", far_away},
+    {"mirror-sky", "a ball that mirrors a sky: the sun to the right in front, the horizon bent downwards", mirror_sky},
+    {"mirror-studio", "a gold teapot among turned soft boxes", mirror_studio},
+    {"mirror-gouraud", "a mirror lit at its vertices, Z up, without perspective", mirror_gouraud},
     {"samples-1", "no antialiasing", samples_1},
     {"samples-2", "2 samples a pixel", samples_2},
     {"samples-8", "8 samples a pixel", samples_8},

@@ -9,6 +9,7 @@
 #include "camera_option.h"
 #include "command.h"
 #include "console.h"
+#include "environment_option.h"
 #include "help.h"
 #include "interrupt.h"
 #include "job_scene.h"
@@ -132,7 +133,7 @@ static bool load(struct job *job, struct progress *progress, lam_error *error)
     if (lam_scene_triangle_count(job->scene) == 0)
         return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw",
                         job->model);
-    return true;
+    return environment_option_apply(o, job->environment, job->scene, error);
 }
 
 static void place_camera(struct job *job)

@@ -31,6 +31,7 @@ struct job {
     lam_image image;
     lam_rgba background; // behind the model, as --background says
     lam_device *device;
+    const lam_environment *environment; // of all models; NULL: none
     uint64_t bytes; // of the file written
     bool written;
     struct job_times times;

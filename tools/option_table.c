@@ -275,6 +275,19 @@ const struct option option_table[] = {
      .store = store_word, FIELD(normals)},
     {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Made normals are split at sharper edges than this.",
      NULL, .store = store_number, FIELD(crease_angle_deg), .least = 0, .most = 180},
+    {"environment", 0, GROUP_SHADING, "IMAGE", "none",
+     "What shiny surfaces mirror: an image, six faces, sky or studio.",
+     "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, PPM, PFM or Radiance (.hdr). Six "
+     "faces are files with commas between them in OpenGL's order, `px,nx,py,ny,pz,nz`, all square and of one size. `sky` and "
+     "`studio` are built in (`./sky` is a file). It is seen in materials with a reflectivity only: see `--reflectivity`. "
+     "`docs/lighting.md` tells how each lies around the model.",
+     .takes_file = true, .store = store_text, FIELD(environment)},
+    {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
+     "Turns the environment about the up axis, counter-clockwise from above.", NULL, .store = store_number,
+     FIELD(environment_rotation_deg), .least = -3600, .most = 3600},
+    {"reflectivity", 0, GROUP_SHADING, "SHARE", "the materials' own",
+     "Share of the environment that every material mirrors: 0.5 or r/g/b.", NULL, .store = store_reflectivity,
+     FIELD(reflectivity), .has_field = offsetof(struct options, has_reflectivity), .most = 1000},
 
     {"threads", 'j', GROUP_WORK, "N", "one for each processor",
      "Threads to work with. The picture does not depend on it.", NULL, .store = store_integer, FIELD(threads),

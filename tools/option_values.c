@@ -169,6 +169,27 @@ bool store_color(const struct option *option, const char *value, struct options 
     return true;
 }
 
+// "0.5", the same for all three, or "r/g/b".
+bool store_reflectivity(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    double numbers[3];
+    const char *at = value;
+    int count = 0;
+    while (at && count < 3 && (at = read_number(at, &numbers[count])) && numbers[count] >= 0 && numbers[count] <= option->most) {
+        count++;
+        if (*at != '/')
+            break;
+        at++;
+    }
+    if (!at || *at || (count != 1 && count != 3))
+        return wrong(error, value, "a number or r/g/b, from 0 to 1000");
+    for (int i = count; i < 3; i++)
+        numbers[i] = numbers[0];
+    *(lam_rgb *)field_of(options, option->field) = (lam_rgb){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
+    *(bool *)field_of(options, option->has_field) = true;
+    return true;
+}
+
 bool store_camera(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     struct camera_option camera;

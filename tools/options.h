@@ -58,6 +58,10 @@ struct options {
     struct texts rotations;  // as written, checked
     int normals;             // lam_normals
     double crease_angle_deg; // < 0: the library's default
+    const char *environment; // as written; NULL: none
+    double environment_rotation_deg;
+    lam_rgb reflectivity; // valid where the switch below is set
+    bool has_reflectivity;
 
     // Work
     int threads; // 0: one for each processor
@@ -183,6 +187,7 @@ bool store_size(const struct option *, const char *, struct options *, lam_error
 bool store_bytes(const struct option *, const char *, struct options *, lam_error *);   // uint64_t
 bool store_color(const struct option *, const char *, struct options *, lam_error *); // const char *, checked
 bool store_show(const struct option *, const char *, struct options *, lam_error *);  // const char *, checked
+bool store_reflectivity(const struct option *, const char *, struct options *, lam_error *); // lam_rgb
 bool store_camera(const struct option *, const char *, struct options *,
                   lam_error *); // const char *, checked
 bool store_light(const struct option *, const char *, struct options *, lam_error *);    // struct texts, checked

@@ -16,7 +16,7 @@ static float *make_table(int last, lam_color_mode color, lam_error *error)
     }
     for (int i = 0; i <= last; i++) {
         double number = (double)i / last;
-        table[i] = (float)(color == LAM_COLOR_RAW ? number : srgb_decode(number));
+        table[i] = (float)(color == LAM_COLOR_RAW ? number : srgb_linear(number));
     }
     return table;
 }

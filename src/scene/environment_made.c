@@ -68,13 +68,13 @@ static struct rgb studio(lam_vec3 d)
     static const struct rgb floor_color = {{0.16, 0.155, 0.15}}, wall = {{0.05, 0.052, 0.058}};
     struct rgb light = mix(floor_color, wall, ramp(-1, 0.2, p.y));
     double white = 0, cool = 0;
-    if (p.y >= 1)
+    if (ay == major && d.y > 0)
         white += 5.0 * soft_box(p.x, p.z - 0.15, 0.55, 0.4);
-    if (p.x <= -1)
+    else if (ax == major && d.x < 0)
         white += 3.5 * soft_box(p.z - 0.25, p.y - 0.1, 0.2, 0.65);
-    if (p.x >= 1)
+    else if (ax == major && d.x > 0)
         cool += 1.2 * soft_box(p.z - 0.1, p.y - 0.15, 0.6, 0.45);
-    if (p.z <= -1)
+    else if (az == major && d.z < 0)
         cool += 2.0 * soft_box(p.x - 0.45, p.y - 0.35, 0.15, 0.3);
     static const struct rgb white_color = {{1.00, 0.97, 0.92}}, cool_color = {{0.82, 0.90, 1.00}};
     for (int i = 0; i < 3; i++)

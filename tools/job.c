@@ -133,7 +133,7 @@ static bool load(struct job *job, struct progress *progress, lam_error *error)
     if (lam_scene_triangle_count(job->scene) == 0)
         return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw",
                         job->model);
-    return environment_option_apply(o, job->environment, job->scene, error);
+    return true;
 }
 
 static void place_camera(struct job *job)
@@ -231,7 +231,8 @@ bool job_draw(struct job *job, lam_pixel_format format, struct progress *progres
         return false;
     struct model_sphere sphere;
     lam_control control;
-    if (!control_of(job, progress, &control, error) || !job_dress(job, &control, &sphere, error))
+    if (!control_of(job, progress, &control, error) || !job_dress(job, &control, &sphere, error) ||
+        !environment_option_apply(o, job->environment, job->scene, error))
         return false;
     place_camera(job);
     return job_light(job, &sphere, error) && draw(job, &job->background, progress, error);

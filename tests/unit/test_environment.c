@@ -229,7 +229,7 @@ static vec vertex(const float *list, uint32_t i) { return of((double)list[3 * i]
 // Where a ray meets a mesh first, well within a triangle: point and interpolated normal. False: nowhere, or near an edge.
 static bool meet(const lam_mesh *mesh, vec from, vec along, vec *point, vec *normal)
 {
-    double nearest = INFINITY;
+    double nearest = HUGE_VAL;
     bool sure = false;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         uint32_t corner[3], own[3];

@@ -19,6 +19,7 @@
 #include "material.h"
 #include "mesh.h"
 #include "scene.h"
+#include "settings.h"
 #include "text.h"
 
 #endif

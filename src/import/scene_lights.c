@@ -11,7 +11,7 @@
 static const char *const ambient_keys[] = {EVERY_LIGHT, "color", "intensity", "ambient", NULL};
 static const char *const hemisphere_keys[] = {EVERY_LIGHT, "sky", "ground", "up", NULL};
 static const char *const point_keys[] = {PLACED, NULL};
-static const char *const directional_keys[] = {REACHING, "position", "direction", "target", NULL};
+static const char *const directional_keys[] = {REACHING, "position", "direction", NULL};
 static const char *const spot_keys[] = {PLACED, "direction", "target", "cutoff", "exponent", "inner", "outer", NULL};
 static const char *const *const keys_of[] = {[LAM_LIGHT_AMBIENT] = ambient_keys, [LAM_LIGHT_HEMISPHERE] = hemisphere_keys,
                                              [LAM_LIGHT_POINT] = point_keys, [LAM_LIGHT_DIRECTIONAL] = directional_keys,
@@ -82,8 +82,6 @@ static bool read_direction(struct scene_reader *r, const struct place *place, co
         return fail_place(r, KEY_OF(place, "target"), "stands beside direction, expected one of them");
     if (!take_vector(r, place, value, "target", &target))
         return false;
-    if (light->type == LAM_LIGHT_DIRECTIONAL)
-        return fail_place(r, KEY_OF(place, "target"), "a directional light stands nowhere, expected direction");
     light->direction = v3_sub(target, light->position);
     return v3_length(light->direction) > 0 || fail_place(r, KEY_OF(place, "target"), "is the light's position");
 }

@@ -171,6 +171,12 @@ static bool read_sides(struct scene_reader *r, const struct place *place, const 
     return !back || read_material_value(r, KEY_OF(place, "back_material"), back, &front, &object->back_material);
 }
 
+static bool is_identity(const lam_mat4 *m)
+{
+    lam_mat4 identity = lam_mat4_identity();
+    return memcmp(m, &identity, sizeof identity) == 0;
+}
+
 // Applies the keys that shapes and files share to the objects from `first` on.
 static bool finish(struct scene_reader *r, const struct place *place, const json_t *value, int first, const char *name)
 {
@@ -183,7 +189,8 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
         return false;
     for (int i = first; i < r->scene->objects.count; i++) {
         lam_object *object = (lam_object *)r->scene->objects.items + i;
-        object->transform = mat4_mul(&transform, &object->transform);
+        if (steps) // not through a product where there is nothing to multiply: it would lose the signs of zeros
+            object->transform = is_identity(&object->transform) ? transform : mat4_mul(&transform, &object->transform);
         if (front >= 0)
             object->material = front;
         if (name && (i == first || !object->name))

@@ -476,7 +476,11 @@ int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_
                                   .first_mesh = scene->meshes.count,
                                   .first_material = scene->materials.count};
     int index = take(scene, made, &mesh, error);
-    return index >= 0 && scene_note_origin(scene, origin, scene->objects.count, error) ? index : -1;
+    if (index < 0 || scene_note_origin(scene, origin, scene->objects.count, error))
+        return index;
+    scene->meshes.count--;
+    scene->extents.count--;
+    return -1;
 }
 
 int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_params *params, lam_error *error)

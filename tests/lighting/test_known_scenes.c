@@ -288,7 +288,7 @@ static void compare(const struct known *k)
     int counted = 0;
     for (int j = 0; j < H; j++)
         for (int i = 0; i < W; i++) {
-            double b[3], px = (2 * (i + 0.5) / W - 1) * half * W / H, py = (1 - 2 * (j + 0.5) / H) * half;
+            double b[3] = {0}, px = (2 * (i + 0.5) / W - 1) * half * W / H, py = (1 - 2 * (j + 0.5) / H) * half;
             int t = hit(&w, sub(add(times(x, px), times(y, py)), z), b);
             const float *got = (const float *)image.pixels + 4 * (j * W + i);
             // Coverage is decided on snapped corners: a pixel at an edge may show its neighbour.

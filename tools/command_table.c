@@ -17,7 +17,7 @@ const struct command command_table[] = {
     {"plot", "attenuation|spot|highlight [CURVE...]", "Draw a law of light as curves (PNG or SVG), and tell its numbers.",
      ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON | TAKES_QUIET, 1, -1, run_plot},
     {"lights", "MODEL", "Print a model's lights, or the rig's where it has none, as the keys of a scene file.",
-     ABOUT | 1u << GROUP_SHADING | 1u << GROUP_WORK, 1, 1, run_lights},
+     ABOUT | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING | 1u << GROUP_WORK, 1, 1, run_lights},
     {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0, run_shapes},
     {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.",
      ABOUT, 0, 0, run_formats},

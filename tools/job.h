@@ -51,4 +51,7 @@ bool job_draw(struct job *job, lam_pixel_format format, struct progress *progres
 // draw nothing.
 bool job_load(struct job *job, struct progress *progress, lam_error *error);
 
+// The second step: materials, turns, the camera and the lights, as the options ask.
+bool job_arrange(struct job *job, struct progress *progress, lam_error *error);
+
 #endif

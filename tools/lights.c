@@ -18,8 +18,8 @@ int run_lights(int operand_count, char **operands, const struct options *options
     interrupt_start();
     job.times.start = clock_ms();
     progress_start(&progress, job.model, false);
-    bool ok = job_load(&job, &progress, &error) &&
-              lam_lights_encode(job.scene, (lam_rig)job.options->rig, &text, &error);
+    bool ok = job_load(&job, &progress, &error) && job_arrange(&job, &progress, &error) &&
+              lam_lights_encode(job.scene, job.rig, &text, &error);
     progress_end(&progress);
     if (ok)
         fwrite(text.data, 1, text.size, stdout); // whether it arrived is told when the program ends

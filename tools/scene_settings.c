@@ -25,12 +25,26 @@ void scene_settings_apply(struct job *job)
         own->samples = s->draw.samples;
     if (free_to_take(job, LAM_GIVEN_COLOR, "color"))
         own->color = (int)s->draw.color;
-    if (free_to_take(job, LAM_GIVEN_SHADING, "shading"))
+    if (free_to_take(job, LAM_GIVEN_SHADING, "shading")) {
         own->shading = (int)s->draw.shading;
+        own->has_shading = !option_given(own, "stage");
+    }
     if (free_to_take(job, LAM_GIVEN_REFLECTION, "reflection"))
         own->reflection = (int)s->draw.reflection;
-    if (free_to_take(job, LAM_GIVEN_LIGHTS, "rig"))
-        own->rig = (int)s->draw.rig;
+    // A shading asked for on the command line comes without the file's stage, which may not go with it.
+    if (free_to_take(job, LAM_GIVEN_STAGE, "stage") && !option_given(own, "shading"))
+        own->stage = (int)s->draw.stage;
+    if (free_to_take(job, LAM_GIVEN_VIEWER, "viewer"))
+        own->viewer = (int)s->draw.viewer;
+    if (free_to_take(job, LAM_GIVEN_FLAT_NORMAL, "flat-normal"))
+        own->flat_normal = (int)s->draw.flat_normal;
+    own->match_highlights |= s->draw.match_highlights;
+    own->gl1 |= s->draw.gl1;
+    // Lights that are listed, be they none, leave no room for the studio.
+    if (free_to_take(job, LAM_GIVEN_LIGHTS, "rig")) {
+        own->rig = (int)LAM_RIG_NONE;
+        own->has_rig = true;
+    }
 }
 
 bool scene_settings_has_camera(const struct job *job)
@@ -40,25 +54,6 @@ bool scene_settings_has_camera(const struct job *job)
         if (option_given(&job->own, others[i]))
             return false;
     return job->settings.given & LAM_GIVEN_CAMERA;
-}
-
-lam_draw_params scene_settings_draw(const struct job *job)
-{
-    const struct options *o = job->options;
-    lam_draw_params params = job->settings.draw;
-    params.samples = o->samples;
-    params.background = job->background;
-    params.color = (lam_color_mode)o->color;
-    params.rig = (lam_rig)o->rig;
-    params.shading = (lam_shading)o->shading;
-    params.reflection = (lam_reflection)o->reflection;
-    // A shading asked for on the command line goes before the file's stage, where the two do not go together.
-    bool by_vertex = params.stage == LAM_STAGE_APPLICATION || params.stage == LAM_STAGE_VERTEX;
-    bool clash = params.shading == LAM_SHADING_PHONG ? by_vertex
-                                                     : params.shading == LAM_SHADING_GOURAUD && params.stage == LAM_STAGE_FRAGMENT;
-    if (clash && option_given(o, "shading"))
-        params.stage = LAM_STAGE_AUTO;
-    return params;
 }
 
 bool scene_settings_save(const struct job *job, lam_error *error)

@@ -10,9 +10,6 @@ void scene_settings_apply(struct job *job);
 // True where the scene file's camera counts: nothing on the command line places another one.
 bool scene_settings_has_camera(const struct job *job);
 
-// How the frame is drawn: the options, and the scene file's settings that have no option.
-lam_draw_params scene_settings_draw(const struct job *job);
-
 // Writes the scene file of --save-scene, once the frame is drawn.
 bool scene_settings_save(const struct job *job, lam_error *error);
 

@@ -9,8 +9,8 @@
 #define EVERY_OBJECT \
     "name", "transform", "material", "back_material", "two_sided", "cull", "tangents", "normals", "crease_angle"
 static const char *const shape_keys[] = {EVERY_OBJECT, "shape", "radius", "slices", "stacks", NULL};
-static const char *const file_keys[] = {EVERY_OBJECT, "file", "materials", NULL};
-static const char *const any_keys[] = {EVERY_OBJECT, "shape", "radius", "slices", "stacks", "file", "materials", NULL};
+static const char *const file_keys[] = {EVERY_OBJECT, "file", "materials", "parts", NULL};
+static const char *const any_keys[] = {EVERY_OBJECT, "shape", "radius", "slices", "stacks", "file", "materials", "parts", NULL};
 
 // --- a model file, read into the scene
 
@@ -149,6 +149,31 @@ static bool change_materials(struct scene_reader *r, const struct place *place, 
     return true;
 }
 
+// "parts": a material for each part of the model, in order; null: the model's own.
+static bool replace_parts(struct scene_reader *r, const struct place *place, const json_t *value,
+                          const struct scene_origin *origin)
+{
+    const json_t *list = json_object_get(value, "parts");
+    const struct place *here = KEY_OF(place, "parts");
+    char kind[32];
+    size_t n = 0;
+    if (!list)
+        return true;
+    if (!json_is_array(list) || json_array_size(list) != (size_t)origin->part_count)
+        return fail_place(r, here, "found %s, expected a list of %d, one material or null for each part of the model",
+                          json_kind(list, kind), origin->part_count);
+    for (int i = origin->first_mesh; i < origin->first_mesh + origin->mesh_count; i++)
+        for (uint32_t k = 0; k < scene_mesh(r->scene, i)->part_count; k++, n++) {
+            lam_part *part = (lam_part *)(uintptr_t)&scene_mesh(r->scene, i)->parts[k]; // in the scene's arena
+            const json_t *material = json_array_get(list, n);
+            int index = part->material;
+            if (!json_is_null(material) && !read_material_value(r, ELEMENT_OF(here, n), material, NULL, &index))
+                return false;
+            part->material = index;
+        }
+    return true;
+}
+
 // The material that a back side's missing keys come from: the object's, else that of its first part.
 static lam_material front_of(const struct lam_scene *scene, const lam_object *object)
 {
@@ -269,7 +294,8 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
     noted->field_tangents = field;
     for (int i = origin.first_mesh; field && i < scene->meshes.count; i++)
         ((lam_mesh *)scene->meshes.items)[i].tangents = NULL;
-    return change_materials(r, place, value, noted) && finish(r, place, value, first, name);
+    return change_materials(r, place, value, noted) && replace_parts(r, place, value, noted) &&
+           finish(r, place, value, first, name);
 }
 
 bool read_objects(struct scene_reader *r, const json_t *root)

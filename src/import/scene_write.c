@@ -198,6 +198,28 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
     return true;
 }
 
+// Parts that show another material than the file gave them: one entry for each part, null where it is the file's.
+static void put_parts(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
+{
+    json_t *list = json_array();
+    bool changed = false;
+    for (int i = origin->first_mesh, n = 0; i < origin->first_mesh + origin->mesh_count; i++) {
+        const lam_mesh *mesh = lam_scene_mesh(w->scene, i);
+        for (uint32_t k = 0; k < mesh->part_count; k++, n++) {
+            int material = mesh->parts[k].material;
+            bool own = material == origin->part_materials[n];
+            lam_material plain = lam_material_default();
+            const lam_material *shown = material >= 0 ? lam_scene_material(w->scene, material) : &plain;
+            append(w, list, own ? json_null() : material_json(w, shown));
+            changed |= !own;
+        }
+    }
+    if (changed)
+        put(w, entry, "parts", list);
+    else
+        json_decref(list);
+}
+
 // --- objects
 
 static const struct scene_origin *origin_of(const struct lam_scene *scene, int mesh)
@@ -267,6 +289,7 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
         put(w, entry, "two_sided", json_boolean(!object->one_sided));
     if (object->cull != own->cull)
         put(w, entry, "cull", word(cull_words, (int)object->cull));
+    put_parts(w, entry, origin);
     return put_changes(w, entry, origin);
 }
 
@@ -306,8 +329,16 @@ static void put_cone(struct scene_writer *w, json_t *out, const lam_light *l)
     put(w, out, "exponent", number_float(l->exponent));
 }
 
-static json_t *light_json(struct scene_writer *w, const lam_light *l)
+static json_t *light_json(struct scene_writer *w, const lam_light *given)
 {
+    lam_light placed_light = *given, *l = &placed_light;
+    if (l->frame == LAM_FRAME_MODEL) { // a file's model stands as it was read: the light goes where the model has been turned to
+        const lam_mat4 *m = &w->scene->placement;
+        l->frame = LAM_FRAME_WORLD;
+        l->position = mat4_point(m, l->position);
+        l->direction = mat4_vector(m, l->direction);
+        l->up = mat4_vector(m, l->up);
+    }
     json_t *out = json_object();
     put_name(w, out, "name", l->name);
     put(w, out, "type", word(light_type_words, (int)l->type));
@@ -353,9 +384,7 @@ static void put_lights(struct scene_writer *w, json_t *root, lam_rig rig)
     put(w, root, "lights", list);
     for (int i = 0; i < lam_scene_light_count(w->scene); i++)
         append(w, list, light_json(w, lam_scene_light(w->scene, i)));
-    if (rig == LAM_RIG_AUTO)
-        rig = lam_scene_light_count(w->scene) ? LAM_RIG_NONE : LAM_RIG_STUDIO;
-    int count = lam_rig_lights(rig, lights);
+    int count = lam_scene_rig_lights(w->scene, rig, lights);
     for (int i = 0; i < count; i++)
         append(w, list, light_json(w, &lights[i]));
 }

@@ -93,13 +93,20 @@ bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int 
     origin.object_count = scene->objects.count - first_object;
     lam_material *materials = arena_array(&scene->arena, (size_t)origin.material_count, sizeof *materials);
     lam_object *objects = arena_array(&scene->arena, (size_t)origin.object_count, sizeof *objects);
-    if (!materials || !objects)
+    for (int i = origin.first_mesh; i < scene->meshes.count; i++)
+        origin.part_count += (int)scene_mesh(scene, i)->part_count;
+    int *parts = arena_array(&scene->arena, (size_t)origin.part_count, sizeof *parts);
+    if (!materials || !objects || !parts)
         return watch_memory_error(scene->arena.watch, 0, error);
     if (origin.material_count)
         memcpy(materials, (lam_material *)scene->materials.items + origin.first_material,
                (size_t)origin.material_count * sizeof *materials);
     if (origin.object_count)
         memcpy(objects, (lam_object *)scene->objects.items + first_object, (size_t)origin.object_count * sizeof *objects);
+    for (int i = origin.first_mesh, n = 0; i < scene->meshes.count; i++)
+        for (uint32_t k = 0; k < scene_mesh(scene, i)->part_count; k++)
+            parts[n++] = scene_mesh(scene, i)->parts[k].material;
+    origin.part_materials = parts;
     origin.materials = materials;
     origin.objects = objects;
     return scene_append(scene, &scene->origins, &origin, sizeof origin, error) >= 0;

@@ -35,6 +35,8 @@ struct scene_origin {
     const lam_material *materials; // as the file had them
     const lam_object *objects;     // as the file had them, object_count, in order
     int object_count;
+    const int *part_materials;     // of all parts of its meshes, in order: the material as the file had it
+    int part_count;
 };
 
 struct lam_scene {

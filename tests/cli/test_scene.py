@@ -8,7 +8,7 @@ from harness import OWN_MODELS, ROOT, SHARED_MODELS, Case
 SCHEMA = json.loads((ROOT / "docs" / "scene.schema.json").read_text())
 KNOWN = {"type", "enum", "const", "required", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
          "maximum", "exclusiveMinimum", "minLength", "anyOf", "$ref", "$defs", "$schema", "title", "description", "default"}
-KINDS = {"object": dict, "array": list, "string": str, "integer": int, "number": (int, float), "boolean": bool}
+KINDS = {"object": dict, "array": list, "string": str, "integer": int, "number": (int, float), "boolean": bool, "null": type(None)}
 
 
 def misfit(value, schema, place="scene"):
@@ -85,6 +85,10 @@ class Scene(Case):
         for words in (["scene.json"], ["cube.obj", "--rig", "headlight"], ["cube.stl", "--shading", "flat", "--zoom", "1.37"],
                       ["torus-knot", "--normals", "facet", "--color", "raw", "-b", "#102030"],
                       ["cube.ply", "--projection", "orthographic", "--crease-angle", "95", "--up", "x"],
+                      ["cube.obj", "--material", "gold", "--rotate", "x:20", "--rig", "lecture"],
+                      ["cube.obj", "--shininess", "77", "--back-material", "jade", "--light", "point:position=2r/1r/3r,frame=object",
+                       "--light-scale", "0.7", "--stage", "vertex", "--viewer", "infinite", "--cull", "front"],
+                      ["cube.stl", "--reflection", "kajiya-kay", "--opacity", "0.5", "--light", "+spot:position=0/2r/0,frame=camera,cutoff=33"],
                       ["cube.obj", "--camera", "eye=3.1/2.7/5.3,fovy=33.3,near=1,far=20", "--reflection", "phong"]):
             saved = self.again(*words, "-s", "120x90")
             self.assertEqual(saved["image"]["size"], [120, 90])

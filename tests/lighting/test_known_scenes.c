@@ -279,7 +279,7 @@ static void compare(const struct known *k)
         const float *c = corner[i];
         w.p[i] = point_out(k, of((double)c[0], (double)c[1], (double)c[2]));
         w.n[i] = normal_out(k, of((double)c[3], (double)c[4], (double)c[5]));
-        w.t[i] = direction_out(k, of((double)c[6], (double)c[7], (double)c[8]));
+        w.t[i] = unit(direction_out(k, of((double)c[6], (double)c[7], (double)c[8]))); // as a vertex shader hands it on
     }
     w.sign = k->scale.x * k->scale.y * k->scale.z < 0 ? -1 : 1;
     vec x, y, z;

@@ -17,7 +17,7 @@ void scene_settings_apply(struct job *job)
         return;
     struct options *own = &job->own;
     const lam_settings *s = &job->settings;
-    if (free_to_take(job, LAM_GIVEN_SIZE, "size")) {
+    if (free_to_take(job, LAM_GIVEN_SIZE, "size") && !own->has_size) { // a sheet decides its pictures' size
         own->width = s->width;
         own->height = s->height;
     }

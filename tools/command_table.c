@@ -16,6 +16,8 @@ const struct command command_table[] = {
      2, 2, run_diff},
     {"plot", "attenuation|spot|highlight [CURVE...]", "Draw a law of light as curves (PNG or SVG), and tell its numbers.",
      ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON | TAKES_QUIET, 1, -1, run_plot},
+    {"lights", "MODEL", "Print a model's lights, or the rig's where it has none, as the keys of a scene file.",
+     ABOUT | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING | 1u << GROUP_WORK, 1, 1, run_lights},
     {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0, run_shapes},
     {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.",
      ABOUT, 0, 0, run_formats},
@@ -37,6 +39,8 @@ const struct example examples[] = {
     {"lambent koala.obj --json", "what was read, the camera, and the time of each step"},
     {"lambent compare koala.obj --sheet terms", "the terms of the sum side by side, with captions"},
     {"lambent plot attenuation 1/0.54/0.2 1/0/1", "how two lights fade with the distance"},
+    {"lambent koala.obj --rig headlight --save-scene koala.json", "also a scene file, to edit and to draw again"},
+    {"lambent koala.json", "a scene file: objects, materials, lights and camera"},
     {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
     {NULL, NULL},
 };

@@ -54,6 +54,7 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
     }
     options.width = c->page.cell_width * enlarge;
     options.height = c->page.cell_height * enlarge;
+    options.has_size = true;
     if (!options.background)
         options.background = "white";
     struct job job = {.options = &options, .model = c->model, .device = c->device};

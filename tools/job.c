@@ -14,6 +14,7 @@
 #include "interrupt.h"
 #include "job_scene.h"
 #include "output.h"
+#include "scene_settings.h"
 #include "show_option.h"
 #include "suggest.h"
 
@@ -103,7 +104,7 @@ static void add_guess(const struct job *job, lam_error *error)
         snprintf(error->text + length, sizeof error->text - length, "; did you mean '%s'?", nearest.best);
 }
 
-static bool load(struct job *job, struct progress *progress, lam_error *error)
+bool job_load(struct job *job, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
     lam_control control;
@@ -116,6 +117,8 @@ static bool load(struct job *job, struct progress *progress, lam_error *error)
     } else {
         lam_load_params params = {.up = (lam_up)o->up,
                                   .color = (lam_color_mode)o->color,
+                                  .color_decides = option_given(o, "color"),
+                                  .models_anywhere = true,
                                   .normals = (lam_normals)o->normals,
                                   .crease_angle_rad = crease_of(o),
                                   .threads = o->threads};
@@ -133,6 +136,7 @@ static bool load(struct job *job, struct progress *progress, lam_error *error)
     if (lam_scene_triangle_count(job->scene) == 0)
         return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw",
                         job->model);
+    scene_settings_apply(job);
     return true;
 }
 
@@ -145,6 +149,8 @@ static void place_camera(struct job *job)
         lam_error unused;
         camera_option_parse(o->camera, &camera, &unused); // was checked when the option was read
         job->camera = camera_option_complete(&camera, job->scene);
+    } else if (scene_settings_has_camera(job)) {
+        job->camera = job->settings.camera;
     } else {
         lam_view view = view_of(o);
         job->camera = lam_camera_fit(job->scene, &view);
@@ -159,12 +165,12 @@ static int by_total(const void *a, const void *b)
 }
 
 // Draws --repeat frames and keeps the report of the median one (the faster of the two in the middle).
-static bool draw(struct job *job, const lam_rgba *background, struct progress *progress, lam_error *error)
+static bool draw(struct job *job, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
-    lam_draw_params params = draw_params_of(o, job->rig);
-    params.background = *background;
-    if (!show_option_apply(o->show, job->scene, &params, error))
+    job->draw = draw_params_of(o, job->rig);
+    job->draw.background = job->background;
+    if (!show_option_apply(o->show, job->scene, &job->draw, error))
         return false;
     lam_frame_report *reports = calloc((size_t)o->repeat, sizeof *reports);
     if (!reports)
@@ -174,7 +180,7 @@ static bool draw(struct job *job, const lam_rgba *background, struct progress *p
         lam_control control;
         progress_phase(progress, 0.5 + 0.5 * i / o->repeat, 0.5 / o->repeat);
         ok = control_of(job, progress, &control, error) &&
-             lam_draw(job->device, job->scene, &job->camera, &params, &job->image, &control, error);
+             lam_draw(job->device, job->scene, &job->camera, &job->draw, &job->image, &control, error);
         if (ok)
             lam_device_report(job->device, &reports[i]);
     }
@@ -189,14 +195,14 @@ static bool draw(struct job *job, const lam_rgba *background, struct progress *p
     return ok;
 }
 
-static bool write_output(struct job *job, const lam_rgba *background, lam_error *error)
+static bool write_output(struct job *job, lam_error *error)
 {
     lam_control control;
     if (!control_of(job, NULL, &control, error))
         return false;
     const struct options *o = job->options;
     double start = clock_ms();
-    lam_save_params params = {.background = {background->r, background->g, background->b},
+    lam_save_params params = {.background = {job->background.r, job->background.g, job->background.b},
                               .threads = o->threads,
                               .control = &control,
                               .raw = o->color == LAM_COLOR_RAW ||
@@ -217,37 +223,51 @@ static bool write_output(struct job *job, const lam_rgba *background, lam_error 
     return ok;
 }
 
-bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)
+// The scene file's background counts where the command line names none.
+static bool find_background(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
-    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &job->background, error))
-        return false;
-    uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
-    if (o->memory_limit_bytes && bytes > o->memory_limit_bytes)
-        return complain(error, LAM_LIMIT,
-                        "the picture of %dx%d pixels needs %.1f MB, more than the memory limit", o->width,
-                        o->height, (double)bytes / 1e6);
-    if (!lam_image_make(&job->image, o->width, o->height, format, error) || !load(job, progress, error))
-        return false;
+    if (o->background)
+        return lam_color_parse(o->background, (lam_color_mode)o->color, &job->background, error);
+    job->background = job->settings.draw.background;
+    return true;
+}
+
+bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
+{
     struct model_sphere sphere;
     lam_control control;
     if (!control_of(job, progress, &control, error) || !job_dress(job, &control, &sphere, error) ||
         !environment_option_apply(o, job->environment, job->scene, error))
         return false;
     place_camera(job);
-    return job_light(job, &sphere, error) && draw(job, &job->background, progress, error);
+    return job_light(job, &sphere, error);
+}
+
+bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)
+{
+    if (!job_load(job, progress, error) || !find_background(job, error))
+        return false;
+    const struct options *o = job->options; // now with what the scene file says
+    uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
+    if (o->memory_limit_bytes && bytes > o->memory_limit_bytes)
+        return complain(error, LAM_LIMIT,
+                        "the picture of %dx%d pixels needs %.1f MB, more than the memory limit", o->width,
+                        o->height, (double)bytes / 1e6);
+    return lam_image_make(&job->image, o->width, o->height, format, error) && job_arrange(job, progress, error) &&
+           draw(job, progress, error);
 }
 
 bool job_run(struct job *job, struct progress *progress, lam_error *error)
 {
-    const struct options *o = job->options;
     bool stream = output_is_stream(job->output);
     lam_pixel_format format = LAM_RGBA8;
     if (!stream && !lam_image_format_for(job->output, &format, error))
         return false;
     job->format = stream ? "png" : strrchr(job->output, '.') + 1;
     if (strcmp(job->output, "-") != 0 &&
-        !output_check(job->output, job->model, output_is_named(o->output), error))
+        !output_check(job->output, job->model, output_is_named(job->options->output), error))
         return false;
-    return job_draw(job, format, progress, error) && write_output(job, &job->background, error);
+    return job_draw(job, format, progress, error) && write_output(job, error) &&
+           (!job->options->save_scene || scene_settings_save(job, error));
 }

@@ -86,7 +86,7 @@ void shortest_number(double value, char text[32])
     }
 }
 
-void json_real(struct json *json, const char *key, double value)
+void json_number(struct json *json, const char *key, double value)
 {
     before(json, key);
     if (!(value - value == 0)) {
@@ -104,7 +104,7 @@ void json_count(struct json *json, const char *key, uint64_t value)
     fprintf(json->file, "%" PRIu64, value);
 }
 
-void json_null(struct json *json, const char *key)
+void json_none(struct json *json, const char *key)
 {
     before(json, key);
     fputs("null", json->file);

@@ -20,9 +20,9 @@ void json_open(struct json *json, const char *key, char bracket); // '{' or '['
 void json_close(struct json *json, char bracket);                 // '}' or ']'
 void json_text(struct json *json, const char *key,
                const char *text); // NULL: null; bytes that are not UTF-8: U+FFFD
-void json_real(struct json *json, const char *key, double value); // not finite: null
+void json_number(struct json *json, const char *key, double value); // not finite: null
 void json_count(struct json *json, const char *key, uint64_t value);
-void json_null(struct json *json, const char *key);
+void json_none(struct json *json, const char *key);
 
 // The shortest decimal number that reads back as `value`, at most 24 bytes with the closing zero.
 void shortest_number(double value, char text[32]);

@@ -162,6 +162,12 @@ const struct option option_table[] = {
      "`docs/show.md` has the table of all of them.",
      show_words, .store = store_show, FIELD(show)},
 
+    {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that gives this picture again.",
+     "The file holds what the command line amounts to: the model's name relative to FILE, the camera that was used, all "
+     "lights (those of the rig spelled out), materials, transforms and the options of the picture. `lambent FILE` then gives "
+     "the same bytes. An older FILE is replaced. `docs/scene-file.md` has the format.",
+     .takes_file = true, .store = store_text, FIELD(save_scene)},
+
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "Seen from the front, back, left, right, top, bottom or iso.",
      "Without it the camera stands 30 degrees to the right of the front and 20 degrees above. The model "

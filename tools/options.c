@@ -64,6 +64,12 @@ static const struct option *find_letter(char letter)
     return NULL;
 }
 
+bool option_given(const struct options *options, const char *name)
+{
+    const struct option *option = find_long(name, strlen(name));
+    return option && options->given[option - option_table];
+}
+
 static bool unknown_long(const char *name, size_t length, unsigned groups, lam_error *error)
 {
     char typed[64];
@@ -90,8 +96,10 @@ static bool apply(const struct option *option, const char *value, unsigned group
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' has no meaning for this command",
                         option->name);
     lam_error reason = {0};
-    if (option->store(option, value, options, &reason))
+    if (option->store(option, value, options, &reason)) {
+        options->given[option - option_table] = true;
         return true;
+    }
     return complain(error, LAM_BAD_ARGUMENT, "option '--%s': %.400s", option->name, reason.text);
 }
 

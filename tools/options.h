@@ -5,6 +5,8 @@
 
 #include <lambent/lambent.h>
 
+enum { OPTIONS_MAX = 128 };
+
 // The values of an option that may be repeated, in order.
 struct texts {
     const char **items;
@@ -21,6 +23,8 @@ struct options {
     const char *background; // as written; NULL: clear
     int color;              // lam_color_mode
     const char *show;       // as written (show_option.h); NULL: the picture
+
+    const char *save_scene; // a scene file to write as well; NULL: none
 
     // View
     int view;                          // enum view_name
@@ -82,6 +86,8 @@ struct options {
 
     // Reports
     bool json, quiet, verbose, version, help;
+
+    bool given[OPTIONS_MAX]; // of each row of the table: stands on the command line
 };
 
 // Options that commands take singly, without the rest of their group: bits above those of the groups.
@@ -168,6 +174,8 @@ void options_free(struct options *options);
 // A copy that may be read into on its own. False: memory is out, and there is nothing to free.
 bool options_copy(struct options *to, const struct options *from);
 
+// True where the command line has the option (by its long name).
+bool option_given(const struct options *options, const char *name);
 
 // Whether a command takes an option: `groups` has bit g set for each group that it takes whole, and TAKES_… bits.
 bool option_is_taken(const struct option *option, unsigned groups);

@@ -292,13 +292,13 @@ static void tell_json(FILE *file, const struct plot *plot, const char *path)
         const struct curve *c = &plot->curves[i];
         json_open(&json, NULL, '{');
         json_text(&json, "label", c->label);
-        json_real(&json, "below_1_255_from", c->below);
+        json_number(&json, "below_1_255_from", c->below);
         json_open(&json, "points", '[');
         for (int k = 0; k <= TABLE_STEPS; k++) {
             double x = (double)(float)(plot->x_most * k / TABLE_STEPS);
             json_open(&json, NULL, '[');
-            json_real(&json, NULL, x);
-            json_real(&json, NULL, c->value(c, x));
+            json_number(&json, NULL, x);
+            json_number(&json, NULL, c->value(c, x));
             json_close(&json, ']');
         }
         json_close(&json, ']');

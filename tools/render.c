@@ -55,6 +55,14 @@ static bool check_together(int count, char **models, const struct options *o, la
                         "option '--output' names one picture, but there are %d models; "
                         "name a folder: -o pictures/",
                         count);
+    if (o->save_scene && count > 1)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single model, but there are %d",
+                        count);
+    if (o->save_scene && strcmp(models[0], "-") == 0)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--save-scene' needs a model with a name, which standard input has not");
+    if (o->save_scene && strcmp(o->save_scene, "-") == 0)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' writes a file, expected its name");
     for (int i = 0; i < count; i++) {
         if (!*models[i])
             return complain(error, LAM_BAD_ARGUMENT, "a model's name is empty");

@@ -94,9 +94,9 @@ void report_table(const struct job *job)
 static void json_vector(struct json *json, const char *key, lam_vec3 v)
 {
     json_open(json, key, '[');
-    json_real(json, NULL, v.x);
-    json_real(json, NULL, v.y);
-    json_real(json, NULL, v.z);
+    json_number(json, NULL, v.x);
+    json_number(json, NULL, v.y);
+    json_number(json, NULL, v.z);
     json_close(json, ']');
 }
 
@@ -144,16 +144,16 @@ static void json_camera(struct json *json, const lam_camera *camera)
     json_vector(json, "target", camera->target);
     json_vector(json, "up", camera->up);
     if (camera->ortho_half_height > 0)
-        json_real(json, "ortho_half_height", camera->ortho_half_height);
+        json_number(json, "ortho_half_height", camera->ortho_half_height);
     else
-        json_real(json, "fovy_deg", degrees(camera->fovy_rad));
+        json_number(json, "fovy_deg", degrees(camera->fovy_rad));
     bool fitted = camera->near_plane == 0 && camera->far_plane == 0;
     if (fitted) {
-        json_null(json, "near");
-        json_null(json, "far");
+        json_none(json, "near");
+        json_none(json, "far");
     } else {
-        json_real(json, "near", camera->near_plane);
-        json_real(json, "far", camera->far_plane);
+        json_number(json, "near", camera->near_plane);
+        json_number(json, "far", camera->far_plane);
     }
     json_close(json, '}');
 }
@@ -171,7 +171,7 @@ static void json_device(struct json *json, const lam_device *device)
 // To the microsecond: more would be noise.
 static void json_ms(struct json *json, const char *key, double ms)
 {
-    json_real(json, key, (double)(int64_t)(ms * 1e3 + 0.5) / 1e3);
+    json_number(json, key, (double)(int64_t)(ms * 1e3 + 0.5) / 1e3);
 }
 
 static void json_times(struct json *json, const struct job_times *times)
@@ -213,7 +213,7 @@ static void json_counts(struct json *json, const lam_frame_report *frame)
 static void json_error(struct json *json, const lam_error *error)
 {
     if (!error || error->code == LAM_OK) {
-        json_null(json, "error");
+        json_none(json, "error");
         return;
     }
     json_open(json, "error", '{');
@@ -231,7 +231,7 @@ void report_json(FILE *file, const struct job *job, const lam_error *error)
     if (job) {
         json_model(&json, job);
     } else {
-        json_null(&json, "model");
+        json_none(&json, "model");
     }
     // A picture that was not written has no camera, device or times worth telling.
     if (job && job->written) {

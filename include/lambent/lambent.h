@@ -20,6 +20,7 @@
 #include "material.h"
 #include "mesh.h"
 #include "scene.h"
+#include "settings.h"
 #include "text.h"
 
 #endif

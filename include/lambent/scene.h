@@ -40,13 +40,17 @@ struct lam_bytes;
 typedef bool lam_open_fn(void *user, const char *name, struct lam_bytes *bytes, lam_error *error);
 
 typedef struct lam_load_params {
-    const char *format;        // "obj", "stl", "ply"…; NULL: told by content
+    const char *format;        // "obj", "stl", "ply", "scene"…; NULL: told by content
     lam_up up;                 // overrides the format's up axis
     lam_color_mode color;
+    bool color_decides; // scene files: `color` holds whatever the file says; false: the file's, `color` where it says nothing
     lam_normals normals;
     // Made normals are split where neighbouring faces meet at more than this angle, radians, 0..π.
     double crease_angle_rad; // 0: 40°; for 0 itself use LAM_NORMALS_FACET
     int threads;               // 0: one for each processor
+    // Scene files: the models that they name may lie anywhere, as on a command line; false: only in the scene file's folder
+    // and those below it. What the models name themselves always stays in the model's folder.
+    bool models_anywhere;
     // Companion files when loading from memory. NULL: none can be opened.
     lam_open_fn *open;
     void *user;

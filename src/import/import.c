@@ -12,7 +12,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-static const struct importer *const importers[] = {&importer_obj, &importer_stl, &importer_ply};
+static const struct importer *const importers[] = {&importer_obj, &importer_stl, &importer_ply, &importer_scene};
 enum { IMPORTERS = sizeof importers / sizeof *importers };
 
 const char *lam_format_name(int format)
@@ -88,8 +88,8 @@ static bool has_ending(const struct importer *importer, const char *ending)
 }
 
 // Content decides. Where it leaves a choice, or says nothing, the name's ending does.
-static const struct importer *choose(const char *name, const struct file_bytes *file, const char *wanted,
-                                     lam_error *error)
+const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
+                                    lam_error *error)
 {
     char list[128];
     if (wanted) {
@@ -147,9 +147,7 @@ struct companions {
     void *user;
 };
 
-// A name that stays within the model's folder: as the file has it, with '/' for '\'; only its last part where
-// it begins at a root or drive, or climbs. False: there is no room for it.
-static bool confine(const char *name, char *out, size_t room)
+bool confine(const char *name, char *out, size_t room)
 {
     size_t length = strlen(name);
     if (length >= room)
@@ -170,36 +168,82 @@ static bool confine(const char *name, char *out, size_t room)
     return true;
 }
 
-static bool open_companion(const struct import_source *source, const char *name, struct file_bytes *out,
-                           lam_error *error)
+enum { PATH_LONGEST = 4096 };
+
+// Through the caller's function, by the name as it may be looked for.
+static bool open_by_caller(const struct import_source *source, const char *inside, struct file_bytes *out, lam_error *error)
 {
-    enum { LONGEST = 4096 };
     const struct companions *companions = source->open_state;
-    char inside[LONGEST], path[2 * LONGEST];
-    if (!confine(name, inside, sizeof inside) || !*inside || strcmp(inside, "..") == 0)
-        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for",
-                    source->name, name);
-    if (companions->open) {
-        lam_bytes bytes = {0};
-        if (!companions->open(companions->user, inside, &bytes, error))
-            return false;
-        bool ok = file_copy(bytes.data, bytes.size, source->watch, out, error);
-        lam_bytes_free(&bytes);
-        return ok;
-    }
-    if (!companions->model)
+    if (!companions->open)
         return fail(error, LAM_CANNOT_READ, "%s: the file '%s' is not at hand", source->name, inside);
-    int folder = (int)(path_name(companions->model) - companions->model);
+    lam_bytes bytes = {0};
+    if (!companions->open(companions->user, inside, &bytes, error))
+        return false;
+    bool ok = file_copy(bytes.data, bytes.size, source->watch, out, error);
+    lam_bytes_free(&bytes);
+    return ok;
+}
+
+// The name beside the model, as it can be opened from here.
+static bool beside(const struct import_source *source, const char *name, char path[2 * PATH_LONGEST], lam_error *error)
+{
+    const char *model = ((const struct companions *)source->open_state)->model;
+    int folder = name[0] == '/' ? 0 : (int)(path_name(model) - model);
     // Behind "./" a file called "-" is a file.
-    int length = snprintf(path, sizeof path, "%.*s%s%s", folder, companions->model,
-                          folder == 0 && inside[0] == '-' ? "./" : "", inside);
-    if (length < 0 || (size_t)length >= sizeof path)
-        return fail(error, LAM_CANNOT_READ, "%s: the path to '%.80s' is too long", source->name, inside);
-    // A pipe of that name would be waited for.
+    int length = snprintf(path, 2 * PATH_LONGEST, "%.*s%s%s", folder, model, folder == 0 && name[0] == '-' ? "./" : "", name);
+    if (length < 0 || length >= 2 * PATH_LONGEST)
+        return fail(error, LAM_CANNOT_READ, "%s: the path to '%.80s' is too long", source->name, name);
+    return true;
+}
+
+// A pipe or a device of that name would be waited for.
+static bool read_regular(const struct import_source *source, const char *path, struct file_bytes *out, lam_error *error)
+{
     struct stat about;
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
         return fail(error, LAM_CANNOT_READ, "%s: is not a file", path);
     return file_read(path, source->pool, source->watch, out, error);
+}
+
+static bool confine_or_fail(const struct import_source *source, const char *name, char inside[PATH_LONGEST],
+                            lam_error *error)
+{
+    if (!confine(name, inside, PATH_LONGEST) || !*inside || strcmp(inside, "..") == 0)
+        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for", source->name, name);
+    return true;
+}
+
+static bool open_companion(const struct import_source *source, const char *name, struct file_bytes *out,
+                           lam_error *error)
+{
+    const struct companions *companions = source->open_state;
+    char inside[PATH_LONGEST], path[2 * PATH_LONGEST];
+    if (!confine_or_fail(source, name, inside, error))
+        return false;
+    if (companions->open || !companions->model)
+        return open_by_caller(source, inside, out, error);
+    return beside(source, inside, path, error) && read_regular(source, path, out, error);
+}
+
+static bool open_model(const struct import_source *source, const char *name, struct arena *arena, const char **path,
+                       struct file_bytes *out, lam_error *error)
+{
+    const struct companions *companions = source->open_state;
+    char inside[PATH_LONGEST], at[2 * PATH_LONGEST];
+    *path = NULL;
+    if (!source->params->models_anywhere || companions->open || !companions->model) {
+        if (!confine_or_fail(source, name, inside, error))
+            return false;
+        if (companions->open || !companions->model)
+            return open_by_caller(source, inside, out, error);
+        name = inside;
+    }
+    if (!beside(source, name, at, error))
+        return false;
+    *path = arena_string(arena, at);
+    if (!*path)
+        return watch_memory_error(source->watch, strlen(at), error);
+    return read_regular(source, at, out, error);
 }
 
 // --- the steps
@@ -242,6 +286,15 @@ static bool build(struct lam_scene *scene, const struct import_source *source,
     scene->up = params->up == LAM_UP_AUTO ? importer->up : params->up;
     if (!importer->load(source, scene, error) || !check_not_empty(scene, source->name, error))
         return false;
+    // A scene file notes where each of its models came from by itself.
+    struct scene_origin origin = {.normals = params->normals, .crease_angle_rad = params->crease_angle_rad};
+    if (importer != &importer_scene && source->path) {
+        origin.path = arena_string(&scene->arena, source->path);
+        if (!origin.path)
+            return watch_memory_error(source->watch, strlen(source->path), error);
+    }
+    if (importer != &importer_scene && !scene_note_origin(scene, origin, 0, error))
+        return false;
     uint64_t read_ns = now_ns();
     scene->read_ms = (double)(read_ns - start_ns) * 1e-6;
     watch_progress(source->watch, 0.8, "normals");
@@ -268,10 +321,12 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     struct companions companions = {.model = path, .open = params->open, .user = params->user};
     struct import_source source = {
         .name = name,
+        .path = path && strcmp(path, "-") != 0 ? path : NULL,
         .params = params,
         .pool = pool_make(params->threads),
         .watch = &watch,
         .open = open_companion,
+        .open_model = open_model,
         .open_state = &companions,
     };
     struct lam_scene *scene = NULL;
@@ -283,7 +338,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
         source.bytes = file.data;
         source.size = file.size;
         watch_progress(&watch, 0.05, "read");
-        const struct importer *importer = choose(name, &file, params->format, error);
+        const struct importer *importer = importer_for(name, &file, params->format, error);
         scene = importer ? scene_make(&watch, error) : NULL;
         ok = scene && build(scene, &source, importer, start_ns, error);
     }

@@ -89,9 +89,40 @@ void scene_warn(struct lam_scene *scene, const char *format, ...)
         scene_append(scene, &scene->warnings, &text, sizeof text, NULL); // without memory a warning is not worth failing for
 }
 
+bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error)
+{
+    origin.mesh_count = scene->meshes.count - origin.first_mesh;
+    origin.material_count = scene->materials.count - origin.first_material;
+    origin.object_count = scene->objects.count - first_object;
+    lam_material *materials = arena_array(&scene->arena, (size_t)origin.material_count, sizeof *materials);
+    lam_object *objects = arena_array(&scene->arena, (size_t)origin.object_count, sizeof *objects);
+    for (int i = origin.first_mesh; i < scene->meshes.count; i++)
+        origin.part_count += (int)scene_mesh(scene, i)->part_count;
+    int *parts = arena_array(&scene->arena, (size_t)origin.part_count, sizeof *parts);
+    if (!materials || !objects || !parts)
+        return watch_memory_error(scene->arena.watch, 0, error);
+    if (origin.material_count)
+        memcpy(materials, (lam_material *)scene->materials.items + origin.first_material,
+               (size_t)origin.material_count * sizeof *materials);
+    if (origin.object_count)
+        memcpy(objects, (lam_object *)scene->objects.items + first_object, (size_t)origin.object_count * sizeof *objects);
+    for (int i = origin.first_mesh, n = 0; i < scene->meshes.count; i++)
+        for (uint32_t k = 0; k < scene_mesh(scene, i)->part_count; k++)
+            parts[n++] = scene_mesh(scene, i)->parts[k].material;
+    origin.part_materials = parts;
+    origin.materials = materials;
+    origin.objects = objects;
+    return scene_append(scene, &scene->origins, &origin, sizeof origin, error) >= 0;
+}
+
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,
                    struct watch *watch, lam_error *error)
 {
+    for (int i = 0; normals != LAM_NORMALS_FILE && i < scene->origins.count; i++) {
+        struct scene_origin *origin = (struct scene_origin *)scene->origins.items + i;
+        origin->normals = normals;
+        origin->crease_angle_rad = crease_angle_rad;
+    }
     if (crease_angle_rad == 0)
         crease_angle_rad = math_radians(40);
     for (int i = 0; i < scene->meshes.count; i++) {
@@ -172,6 +203,14 @@ void lam_scene_add_warning(lam_scene *scene, const char *text)
 {
     if (scene && text)
         scene_warn(scene, "%s", text);
+}
+
+bool lam_scene_settings(const lam_scene *scene, lam_settings *settings)
+{
+    bool there = scene && scene->settings;
+    if (settings)
+        *settings = there ? *scene->settings : (lam_settings){0};
+    return there;
 }
 
 lam_up lam_scene_up(const lam_scene *scene) { return scene ? scene->up : LAM_UP_Y; }

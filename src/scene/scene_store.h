@@ -6,7 +6,7 @@
 #include "pool.h"
 #include "watch.h"
 
-#include <lambent/scene.h>
+#include <lambent/settings.h>
 
 // A growing array in an arena: doubling leaves the old half behind in the arena until the scene goes.
 struct scene_list {
@@ -22,6 +22,23 @@ struct scene_extent {
     bool translucent;
 };
 
+// Where meshes came from, for writing them as a scene file: a model file or a built-in shape, and how it was read.
+struct scene_origin {
+    const char *path;  // as it can be opened from here; NULL: a shape, or bytes in memory
+    const char *shape; // its name; NULL: a file
+    lam_shape_params segments;
+    lam_normals normals;
+    double crease_angle_rad; // 0: the default
+    bool field_tangents;     // the file's tangents were left out
+    int first_mesh, mesh_count;
+    int first_material, material_count;
+    const lam_material *materials; // as the file had them
+    const lam_object *objects;     // as the file had them, object_count, in order
+    int object_count;
+    const int *part_materials;     // of all parts of its meshes, in order: the material as the file had it
+    int part_count;
+};
+
 struct lam_scene {
     struct arena arena;
     struct scene_list meshes;    // lam_mesh
@@ -30,6 +47,8 @@ struct lam_scene {
     struct scene_list objects;   // lam_object
     struct scene_list lights;    // lam_light
     struct scene_list warnings;  // const char *
+    struct scene_list origins;   // struct scene_origin, in the order of their meshes
+    const lam_settings *settings; // of a scene file; NULL: none
     lam_up up;
     lam_mat4 placement; // what lam_scene_transform did so far
     lam_rgb ambient;
@@ -58,6 +77,13 @@ int scene_append(struct lam_scene *scene, struct scene_list *list, const void *i
 // Adds a warning, formatted. At most SCENE_WARNINGS_MAX are kept; the last one then says that more follow.
 enum { SCENE_WARNINGS_MAX = 64 };
 void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// Notes where the meshes and materials from these numbers on came from. False when memory is out.
+bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error);
+
+// A built-in shape as a new mesh, charged to the scene's own watch. Its index, −1 on failure.
+int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params, struct watch *watch,
+                    lam_error *error);
 
 // Makes every mesh ready to draw: normals where they are missing or asked for, degenerate ones told.
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,

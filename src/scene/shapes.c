@@ -453,12 +453,9 @@ static bool unknown_shape(const char *name, lam_error *error)
                 nearest ? ", the nearest name is '" : "", nearest ? nearest : "", nearest ? "'" : "");
 }
 
-int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_params *params, lam_error *error)
+int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params, struct watch *watch,
+                    lam_error *error)
 {
-    if (!scene || !shape) {
-        fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_shape: %s is NULL", scene ? "shape" : "scene");
-        return -1;
-    }
     const lam_shape_params plain = {0};
     params = params ? params : &plain;
     int row = lam_shape_find(shape);
@@ -468,15 +465,33 @@ int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_par
     }
     if (!check_params(shape, params, error))
         return -1;
-    struct watch watch;
-    uint64_t state = begin(scene, &watch, params->control);
-    struct shape_request request = {params->slices, params->stacks, &scene->arena, &watch, error};
+    struct shape_request request = {params->slices, params->stacks, &scene->arena, watch, error};
     lam_mesh mesh = {0};
     bool made = shapes[row].build(&request, &mesh);
     if (made && params->radius > 0)
         scale_mesh(&mesh, params->radius);
     mesh.name = shapes[row].name;
-    return end(scene, state, take(scene, made, &mesh, error));
+    struct scene_origin origin = {.shape = shapes[row].name,
+                                  .segments = {params->radius, params->slices, params->stacks, NULL},
+                                  .first_mesh = scene->meshes.count,
+                                  .first_material = scene->materials.count};
+    int index = take(scene, made, &mesh, error);
+    if (index < 0 || scene_note_origin(scene, origin, scene->objects.count, error))
+        return index;
+    scene->meshes.count--;
+    scene->extents.count--;
+    return -1;
+}
+
+int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_params *params, lam_error *error)
+{
+    if (!scene || !shape) {
+        fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_shape: %s is NULL", scene ? "shape" : "scene");
+        return -1;
+    }
+    struct watch watch;
+    uint64_t state = begin(scene, &watch, params ? params->control : NULL);
+    return end(scene, state, scene_add_shape(scene, shape, params, &watch, error));
 }
 
 int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, const lam_control *control,

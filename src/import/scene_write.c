@@ -1,0 +1,536 @@
+// scene_write.c: a scene and its settings as a scene file, from which the same picture comes again. Numbers are written so
+// that they read back as the same bits.
+#include "scene_write.h"
+
+#include "fail.h"
+#include "float_state.h"
+#include "linear.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- JSON values; a failed allocation anywhere shows in `ok`
+
+void put(struct scene_writer *w, json_t *object, const char *key, json_t *value)
+{
+    w->ok &= json_object_set_new(object, key, value) == 0;
+}
+
+void append(struct scene_writer *w, json_t *list, json_t *value)
+{
+    w->ok &= json_array_append_new(list, value) == 0;
+}
+
+// Whole numbers without a point.
+static json_t *number(double x)
+{
+    bool whole = x > -1e15 && x < 1e15 && x == (double)(json_int_t)x && !(x == 0 && 1 / x < 0);
+    return whole ? json_integer((json_int_t)x) : json_real(x);
+}
+
+// The number with the fewest decimals that is the same float.
+static json_t *number_float(float f)
+{
+    double x = (double)f, size = x < 0 ? -x : x, power = 1;
+    for (int decimals = 0; decimals <= 15 && size * power < 1e15; decimals++, power *= 10) {
+        double shorter = (double)(int64_t)(x * power + (x < 0 ? -0.5 : 0.5)) / power;
+        if ((float)shorter == f)
+            return number(x == 0 ? x : shorter);
+    }
+    return number(x);
+}
+
+static json_t *list_of(struct scene_writer *w, const double *numbers, int count)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++)
+        append(w, list, number(numbers[i]));
+    return list;
+}
+
+static json_t *vector(struct scene_writer *w, lam_vec3 v) { return list_of(w, (double[]){v.x, v.y, v.z}, 3); }
+
+static json_t *color(struct scene_writer *w, const float *parts, int count)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++)
+        append(w, list, number_float(parts[i]));
+    return list;
+}
+
+// Degrees that come back as the same radians: with few decimals, else the nearest number that does.
+static json_t *degrees(double radians, bool is_float)
+{
+    double plain = math_degrees(radians), power = 1, best = plain, error = 1e300;
+    for (int decimals = 0; decimals <= 12; decimals++, power *= 10) {
+        double shorter = (double)(int64_t)(plain * power + (plain < 0 ? -0.5 : 0.5)) / power, back = math_radians(shorter);
+        if (is_float ? (float)back == (float)radians : back == radians)
+            return number(shorter);
+    }
+    int64_t bits;
+    memcpy(&bits, &plain, sizeof bits);
+    for (int step = -4; step <= 4; step++) {
+        int64_t near_bits = bits + step;
+        double candidate;
+        memcpy(&candidate, &near_bits, sizeof candidate);
+        double off = math_radians(candidate) - radians;
+        off = off < 0 ? -off : off;
+        if (off < error) {
+            error = off;
+            best = candidate;
+        }
+    }
+    return number(best);
+}
+
+static json_t *word(const struct scene_word *words, int value)
+{
+    while (words->name && words->value != value)
+        words++;
+    return json_string(words->name ? words->name : "");
+}
+
+// Names that are not UTF-8 are left out: JSON cannot hold them.
+static void put_name(struct scene_writer *w, json_t *object, const char *key, const char *name)
+{
+    json_t *text = name && *name ? json_string(name) : NULL;
+    if (text)
+        put(w, object, key, text);
+}
+
+// --- paths
+
+// The path from `folder` to `file`, both absolute and free of links.
+static bool relative_path(const char *folder, const char *file, char *out, size_t room)
+{
+    size_t common = 0, i = 0, used = 0;
+    for (; folder[i] && folder[i] == file[i]; i++)
+        if (folder[i] == '/')
+            common = i + 1;
+    if (!folder[i] && file[i] == '/')
+        common = i + 1;
+    if (strcmp(folder, "/") == 0)
+        common = 1;
+    const char *rest = common <= strlen(folder) ? folder + common : "";
+    int up = *rest != 0;
+    for (const char *c = rest; *c; c++)
+        up += *c == '/' && c[1];
+    for (; up > 0; up--, used += 3) {
+        if (used + 4 > room)
+            return false;
+        memcpy(out + used, "../", 4);
+    }
+    size_t length = strlen(file + common);
+    if (used + length + 1 > room)
+        return false;
+    memcpy(out + used, file + common, length + 1);
+    return true;
+}
+
+static bool put_path(struct scene_writer *w, json_t *object, const char *key, const char *path)
+{
+    char real[PATH_MAX], relative[2 * PATH_MAX];
+    if (!realpath(path, real))
+        return fail(w->error, LAM_CANNOT_WRITE, "%s: names '%.200s', which cannot be found: %s", w->path, path, strerror(errno));
+    json_t *text = relative_path(w->folder, real, relative, sizeof relative) ? json_string(relative) : NULL;
+    if (!text)
+        return fail(w->error, LAM_UNSUPPORTED, "%s: the path of '%.200s' is too long or not UTF-8, which JSON cannot hold",
+                    w->path, path);
+    if (key)
+        put(w, object, key, text);
+    else
+        append(w, object, text);
+    return true;
+}
+
+// --- materials
+
+static json_t *material_json(struct scene_writer *w, const lam_material *m)
+{
+    json_t *out = json_object();
+    put(w, out, "ambient", color(w, &m->ambient.r, 3));
+    put(w, out, "diffuse", color(w, &m->diffuse.r, m->diffuse.a == 1 ? 3 : 4));
+    put(w, out, "specular", color(w, &m->specular.r, 3));
+    put(w, out, "emission", color(w, &m->emission.r, 3));
+    put(w, out, "shininess", number_float(m->shininess));
+    put(w, out, "reflectivity", color(w, &m->reflectivity.r, 3));
+    if (m->fibre)
+        put(w, out, "fibre", json_true());
+    return out;
+}
+
+static bool same_floats(const float *a, const float *b, int count)
+{
+    return memcmp(a, b, (size_t)count * sizeof *a) == 0;
+}
+
+static bool same_material(const lam_material *a, const lam_material *b)
+{
+    return same_floats(&a->ambient.r, &b->ambient.r, 3) && same_floats(&a->diffuse.r, &b->diffuse.r, 4) &&
+           same_floats(&a->specular.r, &b->specular.r, 3) && same_floats(&a->emission.r, &b->emission.r, 3) &&
+           same_floats(&a->reflectivity.r, &b->reflectivity.r, 3) && a->shininess == b->shininess && a->fibre == b->fibre;
+}
+
+// What has become of the model's own materials since it was read.
+static bool put_changes(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
+{
+    json_t *changes = NULL;
+    for (int i = 0; i < origin->material_count; i++) {
+        const lam_material *now = lam_scene_material(w->scene, origin->first_material + i);
+        if (!now || same_material(now, &origin->materials[i]))
+            continue;
+        const char *name = origin->materials[i].name;
+        if (!name || !*name)
+            return fail(w->error, LAM_UNSUPPORTED, "%s: a material of '%.200s' was changed, but has no name to be called by",
+                        w->path, origin->path);
+        changes = changes ? changes : json_object();
+        json_t *all = material_json(w, now);
+        if (now->diffuse.a == 1 && origin->materials[i].diffuse.a != 1)
+            put(w, all, "diffuse", color(w, &now->diffuse.r, 4));
+        if (!now->fibre && origin->materials[i].fibre)
+            put(w, all, "fibre", json_false());
+        put(w, changes, name, all);
+    }
+    if (changes)
+        put(w, entry, "materials", changes);
+    return true;
+}
+
+// Parts that show another material than the file gave them: one entry for each part, null where it is the file's.
+static void put_parts(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
+{
+    json_t *list = json_array();
+    bool changed = false;
+    for (int i = origin->first_mesh, n = 0; i < origin->first_mesh + origin->mesh_count; i++) {
+        const lam_mesh *mesh = lam_scene_mesh(w->scene, i);
+        for (uint32_t k = 0; k < mesh->part_count; k++, n++) {
+            int material = mesh->parts[k].material;
+            bool own = material == origin->part_materials[n];
+            lam_material plain = lam_material_default();
+            const lam_material *shown = material >= 0 ? lam_scene_material(w->scene, material) : &plain;
+            append(w, list, own ? json_null() : material_json(w, shown));
+            changed |= !own;
+        }
+    }
+    if (changed)
+        put(w, entry, "parts", list);
+    else
+        json_decref(list);
+}
+
+// --- objects
+
+static const struct scene_origin *origin_of(const struct lam_scene *scene, int mesh)
+{
+    for (int i = 0; i < scene->origins.count; i++) {
+        const struct scene_origin *origin = (const struct scene_origin *)scene->origins.items + i;
+        if (mesh >= origin->first_mesh && mesh < origin->first_mesh + origin->mesh_count)
+            return origin;
+    }
+    return NULL;
+}
+
+static bool is_identity(const lam_mat4 *m)
+{
+    lam_mat4 identity = lam_mat4_identity();
+    for (int i = 0; i < 16; i++)
+        if (m->m[i / 4][i % 4] != identity.m[i / 4][i % 4])
+            return false;
+    return true;
+}
+
+static void put_transform(struct scene_writer *w, json_t *entry, const lam_object *object, const lam_object *own)
+{
+    lam_mat4 matrix = object->transform, inverse;
+    // A file's own transform stays in the file: what came on top of it is written.
+    if (!is_identity(&own->transform) && mat4_inverse_affine(&own->transform, &inverse))
+        matrix = memcmp(&matrix, &own->transform, sizeof matrix) == 0 ? lam_mat4_identity() : mat4_mul(&matrix, &inverse);
+    if (!is_identity(&matrix))
+        put(w, entry, "transform", list_of(w, &matrix.m[0][0], 16));
+}
+
+static bool put_object(struct scene_writer *w, json_t *list, const lam_object *object, const struct scene_origin *origin)
+{
+    const lam_object plain = lam_object_default(), *own = origin->object_count ? origin->objects : &plain;
+    json_t *entry = json_object();
+    append(w, list, entry);
+    if (!entry)
+        return true;
+    put_name(w, entry, "name", object->name);
+    if (origin->shape) {
+        put(w, entry, "shape", json_string(origin->shape));
+        if (origin->segments.radius > 0)
+            put(w, entry, "radius", number(origin->segments.radius));
+        if (origin->segments.slices)
+            put(w, entry, "slices", json_integer(origin->segments.slices));
+        if (origin->segments.stacks)
+            put(w, entry, "stacks", json_integer(origin->segments.stacks));
+    } else if (!put_path(w, entry, "file", origin->path)) {
+        return false;
+    }
+    if (origin->normals != LAM_NORMALS_FILE)
+        put(w, entry, "normals", word(normals_words, (int)origin->normals));
+    if (origin->crease_angle_rad > 0)
+        put(w, entry, "crease_angle", origin->crease_angle_rad <= 1e-6 ? json_integer(0) : degrees(origin->crease_angle_rad, false));
+    if (origin->field_tangents)
+        put(w, entry, "tangents", json_string("field"));
+    put_transform(w, entry, object, own);
+    if (object->material >= 0 && object->material != own->material)
+        put(w, entry, "material", material_json(w, lam_scene_material(w->scene, object->material)));
+    if (object->back_material >= 0 && object->back_material != own->back_material) {
+        json_t *back = material_json(w, lam_scene_material(w->scene, object->back_material));
+        put(w, back, "diffuse", color(w, &lam_scene_material(w->scene, object->back_material)->diffuse.r, 4));
+        put(w, back, "fibre", json_boolean(lam_scene_material(w->scene, object->back_material)->fibre));
+        put(w, entry, "back_material", back);
+    }
+    if (object->one_sided != own->one_sided)
+        put(w, entry, "two_sided", json_boolean(!object->one_sided));
+    if (object->cull != own->cull)
+        put(w, entry, "cull", word(cull_words, (int)object->cull));
+    put_parts(w, entry, origin);
+    return put_changes(w, entry, origin);
+}
+
+static bool put_objects(struct scene_writer *w, json_t *root)
+{
+    json_t *list = json_array();
+    put(w, root, "objects", list);
+    const struct scene_origin *last = NULL;
+    for (int i = 0; i < lam_scene_object_count(w->scene); i++) {
+        const lam_object *object = lam_scene_object(w->scene, i);
+        const struct scene_origin *origin = origin_of(w->scene, object->mesh);
+        if (!origin || (!origin->path && !origin->shape))
+            return fail(w->error, LAM_UNSUPPORTED,
+                        "%s: the mesh of object %d ('%.60s') came neither from a file nor is a built-in shape, so a scene file "
+                        "cannot name it",
+                        w->path, i, object->name ? object->name : "");
+        if (origin == last && origin->object_count > 1) // one entry stands for all objects of a file
+            continue;
+        last = origin;
+        if (!put_object(w, list, object, origin))
+            return false;
+    }
+    return true;
+}
+
+// --- lights
+
+static void put_cone(struct scene_writer *w, json_t *out, const lam_light *l)
+{
+    if (l->outer_rad > 0) {
+        put(w, out, "inner", degrees((double)l->inner_rad, true));
+        put(w, out, "outer", degrees((double)l->outer_rad, true));
+        return;
+    }
+    if (l->cutoff_rad > 0)
+        put(w, out, "cutoff", degrees((double)l->cutoff_rad, true));
+    put(w, out, "exponent", number_float(l->exponent));
+}
+
+static json_t *light_json(struct scene_writer *w, const lam_light *given)
+{
+    lam_light placed_light = *given, *l = &placed_light;
+    if (l->frame == LAM_FRAME_MODEL) { // a file's model stands as it was read: the light goes where the model has been turned to
+        const lam_mat4 *m = &w->scene->placement;
+        l->frame = LAM_FRAME_WORLD;
+        l->position = mat4_point(m, l->position);
+        l->direction = mat4_vector(m, l->direction);
+        l->up = mat4_vector(m, l->up);
+    }
+    json_t *out = json_object();
+    put_name(w, out, "name", l->name);
+    put(w, out, "type", word(light_type_words, (int)l->type));
+    if (l->frame != LAM_FRAME_WORLD)
+        put(w, out, "frame", word(frame_words, (int)l->frame));
+    if (l->frame == LAM_FRAME_OBJECT)
+        put_name(w, out, "object", l->object);
+    if (l->type == LAM_LIGHT_HEMISPHERE) {
+        put(w, out, "sky", color(w, &l->sky.r, 3));
+        put(w, out, "ground", color(w, &l->ground.r, 3));
+        if (l->up.x != 0 || l->up.y != 0 || l->up.z != 0)
+            put(w, out, "up", vector(w, l->up));
+        return out;
+    }
+    bool placed = l->type == LAM_LIGHT_POINT || l->type == LAM_LIGHT_SPOT;
+    if (placed)
+        put(w, out, "position", vector(w, l->position));
+    if (l->type == LAM_LIGHT_DIRECTIONAL || l->type == LAM_LIGHT_SPOT)
+        put(w, out, "direction", vector(w, l->direction));
+    put(w, out, "ambient", color(w, &l->ambient.r, 3));
+    if (l->type == LAM_LIGHT_AMBIENT)
+        return out;
+    put(w, out, "diffuse", color(w, &l->diffuse.r, 3));
+    put(w, out, "specular", color(w, &l->specular.r, 3));
+    if (!placed)
+        return out;
+    const lam_attenuation *a = &l->attenuation;
+    bool none = a->constant == 0 && a->linear == 0 && a->quadratic == 0;
+    put(w, out, "attenuation", none ? list_of(w, (double[]){1, 0, 0}, 3) : color(w, &a->constant, 3));
+    if (l->range > 0)
+        put(w, out, "range", number_float(l->range));
+    if (l->type == LAM_LIGHT_SPOT)
+        put_cone(w, out, l);
+    return out;
+}
+
+static void put_lights(struct scene_writer *w, json_t *root, lam_rig rig)
+{
+    lam_rgb ambient = lam_scene_ambient(w->scene);
+    lam_light lights[LAM_RIG_LIGHTS_MAX];
+    json_t *list = json_array();
+    put(w, root, "ambient", color(w, &ambient.r, 3));
+    put(w, root, "lights", list);
+    for (int i = 0; i < lam_scene_light_count(w->scene); i++)
+        append(w, list, light_json(w, lam_scene_light(w->scene, i)));
+    int count = lam_scene_rig_lights(w->scene, rig, lights);
+    for (int i = 0; i < count; i++)
+        append(w, list, light_json(w, &lights[i]));
+}
+
+// --- settings
+
+static void put_camera(struct scene_writer *w, json_t *root, const lam_camera *camera)
+{
+    json_t *out = json_object();
+    put(w, root, "camera", out);
+    put(w, out, "eye", vector(w, camera->eye));
+    put(w, out, "target", vector(w, camera->target));
+    put(w, out, "up", vector(w, camera->up));
+    if (camera->ortho_half_height > 0)
+        put(w, out, "ortho_half_height", number(camera->ortho_half_height));
+    else
+        put(w, out, "fovy", degrees(camera->fovy_rad, false));
+    if (camera->near_plane != 0 || camera->far_plane != 0) {
+        put(w, out, "near", number(camera->near_plane));
+        put(w, out, "far", number(camera->far_plane));
+    }
+}
+
+static void put_image(struct scene_writer *w, json_t *root, const lam_settings *s)
+{
+    json_t *out = json_object();
+    if (s->given & LAM_GIVEN_SIZE)
+        put(w, out, "size", list_of(w, (double[]){s->width, s->height}, 2));
+    if (s->given & LAM_GIVEN_SAMPLES)
+        put(w, out, "samples", json_integer(s->draw.samples ? s->draw.samples : 4));
+    if (s->given & LAM_GIVEN_BACKGROUND)
+        put(w, out, "background", color(w, &s->draw.background.r, 4));
+    if (s->given & LAM_GIVEN_COLOR)
+        put(w, out, "color", word(color_words, (int)s->draw.color));
+    if (s->given & LAM_GIVEN_EXPOSURE)
+        put(w, out, "exposure", number(s->exposure));
+    if (json_object_size(out))
+        put(w, root, "image", out);
+    else
+        json_decref(out);
+}
+
+static bool put_environment(struct scene_writer *w, json_t *root, const lam_settings *s)
+{
+    json_t *out = json_object(), *faces = s->equirectangular ? NULL : json_array();
+    put(w, root, "environment", out);
+    if (faces)
+        put(w, out, "faces", faces);
+    for (int i = 0; faces && i < 6; i++)
+        if (!put_path(w, faces, NULL, s->faces[i] ? s->faces[i] : ""))
+            return false;
+    if (s->equirectangular && !put_path(w, out, "equirectangular", s->equirectangular))
+        return false;
+    put(w, out, "rotation", degrees(s->environment_rotation_rad, false));
+    return true;
+}
+
+static bool put_settings(struct scene_writer *w, json_t *root, const lam_settings *s)
+{
+    put_image(w, root, s);
+    if (s->given & LAM_GIVEN_CAMERA)
+        put_camera(w, root, &s->camera);
+    if ((s->given & LAM_GIVEN_ENVIRONMENT) && !put_environment(w, root, s))
+        return false;
+    if (s->given & LAM_GIVEN_SHADING)
+        put(w, root, "shading", word(shading_words, (int)s->draw.shading));
+    if (s->given & LAM_GIVEN_REFLECTION)
+        put(w, root, "reflection", word(reflection_words, (int)s->draw.reflection));
+    if (s->given & LAM_GIVEN_STAGE)
+        put(w, root, "stage", word(stage_words, (int)s->draw.stage));
+    if (s->given & LAM_GIVEN_VIEWER)
+        put(w, root, "viewer", word(viewer_words, (int)s->draw.viewer));
+    if (s->given & LAM_GIVEN_FLAT_NORMAL)
+        put(w, root, "flat_normal", word(flat_normal_words, (int)s->draw.flat_normal));
+    if ((s->given & LAM_GIVEN_MATCH_HIGHLIGHTS) && s->draw.match_highlights)
+        put(w, root, "match_highlights", json_true());
+    if ((s->given & LAM_GIVEN_GL1) && s->draw.gl1)
+        put(w, root, "gl1", json_true());
+    return true;
+}
+
+// --- the calls
+
+static bool memory_or(struct scene_writer *w, bool ok)
+{
+    return ok && (w->ok || fail_memory(w->error, 0));
+}
+
+// The folder that the file will lie in, absolute.
+static bool find_folder(struct scene_writer *w, const char *path, char folder[PATH_MAX])
+{
+    char given[PATH_MAX];
+    size_t length = (size_t)(path_name(path) - path);
+    if (length >= sizeof given)
+        return fail(w->error, LAM_CANNOT_WRITE, "%.200s…: the path is too long", path);
+    memcpy(given, length ? path : ".", length ? length : 1);
+    given[length ? length : 1] = 0;
+    w->folder = folder;
+    return realpath(given, folder) ||
+           fail(w->error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%.200s': %s", path, given, strerror(errno));
+}
+
+static bool save(struct scene_writer *w, const lam_settings *settings, const char *path)
+{
+    static const lam_settings none;
+    char folder[PATH_MAX];
+    settings = settings ? settings : &none;
+    if (!find_folder(w, path, folder))
+        return false;
+    json_t *root = json_object();
+    put(w, root, "lambent", json_integer(1));
+    bool ok = put_settings(w, root, settings);
+    lam_up up = lam_scene_up(w->scene);
+    if (up != LAM_UP_Y && up != LAM_UP_AUTO)
+        put(w, root, "up", word(up_words, (int)up));
+    ok = ok && put_objects(w, root);
+    put_lights(w, root, settings->draw.rig);
+    lam_bytes bytes = {0};
+    ok = memory_or(w, ok) && scene_print(root, &bytes, w->error) && file_write(path, bytes.data, bytes.size, w->error);
+    lam_bytes_free(&bytes);
+    json_decref(root);
+    return ok;
+}
+
+bool lam_scene_save(const lam_scene *scene, const lam_settings *settings, const char *path, lam_error *error)
+{
+    if (!scene || !path || !*path)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_save: the %s is missing", scene ? "path" : "scene");
+    struct scene_writer writer = {.scene = scene, .path = path, .ok = true, .error = error};
+    uint64_t state = float_state_enter();
+    bool ok = save(&writer, settings, path);
+    float_state_leave(state);
+    return ok;
+}
+
+bool lam_lights_encode(const lam_scene *scene, lam_rig rig, lam_bytes *out, lam_error *error)
+{
+    if (!scene || !out)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_lights_encode: %s is NULL", scene ? "out" : "scene");
+    struct scene_writer writer = {.scene = scene, .path = "lights", .ok = true, .error = error};
+    uint64_t state = float_state_enter();
+    json_t *root = json_object();
+    put(&writer, root, "lambent", json_integer(1));
+    put_lights(&writer, root, rig);
+    bool ok = memory_or(&writer, root != NULL) && scene_print(root, out, error);
+    json_decref(root);
+    float_state_leave(state);
+    return ok;
+}

@@ -1,0 +1,185 @@
+# test_scene.py: scene files: drawn, overridden by options, written and drawn again to the same bytes, and held to their schema.
+import json
+import shutil
+import unittest
+
+from harness import OWN_MODELS, ROOT, SHARED_MODELS, Case
+
+SCHEMA = json.loads((ROOT / "docs" / "scene.schema.json").read_text())
+KNOWN = {"type", "enum", "const", "required", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
+         "maximum", "exclusiveMinimum", "minLength", "anyOf", "$ref", "$defs", "$schema", "title", "description", "default"}
+KINDS = {"object": dict, "array": list, "string": str, "integer": int, "number": (int, float), "boolean": bool, "null": type(None)}
+
+
+def misfit(value, schema, place="scene"):
+    """What does not fit, by the part of JSON Schema that the file uses; None: it fits."""
+    assert set(schema) <= KNOWN, set(schema) - KNOWN
+    if "$ref" in schema:
+        return misfit(value, SCHEMA["$defs"][schema["$ref"].rsplit("/", 1)[1]], place)
+    if "anyOf" in schema:
+        tries = [misfit(value, s, place) for s in schema["anyOf"]]
+        return None if None in tries else tries[-1]
+    if "const" in schema and value != schema["const"] or "enum" in schema and value not in schema["enum"]:
+        return f"{place}: {value!r}"
+    kinds = schema.get("type", [])
+    kinds = kinds if isinstance(kinds, list) else [kinds]
+    if kinds and not any(isinstance(value, KINDS[k]) and (k == "boolean") == isinstance(value, bool) for k in kinds):
+        return f"{place}: {value!r} is not {kinds}"
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        if not schema.get("minimum", value) <= value <= schema.get("maximum", value) or value <= schema.get("exclusiveMinimum", value - 1):
+            return f"{place}: {value}"
+    if isinstance(value, str) and len(value) < schema.get("minLength", 0):
+        return f"{place}: too short"
+    if isinstance(value, list):
+        if not schema.get("minItems", 0) <= len(value) <= schema.get("maxItems", len(value)):
+            return f"{place}: {len(value)} items"
+        return next((m for i, v in enumerate(value) if (m := misfit(v, schema["items"], f"{place}[{i}]"))), None)
+    if isinstance(value, dict):
+        for key in schema.get("required", ()):
+            if key not in value:
+                return f"{place}: no {key}"
+        for key, inner in value.items():
+            of = schema.get("properties", {}).get(key, schema.get("additionalProperties"))
+            if of is False:
+                return f"{place}.{key}: unknown"
+            if m := misfit(inner, of, f"{place}.{key}"):
+                return m
+    return None
+
+
+class Scene(Case):
+    def setUp(self):
+        super().setUp()
+        shutil.copy(OWN_MODELS / "scene.json", self.folder)
+        self.given.add("scene.json")
+        self.example = json.loads((self.folder / "scene.json").read_text())
+
+    def write(self, scene, name="scene.json"):
+        (self.folder / name).write_text(scene if isinstance(scene, str) else json.dumps(scene))
+
+    def again(self, *words):
+        """Draws, writes the scene file, draws that: the same bytes."""
+        (self.folder / "sub").mkdir(exist_ok=True)
+        self.good(*words, "-o", "a.png", "--save-scene", "sub/saved.json")
+        self.good("sub/saved.json", "-o", "b.png")
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes(), words)
+        saved = json.loads((self.folder / "sub" / "saved.json").read_text())
+        self.assertIsNone(misfit(saved, SCHEMA))
+        return saved
+
+    def test_example(self):
+        width, height, data = self.png("scene.json")
+        self.assertEqual((width, height), (256, 192))
+        self.assertGreater(sum(1 for i in range(3, len(data), 4) if data[i]), 5000)
+        self.assertIsNone(misfit(self.example, SCHEMA))
+
+    def test_options_go_before_the_file(self):
+        self.assertEqual(self.png("scene.json", "-s", "64x48")[:2], (64, 48))
+        plain = self.png("scene.json")
+        for words in (["--color", "srgb"], ["--shading", "flat"], ["--reflection", "phong"], ["-b", "white"], ["--view", "top"],
+                      ["--rig", "studio"], ["--samples", "16"]):
+            self.assertNotEqual(self.png("scene.json", *words), plain, words)
+        self.assertEqual(self.png("scene.json", "--color", "raw", "--shading", "phong", "--samples", "1"), plain)
+
+    def test_saved_scenes_give_the_same_bytes(self):
+        for words in (["scene.json"], ["cube.obj", "--rig", "headlight"], ["cube.stl", "--shading", "flat", "--zoom", "1.37"],
+                      ["torus-knot", "--normals", "facet", "--color", "raw", "-b", "#102030"],
+                      ["cube.ply", "--projection", "orthographic", "--crease-angle", "95", "--up", "x"],
+                      ["cube.obj", "--material", "gold", "--rotate", "x:20", "--rig", "lecture"],
+                      ["cube.obj", "--shininess", "77", "--back-material", "jade", "--light", "point:position=2r/1r/3r,frame=object",
+                       "--light-scale", "0.7", "--stage", "vertex", "--viewer", "infinite", "--cull", "front"],
+                      ["cube.stl", "--reflection", "kajiya-kay", "--opacity", "0.5", "--light", "+spot:position=0/2r/0,frame=camera,cutoff=33"],
+                      ["cube.obj", "--camera", "eye=3.1/2.7/5.3,fovy=33.3,near=1,far=20", "--reflection", "phong"]):
+            saved = self.again(*words, "-s", "120x90")
+            self.assertEqual(saved["image"]["size"], [120, 90])
+        self.assertEqual(saved["objects"][0]["file"], "../cube.obj")
+        # Written once more, the file is the same file.
+        self.good("sub/saved.json", "-o", "b.png", "--save-scene", "sub/twice.json")
+        self.assertEqual((self.folder / "sub/saved.json").read_bytes(), (self.folder / "sub/twice.json").read_bytes())
+
+    def test_saved_scenes_of_real_models(self):
+        models = [m for kind in ("obj", "stl", "ply") for m in sorted(SHARED_MODELS.glob(f"{kind}/**/*.{kind}"))
+                  if m.stat().st_size < 400000][::9]
+        if not models:
+            self.skipTest(f"no models at {SHARED_MODELS} (LAMBENT_MODELS)")
+        for model in models:
+            if self.run_program(model, "-s", "8", "-o", "-").returncode == 0:
+                self.again(model, "-s", "80x60")
+
+    def test_save_scene_is_refused(self):
+        self.bad(1, "cube.obj", "cube.stl", "--save-scene", "x.json", says="single model")
+        self.bad(1, "-", "--save-scene", "x.json", says="standard input")
+        self.bad(5, "cube.obj", "-s", "8", "--save-scene", "nowhere/x.json", says="nowhere", leaves=["cube.png"])
+
+    def test_lights(self):
+        lights = json.loads(self.good("lights", "scene.json").stdout)
+        self.assertEqual([l["name"] for l in lights["lights"]], ["key", "sun", "lamp", "torch"])
+        self.assertEqual(lights["ambient"], [0.05, 0.05, 0.05])
+        self.assertEqual(lights["lights"][2]["cutoff"], 25)
+        self.assertEqual(len(json.loads(self.good("lights", "cube.obj").stdout)["lights"]), 4)
+        rig = json.loads(self.good("lights", "cube.obj", "--rig", "headlight").stdout)["lights"]
+        self.assertEqual(len(rig), 1)
+        for light in lights["lights"] + rig:
+            self.assertIsNone(misfit(light, SCHEMA["properties"]["lights"]["items"]))
+        # They are a scene file's keys as they stand.
+        plain = {k: v for k, v in self.example.items()}
+        self.write({**plain, **lights}, "copy.json")
+        self.assertEqual(self.png("copy.json"), self.png("scene.json"))
+
+    def test_raw_reaches_the_models(self):
+        ply = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+               "property uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+               "-9 -9 0 128 64 32\n9 -9 0 128 64 32\n0 9 0 128 64 32\n3 0 1 2\n")
+        self.write(ply, "c.ply")
+        scene = {"lambent": 1, "image": {"size": [9, 9], "samples": 1, "color": "raw"}, "reflection": "none",
+                 "camera": {"eye": [0, 0, 4]}, "objects": [{"file": "c.ply", "material": {"diffuse": [1, 1, 1]}}]}
+        self.write(scene)
+        self.assertEqual(self.png("scene.json")[2][160:164], bytes([128, 64, 32, 255]))
+        # Decoded on the way in and encoded on the way out, the bytes are the same.
+        self.assertEqual(self.png("scene.json", "--color", "srgb")[2][160:164], bytes([128, 64, 32, 255]))
+        scene["image"]["color"] = "srgb"
+        self.write(scene)
+        self.good("scene.json", "-o", "s.pfm")
+        import struct
+        value = struct.unpack_from("<f", (self.folder / "s.pfm").read_bytes(), len(b"PF\n9 9\n-1.0\n") + 40 * 12)[0]
+        self.assertAlmostEqual(value, ((128 / 255 + 0.055) / 1.055) ** 2.4, places=5)
+
+    def test_models_elsewhere(self):
+        (self.folder / "sub").mkdir()
+        self.example["objects"][1]["file"] = "../cube.ply"
+        self.write(self.example, "sub/up.json")
+        self.assertEqual(self.png("sub/up.json"), self.png("scene.json"))
+        self.example["objects"][1]["file"] = str(self.folder / "cube.ply")
+        self.write(self.example, "sub/absolute.json")
+        self.assertEqual(self.png("sub/absolute.json"), self.png("scene.json"))
+        for name, says in (("none.ply", "none.ply"), ("/dev/zero", "not a file"), ("scene.json", "scene file")):
+            self.example["objects"][1]["file"] = name
+            self.write(self.example)
+            self.bad(2, "scene.json", "-o", "x.png", says=["objects[1].file", says], leaves=["sub"])
+
+    def test_schema_and_program_agree(self):
+        """Each wrong key or value fails both."""
+        def changed(path, value):
+            scene = json.loads(json.dumps(self.example))
+            at = scene
+            for step in path[:-1]:
+                at = at[step]
+            at[path[-1]] = value
+            return scene
+        for path, value in ((["imgae"], {}), (["image", "size"], [0, 5]), (["image", "samples"], 3), (["camera", "fovi"], 4),
+                            (["camera", "fovy"], 0), (["lambent"], 2), (["objects"], []), (["shading"], "plain"),
+                            (["objects", 0, "radius"], -1), (["objects", 0, "stacks"], 1.5), (["objects", 1, "shinines"], 1),
+                            (["materials", "brass", "shininess"], -1), (["materials", "brass", "ambient"], [1, 2]),
+                            (["lights", 0, "attenuation"], [1, -1, 0]), (["lights", 0, "cutoff"], 5), (["lights", 2, "exponent"], -1),
+                            (["lights", 3, "outer"], 91), (["lights", 1, "type"], "sun"), (["ambient"], [0, 0, -1]),
+                            (["objects", 0, "two_sided"], 1)):
+            scene = changed(path, value)
+            self.assertIsNotNone(misfit(scene, SCHEMA), path)
+            self.write(scene)
+            done = self.run_program("scene.json", "-o", "x.png")
+            self.assertIn(done.returncode, (2, 3), path)
+            self.assertIn(b"scene.json: " + str(path[0]).encode(), done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,31 @@
+// lights.c: the command `lights`: a model's lights, or the rig's, as a scene file has them.
+#include "command.h"
+
+#include <stdio.h>
+
+#include "console.h"
+#include "interrupt.h"
+#include "job.h"
+#include "report.h"
+
+int run_lights(int operand_count, char **operands, const struct options *options)
+{
+    (void)operand_count;
+    struct job job = {.options = options, .model = operands[0]};
+    struct progress progress;
+    lam_error error = {0};
+    lam_bytes text = {0};
+    interrupt_start();
+    job.times.start = clock_ms();
+    progress_start(&progress, job.model, false);
+    bool ok = job_load(&job, &progress, &error) && job_arrange(&job, &progress, &error) &&
+              lam_lights_encode(job.scene, job.rig, &text, &error);
+    progress_end(&progress);
+    if (ok)
+        fwrite(text.data, 1, text.size, stdout); // whether it arrived is told when the program ends
+    lam_bytes_free(&text);
+    lam_scene_free(job.scene);
+    if (interrupted())
+        interrupt_finish();
+    return ok ? 0 : tell_failure(&error, options);
+}

@@ -14,6 +14,7 @@
 #include "camera.h"
 #include "curves.h"
 #include "device.h"
+#include "explain.h"
 #include "image.h"
 #include "light.h"
 #include "material.h"

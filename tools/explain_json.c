@@ -155,6 +155,15 @@ static void tell_fragment(struct json *json, const lam_explained_fragment *f)
     json_text(json, "side", f->back ? "back" : "front");
     json_text(json, "lit_normal", f->flipped ? "-n" : "n");
     json_count(json, "samples", (uint64_t)f->samples);
+    json_open(json, "shown", '[');
+    for (int s = 0; s < 16; s++)
+        if (f->sample_mask >> s & 1) {
+            json_open(json, NULL, '{');
+            json_count(json, "sample", (uint64_t)s);
+            real(json, "through", f->through[s]);
+            json_close(json, '}');
+        }
+    json_close(json, ']');
     index_of(json, "lit_sample", f->lit_sample);
     json_open(json, "picture_position", '[');
     json_real(json, NULL, f->picture_x);

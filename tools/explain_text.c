@@ -18,7 +18,7 @@ static void label(int indent, const char *text)
 static void three(int indent, const char *name, double x, double y, double z, const char *remark)
 {
     label(indent, name);
-    printf("%13.7g %13.7g %13.7g%s%s\n", x, y, z, *remark ? "   " : "", remark);
+    printf("%13.7g %13.7g %13.7g%s%s\n", x + 0.0, y + 0.0, z + 0.0, *remark ? "   " : "", remark);
 }
 
 // Names of the columns.
@@ -263,7 +263,16 @@ static void tell_fragment(const lam_explanation *e, const lam_explained_fragment
           : e->shading == LAM_SHADING_FLAT ? "the sum, the same all over the triangle"
                                            : "the sum");
     if (f->color.a != 1)
-        number(2, "alpha", (double)f->color.a, "");
+        number(2, "alpha", (double)f->color.a, "opacity · the vertex colour's alpha");
+    bool veiled = false;
+    for (int s = 0; s < e->samples; s++)
+        veiled |= (f->sample_mask >> s & 1) && f->through[s] < 1;
+    for (int s = 0; veiled && s < e->samples; s++) {
+        char name[32];
+        snprintf(name, sizeof name, "sample %d", s);
+        if (f->sample_mask >> s & 1)
+            number(2, name, (double)f->through[s], "let through by what lies before: Π (1 − alpha)");
+    }
 }
 
 // --- the pixel

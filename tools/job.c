@@ -157,24 +157,12 @@ static int by_total(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static bool read_background(const struct options *o, lam_rgba *background, lam_error *error)
-{
-    *background = (lam_rgba){0};
-    return !o->background || lam_color_parse(o->background, (lam_color_mode)o->color, background, error);
-}
-
-static lam_draw_params params_of(const struct job *job, const lam_rgba *background)
-{
-    lam_draw_params params = draw_params_of(job->options, job->rig);
-    params.background = *background;
-    return params;
-}
-
 // Draws --repeat frames and keeps the report of the median one (the faster of the two in the middle).
 static bool draw(struct job *job, const lam_rgba *background, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
-    lam_draw_params params = params_of(job, background);
+    lam_draw_params params = draw_params_of(o, job->rig);
+    params.background = *background;
     if (!show_option_apply(o->show, job->scene, &params, error))
         return false;
     lam_frame_report *reports = calloc((size_t)o->repeat, sizeof *reports);
@@ -228,10 +216,12 @@ static bool write_output(struct job *job, const lam_rgba *background, lam_error 
     return ok;
 }
 
-bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)
+static bool read_background(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
-    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &job->background, error))
+    return !o->background || lam_color_parse(o->background, (lam_color_mode)o->color, &job->background, error);
+}
+
 // All that comes before drawing.
 static bool prepare(struct job *job, struct progress *progress, lam_error *error)
 {
@@ -244,33 +234,18 @@ static bool prepare(struct job *job, struct progress *progress, lam_error *error
     return job_light(job, &sphere, error);
 }
 
-bool job_run(struct job *job, struct progress *progress, lam_error *error)
+bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
-    bool stream = output_is_stream(job->output);
-    lam_pixel_format format = LAM_RGBA8;
-    lam_rgba background;
-    if (!stream && !lam_image_format_for(job->output, &format, error))
-        return false;
-    job->format = stream ? "png" : strrchr(job->output, '.') + 1;
-    if (strcmp(job->output, "-") != 0 &&
-        !output_check(job->output, job->model, output_is_named(o->output), error))
-        return false;
-    if (!read_background(o, &background, error))
+    if (!read_background(job, error))
         return false;
     uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
     if (o->memory_limit_bytes && bytes > o->memory_limit_bytes)
         return complain(error, LAM_LIMIT,
                         "the picture of %dx%d pixels needs %.1f MB, more than the memory limit", o->width,
                         o->height, (double)bytes / 1e6);
-    if (!lam_image_make(&job->image, o->width, o->height, format, error) || !prepare(job, progress, error))
-        return false;
-    struct model_sphere sphere;
-    lam_control control;
-    if (!control_of(job, progress, &control, error) || !job_dress(job, &control, &sphere, error))
-        return false;
-    place_camera(job);
-    return job_light(job, &sphere, error) && draw(job, &job->background, progress, error);
+    return lam_image_make(&job->image, o->width, o->height, format, error) && prepare(job, progress, error) &&
+           draw(job, &job->background, progress, error);
 }
 
 bool job_run(struct job *job, struct progress *progress, lam_error *error)
@@ -285,19 +260,18 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
         !output_check(job->output, job->model, output_is_named(o->output), error))
         return false;
     return job_draw(job, format, progress, error) && write_output(job, &job->background, error);
-    return draw(job, &background, progress, error) && write_output(job, &background, error);
 }
 
 lam_explanation *job_explain(struct job *job, int x, int y, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
-    lam_rgba background;
     lam_control control;
-    if (!read_background(o, &background, error) || !prepare(job, progress, error))
+    if (!read_background(job, error) || !prepare(job, progress, error))
         return NULL;
     progress_phase(progress, 0.5, 0.5);
     if (!control_of(job, progress, &control, error))
         return NULL;
-    lam_draw_params params = params_of(job, &background);
+    lam_draw_params params = draw_params_of(o, job->rig);
+    params.background = job->background;
     return lam_explain(job->device, job->scene, &job->camera, &params, o->width, o->height, LAM_RGBA8, x, y, &control, error);
 }

@@ -43,7 +43,8 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error);
 
 // The same up to the drawn picture, which stays in `image`: output and format are not looked at.
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);
-// The same up to the drawing, and then one pixel explained instead of a picture written. NULL on failure.
+
+// The same up to the drawing, and then one pixel is explained. NULL on failure.
 lam_explanation *job_explain(struct job *job, int x, int y, struct progress *progress, lam_error *error);
 
 #endif

@@ -12,6 +12,9 @@ const struct command command_table[] = {
      1, -1, run_render},
     {"compare", "MODEL", "Draw one labelled sheet of pictures: methods, lights, terms side by side.",
      (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET, 1, 1, run_compare},
+    {"explain", "MODEL X,Y",
+     "Tell every number of one pixel: what it shows, the vectors, angles and terms of each light, the sum, the byte.", ALL,
+     2, 2, run_explain},
     {"diff", "A B", "Tell how far two pictures are apart, and draw where.", ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET,
      2, 2, run_diff},
     {"plot", "attenuation|spot|highlight [CURVE...]", "Draw a law of light as curves (PNG or SVG), and tell its numbers.",
@@ -41,6 +44,7 @@ const struct example examples[] = {
     {"lambent plot attenuation 1/0.54/0.2 1/0/1", "how two lights fade with the distance"},
     {"lambent koala.obj --rig headlight --save-scene koala.json", "also a scene file, to edit and to draw again"},
     {"lambent koala.json", "a scene file: objects, materials, lights and camera"},
+    {"lambent explain teapot 512,400", "how that pixel of the picture came about, number by number"},
     {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
     {NULL, NULL},
 };
@@ -81,6 +85,15 @@ const struct topic topics[] = {
      "`--sheet stages` frames the brightest highlight (where the picture is farthest above the one without highlights) and "
      "shows it beneath, drawn three times as large. That sheet, `surfaces` and `terms` give the model's materials a specular "
      "colour of their own, so that there is a highlight to see; `terms` takes the other terms away by black coefficients."},
+    {"Explaining a pixel",
+     "`lambent explain MODEL X,Y` takes the options that the picture was made with and tells how the pixel in column X and row Y "
+     "(from 0, from the top left corner) came about: each triangle that it shows with the samples that show it, the object, the "
+     "place in the triangle, n, v and t, the material; for each light its matrix (rows ambient, diffuse, specular), l, r and h, "
+     "the angles between n and l, r and v, n and h, the distance, attenuation and spot factor, the highlight's base and power, "
+     "and its diffuse and specular terms; then the terms and their sum, the weighted sum of the triangles over the background, "
+     "the encoding and the bytes. Vectors are in eye space. The numbers are those that the picture was made of, to the last "
+     "bit; `docs/lighting.md` has the formulas. With `--json` the same is one line. No picture is written, and `--output` does "
+     "not matter."},
     {"Comparing pictures",
      "`lambent diff A B` reads two pictures of the same size (PNG or PPM with 8 bits, PFM with floats, both of one "
      "kind) and prints the largest difference of a channel, the mean and the root of the mean square over all channels "

@@ -238,7 +238,7 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
     struct model_sphere sphere;
     lam_control control;
     if (!control_of(job, progress, &control, error) || !job_dress(job, &control, &sphere, error) ||
-        !environment_option_apply(o, job->environment, job->scene, error))
+        !environment_option_apply(job->options, job->environment, job->scene, error))
         return false;
     place_camera(job);
     return job_light(job, &sphere, error);
@@ -270,4 +270,18 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
         return false;
     return job_draw(job, format, progress, error) && write_output(job, error) &&
            (!job->options->save_scene || scene_settings_save(job, error));
+}
+
+lam_explanation *job_explain(struct job *job, int x, int y, struct progress *progress, lam_error *error)
+{
+    lam_control control;
+    if (!job_load(job, progress, error) || !find_background(job, error) || !job_arrange(job, progress, error))
+        return NULL;
+    progress_phase(progress, 0.5, 0.5);
+    if (!control_of(job, progress, &control, error))
+        return NULL;
+    const struct options *o = job->options; // now with what the scene file says
+    lam_draw_params params = draw_params_of(o, job->rig);
+    params.background = job->background;
+    return lam_explain(job->device, job->scene, &job->camera, &params, o->width, o->height, LAM_RGBA8, x, y, &control, error);
 }

@@ -55,4 +55,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error);
 // The second step: materials, turns, the camera and the lights, as the options ask.
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error);
 
+// The same up to the drawing, and then one pixel is explained. NULL on failure.
+lam_explanation *job_explain(struct job *job, int x, int y, struct progress *progress, lam_error *error);
+
 #endif

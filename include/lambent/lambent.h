@@ -15,6 +15,7 @@
 #include "curves.h"
 #include "device.h"
 #include "environment.h"
+#include "explain.h"
 #include "image.h"
 #include "light.h"
 #include "material.h"

@@ -8,6 +8,8 @@
 // down to single pixels, whose fragments must fit. Nothing is ever left out.
 #include "kernels.h"
 
+#include "recorder.h"
+
 #include <string.h>
 
 static void sort_by_pixel(struct thread_state *thread)
@@ -156,6 +158,8 @@ static void blend_pixel(const struct cpu_frame *cpu, struct thread_state *thread
             float alpha = thread->fragment_color[3][f];
             if (!(thread->layer_samples[f] >> s & 1) || !(alpha > 0))
                 continue;
+            if (cpu->recorder)
+                recorder_layer(cpu->recorder, pixel, f, s, clear, share);
             float part = clear * alpha;
             for (int c = 0; c < 3; c++)
                 sum[c] += thread->fragment_color[c][f] * part;

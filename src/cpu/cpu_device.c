@@ -4,6 +4,7 @@
 
 #include "cpu_features.h"
 #include "fail.h"
+#include "recorder.h"
 #include "srgb.h"
 
 #include <stdio.h>
@@ -320,7 +321,7 @@ static void tile_task(void *user, size_t index, int number)
     bool any = false;
     for (int i = 0; i < pool_threads(cpu->pool); i++)
         any |= cpu->threads[i].bins[index] != NULL;
-    if (any) {
+    if (any || cpu->recorder) {
         int width = cpu->image->width - tile_x * TILE, height = cpu->image->height - tile_y * TILE;
         width = width < TILE ? width : TILE;
         height = height < TILE ? height : TILE;
@@ -349,6 +350,17 @@ static void tile_task(void *user, size_t index, int number)
     }
     if (number == 0)
         watch_progress(cpu->watch, (double)index / ((double)cpu->tiles_across * cpu->tiles_down), "frame");
+}
+
+// Draws the one tile that holds the recorder's pixel, with the kernels that keep its numbers.
+static void record_tile(struct cpu_frame *cpu, struct recorder *recorder)
+{
+    cpu->kernels = &kernels_recording;
+    cpu->recorder = recorder;
+    const lam_explanation *out = recorder->out;
+    tile_task(cpu, (size_t)(out->y >> TILE_SHIFT) * (size_t)cpu->tiles_across + (size_t)(out->x >> TILE_SHIFT), 0);
+    if (recorder->failed)
+        cpu->failed = FAILED_MEMORY;
 }
 
 static bool step_done(const struct cpu_frame *cpu, lam_error *error)
@@ -416,7 +428,10 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     base->report.triangles_ms = milliseconds_since(&clock);
     if (!step_done(&cpu, error))
         return false;
-    pool_run(device->pool, (size_t)cpu.tiles_across * (size_t)cpu.tiles_down, tile_task, &cpu);
+    if (base->recorder)
+        record_tile(&cpu, base->recorder);
+    else
+        pool_run(device->pool, (size_t)cpu.tiles_across * (size_t)cpu.tiles_down, tile_task, &cpu);
     base->report.tiles_ms = milliseconds_since(&clock);
     fill_report(&base->report, device);
     return step_done(&cpu, error);

@@ -9,6 +9,7 @@
 #include "gather.inc"
 #include "light.inc"
 #include "resolve.inc"
+#include "record_pixel.inc"
 
 #define JOIN(a, b)  a##b
 #define NAME(isa)   JOIN(kernels_, isa)
@@ -23,6 +24,6 @@ const struct kernels NAME(ISA) = {
     .cover = cover,
     .gather_layers = gather_layers,
     .light = light,
-    .resolve = resolve,
+    .resolve = resolve_and_record,
     .resolve_empty = resolve_empty,
 };

@@ -26,6 +26,9 @@ struct kernels {
     void (*resolve_empty)(struct cpu_frame *cpu);
 };
 
+// Those of `plain`, which also keep the numbers of one pixel (record.inc).
+extern const struct kernels kernels_recording;
+
 extern const struct kernels kernels_plain, kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon, kernels_wasm;
 
 #endif

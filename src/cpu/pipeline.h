@@ -174,6 +174,7 @@ struct cpu_frame {
     const struct material_products *materials;
     struct thread_state *threads;
     const float *decode_srgb, *decode_linear; // 256 entries each: what a colour byte stands for
+    struct recorder *recorder; // of the one pixel that is explained (recorder.h), in the recording kernels; else NULL
     uint8_t empty_pixel[16]; // what a pixel without fragments holds
     int failed;              // enum failure, set atomically by a worker
 };

@@ -4,6 +4,8 @@
 
 #include "frame.h"
 
+struct recorder;
+
 struct device_type {
     // Draws the frame into the image. Fills device->report's times and counts, except frame_ms and total_ms.
     bool (*draw)(struct lam_device *device, const struct frame *frame, lam_image *image, struct watch *watch,
@@ -20,6 +22,7 @@ struct lam_device {
     lam_isa isa; // what lam_device_isa and lam_device_threads tell; left 0 by devices that have none
     int threads;
     struct frame frame;
+    struct recorder *recorder; // not NULL: one pixel is to be explained (recorder.h)
     lam_frame_report report;
 };
 

@@ -210,6 +210,7 @@ static void build_light(struct frame_light *out, const lam_light *light, const l
 {
     frame_light_reach(out, light);
     out->light = index;
+    out->source = light;
     store3(out->position, mat4_point(space, light->position));
     store3(out->axis, v3_unit(mat4_vector(space, light->direction)));
     store_rgb(out->diffuse, light->diffuse);
@@ -234,6 +235,8 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
         store3(out->up, v3_unit(mat4_vector(by, own ? light->up : up_vector(scene->up))));
         store_rgb(out->sky, light->sky);
         store_rgb(out->ground, light->ground);
+        out->light = index;
+        out->source = light;
         return true;
     }
     struct frame_light *placed = light->type == LAM_LIGHT_AMBIENT ? NULL : &frame->lights[frame->light_count++];
@@ -256,10 +259,9 @@ static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig ri
     for (int i = 0; i < scene->lights.count; i++)
         if ((only < 0 || only == i) && !add_light(frame, scene, lam_scene_light(scene, i), i, view, error))
             return false;
-    lam_light lights[LAM_RIG_LIGHTS_MAX];
-    int count = lam_scene_rig_lights(scene, rig, lights);
+    int count = lam_scene_rig_lights(scene, rig, frame->rig);
     for (int i = 0; i < count; i++)
-        if ((only < 0 || only == scene->lights.count + i) && !add_light(frame, scene, &lights[i], -1, view, error))
+        if ((only < 0 || only == scene->lights.count + i) && !add_light(frame, scene, &frame->rig[i], -1, view, error))
             return false;
     if (only >= scene->lights.count + count)
         return fail(error, LAM_BAD_ARGUMENT, "show_light is %d, but the frame has %d lights, counted from 0", only,

@@ -53,7 +53,8 @@ struct frame_light {
     float cos_outer, inverse_width;
     float ambient[3]; // of this light alone, where it is not in the frame's sum (gl1)
     float diffuse[3], specular[3];
-    int light; // index among the frame's lam_lights, for naming; −1: of the rig
+    int light; // index among the scene's lights; −1: of the rig
+    const lam_light *source;
 };
 
 // What of a light does not depend on where it is: its kind, attenuation, range and cone. The rest is zeroed.
@@ -62,6 +63,8 @@ void frame_light_reach(struct frame_light *out, const lam_light *light);
 struct frame_hemisphere {
     float up[3]; // unit, eye space
     float sky[3], ground[3];
+    int light; // as above
+    const lam_light *source;
 };
 
 struct frame {
@@ -96,6 +99,7 @@ struct frame {
     const lam_environment *environment; // NULL: none
     float to_environment[3][3];         // directions of eye space to the environment's axes
 
+    lam_light rig[LAM_RIG_LIGHTS_MAX];
     lam_material default_material;
     struct buffer storage; // holds the arrays
 };

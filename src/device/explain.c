@@ -1,0 +1,150 @@
+// explain.c: lam_explain: draws one tile with a recorder that listens, and completes what it has heard.
+#include "device_type.h"
+#include "recorder.h"
+
+#include "fail.h"
+#include "linear.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+lam_explained_fragment *recorder_add(struct recorder *recorder)
+{
+    int count = recorder->out->fragment_count;
+    if (count == recorder->room) {
+        int room = count ? 2 * count : 16;
+        lam_explained_fragment *grown = recorder_alloc(recorder, (size_t)room, sizeof *grown);
+        if (!grown)
+            return NULL;
+        if (count)
+            memcpy(grown, recorder->fragments, (size_t)count * sizeof *grown);
+        recorder->fragments = grown;
+        recorder->room = room;
+        recorder->out->fragments = grown;
+    }
+    recorder->out->fragment_count++;
+    memset(&recorder->fragments[count], 0, sizeof *recorder->fragments);
+    return &recorder->fragments[count];
+}
+
+void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float through, float share)
+{
+    if (pixel != recorder->pixel || !recorder->layer_slots || !recorder->layer_slots[fragment])
+        return;
+    lam_explained_fragment *out = &recorder->fragments[recorder->layer_slots[fragment] - 1];
+    out->through[sample] = through;
+    out->weight += through * share;
+}
+
+void *recorder_alloc(struct recorder *recorder, size_t count, size_t size)
+{
+    void *memory = arena_array(&recorder->arena, count, size);
+    if (memory)
+        memset(memory, 0, count * size);
+    else
+        recorder->failed = true;
+    return memory;
+}
+
+// From the vectors' cross and scalar product: exact for small angles too.
+static double angle_between(lam_vec3 a, lam_vec3 b)
+{
+    if (v3_dot(a, a) == 0 || v3_dot(b, b) == 0)
+        return __builtin_nan("");
+    return math_atan2(v3_length(v3_cross(a, b)), v3_dot(a, b));
+}
+
+// What follows from the numbers that were kept.
+static void complete(struct recorder *recorder, const lam_scene *scene)
+{
+    for (int i = 0; i < recorder->out->fragment_count; i++) {
+        lam_explained_fragment *fragment = &recorder->fragments[i];
+        const lam_object *object = lam_scene_object(scene, fragment->object);
+        const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
+        fragment->object_name = object->name;
+        fragment->mesh = object->mesh;
+        for (int k = 0; k < fragment->point_count; k++) {
+            lam_explained_point *point = (lam_explained_point *)(uintptr_t)&fragment->points[k];
+            point->mesh_position = v3_add(v3(mesh->origin[0], mesh->origin[1], mesh->origin[2]), point->mesh_position);
+            point->world_position = mat4_point(&object->transform, point->mesh_position);
+            for (int n = 0; n < point->light_count; n++) {
+                lam_explained_light *light = (lam_explained_light *)(uintptr_t)&point->lights[n];
+                light->theta_rad = angle_between(point->n, light->l);
+                light->phi_rad = angle_between(light->r, point->v);
+                light->psi_rad = angle_between(point->n, light->h);
+            }
+        }
+    }
+}
+
+// The explanation and the arena that holds it.
+struct explanation {
+    lam_explanation told; // first
+    struct arena arena;
+};
+
+static void take_frame(lam_explanation *out, const struct frame *frame)
+{
+    out->samples = frame->samples;
+    out->color = frame->color;
+    out->shading = frame->shading;
+    out->reflection = frame->reflection;
+    out->distant_viewer = frame->distant_viewer;
+    out->gl1 = frame->gl1;
+    out->background = frame->background;
+}
+
+static bool check_place(const lam_device *device, const lam_draw_params *params, int width, int height, int x, int y, lam_error *error)
+{
+    if (!device)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_explain: device is NULL");
+    if (params && params->show != LAM_SHOW_PICTURE)
+        return fail(error, LAM_BAD_ARGUMENT, "explain: show is not the picture; all terms of the picture's pixel are told");
+    if (lam_device_isa(device) == LAM_ISA_AUTO)
+        return fail(error, LAM_UNSUPPORTED, "lam_explain: the device '%s' cannot explain its pixels, the CPU device can",
+                    lam_device_name(device));
+    if (x < 0 || y < 0 || x >= width || y >= height)
+        return fail(error, LAM_BAD_ARGUMENT, "pixel %d,%d lies outside of the picture of %d×%d pixels, expected 0,0 to %d,%d", x,
+                    y, width, height, width - 1, height - 1);
+    return true;
+}
+
+lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
+                             int width, int height, lam_pixel_format format, int x, int y, const lam_control *control,
+                             lam_error *error)
+{
+    lam_image image = {0};
+    if (!check_place(device, params, width, height, x, y, error) || !lam_image_make(&image, width, height, format, error))
+        return NULL;
+    struct explanation *explanation = calloc(1, sizeof *explanation);
+    if (!explanation) {
+        fail_memory(error, sizeof *explanation);
+        lam_image_free(&image);
+        return NULL;
+    }
+    lam_explanation *out = &explanation->told;
+    *out = (lam_explanation){.x = x, .y = y, .width = width, .height = height, .format = format};
+    struct recorder recorder = {.out = out};
+    arena_start(&recorder.arena, NULL);
+    device->recorder = &recorder;
+    bool ok = lam_draw(device, scene, camera, params, &image, control, error);
+    device->recorder = NULL;
+    lam_image_free(&image);
+    explanation->arena = recorder.arena;
+    if (!ok) {
+        lam_explanation_free(out);
+        return NULL;
+    }
+    take_frame(out, &device->frame);
+    complete(&recorder, scene);
+    return out;
+}
+
+void lam_explanation_free(lam_explanation *explanation)
+{
+    if (!explanation)
+        return;
+    struct explanation *whole = (struct explanation *)explanation;
+    arena_free(&whole->arena);
+    free(whole);
+}

@@ -1,0 +1,84 @@
+# test_explain.py: the command `explain`: the pixel that it tells is the picture's, as text and as JSON.
+import json
+import random
+import re
+import unittest
+
+from harness import SHARED_MODELS, Case, covered, pixel
+
+
+class Explain(Case):
+    def told(self, *words):
+        return json.loads(self.good("explain", *words, "--json").stdout)
+
+    def same_as_picture(self, model, *options, count=6):
+        """Random pixels of the model's box, one beside it."""
+        picture = self.png(model, *options)
+        left, top, right, bottom = covered(picture)
+        pick = random.Random(f"{model}{options}")
+        for _ in range(count):
+            x, y = pick.randrange(left, right), pick.randrange(top, bottom)
+            told = self.told(model, f"{x},{y}", *options)
+            self.assertEqual(tuple(told["bytes"]), pixel(picture, x, y), (model, options, x, y))
+            self.check_sum(told)
+        self.assertEqual(self.told(model, "0,0", *options)["triangles"], [])
+
+    def check_sum(self, told):
+        total = [0, 0, 0, 0]
+        for triangle in told["triangles"]:
+            self.assertAlmostEqual(sum(triangle["weights"]), 1, 5)
+            self.assertEqual(triangle["weight"], triangle["samples"] / told["samples"])
+            alpha = triangle["color"][3] * triangle["weight"]
+            for c in range(3):
+                total[c] += triangle["color"][c] * alpha
+            total[3] += alpha
+            for point in triangle["points"]:
+                for c in range(3):
+                    self.assertAlmostEqual(sum(term[c] for term in point["terms"].values()), point["sum"][c], 5)
+        for c in range(4):
+            self.assertAlmostEqual(total[c], told["sum"][c], 5)
+
+    def test_methods(self):
+        for shading in ("flat", "gouraud", "phong"):
+            self.same_as_picture("torus-knot", "-s", "90x70", "--shading", shading)
+        for samples in (1, 16):
+            self.same_as_picture("teapot", "-s", 80, "--samples", samples, "--reflection", "phong", "-b", "#20406080")
+        for reflection in ("none", "lambert", "kajiya-kay", "kajiya-kay-lecture"):
+            self.same_as_picture("cone", "-s", 64, "--reflection", reflection, "--rig", "headlight", "--color", "raw", count=3)
+        self.same_as_picture("cube.obj", "-s", 64, "--view", "iso", "--projection", "orthographic")
+
+    def test_models(self):
+        models = [SHARED_MODELS / "obj/spot/spot_triangulated.obj", SHARED_MODELS / "ply/derived/spot_colour_le.ply"]
+        if not all(model.exists() for model in models):
+            self.skipTest("the shared models are not there")
+        for model in models:
+            self.same_as_picture(str(model), "-s", 200)
+
+    def test_isa_does_not_matter(self):
+        words = ("explain", "teapot", "30,30", "-s", 64, "--json")
+        self.assertEqual(self.good(*words).stdout, self.good(*words, "--isa", "plain", "-j", 1).stdout)
+
+    def test_text(self):
+        text = self.good("explain", "teapot", "31,34", "-s", 64, "--rig", "headlight").stdout.decode()
+        for part in ("teapot: pixel 31,34 of 64x64", "triangle", "4 samples a pixel", "weights of the corners", "θ", "φ", "ψ", "°   between n and l",
+                     "base^α", "spot · attenuation · kd ⊙ Ld · D = 1 · 1 · (", "weighted sum", "sRGB curve", "floor(255 x + ½)"):
+            self.assertIn(part, text)
+        counts = [tuple(map(int, pair)) for pair in re.findall(r": (\d+) of (\d+) samples", text)]
+        self.assertTrue(counts and all(of == 4 for _, of in counts) and sum(n for n, _ in counts) <= 4)
+        landed = tuple(map(int, re.search(r"bytes +(\d+) +(\d+) +(\d+) +(\d+)", text).groups()))
+        self.assertEqual(landed, pixel(self.png("teapot", "-s", 64, "--rig", "headlight"), 31, 34))
+        self.assertIn("Nothing is seen here but the background", self.good("explain", "teapot", "0,0", "-s", 64).stdout.decode())
+        self.assertEqual(self.new_files(), set())
+
+    def test_wrong(self):
+        for place in ("5", "5,", ",5", "a,b", "1,2,3", "1.5,2", "0x1,2", "", "9999999999,1"):
+            self.bad(1, "explain", "teapot", place, says="expected a pixel X,Y")
+        self.bad(1, "explain", "teapot", "64,0", "-s", 64, says=("64,0", "64x64", "63,63"))
+        self.bad(1, "explain", "teapot", "0,40", "-s", "64x40", says="lies outside")
+        self.bad(1, "explain", "teapot", says="missing")
+        self.bad(2, "explain", "no-such.obj", "1,1", says="no-such.obj")
+        self.assertEqual(self.run_program("explain", "teapot", "64,0", "-s", 64, "--json").returncode, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,362 @@
+// test_explain.c: an explained pixel is the picture's own, bit for bit, and its numbers lead there.
+#include "scenes.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static uint32_t random_state = 1;
+
+static int random_below(int n)
+{
+    random_state = random_state * 1664525u + 1013904223u;
+    return (int)((uint64_t)random_state * (uint64_t)n >> 32);
+}
+
+static lam_device *make_device(lam_isa isa)
+{
+    lam_error error = {0};
+    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 2, .isa = isa}, &error);
+    if (!device)
+        fail_msg("%s", error.text);
+    return device;
+}
+
+// --- the explanation against itself: every number follows from those before it
+
+static void add(float sum[3], lam_rgb x)
+{
+    sum[0] += x.r;
+    sum[1] += x.g;
+    sum[2] += x.b;
+}
+
+static void assert_rgb(lam_rgb told, const float expected[3]) { assert_memory_equal(&told, expected, sizeof told); }
+
+static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+static void check_light(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
+                        const lam_explained_light *l)
+{
+    bool thread = e->reflection == LAM_REFLECTION_KAJIYA_KAY || e->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    float weak = l->attenuation * l->spot;
+    for (int c = 0; c < 3; c++) {
+        float kd = (&f->surface.diffuse.r)[c] * (&l->diffuse.r)[c], ks = (&f->surface.specular.r)[c] * (&l->specular.r)[c];
+        assert_true((&l->kd_Ld.r)[c] == kd && (&l->ks_Ls.r)[c] == ks);
+        assert_true((&l->diffuse_term.r)[c] == kd * (weak * l->D));
+        assert_true((&l->specular_term.r)[c] == ks * (weak * l->S));
+    }
+    if (!thread)
+        assert_true(l->D == (l->n_dot_l > 0 ? l->n_dot_l : 0));
+    if (l->n_dot_l > 0 && l->S > 0)
+        assert_true(fabs((double)l->S - pow((double)l->base, (double)l->power)) < 3e-6);
+    if (isnan(l->theta_rad))
+        return;
+    assert_true(fabs(cos(l->theta_rad) - (double)l->n_dot_l) < 2e-6);
+    assert_true(fabs(dot(p->n, l->l) - cos(l->theta_rad)) < 1e-6);
+    if (e->reflection == LAM_REFLECTION_BLINN_PHONG && l->base > 0)
+        assert_true(fabs(cos(l->psi_rad) - (double)l->base) < 1e-5);
+    if (e->reflection == LAM_REFLECTION_PHONG && l->base > 0)
+        assert_true(fabs(cos(l->phi_rad) - (double)l->base) < 1e-5);
+    if (l->type != LAM_LIGHT_DIRECTIONAL) {
+        double d = (double)l->distance;
+        assert_true(fabs(p->position.x + d * l->l.x - l->position.x) < 1e-5 * (1 + d));
+        double sum = (double)l->attenuation_terms.constant +
+                     ((double)l->attenuation_terms.linear + (double)l->attenuation_terms.quadratic * d) * d;
+        if (l->range == 0)
+            assert_true(fabs((double)l->attenuation * sum - 1) < 1e-5);
+    } else {
+        assert_true(l->attenuation == 1 && l->spot == 1 && l->distance == 0);
+    }
+}
+
+static void check_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
+{
+    if (e->reflection != LAM_REFLECTION_NONE) {
+        float ambient[3] = {p->ambient_term.r, p->ambient_term.g, p->ambient_term.b}, diffuse[3] = {0}, specular[3] = {0};
+        for (int i = 0; i < p->hemisphere_count; i++)
+            add(ambient, p->hemispheres[i].term);
+        for (int i = 0; i < p->light_count; i++) {
+            check_light(e, f, p, &p->lights[i]);
+            add(ambient, p->lights[i].ambient_term);
+            add(diffuse, p->lights[i].diffuse_term);
+            add(specular, p->lights[i].specular_term);
+        }
+        for (int c = 0; c < 3; c++) {
+            ambient[c] *= (&p->color.r)[c];
+            diffuse[c] *= (&p->color.r)[c];
+        }
+        assert_rgb(p->ambient, ambient);
+        assert_rgb(p->diffuse, diffuse);
+        assert_rgb(p->specular, specular);
+    }
+    float sum[3] = {p->emission.r, p->emission.g, p->emission.b};
+    add(sum, p->ambient);
+    add(sum, p->diffuse);
+    add(sum, p->specular);
+    add(sum, p->reflection);
+    assert_rgb(p->sum, sum);
+    assert_true(fabs(dot(p->n, p->n) - 1) < 1e-5 || dot(p->n, p->n) == 0);
+    assert_true(fabs(dot(p->v, p->v) - 1) < 1e-5 || dot(p->v, p->v) == 0);
+}
+
+static float between(const float w[3], float a, float b, float c) { return a + ((b - a) * w[1] + (c - a) * w[2]); }
+
+static void check_fragment(const lam_explanation *e, const lam_explained_fragment *f)
+{
+    assert_true(f->samples >= 1 && f->samples <= e->samples && f->lit_sample < e->samples);
+    assert_true(fabs(f->picture_x - e->x - 0.5) <= 0.5 && fabs(f->picture_y - e->y - 0.5) <= 0.5);
+    assert_int_equal(f->point_count, e->shading == LAM_SHADING_GOURAUD ? 3 : 1);
+    for (int i = 0; i < f->point_count; i++)
+        check_point(e, f, &f->points[i]);
+    const lam_explained_point *p = f->points;
+    float color[3] = {p->result.r, p->result.g, p->result.b};
+    if (f->point_count == 3)
+        for (int c = 0; c < 3; c++)
+            color[c] = between(f->weights, color[c], (&p[1].result.r)[c], (&p[2].result.r)[c]);
+    assert_memory_equal(&f->color, color, sizeof color);
+}
+
+static void check_numbers(const lam_explanation *e)
+{
+    float sum[4] = {0};
+    bool layered = false; // then each sample is blended by itself, and the sum of the shares is the same but for rounding
+    for (int i = 0; i < e->fragment_count; i++) {
+        const lam_explained_fragment *f = &e->fragments[i];
+        check_fragment(e, f);
+        float alpha = f->color.a * f->weight;
+        add(sum, (lam_rgb){f->color.r * alpha, f->color.g * alpha, f->color.b * alpha});
+        sum[3] += alpha;
+        layered |= f->color.a < 1;
+        double through = 0;
+        for (int s = 0; s < e->samples; s++)
+            through += f->sample_mask >> s & 1 ? (double)f->through[s] : 0;
+        assert_true(fabs(through / e->samples - (double)f->weight) < 1e-6);
+        assert_int_equal(__builtin_popcount(f->sample_mask), f->samples);
+    }
+    for (int c = 0; layered && c < 4; c++)
+        assert_true(fabs((double)(sum[c] - (&e->sum.r)[c])) < 2e-6 * (1 + fabs((double)sum[c])));
+    if (layered)
+        memcpy(sum, &e->sum, sizeof sum);
+    assert_memory_equal(&e->sum, sum, sizeof sum);
+    for (int c = 0; c < 3; c++) {
+        float clear = 1 - sum[3], straight = e->result.a > 0 ? (&e->result.r)[c] / e->result.a : 0;
+        assert_true((&e->result.r)[c] == sum[c] + clear * ((&e->background.r)[c] * e->background.a));
+        assert_true((&e->straight.r)[c] == straight);
+        assert_int_equal(e->bytes[c], (int)floorf((&e->encoded.r)[c] * 255 + 0.5f));
+    }
+}
+
+// --- the explanation against the picture
+
+static void check_pixel(lam_device *device, const struct demo *demo, const lam_image *image, int x, int y, const char *name)
+{
+    lam_error error = {0};
+    lam_explanation *e = lam_explain(device, demo->scene, &demo->camera, &demo->params, image->width, image->height,
+                                     image->format, x, y, NULL, &error);
+    if (!e)
+        fail_msg("%s: %s", name, error.text);
+    size_t size = image->format == LAM_RGBA8 ? 4 : 16;
+    const char *pixel = (const char *)image->pixels + ((size_t)y * (size_t)image->width + (size_t)x) * size;
+    const void *told = image->format == LAM_RGBA8 ? (const void *)e->bytes : (const void *)&e->result;
+    if (memcmp(pixel, told, size) != 0)
+        fail_msg("%s: pixel %d,%d is not the one explained", name, x, y);
+    check_numbers(e);
+    lam_explanation_free(e);
+}
+
+static int alpha_of(const lam_image *image, int x, int y)
+{
+    size_t at = 4 * ((size_t)y * (size_t)image->width + (size_t)x) + 3;
+    float alpha = image->format == LAM_RGBA8 ? ((uint8_t *)image->pixels)[at] / 255.0f : ((float *)image->pixels)[at];
+    return alpha == 0 ? 0 : alpha < 1 ? 1 : 2;
+}
+
+// Some pixels of each kind: without, with a part of, and full of triangles.
+static void check_pixels(lam_device *drawing, lam_device *explaining, const struct demo *demo, const char *name)
+{
+    lam_image image = {0};
+    lam_error error = {0};
+    assert_true(lam_image_make(&image, demo->width, demo->height, demo->format, NULL));
+    if (!lam_draw(drawing, demo->scene, &demo->camera, &demo->params, &image, NULL, &error))
+        fail_msg("%s: %s", name, error.text);
+    int wanted[3] = {1, 3, 3};
+    for (int tries = 0; tries < 3000; tries++) {
+        int x = random_below(image.width), y = random_below(image.height), kind = alpha_of(&image, x, y);
+        if (wanted[kind] > 0) {
+            wanted[kind]--;
+            check_pixel(explaining, demo, &image, x, y, name);
+        }
+    }
+    lam_image_free(&image);
+}
+
+static const lam_shading shadings[] = {LAM_SHADING_PHONG, LAM_SHADING_GOURAUD, LAM_SHADING_FLAT};
+static const int sample_counts[] = {1, 4, 16};
+
+static void test_scenes(void **state)
+{
+    (void)state;
+    lam_device *widest = make_device(LAM_ISA_AUTO), *plain = make_device(LAM_ISA_PLAIN);
+    for (int i = 0; i < demo_count; i++) {
+        struct demo demo;
+        lam_error error = {0};
+        if (!demo_build(&demos[i], &demo, &error))
+            fail_msg("%s", error.text);
+        lam_device *a = i & 1 ? widest : plain, *b = i & 1 ? plain : widest;
+        check_pixels(a, b, &demo, demos[i].name); // as it is
+        for (int s = 0; s < 3; s++) {
+            demo.params.shading = shadings[s];
+            demo.params.samples = sample_counts[(s + i) % 3];
+            demo.format = (lam_pixel_format)((s + i) & 1);
+            check_pixels(a, b, &demo, demos[i].name);
+        }
+        lam_scene_free(demo.scene);
+    }
+    lam_device_free(widest);
+    lam_device_free(plain);
+}
+
+static void test_models(void **state)
+{
+    (void)state;
+    static const char *const models[] = {"obj/koala/koala.obj", "obj/spot/spot_triangulated.obj",
+                                         "obj/kaykit_hexagon/building_castle_blue.obj", "ply/derived/spot_colour_le.ply"};
+    const char *folder = getenv("LAMBENT_MODELS");
+    lam_device *device = make_device(LAM_ISA_AUTO);
+    int found = 0;
+    for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
+        char path[1024];
+        snprintf(path, sizeof path, "%s/%s", folder ? folder : "../shared/models", models[i]);
+        struct demo demo = {.scene = lam_scene_load(path, NULL, NULL, NULL), .width = 300, .height = 200};
+        if (!demo.scene)
+            continue;
+        found++;
+        demo.camera = lam_camera_fit(demo.scene, &(lam_view){.aspect = 1.5});
+        for (int s = 0; s < 9; s++) {
+            demo.params = (lam_draw_params){.shading = shadings[s % 3], .samples = sample_counts[s / 3],
+                                            .background = {0.2f, 0.4f, 0.6f, s < 5 ? 0 : 0.5f}};
+            demo.params.reflection = s & 1 ? LAM_REFLECTION_PHONG : LAM_REFLECTION_BLINN_PHONG;
+            demo.format = s & 1 ? LAM_RGBA32F : LAM_RGBA8;
+            check_pixels(device, device, &demo, models[i]);
+        }
+        lam_scene_free(demo.scene);
+    }
+    lam_device_free(device);
+    if (!found) {
+        print_message("none of the shared models is there\n");
+        skip();
+    }
+}
+
+// gl1, matched highlights, an infinite viewer: each changes a number, and the number is told.
+static void test_ways(void **state)
+{
+    (void)state;
+    lam_device *device = make_device(LAM_ISA_AUTO);
+    for (int i = 0; i < demo_count; i++) {
+        if (strcmp(demos[i].name, "lights") != 0)
+            continue;
+        struct demo demo;
+        assert_true(demo_build(&demos[i], &demo, NULL));
+        for (int way = 0; way < 6; way++) {
+            demo.params.gl1 = way & 1;
+            demo.params.match_highlights = way & 2;
+            demo.params.viewer = way & 4 ? LAM_VIEWER_INFINITE : LAM_VIEWER_LOCAL;
+            demo.params.shading = shadings[way % 3];
+            check_pixels(device, device, &demo, "lights");
+        }
+        lam_scene_free(demo.scene);
+    }
+    lam_device_free(device);
+}
+
+// A known place: the sphere's middle under the headlight, seen straight from the front.
+static void test_known(void **state)
+{
+    (void)state;
+    lam_scene *scene = lam_scene_make(NULL);
+    lam_material material = lam_material_default();
+    material.name = "chalk";
+    material.ambient = (lam_rgb){0, 0, 0};
+    material.diffuse = (lam_rgba){0.5f, 0.25f, 0.125f, 1};
+    material.specular = (lam_rgb){0.25f, 0.25f, 0.25f};
+    material.shininess = 8;
+    lam_object object = lam_object_default();
+    object.name = "ball";
+    object.mesh = lam_scene_add_shape(scene, "sphere", NULL, NULL);
+    object.material = lam_scene_add_material(scene, &material, NULL);
+    assert_int_equal(lam_scene_add_object(scene, &object, NULL), 0);
+    lam_light light = lam_light_default(LAM_LIGHT_POINT);
+    light.name = "lamp";
+    light.position = (lam_vec3){0, 0, 3};
+    light.attenuation = (lam_attenuation){0, 0, 1};
+    assert_int_equal(lam_scene_add_light(scene, &light, NULL), 0);
+    lam_camera camera = lam_camera_default();
+    lam_device *device = make_device(LAM_ISA_AUTO);
+    lam_explanation *e = lam_explain(device, scene, &camera, NULL, 101, 101, LAM_RGBA32F, 50, 50, NULL, NULL);
+    assert_non_null(e);
+    assert_true(e->fragment_count >= 1);
+    const lam_explained_fragment *f = &e->fragments[0];
+    assert_string_equal(f->object_name, "ball");
+    assert_string_equal(f->surface.name, "chalk");
+    const lam_explained_light *l = &f->points[0].lights[0];
+    assert_string_equal(l->name, "lamp");
+    assert_true(fabs((double)l->distance - 2) < 1e-3 && fabs((double)l->attenuation - 0.25) < 1e-3);
+    assert_true(l->theta_rad < 0.02 && l->phi_rad < 0.03 && l->psi_rad < 0.02);
+    assert_true(fabs(f->points[0].world_position.z - 1) < 1e-3);
+    assert_true(fabs((double)e->result.r - 0.25 * (0.5 + 0.25)) < 1e-3);
+    lam_explanation_free(e);
+
+    lam_error error;
+    assert_null(lam_explain(device, scene, &camera, NULL, 101, 101, LAM_RGBA8, 101, 50, NULL, &error));
+    assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+    assert_non_null(strstr(error.text, "101,50"));
+    assert_null(lam_explain(device, scene, &camera, NULL, 0, 101, LAM_RGBA8, 0, 0, NULL, &error));
+    assert_null(lam_explain(device, NULL, &camera, NULL, 10, 10, LAM_RGBA8, 0, 0, NULL, &error));
+    assert_null(lam_explain(NULL, scene, &camera, NULL, 10, 10, LAM_RGBA8, 0, 0, NULL, &error));
+    lam_device *null = lam_device_null(NULL);
+    assert_null(lam_explain(null, scene, &camera, NULL, 10, 10, LAM_RGBA8, 0, 0, NULL, &error));
+    assert_int_equal(error.code, LAM_UNSUPPORTED);
+    lam_explanation_free(NULL);
+    lam_device_free(null);
+    lam_device_free(device);
+    lam_scene_free(scene);
+}
+
+// A picture drawn after an explanation is the one drawn before it.
+static void test_device_unchanged(void **state)
+{
+    (void)state;
+    struct demo demo;
+    assert_true(demo_build(&demos[0], &demo, NULL));
+    lam_device *device = make_device(LAM_ISA_AUTO);
+    lam_image before = {0}, after = {0};
+    assert_true(lam_image_make(&before, 200, 150, LAM_RGBA8, NULL) && lam_image_make(&after, 200, 150, LAM_RGBA8, NULL));
+    assert_true(lam_draw(device, demo.scene, &demo.camera, &demo.params, &before, NULL, NULL));
+    lam_explanation *e = lam_explain(device, demo.scene, &demo.camera, &demo.params, 64, 64, LAM_RGBA32F, 30, 30, NULL, NULL);
+    assert_non_null(e);
+    lam_explanation_free(e);
+    assert_true(lam_draw(device, demo.scene, &demo.camera, &demo.params, &after, NULL, NULL));
+    assert_memory_equal(before.pixels, after.pixels, 200 * 150 * 4);
+    lam_image_free(&before);
+    lam_image_free(&after);
+    lam_device_free(device);
+    lam_scene_free(demo.scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_scenes), cmocka_unit_test(test_models),           cmocka_unit_test(test_ways),
+        cmocka_unit_test(test_known),  cmocka_unit_test(test_device_unchanged),
+    };
+    return cmocka_run_group_tests_name("explain", tests, NULL, NULL);
+}

@@ -1,0 +1,222 @@
+// explain_json.c: an explained pixel as JSON, on one line. Angles are in degrees; what is missing is null.
+#include "explain.h"
+
+#include <stdio.h>
+
+#include "json.h"
+
+static void triple(struct json *json, const char *key, double x, double y, double z)
+{
+    json_open(json, key, '[');
+    json_number(json, NULL, x);
+    json_number(json, NULL, y);
+    json_number(json, NULL, z);
+    json_close(json, ']');
+}
+
+static void vector(struct json *json, const char *key, lam_vec3 v) { triple(json, key, v.x, v.y, v.z); }
+
+static void color(struct json *json, const char *key, lam_rgb c) { triple(json, key, (double)c.r, (double)c.g, (double)c.b); }
+
+static void color4(struct json *json, const char *key, lam_rgba c)
+{
+    json_open(json, key, '[');
+    json_number(json, NULL, (double)c.r);
+    json_number(json, NULL, (double)c.g);
+    json_number(json, NULL, (double)c.b);
+    json_number(json, NULL, (double)c.a);
+    json_close(json, ']');
+}
+
+static void real(struct json *json, const char *key, float x) { json_number(json, key, (double)x); }
+
+static void index_of(struct json *json, const char *key, int i)
+{
+    if (i < 0)
+        json_none(json, key);
+    else
+        json_count(json, key, (uint64_t)i);
+}
+
+static void degrees(struct json *json, const char *key, double radians)
+{
+    json_number(json, key, radians * (180 / 3.14159265358979323846));
+}
+
+// Rows ambient, diffuse, specular.
+static void matrix(struct json *json, const char *key, lam_rgb ambient, lam_rgb diffuse, lam_rgb specular)
+{
+    json_open(json, key, '[');
+    color(json, NULL, ambient);
+    color(json, NULL, diffuse);
+    color(json, NULL, specular);
+    json_close(json, ']');
+}
+
+static void tell_light(struct json *json, const lam_explained_light *l)
+{
+    json_open(json, NULL, '{');
+    index_of(json, "light", l->light);
+    json_text(json, "name", l->name);
+    json_text(json, "type", explain_light_type(l->type));
+    json_text(json, "frame", explain_frame(l->frame));
+    matrix(json, "matrix", l->ambient, l->diffuse, l->specular);
+    vector(json, "position", l->position);
+    vector(json, "axis", l->axis);
+    vector(json, "l", l->l);
+    vector(json, "r", l->r);
+    vector(json, "h", l->h);
+    degrees(json, "theta_deg", l->theta_rad);
+    degrees(json, "phi_deg", l->phi_rad);
+    degrees(json, "psi_deg", l->psi_rad);
+    if (l->type == LAM_LIGHT_DIRECTIONAL)
+        json_none(json, "distance");
+    else
+        real(json, "distance", l->distance);
+    triple(json, "attenuation_terms", (double)l->attenuation_terms.constant, (double)l->attenuation_terms.linear,
+           (double)l->attenuation_terms.quadratic);
+    if (l->range > 0)
+        real(json, "range", l->range);
+    else
+        json_none(json, "range");
+    real(json, "attenuation", l->attenuation);
+    real(json, "cos_axis", l->cos_axis);
+    real(json, "spot", l->spot);
+    real(json, "n_dot_l", l->n_dot_l);
+    real(json, "base", l->base);
+    real(json, "power", l->power);
+    real(json, "D", l->D);
+    real(json, "S", l->S);
+    color(json, "kd_Ld", l->kd_Ld);
+    color(json, "ks_Ls", l->ks_Ls);
+    color(json, "ambient_term", l->ambient_term);
+    color(json, "diffuse_term", l->diffuse_term);
+    color(json, "specular_term", l->specular_term);
+    json_close(json, '}');
+}
+
+static void tell_point(struct json *json, const lam_explained_point *p)
+{
+    json_open(json, NULL, '{');
+    index_of(json, "corner", p->corner);
+    vector(json, "mesh_position", p->mesh_position);
+    vector(json, "world_position", p->world_position);
+    vector(json, "position", p->position);
+    vector(json, "n", p->n);
+    vector(json, "v", p->v);
+    if (p->t.x == 0 && p->t.y == 0 && p->t.z == 0)
+        json_none(json, "t");
+    else
+        vector(json, "t", p->t);
+    color(json, "color", p->color);
+    color(json, "ambient_light", p->ambient_light);
+    color(json, "ambient_term", p->ambient_term);
+    json_open(json, "lights", '[');
+    for (int i = 0; i < p->light_count; i++)
+        tell_light(json, &p->lights[i]);
+    json_close(json, ']');
+    json_open(json, "hemispheres", '[');
+    for (int i = 0; i < p->hemisphere_count; i++) {
+        const lam_explained_hemisphere *h = &p->hemispheres[i];
+        json_open(json, NULL, '{');
+        index_of(json, "light", h->light);
+        json_text(json, "name", h->name);
+        vector(json, "up", h->up);
+        color(json, "sky", h->sky);
+        color(json, "ground", h->ground);
+        real(json, "n_dot_up", h->n_dot_up);
+        color(json, "term", h->term);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    json_open(json, "terms", '{');
+    color(json, "emission", p->emission);
+    color(json, "ambient", p->ambient);
+    color(json, "diffuse", p->diffuse);
+    color(json, "specular", p->specular);
+    color(json, "reflection", p->reflection);
+    json_close(json, '}');
+    color(json, "sum", p->sum);
+    color(json, "result", p->result);
+    json_close(json, '}');
+}
+
+static void tell_fragment(struct json *json, const lam_explained_fragment *f)
+{
+    const lam_material *m = &f->surface;
+    json_open(json, NULL, '{');
+    json_count(json, "object", (uint64_t)f->object);
+    json_text(json, "object_name", f->object_name);
+    json_count(json, "mesh", (uint64_t)f->mesh);
+    json_text(json, "mesh_name", f->mesh_name);
+    index_of(json, "part", f->part);
+    json_text(json, "part_name", f->part_name);
+    json_count(json, "triangle", f->triangle);
+    json_text(json, "side", f->back ? "back" : "front");
+    json_text(json, "lit_normal", f->flipped ? "-n" : "n");
+    json_count(json, "samples", (uint64_t)f->samples);
+    json_open(json, "shown", '[');
+    for (int s = 0; s < 16; s++)
+        if (f->sample_mask >> s & 1) {
+            json_open(json, NULL, '{');
+            json_count(json, "sample", (uint64_t)s);
+            real(json, "through", f->through[s]);
+            json_close(json, '}');
+        }
+    json_close(json, ']');
+    index_of(json, "lit_sample", f->lit_sample);
+    json_open(json, "picture_position", '[');
+    json_number(json, NULL, f->picture_x);
+    json_number(json, NULL, f->picture_y);
+    json_close(json, ']');
+    triple(json, "weights", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2]);
+    json_open(json, "material", '{');
+    index_of(json, "material", f->material);
+    json_text(json, "name", m->name);
+    matrix(json, "matrix", m->ambient, (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b}, m->specular);
+    color(json, "emission", m->emission);
+    real(json, "opacity", m->diffuse.a);
+    color(json, "reflectivity", m->reflectivity);
+    real(json, "shininess", m->shininess);
+    json_close(json, '}');
+    json_open(json, "points", '[');
+    for (int i = 0; i < f->point_count; i++)
+        tell_point(json, &f->points[i]);
+    json_close(json, ']');
+    color4(json, "color", f->color);
+    real(json, "weight", f->weight);
+    json_close(json, '}');
+}
+
+void explain_json(const lam_explanation *e, const char *model)
+{
+    struct json json = {.file = stdout};
+    json_open(&json, NULL, '{');
+    json_text(&json, "lambent", lam_version());
+    json_text(&json, "model", model);
+    json_count(&json, "x", (uint64_t)e->x);
+    json_count(&json, "y", (uint64_t)e->y);
+    json_count(&json, "width", (uint64_t)e->width);
+    json_count(&json, "height", (uint64_t)e->height);
+    json_count(&json, "samples", (uint64_t)e->samples);
+    json_text(&json, "shading", explain_shading(e->shading));
+    json_text(&json, "reflection", explain_reflection(e->reflection));
+    json_text(&json, "viewer", e->distant_viewer ? "infinite" : "local");
+    json_open(&json, "triangles", '[');
+    for (int i = 0; i < e->fragment_count; i++)
+        tell_fragment(&json, &e->fragments[i]);
+    json_close(&json, ']');
+    color4(&json, "sum", e->sum);
+    color4(&json, "background", e->background);
+    color4(&json, "result", e->result);
+    color(&json, "straight", e->straight);
+    json_count(&json, "exposure", 1);
+    json_text(&json, "encoding", e->color == LAM_COLOR_RAW ? "raw" : "srgb");
+    color(&json, "encoded", e->encoded);
+    json_open(&json, "bytes", '[');
+    for (int i = 0; i < 4; i++)
+        json_count(&json, NULL, e->bytes[i]);
+    json_close(&json, ']');
+    json_close(&json, '}');
+    putc('\n', stdout);
+}

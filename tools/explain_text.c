@@ -1,0 +1,317 @@
+// explain_text.c: an explained pixel as text for people: aligned, with units, each term with the formula that it came from
+// (docs/lighting.md has them all).
+#include "explain.h"
+
+#include <stdio.h>
+
+enum { COLUMN = 26 };
+
+// A label and its padding: letters are counted, not bytes.
+static void label(int indent, const char *text)
+{
+    int width = indent;
+    for (const char *s = text; *s; s++)
+        width += (*s & 0xC0) != 0x80;
+    printf("%*s%s%*s", indent, "", text, width < COLUMN ? COLUMN - width : 1, "");
+}
+
+static void three(int indent, const char *name, double x, double y, double z, const char *remark)
+{
+    label(indent, name);
+    printf("%13.7g %13.7g %13.7g%s%s\n", x + 0.0, y + 0.0, z + 0.0, *remark ? "   " : "", remark);
+}
+
+// Names of the columns.
+static void heading(int indent, const char *name, const char *alpha)
+{
+    label(indent, name);
+    printf("%13s %13s %13s%s\n", "red", "green", "blue", alpha);
+}
+
+static void vector(int indent, const char *name, lam_vec3 v, const char *remark) { three(indent, name, v.x, v.y, v.z, remark); }
+
+static void color(int indent, const char *name, lam_rgb c, const char *remark)
+{
+    three(indent, name, (double)c.r, (double)c.g, (double)c.b, remark);
+}
+
+static void number(int indent, const char *name, double x, const char *remark)
+{
+    label(indent, name);
+    printf("%13.7g%s%s\n", x, *remark ? "   " : "", remark);
+}
+
+static void angle(const char *name, double radians, const char *remark)
+{
+    label(4, name);
+    if (radians - radians == 0)
+        printf("%12.5f°   %s\n", radians * (180 / 3.14159265358979323846), remark);
+    else
+        printf("%13s   %s\n", "none", remark);
+}
+
+static void named(const char *name)
+{
+    if (name && *name)
+        printf(" '%s'", name);
+}
+
+static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+static bool is_thread(const lam_explanation *e)
+{
+    return e->reflection == LAM_REFLECTION_KAJIYA_KAY || e->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+}
+
+// --- a light
+
+static void tell_attenuation(const lam_explained_light *l)
+{
+    if (l->type == LAM_LIGHT_DIRECTIONAL) {
+        number(4, "attenuation", (double)l->attenuation, "directional: none");
+        return;
+    }
+    number(4, "distance d", (double)l->distance, "model units");
+    char remark[200];
+    int used = snprintf(remark, sizeof remark, "1 / (%.7g + %.7g d + %.7g d²)", (double)l->attenuation_terms.constant,
+                        (double)l->attenuation_terms.linear, (double)l->attenuation_terms.quadratic);
+    if (l->range > 0)
+        snprintf(remark + used, sizeof remark - (size_t)used, " · max(min(1 − (d/%.7g)⁴, 1), 0)", (double)l->range);
+    number(4, "attenuation", (double)l->attenuation, remark);
+}
+
+static void tell_highlight(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
+                           const lam_explained_light *l)
+{
+    bool gated = !f->surface.fibre && e->reflection != LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    const char *gate = gated ? "[n·l > 0] " : "";
+    char remark[200];
+    if (is_thread(e)) {
+        number(4, "t·l", dot(p->t, l->l), "cos(t,l)");
+        number(4, "t·v", dot(p->t, p->v), "cos(t,v)");
+        snprintf(remark, sizeof remark, "%ssin(t,l)", gate);
+        number(4, "D", (double)l->D, remark);
+        number(4, "base", (double)l->base,
+               e->reflection == LAM_REFLECTION_KAJIYA_KAY ? "max(sin(t,l) sin(t,v) − cos(t,l) cos(t,v), 0)"
+                                                          : "max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)");
+    } else {
+        number(4, "D", (double)l->D, "max(n·l, 0)");
+        if (e->reflection == LAM_REFLECTION_LAMBERT)
+            return;
+        number(4, "base", (double)l->base, e->reflection == LAM_REFLECTION_PHONG ? "max(r·v, 0)" : "max(n·h, 0)");
+    }
+    number(4, "power α", (double)l->power, "the shininess");
+    snprintf(remark, sizeof remark, "%sbase^α = %s%.7g^%.7g", gate, gated && !(l->n_dot_l > 0) ? "0 · " : "", (double)l->base,
+             (double)l->power);
+    number(4, "S", (double)l->S, remark);
+}
+
+static void product(char text[200], const lam_explained_light *l, const char *what, lam_rgb c, float answer)
+{
+    snprintf(text, 200, "spot · attenuation · %s = %.7g · %.7g · (%.7g %.7g %.7g) · %.7g", what, (double)l->spot,
+             (double)l->attenuation, (double)c.r, (double)c.g, (double)c.b, (double)answer);
+}
+
+static void tell_light(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
+                       const lam_explained_light *l, int number_in_list)
+{
+    if (l->light >= 0)
+        printf("\n  light %d", l->light);
+    else
+        printf("\n  light %d of the rig", number_in_list);
+    named(l->name);
+    printf(", %s, fixed to the %s\n", explain_light_type(l->type), explain_frame(l->frame));
+    heading(4, "matrix", "");
+    color(4, "ambient La", l->ambient, "");
+    color(4, "diffuse Ld", l->diffuse, "");
+    color(4, "specular Ls", l->specular, "");
+    if (l->type != LAM_LIGHT_DIRECTIONAL)
+        vector(4, "position", l->position, "eye space");
+    if (l->type != LAM_LIGHT_POINT)
+        vector(4, "axis", l->axis, "the way it travels");
+    vector(4, "l", l->l, "to the light");
+    vector(4, "r", l->r, "2 (n·l) n − l");
+    vector(4, "h", l->h, "(l + v) / |l + v|");
+    angle("θ", l->theta_rad, "between n and l");
+    angle("φ", l->phi_rad, "between r and v");
+    angle("ψ", l->psi_rad, "between n and h");
+    tell_attenuation(l);
+    if (l->type == LAM_LIGHT_SPOT) {
+        number(4, "c", (double)l->cos_axis, "(−l)·axis");
+        number(4, "spot", (double)l->spot, "the cone's factor");
+    }
+    number(4, "n·l", (double)l->n_dot_l, "");
+    tell_highlight(e, f, p, l);
+    char text[200];
+    product(text, l, "kd ⊙ Ld · D", l->kd_Ld, l->D);
+    color(4, "diffuse", l->diffuse_term, text);
+    product(text, l, "ks ⊙ Ls · S", l->ks_Ls, l->S);
+    color(4, "specular", l->specular_term, text);
+    if (e->gl1)
+        color(4, "ambient", l->ambient_term, "spot · attenuation · ka ⊙ La, as OpenGL 1 did");
+}
+
+static void tell_hemisphere(const lam_explained_hemisphere *h, int number_in_list)
+{
+    if (h->light >= 0)
+        printf("\n  light %d", h->light);
+    else
+        printf("\n  hemisphere %d of the rig", number_in_list);
+    named(h->name);
+    printf(", hemisphere\n");
+    color(4, "sky", h->sky, "");
+    color(4, "ground", h->ground, "");
+    vector(4, "up", h->up, "eye space");
+    number(4, "n·up", (double)h->n_dot_up, "");
+    color(4, "ambient", h->term, "ka ⊙ mix(ground, sky, ½ + ½ n·up)");
+}
+
+// --- a point and a triangle
+
+static void tell_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
+{
+    if (p->corner >= 0)
+        printf("\n  corner %d of the triangle is lit\n", p->corner);
+    vector(2, "position in the mesh", p->mesh_position, "model units");
+    vector(2, "position in the world", p->world_position, "");
+    vector(2, "position in eye space", p->position, "");
+    vector(2, "n", p->n, f->flipped ? "turned round: the back is seen" : "");
+    vector(2, "v", p->v, e->distant_viewer ? "to the eye, infinitely far" : "to the eye");
+    if (!is_zero(p->t))
+        vector(2, "t", p->t, "along the threads");
+    bool colored = p->color.r != 1 || p->color.g != 1 || p->color.b != 1;
+    if (colored)
+        color(2, "vertex colour", p->color, "multiplies ambient and diffuse");
+    for (int i = 0; i < p->light_count; i++)
+        tell_light(e, f, p, &p->lights[i], i);
+    for (int i = 0; i < p->hemisphere_count; i++)
+        tell_hemisphere(&p->hemispheres[i], i);
+
+    printf("\n  terms\n");
+    const char *tint = colored ? ", times the vertex colour" : "";
+    char text[200];
+    if (e->reflection == LAM_REFLECTION_NONE) {
+        snprintf(text, sizeof text, "kd: painted unlit%s", tint);
+        color(4, "diffuse", p->diffuse, text);
+    } else {
+        color(4, "emission", p->emission, "");
+        snprintf(text, sizeof text, "ka ⊙ (La_global + Σ La)%s%s = ka ⊙ (%.7g %.7g %.7g)%s", p->hemisphere_count ? " + Σ hemispheres" : "",
+                 tint, (double)p->ambient_light.r, (double)p->ambient_light.g, (double)p->ambient_light.b,
+                 p->hemisphere_count ? " + …" : "");
+        color(4, "ambient", p->ambient, text);
+        snprintf(text, sizeof text, "Σ of those of the lights%s", tint);
+        color(4, "diffuse", p->diffuse, text);
+        color(4, "specular", p->specular, "Σ of those of the lights");
+        color(4, "reflection", p->reflection, "");
+    }
+    color(4, "sum", p->sum, "emission + ambient + diffuse + specular + reflection");
+    if (p->result.r != p->sum.r || p->result.g != p->sum.g || p->result.b != p->sum.b)
+        color(4, "clamped", p->result, "to 0…1, as OpenGL 1 did");
+}
+
+static void tell_material(const lam_explained_fragment *f)
+{
+    const lam_material *m = &f->surface;
+    if (f->material >= 0)
+        printf("\n  material %d", f->material);
+    else
+        printf("\n  the default material");
+    named(m->name);
+    printf("\n");
+    heading(4, "matrix", "");
+    color(4, "ambient ka", m->ambient, "");
+    three(4, "diffuse kd", (double)m->diffuse.r, (double)m->diffuse.g, (double)m->diffuse.b, "");
+    color(4, "specular ks", m->specular, "");
+    color(4, "emission", m->emission, "");
+    number(4, "shininess α", (double)f->shininess, f->shininess == m->shininess ? "" : "as changed by the options");
+    if (m->diffuse.a != 1)
+        number(4, "opacity", (double)m->diffuse.a, "");
+    printf("\n");
+}
+
+static void tell_fragment(const lam_explanation *e, const lam_explained_fragment *f)
+{
+    printf("\ntriangle %u, its %s, of ", f->triangle, f->back ? "back" : "front");
+    if (f->part >= 0) {
+        printf("part %d", f->part);
+        named(f->part_name);
+        printf(" of ");
+    }
+    printf("mesh %d", f->mesh);
+    named(f->mesh_name);
+    printf(", object %d", f->object);
+    named(f->object_name);
+    printf(": %d of %d sample%s\n", f->samples, e->samples, e->samples == 1 ? "" : "s");
+    label(2, "taken at");
+    printf("%13.7g %13.7g   ", f->picture_x, f->picture_y);
+    if (f->lit_sample < 0)
+        printf("pixels from the top left: the pixel's centre\n");
+    else
+        printf("pixels from the top left: sample %d, since the centre is outside of the triangle\n", f->lit_sample);
+    three(2, "weights of the corners", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2],
+          "barycentric, perspective-correct");
+    tell_material(f);
+    for (int i = 0; i < f->point_count; i++)
+        tell_point(e, f, &f->points[i]);
+    if (f->point_count == 3)
+        printf("\n");
+    lam_rgb c = {f->color.r, f->color.g, f->color.b};
+    color(2, "colour", c,
+          f->point_count == 3               ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
+          : e->shading == LAM_SHADING_FLAT ? "the sum, the same all over the triangle"
+                                           : "the sum");
+    if (f->color.a != 1)
+        number(2, "alpha", (double)f->color.a, "opacity · the vertex colour's alpha");
+    bool veiled = false;
+    for (int s = 0; s < e->samples; s++)
+        veiled |= (f->sample_mask >> s & 1) && f->through[s] < 1;
+    for (int s = 0; veiled && s < e->samples; s++) {
+        char name[32];
+        snprintf(name, sizeof name, "sample %d", s);
+        if (f->sample_mask >> s & 1)
+            number(2, name, (double)f->through[s], "let through by what lies before: Π (1 − alpha)");
+    }
+}
+
+// --- the pixel
+
+static void tell_pixel(const lam_explanation *e)
+{
+    printf("\n");
+    heading(0, "pixel", "         alpha");
+    for (int i = 0; i < e->fragment_count; i++) {
+        const lam_explained_fragment *f = &e->fragments[i];
+        char name[64];
+        snprintf(name, sizeof name, "triangle %u", f->triangle);
+        label(2, name);
+        printf("%13.7g %13.7g %13.7g %13.7g   counts %.7g\n", (double)f->color.r, (double)f->color.g, (double)f->color.b,
+               (double)f->color.a, (double)f->weight);
+    }
+    label(2, "weighted sum");
+    printf("%13.7g %13.7g %13.7g %13.7g   Σ weight · alpha · colour\n", (double)e->sum.r, (double)e->sum.g, (double)e->sum.b,
+           (double)e->sum.a);
+    label(2, "background");
+    printf("%13.7g %13.7g %13.7g %13.7g\n", (double)e->background.r, (double)e->background.g, (double)e->background.b,
+           (double)e->background.a);
+    label(2, "over it");
+    printf("%13.7g %13.7g %13.7g %13.7g   sum + (1 − alpha) · background; .pfm holds this\n", (double)e->result.r,
+           (double)e->result.g, (double)e->result.b, (double)e->result.a);
+    color(2, "colour ÷ alpha", e->straight, "");
+    number(2, "exposure", 1, "none is applied");
+    color(2, "encoded", e->encoded, e->color == LAM_COLOR_RAW ? "clamped to 0…1 (--color raw)" : "by the sRGB curve");
+    label(2, "bytes");
+    printf("%13u %13u %13u %13u   floor(255 x + ½)\n", e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]);
+}
+
+void explain_text(const lam_explanation *e, const char *model)
+{
+    printf("%s: pixel %d,%d of %dx%d, %s shading, %s reflection, %d sample%s a pixel\n", model, e->x, e->y, e->width, e->height,
+           explain_shading(e->shading), explain_reflection(e->reflection), e->samples, e->samples == 1 ? "" : "s");
+    if (!e->fragment_count)
+        printf("\nNothing is seen here but the background.\n");
+    for (int i = 0; i < e->fragment_count; i++)
+        tell_fragment(e, &e->fragments[i]);
+    tell_pixel(e);
+}

@@ -4,6 +4,7 @@
 #include "fail.h"
 #include "linear.h"
 
+#include <lambent/environment.h>
 #include <string.h>
 
 // --- is it one?
@@ -205,8 +206,12 @@ static bool read_environment(struct scene_reader *r, const json_t *root)
         return false;
     s->environment_rotation_rad = math_radians(rotation);
     s->given |= LAM_GIVEN_ENVIRONMENT;
-    scene_warn(r->scene, "%s: the environment is left out, this version does not draw it", r->source->name);
-    return true;
+    lam_environment *environment = s->equirectangular
+                                       ? lam_environment_load(s->equirectangular, s->draw.color, r->error)
+                                       : lam_environment_load_faces((const char *const *)s->faces, s->draw.color, r->error);
+    bool ok = environment && lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->error);
+    lam_environment_free(environment);
+    return ok;
 }
 
 // --- the whole

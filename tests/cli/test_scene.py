@@ -183,3 +183,32 @@ class Scene(Case):
 
 if __name__ == "__main__":
     unittest.main()
+
+
+class Environment(Case):
+    def test_faces(self):
+        """A scene's environment is the one that the command line would give; without it the picture is another."""
+        names = []
+        for i, color in enumerate(("red", "cyan", "white", "#202020", "lime", "blue")):
+            names.append(f"face{i}.png")
+            self.good("cube.obj", "-s", "8", "--camera", "eye=0/0/5,target=0/0/9", "-b", color, "-q", "-o", names[-1])
+        scene = {"lambent": 1, "image": {"size": [48, 48], "samples": 1},
+                 "materials": {"mirror": {"diffuse": [0.1, 0.1, 0.1], "reflectivity": [0.8, 0.8, 0.8]}},
+                 "objects": [{"shape": "sphere", "material": "mirror"}],
+                 "lights": [{"type": "directional", "direction": [0, 0, -1]}]}
+        (self.folder / "bare.json").write_text(json.dumps(scene))
+        scene["environment"] = {"faces": names, "rotation": 30}
+        (self.folder / "mirrored.json").write_text(json.dumps(scene))
+        self.given |= {"bare.json", "mirrored.json"}
+        self.good("bare.json", "-o", "bare.png")
+        self.good("mirrored.json", "-o", "mirrored.png")
+        self.good("bare.json", "--environment", ",".join(names), "--environment-rotation", "30", "-o", "asked.png")
+        read = lambda name: (self.folder / name).read_bytes()
+        self.assertEqual(read("mirrored.png"), read("asked.png"))
+        self.assertNotEqual(read("mirrored.png"), read("bare.png"))
+
+    def test_missing_face(self):
+        (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "environment": {"faces": ["no.png"] * 6},
+                                                         "objects": [{"shape": "cube"}]}))
+        self.given.add("s.json")
+        self.bad(2, "s.json", says="no.png")

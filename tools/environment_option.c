@@ -7,15 +7,13 @@
 #include "camera_option.h"
 #include "console.h"
 
-// Six file names with commas between them.
-static lam_environment *load_faces(const char *text, lam_color_mode color, lam_error *error)
+char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error)
 {
     char *copy = strdup(text), *rest = copy;
     if (!copy) {
         complain(error, LAM_LIMIT, "out of memory");
         return NULL;
     }
-    const char *paths[LAM_FACE_COUNT];
     int count = 0;
     bool empty = false;
     for (char *path; (path = strsep(&rest, ",")); count++) {
@@ -23,12 +21,19 @@ static lam_environment *load_faces(const char *text, lam_color_mode color, lam_e
             paths[count] = path;
         empty |= !*path;
     }
-    lam_environment *environment = NULL;
-    if (count != LAM_FACE_COUNT || empty)
-        complain(error, LAM_BAD_ARGUMENT, "option '--environment': found %d names in '%.200s'%s, expected one file or six, px,nx,py,ny,pz,nz",
-                 count, text, empty ? ", one of them empty" : "");
-    else
-        environment = lam_environment_load_faces(paths, color, error);
+    if (count == LAM_FACE_COUNT && !empty)
+        return copy;
+    complain(error, LAM_BAD_ARGUMENT, "option '--environment': found %d names in '%.200s'%s, expected one file or six, px,nx,py,ny,pz,nz",
+             count, text, empty ? ", one of them empty" : "");
+    free(copy);
+    return NULL;
+}
+
+static lam_environment *load_faces(const char *text, lam_color_mode color, lam_error *error)
+{
+    const char *paths[LAM_FACE_COUNT];
+    char *copy = environment_option_faces(text, paths, error);
+    lam_environment *environment = copy ? lam_environment_load_faces(paths, color, error) : NULL;
     free(copy);
     return environment;
 }

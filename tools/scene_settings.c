@@ -1,7 +1,11 @@
 // scene_settings.c: what a scene file says about its picture, below what the command line says; and --save-scene.
 #include "scene_settings.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "console.h"
+#include "environment_option.h"
 
 // Settings that an option can override, by the option's name.
 static bool free_to_take(const struct job *job, unsigned bit, const char *option)
@@ -56,6 +60,23 @@ bool scene_settings_has_camera(const struct job *job)
     return job->settings.given & LAM_GIVEN_CAMERA;
 }
 
+// The environment that the command line names, in place of the scene file's. `names` keeps the six names.
+static bool take_environment(const struct options *o, lam_settings *s, char **names, lam_error *error)
+{
+    const char *text = o->environment;
+    if (!text)
+        return true;
+    for (int i = 0; lam_environment_name(i); i++)
+        if (strcmp(text, lam_environment_name(i)) == 0)
+            return complain(error, LAM_UNSUPPORTED, "%s: a scene file names pictures, it cannot hold the built-in environment '%s'",
+                            o->save_scene, text);
+    memset(s->faces, 0, sizeof s->faces);
+    s->equirectangular = strchr(text, ',') ? NULL : text;
+    s->environment_rotation_rad = o->environment_rotation_deg * (3.14159265358979323846 / 180);
+    s->given |= LAM_GIVEN_ENVIRONMENT;
+    return s->equirectangular || (*names = environment_option_faces(text, s->faces, error)) != NULL;
+}
+
 bool scene_settings_save(const struct job *job, lam_error *error)
 {
     const lam_draw_params *draw = &job->draw;
@@ -70,5 +91,9 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     s.height = job->image.height;
     s.camera = job->camera;
     s.draw = *draw;
-    return lam_scene_save(job->scene, &s, job->options->save_scene, error);
+    char *names = NULL;
+    bool ok = take_environment(job->options, &s, &names, error) &&
+              lam_scene_save(job->scene, &s, job->options->save_scene, error);
+    free(names);
+    return ok;
 }

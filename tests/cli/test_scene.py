@@ -206,6 +206,13 @@ class Environment(Case):
         read = lambda name: (self.folder / name).read_bytes()
         self.assertEqual(read("mirrored.png"), read("asked.png"))
         self.assertNotEqual(read("mirrored.png"), read("bare.png"))
+        self.good("bare.json", "--environment", ",".join(names), "--environment-rotation", "30", "-q", "-o", "asked.png",
+                  "--save-scene", "saved.json")
+        self.good("saved.json", "-o", "saved.png")
+        self.assertEqual(read("saved.png"), read("asked.png"))
+        done = self.run_program("bare.json", "--environment", "sky", "-o", "asked.png", "--save-scene", "sky.json")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn(b"built-in environment 'sky'", done.stderr)
 
     def test_missing_face(self):
         (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "environment": {"faces": ["no.png"] * 6},

@@ -15,6 +15,7 @@
 #include "job_scene.h"
 #include "output.h"
 #include "scene_settings.h"
+#include "show_all.h"
 #include "show_option.h"
 #include "suggest.h"
 
@@ -215,7 +216,7 @@ static bool write_output(struct job *job, lam_error *error)
         job->bytes = bytes.size;
         lam_bytes_free(&bytes);
     } else {
-        ok = lam_image_save(&job->image, job->output, &params, error);
+        ok = show_is_all(o) ? show_all_write(job, &control, error) : lam_image_save(&job->image, job->output, &params, error);
         job->bytes = ok ? output_size(job->output) : 0;
     }
     job->times.encode = clock_ms() - start;
@@ -267,6 +268,8 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
     job->format = stream ? "png" : strrchr(job->output, '.') + 1;
     if (strcmp(job->output, "-") != 0 &&
         !output_check(job->output, job->model, output_is_named(job->options->output), error))
+        return false;
+    if (show_is_all(job->options) && !show_all_check(job, error))
         return false;
     return job_draw(job, format, progress, error) && write_output(job, error) &&
            (!job->options->save_scene || scene_settings_save(job, error));

@@ -38,6 +38,7 @@ static const struct word show_words[] = {
     {"coverage", LAM_SHOW_COVERAGE, "the share of samples that are covered"},
     {"overdraw", LAM_SHOW_OVERDRAW, "how many triangles lie over a pixel: c/(c + 3)"},
     {"clipped", LAM_SHOW_CLIPPED, "where the picture leaves 0 to 1: above red, below blue"},
+    {"all", LAM_SHOW_PICTURE, "the picture, every term and every light, as layers of a .exr"},
     {NULL, 0, NULL}};
 
 static const struct word view_words[] = {
@@ -158,7 +159,7 @@ const struct option option_table[] = {
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. "
      "`light:key` is what the light named key gives; `light:1` is the first light. `n.l` and `n.h` are of the "
      "first light that has a direction; `n.l:key` and `n.h:key` name another. The rest are numbers of the "
-     "surfaces: `.pfm` and `.exr` hold them as they are, 8-bit pictures a code for them, with no sRGB encoding. "
+     "surfaces. `all` writes the picture, every term and every light as layers of one `.exr`. `.pfm` and `.exr` hold them as they are, 8-bit pictures a code for them, with no sRGB encoding. "
      "`docs/show.md` has the table of all of them.",
      show_words, .store = store_show, FIELD(show)},
 

@@ -38,7 +38,7 @@ bool store_show(const struct option *option, const char *value, struct options *
         return complain(error, LAM_BAD_ARGUMENT, "found 'light', expected light:NAME, the light's name or its number");
     if (light && !*light)
         return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected a light's name or its number behind the colon", value);
-    if (show < LAM_SHOW_COUNT) {
+    if (show < LAM_SHOW_COUNT || strcmp(value, "all") == 0) {
         options->show = value;
         return true;
     }
@@ -56,7 +56,7 @@ bool store_show(const struct option *option, const char *value, struct options *
 lam_show show_option_what(const char *text)
 {
     const char *light;
-    return text ? split(text, &light) : LAM_SHOW_PICTURE;
+    return text && strcmp(text, "all") != 0 ? split(text, &light) : LAM_SHOW_PICTURE;
 }
 
 static bool has_direction(const lam_light *light)
@@ -101,7 +101,7 @@ static void list(const lam_light *lights, int count, bool directed, char *out, s
 bool show_option_apply(const char *text, const lam_scene *scene, lam_draw_params *params, lam_error *error)
 {
     const char *wanted = NULL;
-    params->show = text ? split(text, &wanted) : LAM_SHOW_PICTURE;
+    params->show = text && strcmp(text, "all") != 0 ? split(text, &wanted) : LAM_SHOW_PICTURE;
     if (!takes_light(params->show))
         return true;
     int count = lam_draw_lights(scene, params->rig, NULL, 0);

@@ -51,3 +51,15 @@ class Show(Case):
         self.bad(1, "cube.obj", "--show", "light:kye", says=("'kye'", "'key', 'fill', 'rim', 'sky'"))
         self.bad(1, "cube.obj", "--show", "n.h:sky", says="no light with a direction is 'sky'")
         self.bad(1, "cube.obj", "--show", "n.l", "--rig", "none", says="there is none")
+
+
+class All(Case):
+    def test_layers(self):
+        done = self.run_program("cube.obj", "-s", "16", "--show", "all", "-o", "all.exr")
+        if b"OpenEXR" in done.stderr and done.returncode == 3:
+            self.skipTest("OpenEXR's library is not installed")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        data = (self.folder / "all.exr").read_bytes()
+        for name in (b"ambient.R", b"diffuse.G", b"specular.B", b"emission.R", b"reflection.R", b"light.1-key.R", b"light.4-sky.B"):
+            self.assertIn(name + b"\0", data)
+        self.bad(1, "cube.obj", "--show", "all", "-o", "all.png", says=".exr", leaves=["all.exr"])

@@ -1,0 +1,15 @@
+// show_all.h: --show all: the picture and all terms of its light as layers of one EXR picture.
+#ifndef SHOW_ALL_H
+#define SHOW_ALL_H
+
+#include "job.h"
+
+bool show_is_all(const struct options *options);
+
+// Whether the output can hold layers; false: the error tells that --show all needs a .exr.
+bool show_all_check(const struct job *job, lam_error *error);
+
+// Draws every term of the job's picture, which has been drawn, and writes them all to the job's output.
+bool show_all_write(struct job *job, const lam_control *control, lam_error *error);
+
+#endif

@@ -13,6 +13,7 @@
 #include "help.h"
 #include "interrupt.h"
 #include "job_scene.h"
+#include "light_markers.h"
 #include "output.h"
 #include "scene_settings.h"
 #include "show_all.h"
@@ -242,7 +243,7 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
         !environment_option_apply(job->options, job->environment, job->scene, error))
         return false;
     place_camera(job);
-    return job_light(job, &sphere, error);
+    return job_light(job, &sphere, error) && (!job->options->show_lights || light_markers_add(job, error));
 }
 
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)

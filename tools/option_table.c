@@ -225,6 +225,10 @@ const struct option option_table[] = {
      .store = store_word, FIELD(rig), .has_field = offsetof(struct options, has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Light from everywhere: #rrggbb, r/g/b, a name or one number.", NULL,
      .store = store_light_color, FIELD(ambient)},
+    {"show-lights", 0, GROUP_LIGHTS, NULL, NULL, "Draw where the lights are: balls, and cones that point the way they shine.",
+     "A directional light's marker stands one and a half radii from the model's centre. The markers glow in the lights' colours; "
+     "the view does not move for them.",
+     .store = store_switch, FIELD(show_lights)},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "All lights this much brighter (not `--ambient`).", NULL,
      .store = store_number, FIELD(light_scale), .has_field = offsetof(struct options, has_light_scale), .least = 0,
      .most = 1e6},

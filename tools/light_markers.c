@@ -1,0 +1,116 @@
+// light_markers.c: --show-lights: where the lights of a picture are.
+#include "light_markers.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "console.h"
+
+static lam_vec3 apply(const lam_mat4 *m, lam_vec3 v, double w)
+{
+    return (lam_vec3){m->m[0][0] * v.x + m->m[0][1] * v.y + m->m[0][2] * v.z + w * m->m[0][3],
+                      m->m[1][0] * v.x + m->m[1][1] * v.y + m->m[1][2] * v.z + w * m->m[1][3],
+                      m->m[2][0] * v.x + m->m[2][1] * v.y + m->m[2][2] * v.z + w * m->m[2][3]};
+}
+
+// The matrix from a light's frame to the world.
+static lam_mat4 to_world(const struct job *job, const lam_light *light)
+{
+    lam_mat4 m = lam_mat4_identity();
+    if (light->frame == LAM_FRAME_CAMERA) { // a rigid view: its inverse is the transposed rotation about the eye
+        lam_mat4 view = lam_camera_view(&job->camera);
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                m.m[i][j] = view.m[j][i];
+        m.m[0][3] = job->camera.eye.x;
+        m.m[1][3] = job->camera.eye.y;
+        m.m[2][3] = job->camera.eye.z;
+    } else if (light->frame != LAM_FRAME_WORLD) {
+        // The whole model was turned as its first object was.
+        for (int i = 0; i < lam_scene_object_count(job->scene); i++) {
+            const lam_object *object = lam_scene_object(job->scene, i);
+            bool meant = light->frame == LAM_FRAME_MODEL || !light->object ||
+                         (object->name && strcmp(object->name, light->object) == 0);
+            if (meant)
+                return object->transform;
+        }
+    }
+    return m;
+}
+
+static lam_vec3 unit(lam_vec3 v)
+{
+    double length = sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    return length > 0 ? (lam_vec3){v.x / length, v.y / length, v.z / length} : (lam_vec3){0, -1, 0};
+}
+
+// Axes scaled by `size`, the second along d, the origin at p.
+static lam_mat4 place(lam_vec3 p, lam_vec3 d, double size, double along)
+{
+    lam_vec3 other = fabs(d.y) < 0.9 ? (lam_vec3){0, 1, 0} : (lam_vec3){1, 0, 0};
+    lam_vec3 x = unit((lam_vec3){d.y * other.z - d.z * other.y, d.z * other.x - d.x * other.z, d.x * other.y - d.y * other.x});
+    lam_vec3 z = {x.y * d.z - x.z * d.y, x.z * d.x - x.x * d.z, x.x * d.y - x.y * d.x};
+    return (lam_mat4){{{x.x * size, d.x * along, z.x * size, p.x},
+                       {x.y * size, d.y * along, z.y * size, p.y},
+                       {x.z * size, d.z * along, z.z * size, p.z},
+                       {0, 0, 0, 1}}};
+}
+
+static int glowing(lam_scene *scene, lam_rgb color, lam_error *error)
+{
+    float most = color.r > color.g ? color.r : color.g;
+    most = most > color.b ? most : color.b;
+    lam_material m = {.diffuse = {0, 0, 0, 1}, .illum = -1, .name = "light marker"};
+    m.emission = most > 0 ? (lam_rgb){color.r / most, color.g / most, color.b / most} : (lam_rgb){0.2f, 0.2f, 0.2f};
+    return lam_scene_add_material(scene, &m, error);
+}
+
+static bool put(lam_scene *scene, int mesh, int material, lam_mat4 transform, lam_error *error)
+{
+    lam_object object = lam_object_default();
+    object.name = "light marker";
+    object.mesh = mesh;
+    object.material = material;
+    object.transform = transform;
+    return mesh >= 0 && material >= 0 && lam_scene_add_object(scene, &object, error) >= 0;
+}
+
+bool light_markers_add(struct job *job, lam_error *error)
+{
+    lam_scene *scene = job->scene;
+    lam_vec3 centre;
+    double radius;
+    int own = lam_scene_light_count(scene), count = lam_draw_lights(scene, job->rig, NULL, 0);
+    if (!lam_scene_sphere(scene, -1, &centre, &radius))
+        return true;
+    lam_light *lights = calloc((size_t)count + 1, sizeof *lights);
+    if (!lights)
+        return complain(error, LAM_LIMIT, "out of memory");
+    lam_draw_lights(scene, job->rig, lights, count);
+    // The rig's lights are spelled out: some stand about the scene's sphere, which the markers enlarge.
+    bool ok = true;
+    for (int i = own; ok && i < count; i++)
+        ok = lam_scene_add_light(scene, &lights[i], error) >= 0;
+    job->rig = LAM_RIG_NONE;
+    lam_shape_params few = {.slices = 24, .stacks = 12};
+    int ball = ok ? lam_scene_add_shape(scene, "sphere", &few, error) : -1;
+    int cone = ok ? lam_scene_add_shape(scene, "cone", &few, error) : -1;
+    ok = ball >= 0 && cone >= 0;
+    for (int i = 0; ok && i < count; i++) {
+        const lam_light *l = &lights[i];
+        if (l->type == LAM_LIGHT_AMBIENT || l->type == LAM_LIGHT_HEMISPHERE)
+            continue;
+        lam_mat4 world = to_world(job, l);
+        lam_vec3 d = unit(apply(&world, l->direction, 0)), p = apply(&world, l->position, 1);
+        if (l->type == LAM_LIGHT_DIRECTIONAL)
+            p = (lam_vec3){centre.x - 1.5 * radius * d.x, centre.y - 1.5 * radius * d.y, centre.z - 1.5 * radius * d.z};
+        int material = glowing(scene, l->diffuse, error);
+        ok = put(scene, ball, material, place(p, d, 0.03 * radius, 0.03 * radius), error);
+        lam_vec3 tip = {p.x + 0.09 * radius * d.x, p.y + 0.09 * radius * d.y, p.z + 0.09 * radius * d.z};
+        if (l->type != LAM_LIGHT_POINT)
+            ok = ok && put(scene, cone, material, place(tip, d, 0.03 * radius, 0.06 * radius), error);
+    }
+    free(lights);
+    return ok;
+}

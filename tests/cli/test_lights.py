@@ -292,9 +292,9 @@ if __name__ == "__main__":
 class Markers(Case):
     def test_show_lights(self):
         """Markers glow where lights are, in their colours; what is lit is lit as before, and the view stays."""
-        words = ["cube.obj", "-s", "120", "--samples", "1", "--zoom", "0.4", "--light",
+        words = ["cube.obj", "-s", "120", "--samples", "1", "--zoom", "0.25", "--light",
                  "point:position=0/2r/0,color=lime"]
         plain, marked = self.png(*words), self.png(*words, "--show-lights")
         green = sum(pixel(marked, x, y)[:3] == (0, 255, 0) for x in range(120) for y in range(60))
-        self.assertGreater(green, 3)
+        self.assertGreater(green, 1)
         self.assertEqual(pixel(plain, 60, 60), pixel(marked, 60, 60))

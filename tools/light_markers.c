@@ -1,7 +1,6 @@
 // light_markers.c: --show-lights: where the lights of a picture are.
 #include "light_markers.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,14 +40,14 @@ static lam_mat4 to_world(const struct job *job, const lam_light *light)
 
 static lam_vec3 unit(lam_vec3 v)
 {
-    double length = sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    double length = __builtin_sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
     return length > 0 ? (lam_vec3){v.x / length, v.y / length, v.z / length} : (lam_vec3){0, -1, 0};
 }
 
 // Axes scaled by `size`, the second along d, the origin at p.
 static lam_mat4 place(lam_vec3 p, lam_vec3 d, double size, double along)
 {
-    lam_vec3 other = fabs(d.y) < 0.9 ? (lam_vec3){0, 1, 0} : (lam_vec3){1, 0, 0};
+    lam_vec3 other = __builtin_fabs(d.y) < 0.9 ? (lam_vec3){0, 1, 0} : (lam_vec3){1, 0, 0};
     lam_vec3 x = unit((lam_vec3){d.y * other.z - d.z * other.y, d.z * other.x - d.x * other.z, d.x * other.y - d.y * other.x});
     lam_vec3 z = {x.y * d.z - x.z * d.y, x.z * d.x - x.x * d.z, x.x * d.y - x.y * d.x};
     return (lam_mat4){{{x.x * size, d.x * along, z.x * size, p.x},

@@ -3,6 +3,7 @@
 //
 // The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to itself.
 // Colours are painted unlit. What is told here is told twice, in the library and below, from docs/lighting.md alone.
+// Above 600 lines: the reference in double and every way to reach it stand together.
 #include <lambent/lambent.h>
 
 #include <math.h>

@@ -1,5 +1,6 @@
 // test_obj.c: OBJ and MTL: each form of statement, each mistake's sentence, and the same result for any
 // threads and chunks.
+// Above 600 lines: one table-like test for each feature and sentence of one format.
 #include "obj.h"
 
 #include <lambent/image.h>

@@ -1,4 +1,5 @@
 // test_shapes.c: built-in shapes, and meshes from parametric and implicit formulas.
+// Above 600 lines: each shape's own facts are listed, and the checks that all shapes share.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -7,10 +7,7 @@
 #include "options.h"
 #include "suggest.h"
 
-double radians(double degrees)
-{
-    return degrees * (3.14159265358979323846 / 180);
-}
+double radians(double degrees) { return degrees * (3.14159265358979323846 / 180); }
 
 // "x/y/z"
 static bool read_vector(const char *text, lam_vec3 *out)

@@ -11,16 +11,22 @@ const struct command command_table[] = {
     {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL,
      1, -1, run_render},
     {"compare", "MODEL", "Draw one labelled sheet of pictures: methods, lights, terms side by side.",
-     (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET, 1, 1, run_compare},
+     (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET, 1, 1,
+     run_compare},
     {"explain", "MODEL X,Y",
-     "Tell every number of one pixel: what it shows, the vectors, angles and terms of each light, the sum, the byte.", ALL,
-     2, 2, run_explain},
-    {"diff", "A B", "Tell how far two pictures are apart, and draw where.", ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET,
-     2, 2, run_diff},
-    {"plot", "attenuation|spot|highlight [CURVE...]", "Draw a law of light as curves (PNG or SVG), and tell its numbers.",
-     ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON | TAKES_QUIET, 1, -1, run_plot},
-    {"lights", "MODEL", "Print a model's lights, or the rig's where it has none, as the keys of a scene file.",
-     ABOUT | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING | 1u << GROUP_WORK, 1, 1, run_lights},
+     "Tell every number of one pixel: what it shows, the vectors, angles and terms of each light, the sum, "
+     "the byte.",
+     ALL, 2, 2, run_explain},
+    {"diff", "A B", "Tell how far two pictures are apart, and draw where.",
+     ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET, 2, 2, run_diff},
+    {"plot", "attenuation|spot|highlight [CURVE...]",
+     "Draw a law of light as curves (PNG or SVG), and tell its numbers.",
+     ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON | TAKES_QUIET,
+     1, -1, run_plot},
+    {"lights", "MODEL",
+     "Print a model's lights, or the rig's where it has none, as the keys of a scene file.",
+     ABOUT | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING | 1u << GROUP_WORK, 1, 1,
+     run_lights},
     {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0, run_shapes},
     {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.",
      ABOUT, 0, 0, run_formats},
@@ -42,7 +48,8 @@ const struct example examples[] = {
     {"lambent koala.obj --json", "what was read, the camera, and the time of each step"},
     {"lambent compare koala.obj --sheet terms", "the terms of the sum side by side, with captions"},
     {"lambent plot attenuation 1/0.54/0.2 1/0/1", "how two lights fade with the distance"},
-    {"lambent koala.obj --rig headlight --save-scene koala.json", "also a scene file, to edit and to draw again"},
+    {"lambent koala.obj --rig headlight --save-scene koala.json",
+     "also a scene file, to edit and to draw again"},
     {"lambent koala.json", "a scene file: objects, materials, lights and camera"},
     {"lambent explain teapot 512,400", "how that pixel of the picture came about, number by number"},
     {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
@@ -76,45 +83,72 @@ const struct topic topics[] = {
                "Standard output carries the picture (`-o -`) or the report (`--json`), and nothing else. "
                "Warnings, errors, the line that tells what was written, and a progress bar (only on a "
                "terminal, for work of over half a second) go to standard error."},
-    {"Sheets",
-     "`lambent compare MODEL` writes one PNG with several pictures of a model and a caption under each: the picture that "
-     "`lambent MODEL` gives with the options in grey under the caption. `--sheet` chooses which; `--across OPTION=VALUES` makes "
-     "a row with one picture for each value. Every other option holds for all pictures, `--size` (480x400) being that of each; "
-     "what the sheet itself says comes after them. The ground is white where `--background` says nothing else. The sheet is "
-     "`MODEL-NAME.png` in the current folder, or what `-o` says. The pictures are the same bytes everywhere; only the letters are FreeType's.\n"
-     "`--sheet stages` frames the brightest highlight (where the picture is farthest above the one without highlights) and "
-     "shows it beneath, drawn three times as large. That sheet, `surfaces` and `terms` give the model's materials a specular "
-     "colour of their own, so that there is a highlight to see; `terms` takes the other terms away by black coefficients."},
-    {"Explaining a pixel",
-     "`lambent explain MODEL X,Y` takes the options that the picture was made with and tells how the pixel in column X and row Y "
-     "(from 0, from the top left corner) came about: each triangle that it shows with the samples that show it, the object, the "
-     "place in the triangle, n, v and t, the material; for each light its matrix (rows ambient, diffuse, specular), l, r and h, "
-     "the angles between n and l, r and v, n and h, the distance, attenuation and spot factor, the highlight's base and power, "
-     "and its diffuse and specular terms; then the terms and their sum, the weighted sum of the triangles over the background, "
-     "the encoding and the bytes. Vectors are in eye space. The numbers are those that the picture was made of, to the last "
-     "bit; `docs/lighting.md` has the formulas. With `--json` the same is one line. No picture is written, and `--output` does "
-     "not matter."},
-    {"Comparing pictures",
-     "`lambent diff A B` reads two pictures of the same size (PNG or PPM with 8 bits, PFM with floats, both of one "
-     "kind) and prints the largest difference of a channel, the mean and the root of the mean square over all channels "
-     "(red, green, blue and alpha as the files hold them, 1 = full range), the PSNR in decibels (`infinite` for equal "
-     "pictures, null in JSON), and the share of pixels with a channel off by more than 1/255 and 2/255. With `-o` it "
-     "draws the difference: each channel is its difference times `--gain`, ends at white, and black is equal; where only alpha differs "
-     "the pixel is grey. A `.pfm` holds differences of floats without that end. With `--json` the figures are one line: `a`, `b`, "
-     "`width`, `height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, `differ` (0 or "
-     "1: beyond the tolerance) and `picture`. The exit code is 6 where the largest difference is over the tolerance, 1 where size or "
-     "kind are not the same."},
-    {"Plots",
-     "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d, as many curves as are named, and marks "
-     "where each falls below 1/255, the last step of a picture with 8 bits; a fourth number (`a/b/c/range`) is a range as glTF has it. "
-     "`lambent plot spot cutoff=30,exponent=8 inner=20,outer=35` draws the cone of spot lights over the angle from "
-     "the axis, by OpenGL's law or glTF's. `lambent plot highlight 10 50 1000` draws the highlight over the angle "
-     "between the mirrored light and the eye: for each shininess Phong's and Blinn-Phong's at it, and Blinn-Phong's at four times that, which looks like Phong's. "
-     "Without curves each draws a set of its own. The values are those that pixels are lit with.\n"
-     "The picture is `attenuation.png`, `spot.png` or `highlight.png`, 1600x1000 pixels, or what `-o` and `-s` say; a name that "
-     "ends in `.svg` makes an SVG. The table on standard output tells where each curve falls below 1/255; with "
-     "`--json` it is one line: `plot`, `x`, `y`, `curves` (each with `label`, `below_1_255_from`, null for never, and `points`, "
-     "101 pairs) and `picture`."},
+    {"Sheets", "`lambent compare MODEL` writes one PNG with several pictures of a model and a caption under "
+               "each: the picture that "
+               "`lambent MODEL` gives with the options in grey under the caption. `--sheet` chooses which; "
+               "`--across OPTION=VALUES` makes "
+               "a row with one picture for each value. Every other option holds for all pictures, `--size` "
+               "(480x400) being that of each; "
+               "what the sheet itself says comes after them. The ground is white where `--background` says "
+               "nothing else. The sheet is "
+               "`MODEL-NAME.png` in the current folder, or what `-o` says. The pictures are the same bytes "
+               "everywhere; only the letters are FreeType's.\n"
+               "`--sheet stages` frames the brightest highlight (where the picture is farthest above the one "
+               "without highlights) and "
+               "shows it beneath, drawn three times as large. That sheet, `surfaces` and `terms` give the "
+               "model's materials a specular "
+               "colour of their own, so that there is a highlight to see; `terms` takes the other terms away "
+               "by black coefficients."},
+    {"Explaining a pixel", "`lambent explain MODEL X,Y` takes the options that the picture was made with and "
+                           "tells how the pixel in column X and row Y "
+                           "(from 0, from the top left corner) came about: each triangle that it shows with "
+                           "the samples that show it, the object, the "
+                           "place in the triangle, n, v and t, the material; for each light its matrix (rows "
+                           "ambient, diffuse, specular), l, r and h, "
+                           "the angles between n and l, r and v, n and h, the distance, attenuation and spot "
+                           "factor, the highlight's base and power, "
+                           "and its diffuse and specular terms; then the terms and their sum, the weighted "
+                           "sum of the triangles over the background, "
+                           "the encoding and the bytes. Vectors are in eye space. The numbers are those that "
+                           "the picture was made of, to the last "
+                           "bit; `docs/lighting.md` has the formulas. With `--json` the same is one line. No "
+                           "picture is written, and `--output` does "
+                           "not matter."},
+    {"Comparing pictures", "`lambent diff A B` reads two pictures of the same size (PNG or PPM with 8 bits, "
+                           "PFM with floats, both of one "
+                           "kind) and prints the largest difference of a channel, the mean and the root of "
+                           "the mean square over all channels "
+                           "(red, green, blue and alpha as the files hold them, 1 = full range), the PSNR in "
+                           "decibels (`infinite` for equal "
+                           "pictures, null in JSON), and the share of pixels with a channel off by more than "
+                           "1/255 and 2/255. With `-o` it "
+                           "draws the difference: each channel is its difference times `--gain`, ends at "
+                           "white, and black is equal; where only alpha differs "
+                           "the pixel is grey. A `.pfm` holds differences of floats without that end. With "
+                           "`--json` the figures are one line: `a`, `b`, "
+                           "`width`, `height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, "
+                           "`share_over_2`, `tolerance`, `differ` (0 or "
+                           "1: beyond the tolerance) and `picture`. The exit code is 6 where the largest "
+                           "difference is over the tolerance, 1 where size or "
+                           "kind are not the same."},
+    {"Plots", "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d, as many "
+              "curves as are named, and marks "
+              "where each falls below 1/255, the last step of a picture with 8 bits; a fourth number "
+              "(`a/b/c/range`) is a range as glTF has it. "
+              "`lambent plot spot cutoff=30,exponent=8 inner=20,outer=35` draws the cone of spot lights over "
+              "the angle from "
+              "the axis, by OpenGL's law or glTF's. `lambent plot highlight 10 50 1000` draws the highlight "
+              "over the angle "
+              "between the mirrored light and the eye: for each shininess Phong's and Blinn-Phong's at it, "
+              "and Blinn-Phong's at four times that, which looks like Phong's. "
+              "Without curves each draws a set of its own. The values are those that pixels are lit with.\n"
+              "The picture is `attenuation.png`, `spot.png` or `highlight.png`, 1600x1000 pixels, or what "
+              "`-o` and `-s` say; a name that "
+              "ends in `.svg` makes an SVG. The table on standard output tells where each curve falls below "
+              "1/255; with "
+              "`--json` it is one line: `plot`, `x`, `y`, `curves` (each with `label`, `below_1_255_from`, "
+              "null for never, and `points`, "
+              "101 pairs) and `picture`."},
     {"Same picture everywhere", "The same model and options give the same bytes, whatever the instruction "
                                 "set, the count of threads, the compiler and the machine."},
     {"Environment",

@@ -18,14 +18,8 @@ void console_start(void)
     colors = terminal && !(no_color && *no_color);
 }
 
-bool console_is_terminal(void)
-{
-    return terminal;
-}
-bool console_has_colors(void)
-{
-    return colors;
-}
+bool console_is_terminal(void) { return terminal; }
+bool console_has_colors(void) { return colors; }
 
 void say_error(const char *text)
 {

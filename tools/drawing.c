@@ -57,10 +57,7 @@ static uint8_t *pixel_at(struct drawing *d, int x, int y)
     return (uint8_t *)d->image.pixels + 4 * ((size_t)y * (size_t)d->width + (size_t)x);
 }
 
-static int within(double x, int most)
-{
-    return !(x > 0) ? 0 : x < most ? (int)x : most;
-}
+static int within(double x, int most) { return !(x > 0) ? 0 : x < most ? (int)x : most; }
 
 // The page stays opaque, so blending is a mix; done in the encoded numbers, as type and thin lines look best
 // on white.

@@ -23,8 +23,10 @@ char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUN
     }
     if (count == LAM_FACE_COUNT && !empty)
         return copy;
-    complain(error, LAM_BAD_ARGUMENT, "option '--environment': found %d names in '%.200s'%s, expected one file or six, px,nx,py,ny,pz,nz",
-             count, text, empty ? ", one of them empty" : "");
+    complain(
+        error, LAM_BAD_ARGUMENT,
+        "option '--environment': found %d names in '%.200s'%s, expected one file or six, px,nx,py,ny,pz,nz",
+        count, text, empty ? ", one of them empty" : "");
     free(copy);
     return NULL;
 }
@@ -48,7 +50,8 @@ bool environment_option_load(const struct options *options, lam_environment **en
     for (int i = 0; lam_environment_name(i); i++)
         if (strcmp(text, lam_environment_name(i)) == 0)
             return (*environment = lam_environment_built_in(text, error)) != NULL;
-    *environment = strchr(text, ',') ? load_faces(text, color, error) : lam_environment_load(text, color, error);
+    *environment =
+        strchr(text, ',') ? load_faces(text, color, error) : lam_environment_load(text, color, error);
     return *environment != NULL;
 }
 
@@ -65,8 +68,8 @@ static bool set_reflectivity(lam_scene *scene, lam_rgb reflectivity, lam_error *
     return ok;
 }
 
-bool environment_option_apply(const struct options *options, const lam_environment *environment, lam_scene *scene,
-                              lam_error *error)
+bool environment_option_apply(const struct options *options, const lam_environment *environment,
+                              lam_scene *scene, lam_error *error)
 {
     if (options->has_reflectivity && !set_reflectivity(scene, options->reflectivity, error))
         return false;

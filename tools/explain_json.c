@@ -16,7 +16,10 @@ static void triple(struct json *json, const char *key, double x, double y, doubl
 
 static void vector(struct json *json, const char *key, lam_vec3 v) { triple(json, key, v.x, v.y, v.z); }
 
-static void color(struct json *json, const char *key, lam_rgb c) { triple(json, key, (double)c.r, (double)c.g, (double)c.b); }
+static void color(struct json *json, const char *key, lam_rgb c)
+{
+    triple(json, key, (double)c.r, (double)c.g, (double)c.b);
+}
 
 static void color4(struct json *json, const char *key, lam_rgba c)
 {
@@ -73,8 +76,8 @@ static void tell_light(struct json *json, const lam_explained_light *l)
         json_none(json, "distance");
     else
         real(json, "distance", l->distance);
-    triple(json, "attenuation_terms", (double)l->attenuation_terms.constant, (double)l->attenuation_terms.linear,
-           (double)l->attenuation_terms.quadratic);
+    triple(json, "attenuation_terms", (double)l->attenuation_terms.constant,
+           (double)l->attenuation_terms.linear, (double)l->attenuation_terms.quadratic);
     if (l->range > 0)
         real(json, "range", l->range);
     else

@@ -26,14 +26,8 @@ void interrupt_start(void)
     }
 }
 
-const lam_cancel *interrupt_flag(void)
-{
-    return &cancel;
-}
-bool interrupted(void)
-{
-    return caught != 0;
-}
+const lam_cancel *interrupt_flag(void) { return &cancel; }
+bool interrupted(void) { return caught != 0; }
 
 void interrupt_finish(void)
 {

@@ -132,9 +132,10 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     }
     if (!job->scene)
         return false;
-    job->model_counts = (struct model_counts){
-        lam_scene_triangle_count(job->scene), lam_scene_vertex_count(job->scene), lam_scene_mesh_count(job->scene),
-        lam_scene_object_count(job->scene), lam_scene_material_count(job->scene), lam_scene_light_count(job->scene)};
+    job->model_counts =
+        (struct model_counts){lam_scene_triangle_count(job->scene), lam_scene_vertex_count(job->scene),
+                              lam_scene_mesh_count(job->scene),     lam_scene_object_count(job->scene),
+                              lam_scene_material_count(job->scene), lam_scene_light_count(job->scene)};
     if (lam_scene_triangle_count(job->scene) == 0)
         return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw",
                         job->model);
@@ -207,8 +208,8 @@ static bool write_output(struct job *job, lam_error *error)
     lam_save_params params = {.background = {job->background.r, job->background.g, job->background.b},
                               .threads = o->threads,
                               .control = &control,
-                              .raw = o->color == LAM_COLOR_RAW ||
-                                     !lam_show_is_light(show_option_what(o->show))};
+                              .raw =
+                                  o->color == LAM_COLOR_RAW || !lam_show_is_light(show_option_what(o->show))};
     lam_bytes bytes = {0};
     bool ok;
     if (output_is_stream(job->output)) {
@@ -217,7 +218,8 @@ static bool write_output(struct job *job, lam_error *error)
         job->bytes = bytes.size;
         lam_bytes_free(&bytes);
     } else {
-        ok = show_is_all(o) ? show_all_write(job, &control, error) : lam_image_save(&job->image, job->output, &params, error);
+        ok = show_is_all(o) ? show_all_write(job, &control, error)
+                            : lam_image_save(&job->image, job->output, &params, error);
         job->bytes = ok ? output_size(job->output) : 0;
     }
     job->times.encode = clock_ms() - start;
@@ -256,8 +258,8 @@ bool job_draw(struct job *job, lam_pixel_format format, struct progress *progres
         return complain(error, LAM_LIMIT,
                         "the picture of %dx%d pixels needs %.1f MB, more than the memory limit", o->width,
                         o->height, (double)bytes / 1e6);
-    return lam_image_make(&job->image, o->width, o->height, format, error) && job_arrange(job, progress, error) &&
-           draw(job, progress, error);
+    return lam_image_make(&job->image, o->width, o->height, format, error) &&
+           job_arrange(job, progress, error) && draw(job, progress, error);
 }
 
 bool job_run(struct job *job, struct progress *progress, lam_error *error)
@@ -287,5 +289,6 @@ lam_explanation *job_explain(struct job *job, int x, int y, struct progress *pro
     const struct options *o = job->options; // now with what the scene file says
     lam_draw_params params = draw_params_of(o, job->rig);
     params.background = job->background;
-    return lam_explain(job->device, job->scene, &job->camera, &params, o->width, o->height, LAM_RGBA8, x, y, &control, error);
+    return lam_explain(job->device, job->scene, &job->camera, &params, o->width, o->height, LAM_RGBA8, x, y,
+                       &control, error);
 }

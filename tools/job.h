@@ -32,11 +32,11 @@ struct job {
     lam_rgba background; // behind the model, as --background says
     lam_device *device;
     const lam_environment *environment; // of all models; NULL: none
-    uint64_t bytes; // of the file written
+    uint64_t bytes;                     // of the file written
     bool written;
-    struct options own;  // the options with what a scene file says where the command line says nothing
+    struct options own;    // the options with what a scene file says where the command line says nothing
     lam_settings settings; // of the scene file; nothing given: the model is none
-    lam_draw_params draw; // as it was drawn
+    lam_draw_params draw;  // as it was drawn
     struct job_times times;
     lam_error error; // code LAM_OK: none
 };
@@ -48,8 +48,8 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error);
 // The same up to the drawn picture, which stays in `image`: output and format are not looked at.
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);
 
-// Reads the model or makes the shape, and takes over what a scene file says: the first step of job_run, for commands that
-// draw nothing.
+// Reads the model or makes the shape, and takes over what a scene file says: the first step of job_run, for
+// commands that draw nothing.
 bool job_load(struct job *job, struct progress *progress, lam_error *error);
 
 // The second step: materials, turns, the camera and the lights, as the options ask.

@@ -16,8 +16,8 @@ bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg)
 
 // --- materials
 
-static bool set_materials(const struct texts *texts, bool back, const char *name, const struct options *o, lam_scene *scene,
-                          lam_error *error)
+static bool set_materials(const struct texts *texts, bool back, const char *name, const struct options *o,
+                          lam_scene *scene, lam_error *error)
 {
     for (int i = 0; i < texts->count; i++) {
         struct material_option option;
@@ -69,8 +69,8 @@ static bool add_rig(lam_scene *scene, lam_rig rig, lam_error *error)
     return true;
 }
 
-// Decides whose lights stay. The rig is left to drawing where no option changes what it gives; else its lights go into the
-// scene here, in their places about the model as it is.
+// Decides whose lights stay. The rig is left to drawing where no option changes what it gives; else its
+// lights go into the scene here, in their places about the model as it is.
 static bool dress_rig(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
@@ -113,7 +113,8 @@ bool job_dress(struct job *job, const lam_control *control, struct model_sphere 
         lam_scene_sphere(scene, -1, &sphere->centre, &sphere->radius);
     if (!(sphere->radius > 0))
         sphere->radius = 1;
-    bool threads = o->reflection == LAM_REFLECTION_KAJIYA_KAY || o->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    bool threads =
+        o->reflection == LAM_REFLECTION_KAJIYA_KAY || o->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
     return dress_materials(o, scene, error) && dress_sides(o, scene, error) && dress_rig(job, error) &&
            dress_rotations(o, sphere->centre, scene, error) &&
            (!threads || lam_scene_make_tangents(scene, control, error));
@@ -170,7 +171,9 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
         .samples = o->samples,
         .color = (lam_color_mode)o->color,
         .rig = rig,
-        .shading = o->has_shading ? (lam_shading)o->shading : by_vertex ? LAM_SHADING_GOURAUD : LAM_SHADING_PHONG,
+        .shading = o->has_shading ? (lam_shading)o->shading
+                   : by_vertex    ? LAM_SHADING_GOURAUD
+                                  : LAM_SHADING_PHONG,
         .reflection = (lam_reflection)o->reflection,
         .stage = (lam_stage)o->stage,
         .viewer = (lam_viewer)o->viewer,

@@ -23,13 +23,15 @@ static int find_object(const lam_scene *scene, const char *name, lam_error *erro
             suggest_try(&nearest, other);
     }
     complain(error, LAM_BAD_ARGUMENT, "option '--light': the model has no object '%.60s'%s%.60s%s", name,
-             nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
+             nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+             nearest.best ? "'?" : "");
     return -1;
 }
 
 // The sphere as the light's frame sees it.
-static bool sphere_in_frame(const lam_light *light, const struct model_sphere *sphere, const lam_camera *camera,
-                            const lam_scene *scene, struct model_sphere *out, lam_error *error)
+static bool sphere_in_frame(const lam_light *light, const struct model_sphere *sphere,
+                            const lam_camera *camera, const lam_scene *scene, struct model_sphere *out,
+                            lam_error *error)
 {
     *out = *sphere;
     if (light->frame == LAM_FRAME_CAMERA) {
@@ -65,11 +67,13 @@ bool light_option_add(const struct light_option *option, const struct model_sphe
     if (!option->has_target)
         target = here.centre;
     if (option->has_target || (light.type == LAM_LIGHT_SPOT && !option->has_direction)) {
-        lam_vec3 way = {target.x - light.position.x, target.y - light.position.y, target.z - light.position.z};
+        lam_vec3 way = {target.x - light.position.x, target.y - light.position.y,
+                        target.z - light.position.z};
         if (way.x != 0 || way.y != 0 || way.z != 0)
             light.direction = way;
         else if (option->has_target)
-            return complain(error, LAM_BAD_ARGUMENT, "option '--light': position and target are the same point");
+            return complain(error, LAM_BAD_ARGUMENT,
+                            "option '--light': position and target are the same point");
     }
     double r = sphere->radius;
     if (option->linear_in_radii)

@@ -71,7 +71,8 @@ static int run(int count, char **words)
     struct options foreseen = foresee(count, words);
     const struct command *command = take_command(&count, words);
     int operands = options_parse(count, words, command->groups, &options, &error);
-    int code = operands < 0 ? tell_failure(&error, &foreseen) : run_command(command, operands, words, &options);
+    int code =
+        operands < 0 ? tell_failure(&error, &foreseen) : run_command(command, operands, words, &options);
     options_free(&options);
     return code;
 }

@@ -60,7 +60,8 @@ static bool change_parts(const struct material_option *option, int mesh, lam_sce
     return true;
 }
 
-static bool set_front(const struct material_option *option, const char *name, int index, lam_scene *scene, lam_error *error)
+static bool set_front(const struct material_option *option, const char *name, int index, lam_scene *scene,
+                      lam_error *error)
 {
     lam_object object = *lam_scene_object(scene, index);
     bool whole = option->id != LAM_MATERIAL_COUNT, first;
@@ -71,35 +72,36 @@ static bool set_front(const struct material_option *option, const char *name, in
     if (front == -2 && !whole) {
         if (!option->target)
             return !first || change_parts(option, object.mesh, scene, error);
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--%s': '%.100s' shares its mesh with other objects and shows several materials; name a "
-                        "part, or begin with a material's name",
-                        name, option->target);
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "option '--%s': '%.100s' shares its mesh with other objects and shows several materials; name a "
+            "part, or begin with a material's name",
+            name, option->target);
     }
     object.material = add_changed(option, front == -2 ? -1 : front, scene, error);
     return object.material >= 0 && lam_scene_set_object(scene, index, &object, error);
 }
 
-static bool set_back(const struct material_option *option, const char *name, int index, lam_scene *scene, lam_error *error)
+static bool set_back(const struct material_option *option, const char *name, int index, lam_scene *scene,
+                     lam_error *error)
 {
     lam_object object = *lam_scene_object(scene, index);
     int front = front_of(scene, &object);
     if (front == -2 && option->id == LAM_MATERIAL_COUNT)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--%s': the front of '%.100s' has several materials, so what is left out cannot be the "
-                        "front's; begin with a material's name: %s gold,…",
-                        name, object.name ? object.name : "the model", name);
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "option '--%s': the front of '%.100s' has several materials, so what is left out cannot be the "
+            "front's; begin with a material's name: %s gold,…",
+            name, object.name ? object.name : "the model", name);
     object.back_material = add_changed(option, front == -2 ? -1 : front, scene, error);
     return object.back_material >= 0 && lam_scene_set_object(scene, index, &object, error);
 }
 
-static bool same(const char *a, const char *b)
-{
-    return a && strcmp(a, b) == 0;
-}
+static bool same(const char *a, const char *b) { return a && strcmp(a, b) == 0; }
 
 // Objects of that name. Returns how many; −1 with the error.
-static int set_objects(const struct material_option *option, bool back, const char *name, lam_scene *scene, lam_error *error)
+static int set_objects(const struct material_option *option, bool back, const char *name, lam_scene *scene,
+                       lam_error *error)
 {
     int found = 0;
     for (int i = 0; i < lam_scene_object_count(scene); i++) {
@@ -144,8 +146,8 @@ static int set_materials(const struct material_option *option, lam_scene *scene,
     return found;
 }
 
-static bool not_found(const struct material_option *option, bool back, const char *name, const lam_scene *scene,
-                      lam_error *error)
+static bool not_found(const struct material_option *option, bool back, const char *name,
+                      const lam_scene *scene, lam_error *error)
 {
     struct suggestion nearest = suggest_start(option->target);
     for (int i = 0; i < lam_scene_object_count(scene); i++)
@@ -159,8 +161,9 @@ static bool not_found(const struct material_option *option, bool back, const cha
         if (lam_scene_material(scene, i)->name)
             suggest_try(&nearest, lam_scene_material(scene, i)->name);
     return complain(error, LAM_BAD_ARGUMENT, "option '--%s': the model has no %s '%.60s'%s%.60s%s", name,
-                    back ? "object" : "object, part or material", option->target, nearest.best ? "; did you mean '" : "",
-                    nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
+                    back ? "object" : "object, part or material", option->target,
+                    nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+                    nearest.best ? "'?" : "");
 }
 
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,

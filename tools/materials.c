@@ -27,12 +27,14 @@ static void print_list(void)
         print_triple(m.specular.r, m.specular.g, m.specular.b);
         printf("  %g\n", (double)m.shininess);
     }
-    printf("\nSource: teapots.c, a demonstration program of OpenGL (Silicon Graphics, 1993 and 1997); the shininess there is\n"
+    printf("\nSource: teapots.c, a demonstration program of OpenGL (Silicon Graphics, 1993 and 1997); the "
+           "shininess there is\n"
            "a share of 128. The numbers are taken as linear. --material NAME gives one to a model.\n");
 }
 
-// One mesh, an object for each material: rows of COLUMNS, the list's order from the top left. The light is that of the
-// program the table comes from: directional, from (0, 3, 3), global ambient 0.2, the viewer infinitely far.
+// One mesh, an object for each material: rows of COLUMNS, the list's order from the top left. The light is
+// that of the program the table comes from: directional, from (0, 3, 3), global ambient 0.2, the viewer
+// infinitely far.
 static bool build_scene(lam_scene *scene, lam_error *error)
 {
     int mesh = lam_scene_add_shape(scene, "teapot", NULL, error);
@@ -60,10 +62,15 @@ static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_imag
     lam_rgba background = {0, 0, 0, 0};
     if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &background, error))
         return false;
-    lam_draw_params params = {.samples = o->samples, .background = background, .color = (lam_color_mode)o->color,
+    lam_draw_params params = {.samples = o->samples,
+                              .background = background,
+                              .color = (lam_color_mode)o->color,
                               .viewer = LAM_VIEWER_INFINITE};
-    lam_view view = {.from_angles = true, .orthographic = true, .elevation_rad = 0.2,
-                     .aspect = (double)image->width / image->height, .fill = 0.97};
+    lam_view view = {.from_angles = true,
+                     .orthographic = true,
+                     .elevation_rad = 0.2,
+                     .aspect = (double)image->width / image->height,
+                     .fill = 0.97};
     lam_camera camera = lam_camera_fit(scene, &view);
     lam_device *device = lam_device_cpu(NULL, error);
     lam_control control = {.cancel = interrupt_flag()};
@@ -81,7 +88,8 @@ static bool write_sheet(const struct options *o, const lam_image *image, lam_err
     if (!output_is_stream(o->output))
         return lam_image_save(image, o->output, &params, error);
     lam_bytes bytes = {0};
-    bool ok = lam_image_encode(image, "png", &params, &bytes, error) && output_write(o->output, &bytes, error);
+    bool ok =
+        lam_image_encode(image, "png", &params, &bytes, error) && output_write(o->output, &bytes, error);
     lam_bytes_free(&bytes);
     return ok;
 }
@@ -89,8 +97,8 @@ static bool write_sheet(const struct options *o, const lam_image *image, lam_err
 static bool make_sheet(const struct options *o, lam_error *error)
 {
     if (!output_is_named(o->output))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--output': '%.200s' is a folder, expected the sheet's own name",
-                        o->output);
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--output': '%.200s' is a folder, expected the sheet's own name", o->output);
     lam_pixel_format format = LAM_RGBA8;
     if ((!output_is_stream(o->output) && !lam_image_format_for(o->output, &format, error)) ||
         !(output_is_stream(o->output) || output_check(o->output, "", true, error)))
@@ -100,8 +108,8 @@ static bool make_sheet(const struct options *o, lam_error *error)
     // A sheet is wider than high; the default of pictures is square.
     int height = o->width == o->height ? o->height * 58 / 100 : o->height;
     bool ok = scene && build_scene(scene, error) &&
-              lam_image_make(&image, o->width, height > 0 ? height : 1, format, error) && draw_sheet(scene, o, &image, error) &&
-              write_sheet(o, &image, error);
+              lam_image_make(&image, o->width, height > 0 ? height : 1, format, error) &&
+              draw_sheet(scene, o, &image, error) && write_sheet(o, &image, error);
     lam_image_free(&image);
     lam_scene_free(scene);
     return ok;

@@ -5,12 +5,12 @@
 #define FIELD(name) .field = offsetof(struct options, name)
 
 const char *const group_titles[GROUP_COUNT] = {
-    [GROUP_PICTURE] = "Picture", [GROUP_VIEW] = "View",      [GROUP_SHADING] = "Shading",
-    [GROUP_WORK] = "Work",       [GROUP_REPORT] = "Reports", [GROUP_DIFF] = "Comparing pictures (diff)",
-    [GROUP_PLOT] = "Plots (plot)", [GROUP_CAPTIONS] = "Captions (compare, plot)",
-    [GROUP_ABOUT] = "About",
-    [GROUP_LIGHTS] = "Lights",   [GROUP_MATERIALS] = "Materials",
-    [GROUP_SHEET] = "Sheets (compare)",
+    [GROUP_PICTURE] = "Picture",     [GROUP_VIEW] = "View",
+    [GROUP_SHADING] = "Shading",     [GROUP_WORK] = "Work",
+    [GROUP_REPORT] = "Reports",      [GROUP_DIFF] = "Comparing pictures (diff)",
+    [GROUP_PLOT] = "Plots (plot)",   [GROUP_CAPTIONS] = "Captions (compare, plot)",
+    [GROUP_ABOUT] = "About",         [GROUP_LIGHTS] = "Lights",
+    [GROUP_MATERIALS] = "Materials", [GROUP_SHEET] = "Sheets (compare)",
 };
 
 static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
@@ -85,7 +85,8 @@ static const struct word rig_words[] = {
     {"studio", LAM_RIG_STUDIO, "key, fill and rim light fixed to the camera, sky and ground"},
     {"headlight", LAM_RIG_HEADLIGHT, "one light from the eye"},
     {"three-point", LAM_RIG_THREE_POINT, "a portrait's key, fill and back light, fixed to the camera"},
-    {"lecture", LAM_RIG_LECTURE, "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
+    {"lecture", LAM_RIG_LECTURE,
+     "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
     {NULL, 0, NULL}};
 
 static const struct word stage_words[] = {
@@ -104,8 +105,10 @@ static const struct word flat_normal_words[] = {
     {"vertex", LAM_FLAT_NORMAL_VERTEX, "its last vertex's, as OpenGL does"},
     {NULL, 0, NULL}};
 
-static const struct word cull_words[] = {
-    {"none", LAM_CULL_NONE, "both sides are drawn"}, {"back", LAM_CULL_BACK, NULL}, {"front", LAM_CULL_FRONT, NULL}, {NULL, 0, NULL}};
+static const struct word cull_words[] = {{"none", LAM_CULL_NONE, "both sides are drawn"},
+                                         {"back", LAM_CULL_BACK, NULL},
+                                         {"front", LAM_CULL_FRONT, NULL},
+                                         {NULL, 0, NULL}};
 
 static const struct word normals_words[] = {
     {"file", LAM_NORMALS_FILE, "the file's; smooth ones where it has none"},
@@ -115,11 +118,13 @@ static const struct word normals_words[] = {
 
 static const struct word sheet_words[] = {
     {"summary", SHEET_SUMMARY, "flat, smooth, normal interpolation and anisotropic"},
-    {"terms", SHEET_TERMS, "ambient, diffuse and specular alone; all at shininess 50, at 1000, and at 1000 flat"},
+    {"terms", SHEET_TERMS,
+     "ambient, diffuse and specular alone; all at shininess 50, at 1000, and at 1000 flat"},
     {"stages", SHEET_STAGES, "lit per vertex and per fragment, the brightest highlight enlarged"},
     {"light", SHEET_LIGHT, "the model in white and in green light, with its own colours and in orange"},
     {"ambient", SHEET_AMBIENT, "ambient and diffuse light white and white, red and white, red and red"},
-    {"frames", SHEET_FRAMES, "one light in the world's, the camera's and the model's frame, before and after a turn"},
+    {"frames", SHEET_FRAMES,
+     "one light in the world's, the camera's and the model's frame, before and after a turn"},
     {"surfaces", SHEET_SURFACES, "specular, diffuse and translucent"},
     {NULL, 0, NULL}};
 
@@ -135,7 +140,8 @@ const struct option option_table[] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png",
      "Write to FILE (.png, .ppm, .pfm or .exr), to the folder FILE/, or to standard output (-).",
      "The ending decides the format: `.png` (8 bits, sRGB, with alpha), `.ppm` (8 bits over the "
-     "background), `.pfm` and `.exr` (linear floats, premultiplied by alpha; `.exr` needs OpenEXR's library). `-` writes a PNG to standard output; a "
+     "background), `.pfm` and `.exr` (linear floats, premultiplied by alpha; `.exr` needs OpenEXR's "
+     "library). `-` writes a PNG to standard output; a "
      "pipe or device whose name has no such ending gets a PNG too. Without this option the picture goes to "
      "the current folder under the model's name with `.png` as its ending (`model.png` when the model "
      "comes from standard input), and a file of that name which lambent did not write is never "
@@ -157,15 +163,20 @@ const struct option option_table[] = {
     {"show", 0, GROUP_PICTURE, "WHAT", "the picture",
      "A term of the light, one light, or numbers of the surfaces in place of the picture.",
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. "
-     "`light:key` is what the light named key gives; `light:1` is the first light. `n.l` and `n.h` are of the "
+     "`light:key` is what the light named key gives; `light:1` is the first light. `n.l` and `n.h` are of "
+     "the "
      "first light that has a direction; `n.l:key` and `n.h:key` name another. The rest are numbers of the "
-     "surfaces. `all` writes the picture, every term and every light as layers of one `.exr`. `.pfm` and `.exr` hold them as they are, 8-bit pictures a code for them, with no sRGB encoding. "
+     "surfaces. `all` writes the picture, every term and every light as layers of one `.exr`. `.pfm` and "
+     "`.exr` hold them as they are, 8-bit pictures a code for them, with no sRGB encoding. "
      "`docs/show.md` has the table of all of them.",
      show_words, .store = store_show, FIELD(show)},
 
-    {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that gives this picture again.",
-     "The file holds what the command line amounts to: the model's name relative to FILE, the camera that was used, all "
-     "lights (those of the rig spelled out), materials, transforms and the options of the picture. `lambent FILE` then gives "
+    {"save-scene", 0, GROUP_PICTURE, "FILE", NULL,
+     "Also write a scene file (JSON) that gives this picture again.",
+     "The file holds what the command line amounts to: the model's name relative to FILE, the camera that "
+     "was used, all "
+     "lights (those of the rig spelled out), materials, transforms and the options of the picture. `lambent "
+     "FILE` then gives "
      "the same bytes. An older FILE is replaced. `docs/scene-file.md` has the format.",
      .takes_file = true, .store = store_text, FIELD(save_scene)},
 
@@ -189,8 +200,10 @@ const struct option option_table[] = {
      "It turns the camera and the lights that go with it; the model's coordinates stay as they are. STL "
      "files are taken as Z up, the habit of printing and CAD; the others as Y up.",
      up_words, .store = store_word, FIELD(up)},
-    {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Turn the model itself about its centre, such as y:30; repeatable.",
-     "About x, y or z of the scene, in the order given. The lights stay where they are (but those of the model's own frame), and "
+    {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL,
+     "Turn the model itself about its centre, such as y:30; repeatable.",
+     "About x, y or z of the scene, in the order given. The lights stay where they are (but those of the "
+     "model's own frame), and "
      "radii are counted by the model as it was; the camera is fitted to what results.",
      .store = store_rotation, FIELD(rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS", "fitted", "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more.",
@@ -202,56 +215,77 @@ const struct option option_table[] = {
      .store = store_camera, FIELD(camera)},
 
     {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
-     "A light of your own: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
-     "TYPE is `ambient`, `hemisphere`, `point`, `directional` or `spot`; behind a colon stand keys with commas between "
-     "them. Lights of your own take the place of the default ones (the model's, or the studio's); `+TYPE` adds to them, "
+     "A light of your own: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; "
+     "repeatable.",
+     "TYPE is `ambient`, `hemisphere`, `point`, `directional` or `spot`; behind a colon stand keys with "
+     "commas between "
+     "them. Lights of your own take the place of the default ones (the model's, or the studio's); `+TYPE` "
+     "adds to them, "
      "and `none` takes all away but the ambient light. Where `--rig` is given, its lights stay.\n"
-     "Where it is: `position=x/y/z`, in the model's units or, with r behind each number, in radii of the sphere "
-     "around the model, from its centre (`2r/1r/3r`; left out: 1r/2r/3r). `position=x/y/z/0` is a directional light from "
-     "there. `direction=x/y/z` is the way the light travels, `target=x/y/z` where it aims (left out: a directional light travels "
-     "along 0/0/-1, a spot aims at the model's centre). `frame=world|camera|object|object:NAME` says whose space that is: the "
-     "scene's own, the eye's (x right, y up, looking along -z; a light without a position is at the eye), the model's as it "
+     "Where it is: `position=x/y/z`, in the model's units or, with r behind each number, in radii of the "
+     "sphere "
+     "around the model, from its centre (`2r/1r/3r`; left out: 1r/2r/3r). `position=x/y/z/0` is a "
+     "directional light from "
+     "there. `direction=x/y/z` is the way the light travels, `target=x/y/z` where it aims (left out: a "
+     "directional light travels "
+     "along 0/0/-1, a spot aims at the model's centre). `frame=world|camera|object|object:NAME` says whose "
+     "space that is: the "
+     "scene's own, the eye's (x right, y up, looking along -z; a light without a position is at the eye), "
+     "the model's as it "
      "was before `--rotate`, or a named object's.\n"
-     "What it gives: `color` times `intensity` (1) is its diffuse and specular light; `ambient` (0), `diffuse` and `specular` "
-     "set each alone. Colours are `#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light takes `color` or `ambient` "
+     "What it gives: `color` times `intensity` (1) is its diffuse and specular light; `ambient` (0), "
+     "`diffuse` and `specular` "
+     "set each alone. Colours are `#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light takes "
+     "`color` or `ambient` "
      "(0.2), a hemisphere light `sky` (0.4), `ground` (0.1) and `up`.\n"
      "How it fades: `attenuation=a/b/c` is 1/(a + b d + c d^2), where b and c may carry r: distance in radii "
-     "(`1/2.7r/5r`); `range` (also with r) lets it end there. A spot's cone: `cutoff` (half angle in degrees, 45) and `exponent`, or "
+     "(`1/2.7r/5r`); `range` (also with r) lets it end there. A spot's cone: `cutoff` (half angle in "
+     "degrees, 45) and `exponent`, or "
      "`inner` and `outer` half angles. `name` is for reports.",
      .store = store_light, FIELD(lights)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A ready-made set of lights: studio, headlight, three-point, lecture, file (the model's), none or auto.",
      "A named rig takes the place of the model's own lights. docs/lighting.md has the numbers.", rig_words,
      .store = store_word, FIELD(rig), .has_field = offsetof(struct options, has_rig)},
-    {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Light from everywhere: #rrggbb, r/g/b, a name or one number.", NULL,
-     .store = store_light_color, FIELD(ambient)},
-    {"show-lights", 0, GROUP_LIGHTS, NULL, NULL, "Draw where the lights are: balls, and cones that point the way they shine.",
-     "A directional light's marker stands one and a half radii from the model's centre. The markers glow in the lights' colours; "
+    {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Light from everywhere: #rrggbb, r/g/b, a name or one number.",
+     NULL, .store = store_light_color, FIELD(ambient)},
+    {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
+     "Draw where the lights are: balls, and cones that point the way they shine.",
+     "A directional light's marker stands one and a half radii from the model's centre. The markers glow in "
+     "the lights' colours; "
      "the view does not move for them.",
      .store = store_switch, FIELD(show_lights)},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "All lights this much brighter (not `--ambient`).", NULL,
-     .store = store_number, FIELD(light_scale), .has_field = offsetof(struct options, has_light_scale), .least = 0,
-     .most = 1e6},
+     .store = store_number, FIELD(light_scale), .has_field = offsetof(struct options, has_light_scale),
+     .least = 0, .most = 1e6},
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@WHERE]", "the model's",
      "Another material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
      "A name of the classic table, or keys with commas between them, or a name and then keys "
-     "(`gold,shininess=80`). What keys leave out stays as the model has it. The keys: `ambient`, `diffuse` (with alpha as a "
-     "fourth number), `specular`, `emission`, `reflectivity` (colours: `#rrggbb`, a name, `r/g/b` or one number), `shininess`, "
-     "`opacity` (0 to 1), `fibre` (yes or no: Kajiya-Kay without the gate, for hair); or `color` (ambient and diffuse) and "
-     "`specular_color` with the factors `ka`, `kd`, `ks` and `kr`, which multiply ambient, diffuse, specular and mirrored light "
+     "(`gold,shininess=80`). What keys leave out stays as the model has it. The keys: `ambient`, `diffuse` "
+     "(with alpha as a "
+     "fourth number), `specular`, `emission`, `reflectivity` (colours: `#rrggbb`, a name, `r/g/b` or one "
+     "number), `shininess`, "
+     "`opacity` (0 to 1), `fibre` (yes or no: Kajiya-Kay without the gate, for hair); or `color` (ambient "
+     "and diffuse) and "
+     "`specular_color` with the factors `ka`, `kd`, `ks` and `kr`, which multiply ambient, diffuse, specular "
+     "and mirrored light "
      "(`kr` the specular colour, white where it is left out).\n"
-     "`@WHERE` limits it to the objects of that name, else to the parts (OBJ groups, STL solids), else to the model's materials: "
+     "`@WHERE` limits it to the objects of that name, else to the parts (OBJ groups, STL solids), else to "
+     "the model's materials: "
      "`ruby@handle`. The option may be repeated; a later one wins.",
      .store = store_material, FIELD(materials)},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
-     "The material of back faces, as in `--material`; what it leaves out is the front's.", NULL, .store = store_material,
-     FIELD(back_materials)},
-    {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 sharp.",
-     "It takes the place of the materials' own, also of `--material`.", .store = store_number, FIELD(shininess),
-     .has_field = offsetof(struct options, has_shininess), .least = 0, .most = 1e30},
+     "The material of back faces, as in `--material`; what it leaves out is the front's.", NULL,
+     .store = store_material, FIELD(back_materials)},
+    {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL,
+     "The exponent of all highlights: 10 is wide, 1000 sharp.",
+     "It takes the place of the materials' own, also of `--material`.", .store = store_number,
+     FIELD(shininess), .has_field = offsetof(struct options, has_shininess), .least = 0, .most = 1e30},
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "Alpha of all materials: 1 is opaque, 0 clear.",
-     "It takes the place of the materials' own, also of `--material`; vertex colours may have an alpha besides.",
-     .store = store_number, FIELD(opacity), .has_field = offsetof(struct options, has_opacity), .least = 0, .most = 1},
+     "It takes the place of the materials' own, also of `--material`; vertex colours may have an alpha "
+     "besides.",
+     .store = store_number, FIELD(opacity), .has_field = offsetof(struct options, has_opacity), .least = 0,
+     .most = 1},
 
     {"shading", 0, GROUP_SHADING, "METHOD", "phong",
      "Where light is worked out: flat, gouraud or phong (each pixel).", NULL, shading_words,
@@ -261,26 +295,33 @@ const struct option option_table[] = {
      NULL, reflection_words, .store = store_word, FIELD(reflection)},
     {"stage", 0, GROUP_SHADING, "WHERE", "fragment",
      "Where lighting is worked out: application, vertex or fragment.",
-     "Without `--shading`, application and vertex take gouraud and fragment takes phong. flat goes with all three, gouraud with "
-     "application and vertex, phong with fragment. On this device all stages of a shading method give the same bytes.",
+     "Without `--shading`, application and vertex take gouraud and fragment takes phong. flat goes with all "
+     "three, gouraud with "
+     "application and vertex, phong with fragment. On this device all stages of a shading method give the "
+     "same bytes.",
      stage_words, .store = store_word, FIELD(stage)},
-    {"flat-normal", 0, GROUP_SHADING, "SOURCE", "face", "The normal of flat shading: face or vertex (the last one's).",
-     NULL, flat_normal_words, .store = store_word, FIELD(flat_normal)},
+    {"flat-normal", 0, GROUP_SHADING, "SOURCE", "face",
+     "The normal of flat shading: face or vertex (the last one's).", NULL, flat_normal_words,
+     .store = store_word, FIELD(flat_normal)},
     {"viewer", 0, GROUP_SHADING, "KIND", "local", "Where the eye is for highlights: local or infinite.", NULL,
      viewer_words, .store = store_word, FIELD(viewer)},
     {"match-highlights", 0, GROUP_SHADING, NULL, NULL,
      "Blinn-Phong takes 4 times the shininess, so that it looks like Phong.", NULL, .store = store_switch,
      FIELD(match_highlights)},
-    {"gl1", 0, GROUP_SHADING, NULL, NULL, "As OpenGL 1: vertex colours clamped, shininess to 128, ambient attenuated.",
-     "For comparison with old programs: vertex colours are clamped to 0...1 before they are interpolated, the shininess is at "
+    {"gl1", 0, GROUP_SHADING, NULL, NULL,
+     "As OpenGL 1: vertex colours clamped, shininess to 128, ambient attenuated.",
+     "For comparison with old programs: vertex colours are clamped to 0...1 before they are interpolated, "
+     "the shininess is at "
      "most 128, and the ambient light of a light fades with it and is narrowed by its cone.",
      .store = store_switch, FIELD(gl1)},
-    {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the normal turned round, whatever the model says.",
-     NULL, .store = store_switch, FIELD(two_sided)},
-    {"one-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces as front faces, with the normal as it is.", NULL,
-     .store = store_switch, FIELD(one_sided)},
-    {"cull", 0, GROUP_SHADING, "SIDE", "the model's", "Leave out the back or front faces of all objects: none, back or front.",
-     NULL, cull_words, .store = store_word, FIELD(cull), .has_field = offsetof(struct options, has_cull)},
+    {"two-sided", 0, GROUP_SHADING, NULL, NULL,
+     "Light back faces with the normal turned round, whatever the model says.", NULL, .store = store_switch,
+     FIELD(two_sided)},
+    {"one-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces as front faces, with the normal as it is.",
+     NULL, .store = store_switch, FIELD(one_sided)},
+    {"cull", 0, GROUP_SHADING, "SIDE", "the model's",
+     "Leave out the back or front faces of all objects: none, back or front.", NULL, cull_words,
+     .store = store_word, FIELD(cull), .has_field = offsetof(struct options, has_cull)},
     {"normals", 0, GROUP_SHADING, "SOURCE", "file",
      "Whose normals: the file's (file), smooth or facet ones made anew.", NULL, normals_words,
      .store = store_word, FIELD(normals)},
@@ -288,9 +329,12 @@ const struct option option_table[] = {
      NULL, .store = store_number, FIELD(crease_angle_deg), .least = 0, .most = 180},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "What shiny surfaces mirror: an image, six faces, sky or studio.",
-     "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, PPM, PFM or Radiance (.hdr). Six "
-     "faces are files with commas between them in OpenGL's order, `px,nx,py,ny,pz,nz`, all square and of one size. `sky` and "
-     "`studio` are built in (`./sky` is a file). It is seen in materials with a reflectivity only: see `--reflectivity`. "
+     "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, PPM, PFM or "
+     "Radiance (.hdr). Six "
+     "faces are files with commas between them in OpenGL's order, `px,nx,py,ny,pz,nz`, all square and of one "
+     "size. `sky` and "
+     "`studio` are built in (`./sky` is a file). It is seen in materials with a reflectivity only: see "
+     "`--reflectivity`. "
      "`docs/lighting.md` tells how each lies around the model.",
      .takes_file = true, .store = store_text, FIELD(environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
@@ -330,25 +374,31 @@ const struct option option_table[] = {
     {"tolerance", 0, GROUP_DIFF, "STEPS", "0",
      "How far a channel may be off, in steps of 1/255 of the full range; beyond it the exit code is 6.", NULL,
      .store = store_number, FIELD(tolerance), .least = 0, .most = 1e9},
-    {"gain", 0, GROUP_DIFF, "FACTOR", "16", "The picture of the difference shows it this many times as large.", NULL,
-     .store = store_number, FIELD(gain), .least = 0.001, .most = 1e6},
+    {"gain", 0, GROUP_DIFF, "FACTOR", "16",
+     "The picture of the difference shows it this many times as large.", NULL, .store = store_number,
+     FIELD(gain), .least = 0.001, .most = 1e6},
 
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
-     "What is compared: summary, terms, stages, light, ambient, frames or surfaces.", NULL,
-     sheet_words, .store = store_word, FIELD(sheet)},
-    {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL, "A row of pictures in place of a sheet: shading, or shininess=10,50,1000.",
-     "OPTION is one of the options above without its dashes. The values stand with commas between them; those of `light`, "
+     "What is compared: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words,
+     .store = store_word, FIELD(sheet)},
+    {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
+     "A row of pictures in place of a sheet: shading, or shininess=10,50,1000.",
+     "OPTION is one of the options above without its dashes. The values stand with commas between them; "
+     "those of `light`, "
      "`material` and other options that have commas of their own, with semicolons "
-     "(`light=point;directional:color=red,frame=camera`). Left out, they are the words that the option takes; for `shininess` "
+     "(`light=point;directional:color=red,frame=camera`). Left out, they are the words that the option "
+     "takes; for `shininess` "
      "10, 50 and 1000, for `light` one of each type, for `show`, which may be called `term`, the five terms.",
      .store = store_text, FIELD(across)},
 
-    {"to", 0, GROUP_PLOT, "X", "fitted", "The horizontal axis goes from 0 to X: a distance, or degrees.", NULL,
-     .store = store_number, FIELD(to), .least = 1e-6, .most = 1e9},
+    {"to", 0, GROUP_PLOT, "X", "fitted", "The horizontal axis goes from 0 to X: a distance, or degrees.",
+     NULL, .store = store_number, FIELD(to), .least = 1e-6, .most = 1e9},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
-     "Without it the environment's `LAMBENT_FONT` names one; else the first there is of DejaVu Sans, Liberation Sans, "
-     "Noto Sans, FreeSans and Roboto, where Debian installs them. FreeType draws the letters, which may differ by a few shades between "
+     "Without it the environment's `LAMBENT_FONT` names one; else the first there is of DejaVu Sans, "
+     "Liberation Sans, "
+     "Noto Sans, FreeSans and Roboto, where Debian installs them. FreeType draws the letters, which may "
+     "differ by a few shades between "
      "its versions; the pictures between them never do. An SVG names DejaVu Sans, and its reader chooses.",
      .takes_file = true, .store = store_text, FIELD(font)},
     {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw without words; then no font is needed.", NULL,

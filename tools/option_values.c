@@ -13,10 +13,7 @@
 #include "material_option.h"
 #include "suggest.h"
 
-static void *field_of(struct options *options, size_t field)
-{
-    return (char *)options + field;
-}
+static void *field_of(struct options *options, size_t field) { return (char *)options + field; }
 
 static bool wrong(lam_error *error, const char *value, const char *expected)
 {
@@ -170,12 +167,14 @@ bool store_color(const struct option *option, const char *value, struct options 
 }
 
 // "0.5", the same for all three, or "r/g/b".
-bool store_reflectivity(const struct option *option, const char *value, struct options *options, lam_error *error)
+bool store_reflectivity(const struct option *option, const char *value, struct options *options,
+                        lam_error *error)
 {
     double numbers[3];
     const char *at = value;
     int count = 0;
-    while (at && count < 3 && (at = read_number(at, &numbers[count])) && numbers[count] >= 0 && numbers[count] <= option->most) {
+    while (at && count < 3 && (at = read_number(at, &numbers[count])) && numbers[count] >= 0 &&
+           numbers[count] <= option->most) {
         count++;
         if (*at != '/')
             break;
@@ -185,7 +184,8 @@ bool store_reflectivity(const struct option *option, const char *value, struct o
         return wrong(error, value, "a number or r/g/b, from 0 to 1000");
     for (int i = count; i < 3; i++)
         numbers[i] = numbers[0];
-    *(lam_rgb *)field_of(options, option->field) = (lam_rgb){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
+    *(lam_rgb *)field_of(options, option->field) =
+        (lam_rgb){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
     *(bool *)field_of(options, option->has_field) = true;
     return true;
 }
@@ -219,7 +219,8 @@ bool store_light(const struct option *option, const char *value, struct options 
 bool store_material(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     struct material_option material;
-    return material_option_parse(value, LAM_COLOR_SRGB, &material, error) && append(option, value, options, error);
+    return material_option_parse(value, LAM_COLOR_SRGB, &material, error) &&
+           append(option, value, options, error);
 }
 
 bool store_rotation(const struct option *option, const char *value, struct options *options, lam_error *error)
@@ -231,7 +232,8 @@ bool store_rotation(const struct option *option, const char *value, struct optio
     return append(option, value, options, error);
 }
 
-bool store_light_color(const struct option *option, const char *value, struct options *options, lam_error *error)
+bool store_light_color(const struct option *option, const char *value, struct options *options,
+                       lam_error *error)
 {
     lam_rgba color;
     if (!read_color(option->name, value, LAM_COLOR_SRGB, true, &color, error))

@@ -44,20 +44,20 @@ struct options {
     bool has_light_scale;
 
     // Materials
-    struct texts materials;    // as written, checked
+    struct texts materials; // as written, checked
     struct texts back_materials;
     double shininess, opacity; // valid where the switch below is set
     bool has_shininess, has_opacity;
 
     // Shading
-    int shading;             // lam_shading
+    int shading; // lam_shading
     bool has_shading;
-    int reflection;          // lam_reflection
-    int stage;               // lam_stage
-    int viewer;              // lam_viewer
-    int flat_normal;         // lam_flat_normal
+    int reflection;  // lam_reflection
+    int stage;       // lam_stage
+    int viewer;      // lam_viewer
+    int flat_normal; // lam_flat_normal
     bool match_highlights, gl1, two_sided, one_sided, show_lights;
-    int cull;                // lam_cull
+    int cull; // lam_cull
     bool has_cull;
     struct texts rotations;  // as written, checked
     int normals;             // lam_normals
@@ -80,9 +80,9 @@ struct options {
     // Plots and sheets
     const char *font; // NULL: the system's
     bool no_captions;
-    int sheet;      // enum sheet_name
+    int sheet;          // enum sheet_name
     const char *across; // as written; NULL: none
-    double to;      // right end of a plot's axis; 0: fitted
+    double to;          // right end of a plot's axis; 0: fitted
 
     // Reports
     bool json, quiet, verbose, version, help;
@@ -177,12 +177,12 @@ bool options_copy(struct options *to, const struct options *from);
 // True where the command line has the option (by its long name).
 bool option_given(const struct options *options, const char *name);
 
-// Whether a command takes an option: `groups` has bit g set for each group that it takes whole, and TAKES_… bits.
+// Whether a command takes an option: `groups` has bit g set for each group that it takes whole, and TAKES_…
+// bits.
 bool option_is_taken(const struct option *option, unsigned groups);
 
-// Reads a command line's words (without the program's and the command's name). `groups` as above. Operands are
-// moved to the front of `words`; returns their number, or −1
-// with the reason: LAM_BAD_ARGUMENT.
+// Reads a command line's words (without the program's and the command's name). `groups` as above. Operands
+// are moved to the front of `words`; returns their number, or −1 with the reason: LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error);
 
 // The kinds of values, for the table's `store`.
@@ -197,10 +197,12 @@ bool store_color(const struct option *, const char *, struct options *, lam_erro
 bool store_show(const struct option *, const char *, struct options *, lam_error *);  // const char *, checked
 bool store_reflectivity(const struct option *, const char *, struct options *, lam_error *); // lam_rgb
 bool store_camera(const struct option *, const char *, struct options *,
-                  lam_error *); // const char *, checked
-bool store_light(const struct option *, const char *, struct options *, lam_error *);    // struct texts, checked
-bool store_material(const struct option *, const char *, struct options *, lam_error *); // struct texts, checked
-bool store_rotation(const struct option *, const char *, struct options *, lam_error *); // struct texts, checked
+                  lam_error *);                                                       // const char *, checked
+bool store_light(const struct option *, const char *, struct options *, lam_error *); // struct texts, checked
+bool store_material(const struct option *, const char *, struct options *,
+                    lam_error *); // struct texts, checked
+bool store_rotation(const struct option *, const char *, struct options *,
+                    lam_error *); // struct texts, checked
 bool store_light_color(const struct option *, const char *, struct options *,
                        lam_error *); // const char *, checked
 

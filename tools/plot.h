@@ -1,4 +1,5 @@
-// plot.h: curves over one axis, labelled: what the command `plot` computes (plot.c) and how it looks (plot_draw.c).
+// plot.h: curves over one axis, labelled: what the command `plot` computes (plot.c) and how it looks
+// (plot_draw.c).
 #ifndef PLOT_H
 #define PLOT_H
 
@@ -15,8 +16,8 @@ struct curve {
     lam_light light; // for value: attenuation, spot
     lam_reflection reflection;
     float shininess;
-    double below;  // the first x where it is below 1/255, to float's precision; infinite: nowhere
-    bool marked;   // a dot there, with its number
+    double below; // the first x where it is below 1/255, to float's precision; infinite: nowhere
+    bool marked;  // a dot there, with its number
 };
 
 struct plot {

@@ -23,12 +23,14 @@ static bool check_stage(const struct options *o, lam_error *error)
         return true;
     if (o->shading == LAM_SHADING_PHONG && o->stage != LAM_STAGE_FRAGMENT)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "phong shading cannot be worked out in stage %s; phong goes with fragment, gouraud with application "
+                        "phong shading cannot be worked out in stage %s; phong goes with fragment, gouraud "
+                        "with application "
                         "or vertex, flat with all three",
                         o->stage == LAM_STAGE_VERTEX ? "vertex" : "application");
     if (o->shading == LAM_SHADING_GOURAUD && o->stage == LAM_STAGE_FRAGMENT)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "gouraud shading cannot be worked out in stage fragment; gouraud goes with application or vertex, phong "
+                        "gouraud shading cannot be worked out in stage fragment; gouraud goes with "
+                        "application or vertex, phong "
                         "with fragment, flat with all three");
     return true;
 }
@@ -45,7 +47,8 @@ static bool check_together(int count, char **models, const struct options *o, la
         return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--%s' cannot be used together",
                         view);
     if (o->two_sided && o->one_sided)
-        return complain(error, LAM_BAD_ARGUMENT, "options '--two-sided' and '--one-sided' cannot be used together");
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "options '--two-sided' and '--one-sided' cannot be used together");
     if (!check_stage(o, error))
         return false;
     if (o->quiet && o->verbose)
@@ -56,8 +59,8 @@ static bool check_together(int count, char **models, const struct options *o, la
                         "name a folder: -o pictures/",
                         count);
     if (o->save_scene && count > 1)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single model, but there are %d",
-                        count);
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--save-scene' goes only with a single model, but there are %d", count);
     if (o->save_scene && strcmp(models[0], "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--save-scene' needs a model with a name, which standard input has not");
@@ -161,7 +164,8 @@ static void name_model(const struct job *job, lam_error *error)
 }
 
 // Returns the exit code of one model.
-static int render_one(const char *model, lam_device *device, const lam_environment *environment, const struct options *o)
+static int render_one(const char *model, lam_device *device, const lam_environment *environment,
+                      const struct options *o)
 {
     struct job job = {.options = o, .model = model, .device = device, .environment = environment};
     job.times.start = clock_ms();

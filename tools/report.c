@@ -41,10 +41,7 @@ void report_line(const struct job *job)
               job->times.total);
 }
 
-static void time_row(const char *name, double ms)
-{
-    say_plain("  %-12s %10.2f ms\n", name, ms);
-}
+static void time_row(const char *name, double ms) { say_plain("  %-12s %10.2f ms\n", name, ms); }
 
 void report_table(const struct job *job)
 {

@@ -1,4 +1,5 @@
-// scene_settings.c: what a scene file says about its picture, below what the command line says; and --save-scene.
+// scene_settings.c: what a scene file says about its picture, below what the command line says; and
+// --save-scene.
 #include "scene_settings.h"
 
 #include <stdlib.h>
@@ -53,7 +54,8 @@ void scene_settings_apply(struct job *job)
 
 bool scene_settings_has_camera(const struct job *job)
 {
-    static const char *const others[] = {"camera", "view", "azimuth", "elevation", "zoom", "projection", NULL};
+    static const char *const others[] = {"camera", "view",       "azimuth", "elevation",
+                                         "zoom",   "projection", NULL};
     for (int i = 0; others[i]; i++)
         if (option_given(&job->own, others[i]))
             return false;
@@ -68,7 +70,8 @@ static bool take_environment(const struct options *o, lam_settings *s, char **na
         return true;
     for (int i = 0; lam_environment_name(i); i++)
         if (strcmp(text, lam_environment_name(i)) == 0)
-            return complain(error, LAM_UNSUPPORTED, "%s: a scene file names pictures, it cannot hold the built-in environment '%s'",
+            return complain(error, LAM_UNSUPPORTED,
+                            "%s: a scene file names pictures, it cannot hold the built-in environment '%s'",
                             o->save_scene, text);
     memset(s->faces, 0, sizeof s->faces);
     s->equirectangular = strchr(text, ',') ? NULL : text;
@@ -82,8 +85,9 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     const lam_draw_params *draw = &job->draw;
     lam_settings s = job->settings;
     s.given &= LAM_GIVEN_EXPOSURE | LAM_GIVEN_ENVIRONMENT;
-    s.given |= LAM_GIVEN_SIZE | LAM_GIVEN_SAMPLES | LAM_GIVEN_BACKGROUND | LAM_GIVEN_COLOR | LAM_GIVEN_CAMERA |
-               LAM_GIVEN_SHADING | LAM_GIVEN_REFLECTION | LAM_GIVEN_MATCH_HIGHLIGHTS | LAM_GIVEN_GL1;
+    s.given |= LAM_GIVEN_SIZE | LAM_GIVEN_SAMPLES | LAM_GIVEN_BACKGROUND | LAM_GIVEN_COLOR |
+               LAM_GIVEN_CAMERA | LAM_GIVEN_SHADING | LAM_GIVEN_REFLECTION | LAM_GIVEN_MATCH_HIGHLIGHTS |
+               LAM_GIVEN_GL1;
     s.given |= draw->stage != LAM_STAGE_AUTO ? LAM_GIVEN_STAGE : 0;
     s.given |= draw->viewer != LAM_VIEWER_LOCAL ? LAM_GIVEN_VIEWER : 0;
     s.given |= draw->flat_normal != LAM_FLAT_NORMAL_FACE ? LAM_GIVEN_FLAT_NORMAL : 0;

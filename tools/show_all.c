@@ -12,7 +12,8 @@ bool show_is_all(const struct options *options) { return options->show && strcmp
 bool show_all_check(const struct job *job, lam_error *error)
 {
     return strcmp(job->format, "exr") == 0 ||
-           complain(error, LAM_BAD_ARGUMENT, "option '--show': all terms need a picture with layers; name one with -o FILE.exr");
+           complain(error, LAM_BAD_ARGUMENT,
+                    "option '--show': all terms need a picture with layers; name one with -o FILE.exr");
 }
 
 static const lam_show terms[] = {LAM_SHOW_AMBIENT, LAM_SHOW_DIFFUSE, LAM_SHOW_SPECULAR, LAM_SHOW_EMISSION,
@@ -27,7 +28,8 @@ struct layers {
 };
 
 // Draws one layer more, as the picture was drawn but for what is shown.
-static bool add(struct layers *layers, struct job *job, lam_show show, int light, const lam_control *control, lam_error *error)
+static bool add(struct layers *layers, struct job *job, lam_show show, int light, const lam_control *control,
+                lam_error *error)
 {
     int i = layers->count;
     lam_draw_params params = job->draw;
@@ -50,9 +52,11 @@ static bool draw_all(struct layers *layers, struct job *job, const lam_light *li
         ok = add(layers, job, terms[i], 0, control, error);
     }
     for (int i = 0; ok && i < light_count; i++) {
-        // A dot in a name would be a layer of a layer; two lights of one name are told apart by their numbers.
+        // A dot in a name would be a layer of a layer; two lights of one name are told apart by their
+        // numbers.
         char *name = layers->names[layers->count];
-        snprintf(name, NAME_ROOM, "light.%d%s%.60s", i + 1, lights[i].name ? "-" : "", lights[i].name ? lights[i].name : "");
+        snprintf(name, NAME_ROOM, "light.%d%s%.60s", i + 1, lights[i].name ? "-" : "",
+                 lights[i].name ? lights[i].name : "");
         for (char *c = name + strlen("light."); *c; c++)
             *c = *c == '.' ? '_' : *c;
         ok = add(layers, job, LAM_SHOW_LIGHT, i, control, error);
@@ -65,7 +69,8 @@ bool show_all_write(struct job *job, const lam_control *control, lam_error *erro
     int light_count = lam_draw_lights(job->scene, job->draw.rig, NULL, 0);
     size_t room = 1 + TERMS + (size_t)light_count;
     lam_light *lights = calloc((size_t)light_count + 1, sizeof *lights);
-    struct layers layers = {.list = calloc(room, sizeof *layers.list), .images = calloc(room, sizeof *layers.images),
+    struct layers layers = {.list = calloc(room, sizeof *layers.list),
+                            .images = calloc(room, sizeof *layers.images),
                             .names = calloc(room, sizeof *layers.names)};
     bool ok = lights && layers.list && layers.images && layers.names;
     if (!ok)

@@ -5,10 +5,7 @@
 
 enum { LONGEST = 40 }; // words longer than this are not worth a guess
 
-static int least(int a, int b)
-{
-    return a < b ? a : b;
-}
+static int least(int a, int b) { return a < b ? a : b; }
 
 // The Damerau–Levenshtein distance in its "optimal string alignment" form, three rows at a time.
 int edit_distance(const char *a, const char *b)

@@ -19,8 +19,8 @@ struct arena_block {
     struct arena_block *next;
     uint8_t *memory;
     size_t room, used;
-    size_t held;           // > 0: bytes of pages behind `memory`, given back by pages_free
-    size_t charged;        // what the watch was charged
+    size_t held;    // > 0: bytes of pages behind `memory`, given back by pages_free
+    size_t charged; // what the watch was charged
 };
 
 static _Thread_local long fail_countdown = -1;
@@ -34,10 +34,7 @@ static bool fails_now(void)
     return fail_countdown-- == 0;
 }
 
-void arena_start(struct arena *arena, struct watch *watch)
-{
-    *arena = (struct arena){.watch = watch};
-}
+void arena_start(struct arena *arena, struct watch *watch) { *arena = (struct arena){.watch = watch}; }
 
 void arena_free(struct arena *arena)
 {
@@ -183,8 +180,10 @@ bool arena_adopt(struct arena *arena, struct file_bytes *bytes)
     if (!block)
         return false;
     // The file's reader charged the watch; the arena gives that back when it goes.
-    *block = (struct arena_block){.memory = (uint8_t *)(uintptr_t)bytes->data, .room = bytes->held,
-                                  .used = bytes->held, .held = bytes->held,
+    *block = (struct arena_block){.memory = (uint8_t *)(uintptr_t)bytes->data,
+                                  .room = bytes->held,
+                                  .used = bytes->held,
+                                  .held = bytes->held,
                                   .charged = bytes->watch == arena->watch ? bytes->size + FILE_PADDING : 0};
     link_block(arena, block);
     bytes->held = 0;

@@ -1,7 +1,8 @@
 // arena.h: memory that is given back all at once.
 //
-// Small requests are cut from blocks; requests of 1 MiB and more get pages of their own, advised to be huge pages (first
-// touch of fresh memory is three times as fast with them). Memory is not zeroed unless asked for. One thread at a time.
+// Small requests are cut from blocks; requests of 1 MiB and more get pages of their own, advised to be huge
+// pages (first touch of fresh memory is three times as fast with them). Memory is not zeroed unless asked
+// for. One thread at a time.
 #ifndef ARENA_H
 #define ARENA_H
 
@@ -20,8 +21,8 @@ struct arena {
 void arena_start(struct arena *arena, struct watch *watch);
 void arena_free(struct arena *arena); // frees everything; the arena is empty and usable again
 
-// Aligned to 64 bytes for 64 bytes and more, else to 16. NULL when memory or the watch's budget is out (the reason is
-// found by watch_memory_error). Size 0 gives a valid pointer.
+// Aligned to 64 bytes for 64 bytes and more, else to 16. NULL when memory or the watch's budget is out (the
+// reason is found by watch_memory_error). Size 0 gives a valid pointer.
 void *arena_alloc(struct arena *arena, size_t bytes);
 void *arena_alloc_zeroed(struct arena *arena, size_t bytes);
 
@@ -37,7 +38,8 @@ char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
 struct file_bytes;
 bool arena_adopt(struct arena *arena, struct file_bytes *bytes);
 
-// For tests: from now on the allocation number `countdown` (0: the next) of this thread fails, once. −1: none.
+// For tests: from now on the allocation number `countdown` (0: the next) of this thread fails, once. −1:
+// none.
 void arena_fail_after(long countdown);
 
 #endif

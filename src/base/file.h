@@ -5,9 +5,10 @@
 #include "pool.h"
 #include "watch.h"
 
-// Files are read into memory of their own, in parallel pieces, rather than mapped: a mapped file that another program
-// shrinks kills the reader with SIGBUS, and copying from the page cache into huge pages costs no more than the page
-// faults of a mapping. At least FILE_PADDING zero bytes follow the last byte, so a parser may read past the end.
+// Files are read into memory of their own, in parallel pieces, rather than mapped: a mapped file that another
+// program shrinks kills the reader with SIGBUS, and copying from the page cache into huge pages costs no more
+// than the page faults of a mapping. At least FILE_PADDING zero bytes follow the last byte, so a parser may
+// read past the end.
 enum { FILE_PADDING = 64 };
 
 struct file_bytes {
@@ -17,17 +18,19 @@ struct file_bytes {
     struct watch *watch; // was charged for them, and is refunded; may be NULL
 };
 
-// Reads a file, or standard input for "-". `pool` and `watch` may be NULL. Errors: LAM_CANNOT_READ (no such file, a
-// directory, a read error, it became shorter meanwhile), LAM_LIMIT, LAM_CANCELLED.
-bool file_read(const char *path, struct pool *pool, struct watch *watch, struct file_bytes *out, lam_error *error);
+// Reads a file, or standard input for "-". `pool` and `watch` may be NULL. Errors: LAM_CANNOT_READ (no such
+// file, a directory, a read error, it became shorter meanwhile), LAM_LIMIT, LAM_CANCELLED.
+bool file_read(const char *path, struct pool *pool, struct watch *watch, struct file_bytes *out,
+               lam_error *error);
 
 // A padded copy of memory, as file_read would give it.
 bool file_copy(const void *bytes, size_t size, struct watch *watch, struct file_bytes *out, lam_error *error);
 
 void file_release(struct file_bytes *bytes);
 
-// Writes a file whole or not at all: to a temporary name in the same folder, then renamed over `path`. Keeps the mode
-// of an existing file. A path that is not a regular file (/dev/stdout, a pipe) is written directly. LAM_CANNOT_WRITE.
+// Writes a file whole or not at all: to a temporary name in the same folder, then renamed over `path`. Keeps
+// the mode of an existing file. A path that is not a regular file (/dev/stdout, a pipe) is written directly.
+// LAM_CANNOT_WRITE.
 bool file_write(const char *path, const void *data, size_t size, lam_error *error);
 
 // The part of a path behind the last '/', and that part's ending behind the last '.' ("" if none).

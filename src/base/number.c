@@ -21,9 +21,9 @@ struct decimal {
 
 // What is rounded to.
 struct format {
-    int mantissa_bits;  // stored ones
-    int least_exponent; // of the exponent field 0, minus one: −bias
-    int infinite;       // the exponent field of infinity
+    int mantissa_bits;           // stored ones
+    int least_exponent;          // of the exponent field 0, minus one: −bias
+    int infinite;                // the exponent field of infinity
     int even_first, even_last;   // powers of ten at which a product can lie in the middle between two
     int least_power, most_power; // below: 0, above: infinity, whatever 19 digits stand before
 };

@@ -27,8 +27,8 @@ size_t pages_of_machine(void) { return SIZE_MAX; }
 
 enum { PAGE = 4096, HUGE_PAGE = 2 << 20 };
 
-// A block of at least one huge page is aligned to it: the kernel then backs it with huge pages from the first touch,
-// which costs a third of touching the same memory in small pages.
+// A block of at least one huge page is aligned to it: the kernel then backs it with huge pages from the first
+// touch, which costs a third of touching the same memory in small pages.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)

@@ -8,8 +8,8 @@
 void *pages_get(size_t bytes, size_t *held);
 void pages_free(void *pages, size_t held);
 
-// Bytes of memory that the machine has; SIZE_MAX where it does not tell. The system lends more than there is and kills the
-// process that uses it: what asks for a lot asks this first.
+// Bytes of memory that the machine has; SIZE_MAX where it does not tell. The system lends more than there is
+// and kills the process that uses it: what asks for a lot asks this first.
 size_t pages_of_machine(void);
 
 #endif

@@ -71,7 +71,8 @@ void watch_refund(struct watch *watch, size_t bytes)
 bool watch_memory_error(struct watch *watch, size_t bytes, lam_error *error)
 {
     if (watch && __atomic_load_n(&watch->over_memory, __ATOMIC_RELAXED))
-        return fail(error, LAM_LIMIT, "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed",
+        return fail(error, LAM_LIMIT,
+                    "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed",
                     (double)watch->control.memory_limit_bytes / 1e6, (double)watch->memory_used / 1e6,
                     (double)bytes / 1e6);
     return fail_memory(error, bytes);

@@ -171,7 +171,10 @@ static void cpu_free(struct lam_device *base)
 
 // --- the frame's lists
 
-static uint32_t vertices_of(const lam_mesh *mesh) { return mesh->indices ? mesh->vertex_count : 3 * mesh->triangle_count; }
+static uint32_t vertices_of(const lam_mesh *mesh)
+{
+    return mesh->indices ? mesh->vertex_count : 3 * mesh->triangle_count;
+}
 
 static size_t pieces_of(uint32_t count, uint32_t size) { return ((size_t)count + size - 1) / size; }
 
@@ -181,9 +184,10 @@ static void fill_pieces(struct piece *pieces, size_t *at, int draw, uint32_t cou
         pieces[(*at)++] = (struct piece){(uint32_t)draw, first, count - first < size ? count - first : size};
 }
 
-// Lists the pieces of work and makes room for the vertices. False: out of memory, or more vertices than can be numbered.
-static bool make_lists(struct cpu_device *device, struct cpu_frame *cpu, size_t *vertex_pieces, size_t *triangle_pieces,
-                       lam_error *error)
+// Lists the pieces of work and makes room for the vertices. False: out of memory, or more vertices than can
+// be numbered.
+static bool make_lists(struct cpu_device *device, struct cpu_frame *cpu, size_t *vertex_pieces,
+                       size_t *triangle_pieces, lam_error *error)
 {
     const struct frame *frame = cpu->frame;
     uint64_t vertices = 0;
@@ -199,7 +203,8 @@ static bool make_lists(struct cpu_device *device, struct cpu_frame *cpu, size_t 
                     (unsigned long long)vertices, INT32_MAX);
     size_t pieces = *vertex_pieces + *triangle_pieces;
     size_t stride = ((size_t)vertices + 2 * LANES_MAX) & ~(size_t)(LANES_MAX - 1);
-    if (!buffer_reserve(&device->lists, pieces * sizeof(struct piece) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t),
+    if (!buffer_reserve(&device->lists,
+                        pieces * sizeof(struct piece) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t),
                         cpu->watch, error) ||
         !buffer_reserve(&device->vertices, stride * 3 * sizeof(float), cpu->watch, error))
         return false;
@@ -233,7 +238,8 @@ static bool make_products(struct cpu_device *device, struct cpu_frame *cpu, lam_
 {
     const struct frame *frame = cpu->frame;
     size_t materials = (size_t)frame->material_count, lights = (size_t)frame->light_count;
-    size_t skies = (size_t)frame->hemisphere_count, each = lights * sizeof(struct light_products) + skies * 6 * sizeof(float);
+    size_t skies = (size_t)frame->hemisphere_count,
+           each = lights * sizeof(struct light_products) + skies * 6 * sizeof(float);
     size_t bytes;
     if (__builtin_mul_overflow(materials, each + sizeof(struct material_products), &bytes))
         return fail(error, LAM_LIMIT, "%zu materials under %zu lights are too many", materials, lights);
@@ -254,7 +260,8 @@ static bool make_products(struct cpu_device *device, struct cpu_frame *cpu, lam_
             out->shininess = 128;
         out->fibre = material->fibre;
         memcpy(out->reflectivity, &material->reflectivity, sizeof out->reflectivity);
-        out->mirrors = frame->environment && (out->reflectivity[0] != 0 || out->reflectivity[1] != 0 || out->reflectivity[2] != 0);
+        out->mirrors = frame->environment &&
+                       (out->reflectivity[0] != 0 || out->reflectivity[1] != 0 || out->reflectivity[2] != 0);
         struct light_products *list = (struct light_products *)at;
         at += lights * sizeof *list;
         for (size_t i = 0; i < lights; i++) {
@@ -305,7 +312,9 @@ static void fill_empty_tile(const struct cpu_frame *cpu, int tile_x, int tile_y)
     height = height < TILE ? height : TILE;
     size_t size = image->format == LAM_RGBA8 ? 4 : 16;
     for (int y = 0; y < height; y++) {
-        char *row = (char *)image->pixels + (((size_t)tile_y * TILE + (size_t)y) * (size_t)image->width + (size_t)tile_x * TILE) * size;
+        char *row =
+            (char *)image->pixels +
+            (((size_t)tile_y * TILE + (size_t)y) * (size_t)image->width + (size_t)tile_x * TILE) * size;
         for (int x = 0; x < width; x++)
             memcpy(row + (size_t)x * size, cpu->empty_pixel, size);
     }
@@ -358,7 +367,8 @@ static void record_tile(struct cpu_frame *cpu, struct recorder *recorder)
     cpu->kernels = &kernels_recording;
     cpu->recorder = recorder;
     const lam_explanation *out = recorder->out;
-    tile_task(cpu, (size_t)(out->y >> TILE_SHIFT) * (size_t)cpu->tiles_across + (size_t)(out->x >> TILE_SHIFT), 0);
+    tile_task(cpu,
+              (size_t)(out->y >> TILE_SHIFT) * (size_t)cpu->tiles_across + (size_t)(out->x >> TILE_SHIFT), 0);
     if (recorder->failed)
         cpu->failed = FAILED_MEMORY;
 }
@@ -367,8 +377,10 @@ static bool step_done(const struct cpu_frame *cpu, lam_error *error)
 {
     int failed = __atomic_load_n(&cpu->failed, __ATOMIC_RELAXED);
     if (failed == FAILED_LAYERS)
-        return fail(error, LAM_LIMIT, "more than %d translucent triangles lie over one pixel: so many can be put in order, no more",
-                    LAYERS_MAX);
+        return fail(
+            error, LAM_LIMIT,
+            "more than %d translucent triangles lie over one pixel: so many can be put in order, no more",
+            LAYERS_MAX);
     if (failed)
         return watch_memory_error(cpu->watch, 1 << 20, error);
     return watch_on(cpu->watch) || watch_error(cpu->watch, error);
@@ -402,18 +414,27 @@ static void fill_report(lam_frame_report *report, const struct cpu_device *devic
     }
 }
 
-static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct watch *watch, lam_error *error)
+static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_image *image,
+                     struct watch *watch, lam_error *error)
 {
     struct cpu_device *device = (struct cpu_device *)base;
-    struct cpu_frame cpu = {.frame = frame, .kernels = device->kernels, .pattern = sample_pattern(frame->samples),
-                            .image = image, .watch = watch, .pool = device->pool, .threads = device->threads,
-                            .decode_srgb = device->decode_srgb, .decode_linear = device->decode_linear,
-                            .tiles_across = (image->width + TILE - 1) / TILE, .tiles_down = (image->height + TILE - 1) / TILE};
-    // The guard band reaches 65536 pixels to each side of the window's middle: snapped coordinates then fit 26 bits.
+    struct cpu_frame cpu = {.frame = frame,
+                            .kernels = device->kernels,
+                            .pattern = sample_pattern(frame->samples),
+                            .image = image,
+                            .watch = watch,
+                            .pool = device->pool,
+                            .threads = device->threads,
+                            .decode_srgb = device->decode_srgb,
+                            .decode_linear = device->decode_linear,
+                            .tiles_across = (image->width + TILE - 1) / TILE,
+                            .tiles_down = (image->height + TILE - 1) / TILE};
+    // The guard band reaches 65536 pixels to each side of the window's middle: snapped coordinates then fit
+    // 26 bits.
     cpu.guard[0] = cpu.guard[1] = 65536.0f;
     size_t vertex_pieces, triangle_pieces;
-    if (!make_lists(device, &cpu, &vertex_pieces, &triangle_pieces, error) || !make_products(device, &cpu, error) ||
-        !make_threads_ready(device, &cpu, error))
+    if (!make_lists(device, &cpu, &vertex_pieces, &triangle_pieces, error) ||
+        !make_products(device, &cpu, error) || !make_threads_ready(device, &cpu, error))
         return false;
     cpu.kernels->resolve_empty(&cpu);
     if (!lam_show_is_light(frame->show))
@@ -444,7 +465,8 @@ lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
     if (!params)
         params = &plain;
     if (params->threads < 0 || params->threads > 1024) {
-        fail(error, LAM_BAD_ARGUMENT, "cpu: threads is %d, expected 1 to 1024, or 0 for one each processor", params->threads);
+        fail(error, LAM_BAD_ARGUMENT, "cpu: threads is %d, expected 1 to 1024, or 0 for one each processor",
+             params->threads);
         return NULL;
     }
     lam_isa isa = params->isa == LAM_ISA_AUTO ? widest_isa() : params->isa;
@@ -476,7 +498,7 @@ lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
         device->decode_srgb[i] = (float)srgb_linear(i / 255.0);
         device->decode_linear[i] = (float)(i / 255.0);
     }
-    snprintf(device->base.name, sizeof device->base.name, "cpu %s, %d thread%s", kernels->name, device->thread_count,
-             device->thread_count == 1 ? "" : "s");
+    snprintf(device->base.name, sizeof device->base.name, "cpu %s, %d thread%s", kernels->name,
+             device->thread_count, device->thread_count == 1 ? "" : "s");
     return &device->base;
 }

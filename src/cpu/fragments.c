@@ -1,11 +1,13 @@
-// fragments.c: from samples to fragments: each pixel with each triangle it shows, and how many samples show it.
+// fragments.c: from samples to fragments: each pixel with each triangle it shows, and how many samples show
+// it.
 #include "pipeline.h"
 
 #include <string.h>
 
-// The pixel's fragments: one for each different number among its samples, in the order of the nearest sample that shows it.
-static int split_pixel(const struct sample_pattern *pattern, const uint32_t *ids, struct thread_state *thread, int count,
-                       uint16_t pixel)
+// The pixel's fragments: one for each different number among its samples, in the order of the nearest sample
+// that shows it.
+static int split_pixel(const struct sample_pattern *pattern, const uint32_t *ids, struct thread_state *thread,
+                       int count, uint16_t pixel)
 {
     int first = count;
     for (int i = 0; i < pattern->count; i++) {
@@ -28,7 +30,8 @@ static int split_pixel(const struct sample_pattern *pattern, const uint32_t *ids
     return count;
 }
 
-// Sorts the fragments' numbers by group: by 11 bits at a time from the lowest, keeping the order within a group.
+// Sorts the fragments' numbers by group: by 11 bits at a time from the lowest, keeping the order within a
+// group.
 static void sort_by_group(struct thread_state *thread, uint32_t largest)
 {
     uint32_t n = (uint32_t)thread->fragment_count;

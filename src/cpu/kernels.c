@@ -1,4 +1,5 @@
-// kernels.c: the template of all kernels, compiled once for each instruction set with LANES and ISA defined (meson.build).
+// kernels.c: the template of all kernels, compiled once for each instruction set with LANES and ISA defined
+// (meson.build).
 #include "kernels.h"
 
 #include "lanes.h"
@@ -11,10 +12,10 @@
 #include "resolve.inc"
 #include "record_pixel.inc"
 
-#define JOIN(a, b)  a##b
-#define NAME(isa)   JOIN(kernels_, isa)
-#define TEXT(x)     #x
-#define STRING(x)   TEXT(x)
+#define JOIN(a, b) a##b
+#define NAME(isa)  JOIN(kernels_, isa)
+#define TEXT(x)    #x
+#define STRING(x)  TEXT(x)
 
 const struct kernels NAME(ISA) = {
     .name = STRING(ISA),

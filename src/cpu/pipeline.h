@@ -16,23 +16,25 @@
 #include "watch.h"
 
 enum {
-    TILE = 64,                   // pixels on a side; the same on every machine
+    TILE = 64, // pixels on a side; the same on every machine
     TILE_SHIFT = 6,
-    SUBPIXEL = 256,              // steps of a snapped vertex in a pixel
+    SUBPIXEL = 256, // steps of a snapped vertex in a pixel
     SUBPIXEL_SHIFT = 8,
     SAMPLES_MAX = 16,
     LANES_MAX = 16,
-    VERTEX_PIECE = 8192,         // vertices and triangles in one piece of parallel work
+    VERTEX_PIECE = 8192, // vertices and triangles in one piece of parallel work
     TRIANGLE_PIECE = 4096,
-    SMALL = TILE * SUBPIXEL,     // triangles up to this extent have edge functions in 32 bits
-    LAYERS_MAX = 65536,          // fragments of translucent surfaces held at once by a thread, and so the most over one pixel
+    SMALL = TILE * SUBPIXEL, // triangles up to this extent have edge functions in 32 bits
+    LAYERS_MAX =
+        65536, // fragments of translucent surfaces held at once by a thread, and so the most over one pixel
 };
 
-#define NOTHING 0xffffffffu      // a sample that no triangle covers
-#define BACK_SIDE 0x80000000u    // in a visibility number: the triangle shows its back
-#define CLIPPED 0x80000000u      // in a bin: the number of a clipped piece, not of a triangle
+#define NOTHING   0xffffffffu // a sample that no triangle covers
+#define BACK_SIDE 0x80000000u // in a visibility number: the triangle shows its back
+#define CLIPPED   0x80000000u // in a bin: the number of a clipped piece, not of a triangle
 
-// Where samples lie in a pixel, in 1/16 pixel from its centre (y down), and in which order they are near to it.
+// Where samples lie in a pixel, in 1/16 pixel from its centre (y down), and in which order they are near to
+// it.
 struct sample_pattern {
     int count;
     int8_t x[SAMPLES_MAX], y[SAMPLES_MAX];
@@ -69,8 +71,8 @@ struct piece {
     uint32_t draw, first, count;
 };
 
-// Bins: for each tile a chain of blocks with triangle numbers. Every thread has its own, so no locks are taken; the picture
-// does not depend on the order in which a tile's triangles come.
+// Bins: for each tile a chain of blocks with triangle numbers. Every thread has its own, so no locks are
+// taken; the picture does not depend on the order in which a tile's triangles come.
 enum { BIN_BLOCK_IDS = 62 };
 struct bin_block {
     struct bin_block *next;
@@ -81,9 +83,9 @@ struct bin_block {
 // Memory in slabs that never move: blocks and clipped pieces of one thread.
 struct slab_list {
     void **slabs;
-    int count, room;  // slabs held
-    int current;      // the slab being filled
-    size_t used;      // bytes of it
+    int count, room; // slabs held
+    int current;     // the slab being filled
+    size_t used;     // bytes of it
 };
 
 // A pixel's fragment of a translucent surface, to be put in order for one sample: the larger rank is nearer.
@@ -107,36 +109,36 @@ struct thread_state {
     float *keys;
     uint32_t *ids;
     // One tile's fragments, in the order of pixels.
-    uint32_t *fragment_id;      // with BACK_SIDE
-    uint16_t *fragment_pixel;   // y·TILE + x
-    uint8_t *fragment_weight;   // samples
-    uint8_t *fragment_sample;   // the covered one nearest to the centre
-    uint32_t *fragment_group;   // surface·2 + back
-    uint32_t *order;            // fragments sorted by group
-    float *fragment_color[4];   // r, g, b, a; not premultiplied
+    uint32_t *fragment_id;    // with BACK_SIDE
+    uint16_t *fragment_pixel; // y·TILE + x
+    uint8_t *fragment_weight; // samples
+    uint8_t *fragment_sample; // the covered one nearest to the centre
+    uint32_t *fragment_group; // surface·2 + back
+    uint32_t *order;          // fragments sorted by group
+    float *fragment_color[4]; // r, g, b, a; not premultiplied
     int fragment_count;
     // Gouraud and flat shading: the points lit in this tile, found again by hashing.
-    uint32_t *point_table;      // slot → point + 1; a power of two of them, fitted to the group
-    uint32_t (*point_key)[4];   // what makes a point: position, normal, colour, tangent element
-    uint32_t *fragment_point;   // 3 per fragment
+    uint32_t *point_table;    // slot → point + 1; a power of two of them, fitted to the group
+    uint32_t (*point_key)[4]; // what makes a point: position, normal, colour, tangent element
+    uint32_t *fragment_point; // 3 per fragment
     float *point_color[4];
-    int32_t *counts;            // triangles that cover each sample; NULL: nobody asks (show.c)
-    float *shown;               // the tile's part of the picture, for LAM_SHOW_CLIPPED
+    int32_t *counts; // triangles that cover each sample; NULL: nobody asks (show.c)
+    float *shown;    // the tile's part of the picture, for LAM_SHOW_CLIPPED
     // Sums of a tile's pixels: r, g, b premultiplied, and alpha.
     float *sum[4];
 
-    // Translucent surfaces; room is made only for frames that have any. Their fragments use the arrays above, before the opaque
-    // ones do: one for each pixel and triangle, with the samples that show it.
+    // Translucent surfaces; room is made only for frames that have any. Their fragments use the arrays above,
+    // before the opaque ones do: one for each pixel and triangle, with the samples that show it.
     uint32_t translucent_triangles; // binned in this tile
-    bool layers_clipped;            // among the gathered are pieces of clipped triangles, that may share a pixel
-    uint16_t *layer_samples;        // of each fragment, a bit each
-    float *layer_keys;              // of each fragment, one for each sample
-    uint32_t *layer_order;          // fragments in the order of pixels
-    uint32_t *layer_start;          // of each pixel, in layer_order; one more at the end
-    struct layer *layers;           // of one pixel
-    float *clear;                   // what the layers over each sample let through
+    bool layers_clipped;     // among the gathered are pieces of clipped triangles, that may share a pixel
+    uint16_t *layer_samples; // of each fragment, a bit each
+    float *layer_keys;       // of each fragment, one for each sample
+    uint32_t *layer_order;   // fragments in the order of pixels
+    uint32_t *layer_start;   // of each pixel, in layer_order; one more at the end
+    struct layer *layers;    // of one pixel
+    float *clear;            // what the layers over each sample let through
 
-    struct buffer scratch;      // holds the arrays above but the slabs
+    struct buffer scratch; // holds the arrays above but the slabs
     uint64_t coverage_ns, lighting_ns, resolve_ns, pixels_covered, points_lit, triangles_binned;
 };
 
@@ -146,12 +148,12 @@ struct light_products {
     float ambient[3];              // ka ⊙ La, where it is attenuated (gl1)
 };
 struct material_products {
-    float ambient[3];              // ka ⊙ (La_global + Σ La)
+    float ambient[3]; // ka ⊙ (La_global + Σ La)
     float emission[3];
-    float diffuse[4];              // kd and opacity, for painting unlit
+    float diffuse[4]; // kd and opacity, for painting unlit
     float shininess;
-    float reflectivity[3];         // kr
-    bool mirrors;                  // there is an environment, and kr is not 0
+    float reflectivity[3]; // kr
+    bool mirrors;          // there is an environment, and kr is not 0
     bool fibre;
     const struct light_products *lights; // one for each light
     float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere
@@ -167,14 +169,16 @@ struct cpu_frame {
     struct watch *watch;
     struct pool *pool;
     int tiles_across, tiles_down;
-    float guard[2]; // |x|, |y| of a vertex up to which the fast path takes it, in multiples of w, about the window's middle
+    float guard[2]; // |x|, |y| of a vertex up to which the fast path takes it, in multiples of w, about the
+                    // window's middle
     struct vertices vertices;
     const uint32_t *first_vertex; // of each draw
     const struct piece *vertex_pieces, *triangle_pieces;
     const struct material_products *materials;
     struct thread_state *threads;
     const float *decode_srgb, *decode_linear; // 256 entries each: what a colour byte stands for
-    struct recorder *recorder; // of the one pixel that is explained (recorder.h), in the recording kernels; else NULL
+    struct recorder
+        *recorder; // of the one pixel that is explained (recorder.h), in the recording kernels; else NULL
     uint8_t empty_pixel[16]; // what a pixel without fragments holds
     int failed;              // enum failure, set atomically by a worker
 };
@@ -212,11 +216,12 @@ struct snapped {
 };
 
 // Bins a triangle of any size by its snapped corners: only tiles it can touch.
-void bin_large(struct cpu_frame *cpu, struct thread_state *thread, const struct snapped *corners, uint32_t id);
+void bin_large(struct cpu_frame *cpu, struct thread_state *thread, const struct snapped *corners,
+               uint32_t id);
 
 // Clips triangle t of a draw (id is its number) against the planes its corners violate, and bins the pieces.
-void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw, uint32_t t,
-                   uint32_t id);
+void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw,
+                   uint32_t t, uint32_t id);
 
 // Lists the opaque fragments of a tile.
 void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height);
@@ -224,13 +229,15 @@ void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread,
 // Finds the groups of the listed fragments, and their order by group.
 void group_fragments(const struct frame *frame, struct thread_state *thread);
 
-// Gathers, lights and blends the translucent fragments of a tile that lie before the opaque ones: into the thread's sums
-// (premultiplied) and `clear`.
-void blend_tile(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height);
+// Gathers, lights and blends the translucent fragments of a tile that lie before the opaque ones: into the
+// thread's sums (premultiplied) and `clear`.
+void blend_tile(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width,
+                int height);
 
-// What the picture holds where it shows numbers (lam_show): the pixels of a tile, in place of the kernels' resolve, and a pixel
-// without fragments.
-void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height);
+// What the picture holds where it shows numbers (lam_show): the pixels of a tile, in place of the kernels'
+// resolve, and a pixel without fragments.
+void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width,
+               int height);
 void show_empty(struct cpu_frame *cpu);
 
 // Rounds to the nearest 1/256 pixel.

@@ -1,5 +1,5 @@
-// show.c: pixels that hold numbers of the surfaces in place of colours: what stands for a pixel, and its code in 8 bits
-// (lam_show in lambent/device.h says both). Plain C: every instruction set has the same.
+// show.c: pixels that hold numbers of the surfaces in place of colours: what stands for a pixel, and its code
+// in 8 bits (lam_show in lambent/device.h says both). Plain C: every instruction set has the same.
 #include "kernels.h"
 
 #include <string.h>
@@ -60,7 +60,8 @@ static void put(const struct cpu_frame *cpu, const float v[4], void *to)
         memset(to, 0, 4);
 }
 
-// Each pixel's number is its first fragment's: the one with the covered sample nearest to the centre (fragments.c).
+// Each pixel's number is its first fragment's: the one with the covered sample nearest to the centre
+// (fragments.c).
 static void pick_fragments(struct thread_state *thread)
 {
     int before = -1;
@@ -78,7 +79,8 @@ static void pick_fragments(struct thread_state *thread)
 static void sum_coverage(const struct cpu_frame *cpu, struct thread_state *thread)
 {
     for (int i = 0; i < thread->fragment_count; i++)
-        thread->sum[0][thread->fragment_pixel[i]] += (float)thread->fragment_weight[i] / (float)cpu->frame->samples;
+        thread->sum[0][thread->fragment_pixel[i]] +=
+            (float)thread->fragment_weight[i] / (float)cpu->frame->samples;
 }
 
 static void sum_overdraw(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height)
@@ -111,7 +113,13 @@ static void put_clipped(const struct cpu_frame *cpu, const float p[4], void *to)
         return;
     }
     uint8_t grey = byte_of((straight[0] + straight[1] + straight[2]) * (0.5f / 3.0f));
-    uint8_t code[4] = {above ? 255 : below ? 0 : grey, above || below ? 0 : grey, above ? 0 : below ? 255 : grey,
+    uint8_t code[4] = {above   ? 255
+                       : below ? 0
+                               : grey,
+                       above || below ? 0 : grey,
+                       above   ? 0
+                       : below ? 255
+                               : grey,
                        p[3] > 0 ? 255 : 0};
     memcpy(to, code, 4);
 }
@@ -125,7 +133,8 @@ static void resolve_apart(const struct cpu_frame *cpu, struct thread_state *thre
     cpu->kernels->resolve(&copy, thread, 0, 0);
 }
 
-void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height)
+void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width,
+               int height)
 {
     lam_show show = cpu->frame->show;
     bool of_pixels = show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW;
@@ -144,7 +153,9 @@ void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int til
     lam_image *image = cpu->image;
     size_t size = image->format == LAM_RGBA8 ? 4 : 16;
     for (int y = 0; y < height; y++) {
-        char *row = (char *)image->pixels + (((size_t)tile_y * TILE + (size_t)y) * (size_t)image->width + (size_t)tile_x * TILE) * size;
+        char *row =
+            (char *)image->pixels +
+            (((size_t)tile_y * TILE + (size_t)y) * (size_t)image->width + (size_t)tile_x * TILE) * size;
         for (int x = 0; x < width; x++, row += size) {
             int at = y * TILE + x;
             float first = thread->sum[0][at];
@@ -166,5 +177,6 @@ void show_empty(struct cpu_frame *cpu)
         put_clipped(cpu, (float[4]){b->r * b->a, b->g * b->a, b->b * b->a, b->a}, cpu->empty_pixel);
         return;
     }
-    put(cpu, (float[4]){0, 0, 0, show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW ? 1.0f : 0.0f}, cpu->empty_pixel);
+    put(cpu, (float[4]){0, 0, 0, show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW ? 1.0f : 0.0f},
+        cpu->empty_pixel);
 }

@@ -11,8 +11,8 @@ struct codec {
     const char *title; // for messages: "PNG"
     lam_pixel_format pixels;
 
-    // NULL: this format is only read. Encodes a picture whose size and pixel format are right into memory from malloc. `params` is never
-    // NULL; `pool` may be, and has nothing to do with the bytes.
+    // NULL: this format is only read. Encodes a picture whose size and pixel format are right into memory
+    // from malloc. `params` is never NULL; `pool` may be, and has nothing to do with the bytes.
     bool (*write)(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                   lam_error *error);
 
@@ -23,8 +23,9 @@ struct codec {
     // messages.
     bool (*read)(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error);
 
-    // As read, for a format that can have more than 8 bits for a number: then `image` becomes LAM_RGBA32F with the numbers
-    // as they are in the file, 0…1, neither decoded nor premultiplied, and *wide is true. NULL: read has all bits.
+    // As read, for a format that can have more than 8 bits for a number: then `image` becomes LAM_RGBA32F
+    // with the numbers as they are in the file, 0…1, neither decoded nor premultiplied, and *wide is true.
+    // NULL: read has all bits.
     bool (*read_wide)(const uint8_t *bytes, size_t size, const char *name, lam_image *image, bool *wide,
                       lam_error *error);
 

@@ -12,7 +12,8 @@
 #include <unistd.h>
 
 // Those that can be written come first.
-static const struct codec *const codecs[] = {&codec_png, &codec_ppm, &codec_pfm, &codec_exr, &codec_jpeg, &codec_hdr};
+static const struct codec *const codecs[] = {&codec_png, &codec_ppm,  &codec_pfm,
+                                             &codec_exr, &codec_jpeg, &codec_hdr};
 enum { CODECS = sizeof codecs / sizeof *codecs, WRITTEN = 4, THREADS_MOST = 1024, LIST_ROOM = 128 };
 
 static const struct codec *codec_named(const char *name)
@@ -171,7 +172,8 @@ static bool load(lam_image *image, const char *path, bool *wide, lam_error *erro
     else if (codec)
         ok = codec->read(file.data, file.size, name, image, error);
     else if (file.size == 0)
-        ok = fail(error, LAM_CANNOT_READ, "%s: is empty, expected a PNG, JPEG, PPM, PFM, EXR or Radiance picture", name);
+        ok = fail(error, LAM_CANNOT_READ,
+                  "%s: is empty, expected a PNG, JPEG, PPM, PFM, EXR or Radiance picture", name);
     else
         ok = fail(error, LAM_CANNOT_READ,
                   "%s: byte 0: not the start of a PNG, JPEG, PPM (P6), PFM, EXR or Radiance picture", name);

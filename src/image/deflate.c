@@ -16,20 +16,11 @@ typedef uint32_t u32x4 __attribute__((vector_size(16)));
 typedef uint64_t u64x2 __attribute__((vector_size(16)));
 typedef u32x4 u32x4_memory __attribute__((aligned(4), may_alias));
 
-static inline u32x4 load(const uint32_t *at)
-{
-    return (u32x4) * (const u32x4_memory *)at;
-}
+static inline u32x4 load(const uint32_t *at) { return (u32x4) * (const u32x4_memory *)at; }
 
-static inline void put_token(struct token *at, uint64_t token)
-{
-    memcpy(at, &token, sizeof token);
-}
+static inline void put_token(struct token *at, uint64_t token) { memcpy(at, &token, sizeof token); }
 
-static size_t stride_of(int width)
-{
-    return ROOM_BEFORE + (size_t)width + CHUNK;
-}
+static size_t stride_of(int width) { return ROOM_BEFORE + (size_t)width + CHUNK; }
 
 size_t deflate_scratch(int width, int rows)
 {

@@ -110,10 +110,7 @@ static void tell_lengths(struct codes *codes, const uint8_t *lengths, unsigned c
 }
 
 // Further bits of a distance symbol.
-static unsigned distance_extra(int symbol)
-{
-    return symbol < 4 ? 0 : (unsigned)symbol / 2 - 1;
-}
+static unsigned distance_extra(int symbol) { return symbol < 4 ? 0 : (unsigned)symbol / 2 - 1; }
 
 static uint32_t count_of(const struct deflate *deflate, int kind)
 {

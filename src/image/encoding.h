@@ -25,9 +25,6 @@ LANE_FN num srgb_decode(num encoded)
 }
 
 // 0…1 to 0…255: floor(255·x + ½); clamped, NaN gives 0.
-LANE_FN inum byte_of(num x)
-{
-    return int_of(saturate(x) * 255.0f + 0.5f);
-}
+LANE_FN inum byte_of(num x) { return int_of(saturate(x) * 255.0f + 0.5f); }
 
 #endif

@@ -11,10 +11,7 @@
 
 enum { SIDE_MOST = 65535 };
 
-static size_t pixel_bytes(lam_pixel_format format)
-{
-    return format == LAM_RGBA32F ? 16 : 4;
-}
+static size_t pixel_bytes(lam_pixel_format format) { return format == LAM_RGBA32F ? 16 : 4; }
 
 // Large pictures lie in huge pages where the system gives them: first touch is three times as fast.
 static void *get_pixels(size_t bytes)
@@ -45,7 +42,8 @@ bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format fo
         return fail(error, LAM_LIMIT, "image: %d×%d pixels, expected at most %d×%d", width, height, SIDE_MOST,
                     SIDE_MOST);
     uint64_t bytes = (uint64_t)width * (uint64_t)height * pixel_bytes(format); // below 2³⁶
-    // The system lends memory that is not there and kills the process that uses it; drawing and encoding need some too.
+    // The system lends memory that is not there and kills the process that uses it; drawing and encoding need
+    // some too.
     void *pixels = bytes <= SIZE_MAX && bytes <= pages_of_machine() / 2 ? get_pixels((size_t)bytes) : NULL;
     if (!pixels)
         return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which could not be had",

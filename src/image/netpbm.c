@@ -4,10 +4,7 @@
 #include "fail.h"
 #include "number.h"
 
-static bool is_space(uint8_t c)
-{
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
+static bool is_space(uint8_t c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 static const uint8_t *skip_space(const uint8_t *at, const uint8_t *end)
 {

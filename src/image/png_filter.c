@@ -12,23 +12,11 @@ typedef u8x16 u8x16_memory __attribute__((aligned(1), may_alias));
 
 #define INLINE static inline __attribute__((always_inline))
 
-INLINE u8x16 load(const uint8_t *at)
-{
-    return (u8x16) * (const u8x16_memory *)at;
-}
-INLINE u8x16 choose(u8x16 mask, u8x16 a, u8x16 b)
-{
-    return (a & mask) | (b & ~mask);
-}
-INLINE u8x16 below(u8x16 a, u8x16 b)
-{
-    return (u8x16)(a < b);
-}
+INLINE u8x16 load(const uint8_t *at) { return (u8x16) * (const u8x16_memory *)at; }
+INLINE u8x16 choose(u8x16 mask, u8x16 a, u8x16 b) { return (a & mask) | (b & ~mask); }
+INLINE u8x16 below(u8x16 a, u8x16 b) { return (u8x16)(a < b); }
 // |a − b|, given a < b as a mask.
-INLINE u8x16 distance(u8x16 a, u8x16 b, u8x16 a_below)
-{
-    return ((a - b) ^ a_below) - a_below;
-}
+INLINE u8x16 distance(u8x16 a, u8x16 b, u8x16 a_below) { return ((a - b) ^ a_below) - a_below; }
 
 // The mean, rounded down, without a ninth bit.
 INLINE u8x16 average(u8x16 a, u8x16 b)
@@ -76,10 +64,7 @@ INLINE bool is_blank(const uint8_t *row)
     return (any[0] | any[1]) == 0;
 }
 
-INLINE void put(uint32_t *out, int at, u8x16 result)
-{
-    *(u8x16_memory *)(out + at / 4) = result;
-}
+INLINE void put(uint32_t *out, int at, u8x16 result) { *(u8x16_memory *)(out + at / 4) = result; }
 
 // One vector at a time; the first, which has nothing to its left, and the last, which may be short, go
 // through copies.

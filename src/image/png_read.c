@@ -45,7 +45,8 @@ static bool fits(const struct spng_ihdr *header, size_t size)
     return (bits / 8 + 1) * header->height / 1032 <= size;
 }
 
-// The 16-bit numbers lie in the second half of the pixels' memory; in ascending order none is overwritten before it is read.
+// The 16-bit numbers lie in the second half of the pixels' memory; in ascending order none is overwritten
+// before it is read.
 static void widen(lam_image *image)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
@@ -82,7 +83,8 @@ static bool decode(spng_ctx *spng, const uint8_t *bytes, size_t size, const char
     if (!lam_image_make(image, (int)header.width, (int)header.height, keep ? LAM_RGBA32F : LAM_RGBA8, error))
         return false;
     size_t count = (size_t)header.width * header.height;
-    code = keep ? spng_decode_image(spng, (char *)image->pixels + 8 * count, 8 * count, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS)
+    code = keep ? spng_decode_image(spng, (char *)image->pixels + 8 * count, 8 * count, SPNG_FMT_RGBA16,
+                                    SPNG_DECODE_TRNS)
                 : spng_decode_image(spng, image->pixels, 4 * count, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS);
     if (!code)
         code = spng_decode_chunks(spng); // to the file's end, so that one cut behind the pixels is told too

@@ -100,10 +100,7 @@ static void look_for_translucent(void *user, size_t index, int thread)
     }
 }
 
-static int first_trial(int rows)
-{
-    return rows < TRIAL_STEP ? 0 : TRIAL_STEP / 2;
-}
+static int first_trial(int rows) { return rows < TRIAL_STEP ? 0 : TRIAL_STEP / 2; }
 
 // The filter that leaves the least on some of the strip's rows.
 static enum png_filter best_filter(const struct encoding *encoding, struct deflate *scratch, int top,

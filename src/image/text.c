@@ -147,10 +147,7 @@ static FT_ULong next_letter(const char **text)
     return wrong ? 0xFFFD : letter;
 }
 
-static float clamped(float x)
-{
-    return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
-}
+static float clamped(float x) { return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; }
 
 // One colour over one pixel with a share of coverage, both not premultiplied.
 static void blend_bytes(uint8_t *pixel, lam_rgba color, float cover)
@@ -248,10 +245,7 @@ lam_font *lam_font_open(const char *path, lam_error *error)
     return NULL;
 }
 
-void lam_font_free(lam_font *font)
-{
-    (void)font;
-}
+void lam_font_free(lam_font *font) { (void)font; }
 
 double lam_text_width(lam_font *font, double size_px, const char *text)
 {

@@ -8,10 +8,7 @@
 // cache.
 enum { CHUNK_ROWS = 4096 };
 
-static inline size_t chunk_count(size_t rows)
-{
-    return rows / CHUNK_ROWS + (rows % CHUNK_ROWS != 0);
-}
+static inline size_t chunk_count(size_t rows) { return rows / CHUNK_ROWS + (rows % CHUNK_ROWS != 0); }
 
 // The rows of piece `index`: [*first, *last).
 static inline void chunk_rows(size_t rows, size_t index, size_t *first, size_t *last)

@@ -12,7 +12,8 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-static const struct importer *const importers[] = {&importer_obj, &importer_stl, &importer_ply, &importer_scene};
+static const struct importer *const importers[] = {&importer_obj, &importer_stl, &importer_ply,
+                                                   &importer_scene};
 enum { IMPORTERS = sizeof importers / sizeof *importers };
 
 const char *lam_format_name(int format)
@@ -171,7 +172,8 @@ bool confine(const char *name, char *out, size_t room)
 enum { PATH_LONGEST = 4096 };
 
 // Through the caller's function, by the name as it may be looked for.
-static bool open_by_caller(const struct import_source *source, const char *inside, struct file_bytes *out, lam_error *error)
+static bool open_by_caller(const struct import_source *source, const char *inside, struct file_bytes *out,
+                           lam_error *error)
 {
     const struct companions *companions = source->open_state;
     if (!companions->open)
@@ -185,19 +187,22 @@ static bool open_by_caller(const struct import_source *source, const char *insid
 }
 
 // The name beside the model, as it can be opened from here.
-static bool beside(const struct import_source *source, const char *name, char path[2 * PATH_LONGEST], lam_error *error)
+static bool beside(const struct import_source *source, const char *name, char path[2 * PATH_LONGEST],
+                   lam_error *error)
 {
     const char *model = ((const struct companions *)source->open_state)->model;
     int folder = name[0] == '/' ? 0 : (int)(path_name(model) - model);
     // Behind "./" a file called "-" is a file.
-    int length = snprintf(path, 2 * PATH_LONGEST, "%.*s%s%s", folder, model, folder == 0 && name[0] == '-' ? "./" : "", name);
+    int length = snprintf(path, 2 * PATH_LONGEST, "%.*s%s%s", folder, model,
+                          folder == 0 && name[0] == '-' ? "./" : "", name);
     if (length < 0 || length >= 2 * PATH_LONGEST)
         return fail(error, LAM_CANNOT_READ, "%s: the path to '%.80s' is too long", source->name, name);
     return true;
 }
 
 // A pipe or a device of that name would be waited for.
-static bool read_regular(const struct import_source *source, const char *path, struct file_bytes *out, lam_error *error)
+static bool read_regular(const struct import_source *source, const char *path, struct file_bytes *out,
+                         lam_error *error)
 {
     struct stat about;
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
@@ -209,7 +214,8 @@ static bool confine_or_fail(const struct import_source *source, const char *name
                             lam_error *error)
 {
     if (!confine(name, inside, PATH_LONGEST) || !*inside || strcmp(inside, "..") == 0)
-        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for", source->name, name);
+        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for",
+                    source->name, name);
     return true;
 }
 
@@ -225,8 +231,8 @@ static bool open_companion(const struct import_source *source, const char *name,
     return beside(source, inside, path, error) && read_regular(source, path, out, error);
 }
 
-static bool open_model(const struct import_source *source, const char *name, struct arena *arena, const char **path,
-                       struct file_bytes *out, lam_error *error)
+static bool open_model(const struct import_source *source, const char *name, struct arena *arena,
+                       const char **path, struct file_bytes *out, lam_error *error)
 {
     const struct companions *companions = source->open_state;
     char inside[PATH_LONGEST], at[2 * PATH_LONGEST];

@@ -77,7 +77,8 @@ struct reader {
     size_t unknown_count, stray_count;
 };
 
-// The line that a place is in, for warnings: counted on from the one before, so that a file of mistakes costs one pass.
+// The line that a place is in, for warnings: counted on from the one before, so that a file of mistakes costs
+// one pass.
 static size_t line_of(struct reader *reader, const uint8_t *at)
 {
     if (at < reader->counted_to || !reader->counted_to) {
@@ -117,8 +118,8 @@ static float within(struct reader *reader, const uint8_t *at, float x, float low
     if (x >= low && x <= high)
         return x;
     float to = x > high ? high : low; // NaN goes to the lower end
-    scene_warn(reader->scene, "%s:%zu: %s %g is out of range; %g is used", reader->name,
-               line_of(reader, at), what, (double)x, (double)to);
+    scene_warn(reader->scene, "%s:%zu: %s %g is out of range; %g is used", reader->name, line_of(reader, at),
+               what, (double)x, (double)to);
     return to;
 }
 
@@ -154,17 +155,19 @@ static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *
 // Ends the material that is open and puts it into the scene.
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-// A material whose colours are all 0 shows nothing but a hole. Exporters write it where the colours are in textures, or
-// nowhere: the neutral colours are taken, and the file's user is told.
+// A material whose colours are all 0 shows nothing but a hole. Exporters write it where the colours are in
+// textures, or nowhere: the neutral colours are taken, and the file's user is told.
 static void mend_black(struct reader *reader, lam_material *m)
 {
     lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
-    if (!reader->kd || !is_black(kd) || !is_black(m->ambient) || !is_black(m->specular) || !is_black(m->emission))
+    if (!reader->kd || !is_black(kd) || !is_black(m->ambient) || !is_black(m->specular) ||
+        !is_black(m->emission))
         return;
     lam_material neutral = lam_material_default();
     m->ambient = neutral.ambient;
     m->diffuse = (lam_rgba){neutral.diffuse.r, neutral.diffuse.g, neutral.diffuse.b, m->diffuse.a};
-    scene_warn(reader->scene, "%s: material '%s' is black in every colour; a neutral grey is drawn", reader->name, m->name);
+    scene_warn(reader->scene, "%s: material '%s' is black in every colour; a neutral grey is drawn",
+               reader->name, m->name);
 }
 
 static bool close_material(struct reader *reader, lam_error *error)

@@ -115,10 +115,7 @@ bool obj_load_chunked(const struct import_source *source, struct lam_scene *scen
 // Line number of a place in the file.
 size_t obj_line(const struct obj *obj, const uint8_t *at);
 
-static inline bool obj_white(uint8_t c)
-{
-    return c <= ' ' && c != '\n' && c != 0;
-}
+static inline bool obj_white(uint8_t c) { return c <= ' ' && c != '\n' && c != 0; }
 
 static inline const uint8_t *obj_next(const uint8_t *at, const uint8_t *end)
 {
@@ -129,10 +126,7 @@ static inline const uint8_t *obj_next(const uint8_t *at, const uint8_t *end)
 }
 
 // Whether obj_next found the statement's end.
-static inline bool obj_over(const uint8_t *at, const uint8_t *end)
-{
-    return *at == '\n' || at >= end;
-}
+static inline bool obj_over(const uint8_t *at, const uint8_t *end) { return *at == '\n' || at >= end; }
 
 // Whether a word ends here.
 static inline bool obj_word_over(const uint8_t *at)

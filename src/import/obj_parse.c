@@ -62,10 +62,7 @@ static inline const uint8_t *finish(const uint8_t *at, const uint8_t *end)
     return at < end ? at + 1 : end;
 }
 
-static float clean(float x)
-{
-    return x > 0 ? x : 0;
-} // NaN too
+static float clean(float x) { return x > 0 ? x : 0; } // NaN too
 
 // What may follow x y z: nothing; w, which only rational curves use; r g b, perhaps with more behind.
 static const uint8_t *read_color(struct reader *reader, const uint8_t *at, float *color)

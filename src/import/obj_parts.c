@@ -98,10 +98,7 @@ static bool read_name(struct state *state, const uint8_t *at, const char **out, 
     return true;
 }
 
-static bool same_name(const char *a, const char *b)
-{
-    return a == b || (a && b && strcmp(a, b) == 0);
-}
+static bool same_name(const char *a, const char *b) { return a == b || (a && b && strcmp(a, b) == 0); }
 
 // --- parts
 
@@ -306,14 +303,16 @@ static bool explain_nothing(struct state *state, lam_error *error)
             name, obj_line(obj, state->first[FREE_FORM]),
             text_found(state->first[FREE_FORM], obj->end, found));
     if (lines && points)
-        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu line%s and %zu point%s", name, lines,
-                    lines == 1 ? "" : "s", points, points == 1 ? "" : "s");
+        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu line%s and %zu point%s", name,
+                    lines, lines == 1 ? "" : "s", points, points == 1 ? "" : "s");
     if (lines + points)
         return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu %s%s", name, lines + points,
                     lines ? "line" : "point", lines + points == 1 ? "" : "s");
     if (state->counts[UNKNOWN])
-        return fail(error, LAM_CANNOT_READ, "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file holds no triangles",
-                    name, obj_line(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found));
+        return fail(error, LAM_CANNOT_READ,
+                    "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file holds no triangles",
+                    name, obj_line(obj, state->first[UNKNOWN]),
+                    text_found(state->first[UNKNOWN], obj->end, found));
     return true;
 }
 

@@ -44,10 +44,7 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
 
 size_t ply_type_size(enum ply_type type);
 const char *ply_type_name(enum ply_type type);
-static inline bool ply_type_is_integer(enum ply_type type)
-{
-    return type < PLY_F32;
-}
+static inline bool ply_type_is_integer(enum ply_type type) { return type < PLY_F32; }
 
 // Index of a property of that name, list or scalar; −1: none.
 int ply_find(const struct ply_element *element, bool list, const char *name);

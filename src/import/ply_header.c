@@ -26,14 +26,8 @@ static const struct {
     [PLY_F32] = {"float", "float32", 4}, [PLY_F64] = {"double", "float64", 8},
 };
 
-size_t ply_type_size(enum ply_type type)
-{
-    return types[type].size;
-}
-const char *ply_type_name(enum ply_type type)
-{
-    return types[type].name;
-}
+size_t ply_type_size(enum ply_type type) { return types[type].size; }
+const char *ply_type_name(enum ply_type type) { return types[type].name; }
 
 int ply_find(const struct ply_element *element, bool list, const char *name)
 {

@@ -41,10 +41,7 @@ static double position_at(const struct positions *positions, size_t row, int axi
                            table->types[property], table->swapped);
 }
 
-static bool is_finite(double value)
-{
-    return value >= -DBL_MAX && value <= DBL_MAX;
-}
+static bool is_finite(double value) { return value >= -DBL_MAX && value <= DBL_MAX; }
 
 // Floats, and integers that floats hold: as they are.
 static bool copy_piece(void *user, size_t index, lam_error *error)

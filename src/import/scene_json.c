@@ -1,4 +1,5 @@
-// scene_json.c: scene files: the JSON around it all, the picture's settings, and the row in the table of formats.
+// scene_json.c: scene files: the JSON around it all, the picture's settings, and the row in the table of
+// formats.
 #include "scene_file.h"
 
 #include "fail.h"
@@ -49,7 +50,8 @@ static bool read_image(struct scene_reader *r, const json_t *root)
             return false;
         for (size_t i = 0; i < 2; i++)
             if (!(sides[i] >= 1 && sides[i] <= 65535) || sides[i] != (double)(int)sides[i])
-                return fail_place(r, ELEMENT_OF(here, i), "found %.10g, expected pixels from 1 to 65535", sides[i]);
+                return fail_place(r, ELEMENT_OF(here, i), "found %.10g, expected pixels from 1 to 65535",
+                                  sides[i]);
         s->width = (int)sides[0];
         s->height = (int)sides[1];
         s->given |= LAM_GIVEN_SIZE;
@@ -70,13 +72,15 @@ static bool read_image(struct scene_reader *r, const json_t *root)
     s->given |= json_object_get(image, "background") ? LAM_GIVEN_BACKGROUND : 0;
     s->given |= json_object_get(image, "exposure") ? LAM_GIVEN_EXPOSURE : 0;
     if (s->exposure != 0)
-        scene_warn(r->scene, "%s: image.exposure is kept, but this version draws without exposure", r->source->name);
+        scene_warn(r->scene, "%s: image.exposure is kept, but this version draws without exposure",
+                   r->source->name);
     return true;
 }
 
 static bool read_camera(struct scene_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"eye", "target", "up", "fovy", "ortho_half_height", "near", "far", NULL};
+    static const char *const keys[] = {"eye",  "target", "up", "fovy", "ortho_half_height",
+                                       "near", "far",    NULL};
     const json_t *value = json_object_get(root, "camera");
     const struct place *place = KEY_OF(NULL, "camera");
     lam_camera camera = lam_camera_default();
@@ -86,7 +90,8 @@ static bool read_camera(struct scene_reader *r, const json_t *root)
     bool has_fovy = json_object_get(value, "fovy"), ortho = json_object_get(value, "ortho_half_height");
     bool near = json_object_get(value, "near"), far = json_object_get(value, "far");
     if (!check_keys(r, place, value, keys) || !take_vector(r, place, value, "eye", &camera.eye) ||
-        !take_vector(r, place, value, "target", &camera.target) || !take_direction(r, place, value, "up", &camera.up) ||
+        !take_vector(r, place, value, "target", &camera.target) ||
+        !take_direction(r, place, value, "up", &camera.up) ||
         !take_number(r, place, value, "fovy", 0, 180, &fovy) ||
         !take_number(r, place, value, "ortho_half_height", 0, 1e30, &camera.ortho_half_height) ||
         !take_number(r, place, value, "near", -1e30, 1e30, &camera.near_plane) ||
@@ -95,14 +100,16 @@ static bool read_camera(struct scene_reader *r, const json_t *root)
     if (has_fovy && ortho)
         return fail_place(r, place, "has both fovy and ortho_half_height, expected one of them");
     if (has_fovy && !(fovy > 0 && fovy < 180))
-        return fail_place(r, KEY_OF(place, "fovy"), "found %.10g, expected degrees above 0 and below 180", fovy);
+        return fail_place(r, KEY_OF(place, "fovy"), "found %.10g, expected degrees above 0 and below 180",
+                          fovy);
     if (ortho && camera.ortho_half_height == 0)
         return fail_place(r, KEY_OF(place, "ortho_half_height"), "found 0, expected a number above 0");
     if (near != far)
-        return fail_place(r, place, "has only %s, expected both of near and far, or neither", near ? "near" : "far");
+        return fail_place(r, place, "has only %s, expected both of near and far, or neither",
+                          near ? "near" : "far");
     if (near && !(camera.near_plane < camera.far_plane && (ortho || camera.near_plane > 0)))
-        return fail_place(r, place, "near is %.10g and far is %.10g, expected %snear < far", camera.near_plane,
-                          camera.far_plane, ortho ? "" : "0 < ");
+        return fail_place(r, place, "near is %.10g and far is %.10g, expected %snear < far",
+                          camera.near_plane, camera.far_plane, ortho ? "" : "0 < ");
     if (v3_length(v3_sub(camera.eye, camera.target)) == 0)
         return fail_place(r, place, "eye and target are the same point");
     if (has_fovy)
@@ -138,9 +145,13 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
     static const struct {
         const char *key;
         unsigned bit;
-    } bits[] = {{"shading", LAM_GIVEN_SHADING}, {"reflection", LAM_GIVEN_REFLECTION}, {"stage", LAM_GIVEN_STAGE},
-                {"viewer", LAM_GIVEN_VIEWER}, {"flat_normal", LAM_GIVEN_FLAT_NORMAL},
-                {"match_highlights", LAM_GIVEN_MATCH_HIGHLIGHTS}, {"gl1", LAM_GIVEN_GL1}};
+    } bits[] = {{"shading", LAM_GIVEN_SHADING},
+                {"reflection", LAM_GIVEN_REFLECTION},
+                {"stage", LAM_GIVEN_STAGE},
+                {"viewer", LAM_GIVEN_VIEWER},
+                {"flat_normal", LAM_GIVEN_FLAT_NORMAL},
+                {"match_highlights", LAM_GIVEN_MATCH_HIGHLIGHTS},
+                {"gl1", LAM_GIVEN_GL1}};
     for (size_t i = 0; i < sizeof bits / sizeof *bits; i++)
         r->settings->given |= json_object_get(root, bits[i].key) ? bits[i].bit : 0;
     bool by_vertex = draw->stage == LAM_STAGE_APPLICATION || draw->stage == LAM_STAGE_VERTEX;
@@ -149,11 +160,13 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
         r->settings->given |= LAM_GIVEN_SHADING;
     }
     if (by_vertex && draw->shading == LAM_SHADING_PHONG)
-        return fail_place(r, KEY_OF(NULL, "stage"), "Phong shading has the stage fragment; application and vertex go with flat "
-                                                    "and gouraud");
+        return fail_place(r, KEY_OF(NULL, "stage"),
+                          "Phong shading has the stage fragment; application and vertex go with flat "
+                          "and gouraud");
     if (draw->stage == LAM_STAGE_FRAGMENT && draw->shading == LAM_SHADING_GOURAUD)
-        return fail_place(r, KEY_OF(NULL, "stage"), "Gouraud shading has the stages application and vertex; fragment goes with "
-                                                    "flat and phong");
+        return fail_place(r, KEY_OF(NULL, "stage"),
+                          "Gouraud shading has the stages application and vertex; fragment goes with "
+                          "flat and phong");
     return true;
 }
 
@@ -182,7 +195,8 @@ static bool read_environment(struct scene_reader *r, const json_t *root)
     double rotation = 0;
     if (!value)
         return true;
-    if (!check_keys(r, place, value, keys) || !take_text(r, place, value, "equirectangular", &s->equirectangular) ||
+    if (!check_keys(r, place, value, keys) ||
+        !take_text(r, place, value, "equirectangular", &s->equirectangular) ||
         !take_number(r, place, value, "rotation", -360000, 360000, &rotation))
         return false;
     const json_t *faces = json_object_get(value, "faces");
@@ -191,13 +205,15 @@ static bool read_environment(struct scene_reader *r, const json_t *root)
         return fail_place(r, place, "expected one of faces and equirectangular");
     if (faces && (!json_is_array(faces) || json_array_size(faces) != 6)) {
         char kind[32];
-        return fail_place(r, here, "found %s, expected six names of pictures: +x, -x, +y, -y, +z, -z", json_kind(faces, kind));
+        return fail_place(r, here, "found %s, expected six names of pictures: +x, -x, +y, -y, +z, -z",
+                          json_kind(faces, kind));
     }
     for (size_t i = 0; faces && i < 6; i++) {
         const json_t *face = json_array_get(faces, i);
         char kind[32];
         if (!json_is_string(face) || !json_string_length(face))
-            return fail_place(r, ELEMENT_OF(here, i), "found %s, expected a picture's name", json_kind(face, kind));
+            return fail_place(r, ELEMENT_OF(here, i), "found %s, expected a picture's name",
+                              json_kind(face, kind));
         s->faces[i] = picture_path(r, json_string_value(face));
         if (!s->faces[i])
             return false;
@@ -206,10 +222,12 @@ static bool read_environment(struct scene_reader *r, const json_t *root)
         return false;
     s->environment_rotation_rad = math_radians(rotation);
     s->given |= LAM_GIVEN_ENVIRONMENT;
-    lam_environment *environment = s->equirectangular
-                                       ? lam_environment_load(s->equirectangular, s->draw.color, r->error)
-                                       : lam_environment_load_faces((const char *const *)s->faces, s->draw.color, r->error);
-    bool ok = environment && lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->error);
+    lam_environment *environment =
+        s->equirectangular
+            ? lam_environment_load(s->equirectangular, s->draw.color, r->error)
+            : lam_environment_load_faces((const char *const *)s->faces, s->draw.color, r->error);
+    bool ok = environment &&
+              lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->error);
     lam_environment_free(environment);
     return ok;
 }
@@ -218,21 +236,25 @@ static bool read_environment(struct scene_reader *r, const json_t *root)
 
 static bool read_root(struct scene_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"lambent", "image", "camera", "ambient", "environment", "shading", "reflection",
-                                       "viewer", "stage", "flat_normal", "match_highlights", "gl1", "up", "materials",
-                                       "objects", "lights", NULL};
+    static const char *const keys[] = {"lambent",          "image",      "camera", "ambient",   "environment",
+                                       "shading",          "reflection", "viewer", "stage",     "flat_normal",
+                                       "match_highlights", "gl1",        "up",     "materials", "objects",
+                                       "lights",           NULL};
     int version = 0;
-    if (!check_keys(r, NULL, root, keys) || !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
+    if (!check_keys(r, NULL, root, keys) ||
+        !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
         return false;
     if (!json_object_get(root, "lambent"))
         return fail_place(r, NULL, "'lambent' is missing, expected the format's version, 1");
     if (version != 1)
-        return fail(r->error, LAM_UNSUPPORTED, "%s: lambent: the format's version is %d, this program reads version 1",
-                    r->source->name, version);
+        return fail(r->error, LAM_UNSUPPORTED,
+                    "%s: lambent: the format's version is %d, this program reads version 1", r->source->name,
+                    version);
     r->has_lights = json_object_get(root, "lights");
     // The order matters: the colour mode before colours, objects before the lights that stand on them.
-    return read_image(r, root) && read_camera(r, root) && read_methods(r, root) && read_environment(r, root) &&
-           read_materials(r, root) && read_objects(r, root) && read_lights(r, root);
+    return read_image(r, root) && read_camera(r, root) && read_methods(r, root) &&
+           read_environment(r, root) && read_materials(r, root) && read_objects(r, root) &&
+           read_lights(r, root);
 }
 
 // What Jansson takes for a file of this size at the worst: one small value for each two bytes ("1,1,1").
@@ -242,13 +264,18 @@ static bool scene_load(const struct import_source *source, struct lam_scene *sce
 {
     lam_settings *settings = arena_alloc_zeroed(&scene->arena, sizeof *settings);
     lam_error unwanted;
-    size_t charge = tree_bytes(source->size), skip = source->size >= 3 && memcmp(source->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    size_t charge = tree_bytes(source->size),
+           skip = source->size >= 3 && memcmp(source->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     if (!settings || !watch_charge(source->watch, charge))
         return watch_memory_error(source->watch, charge, error);
-    struct scene_reader reader = {.source = source, .scene = scene, .settings = settings, .color = source->params->color,
+    struct scene_reader reader = {.source = source,
+                                  .scene = scene,
+                                  .settings = settings,
+                                  .color = source->params->color,
                                   .error = error ? error : &unwanted};
     json_error_t wrong;
-    json_t *root = json_loadb((const char *)source->bytes + skip, source->size - skip, JSON_REJECT_DUPLICATES, &wrong);
+    json_t *root =
+        json_loadb((const char *)source->bytes + skip, source->size - skip, JSON_REJECT_DUPLICATES, &wrong);
     bool ok;
     if (root) {
         ok = read_root(&reader, root);
@@ -256,7 +283,8 @@ static bool scene_load(const struct import_source *source, struct lam_scene *sce
     } else if (json_error_code(&wrong) == json_error_out_of_memory) {
         ok = fail_memory(error, charge);
     } else {
-        ok = fail_line(error, source, (size_t)(wrong.line > 0 ? wrong.line : 1), "column %d: %s", wrong.column, wrong.text);
+        ok = fail_line(error, source, (size_t)(wrong.line > 0 ? wrong.line : 1), "column %d: %s",
+                       wrong.column, wrong.text);
     }
     watch_refund(source->watch, charge);
     scene->settings = settings;

@@ -12,9 +12,12 @@ static const char *const ambient_keys[] = {EVERY_LIGHT, "color", "intensity", "a
 static const char *const hemisphere_keys[] = {EVERY_LIGHT, "sky", "ground", "up", NULL};
 static const char *const point_keys[] = {PLACED, NULL};
 static const char *const directional_keys[] = {REACHING, "position", "direction", NULL};
-static const char *const spot_keys[] = {PLACED, "direction", "target", "cutoff", "exponent", "inner", "outer", NULL};
-static const char *const *const keys_of[] = {[LAM_LIGHT_AMBIENT] = ambient_keys, [LAM_LIGHT_HEMISPHERE] = hemisphere_keys,
-                                             [LAM_LIGHT_POINT] = point_keys, [LAM_LIGHT_DIRECTIONAL] = directional_keys,
+static const char *const spot_keys[] = {PLACED,     "direction", "target", "cutoff",
+                                        "exponent", "inner",     "outer",  NULL};
+static const char *const *const keys_of[] = {[LAM_LIGHT_AMBIENT] = ambient_keys,
+                                             [LAM_LIGHT_HEMISPHERE] = hemisphere_keys,
+                                             [LAM_LIGHT_POINT] = point_keys,
+                                             [LAM_LIGHT_DIRECTIONAL] = directional_keys,
                                              [LAM_LIGHT_SPOT] = spot_keys};
 
 static lam_rgb scaled(lam_rgb c, double s)
@@ -22,29 +25,34 @@ static lam_rgb scaled(lam_rgb c, double s)
     return (lam_rgb){(float)((double)c.r * s), (float)((double)c.g * s), (float)((double)c.b * s)};
 }
 
-// `color` times `intensity` is the ambient light of an ambient light, else diffuse and specular; a given `ambient`, `diffuse`
-// or `specular` wins.
-static bool read_colors(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
+// `color` times `intensity` is the ambient light of an ambient light, else diffuse and specular; a given
+// `ambient`, `diffuse` or `specular` wins.
+static bool read_colors(struct scene_reader *r, const struct place *place, const json_t *value,
+                        lam_light *light)
 {
     if (light->type == LAM_LIGHT_HEMISPHERE)
-        return take_rgb(r, place, value, "sky", &light->sky) && take_rgb(r, place, value, "ground", &light->ground) &&
+        return take_rgb(r, place, value, "sky", &light->sky) &&
+               take_rgb(r, place, value, "ground", &light->ground) &&
                take_direction(r, place, value, "up", &light->up);
     bool ambient = light->type == LAM_LIGHT_AMBIENT;
     lam_rgb color = ambient ? light->ambient : light->diffuse;
     double intensity = 1;
-    if (!take_rgb(r, place, value, "color", &color) || !take_number(r, place, value, "intensity", 0, 1e30, &intensity))
+    if (!take_rgb(r, place, value, "color", &color) ||
+        !take_number(r, place, value, "intensity", 0, 1e30, &intensity))
         return false;
     color = scaled(color, intensity);
     if (ambient)
         light->ambient = color;
     else
         light->diffuse = light->specular = color;
-    return take_rgb(r, place, value, "ambient", &light->ambient) && take_rgb(r, place, value, "diffuse", &light->diffuse) &&
+    return take_rgb(r, place, value, "ambient", &light->ambient) &&
+           take_rgb(r, place, value, "diffuse", &light->diffuse) &&
            take_rgb(r, place, value, "specular", &light->specular);
 }
 
 // Three numbers, or four: a homogeneous point, with w = 0 a direction from there.
-static bool read_position(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
+static bool read_position(struct scene_reader *r, const struct place *place, const json_t *value,
+                          lam_light *light)
 {
     const json_t *position = json_object_get(value, "position");
     const struct place *here = KEY_OF(place, "position");
@@ -56,7 +64,8 @@ static bool read_position(struct scene_reader *r, const struct place *place, con
         return false;
     if (p[3] != 0) {
         if (light->type == LAM_LIGHT_DIRECTIONAL)
-            return fail_place(r, here, "a directional light has a direction, or a position whose fourth number is 0");
+            return fail_place(r, here,
+                              "a directional light has a direction, or a position whose fourth number is 0");
         light->position = v3(p[0] / p[3], p[1] / p[3], p[2] / p[3]);
         return true;
     }
@@ -64,16 +73,19 @@ static bool read_position(struct scene_reader *r, const struct place *place, con
         return fail_place(r, here, "the fourth number is 0, but a spot light stands somewhere");
     if (p[0] == 0 && p[1] == 0 && p[2] == 0)
         return fail_place(r, here, "found 0, 0, 0, 0, expected a direction");
-    if (json_object_get(value, "direction") || json_object_get(value, "target") || json_object_get(value, "attenuation") ||
-        json_object_get(value, "range"))
-        return fail_place(r, here, "the fourth number is 0: a light from infinitely far has no target, attenuation, range or "
-                                   "second direction");
+    if (json_object_get(value, "direction") || json_object_get(value, "target") ||
+        json_object_get(value, "attenuation") || json_object_get(value, "range"))
+        return fail_place(
+            r, here,
+            "the fourth number is 0: a light from infinitely far has no target, attenuation, range or "
+            "second direction");
     light->type = LAM_LIGHT_DIRECTIONAL;
     light->direction = v3(-p[0], -p[1], -p[2]);
     return true;
 }
 
-static bool read_direction(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
+static bool read_direction(struct scene_reader *r, const struct place *place, const json_t *value,
+                           lam_light *light)
 {
     lam_vec3 target;
     if (!json_object_get(value, "target"))
@@ -83,10 +95,12 @@ static bool read_direction(struct scene_reader *r, const struct place *place, co
     if (!take_vector(r, place, value, "target", &target))
         return false;
     light->direction = v3_sub(target, light->position);
-    return v3_length(light->direction) > 0 || fail_place(r, KEY_OF(place, "target"), "is the light's position");
+    return v3_length(light->direction) > 0 ||
+           fail_place(r, KEY_OF(place, "target"), "is the light's position");
 }
 
-static bool read_reach(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
+static bool read_reach(struct scene_reader *r, const struct place *place, const json_t *value,
+                       lam_light *light)
 {
     const json_t *attenuation = json_object_get(value, "attenuation");
     const struct place *here = KEY_OF(place, "attenuation");
@@ -97,7 +111,8 @@ static bool read_reach(struct scene_reader *r, const struct place *place, const 
         if (a[i] < 0)
             return fail_place(r, ELEMENT_OF(here, i), "found %.10g, expected a number of at least 0", a[i]);
     light->attenuation = (lam_attenuation){(float)a[0], (float)a[1], (float)a[2]};
-    if (light->attenuation.constant == 0 && light->attenuation.linear == 0 && light->attenuation.quadratic == 0)
+    if (light->attenuation.constant == 0 && light->attenuation.linear == 0 &&
+        light->attenuation.quadratic == 0)
         return fail_place(r, here, "all three numbers are 0, expected a + b d + c d^2 to be more than 0");
     if (!take_number(r, place, value, "range", 0, 1e30, &range))
         return false;
@@ -106,22 +121,27 @@ static bool read_reach(struct scene_reader *r, const struct place *place, const 
 }
 
 // Half angles in degrees. By one of two laws: cutoff and exponent, or inner and outer.
-static bool read_cone(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
+static bool read_cone(struct scene_reader *r, const struct place *place, const json_t *value,
+                      lam_light *light)
 {
     double cutoff = -1, exponent = 0, inner = 0, outer = 0;
     bool soft = json_object_get(value, "inner") || json_object_get(value, "outer");
     if (!take_number(r, place, value, "cutoff", 0, 180, &cutoff) ||
         !take_number(r, place, value, "exponent", 0, 1e30, &exponent) ||
-        !take_number(r, place, value, "inner", 0, 90, &inner) || !take_number(r, place, value, "outer", 0, 90, &outer))
+        !take_number(r, place, value, "inner", 0, 90, &inner) ||
+        !take_number(r, place, value, "outer", 0, 90, &outer))
         return false;
     if (soft && (json_object_get(value, "cutoff") || json_object_get(value, "exponent")))
-        return fail_place(r, place, "inner and outer stand beside cutoff or exponent, expected one pair of them");
+        return fail_place(r, place,
+                          "inner and outer stand beside cutoff or exponent, expected one pair of them");
     if (soft && !json_object_get(value, "outer"))
         return fail_place(r, place, "inner is given without outer, expected both");
     if (soft && !((float)math_radians(inner) < (float)math_radians(outer)))
-        return fail_place(r, KEY_OF(place, "inner"), "found %.10g, expected less than outer, which is %.10g", inner, outer);
+        return fail_place(r, KEY_OF(place, "inner"), "found %.10g, expected less than outer, which is %.10g",
+                          inner, outer);
     if (cutoff == 0 || (cutoff > 90 && cutoff < 180))
-        return fail_place(r, KEY_OF(place, "cutoff"), "found %.10g, expected degrees above 0 and up to 90, or 180", cutoff);
+        return fail_place(r, KEY_OF(place, "cutoff"),
+                          "found %.10g, expected degrees above 0 and up to 90, or 180", cutoff);
     light->inner_rad = (float)math_radians(inner);
     light->outer_rad = (float)math_radians(outer);
     light->exponent = (float)exponent;
@@ -143,10 +163,12 @@ static bool has_object(const struct lam_scene *scene, const char *name)
     return false;
 }
 
-static bool read_frame(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
+static bool read_frame(struct scene_reader *r, const struct place *place, const json_t *value,
+                       lam_light *light)
 {
     int frame = LAM_FRAME_WORLD;
-    if (!take_word(r, place, value, "frame", frame_words, &frame) || !take_text(r, place, value, "object", &light->object))
+    if (!take_word(r, place, value, "frame", frame_words, &frame) ||
+        !take_text(r, place, value, "object", &light->object))
         return false;
     light->frame = (lam_light_frame)frame;
     if (light->object && light->frame != LAM_FRAME_OBJECT)
@@ -164,14 +186,17 @@ static bool read_light(struct scene_reader *r, const struct place *place, const 
     }
     int type = LAM_LIGHT_POINT;
     if (!json_object_get(value, "type"))
-        return fail_place(r, place, "'type' is missing, expected ambient, hemisphere, point, directional or spot");
-    if (!take_word(r, place, value, "type", light_type_words, &type) || !check_keys(r, place, value, keys_of[type]))
+        return fail_place(r, place,
+                          "'type' is missing, expected ambient, hemisphere, point, directional or spot");
+    if (!take_word(r, place, value, "type", light_type_words, &type) ||
+        !check_keys(r, place, value, keys_of[type]))
         return false;
     lam_light light = lam_light_default((lam_light_type)type);
     if (!take_text(r, place, value, "name", &light.name) || !read_frame(r, place, value, &light) ||
         !read_colors(r, place, value, &light) || !read_position(r, place, value, &light))
         return false;
-    bool aimed = type == LAM_LIGHT_SPOT || (type == LAM_LIGHT_DIRECTIONAL && !json_object_get(value, "position"));
+    bool aimed =
+        type == LAM_LIGHT_SPOT || (type == LAM_LIGHT_DIRECTIONAL && !json_object_get(value, "position"));
     if (aimed && !read_direction(r, place, value, &light))
         return false;
     if ((light.type == LAM_LIGHT_POINT || type == LAM_LIGHT_SPOT) && !read_reach(r, place, value, &light))

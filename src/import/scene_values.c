@@ -1,4 +1,5 @@
-// scene_values.c: values of a scene file, each checked as it is taken, and the sentences where one does not fit.
+// scene_values.c: values of a scene file, each checked as it is taken, and the sentences where one does not
+// fit.
 #include "scene_file.h"
 
 #include "fail.h"
@@ -29,7 +30,8 @@ bool fail_place(struct scene_reader *r, const struct place *place, const char *f
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    return fail(r->error, LAM_CANNOT_READ, "%s: %s%s%s", r->source->name, where, *where ? ": " : "", sentence);
+    return fail(r->error, LAM_CANNOT_READ, "%s: %s%s%s", r->source->name, where, *where ? ": " : "",
+                sentence);
 }
 
 const char *json_kind(const json_t *value, char out[32])
@@ -55,13 +57,15 @@ const char *json_kind(const json_t *value, char out[32])
     }
 }
 
-static bool unexpected(struct scene_reader *r, const struct place *place, const json_t *found, const char *expected)
+static bool unexpected(struct scene_reader *r, const struct place *place, const json_t *found,
+                       const char *expected)
 {
     char kind[32];
     return fail_place(r, place, "found %s, expected %s", json_kind(found, kind), expected);
 }
 
-bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys)
+bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object,
+                const char *const *keys)
 {
     if (!json_is_object(object))
         return unexpected(r, place, object, "an object, { … }");
@@ -91,8 +95,8 @@ bool check_keys(struct scene_reader *r, const struct place *place, const json_t 
 
 // --- numbers
 
-static bool number_of(struct scene_reader *r, const struct place *place, const json_t *value, double least, double most,
-                      double *out)
+static bool number_of(struct scene_reader *r, const struct place *place, const json_t *value, double least,
+                      double most, double *out)
 {
     char expected[100];
     if (!json_is_number(value))
@@ -111,15 +115,15 @@ static bool number_of(struct scene_reader *r, const struct place *place, const j
     return unexpected(r, place, value, expected);
 }
 
-bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double least,
-                 double most, double *out)
+bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+                 double least, double most, double *out)
 {
     const json_t *value = json_object_get(object, key);
     return !value || number_of(r, KEY_OF(place, key), value, least, most, out);
 }
 
-bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int least, int most,
-                int *out)
+bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+                int least, int most, int *out)
 {
     const json_t *value = json_object_get(object, key);
     double number = 0;
@@ -131,7 +135,8 @@ bool take_whole(struct scene_reader *r, const struct place *place, const json_t 
     return (double)*out == number || unexpected(r, KEY_OF(place, key), value, "a whole number");
 }
 
-bool take_bool(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, bool *out)
+bool take_bool(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+               bool *out)
 {
     const json_t *value = json_object_get(object, key);
     if (!value)
@@ -140,8 +145,8 @@ bool take_bool(struct scene_reader *r, const struct place *place, const json_t *
     return json_is_boolean(value) || unexpected(r, KEY_OF(place, key), value, "true or false");
 }
 
-bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t least, size_t most, double *out,
-                size_t *count)
+bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t least,
+                size_t most, double *out, size_t *count)
 {
     char expected[60];
     size_t size = json_is_array(list) ? json_array_size(list) : 0;
@@ -159,7 +164,8 @@ bool numbers_of(struct scene_reader *r, const struct place *place, const json_t 
     return true;
 }
 
-bool take_vector(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_vec3 *out)
+bool take_vector(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+                 lam_vec3 *out)
 {
     const json_t *value = json_object_get(object, key);
     double v[3];
@@ -171,7 +177,8 @@ bool take_vector(struct scene_reader *r, const struct place *place, const json_t
     return true;
 }
 
-bool take_direction(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_vec3 *out)
+bool take_direction(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+                    lam_vec3 *out)
 {
     if (!take_vector(r, place, object, key, out))
         return false;
@@ -181,7 +188,8 @@ bool take_direction(struct scene_reader *r, const struct place *place, const jso
 
 // --- texts and words
 
-bool take_text(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, const char **out)
+bool take_text(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+               const char **out)
 {
     const json_t *value = json_object_get(object, key);
     if (!value)
@@ -208,19 +216,23 @@ bool take_word(struct scene_reader *r, const struct place *place, const json_t *
             return true;
         }
         size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%s", !count ? "" : words[count + 1].name ? ", " : " or ", names[count]);
+        snprintf(known + used, sizeof known - used, "%s%s",
+                 !count                  ? ""
+                 : words[count + 1].name ? ", "
+                                         : " or ",
+                 names[count]);
     }
     bool text = json_is_string(value) && json_string_length(value) <= 40;
     const char *nearest = text ? nearest_word(json_string_value(value), names, count) : NULL;
     char expected[240];
-    snprintf(expected, sizeof expected, "%s%s%s%s", known, nearest ? "; did you mean '" : "", nearest ? nearest : "",
-             nearest ? "'?" : "");
+    snprintf(expected, sizeof expected, "%s%s%s%s", known, nearest ? "; did you mean '" : "",
+             nearest ? nearest : "", nearest ? "'?" : "");
     return unexpected(r, KEY_OF(place, key), value, expected);
 }
 
 const struct scene_word color_words[] = {{"srgb", LAM_COLOR_SRGB}, {"raw", LAM_COLOR_RAW}, {NULL, 0}};
-const struct scene_word shading_words[] = {{"flat", LAM_SHADING_FLAT}, {"gouraud", LAM_SHADING_GOURAUD},
-                                           {"phong", LAM_SHADING_PHONG}, {"smooth", LAM_SHADING_GOURAUD},
+const struct scene_word shading_words[] = {{"flat", LAM_SHADING_FLAT},    {"gouraud", LAM_SHADING_GOURAUD},
+                                           {"phong", LAM_SHADING_PHONG},  {"smooth", LAM_SHADING_GOURAUD},
                                            {"normal", LAM_SHADING_PHONG}, {NULL, 0}};
 const struct scene_word reflection_words[] = {{"auto", LAM_REFLECTION_AUTO},
                                               {"none", LAM_REFLECTION_NONE},
@@ -230,31 +242,42 @@ const struct scene_word reflection_words[] = {{"auto", LAM_REFLECTION_AUTO},
                                               {"kajiya-kay", LAM_REFLECTION_KAJIYA_KAY},
                                               {"kajiya-kay-lecture", LAM_REFLECTION_KAJIYA_KAY_LECTURE},
                                               {NULL, 0}};
-const struct scene_word stage_words[] = {{"auto", LAM_STAGE_AUTO}, {"application", LAM_STAGE_APPLICATION},
-                                         {"vertex", LAM_STAGE_VERTEX}, {"fragment", LAM_STAGE_FRAGMENT}, {NULL, 0}};
-const struct scene_word viewer_words[] = {{"local", LAM_VIEWER_LOCAL}, {"infinite", LAM_VIEWER_INFINITE}, {NULL, 0}};
-const struct scene_word flat_normal_words[] = {{"face", LAM_FLAT_NORMAL_FACE}, {"vertex", LAM_FLAT_NORMAL_VERTEX}, {NULL, 0}};
-const struct scene_word normals_words[] = {{"file", LAM_NORMALS_FILE}, {"smooth", LAM_NORMALS_SMOOTH},
-                                           {"facet", LAM_NORMALS_FACET}, {NULL, 0}};
-const struct scene_word cull_words[] = {{"none", LAM_CULL_NONE}, {"back", LAM_CULL_BACK}, {"front", LAM_CULL_FRONT}, {NULL, 0}};
+const struct scene_word stage_words[] = {{"auto", LAM_STAGE_AUTO},
+                                         {"application", LAM_STAGE_APPLICATION},
+                                         {"vertex", LAM_STAGE_VERTEX},
+                                         {"fragment", LAM_STAGE_FRAGMENT},
+                                         {NULL, 0}};
+const struct scene_word viewer_words[] = {
+    {"local", LAM_VIEWER_LOCAL}, {"infinite", LAM_VIEWER_INFINITE}, {NULL, 0}};
+const struct scene_word flat_normal_words[] = {
+    {"face", LAM_FLAT_NORMAL_FACE}, {"vertex", LAM_FLAT_NORMAL_VERTEX}, {NULL, 0}};
+const struct scene_word normals_words[] = {
+    {"file", LAM_NORMALS_FILE}, {"smooth", LAM_NORMALS_SMOOTH}, {"facet", LAM_NORMALS_FACET}, {NULL, 0}};
+const struct scene_word cull_words[] = {
+    {"none", LAM_CULL_NONE}, {"back", LAM_CULL_BACK}, {"front", LAM_CULL_FRONT}, {NULL, 0}};
 const struct scene_word up_words[] = {{"x", LAM_UP_X}, {"y", LAM_UP_Y}, {"z", LAM_UP_Z}, {NULL, 0}};
-const struct scene_word frame_words[] = {{"world", LAM_FRAME_WORLD}, {"camera", LAM_FRAME_CAMERA},
-                                         {"object", LAM_FRAME_OBJECT}, {NULL, 0}};
-const struct scene_word light_type_words[] = {{"ambient", LAM_LIGHT_AMBIENT}, {"hemisphere", LAM_LIGHT_HEMISPHERE},
-                                              {"point", LAM_LIGHT_POINT}, {"directional", LAM_LIGHT_DIRECTIONAL},
-                                              {"spot", LAM_LIGHT_SPOT}, {NULL, 0}};
+const struct scene_word frame_words[] = {
+    {"world", LAM_FRAME_WORLD}, {"camera", LAM_FRAME_CAMERA}, {"object", LAM_FRAME_OBJECT}, {NULL, 0}};
+const struct scene_word light_type_words[] = {
+    {"ambient", LAM_LIGHT_AMBIENT}, {"hemisphere", LAM_LIGHT_HEMISPHERE},
+    {"point", LAM_LIGHT_POINT},     {"directional", LAM_LIGHT_DIRECTIONAL},
+    {"spot", LAM_LIGHT_SPOT},       {NULL, 0}};
 const struct scene_word tangent_words[] = {{"file", false}, {"field", true}, {NULL, 0}};
 
 // --- colours
 
-static bool color_of(struct scene_reader *r, const struct place *place, const json_t *value, size_t most, lam_rgba *out)
+static bool color_of(struct scene_reader *r, const struct place *place, const json_t *value, size_t most,
+                     lam_rgba *out)
 {
     double part[4] = {0, 0, 0, 1};
     if (json_is_string(value)) {
         lam_error reason;
-        if (json_string_length(value) > 40 || !lam_color_parse(json_string_value(value), r->color, out, &reason))
-            return unexpected(r, place, value, "a colour: \"#rrggbb\", a name such as \"white\", or a list of linear numbers");
-        return most == 4 || out->a == 1 || fail_place(r, place, "has an alpha, expected a colour of three parts");
+        if (json_string_length(value) > 40 ||
+            !lam_color_parse(json_string_value(value), r->color, out, &reason))
+            return unexpected(r, place, value,
+                              "a colour: \"#rrggbb\", a name such as \"white\", or a list of linear numbers");
+        return most == 4 || out->a == 1 ||
+               fail_place(r, place, "has an alpha, expected a colour of three parts");
     }
     if (!numbers_of(r, place, value, 3, most, part, NULL))
         return false;
@@ -266,13 +289,15 @@ static bool color_of(struct scene_reader *r, const struct place *place, const js
     return true;
 }
 
-bool take_rgba(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgba *out)
+bool take_rgba(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+               lam_rgba *out)
 {
     const json_t *value = json_object_get(object, key);
     return !value || color_of(r, KEY_OF(place, key), value, 4, out);
 }
 
-bool take_rgb(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgb *out)
+bool take_rgb(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+              lam_rgb *out)
 {
     const json_t *value = json_object_get(object, key);
     lam_rgba color;

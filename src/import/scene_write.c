@@ -1,5 +1,5 @@
-// scene_write.c: a scene and its settings as a scene file, from which the same picture comes again. Numbers are written so
-// that they read back as the same bits.
+// scene_write.c: a scene and its settings as a scene file, from which the same picture comes again. Numbers
+// are written so that they read back as the same bits.
 #include "scene_write.h"
 
 #include "fail.h"
@@ -65,7 +65,8 @@ static json_t *degrees(double radians, bool is_float)
 {
     double plain = math_degrees(radians), power = 1, best = plain, error = 1e300;
     for (int decimals = 0; decimals <= 12; decimals++, power *= 10) {
-        double shorter = (double)(int64_t)(plain * power + (plain < 0 ? -0.5 : 0.5)) / power, back = math_radians(shorter);
+        double shorter = (double)(int64_t)(plain * power + (plain < 0 ? -0.5 : 0.5)) / power,
+               back = math_radians(shorter);
         if (is_float ? (float)back == (float)radians : back == radians)
             return number(shorter);
     }
@@ -133,11 +134,13 @@ static bool put_path(struct scene_writer *w, json_t *object, const char *key, co
 {
     char real[PATH_MAX], relative[2 * PATH_MAX];
     if (!realpath(path, real))
-        return fail(w->error, LAM_CANNOT_WRITE, "%s: names '%.200s', which cannot be found: %s", w->path, path, strerror(errno));
+        return fail(w->error, LAM_CANNOT_WRITE, "%s: names '%.200s', which cannot be found: %s", w->path,
+                    path, strerror(errno));
     json_t *text = relative_path(w->folder, real, relative, sizeof relative) ? json_string(relative) : NULL;
     if (!text)
-        return fail(w->error, LAM_UNSUPPORTED, "%s: the path of '%.200s' is too long or not UTF-8, which JSON cannot hold",
-                    w->path, path);
+        return fail(w->error, LAM_UNSUPPORTED,
+                    "%s: the path of '%.200s' is too long or not UTF-8, which JSON cannot hold", w->path,
+                    path);
     if (key)
         put(w, object, key, text);
     else
@@ -170,7 +173,8 @@ static bool same_material(const lam_material *a, const lam_material *b)
 {
     return same_floats(&a->ambient.r, &b->ambient.r, 3) && same_floats(&a->diffuse.r, &b->diffuse.r, 4) &&
            same_floats(&a->specular.r, &b->specular.r, 3) && same_floats(&a->emission.r, &b->emission.r, 3) &&
-           same_floats(&a->reflectivity.r, &b->reflectivity.r, 3) && a->shininess == b->shininess && a->fibre == b->fibre;
+           same_floats(&a->reflectivity.r, &b->reflectivity.r, 3) && a->shininess == b->shininess &&
+           a->fibre == b->fibre;
 }
 
 // What has become of the model's own materials since it was read.
@@ -183,8 +187,9 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
             continue;
         const char *name = origin->materials[i].name;
         if (!name || !*name)
-            return fail(w->error, LAM_UNSUPPORTED, "%s: a material of '%.200s' was changed, but has no name to be called by",
-                        w->path, origin->path);
+            return fail(w->error, LAM_UNSUPPORTED,
+                        "%s: a material of '%.200s' was changed, but has no name to be called by", w->path,
+                        origin->path);
         changes = changes ? changes : json_object();
         json_t *all = material_json(w, now);
         if (now->diffuse.a == 1 && origin->materials[i].diffuse.a != 1)
@@ -198,7 +203,8 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
     return true;
 }
 
-// Parts that show another material than the file gave them: one entry for each part, null where it is the file's.
+// Parts that show another material than the file gave them: one entry for each part, null where it is the
+// file's.
 static void put_parts(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
 {
     json_t *list = json_array();
@@ -241,17 +247,20 @@ static bool is_identity(const lam_mat4 *m)
     return true;
 }
 
-static void put_transform(struct scene_writer *w, json_t *entry, const lam_object *object, const lam_object *own)
+static void put_transform(struct scene_writer *w, json_t *entry, const lam_object *object,
+                          const lam_object *own)
 {
     lam_mat4 matrix = object->transform, inverse;
     // A file's own transform stays in the file: what came on top of it is written.
     if (!is_identity(&own->transform) && mat4_inverse_affine(&own->transform, &inverse))
-        matrix = memcmp(&matrix, &own->transform, sizeof matrix) == 0 ? lam_mat4_identity() : mat4_mul(&matrix, &inverse);
+        matrix = memcmp(&matrix, &own->transform, sizeof matrix) == 0 ? lam_mat4_identity()
+                                                                      : mat4_mul(&matrix, &inverse);
     if (!is_identity(&matrix))
         put(w, entry, "transform", list_of(w, &matrix.m[0][0], 16));
 }
 
-static bool put_object(struct scene_writer *w, json_t *list, const lam_object *object, const struct scene_origin *origin)
+static bool put_object(struct scene_writer *w, json_t *list, const lam_object *object,
+                       const struct scene_origin *origin)
 {
     const lam_object plain = lam_object_default(), *own = origin->object_count ? origin->objects : &plain;
     json_t *entry = json_object();
@@ -273,7 +282,8 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
     if (origin->normals != LAM_NORMALS_FILE)
         put(w, entry, "normals", word(normals_words, (int)origin->normals));
     if (origin->crease_angle_rad > 0)
-        put(w, entry, "crease_angle", origin->crease_angle_rad <= 1e-6 ? json_integer(0) : degrees(origin->crease_angle_rad, false));
+        put(w, entry, "crease_angle",
+            origin->crease_angle_rad <= 1e-6 ? json_integer(0) : degrees(origin->crease_angle_rad, false));
     if (origin->field_tangents)
         put(w, entry, "tangents", json_string("field"));
     put_transform(w, entry, object, own);
@@ -303,7 +313,8 @@ static bool put_objects(struct scene_writer *w, json_t *root)
         const struct scene_origin *origin = origin_of(w->scene, object->mesh);
         if (!origin || (!origin->path && !origin->shape))
             return fail(w->error, LAM_UNSUPPORTED,
-                        "%s: the mesh of object %d ('%.60s') came neither from a file nor is a built-in shape, so a scene file "
+                        "%s: the mesh of object %d ('%.60s') came neither from a file nor is a built-in "
+                        "shape, so a scene file "
                         "cannot name it",
                         w->path, i, object->name ? object->name : "");
         if (origin == last && origin->object_count > 1) // one entry stands for all objects of a file
@@ -332,7 +343,8 @@ static void put_cone(struct scene_writer *w, json_t *out, const lam_light *l)
 static json_t *light_json(struct scene_writer *w, const lam_light *given)
 {
     lam_light placed_light = *given, *l = &placed_light;
-    if (l->frame == LAM_FRAME_MODEL) { // a file's model stands as it was read: the light goes where the model has been turned to
+    if (l->frame == LAM_FRAME_MODEL) { // a file's model stands as it was read: the light goes where the model
+                                       // has been turned to
         const lam_mat4 *m = &w->scene->placement;
         l->frame = LAM_FRAME_WORLD;
         l->position = mat4_point(m, l->position);
@@ -468,10 +480,7 @@ static bool put_settings(struct scene_writer *w, json_t *root, const lam_setting
 
 // --- the calls
 
-static bool memory_or(struct scene_writer *w, bool ok)
-{
-    return ok && (w->ok || fail_memory(w->error, 0));
-}
+static bool memory_or(struct scene_writer *w, bool ok) { return ok && (w->ok || fail_memory(w->error, 0)); }
 
 // The folder that the file will lie in, absolute.
 static bool find_folder(struct scene_writer *w, const char *path, char folder[PATH_MAX])
@@ -484,7 +493,8 @@ static bool find_folder(struct scene_writer *w, const char *path, char folder[PA
     given[length ? length : 1] = 0;
     w->folder = folder;
     return realpath(given, folder) ||
-           fail(w->error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%.200s': %s", path, given, strerror(errno));
+           fail(w->error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%.200s': %s", path, given,
+                strerror(errno));
 }
 
 static bool save(struct scene_writer *w, const lam_settings *settings, const char *path)
@@ -503,7 +513,8 @@ static bool save(struct scene_writer *w, const lam_settings *settings, const cha
     ok = ok && put_objects(w, root);
     put_lights(w, root, settings->draw.rig);
     lam_bytes bytes = {0};
-    ok = memory_or(w, ok) && scene_print(root, &bytes, w->error) && file_write(path, bytes.data, bytes.size, w->error);
+    ok = memory_or(w, ok) && scene_print(root, &bytes, w->error) &&
+         file_write(path, bytes.data, bytes.size, w->error);
     lam_bytes_free(&bytes);
     json_decref(root);
     return ok;

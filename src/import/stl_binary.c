@@ -92,10 +92,7 @@ static bool read_piece(void *user, size_t index, lam_error *error)
     return !(wrong & 0x80000000) || fail_not_finite(reading, first, last, error);
 }
 
-static uint8_t five_bits(unsigned value)
-{
-    return (uint8_t)((value * 255 + 15) / 31);
-}
+static uint8_t five_bits(unsigned value) { return (uint8_t)((value * 255 + 15) / 31); }
 
 static bool color_piece(void *user, size_t index, lam_error *error)
 {

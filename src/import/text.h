@@ -10,10 +10,7 @@
 
 // Everything up to the space counts as white, so that tabs, form feeds and stray control characters all
 // separate words.
-static inline bool text_white(uint8_t c)
-{
-    return c <= ' ';
-}
+static inline bool text_white(uint8_t c) { return c <= ' '; }
 
 static inline const uint8_t *text_skip_white(const uint8_t *at, const uint8_t *end)
 {

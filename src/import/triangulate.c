@@ -265,14 +265,8 @@ static bool box_outside(const struct box *box, const struct corner *a, const str
     return touching ? side < 0 : side <= 0;
 }
 
-static int32_t least(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-static int32_t most(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
+static int32_t least(int32_t a, int32_t b) { return a < b ? a : b; }
+static int32_t most(int32_t a, int32_t b) { return a > b ? a : b; }
 
 static bool point_inside(const struct corner *const triangle[3], const struct corner *p, bool touching)
 {

@@ -1,15 +1,19 @@
-// prelude_c.h: gives the words of the equations their meaning in C: one pixel with LANES 1, or 4, 8, 16 at a time.
+// prelude_c.h: gives the words of the equations their meaning in C: one pixel with LANES 1, or 4, 8, 16 at a
+// time.
 //
-// The equations (lobes.h, sources.h, sum.h) are one text for C and GLSL. Its words are + − * / and comparisons on num,
-// the functions below and those of lanes.h and functions.h named in prelude.glsl, which gives the same words their
-// meaning there. A new word is one line here, one there, and one row in tests/lighting/words.h.
+// The equations (lobes.h, sources.h, sum.h) are one text for C and GLSL. Its words are + − * / and
+// comparisons on num, the functions below and those of lanes.h and functions.h named in prelude.glsl, which
+// gives the same words their meaning there. A new word is one line here, one there, and one row in
+// tests/lighting/words.h.
 #ifndef PRELUDE_C_H
 #define PRELUDE_C_H
 
 #include "functions.h"
 
-#define FN LANE_FN                                                // starts every function
-#define STRUCT(name) typedef struct name name; struct name        // starts every struct
+#define FN LANE_FN // starts every function
+#define STRUCT(name)                                                                                         \
+    typedef struct name name;                                                                                \
+    struct name // starts every struct
 
 STRUCT(vec3) { num x, y, z; };
 STRUCT(vec4) { num x, y, z, w; };

@@ -6,18 +6,17 @@
 //         + sum over lights of  spot_i attenuation_i (kd * Ld_i D_i + ks * Ls_i S_i)
 //         + kr * environment
 //
-// where * between colours goes channel by channel. The products ka * La, kd * Ld, ks * Ls are formed once for each
-// draw and come in here as colours. Ambient light is neither attenuated nor narrowed by a cone, so that all of it is
-// one colour for a draw.
+// where * between colours goes channel by channel. The products ka * La, kd * Ld, ks * Ls are formed once for
+// each draw and come in here as colours. Ambient light is neither attenuated nor narrowed by a cone, so that
+// all of it is one colour for a draw.
 
 // The terms before their sum: pictures of one term, and the explanation of one pixel, come from these.
-STRUCT(terms) {
-    vec3 ambient, diffuse, specular, emission, reflection;
-};
+STRUCT(terms) { vec3 ambient, diffuse, specular, emission, reflection; };
 
 // A sky over a ground, as products with the material: ka * sky, ka * ground.
-STRUCT(hemisphere) {
-    vec3 up;  // unit, towards the sky
+STRUCT(hemisphere)
+{
+    vec3 up; // unit, towards the sky
     vec3 sky, ground;
 };
 
@@ -25,10 +24,7 @@ STRUCT(hemisphere) {
 #define VIEWER_LOCAL    0
 #define VIEWER_INFINITE 1
 
-FN vec3 black3(void)
-{
-    return vec3_of(num_of(0.0f), num_of(0.0f), num_of(0.0f));
-}
+FN vec3 black3(void) { return vec3_of(num_of(0.0f), num_of(0.0f), num_of(0.0f)); }
 
 // The direction from p to the eye, which is at the origin of eye space.
 FN vec3 to_eye(vec3 p, int viewer)
@@ -51,7 +47,8 @@ FN surface surface_at(vec3 p, vec3 normal, vec3 tangent, int viewer)
     return s;
 }
 
-// What is there before any light: ambient = ka * (La global + sum of the lights' La), and the surface's own emission.
+// What is there before any light: ambient = ka * (La global + sum of the lights' La), and the surface's own
+// emission.
 FN terms start_terms(vec3 ambient, vec3 emission)
 {
     terms sum;
@@ -96,7 +93,8 @@ FN terms add_arriving_ambient(terms sum, vec3 ambient, toward t)
 }
 
 // Adds one point, directional or spot light.
-FN terms add_light(terms sum, surface s, source light, num shininess, int kind, int falloff, int model, int fibre)
+FN terms add_light(terms sum, surface s, source light, num shininess, int kind, int falloff, int model,
+                   int fibre)
 {
     toward t = toward_light(s.p, light, kind, falloff);
     reflected r = reflect_light(s, t.l, shininess, model, fibre);
@@ -110,7 +108,8 @@ FN terms add_environment(terms sum, vec3 kr, vec3 colour)
     return sum;
 }
 
-// A colour that varies over the surface (vertex colours, a texture) multiplies what is reflected evenly: ka and kd.
+// A colour that varies over the surface (vertex colours, a texture) multiplies what is reflected evenly: ka
+// and kd.
 FN terms tint_terms(terms sum, vec3 colour)
 {
     sum.ambient = mul3(sum.ambient, colour);

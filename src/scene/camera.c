@@ -23,7 +23,8 @@ struct view_axes {
     lam_vec3 right, above, back;
 };
 
-// Turns a direction given with Y up, front +Z, into the scene's up axis. Z up has its front at −Y, as CAD has; X up at +Z.
+// Turns a direction given with Y up, front +Z, into the scene's up axis. Z up has its front at −Y, as CAD
+// has; X up at +Z.
 static lam_vec3 turn_up(lam_up up, lam_vec3 d)
 {
     switch (up) {
@@ -50,13 +51,14 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view)
     };
 }
 
-// The largest values over all vertices of ±x + k·z and ±y + k·z, in the axes of the view; k = 0 gives the plain box.
+// The largest values over all vertices of ±x + k·z and ±y + k·z, in the axes of the view; k = 0 gives the
+// plain box.
 struct reach {
     double right, left, top, bottom, front;
 };
 
-static void reach_of_mesh(const lam_scene *scene, const lam_object *object, const struct view_axes *axes, double kx,
-                          double ky, struct reach *reach)
+static void reach_of_mesh(const lam_scene *scene, const lam_object *object, const struct view_axes *axes,
+                          double kx, double ky, struct reach *reach)
 {
     const lam_mesh *mesh = scene_mesh(scene, object->mesh);
     const struct scene_extent *extent = scene_extent(scene, object->mesh);
@@ -75,7 +77,8 @@ static void reach_of_mesh(const lam_scene *scene, const lam_object *object, cons
     for (uint32_t v = 0; v < extent->used_count; v++) {
         const float *p = mesh->positions + 3 * (size_t)(extent->used ? extent->used[v] : v);
         lam_vec3 q = v3((double)p[0], (double)p[1], (double)p[2]);
-        double x = v3_dot(row[0], q) + shift[0], y = v3_dot(row[1], q) + shift[1], z = v3_dot(row[2], q) + shift[2];
+        double x = v3_dot(row[0], q) + shift[0], y = v3_dot(row[1], q) + shift[1],
+               z = v3_dot(row[2], q) + shift[2];
         double r = x + kx * z, l = -x + kx * z, t = y + ky * z, b = -y + ky * z;
         reach->right = r > reach->right ? r : reach->right;
         reach->left = l > reach->left ? l : reach->left;
@@ -94,7 +97,8 @@ static struct reach reach_of(const lam_scene *scene, const struct view_axes *axe
 }
 
 // Orthographic: half the box over the fill, centred.
-static lam_camera fit_orthographic(const lam_scene *scene, const struct view_axes *axes, double aspect, double fill)
+static lam_camera fit_orthographic(const lam_scene *scene, const struct view_axes *axes, double aspect,
+                                   double fill)
 {
     struct reach box = reach_of(scene, axes, 0, 0);
     double half_width = (box.right + box.left) / 2, half_height = (box.top + box.bottom) / 2;
@@ -103,16 +107,19 @@ static lam_camera fit_orthographic(const lam_scene *scene, const struct view_axe
     lam_vec3 centre = v3_add(v3_scale(axes->right, (box.right - box.left) / 2),
                              v3_scale(axes->above, (box.top - box.bottom) / 2));
     lam_vec3 target = v3_add(centre, v3_scale(axes->back, box.front));
-    return (lam_camera){.eye = v3_add(target, v3_scale(axes->back, 2 * size)), .target = target, .up = axes->above,
+    return (lam_camera){.eye = v3_add(target, v3_scale(axes->back, 2 * size)),
+                        .target = target,
+                        .up = axes->above,
                         .ortho_half_height = size / fill};
 }
 
-// Perspective, for one axis across the view: a vertex is inside when ±(x − ex) ≤ k·(ez − z), that is ±x + k·z ≤ ±ex + k·ez.
-// With R and L the largest of x + k·z and −x + k·z, both sides touch at ex = (R − L)/2 and ez = (R + L)/(2k): exact, from one
-// pass over the vertices. The axis that asks for the larger ez decides it; the other is centred by finding the smaller k at
-// which it would touch at that ez (a few passes, each from the last one's answer).
-static lam_camera fit_perspective(const lam_scene *scene, const struct view_axes *axes, double fovy, double aspect,
-                                  double fill)
+// Perspective, for one axis across the view: a vertex is inside when ±(x − ex) ≤ k·(ez − z), that is ±x + k·z
+// ≤ ±ex + k·ez. With R and L the largest of x + k·z and −x + k·z, both sides touch at ex = (R − L)/2 and ez =
+// (R + L)/(2k): exact, from one pass over the vertices. The axis that asks for the larger ez decides it; the
+// other is centred by finding the smaller k at which it would touch at that ez (a few passes, each from the
+// last one's answer).
+static lam_camera fit_perspective(const lam_scene *scene, const struct view_axes *axes, double fovy,
+                                  double aspect, double fill)
 {
     double ky = math_tan(fovy / 2) * fill, kx = ky * aspect;
     struct reach reach = reach_of(scene, axes, kx, ky);
@@ -136,7 +143,8 @@ static lam_camera fit_perspective(const lam_scene *scene, const struct view_axes
                              v3_scale(axes->above, (reach.top - reach.bottom) / 2));
     return (lam_camera){.eye = v3_add(across, v3_scale(axes->back, ez)),
                         .target = v3_add(across, v3_scale(axes->back, reach.front)),
-                        .up = axes->above, .fovy_rad = fovy};
+                        .up = axes->above,
+                        .fovy_rad = fovy};
 }
 
 lam_camera lam_camera_fit(const lam_scene *scene, const lam_view *view)

@@ -51,8 +51,9 @@ void cube_direction(int face, double major, double across, double down, double o
     memcpy(out, table[face], sizeof table[face]);
 }
 
-// The texel beside the edge on the neighbouring face. A face is taken from −size to size, so that texel i lies at the odd number
-// 2i + 1 − size; across the edge one axis goes on inwards as far as the other came outwards. All numbers are whole.
+// The texel beside the edge on the neighbouring face. A face is taken from −size to size, so that texel i
+// lies at the odd number 2i + 1 − size; across the edge one axis goes on inwards as far as the other came
+// outwards. All numbers are whole.
 static const float *neighbour(const struct lam_environment *cube, int face, int s, int t)
 {
     int n = cube->size;
@@ -93,8 +94,8 @@ void cube_close(struct lam_environment *cube)
         for (int i = 0; i < n; i++) {
             const int places[4][2] = {{-1, i}, {n, i}, {i, -1}, {i, n}};
             for (int p = 0; p < 4; p++)
-                memcpy(cube_texel(cube, face, places[p][0], places[p][1]), neighbour(cube, face, places[p][0], places[p][1]),
-                       3 * sizeof(float));
+                memcpy(cube_texel(cube, face, places[p][0], places[p][1]),
+                       neighbour(cube, face, places[p][0], places[p][1]), 3 * sizeof(float));
         }
         for (int corner = 0; corner < 4; corner++)
             close_corner(cube, face, corner & 1 ? n : -1, corner & 2 ? n : -1);

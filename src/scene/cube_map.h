@@ -1,7 +1,9 @@
-// cube_map.h: the inside of lam_environment: six faces, each with a border of one texel taken from its neighbours.
+// cube_map.h: the inside of lam_environment: six faces, each with a border of one texel taken from its
+// neighbours.
 //
-// With the border, bilinear filtering needs no case at edges and corners, and is continuous there: both faces mix the same four
-// texels. A border's corner, where three faces meet and there is no fourth texel, is the average of the three.
+// With the border, bilinear filtering needs no case at edges and corners, and is continuous there: both faces
+// mix the same four texels. A border's corner, where three faces meet and there is no fourth texel, is the
+// average of the three.
 #ifndef CUBE_MAP_H
 #define CUBE_MAP_H
 
@@ -20,7 +22,8 @@ static inline size_t cube_row(const struct lam_environment *cube) { return (size
 // Texel (s, t) of a face, −1 … size.
 static inline float *cube_texel(const struct lam_environment *cube, int face, int s, int t)
 {
-    return cube->texels + ((size_t)face * (size_t)(cube->size + 2) + (size_t)(t + 1)) * cube_row(cube) + (size_t)(s + 1) * 3;
+    return cube->texels + ((size_t)face * (size_t)(cube->size + 2) + (size_t)(t + 1)) * cube_row(cube) +
+           (size_t)(s + 1) * 3;
 }
 
 // A cube of that size, texels undefined. NULL: out of memory.

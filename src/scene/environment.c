@@ -16,16 +16,20 @@ struct piece {
     bool turned;
 };
 
-static bool copy_face(struct lam_environment *cube, int face, const struct piece *piece, const char *name, lam_error *error)
+static bool copy_face(struct lam_environment *cube, int face, const struct piece *piece, const char *name,
+                      lam_error *error)
 {
     int n = cube->size;
     for (int t = 0; t < n; t++) {
         for (int s = 0; s < n; s++) {
-            int x = piece->x + (piece->turned ? n - 1 - s : s), y = piece->y + (piece->turned ? n - 1 - t : t);
-            const float *from = (const float *)piece->image->pixels + ((size_t)y * (size_t)piece->image->width + (size_t)x) * 4;
+            int x = piece->x + (piece->turned ? n - 1 - s : s),
+                y = piece->y + (piece->turned ? n - 1 - t : t);
+            const float *from = (const float *)piece->image->pixels +
+                                ((size_t)y * (size_t)piece->image->width + (size_t)x) * 4;
             for (int channel = 0; channel < 3; channel++)
                 if (!(from[channel] >= 0 && from[channel] <= 3e38f))
-                    return fail(error, LAM_BAD_ARGUMENT, "%s: pixel %d, %d holds %g, expected light of at least 0, finite", name, x, y,
+                    return fail(error, LAM_BAD_ARGUMENT,
+                                "%s: pixel %d, %d holds %g, expected light of at least 0, finite", name, x, y,
                                 (double)from[channel]);
             memcpy(cube_texel(cube, face, s, t), from, 3 * sizeof(float));
         }
@@ -33,12 +37,13 @@ static bool copy_face(struct lam_environment *cube, int face, const struct piece
     return true;
 }
 
-static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE_COUNT], const char *const names[LAM_FACE_COUNT],
-                                              int size, lam_error *error)
+static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE_COUNT],
+                                              const char *const names[LAM_FACE_COUNT], int size,
+                                              lam_error *error)
 {
     if (size > CUBE_SIDE_MOST) {
-        fail(error, LAM_LIMIT, "%s: a face of %d×%d pixels, expected at most %d×%d", names[0], size, size, CUBE_SIDE_MOST,
-             CUBE_SIDE_MOST);
+        fail(error, LAM_LIMIT, "%s: a face of %d×%d pixels, expected at most %d×%d", names[0], size, size,
+             CUBE_SIDE_MOST, CUBE_SIDE_MOST);
         return NULL;
     }
     struct lam_environment *cube = cube_make(size, error);
@@ -53,14 +58,16 @@ static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE
     return cube;
 }
 
-static struct lam_environment *cube_of_faces(const lam_image *faces, const char *const names[LAM_FACE_COUNT], lam_error *error)
+static struct lam_environment *cube_of_faces(const lam_image *faces, const char *const names[LAM_FACE_COUNT],
+                                             lam_error *error)
 {
     struct piece pieces[LAM_FACE_COUNT];
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
         pieces[face] = (struct piece){.image = &faces[face]};
         if (faces[face].width == faces[0].width && faces[face].height == faces[0].width)
             continue;
-        fail(error, LAM_UNSUPPORTED, "%s: %d×%d pixels, expected %d×%d: faces of a cube are squares of one size", names[face],
+        fail(error, LAM_UNSUPPORTED,
+             "%s: %d×%d pixels, expected %d×%d: faces of a cube are squares of one size", names[face],
              faces[face].width, faces[face].height, faces[0].width, faces[0].width);
         return NULL;
     }
@@ -99,7 +106,8 @@ static bool check_light(const lam_image *image, const char *name, lam_error *err
         for (int x = 0; x < image->width; x++, at += 4)
             for (int channel = 0; channel < 3; channel++)
                 if (!(at[channel] >= 0 && at[channel] <= 3e38f))
-                    return fail(error, LAM_BAD_ARGUMENT, "%s: pixel %d, %d holds %g, expected light of at least 0, finite", name, x, y,
+                    return fail(error, LAM_BAD_ARGUMENT,
+                                "%s: pixel %d, %d holds %g, expected light of at least 0, finite", name, x, y,
                                 (double)at[channel]);
     return true;
 }
@@ -108,7 +116,8 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
 {
     int size = (int)((double)image->width / PI) + 1;
     if (size > CUBE_SIDE_MOST) {
-        fail(error, LAM_LIMIT, "%s: %d pixels wide, expected at most %d", name, image->width, (int)(CUBE_SIDE_MOST * PI));
+        fail(error, LAM_LIMIT, "%s: %d pixels wide, expected at most %d", name, image->width,
+             (int)(CUBE_SIDE_MOST * PI));
         return NULL;
     }
     struct lam_environment *cube = check_light(image, name, error) ? cube_make(size, error) : NULL;
@@ -138,8 +147,9 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
         return cube_of_sphere(image, name, error);
     if (!lies && !stands) {
         fail(error, LAM_UNSUPPORTED,
-             "%s: %d×%d pixels, expected a cross of six squares (4:3 or 3:4) or an equirectangular picture (2:1)", name,
-             image->width, image->height);
+             "%s: %d×%d pixels, expected a cross of six squares (4:3 or 3:4) or an equirectangular picture "
+             "(2:1)",
+             name, image->width, image->height);
         return NULL;
     }
     int size = image->width / (lies ? 4 : 3);
@@ -162,17 +172,21 @@ static bool linear_copy(const lam_image *image, lam_color_mode color, lam_image 
     if (!image || !image->pixels || image->width < 1 || image->height < 1)
         return fail(error, LAM_BAD_ARGUMENT, "environment: a picture is missing");
     if ((unsigned)color > LAM_COLOR_RAW)
-        return fail(error, LAM_BAD_ARGUMENT, "environment: color mode %d is not one of lam_color_mode", (int)color);
+        return fail(error, LAM_BAD_ARGUMENT, "environment: color mode %d is not one of lam_color_mode",
+                    (int)color);
     if (!lam_image_make(out, image->width, image->height, image->format, error))
         return false;
-    memcpy(out->pixels, image->pixels, (size_t)image->width * (size_t)image->height * (image->format == LAM_RGBA8 ? 4 : 16));
+    memcpy(out->pixels, image->pixels,
+           (size_t)image->width * (size_t)image->height * (image->format == LAM_RGBA8 ? 4 : 16));
     return image_linearize(out, false, color, error);
 }
 
-lam_environment *lam_environment_make(const lam_image *const faces[LAM_FACE_COUNT], lam_color_mode color, lam_error *error)
+lam_environment *lam_environment_make(const lam_image *const faces[LAM_FACE_COUNT], lam_color_mode color,
+                                      lam_error *error)
 {
-    static const char *const names[LAM_FACE_COUNT] = {"environment, face +X", "environment, face -X", "environment, face +Y",
-                                                      "environment, face -Y", "environment, face +Z", "environment, face -Z"};
+    static const char *const names[LAM_FACE_COUNT] = {"environment, face +X", "environment, face -X",
+                                                      "environment, face +Y", "environment, face -Y",
+                                                      "environment, face +Z", "environment, face -Z"};
     uint64_t state = float_state_enter();
     lam_image linear[LAM_FACE_COUNT] = {{0}};
     bool ok = faces || fail(error, LAM_BAD_ARGUMENT, "environment: no faces are given");
@@ -189,7 +203,8 @@ lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mo
 {
     uint64_t state = float_state_enter();
     lam_image linear;
-    struct lam_environment *cube = linear_copy(image, color, &linear, error) ? cube_of_image(&linear, "environment", error) : NULL;
+    struct lam_environment *cube =
+        linear_copy(image, color, &linear, error) ? cube_of_image(&linear, "environment", error) : NULL;
     lam_image_free(&linear);
     float_state_leave(state);
     return cube;
@@ -197,7 +212,8 @@ lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mo
 
 // --- files
 
-lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color, lam_error *error)
+lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
+                                            lam_error *error)
 {
     lam_image faces[LAM_FACE_COUNT] = {{0}};
     bool ok = paths || fail(error, LAM_BAD_ARGUMENT, "environment: no faces are given");

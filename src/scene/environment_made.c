@@ -35,15 +35,18 @@ static double squared(double x, int n)
     return x;
 }
 
-// A clear afternoon: blue above, pale at the horizon, the sun a third up to the right in front (+X +Z), brown ground.
+// A clear afternoon: blue above, pale at the horizon, the sun a third up to the right in front (+X +Z), brown
+// ground.
 static struct rgb sky(lam_vec3 d)
 {
-    static const struct rgb zenith = {{0.10, 0.24, 0.62}}, horizon = {{0.72, 0.80, 0.88}}, near_ground = {{0.34, 0.31, 0.27}},
-                            below = {{0.14, 0.12, 0.10}}, warm = {{1.00, 0.86, 0.62}};
+    static const struct rgb zenith = {{0.10, 0.24, 0.62}}, horizon = {{0.72, 0.80, 0.88}},
+                            near_ground = {{0.34, 0.31, 0.27}}, below = {{0.14, 0.12, 0.10}},
+                            warm = {{1.00, 0.86, 0.62}};
     lam_vec3 sun = v3_unit(v3(0.6, 0.5, 0.65));
     double up = d.y > 0 ? d.y : 0, down = d.y < 0 ? -d.y : 0, toward = v3_dot(d, sun);
     struct rgb air = mix(zenith, horizon, squared(1 - up, 2));
-    double glow = toward > 0 ? 0.25 * squared(toward, 4) + 0.8 * squared(toward, 7) : 0, disc = 30 * ramp(0.9975, 0.9988, toward);
+    double glow = toward > 0 ? 0.25 * squared(toward, 4) + 0.8 * squared(toward, 7) : 0,
+           disc = 30 * ramp(0.9975, 0.9988, toward);
     for (int i = 0; i < 3; i++)
         air.c[i] += warm.c[i] * (glow + disc);
     return mix(mix(near_ground, below, ramp(0, 0.7, down)), air, ramp(-0.015, 0.015, d.y));
@@ -58,8 +61,8 @@ static double soft_box(double x, double y, double half_width, double half_height
     return ramp(-half_width - edge, -half_width, -x) * ramp(-half_height - edge, -half_height, -y);
 }
 
-// A dark room, a cube about the origin: a broad lamp at the ceiling, a tall strip at the left, a wide dim one at the right, a
-// small one behind, a floor that returns some of it.
+// A dark room, a cube about the origin: a broad lamp at the ceiling, a tall strip at the left, a wide dim one
+// at the right, a small one behind, a floor that returns some of it.
 static struct rgb studio(lam_vec3 d)
 {
     double ax = d.x < 0 ? -d.x : d.x, ay = d.y < 0 ? -d.y : d.y, az = d.z < 0 ? -d.z : d.z;
@@ -121,6 +124,7 @@ lam_environment *lam_environment_built_in(const char *name, lam_error *error)
             return cube;
         }
     }
-    fail(error, LAM_BAD_ARGUMENT, "environment: '%s' is not built in, expected sky or studio", name ? name : "");
+    fail(error, LAM_BAD_ARGUMENT, "environment: '%s' is not built in, expected sky or studio",
+         name ? name : "");
     return NULL;
 }

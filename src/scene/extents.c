@@ -1,4 +1,5 @@
-// extents.c: which vertices a mesh's triangles use, the boxes around meshes and scenes, and which colours are translucent.
+// extents.c: which vertices a mesh's triangles use, the boxes around meshes and scenes, and which colours are
+// translucent.
 #include "scene_store.h"
 
 #include "linear.h"
@@ -27,8 +28,8 @@ static void mark_piece(void *user, size_t index, int thread)
 }
 
 // The list of used vertices where some are not used. False when memory is out.
-static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
-                      lam_error *error)
+static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent,
+                      struct pool *pool, lam_error *error)
 {
     size_t corners = (size_t)mesh->triangle_count * 3;
     extent->used = NULL;
@@ -74,7 +75,8 @@ static void box_piece(void *user, size_t index, int thread)
     if (end > boxing->extent->used_count)
         end = boxing->extent->used_count;
     for (size_t i = index * (size_t)PIECE; i < end; i++) {
-        const float *p = boxing->mesh->positions + 3 * (size_t)(boxing->extent->used ? boxing->extent->used[i] : i);
+        const float *p =
+            boxing->mesh->positions + 3 * (size_t)(boxing->extent->used ? boxing->extent->used[i] : i);
         for (int a = 0; a < 3; a++) {
             box[a] = p[a] < box[a] ? p[a] : box[a];
             box[a + 3] = p[a] > box[a + 3] ? p[a] : box[a + 3];
@@ -119,8 +121,8 @@ static bool has_clear_colors(const lam_mesh *mesh, struct pool *pool)
     return clearing.found;
 }
 
-static bool measure(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
-                    lam_error *error)
+static bool measure(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent,
+                    struct pool *pool, lam_error *error)
 {
     *extent = (struct scene_extent){.translucent = has_clear_colors(mesh, pool)};
     if (!find_used(scene, mesh, extent, pool, error))
@@ -200,8 +202,9 @@ bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec3 *maxim
         }
         for (uint32_t v = 0; v < extent->used_count; v++) {
             const float *p = mesh->positions + 3 * (size_t)(extent->used ? extent->used[v] : v);
-            lam_vec3 w = mat4_point(&object->transform, v3((double)p[0] + mesh->origin[0], (double)p[1] + mesh->origin[1],
-                                                           (double)p[2] + mesh->origin[2]));
+            lam_vec3 w = mat4_point(&object->transform,
+                                    v3((double)p[0] + mesh->origin[0], (double)p[1] + mesh->origin[1],
+                                       (double)p[2] + mesh->origin[2]));
             low = lower(low, w);
             high = upper(high, w);
         }

@@ -19,7 +19,8 @@ static bool check_camera(const lam_camera *camera, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "camera: eye and target are the same point");
     double half = camera->ortho_half_height;
     if (!(half >= 0) || !math_finite(half))
-        return fail(error, LAM_BAD_ARGUMENT, "camera: ortho_half_height is %g, expected a positive number or 0", half);
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "camera: ortho_half_height is %g, expected a positive number or 0", half);
     if (half == 0 && !(camera->fovy_rad > 0 && camera->fovy_rad < PI))
         return fail(error, LAM_BAD_ARGUMENT, "camera: fovy is %g°, expected more than 0° and less than 180°",
                     math_degrees(camera->fovy_rad));
@@ -39,30 +40,37 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
     const float *b = &params->background.r;
     for (int i = 0; i < 4; i++)
         if (!(b[i] >= 0 && b[i] <= 3e38f))
-            return fail(error, LAM_BAD_ARGUMENT, "background: a channel is %g, expected a number of at least 0", (double)b[i]);
+            return fail(error, LAM_BAD_ARGUMENT,
+                        "background: a channel is %g, expected a number of at least 0", (double)b[i]);
     if (b[3] > 1)
         return fail(error, LAM_BAD_ARGUMENT, "background: alpha is %g, expected 0 to 1", (double)b[3]);
     if ((unsigned)params->color > LAM_COLOR_RAW || (unsigned)params->rig > LAM_RIG_LECTURE ||
         (unsigned)params->shading > LAM_SHADING_FLAT ||
         (unsigned)params->reflection > LAM_REFLECTION_KAJIYA_KAY_LECTURE)
-        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: color, rig, shading or reflection is out of its range");
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "draw parameters: color, rig, shading or reflection is out of its range");
     if ((unsigned)params->stage > LAM_STAGE_FRAGMENT || (unsigned)params->viewer > LAM_VIEWER_INFINITE ||
         (unsigned)params->flat_normal > LAM_FLAT_NORMAL_VERTEX)
-        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "draw parameters: stage, viewer or flat_normal is out of its range");
     if ((unsigned)params->show >= LAM_SHOW_COUNT || params->show_light < 0)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: show or show_light is out of its range");
     if (params->shading == LAM_SHADING_PHONG &&
         (params->stage == LAM_STAGE_APPLICATION || params->stage == LAM_STAGE_VERTEX))
-        return fail(error, LAM_BAD_ARGUMENT, "Phong shading lights every fragment: its stage is fragment; "
-                                             "application and vertex go with flat and Gouraud shading");
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "Phong shading lights every fragment: its stage is fragment; "
+                    "application and vertex go with flat and Gouraud shading");
     if (params->shading == LAM_SHADING_GOURAUD && params->stage == LAM_STAGE_FRAGMENT)
-        return fail(error, LAM_BAD_ARGUMENT, "Gouraud shading lights every vertex: its stage is application or vertex; "
-                                             "fragment goes with flat and Phong shading");
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "Gouraud shading lights every vertex: its stage is application or vertex; "
+                    "fragment goes with flat and Phong shading");
     return true;
 }
 
-// Distances along the view that hold all objects, with a margin; a camera among them starts at 1/10000 of the far one.
-static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthographic, double *near_plane, double *far_plane)
+// Distances along the view that hold all objects, with a margin; a camera among them starts at 1/10000 of the
+// far one.
+static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthographic, double *near_plane,
+                       double *far_plane)
 {
     lam_vec3 low, high;
     double nearest = 1e308, farthest = -1e308;
@@ -111,8 +119,12 @@ static void build_draw(struct frame_draw *draw, const lam_scene *scene, int obje
     lam_mat4 eye = mat4_mul(view, &world);
     lam_mat4 whole = mat4_mul(pixel, &eye);
     double determinant = mat4_determinant3(&object->transform);
-    *draw = (struct frame_draw){.mesh = mesh, .object = object_index, .first_id = first_id,
-                                .mirrored = determinant < 0, .one_sided = object->one_sided, .cull = object->cull};
+    *draw = (struct frame_draw){.mesh = mesh,
+                                .object = object_index,
+                                .first_id = first_id,
+                                .mirrored = determinant < 0,
+                                .one_sided = object->one_sided,
+                                .cull = object->cull};
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             draw->pixel[i][j] = rounded(whole.m[i][j]);
@@ -125,7 +137,8 @@ static void build_draw(struct frame_draw *draw, const lam_scene *scene, int obje
             largest = c > largest ? c : largest;
             largest_eye = e > largest_eye ? e : largest_eye;
         }
-    // The cofactors are the inverse transpose times the determinant: its sign is taken out, its size does not matter.
+    // The cofactors are the inverse transpose times the determinant: its sign is taken out, its size does not
+    // matter.
     double scale = (draw->mirrored ? -1 : 1) / (largest > 0 ? largest : 1);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -175,7 +188,8 @@ static bool light_space(const lam_scene *scene, const lam_light *light, const la
             return true;
         }
     }
-    return fail(error, LAM_BAD_ARGUMENT, "light '%s': its frame is the object '%s', which the scene does not have",
+    return fail(error, LAM_BAD_ARGUMENT,
+                "light '%s': its frame is the object '%s', which the scene does not have",
                 light->name ? light->name : "", light->object ? light->object : "");
 }
 
@@ -222,8 +236,8 @@ static lam_vec3 up_vector(lam_up up)
     return up == LAM_UP_X ? v3(1, 0, 0) : up == LAM_UP_Z ? v3(0, 0, 1) : v3(0, 1, 0);
 }
 
-static bool add_light(struct frame *frame, const lam_scene *scene, const lam_light *light, int index, const lam_mat4 *view,
-                      lam_error *error)
+static bool add_light(struct frame *frame, const lam_scene *scene, const lam_light *light, int index,
+                      const lam_mat4 *view, lam_error *error)
 {
     lam_mat4 space;
     if (!light_space(scene, light, view, &space, error))
@@ -239,7 +253,8 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
         out->source = light;
         return true;
     }
-    struct frame_light *placed = light->type == LAM_LIGHT_AMBIENT ? NULL : &frame->lights[frame->light_count++];
+    struct frame_light *placed =
+        light->type == LAM_LIGHT_AMBIENT ? NULL : &frame->lights[frame->light_count++];
     if (placed)
         build_light(placed, light, &space, index);
     if (placed && frame->gl1) {
@@ -253,7 +268,8 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
 }
 
 // All lights, or the one that is shown (`only`; then without the scene's ambient light).
-static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig rig, int only, const lam_mat4 *view, lam_error *error)
+static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig rig, int only,
+                         const lam_mat4 *view, lam_error *error)
 {
     store_rgb(frame->ambient, only < 0 ? scene->ambient : (lam_rgb){0});
     for (int i = 0; i < scene->lights.count; i++)
@@ -261,13 +277,15 @@ static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig ri
             return false;
     int count = lam_scene_rig_lights(scene, rig, frame->rig);
     for (int i = 0; i < count; i++)
-        if ((only < 0 || only == scene->lights.count + i) && !add_light(frame, scene, &frame->rig[i], -1, view, error))
+        if ((only < 0 || only == scene->lights.count + i) &&
+            !add_light(frame, scene, &frame->rig[i], -1, view, error))
             return false;
     if (only >= scene->lights.count + count)
-        return fail(error, LAM_BAD_ARGUMENT, "show_light is %d, but the frame has %d lights, counted from 0", only,
-                    scene->lights.count + count);
+        return fail(error, LAM_BAD_ARGUMENT, "show_light is %d, but the frame has %d lights, counted from 0",
+                    only, scene->lights.count + count);
     if (only >= 0 && frame->show != LAM_SHOW_LIGHT && !frame->light_count)
-        return fail(error, LAM_BAD_ARGUMENT, "%s: light %d comes from everywhere, expected one with a direction",
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "%s: light %d comes from everywhere, expected one with a direction",
                     lam_show_name(frame->show), only);
     return true;
 }
@@ -290,11 +308,16 @@ static void build_surfaces(struct frame *frame, const lam_scene *scene, int draw
             last->count += part->triangle_count;
             continue;
         }
-        bool translucent = scene_extent(scene, object->mesh)->translucent || frame->materials[front]->diffuse.a < 1 ||
+        bool translucent = scene_extent(scene, object->mesh)->translucent ||
+                           frame->materials[front]->diffuse.a < 1 ||
                            (!draw->one_sided && frame->materials[back]->diffuse.a < 1);
         frame->translucent |= translucent;
         frame->surfaces[frame->surface_count++] =
-            (struct frame_surface){draw->first_id + part->first_triangle, part->triangle_count, draw_index, front, back,
+            (struct frame_surface){draw->first_id + part->first_triangle,
+                                   part->triangle_count,
+                                   draw_index,
+                                   front,
+                                   back,
                                    translucent};
     }
 }
@@ -302,14 +325,16 @@ static void build_surfaces(struct frame *frame, const lam_scene *scene, int draw
 // Cuts the frame's arrays out of its storage.
 static bool make_room(struct frame *frame, const lam_scene *scene, struct watch *watch, lam_error *error)
 {
-    size_t objects = (size_t)scene->objects.count, surfaces = 0, lights = (size_t)scene->lights.count + LAM_RIG_LIGHTS_MAX;
+    size_t objects = (size_t)scene->objects.count, surfaces = 0,
+           lights = (size_t)scene->lights.count + LAM_RIG_LIGHTS_MAX;
     for (size_t i = 0; i < objects; i++) {
         uint32_t parts = scene_mesh(scene, scene_object(scene, (int)i)->mesh)->part_count;
         surfaces += parts ? parts : 1;
     }
     size_t materials = (size_t)scene->materials.count + 1;
-    size_t bytes = objects * sizeof *frame->draws + surfaces * sizeof *frame->surfaces + lights * sizeof *frame->lights +
-                   lights * sizeof *frame->hemispheres + materials * sizeof *frame->materials + 64;
+    size_t bytes = objects * sizeof *frame->draws + surfaces * sizeof *frame->surfaces +
+                   lights * sizeof *frame->lights + lights * sizeof *frame->hemispheres +
+                   materials * sizeof *frame->materials + 64;
     if (!buffer_reserve(&frame->storage, bytes, watch, error))
         return false;
     char *at = frame->storage.data;
@@ -325,14 +350,15 @@ static bool make_room(struct frame *frame, const lam_scene *scene, struct watch 
     return true;
 }
 
-// Directions of eye space to the environment's axes: through the world, then its up axis to +Y (as the fitted camera turns,
-// camera.c), then against the environment's own rotation.
+// Directions of eye space to the environment's axes: through the world, then its up axis to +Y (as the fitted
+// camera turns, camera.c), then against the environment's own rotation.
 static void build_environment(struct frame *frame, const lam_scene *scene, const lam_mat4 *view)
 {
     frame->environment = scene->environment;
     double s = math_sin(scene->environment_rotation_rad), c = math_cos(scene->environment_rotation_rad);
     for (int j = 0; j < 3; j++) {
-        lam_vec3 w = v3(view->m[j][0], view->m[j][1], view->m[j][2]); // where eye axis j points to in the world
+        lam_vec3 w =
+            v3(view->m[j][0], view->m[j][1], view->m[j][2]); // where eye axis j points to in the world
         if (scene->up == LAM_UP_Z)
             w = v3(w.x, w.z, -w.y);
         else if (scene->up == LAM_UP_X)
@@ -343,10 +369,11 @@ static void build_environment(struct frame *frame, const lam_scene *scene, const
     }
 }
 
-bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
-                 int width, int height, struct watch *watch, lam_error *error)
+bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera,
+                 const lam_draw_params *params, int width, int height, struct watch *watch, lam_error *error)
 {
-    if (!check_camera(camera, error) || !check_params(params, error) || !make_room(frame, scene, watch, error))
+    if (!check_camera(camera, error) || !check_params(params, error) ||
+        !make_room(frame, scene, watch, error))
         return false;
     frame->width = width;
     frame->height = height;
@@ -354,7 +381,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->background = params->background;
     frame->color = params->color;
     frame->shading = params->shading;
-    frame->reflection = params->reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : params->reflection;
+    frame->reflection =
+        params->reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : params->reflection;
     frame->orthographic = camera->ortho_half_height > 0;
     frame->distant_viewer = frame->orthographic || params->viewer == LAM_VIEWER_INFINITE;
     frame->flat_normal = params->flat_normal;
@@ -377,9 +405,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         fit_planes(scene, &view, frame->orthographic, &near_plane, &far_plane);
     frame->near_plane = rounded(near_plane);
     frame->far_plane = rounded(far_plane);
-    lam_mat4 projection =
-        frame->orthographic ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
-                            : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
+    lam_mat4 projection = frame->orthographic
+                              ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
+                              : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
     build_environment(frame, scene, &view);
     lam_mat4 pixel = to_pixels(&projection, width, height);
 
@@ -398,7 +426,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     // Numbers are those of the nearest surface, however clear it is.
     if (!lam_show_is_light(frame->show) && frame->show != LAM_SHOW_CLIPPED)
         frame->translucent = false;
-    return build_lights(frame, scene, params->rig, shows_one_light(frame->show) ? params->show_light : -1, &view, error);
+    return build_lights(frame, scene, params->rig, shows_one_light(frame->show) ? params->show_light : -1,
+                        &view, error);
 }
 
 void frame_free(struct frame *frame) { buffer_free(&frame->storage); }

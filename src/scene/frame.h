@@ -1,7 +1,7 @@
 // frame.h: a scene and a camera flattened into what a device draws: flat lists, floats, eye space.
 //
-// All set-up work in double ends here, rounded once to float. Triangles of all draws are numbered through: triangle t of a
-// draw has the number first_id + t, and that number is what a visibility buffer holds.
+// All set-up work in double ends here, rounded once to float. Triangles of all draws are numbered through:
+// triangle t of a draw has the number first_id + t, and that number is what a visibility buffer holds.
 #ifndef FRAME_H
 #define FRAME_H
 
@@ -13,7 +13,7 @@
 // One object: a mesh under a transform.
 struct frame_draw {
     const lam_mesh *mesh;
-    int object;          // index in the scene
+    int object; // index in the scene
     uint32_t first_id;
     // Mesh positions to pixels: rows X·w, Y·w (pixels, y down), clip z, w. A point is at (X·w/w, Y·w/w).
     float pixel[4][4];
@@ -29,7 +29,7 @@ struct frame_draw {
 struct frame_surface {
     uint32_t first_id, count;
     int draw;
-    int front, back; // indices into materials
+    int front, back;  // indices into materials
     bool translucent; // a material's or a colour's alpha is below 1: blended, not just covered
 };
 
@@ -80,7 +80,8 @@ struct frame {
     bool distant_viewer; // v = +z for every point: an orthographic camera, or asked for
     bool orthographic;
     bool translucent; // any surface is
-    // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
+    // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the
+    // window.
     float near_plane, far_plane;
 
     struct frame_draw *draws;
@@ -110,10 +111,10 @@ static inline bool shows_one_light(lam_show show)
     return show == LAM_SHOW_LIGHT || show == LAM_SHOW_N_L || show == LAM_SHOW_N_H;
 }
 
-// Builds the frame; keeps its storage from call to call. Errors: LAM_BAD_ARGUMENT (camera or parameters out of range),
-// LAM_LIMIT (memory, too many triangles).
-bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
-                 int width, int height, struct watch *watch, lam_error *error);
+// Builds the frame; keeps its storage from call to call. Errors: LAM_BAD_ARGUMENT (camera or parameters out
+// of range), LAM_LIMIT (memory, too many triangles).
+bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera,
+                 const lam_draw_params *params, int width, int height, struct watch *watch, lam_error *error);
 void frame_free(struct frame *frame);
 
 // The surface that a triangle number belongs to.

@@ -121,10 +121,7 @@ lam_material lam_material_default(void)
     };
 }
 
-static bool known(lam_material_id id)
-{
-    return (unsigned)id < LAM_MATERIAL_COUNT;
-}
+static bool known(lam_material_id id) { return (unsigned)id < LAM_MATERIAL_COUNT; }
 
 lam_material lam_material_named(lam_material_id id)
 {
@@ -140,10 +137,7 @@ lam_material lam_material_named(lam_material_id id)
     return material;
 }
 
-const char *lam_material_name(lam_material_id id)
-{
-    return known(id) ? named[id].name : NULL;
-}
+const char *lam_material_name(lam_material_id id) { return known(id) ? named[id].name : NULL; }
 
 // A letter as the table writes it. Only ASCII, so the locale has no say.
 static char plain_letter(char c)

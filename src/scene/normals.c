@@ -48,10 +48,7 @@ struct smoothing {
     uint32_t normal_count;
 };
 
-static size_t chunks_of(size_t total)
-{
-    return (total + CHUNK - 1) / CHUNK;
-}
+static size_t chunks_of(size_t total) { return (total + CHUNK - 1) / CHUNK; }
 
 static size_t chunk_end(size_t index, size_t total)
 {

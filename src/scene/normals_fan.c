@@ -22,10 +22,7 @@ void fan_room_start(struct fan_room *room, struct watch *watch)
     arena_start(&room->arena, watch);
 }
 
-void fan_room_free(struct fan_room *room)
-{
-    arena_free(&room->arena);
-}
+void fan_room_free(struct fan_room *room) { arena_free(&room->arena); }
 
 bool fan_room_reserve(struct fan_room *room, uint32_t count)
 {

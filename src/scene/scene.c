@@ -38,7 +38,8 @@ void lam_scene_free(lam_scene *scene)
 }
 
 // Appends an item; −1 when memory is out.
-int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error)
+int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size,
+                 lam_error *error)
 {
     if (list->count == list->room) {
         int room = list->room ? list->room * 2 : 8;
@@ -83,13 +84,16 @@ void scene_warn(struct lam_scene *scene, const char *format, ...)
     bool full = scene->warnings.count == SCENE_WARNINGS_MAX - 1;
     va_list arguments;
     va_start(arguments, format);
-    const char *text = full ? "more warnings follow, which are not kept" : arena_vformat(&scene->arena, format, arguments);
+    const char *text =
+        full ? "more warnings follow, which are not kept" : arena_vformat(&scene->arena, format, arguments);
     va_end(arguments);
     if (text)
-        scene_append(scene, &scene->warnings, &text, sizeof text, NULL); // without memory a warning is not worth failing for
+        scene_append(scene, &scene->warnings, &text, sizeof text,
+                     NULL); // without memory a warning is not worth failing for
 }
 
-bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error)
+bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object,
+                       lam_error *error)
 {
     origin.mesh_count = scene->meshes.count - origin.first_mesh;
     origin.material_count = scene->materials.count - origin.first_material;
@@ -105,7 +109,8 @@ bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int 
         memcpy(materials, (lam_material *)scene->materials.items + origin.first_material,
                (size_t)origin.material_count * sizeof *materials);
     if (origin.object_count)
-        memcpy(objects, (lam_object *)scene->objects.items + first_object, (size_t)origin.object_count * sizeof *objects);
+        memcpy(objects, (lam_object *)scene->objects.items + first_object,
+               (size_t)origin.object_count * sizeof *objects);
     for (int i = origin.first_mesh, n = 0; i < scene->meshes.count; i++)
         for (uint32_t k = 0; k < scene_mesh(scene, i)->part_count; k++)
             parts[n++] = scene_mesh(scene, i)->parts[k].material;
@@ -223,16 +228,19 @@ void lam_scene_set_up(lam_scene *scene, lam_up up)
 
 void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient)
 {
-    if (scene && math_finite((double)ambient.r) && math_finite((double)ambient.g) && math_finite((double)ambient.b))
+    if (scene && math_finite((double)ambient.r) && math_finite((double)ambient.g) &&
+        math_finite((double)ambient.b))
         scene->ambient = ambient;
 }
 
 lam_rgb lam_scene_ambient(const lam_scene *scene) { return scene ? scene->ambient : (lam_rgb){0, 0, 0}; }
 
-bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environment, double rotation_rad, lam_error *error)
+bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environment, double rotation_rad,
+                               lam_error *error)
 {
     if (!scene || !math_finite(rotation_rad))
-        return fail(error, LAM_BAD_ARGUMENT, "environment: %s", scene ? "the rotation is not finite" : "the scene is NULL");
+        return fail(error, LAM_BAD_ARGUMENT, "environment: %s",
+                    scene ? "the rotation is not finite" : "the scene is NULL");
     struct lam_environment *before = scene->environment;
     scene->environment = cube_share(environment);
     scene->environment_rotation_rad = rotation_rad;
@@ -240,11 +248,20 @@ bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environm
     return true;
 }
 
-const lam_environment *lam_scene_environment(const lam_scene *scene) { return scene ? scene->environment : NULL; }
+const lam_environment *lam_scene_environment(const lam_scene *scene)
+{
+    return scene ? scene->environment : NULL;
+}
 
-double lam_scene_environment_rotation(const lam_scene *scene) { return scene ? scene->environment_rotation_rad : 0; }
+double lam_scene_environment_rotation(const lam_scene *scene)
+{
+    return scene ? scene->environment_rotation_rad : 0;
+}
 
-const lam_material *lam_scene_default_material(const lam_scene *scene) { return scene ? &scene->default_material : NULL; }
+const lam_material *lam_scene_default_material(const lam_scene *scene)
+{
+    return scene ? &scene->default_material : NULL;
+}
 
 void lam_scene_times(const lam_scene *scene, double *read_ms, double *prepare_ms)
 {

@@ -14,7 +14,8 @@ struct scene_list {
     int count, room;
 };
 
-// What a mesh's triangles span, and whether any of its colours has an alpha below 1. `used` lists the vertices that triangles refer to, in order; NULL: all of them.
+// What a mesh's triangles span, and whether any of its colours has an alpha below 1. `used` lists the
+// vertices that triangles refer to, in order; NULL: all of them.
 struct scene_extent {
     lam_vec3 minimum, maximum; // mesh coordinates, origin included
     const uint32_t *used;
@@ -22,7 +23,8 @@ struct scene_extent {
     bool translucent;
 };
 
-// Where meshes came from, for writing them as a scene file: a model file or a built-in shape, and how it was read.
+// Where meshes came from, for writing them as a scene file: a model file or a built-in shape, and how it was
+// read.
 struct scene_origin {
     const char *path;  // as it can be opened from here; NULL: a shape, or bytes in memory
     const char *shape; // its name; NULL: a file
@@ -35,19 +37,19 @@ struct scene_origin {
     const lam_material *materials; // as the file had them
     const lam_object *objects;     // as the file had them, object_count, in order
     int object_count;
-    const int *part_materials;     // of all parts of its meshes, in order: the material as the file had it
+    const int *part_materials; // of all parts of its meshes, in order: the material as the file had it
     int part_count;
 };
 
 struct lam_scene {
     struct arena arena;
-    struct scene_list meshes;    // lam_mesh
-    struct scene_list extents;   // struct scene_extent, one for each measured mesh, in the same order
-    struct scene_list materials; // lam_material
-    struct scene_list objects;   // lam_object
-    struct scene_list lights;    // lam_light
-    struct scene_list warnings;  // const char *
-    struct scene_list origins;   // struct scene_origin, in the order of their meshes
+    struct scene_list meshes;     // lam_mesh
+    struct scene_list extents;    // struct scene_extent, one for each measured mesh, in the same order
+    struct scene_list materials;  // lam_material
+    struct scene_list objects;    // lam_object
+    struct scene_list lights;     // lam_light
+    struct scene_list warnings;   // const char *
+    struct scene_list origins;    // struct scene_origin, in the order of their meshes
     const lam_settings *settings; // of a scene file; NULL: none
     lam_up up;
     lam_mat4 placement; // what lam_scene_transform did so far
@@ -55,7 +57,7 @@ struct lam_scene {
     lam_material default_material;   // of parts that name none
     lam_environment *environment;    // shared with others; NULL: none
     double environment_rotation_rad; // about the up axis
-    lam_color_mode color; // what the file's colours were read as
+    lam_color_mode color;            // what the file's colours were read as
     const char *format;
     double read_ms, prepare_ms;
 };
@@ -64,33 +66,35 @@ struct lam_scene {
 struct lam_scene *scene_make(struct watch *watch, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
-// Take what already lies in the scene's arena, without copying and without making normals. Return the index, −1 when
-// memory is out.
+// Take what already lies in the scene's arena, without copying and without making normals. Return the index,
+// −1 when memory is out.
 int scene_take_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error);
 int scene_take_material(struct lam_scene *scene, const lam_material *material, lam_error *error);
 int scene_take_object(struct lam_scene *scene, const lam_object *object, lam_error *error);
 int scene_take_light(struct lam_scene *scene, const lam_light *light, lam_error *error);
 
 // Appends one item of a list; its index, −1 when memory is out.
-int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error);
+int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size,
+                 lam_error *error);
 
 // Adds a warning, formatted. At most SCENE_WARNINGS_MAX are kept; the last one then says that more follow.
 enum { SCENE_WARNINGS_MAX = 64 };
 void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Notes where the meshes and materials from these numbers on came from. False when memory is out.
-bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error);
+bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object,
+                       lam_error *error);
 
 // A built-in shape as a new mesh, charged to the scene's own watch. Its index, −1 on failure.
-int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params, struct watch *watch,
-                    lam_error *error);
+int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params,
+                    struct watch *watch, lam_error *error);
 
 // Makes every mesh ready to draw: normals where they are missing or asked for, degenerate ones told.
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,
                    struct watch *watch, lam_error *error);
 
-// Works out the extents of meshes that have none yet; every public call that adds meshes ends with it, so that readers
-// never write. False when memory is out.
+// Works out the extents of meshes that have none yet; every public call that adds meshes ends with it, so
+// that readers never write. False when memory is out.
 bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error);
 
 static inline const lam_mesh *scene_mesh(const struct lam_scene *scene, int i)

@@ -45,10 +45,7 @@ static lam_vec3 around(const struct segments *n, double u, lam_vec3 *sideways)
     return v3(-at.s, 0, -at.c);
 }
 
-static lam_vec3 up(double y)
-{
-    return v3(0, y, 0);
-}
+static lam_vec3 up(double y) { return v3(0, y, 0); }
 
 static void sphere_point(void *user, double u, double v, lam_surface_point *out)
 {
@@ -370,15 +367,9 @@ static const struct shape {
 
 enum { SHAPES = sizeof shapes / sizeof *shapes };
 
-int lam_shape_count(void)
-{
-    return SHAPES;
-}
+int lam_shape_count(void) { return SHAPES; }
 
-const char *lam_shape_name(int shape)
-{
-    return shape >= 0 && shape < SHAPES ? shapes[shape].name : NULL;
-}
+const char *lam_shape_name(int shape) { return shape >= 0 && shape < SHAPES ? shapes[shape].name : NULL; }
 
 const char *lam_shape_summary(int shape)
 {
@@ -453,8 +444,8 @@ static bool unknown_shape(const char *name, lam_error *error)
                 nearest ? ", the nearest name is '" : "", nearest ? nearest : "", nearest ? "'" : "");
 }
 
-int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params, struct watch *watch,
-                    lam_error *error)
+int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params,
+                    struct watch *watch, lam_error *error)
 {
     const lam_shape_params plain = {0};
     params = params ? params : &plain;

@@ -152,10 +152,7 @@ static lam_vec3 lattice(const struct march *m, int x, int y, int z)
     return v3(coordinate(m, 0, x), coordinate(m, 1, y), coordinate(m, 2, z));
 }
 
-static bool is_inside(double value)
-{
-    return value < 0;
-}
+static bool is_inside(double value) { return value < 0; }
 
 // Where on the way from a (0) to b (1) f vanishes: the secant rule that halves the value of an end which
 // stays twice (Illinois), which always keeps the root between its ends.

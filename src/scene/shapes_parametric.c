@@ -57,10 +57,7 @@ static double parameter(double a, double b, int i, int n)
 }
 
 // At ½ steps: the middle of cell i.
-static double middle(double a, double b, int i, int n)
-{
-    return parameter(a, b, 2 * i + 1, 2 * n);
-}
+static double middle(double a, double b, int i, int n) { return parameter(a, b, 2 * i + 1, 2 * n); }
 
 static lam_surface_point evaluate(const struct tessellation *t, double u, double v)
 {
@@ -69,10 +66,7 @@ static lam_surface_point evaluate(const struct tessellation *t, double u, double
     return point;
 }
 
-static bool shorter(lam_vec3 v, double length)
-{
-    return v3_dot(v, v) <= length * length;
-}
+static bool shorter(lam_vec3 v, double length) { return v3_dot(v, v) <= length * length; }
 
 static bool coincide(const struct tessellation *t, lam_vec3 a, lam_vec3 b)
 {

@@ -4,11 +4,11 @@
 #include <lambent/device.h>
 
 static const char *const names[LAM_SHOW_COUNT] = {
-    [LAM_SHOW_PICTURE] = "picture",   [LAM_SHOW_AMBIENT] = "ambient",       [LAM_SHOW_DIFFUSE] = "diffuse",
-    [LAM_SHOW_SPECULAR] = "specular", [LAM_SHOW_EMISSION] = "emission",     [LAM_SHOW_REFLECTION] = "reflection",
-    [LAM_SHOW_LIGHT] = "light",       [LAM_SHOW_NORMALS] = "normals",       [LAM_SHOW_TANGENTS] = "tangents",
-    [LAM_SHOW_DEPTH] = "depth",       [LAM_SHOW_N_L] = "n.l",               [LAM_SHOW_N_H] = "n.h",
-    [LAM_SHOW_FACING] = "facing",     [LAM_SHOW_IDS] = "ids",               [LAM_SHOW_COVERAGE] = "coverage",
+    [LAM_SHOW_PICTURE] = "picture",   [LAM_SHOW_AMBIENT] = "ambient",   [LAM_SHOW_DIFFUSE] = "diffuse",
+    [LAM_SHOW_SPECULAR] = "specular", [LAM_SHOW_EMISSION] = "emission", [LAM_SHOW_REFLECTION] = "reflection",
+    [LAM_SHOW_LIGHT] = "light",       [LAM_SHOW_NORMALS] = "normals",   [LAM_SHOW_TANGENTS] = "tangents",
+    [LAM_SHOW_DEPTH] = "depth",       [LAM_SHOW_N_L] = "n.l",           [LAM_SHOW_N_H] = "n.h",
+    [LAM_SHOW_FACING] = "facing",     [LAM_SHOW_IDS] = "ids",           [LAM_SHOW_COVERAGE] = "coverage",
     [LAM_SHOW_OVERDRAW] = "overdraw", [LAM_SHOW_CLIPPED] = "clipped",
 };
 

@@ -1,7 +1,9 @@
-// test_images.c: every demonstration scene, drawn with every instruction set and thread count, has exactly the recorded bytes.
+// test_images.c: every demonstration scene, drawn with every instruction set and thread count, has exactly
+// the recorded bytes.
 //
 //   test-images              compares with tests/images/expected/
-//   test-images --update     records what the plain kernels draw now (look at the pictures before you commit them)
+//   test-images --update     records what the plain kernels draw now (look at the pictures before you commit
+//   them)
 //
 // A failure leaves NAME.actual.png and NAME.difference.png in the working directory.
 #include "scenes.h"
@@ -132,8 +134,9 @@ static void check_scene(void **state)
                 leave_pictures(row->name, &image);
             lam_image_free(&image);
             if (hashes.pixels != expected.pixels)
-                fail_msg("%s: %s with %d threads drew %016llx, recorded is %016llx", row->name, lam_isa_name((lam_isa)isa),
-                         threads[t], (unsigned long long)hashes.pixels, (unsigned long long)expected.pixels);
+                fail_msg("%s: %s with %d threads drew %016llx, recorded is %016llx", row->name,
+                         lam_isa_name((lam_isa)isa), threads[t], (unsigned long long)hashes.pixels,
+                         (unsigned long long)expected.pixels);
             if (hashes.file != expected.file)
                 fail_msg("%s: %s with %d threads wrote a file %016llx, recorded is %016llx", row->name,
                          lam_isa_name((lam_isa)isa), threads[t], (unsigned long long)hashes.file,

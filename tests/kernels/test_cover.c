@@ -1,6 +1,8 @@
-// test_cover.c: coverage and depth against a pixel-by-pixel reference in 64-bit integers and double, for every instruction set.
+// test_cover.c: coverage and depth against a pixel-by-pixel reference in 64-bit integers and double, for
+// every instruction set.
 //
-// The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to itself.
+// The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is
+// snapped to itself.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -28,7 +30,10 @@ static uint32_t random_bits(void)
     return (uint32_t)(seed >> 33);
 }
 
-static double random_between(double low, double high) { return low + (high - low) * (random_bits() / 2147483648.0); }
+static double random_between(double low, double high)
+{
+    return low + (high - low) * (random_bits() / 2147483648.0);
+}
 
 static double on_grid(double x) { return floor(x * 256 + 0.5) / 256; }
 
@@ -45,8 +50,12 @@ static lam_scene *scene_of(const struct soup *soup, lam_cull cull)
         float color[4] = {(float)(i + 1), 0, 0, 1};
         memcpy(colors + 4 * i, color, sizeof color);
     }
-    lam_mesh mesh = {.positions = positions, .vertex_count = (uint32_t)soup->count * 3, .triangle_count = (uint32_t)soup->count,
-                     .colors = colors, .color_count = (uint32_t)soup->count, .colors_format = LAM_COLORS_LINEAR_F32,
+    lam_mesh mesh = {.positions = positions,
+                     .vertex_count = (uint32_t)soup->count * 3,
+                     .triangle_count = (uint32_t)soup->count,
+                     .colors = colors,
+                     .color_count = (uint32_t)soup->count,
+                     .colors_format = LAM_COLORS_LINEAR_F32,
                      .colors_rate = LAM_PER_TRIANGLE};
     lam_scene *scene = lam_scene_make(NULL);
     lam_error error = {0};
@@ -68,8 +77,12 @@ static void draw(const lam_scene *scene, lam_isa isa, int samples, float out[SIZ
 {
     lam_error error = {0};
     lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 2, .isa = isa}, &error);
-    lam_camera camera = {.eye = {SIZE / 2, SIZE / 2, 100}, .target = {SIZE / 2, SIZE / 2, 0}, .up = {0, 1, 0},
-                         .ortho_half_height = SIZE / 2, .near_plane = 1, .far_plane = 199};
+    lam_camera camera = {.eye = {SIZE / 2, SIZE / 2, 100},
+                         .target = {SIZE / 2, SIZE / 2, 0},
+                         .up = {0, 1, 0},
+                         .ortho_half_height = SIZE / 2,
+                         .near_plane = 1,
+                         .far_plane = 199};
     lam_draw_params params = {.samples = samples, .reflection = LAM_REFLECTION_NONE};
     lam_image image = {0};
     if (!device || !lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error) ||
@@ -115,7 +128,8 @@ static bool covers(const double *c, const int64_t p[2], double *depth)
     return true;
 }
 
-// What a pixel should show: a triangle's number, 0 for none, and whether the second is too near to call in floats.
+// What a pixel should show: a triangle's number, 0 for none, and whether the second is too near to call in
+// floats.
 struct reference {
     int number[SIZE * SIZE];
     bool close[SIZE * SIZE];
@@ -232,7 +246,8 @@ static void test_on_centres(void **state)
     check(&soup);
 }
 
-// A jittered grid of triangles covers every sample exactly once: no holes at 1, 4 and 16 samples, seen by alpha.
+// A jittered grid of triangles covers every sample exactly once: no holes at 1, 4 and 16 samples, seen by
+// alpha.
 static void test_watertight(void **state)
 {
     (void)state;
@@ -242,7 +257,8 @@ static void test_watertight(void **state)
     double cell = (double)(SIZE + 20) / CELLS;
     for (int j = 0; j <= CELLS; j++)
         for (int i = 0; i <= CELLS; i++) {
-            grid[j][i][0] = i * cell - 10 + random_between(-0.4, 0.4) * cell; // off the snapping grid on purpose
+            grid[j][i][0] =
+                i * cell - 10 + random_between(-0.4, 0.4) * cell; // off the snapping grid on purpose
             grid[j][i][1] = j * cell - 10 + random_between(-0.4, 0.4) * cell;
         }
     struct soup soup = {2 * CELLS * CELLS, malloc(2 * CELLS * CELLS * 9 * sizeof(double))};
@@ -262,8 +278,12 @@ static void test_watertight(void **state)
     for (int s = 0; s < 3; s++) {
         lam_error error = {0};
         lam_device *device = lam_device_cpu(NULL, &error);
-        lam_camera camera = {.eye = {SIZE / 2, SIZE / 2, 100}, .target = {SIZE / 2, SIZE / 2, 0}, .up = {0, 1, 0},
-                             .ortho_half_height = SIZE / 2, .near_plane = 1, .far_plane = 199};
+        lam_camera camera = {.eye = {SIZE / 2, SIZE / 2, 100},
+                             .target = {SIZE / 2, SIZE / 2, 0},
+                             .up = {0, 1, 0},
+                             .ortho_half_height = SIZE / 2,
+                             .near_plane = 1,
+                             .far_plane = 199};
         lam_draw_params params = {.samples = samples[s], .reflection = LAM_REFLECTION_NONE};
         lam_image image = {0};
         assert_true(lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error));
@@ -311,8 +331,8 @@ static void test_culling(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small),      cmocka_unit_test(test_medium),     cmocka_unit_test(test_large),
-        cmocka_unit_test(test_huge),       cmocka_unit_test(test_on_centres), cmocka_unit_test(test_watertight),
+        cmocka_unit_test(test_small),   cmocka_unit_test(test_medium),     cmocka_unit_test(test_large),
+        cmocka_unit_test(test_huge),    cmocka_unit_test(test_on_centres), cmocka_unit_test(test_watertight),
         cmocka_unit_test(test_culling),
     };
     return cmocka_run_group_tests_name("cover", tests, NULL, NULL);

@@ -1,8 +1,9 @@
-// test_equations.c: src/lighting against the textbook version in double (textbook.c): random points, then every
-// degenerate case that the conventions name.
+// test_equations.c: src/lighting against the textbook version in double (textbook.c): random points, then
+// every degenerate case that the conventions name.
 //
-// The promise: each term within 2e-6 + 4e-7·α of its largest value. Where a light's own law enlarges the last digits of
-// the cosine it is given (a spot's exponent, a narrow cone), that factor is added, as docs/lighting.md says.
+// The promise: each term within 2e-6 + 4e-7·α of its largest value. Where a light's own law enlarges the last
+// digits of the cosine it is given (a spot's exponent, a narrow cone), that factor is added, as
+// docs/lighting.md says.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -43,15 +44,17 @@ static void compare(const struct points *p, const struct modes *m, int i)
     struct textbook t = textbook_light(m, in);
     double alpha = (double)in[IN_SHININESS], lobe = 2e-6 + 4e-7 * alpha, matt = 2e-6, base = 2e-6;
     int kajiya = m->model == MODEL_KAJIYA_KAY || m->model == MODEL_KAJIYA_KAY_LECTURE;
-    // Where one last digit decides between all and nothing, either is right; nearly parallel tangents have no direction.
+    // Where one last digit decides between all and nothing, either is right; nearly parallel tangents have no
+    // direction.
     if (m->model != MODEL_LAMBERT && fabs(t.out[OUT_N_DOT_L]) < 1e-6)
         return;
     if (m->kind == LIGHT_SPOT_CUTOFF && fabs(t.cone_cosine - (double)in[IN_COS_CUTOFF]) < 1e-6)
         return;
     if (kajiya && t.tangent_sine < 0.3)
         return;
-    if (m->model == MODEL_BLINN_PHONG && t.half_length < 0.1) { // light from straight behind: what is left of l + v
-        lobe *= 0.1 / t.half_length;                            // is the roundings of l and v
+    if (m->model == MODEL_BLINN_PHONG &&
+        t.half_length < 0.1) {       // light from straight behind: what is left of l + v
+        lobe *= 0.1 / t.half_length; // is the roundings of l and v
         base *= 0.1 / t.half_length;
     }
 
@@ -80,8 +83,10 @@ static void compare(const struct points *p, const struct modes *m, int i)
     for (int k = 0; k < OUTPUTS; k++) {
         double error = fabs((double)p->out[k][i] - t.out[k]);
         if (!(error <= allowed[k]))
-            fail_msg("output %d of point %d, kind %d falloff %d model %d fibre %d alpha %g: %.9g, textbook %.9g, allowed %g",
-                     k, i, m->kind, m->falloff, m->model, m->fibre, alpha, (double)p->out[k][i], t.out[k], allowed[k]);
+            fail_msg("output %d of point %d, kind %d falloff %d model %d fibre %d alpha %g: %.9g, textbook "
+                     "%.9g, allowed %g",
+                     k, i, m->kind, m->falloff, m->model, m->fibre, alpha, (double)p->out[k][i], t.out[k],
+                     allowed[k]);
         if (allowed[k] > 0 && error / allowed[k] > worst[k])
             worst[k] = error / allowed[k];
     }
@@ -147,7 +152,8 @@ static void light_one(const struct modes *m, const float in[INPUTS], float out[O
 }
 
 // A case that must add nothing, in every model but `none`, at α = 0 too (0⁰ = 1 must not leak through).
-static void adds_nothing(const float in[INPUTS], int kind, int falloff, int first_model, int last_model, int diffuse_too)
+static void adds_nothing(const float in[INPUTS], int kind, int falloff, int first_model, int last_model,
+                         int diffuse_too)
 {
     for (int model = first_model; model <= last_model; model++) {
         for (int fibre = 0; fibre < 2; fibre++) {
@@ -259,7 +265,8 @@ static void test_known_answers(void **state)
     plain_point(in); // head on, light at the eye: everything 1
     for (int model = MODEL_PHONG; model <= MODEL_BLINN_PHONG; model++) {
         light_one(&(struct modes){LIGHT_POINT, FALLOFF_NONE, model, 0, 0}, in, out);
-        assert_true(out[OUT_D] == 1 && out[OUT_S] == 1 && out[OUT_DISTANCE] == 4 && out[OUT_ATTENUATION] == 1);
+        assert_true(out[OUT_D] == 1 && out[OUT_S] == 1 && out[OUT_DISTANCE] == 4 &&
+                    out[OUT_ATTENUATION] == 1);
     }
     in[IN_QUADRATIC] = 0.2f; // the lecture's 1, 0.54, 0.2 at distance 4: 1/(1 + 2.16 + 3.2)
     in[IN_LINEAR] = 0.54f;
@@ -287,7 +294,7 @@ static void test_known_answers(void **state)
 
     // Mirror cone and the lecture's form differ in the sign: l and v at 45° on either side of the normal.
     plain_point(in);
-    in[IN_POINT] = -4; // the eye is at 45° to the right of the normal
+    in[IN_POINT] = -4;               // the eye is at 45° to the right of the normal
     in[IN_DIRECTION] = -0.70710678f; // and so is the light
     in[IN_DIRECTION + 2] = -0.70710678f;
     light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, MODEL_KAJIYA_KAY, 0, 0}, in, out);
@@ -344,9 +351,9 @@ static void test_numbers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers),         cmocka_unit_test(test_known_answers),
-        cmocka_unit_test(test_random_points),   cmocka_unit_test(test_degenerate_points),
-        cmocka_unit_test(test_scale),           cmocka_unit_test(test_cone_edge),
+        cmocka_unit_test(test_numbers),       cmocka_unit_test(test_known_answers),
+        cmocka_unit_test(test_random_points), cmocka_unit_test(test_degenerate_points),
+        cmocka_unit_test(test_scale),         cmocka_unit_test(test_cone_edge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-// test_known_scenes.c: scene files with a mesh that carries normals and tangents, drawn as linear floats, against the textbook's
-// sums over the same triangles: rays through the pixels' centres, in double, written without a look at the renderer.
+// test_known_scenes.c: scene files with a mesh that carries normals and tangents, drawn as linear floats,
+// against the textbook's sums over the same triangles: rays through the pixels' centres, in double, written
+// without a look at the renderer.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -10,7 +11,14 @@
 #include <string.h>
 #include <cmocka.h>
 
-enum { W = 96, H = 72, AROUND = 14, ALONG = 9, VERTICES = (AROUND + 1) * (ALONG + 1), TRIANGLES = 2 * AROUND * ALONG };
+enum {
+    W = 96,
+    H = 72,
+    AROUND = 14,
+    ALONG = 9,
+    VERTICES = (AROUND + 1) * (ALONG + 1),
+    TRIANGLES = 2 * AROUND * ALONG
+};
 
 typedef struct vec {
     double x, y, z;
@@ -21,7 +29,10 @@ static vec add(vec a, vec b) { return of(a.x + b.x, a.y + b.y, a.z + b.z); }
 static vec sub(vec a, vec b) { return of(a.x - b.x, a.y - b.y, a.z - b.z); }
 static vec times(vec a, double s) { return of(a.x * s, a.y * s, a.z * s); }
 static double dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static vec cross(vec a, vec b) { return of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
+static vec cross(vec a, vec b)
+{
+    return of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
 static vec unit(vec a) { return times(a, 1 / sqrt(dot(a, a))); }
 static vec each(vec a, vec b) { return of(a.x * b.x, a.y * b.y, a.z * b.z); }
 
@@ -37,7 +48,8 @@ static void make_mesh(void)
     static const char *const names[9] = {"x", "y", "z", "nx", "ny", "nz", "tx", "ty", "tz"};
     for (int i = 0; i < 9; i++)
         used += (size_t)sprintf(ply + used, "property float %s\n", names[i]);
-    used += (size_t)sprintf(ply + used, "element face %d\nproperty list uchar int vertex_indices\nend_header\n", TRIANGLES);
+    used += (size_t)sprintf(
+        ply + used, "element face %d\nproperty list uchar int vertex_indices\nend_header\n", TRIANGLES);
     for (int j = 0; j <= ALONG; j++)
         for (int i = 0; i <= AROUND; i++) {
             double theta = 0.5 + 2.1 * j / ALONG, phi = 4.4 * i / AROUND;
@@ -93,7 +105,8 @@ struct known {
     int light_count;
 };
 
-static const vec ka = {0.3, 0.2, 0.25}, kd = {0.7, 0.5, 0.2}, ks = {0.6, 0.7, 0.8}, ke = {0.02, 0.01, 0.03}, la = {0.1, 0.2, 0.15};
+static const vec ka = {0.3, 0.2, 0.25}, kd = {0.7, 0.5, 0.2}, ks = {0.6, 0.7, 0.8}, ke = {0.02, 0.01, 0.03},
+                 la = {0.1, 0.2, 0.15};
 static const vec back_kd = {0.1, 0.3, 0.9};
 static const double shininess = 30;
 static const vec eye = {0.4, 1.1, 4.2}, target = {0.1, 0, 0};
@@ -160,7 +173,9 @@ static vec lit(const struct known *k, vec p, vec n, vec t, bool back)
             S = nl > 0 ? pow(fmax(sine_l * sine_v - dot(t, l) * dot(t, v), 0), shininess) : 0;
         }
         sum = add(sum, each(ka, light->ambient));
-        sum = add(sum, times(add(times(each(diffuse, light->diffuse), D), times(each(ks, light->specular), S)), reach * cone));
+        sum =
+            add(sum, times(add(times(each(diffuse, light->diffuse), D), times(each(ks, light->specular), S)),
+                           reach * cone));
     }
     return sum;
 }
@@ -193,7 +208,8 @@ static int hit(const struct world *w, vec way, double weights[3])
 
 static vec mix(const vec *of_corners, const int *c, const double *b)
 {
-    return add(add(times(of_corners[c[0]], b[0]), times(of_corners[c[1]], b[1])), times(of_corners[c[2]], b[2]));
+    return add(add(times(of_corners[c[0]], b[0]), times(of_corners[c[1]], b[1])),
+               times(of_corners[c[2]], b[2]));
 }
 
 static vec expected(const struct known *k, const struct world *w, int i, const double b[3])
@@ -222,17 +238,21 @@ static void add_light(const struct light *l)
     char *at = scene_text + strlen(scene_text);
     at += sprintf(at, "{\"type\": \"%s\", \"frame\": \"%s\", ", types[l->law], l->frame);
     if (l->law != DIRECTIONAL)
-        at += sprintf(at, "\"position\": [%.17g, %.17g, %.17g], \"attenuation\": [%.17g, %.17g, %.17g], \"range\": %.17g, ", l->at.x,
-                      l->at.y, l->at.z, l->attenuation.x, l->attenuation.y, l->attenuation.z, l->range);
+        at += sprintf(
+            at,
+            "\"position\": [%.17g, %.17g, %.17g], \"attenuation\": [%.17g, %.17g, %.17g], \"range\": %.17g, ",
+            l->at.x, l->at.y, l->at.z, l->attenuation.x, l->attenuation.y, l->attenuation.z, l->range);
     if (l->law != POINT)
         at += sprintf(at, "\"direction\": [%.17g, %.17g, %.17g], ", l->way.x, l->way.y, l->way.z);
     if (l->law == CUTOFF)
         at += sprintf(at, "\"cutoff\": %.17g, \"exponent\": %.17g, ", l->a, l->b);
     if (l->law == CONES)
         at += sprintf(at, "\"inner\": %.17g, \"outer\": %.17g, ", l->a, l->b);
-    sprintf(at, "\"ambient\": [%.17g, %.17g, %.17g], \"diffuse\": [%.17g, %.17g, %.17g], \"specular\": [%.17g, %.17g, %.17g]}",
-            l->ambient.x, l->ambient.y, l->ambient.z, l->diffuse.x, l->diffuse.y, l->diffuse.z, l->specular.x, l->specular.y,
-            l->specular.z);
+    sprintf(at,
+            "\"ambient\": [%.17g, %.17g, %.17g], \"diffuse\": [%.17g, %.17g, %.17g], \"specular\": [%.17g, "
+            "%.17g, %.17g]}",
+            l->ambient.x, l->ambient.y, l->ambient.z, l->diffuse.x, l->diffuse.y, l->diffuse.z, l->specular.x,
+            l->specular.y, l->specular.z);
 }
 
 static lam_scene *load(const struct known *k)
@@ -240,15 +260,22 @@ static lam_scene *load(const struct known *k)
     static const char *const methods[] = {"phong", "gouraud", "flat"};
     static const char *const models[] = {"blinn-phong", "phong", "kajiya-kay", "lambert"};
     sprintf(scene_text,
-            "{\"lambent\": 1, \"image\": {\"size\": [%d, %d], \"samples\": 1, \"color\": \"raw\"}, \"camera\": {\"eye\": [%.17g, "
-            "%.17g, %.17g], \"target\": [%.17g, 0, 0], \"fovy\": %.17g, \"near\": 0.5, \"far\": 50}, \"ambient\": [%.17g, %.17g, "
-            "%.17g], \"shading\": \"%s\", \"reflection\": \"%s\", \"objects\": [{\"file\": \"m.ply\", \"two_sided\": %s, "
-            "\"material\": {\"ambient\": [0.3, 0.2, 0.25], \"diffuse\": [0.7, 0.5, 0.2], \"specular\": [0.6, 0.7, 0.8], "
-            "\"emission\": [0.02, 0.01, 0.03], \"shininess\": 30}, \"back_material\": {\"diffuse\": [0.1, 0.3, 0.9]}, "
-            "\"transform\": [[\"translate\", %.17g, %.17g, %.17g], [\"rotate\", %.17g, 0, 1, 0], [\"scale\", %.17g, %.17g, "
+            "{\"lambent\": 1, \"image\": {\"size\": [%d, %d], \"samples\": 1, \"color\": \"raw\"}, "
+            "\"camera\": {\"eye\": [%.17g, "
+            "%.17g, %.17g], \"target\": [%.17g, 0, 0], \"fovy\": %.17g, \"near\": 0.5, \"far\": 50}, "
+            "\"ambient\": [%.17g, %.17g, "
+            "%.17g], \"shading\": \"%s\", \"reflection\": \"%s\", \"objects\": [{\"file\": \"m.ply\", "
+            "\"two_sided\": %s, "
+            "\"material\": {\"ambient\": [0.3, 0.2, 0.25], \"diffuse\": [0.7, 0.5, 0.2], \"specular\": [0.6, "
+            "0.7, 0.8], "
+            "\"emission\": [0.02, 0.01, 0.03], \"shininess\": 30}, \"back_material\": {\"diffuse\": [0.1, "
+            "0.3, 0.9]}, "
+            "\"transform\": [[\"translate\", %.17g, %.17g, %.17g], [\"rotate\", %.17g, 0, 1, 0], [\"scale\", "
+            "%.17g, %.17g, "
             "%.17g]]}], \"lights\": [",
             W, H, eye.x, eye.y, eye.z, target.x, fovy, la.x, la.y, la.z, methods[k->method], models[k->model],
-            k->two_sided ? "true" : "false", k->move.x, k->move.y, k->move.z, k->turn, k->scale.x, k->scale.y, k->scale.z);
+            k->two_sided ? "true" : "false", k->move.x, k->move.y, k->move.z, k->turn, k->scale.x, k->scale.y,
+            k->scale.z);
     for (int i = 0; i < k->light_count; i++) {
         if (i)
             strcat(scene_text, ", ");
@@ -279,7 +306,8 @@ static void compare(const struct known *k)
         const float *c = corner[i];
         w.p[i] = point_out(k, of((double)c[0], (double)c[1], (double)c[2]));
         w.n[i] = normal_out(k, of((double)c[3], (double)c[4], (double)c[5]));
-        w.t[i] = unit(direction_out(k, of((double)c[6], (double)c[7], (double)c[8]))); // as a vertex shader hands it on
+        w.t[i] = unit(
+            direction_out(k, of((double)c[6], (double)c[7], (double)c[8]))); // as a vertex shader hands it on
     }
     w.sign = k->scale.x * k->scale.y * k->scale.z < 0 ? -1 : 1;
     vec x, y, z;
@@ -288,7 +316,8 @@ static void compare(const struct known *k)
     int counted = 0;
     for (int j = 0; j < H; j++)
         for (int i = 0; i < W; i++) {
-            double b[3] = {0}, px = (2 * (i + 0.5) / W - 1) * half * W / H, py = (1 - 2 * (j + 0.5) / H) * half;
+            double b[3] = {0}, px = (2 * (i + 0.5) / W - 1) * half * W / H,
+                   py = (1 - 2 * (j + 0.5) / H) * half;
             int t = hit(&w, sub(add(times(x, px), times(y, py)), z), b);
             const float *got = (const float *)image.pixels + 4 * (j * W + i);
             // Coverage is decided on snapped corners: a pixel at an edge may show its neighbour.
@@ -303,7 +332,8 @@ static void compare(const struct known *k)
             }
             counted++;
         }
-    print_message("%-28s %4d pixels, at most %.2e, on average %.2e\n", k->name, counted, largest, total / (3 * counted));
+    print_message("%-28s %4d pixels, at most %.2e, on average %.2e\n", k->name, counted, largest,
+                  total / (3 * counted));
     assert_true(counted > 1000);
     assert_true(largest <= 2e-4);
     assert_true(total / (3 * counted) <= 2e-6);
@@ -312,34 +342,61 @@ static void compare(const struct known *k)
     lam_scene_free(scene);
 }
 
-#define WHITE      {1, 1, 1}
-#define STRAIGHT   .scale = WHITE, .two_sided = true
-#define PLAIN      .attenuation = {1, 0, 0}, .diffuse = WHITE, .specular = WHITE
-#define FROM_POINT {POINT, "world", .at = {2, 3, 4}, PLAIN}
+#define WHITE                                                                                                \
+    {                                                                                                        \
+        1, 1, 1                                                                                              \
+    }
+#define STRAIGHT .scale = WHITE, .two_sided = true
+#define PLAIN    .attenuation = {1, 0, 0}, .diffuse = WHITE, .specular = WHITE
+#define FROM_POINT                                                                                           \
+    {                                                                                                        \
+        POINT, "world", .at = {2, 3, 4}, PLAIN                                                               \
+    }
 
 static void test_known_scenes(void **unused)
 {
     (void)unused;
     static const struct known cases[] = {
         {"point", STRAIGHT, .lights = {FROM_POINT}, .light_count = 1},
-        {"point, attenuated, ranged", STRAIGHT, .lights = {{POINT, "world", {1, 1.5, 2}, .attenuation = {0.2, 0.1, 0.3},
-          .ambient = {0.1, 0, 0.2}, .diffuse = {1, 0.6, 0.3}, .specular = {0.2, 0.9, 1}, .range = 4}}, .light_count = 1},
-        {"directional, phong", STRAIGHT, .model = PHONG, .lights = {{DIRECTIONAL, "world", .way = {-1, -2, -1.5}, PLAIN}}, .light_count = 1},
-        {"spot, cutoff", STRAIGHT, .lights = {{CUTOFF, "world", {0.5, 2, 2.5}, {-0.2, -0.9, -1.1}, PLAIN, .a = 40, .b = 8}}, .light_count = 1},
-        {"spot, cones, camera", STRAIGHT, .lights = {{CONES, "camera", {0.3, 0.2, 0}, {0, 0, -1}, PLAIN, .a = 5, .b = 18}}, .light_count = 1},
-        {"spot in the object's frame", .move = {0.2, -0.1, 0.3}, .turn = 35, .scale = {1.2, 0.7, 1}, .two_sided = true,
-         .lights = {{CONES, "object", {0, 1, 2.5}, {0, -0.3, -1}, PLAIN, .a = 10, .b = 30}}, .light_count = 1},
-        {"non-uniform scale, two lights", .move = {0, 0.1, 0}, .turn = -50, .scale = {0.6, 1.3, 1.1}, .two_sided = true,
-         .lights = {FROM_POINT, {DIRECTIONAL, "camera", .way = {1, -1, -1}, .diffuse = {0.2, 0.3, 0.6}, .specular = {0.3, 0, 0}}},
-         .light_count = 2},
-        {"mirrored", .turn = 20, .scale = {1, -1.2, 1}, .two_sided = true, .lights = {FROM_POINT}, .light_count = 1},
-        {"one-sided", .turn = 100, .scale = WHITE, .two_sided = false, .lights = {FROM_POINT}, .light_count = 1},
-        {"gouraud", STRAIGHT, .method = GOURAUD, .turn = 60, .lights = {FROM_POINT}, .light_count = 1},
-        {"flat", .method = FLAT, .turn = 60, .scale = {1, 1.2, 0.8}, .two_sided = true, .lights = {FROM_POINT}, .light_count = 1},
-        {"flat, mirrored", .method = FLAT, .scale = {-1, 1.2, 0.8}, .two_sided = true, .lights = {FROM_POINT}, .light_count = 1},
-        {"lambert", STRAIGHT, .model = LAMBERT, .lights = {FROM_POINT}, .light_count = 1},
-        {"kajiya-kay, tangents", .model = KAJIYA, .turn = 25, .scale = {1.1, 0.8, 1}, .two_sided = true, .lights = {FROM_POINT},
+        {"point, attenuated, ranged", STRAIGHT,
+         .lights = {{POINT,
+                     "world",
+                     {1, 1.5, 2},
+                     .attenuation = {0.2, 0.1, 0.3},
+                     .ambient = {0.1, 0, 0.2},
+                     .diffuse = {1, 0.6, 0.3},
+                     .specular = {0.2, 0.9, 1},
+                     .range = 4}},
          .light_count = 1},
+        {"directional, phong", STRAIGHT, .model = PHONG,
+         .lights = {{DIRECTIONAL, "world", .way = {-1, -2, -1.5}, PLAIN}}, .light_count = 1},
+        {"spot, cutoff", STRAIGHT,
+         .lights = {{CUTOFF, "world", {0.5, 2, 2.5}, {-0.2, -0.9, -1.1}, PLAIN, .a = 40, .b = 8}},
+         .light_count = 1},
+        {"spot, cones, camera", STRAIGHT,
+         .lights = {{CONES, "camera", {0.3, 0.2, 0}, {0, 0, -1}, PLAIN, .a = 5, .b = 18}}, .light_count = 1},
+        {"spot in the object's frame", .move = {0.2, -0.1, 0.3}, .turn = 35, .scale = {1.2, 0.7, 1},
+         .two_sided = true,
+         .lights = {{CONES, "object", {0, 1, 2.5}, {0, -0.3, -1}, PLAIN, .a = 10, .b = 30}},
+         .light_count = 1},
+        {"non-uniform scale, two lights", .move = {0, 0.1, 0}, .turn = -50, .scale = {0.6, 1.3, 1.1},
+         .two_sided = true,
+         .lights = {FROM_POINT,
+                    {DIRECTIONAL, "camera", .way = {1, -1, -1}, .diffuse = {0.2, 0.3, 0.6},
+                     .specular = {0.3, 0, 0}}},
+         .light_count = 2},
+        {"mirrored", .turn = 20, .scale = {1, -1.2, 1}, .two_sided = true, .lights = {FROM_POINT},
+         .light_count = 1},
+        {"one-sided", .turn = 100, .scale = WHITE, .two_sided = false, .lights = {FROM_POINT},
+         .light_count = 1},
+        {"gouraud", STRAIGHT, .method = GOURAUD, .turn = 60, .lights = {FROM_POINT}, .light_count = 1},
+        {"flat", .method = FLAT, .turn = 60, .scale = {1, 1.2, 0.8}, .two_sided = true,
+         .lights = {FROM_POINT}, .light_count = 1},
+        {"flat, mirrored", .method = FLAT, .scale = {-1, 1.2, 0.8}, .two_sided = true, .lights = {FROM_POINT},
+         .light_count = 1},
+        {"lambert", STRAIGHT, .model = LAMBERT, .lights = {FROM_POINT}, .light_count = 1},
+        {"kajiya-kay, tangents", .model = KAJIYA, .turn = 25, .scale = {1.1, 0.8, 1}, .two_sided = true,
+         .lights = {FROM_POINT}, .light_count = 1},
     };
     make_mesh();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)

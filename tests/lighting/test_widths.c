@@ -1,5 +1,5 @@
-// test_widths.c: every width and instruction set gives the same bits, on ordinary numbers and on any bit pattern; and so
-// does every compiler and build type: one recorded hash over all results.
+// test_widths.c: every width and instruction set gives the same bits, on ordinary numbers and on any bit
+// pattern; and so does every compiler and build type: one recorded hash over all results.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -13,17 +13,14 @@
 #define LANES 1
 #include "lighting.h"
 
-// Over all results below. It changes when an equation or a function changes its last bits, and never otherwise: then
-// look at test_functions and test_equations first, and record the new one.
+// Over all results below. It changes when an equation or a function changes its last bits, and never
+// otherwise: then look at test_functions and test_equations first, and record the new one.
 #define RECORDED_HASH 0x36f8132e3d431d0au
 
 enum { WIDTHS_MAX = 16, NUMBERS = 1 << 16 };
 
 // Which NaN comes out is the processor's choice; that one comes out is ours.
-static uint32_t bits_for_comparison(float x)
-{
-    return x == x ? bits_of_float(x) : 0x7fc00000;
-}
+static uint32_t bits_for_comparison(float x) { return x == x ? bits_of_float(x) : 0x7fc00000; }
 
 static uint64_t hash_of(uint64_t hash, const float *x, int count)
 {
@@ -42,9 +39,36 @@ static void assert_same(const float *a, const float *b, int count, const char *w
 }
 
 static const float specials[] = {
-    0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 2.0f, INFINITY, -INFINITY, NAN, 0x1p-149f, -0x1p-149f, 0x1p-126f, 0x1.fffffcp-127f,
-    0x1.fffffep127f, -0x1.fffffep127f, 0x1.fffffep-1f, 0x1.000002p0f, 128.0f, -126.0f, -126.5f, 127.5f, 127.49f, 1e30f,
-    0.04045f, 0.0031308f, 0x1.555556p-1f, 0x1.555554p-1f, 27.8974f, 1000.0f, 10000.0f,
+    0.0f,
+    -0.0f,
+    1.0f,
+    -1.0f,
+    0.5f,
+    2.0f,
+    INFINITY,
+    -INFINITY,
+    NAN,
+    0x1p-149f,
+    -0x1p-149f,
+    0x1p-126f,
+    0x1.fffffcp-127f,
+    0x1.fffffep127f,
+    -0x1.fffffep127f,
+    0x1.fffffep-1f,
+    0x1.000002p0f,
+    128.0f,
+    -126.0f,
+    -126.5f,
+    127.5f,
+    127.49f,
+    1e30f,
+    0.04045f,
+    0.0031308f,
+    0x1.555556p-1f,
+    0x1.555554p-1f,
+    27.8974f,
+    1000.0f,
+    10000.0f,
 };
 enum { SPECIALS = sizeof specials / sizeof *specials };
 
@@ -102,15 +126,16 @@ static uint64_t hash_of_lighting(uint64_t hash)
                 points_fill(first, 1 + random_bits(&r));
                 if (variant == 3) { // anything at all in some inputs
                     for (int i = 0; i < POINTS; i++)
-                        first->in[random_bits(&r) % INPUTS][i] = i % 2 ? specials[random_bits(&r) % SPECIALS]
-                                                                       : float_of_bits(random_bits(&r));
+                        first->in[random_bits(&r) % INPUTS][i] =
+                            i % 2 ? specials[random_bits(&r) % SPECIALS] : float_of_bits(random_bits(&r));
                 }
                 memcpy(p->in, first->in, sizeof p->in);
                 points_light(first, widths[0], &m);
                 hash = hash_of(hash, first->out[0], OUTPUTS * POINTS);
                 for (int w = 1; w < count; w++) {
                     points_light(p, widths[w], &m);
-                    assert_same(first->out[0], p->out[0], OUTPUTS * POINTS, widths[w]->name, kind * 10 + model);
+                    assert_same(first->out[0], p->out[0], OUTPUTS * POINTS, widths[w]->name,
+                                kind * 10 + model);
                 }
             }
         }

@@ -20,7 +20,10 @@ static vector minus(vector a, vector b) { return plus(a, times(-1, b)); }
 static int none(vector a) { return length(a) < 1e-9; }
 static vector normalize(vector a) { return none(a) ? (vector){0, 0, 0} : times(1 / length(a), a); }
 static double limit(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
-static double raise(double base, double exponent) { return exponent == 0 ? 1 : base <= 0 ? 0 : pow(base, exponent); }
+static double raise(double base, double exponent)
+{
+    return exponent == 0 ? 1 : base <= 0 ? 0 : pow(base, exponent);
+}
 
 static void put(double *out, vector a)
 {
@@ -66,7 +69,8 @@ struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]
 
     vector p = take(in + IN_POINT), n = normalize(take(in + IN_NORMAL)), tangent = take(in + IN_TANGENT);
     vector t = normalize(minus(tangent, times(inner(tangent, n), n)));
-    result.tangent_sine = none(tangent) ? 0 : length(minus(tangent, times(inner(tangent, n), n))) / length(tangent);
+    result.tangent_sine =
+        none(tangent) ? 0 : length(minus(tangent, times(inner(tangent, n), n))) / length(tangent);
     vector v = modes->viewer == VIEWER_INFINITE ? (vector){0, 0, 1} : normalize(times(-1, p));
 
     vector l, axis = take(in + IN_DIRECTION);
@@ -131,8 +135,8 @@ struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]
         out[OUT_DIFFUSE + i] = tint * (double)in[IN_DIFFUSE + i] * arrives * narrowed * diffuse;
         out[OUT_SPECULAR + i] = (double)in[IN_SPECULAR + i] * arrives * narrowed * specular;
         out[OUT_REFLECTION + i] = (double)in[IN_MIRROR + i] * (double)in[IN_ENVIRONMENT + i];
-        out[OUT_SUM + i] = (double)in[IN_EMISSION + i] + out[OUT_AMBIENT + i] + out[OUT_DIFFUSE + i]
-                           + out[OUT_SPECULAR + i] + out[OUT_REFLECTION + i];
+        out[OUT_SUM + i] = (double)in[IN_EMISSION + i] + out[OUT_AMBIENT + i] + out[OUT_DIFFUSE + i] +
+                           out[OUT_SPECULAR + i] + out[OUT_REFLECTION + i];
     }
     return result;
 }

@@ -1,5 +1,5 @@
-// width.c: the functions and equations at one width. Compiled once for each: LANES, WIDTH_NAME and WIDTH_FEATURES are
-// given by the build.
+// width.c: the functions and equations at one width. Compiled once for each: LANES, WIDTH_NAME and
+// WIDTH_FEATURES are given by the build.
 #include "widths.h"
 
 #include "cpu_features.h"
@@ -9,19 +9,32 @@
 static num apply_one(enum function function, num a, num b)
 {
     switch (function) {
-    case FUNCTION_EXP2: return exp2_of(a);
-    case FUNCTION_LOG2: return log2_of(a);
-    case FUNCTION_POWER: return power(a, b);
-    case FUNCTION_UNIT_POWER: return unit_power(a, b);
-    case FUNCTION_INVERSE_ROOT: return inverse_root(a);
-    case FUNCTION_ROOT: return root(a);
-    case FUNCTION_SRGB_ENCODE: return srgb_encode(a);
-    case FUNCTION_SRGB_DECODE: return srgb_decode(a);
-    case FUNCTION_BYTE: return num_of_int(byte_of(a));
-    case FUNCTION_SATURATE: return saturate(a);
-    case FUNCTION_LESSER: return lesser(a, b);
-    case FUNCTION_GREATER: return greater(a, b);
-    case FUNCTION_COUNT: break;
+    case FUNCTION_EXP2:
+        return exp2_of(a);
+    case FUNCTION_LOG2:
+        return log2_of(a);
+    case FUNCTION_POWER:
+        return power(a, b);
+    case FUNCTION_UNIT_POWER:
+        return unit_power(a, b);
+    case FUNCTION_INVERSE_ROOT:
+        return inverse_root(a);
+    case FUNCTION_ROOT:
+        return root(a);
+    case FUNCTION_SRGB_ENCODE:
+        return srgb_encode(a);
+    case FUNCTION_SRGB_DECODE:
+        return srgb_decode(a);
+    case FUNCTION_BYTE:
+        return num_of_int(byte_of(a));
+    case FUNCTION_SATURATE:
+        return saturate(a);
+    case FUNCTION_LESSER:
+        return lesser(a, b);
+    case FUNCTION_GREATER:
+        return greater(a, b);
+    case FUNCTION_COUNT:
+        break;
     }
     return num_of(0);
 }
@@ -44,10 +57,12 @@ static void store3(float *const out[], int at, int i, vec3 v)
     num_store(out[at + 2] + i, v.z);
 }
 
-static void light(const struct modes *modes, const float *const in[INPUTS], float *const out[OUTPUTS], int count)
+static void light(const struct modes *modes, const float *const in[INPUTS], float *const out[OUTPUTS],
+                  int count)
 {
     for (int i = 0; i < count; i += LANES) {
-        surface s = surface_at(load3(in, IN_POINT, i), load3(in, IN_NORMAL, i), load3(in, IN_TANGENT, i), modes->viewer);
+        surface s = surface_at(load3(in, IN_POINT, i), load3(in, IN_NORMAL, i), load3(in, IN_TANGENT, i),
+                               modes->viewer);
         source l;
         l.position = load3(in, IN_POSITION, i);
         l.direction = load3(in, IN_DIRECTION, i);

@@ -11,7 +11,7 @@ extern const struct width width_4_sse4, width_8_avx2, width_16_avx512;
 int widths_usable(const struct width *usable[], int room)
 {
     static const struct width *const all[] = {
-        &width_1, &width_4, &width_8, &width_16,
+        &width_1,      &width_4,      &width_8,         &width_16,
 #ifdef WIDTHS_X86
         &width_4_sse4, &width_8_avx2, &width_16_avx512,
 #endif

@@ -36,30 +36,12 @@ static inline void put_number(struct made *file, const void *number, size_t size
         put(file, from + (file->big ? size - 1 - i : i), 1);
 }
 
-static inline void put_text(struct made *file, const char *text)
-{
-    put(file, text, strlen(text));
-}
-static inline void put_u8(struct made *file, uint8_t n)
-{
-    put(file, &n, 1);
-}
-static inline void put_u16(struct made *file, uint16_t n)
-{
-    put_number(file, &n, sizeof n);
-}
-static inline void put_u32(struct made *file, uint32_t n)
-{
-    put_number(file, &n, sizeof n);
-}
-static inline void put_f32(struct made *file, float n)
-{
-    put_number(file, &n, sizeof n);
-}
-static inline void put_f64(struct made *file, double n)
-{
-    put_number(file, &n, sizeof n);
-}
+static inline void put_text(struct made *file, const char *text) { put(file, text, strlen(text)); }
+static inline void put_u8(struct made *file, uint8_t n) { put(file, &n, 1); }
+static inline void put_u16(struct made *file, uint16_t n) { put_number(file, &n, sizeof n); }
+static inline void put_u32(struct made *file, uint32_t n) { put_number(file, &n, sizeof n); }
+static inline void put_f32(struct made *file, float n) { put_number(file, &n, sizeof n); }
+static inline void put_f64(struct made *file, double n) { put_number(file, &n, sizeof n); }
 
 static inline lam_scene *load_with(const void *bytes, size_t size, const char *name,
                                    const lam_load_params *params)

@@ -1,4 +1,5 @@
-// test_device.c: the front of the devices: arguments, control, sharing, memory, the caller's floating-point state.
+// test_device.c: the front of the devices: arguments, control, sharing, memory, the caller's floating-point
+// state.
 #include "scenes.h"
 
 #include "float_state.h"
@@ -196,8 +197,10 @@ static void test_float_state(void **state)
     _mm_setcsr(odd);
     struct demo again;
     bool built = demo_build(demo_named("lights"), &again, NULL);
-    lam_device *made_here = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL); // its threads inherit the state
-    bool drawn = built && made_here && lam_draw(made_here, again.scene, &again.camera, NULL, &after, NULL, NULL);
+    lam_device *made_here =
+        lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL); // its threads inherit the state
+    bool drawn =
+        built && made_here && lam_draw(made_here, again.scene, &again.camera, NULL, &after, NULL, NULL);
     unsigned left = _mm_getcsr();
     _mm_setcsr(own);
     assert_true(drawn);
@@ -227,8 +230,8 @@ static void *share_scene(void *argument)
     lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL);
     sharing->ok = device != NULL;
     for (int i = 0; i < 3 && sharing->ok; i++)
-        sharing->ok = lam_draw(device, sharing->demo->scene, &sharing->demo->camera, &sharing->demo->params, &sharing->image,
-                               NULL, NULL);
+        sharing->ok = lam_draw(device, sharing->demo->scene, &sharing->demo->camera, &sharing->demo->params,
+                               &sharing->image, NULL, NULL);
     lam_device_free(device);
     return NULL;
 }
@@ -308,9 +311,10 @@ static void test_fit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_arguments),      cmocka_unit_test(test_cancel_and_limits), cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_memory_settles), cmocka_unit_test(test_float_state),       cmocka_unit_test(test_shared_scene),
-        cmocka_unit_test(test_null_device),    cmocka_unit_test(test_fit),
+        cmocka_unit_test(test_arguments),   cmocka_unit_test(test_cancel_and_limits),
+        cmocka_unit_test(test_progress),    cmocka_unit_test(test_memory_settles),
+        cmocka_unit_test(test_float_state), cmocka_unit_test(test_shared_scene),
+        cmocka_unit_test(test_null_device), cmocka_unit_test(test_fit),
     };
     return cmocka_run_group_tests_name("device", tests, NULL, NULL);
 }

@@ -38,17 +38,22 @@ static void add(float sum[3], lam_rgb x)
     sum[2] += x.b;
 }
 
-static void assert_rgb(lam_rgb told, const float expected[3]) { assert_memory_equal(&told, expected, sizeof told); }
+static void assert_rgb(lam_rgb told, const float expected[3])
+{
+    assert_memory_equal(&told, expected, sizeof told);
+}
 
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-static void check_light(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
-                        const lam_explained_light *l)
+static void check_light(const lam_explanation *e, const lam_explained_fragment *f,
+                        const lam_explained_point *p, const lam_explained_light *l)
 {
-    bool thread = e->reflection == LAM_REFLECTION_KAJIYA_KAY || e->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    bool thread =
+        e->reflection == LAM_REFLECTION_KAJIYA_KAY || e->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
     float weak = l->attenuation * l->spot;
     for (int c = 0; c < 3; c++) {
-        float kd = (&f->surface.diffuse.r)[c] * (&l->diffuse.r)[c], ks = (&f->surface.specular.r)[c] * (&l->specular.r)[c];
+        float kd = (&f->surface.diffuse.r)[c] * (&l->diffuse.r)[c],
+              ks = (&f->surface.specular.r)[c] * (&l->specular.r)[c];
         assert_true((&l->kd_Ld.r)[c] == kd && (&l->ks_Ls.r)[c] == ks);
         assert_true((&l->diffuse_term.r)[c] == kd * (weak * l->D));
         assert_true((&l->specular_term.r)[c] == ks * (weak * l->S));
@@ -77,10 +82,12 @@ static void check_light(const lam_explanation *e, const lam_explained_fragment *
     }
 }
 
-static void check_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
+static void check_point(const lam_explanation *e, const lam_explained_fragment *f,
+                        const lam_explained_point *p)
 {
     if (e->reflection != LAM_REFLECTION_NONE) {
-        float ambient[3] = {p->ambient_term.r, p->ambient_term.g, p->ambient_term.b}, diffuse[3] = {0}, specular[3] = {0};
+        float ambient[3] = {p->ambient_term.r, p->ambient_term.g, p->ambient_term.b}, diffuse[3] = {0},
+              specular[3] = {0};
         for (int i = 0; i < p->hemisphere_count; i++)
             add(ambient, p->hemispheres[i].term);
         for (int i = 0; i < p->light_count; i++) {
@@ -107,7 +114,10 @@ static void check_point(const lam_explanation *e, const lam_explained_fragment *
     assert_true(fabs(dot(p->v, p->v) - 1) < 1e-5 || dot(p->v, p->v) == 0);
 }
 
-static float between(const float w[3], float a, float b, float c) { return a + ((b - a) * w[1] + (c - a) * w[2]); }
+static float between(const float w[3], float a, float b, float c)
+{
+    return a + ((b - a) * w[1] + (c - a) * w[2]);
+}
 
 static void check_fragment(const lam_explanation *e, const lam_explained_fragment *f)
 {
@@ -127,7 +137,8 @@ static void check_fragment(const lam_explanation *e, const lam_explained_fragmen
 static void check_numbers(const lam_explanation *e)
 {
     float sum[4] = {0};
-    bool layered = false; // then each sample is blended by itself, and the sum of the shares is the same but for rounding
+    bool layered = false; // then each sample is blended by itself, and the sum of the shares is the same but
+                          // for rounding
     for (int i = 0; i < e->fragment_count; i++) {
         const lam_explained_fragment *f = &e->fragments[i];
         check_fragment(e, f);
@@ -156,11 +167,12 @@ static void check_numbers(const lam_explanation *e)
 
 // --- the explanation against the picture
 
-static void check_pixel(lam_device *device, const struct demo *demo, const lam_image *image, int x, int y, const char *name)
+static void check_pixel(lam_device *device, const struct demo *demo, const lam_image *image, int x, int y,
+                        const char *name)
 {
     lam_error error = {0};
-    lam_explanation *e = lam_explain(device, demo->scene, &demo->camera, &demo->params, image->width, image->height,
-                                     image->format, x, y, NULL, &error);
+    lam_explanation *e = lam_explain(device, demo->scene, &demo->camera, &demo->params, image->width,
+                                     image->height, image->format, x, y, NULL, &error);
     if (!e)
         fail_msg("%s: %s", name, error.text);
     size_t size = image->format == LAM_RGBA8 ? 4 : 16;
@@ -175,12 +187,14 @@ static void check_pixel(lam_device *device, const struct demo *demo, const lam_i
 static int alpha_of(const lam_image *image, int x, int y)
 {
     size_t at = 4 * ((size_t)y * (size_t)image->width + (size_t)x) + 3;
-    float alpha = image->format == LAM_RGBA8 ? ((uint8_t *)image->pixels)[at] / 255.0f : ((float *)image->pixels)[at];
+    float alpha =
+        image->format == LAM_RGBA8 ? ((uint8_t *)image->pixels)[at] / 255.0f : ((float *)image->pixels)[at];
     return alpha == 0 ? 0 : alpha < 1 ? 1 : 2;
 }
 
 // Some pixels of each kind: without, with a part of, and full of triangles.
-static void check_pixels(lam_device *drawing, lam_device *explaining, const struct demo *demo, const char *name)
+static void check_pixels(lam_device *drawing, lam_device *explaining, const struct demo *demo,
+                         const char *name)
 {
     lam_image image = {0};
     lam_error error = {0};
@@ -228,7 +242,8 @@ static void test_models(void **state)
 {
     (void)state;
     static const char *const models[] = {"obj/koala/koala.obj", "obj/spot/spot_triangulated.obj",
-                                         "obj/kaykit_hexagon/building_castle_blue.obj", "ply/derived/spot_colour_le.ply"};
+                                         "obj/kaykit_hexagon/building_castle_blue.obj",
+                                         "ply/derived/spot_colour_le.ply"};
     const char *folder = getenv("LAMBENT_MODELS");
     lam_device *device = make_device(LAM_ISA_AUTO);
     int found = 0;
@@ -241,7 +256,8 @@ static void test_models(void **state)
         found++;
         demo.camera = lam_camera_fit(demo.scene, &(lam_view){.aspect = 1.5});
         for (int s = 0; s < 9; s++) {
-            demo.params = (lam_draw_params){.shading = shadings[s % 3], .samples = sample_counts[s / 3],
+            demo.params = (lam_draw_params){.shading = shadings[s % 3],
+                                            .samples = sample_counts[s / 3],
                                             .background = {0.2f, 0.4f, 0.6f, s < 5 ? 0 : 0.5f}};
             demo.params.reflection = s & 1 ? LAM_REFLECTION_PHONG : LAM_REFLECTION_BLINN_PHONG;
             demo.format = s & 1 ? LAM_RGBA32F : LAM_RGBA8;
@@ -339,9 +355,11 @@ static void test_device_unchanged(void **state)
     assert_true(demo_build(&demos[0], &demo, NULL));
     lam_device *device = make_device(LAM_ISA_AUTO);
     lam_image before = {0}, after = {0};
-    assert_true(lam_image_make(&before, 200, 150, LAM_RGBA8, NULL) && lam_image_make(&after, 200, 150, LAM_RGBA8, NULL));
+    assert_true(lam_image_make(&before, 200, 150, LAM_RGBA8, NULL) &&
+                lam_image_make(&after, 200, 150, LAM_RGBA8, NULL));
     assert_true(lam_draw(device, demo.scene, &demo.camera, &demo.params, &before, NULL, NULL));
-    lam_explanation *e = lam_explain(device, demo.scene, &demo.camera, &demo.params, 64, 64, LAM_RGBA32F, 30, 30, NULL, NULL);
+    lam_explanation *e =
+        lam_explain(device, demo.scene, &demo.camera, &demo.params, 64, 64, LAM_RGBA32F, 30, 30, NULL, NULL);
     assert_non_null(e);
     lam_explanation_free(e);
     assert_true(lam_draw(device, demo.scene, &demo.camera, &demo.params, &after, NULL, NULL));

@@ -71,7 +71,8 @@ static void test_round(void **state)
         load(&back, first.data, first.size, &error, true);
         assert_true(back.width == image.width && back.height == image.height && back.format == LAM_RGBA32F);
         assert_memory_equal(back.pixels, image.pixels, (size_t)image.width * (size_t)image.height * 16);
-        for (size_t cut = 0; cut < first.size; cut += 1 + first.size / 40) { // short files: an error or, in the last chunk, pixels
+        for (size_t cut = 0; cut < first.size;
+             cut += 1 + first.size / 40) { // short files: an error or, in the last chunk, pixels
             lam_image part = {0};
             char path[] = "/tmp/lambent-exr-XXXXXX";
             int file = mkstemp(path);
@@ -92,12 +93,14 @@ static void test_layers(void **state)
 {
     (void)state;
     lam_image picture = noise(20, 40, 1), light = noise(20, 40, 2), back;
-    const lam_layer layers[] = {{"diffuse", &light, NULL}, {NULL, &picture, NULL}, {"depth", &light, "Z"}, {"n.l", &light, "Y"}};
+    const lam_layer layers[] = {
+        {"diffuse", &light, NULL}, {NULL, &picture, NULL}, {"depth", &light, "Z"}, {"n.l", &light, "Y"}};
     lam_bytes bytes;
     lam_error error = {0};
     if (!encode(layers, 4, &bytes))
         return;
-    static const char *const names[] = {"R", "G", "B", "A", "diffuse.R", "diffuse.G", "diffuse.B", "depth.Z", "n.l.Y"};
+    static const char *const names[] = {"R",         "G",         "B",       "A",    "diffuse.R",
+                                        "diffuse.G", "diffuse.B", "depth.Z", "n.l.Y"};
     for (int i = 0; i < 9; i++)
         assert_true(contains(bytes, names[i]));
     assert_false(contains(bytes, "diffuse.A"));
@@ -121,8 +124,9 @@ static void test_wrong(void **state)
     assert_true(lam_image_make(&bytes_image, 4, 4, LAM_RGBA8, NULL));
     lam_bytes bytes;
     lam_error error;
-    const lam_layer twice[] = {{"a", &image, NULL}, {"a", &image, "GX"}}, sizes[] = {{"a", &image, NULL}, {"b", &other, NULL}},
-                    format = {"a", &bytes_image, NULL}, letters = {"a", &image, "RGBAX"};
+    const lam_layer twice[] = {{"a", &image, NULL}, {"a", &image, "GX"}},
+                    sizes[] = {{"a", &image, NULL}, {"b", &other, NULL}}, format = {"a", &bytes_image, NULL},
+                    letters = {"a", &image, "RGBAX"};
     assert_false(lam_image_encode_layers(sizes, 2, &bytes, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     assert_false(lam_image_encode_layers(&format, 1, &bytes, &error));
@@ -142,6 +146,7 @@ static void test_wrong(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_round), cmocka_unit_test(test_layers), cmocka_unit_test(test_wrong)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_round), cmocka_unit_test(test_layers),
+                                       cmocka_unit_test(test_wrong)};
     return cmocka_run_group_tests_name("exr", tests, NULL, NULL);
 }

@@ -226,14 +226,8 @@ static void pfm_of_others(void **state)
     lam_image_free(&image);
 }
 
-static double decode(double x)
-{
-    return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
-}
-static double encode(double x)
-{
-    return x <= 0.0031308 ? x * 12.92 : 1.055 * pow(x, 1 / 2.4) - 0.055;
-}
+static double decode(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
+static double encode(double x) { return x <= 0.0031308 ? x * 12.92 : 1.055 * pow(x, 1 / 2.4) - 0.055; }
 
 // The picture over the background in linear light, against libm.
 static void ppm_lies_over_the_background(void **state)

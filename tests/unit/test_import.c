@@ -107,10 +107,12 @@ static void test_foreign(void **unused)
         ROW("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "a.obj", "a.obj: this is a PNG picture" NOT, LAM_CANNOT_READ),
         ROW("# x\nnewmtl a\nKd 1 1 1\n", "a.mtl",
             "a.mtl: this is a MTL file (materials only; give the .obj that names it)" NOT, LAM_CANNOT_READ),
-        ROW("hello there\n", "a.txt", "a.txt: this is no model format known here; expected obj, stl, ply and scene",
-            LAM_CANNOT_READ),
+        ROW("hello there\n", "a.txt",
+            "a.txt: this is no model format known here; expected obj, stl, ply and scene", LAM_CANNOT_READ),
         ROW("", "a.obj", "a.obj: the file is empty", LAM_CANNOT_READ),
-        ROW("hello there\n", "a.obj", "a.obj:1: found 'hello', expected a statement of OBJ (v, f, …); the file holds no triangles", LAM_CANNOT_READ),
+        ROW("hello there\n", "a.obj",
+            "a.obj:1: found 'hello', expected a statement of OBJ (v, f, …); the file holds no triangles",
+            LAM_CANNOT_READ),
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         expect_error(rows[i].bytes, rows[i].size, rows[i].name, rows[i].code, rows[i].sentence);

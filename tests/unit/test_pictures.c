@@ -1,4 +1,5 @@
-// test_pictures.c: Radiance, JPEG and deep PNG files are read as they were meant, and broken ones are refused.
+// test_pictures.c: Radiance, JPEG and deep PNG files are read as they were meant, and broken ones are
+// refused.
 #include "codec.h"
 
 #include <math.h>
@@ -44,7 +45,8 @@ static lam_image read_hdr(const struct file *file)
 {
     lam_image image = {0};
     lam_error error = {0};
-    if (!codec_hdr.probe(file->bytes, file->size) || !codec_hdr.read(file->bytes, file->size, "test.hdr", &image, &error))
+    if (!codec_hdr.probe(file->bytes, file->size) ||
+        !codec_hdr.read(file->bytes, file->size, "test.hdr", &image, &error))
         fail_msg("%s", error.text);
     assert_int_equal(image.format, LAM_RGBA32F);
     return image;
@@ -55,11 +57,13 @@ static lam_image read_hdr(const struct file *file)
 static void test_hdr_numbers(void **state)
 {
     (void)state;
-    // 128·2^(129 − 136) = 1; exponent 0 is black whatever the mantissas; the largest; below the normal floats.
+    // 128·2^(129 − 136) = 1; exponent 0 is black whatever the mantissas; the largest; below the normal
+    // floats.
     static const uint8_t rows[] = {128, 64, 32, 129, 200, 100, 50, 0, 255, 0, 1, 255, 255, 255, 255, 9};
     struct file file = hdr_of(HEADER "-Y 2 +X 2\n", rows, sizeof rows);
     lam_image image = read_hdr(&file);
-    static const float expected[4][3] = {{1, 0.5f, 0.25f}, {0, 0, 0}, {255 * 0x1p119f, 0, 0x1p119f}, {0, 0, 0}};
+    static const float expected[4][3] = {
+        {1, 0.5f, 0.25f}, {0, 0, 0}, {255 * 0x1p119f, 0, 0x1p119f}, {0, 0, 0}};
     for (int i = 0; i < 4; i++) {
         assert_memory_equal(pixel(&image, i % 2, i / 2), expected[i], 12);
         assert_true(pixel(&image, i % 2, i / 2)[3] == 1);
@@ -123,7 +127,8 @@ static void test_hdr_refusals(void **state)
     wrong[4] = 128; // a run of none: nothing would ever end
     file = hdr_of(HEADER "-Y 1 +X 10\n", wrong, sizeof wrong);
     hdr_refused(&file, LAM_CANNOT_READ, "wrong run");
-    static const uint8_t old[] = {9, 9, 9, 9, 1, 1, 1, 255, 1, 1, 1, 255, 1, 1, 1, 255, 1, 1, 1, 255, 1, 1, 1, 255};
+    static const uint8_t old[] = {9, 9, 9, 9,   1, 1, 1, 255, 1, 1, 1, 255,
+                                  1, 1, 1, 255, 1, 1, 1, 255, 1, 1, 1, 255};
     file = hdr_of(HEADER "-Y 1 +X 3\n", old, sizeof old);
     hdr_refused(&file, LAM_CANNOT_READ, "wrong run");
     file = hdr_of(HEADER "-Y 65535 +X 65535\n", old, sizeof old); // told without asking for 68 GB
@@ -132,7 +137,8 @@ static void test_hdr_refusals(void **state)
     hdr_refused(&file, LAM_UNSUPPORTED, "32-bit_rle_xyze");
     file = hdr_of(HEADER "+X 10 -Y 1\n", fresh, sizeof fresh);
     hdr_refused(&file, LAM_UNSUPPORTED, "columns first");
-    static const char *const sizes[] = {"-Y 0 +X 10", "-Y 1 +X 65536", "-Y 1", "-Y 99999999999999999999 +X 1", "-Y 1 +X 10 x", "Y"};
+    static const char *const sizes[] = {
+        "-Y 0 +X 10", "-Y 1 +X 65536", "-Y 1", "-Y 99999999999999999999 +X 1", "-Y 1 +X 10 x", "Y"};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         char header[128];
         snprintf(header, sizeof header, HEADER "%s\n", sizes[i]);
@@ -204,7 +210,8 @@ static void test_jpeg_pixels(void **state)
                 colors_at(x, y, components, expected);
                 for (int c = 0; c < 3; c++)
                     if (abs(p[c] - expected[components == 3 ? c : 0]) > 8)
-                        fail_msg("kind %d, pixel %d, %d: %d, expected %d", kind, x, y, p[c], expected[components == 3 ? c : 0]);
+                        fail_msg("kind %d, pixel %d, %d: %d, expected %d", kind, x, y, p[c],
+                                 expected[components == 3 ? c : 0]);
                 assert_int_equal(p[3], 255);
             }
         }
@@ -230,7 +237,8 @@ static void test_jpeg_refusals(void **state)
     free(file.bytes);
     file = make_jpeg(3, false);
     for (size_t i = 0; i + 9 < file.size; i++) {
-        if (file.bytes[i] == 0xff && file.bytes[i + 1] == 0xc0) // the frame's header: precision, height, width
+        if (file.bytes[i] == 0xff &&
+            file.bytes[i + 1] == 0xc0) // the frame's header: precision, height, width
             memset(file.bytes + i + 5, 0xff, 4);
     }
     assert_false(codec_jpeg.read(file.bytes, file.size, "test.jpg", &image, &error));
@@ -275,8 +283,9 @@ static void test_linear(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hdr_numbers), cmocka_unit_test(test_hdr_runs),       cmocka_unit_test(test_hdr_refusals),
-        cmocka_unit_test(test_jpeg_pixels), cmocka_unit_test(test_jpeg_refusals),  cmocka_unit_test(test_linear),
+        cmocka_unit_test(test_hdr_numbers),   cmocka_unit_test(test_hdr_runs),
+        cmocka_unit_test(test_hdr_refusals),  cmocka_unit_test(test_jpeg_pixels),
+        cmocka_unit_test(test_jpeg_refusals), cmocka_unit_test(test_linear),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

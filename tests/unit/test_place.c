@@ -1,5 +1,5 @@
-// test_place.c: the sphere around a scene, moving and turning it, rigs in their places, lights of the model's frame, materials of
-// parts, and tangents from texture coordinates.
+// test_place.c: the sphere around a scene, moving and turning it, rigs in their places, lights of the model's
+// frame, materials of parts, and tangents from texture coordinates.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -104,7 +104,8 @@ static void rigs_stand_about_the_scene(void **state)
     assert_true(lights[0].diffuse.r == 1 && lights[0].specular.b == 1 && lights[0].attenuation.constant == 1);
     assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_NONE, lights), 0);
     lam_light studio[LAM_RIG_LIGHTS_MAX];
-    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, lights), lam_rig_lights(LAM_RIG_STUDIO, studio));
+    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, lights),
+                     lam_rig_lights(LAM_RIG_STUDIO, studio));
     for (int rig = 0; rig <= LAM_RIG_LECTURE; rig++)
         for (int i = 0, count = lam_rig_lights((lam_rig)rig, lights); i < count; i++)
             assert_true(lam_light_check(&lights[i], NULL));
@@ -124,8 +125,8 @@ static void draw(lam_scene *scene, lam_image *image)
     lam_device_free(device);
 }
 
-// A light of the model's frame goes with the model: what it does is what a light of the world does in the place that the
-// transform moves it to.
+// A light of the model's frame goes with the model: what it does is what a light of the world does in the
+// place that the transform moves it to.
 static void lights_go_with_the_model(void **state)
 {
     (void)state;
@@ -173,9 +174,16 @@ static const uint32_t two_triangles[] = {0, 1, 2, 0, 2, 3};
 static lam_scene *square_scene(const float *texcoords, const lam_part *parts, uint32_t part_count)
 {
     lam_scene *scene = lam_scene_make(NULL);
-    lam_mesh mesh = {.positions = square, .vertex_count = 4, .indices = two_triangles, .triangle_count = 2,
-                     .normals = up_normals, .normal_count = 4, .texcoords = texcoords, .texcoord_count = texcoords ? 4 : 0,
-                     .parts = parts, .part_count = part_count};
+    lam_mesh mesh = {.positions = square,
+                     .vertex_count = 4,
+                     .indices = two_triangles,
+                     .triangle_count = 2,
+                     .normals = up_normals,
+                     .normal_count = 4,
+                     .texcoords = texcoords,
+                     .texcoord_count = texcoords ? 4 : 0,
+                     .parts = parts,
+                     .part_count = part_count};
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_mesh(scene, &mesh, NULL);
     assert_int_equal(object.mesh, 0);
@@ -214,13 +222,16 @@ static void tangents_of_a_square(void **state)
 {
     (void)state;
     static const float straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
-    static const float turned[] = {0, 0, 0, 1, -1, 1, -1, 0};  // s along −y
-    static const float mirrored[] = {1, 0, 0, 0, 0, 1, 1, 1};  // s along −x, t along y
+    static const float turned[] = {0, 0, 0, 1, -1, 1, -1, 0}; // s along −y
+    static const float mirrored[] = {1, 0, 0, 0, 0, 1, 1, 1}; // s along −x, t along y
     static const float nowhere[] = {0, 0, 0, 0, 0, 0, 0, 0};
     static const struct {
         const float *texcoords;
         float expected[4];
-    } rows[] = {{straight, {1, 0, 0, 1}}, {turned, {0, -1, 0, 1}}, {mirrored, {-1, 0, 0, -1}}, {nowhere, {1, 0, 0, 1}}};
+    } rows[] = {{straight, {1, 0, 0, 1}},
+                {turned, {0, -1, 0, 1}},
+                {mirrored, {-1, 0, 0, -1}},
+                {nowhere, {1, 0, 0, 1}}};
     for (int r = 0; r < 4; r++) {
         lam_scene *scene = square_scene(rows[r].texcoords, NULL, 0);
         assert_true(lam_scene_make_tangents(scene, NULL, NULL));
@@ -238,7 +249,8 @@ static void tangents_of_a_square(void **state)
     lam_scene_free(bare);
 }
 
-// A shape's own tangents, from its formula, are those that its texture coordinates tell, but for the error of the segments.
+// A shape's own tangents, from its formula, are those that its texture coordinates tell, but for the error of
+// the segments.
 static void tangents_of_a_torus(void **state)
 {
     (void)state;
@@ -256,7 +268,8 @@ static void tangents_of_a_torus(void **state)
     double least = 1;
     for (uint32_t corner = 0; corner < 3 * mesh->triangle_count; corner++) {
         const uint32_t *by = from->tangent_indices ? from->tangent_indices : from->indices;
-        const float *a = from->tangents + 4 * (size_t)(by ? by[corner] : corner), *b = tangent_at(mesh, corner);
+        const float *a = from->tangents + 4 * (size_t)(by ? by[corner] : corner),
+                    *b = tangent_at(mesh, corner);
         double dot = (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
         least = fmin(least, dot);
         assert_true(a[3] == b[3]);
@@ -290,10 +303,14 @@ static void tangents_can_be_bounded(void **state)
 int main(void)
 {
     const struct CMUnitTest all[] = {
-        cmocka_unit_test(sphere_is_the_models),       cmocka_unit_test(turning_and_moving),
-        cmocka_unit_test(rigs_stand_about_the_scene), cmocka_unit_test(lights_go_with_the_model),
-        cmocka_unit_test(view_matrix),                cmocka_unit_test(parts_change_their_material),
-        cmocka_unit_test(tangents_of_a_square),       cmocka_unit_test(tangents_of_a_torus),
+        cmocka_unit_test(sphere_is_the_models),
+        cmocka_unit_test(turning_and_moving),
+        cmocka_unit_test(rigs_stand_about_the_scene),
+        cmocka_unit_test(lights_go_with_the_model),
+        cmocka_unit_test(view_matrix),
+        cmocka_unit_test(parts_change_their_material),
+        cmocka_unit_test(tangents_of_a_square),
+        cmocka_unit_test(tangents_of_a_torus),
         cmocka_unit_test(tangents_can_be_bounded),
     };
     return cmocka_run_group_tests(all, NULL, NULL);

@@ -15,10 +15,7 @@
 static const char ascii[] =
     HEADER("ascii") "element vertex 4\n" XYZ FACE("2") "end_header\n" SQUARE "3 0 1 2\n3 0 2 3\n";
 
-static const lam_mesh *mesh_of(const lam_scene *scene)
-{
-    return lam_scene_mesh(scene, 0);
-}
+static const lam_mesh *mesh_of(const lam_scene *scene) { return lam_scene_mesh(scene, 0); }
 
 static void test_ascii(void **state)
 {

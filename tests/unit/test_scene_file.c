@@ -10,7 +10,8 @@
 static bool open_beside(void *user, const char *name, lam_bytes *bytes, lam_error *error)
 {
     (void)user;
-    const char *text = strcmp(name, "a.obj") == 0      ? "mtllib a.mtl\n" TRIANGLE "usemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n"
+    const char *text = strcmp(name, "a.obj") == 0 ? "mtllib a.mtl\n" TRIANGLE
+                                                    "usemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n"
                        : strcmp(name, "a.mtl") == 0    ? "newmtl red\nKd 1 0 0\nNs 9\nnewmtl blue\nKd 0 0 1\n"
                        : strcmp(name, "in/b.obj") == 0 ? "mtllib b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n"
                        : strcmp(name, "in/b.mtl") == 0 ? "newmtl green\nKd 0 1 0\n"
@@ -67,20 +68,23 @@ static void test_defaults(void **unused)
 static void test_picture(void **unused)
 {
     (void)unused;
-    lam_scene *scene = good(
-        "{\"lambent\": 1, \"image\": {\"size\": [30, 20], \"samples\": 8, \"background\": \"#80808080\", \"color\": \"raw\", "
-        "\"exposure\": 0}, \"camera\": {\"eye\": [1, 2, 3], \"target\": [0, 1, 0], \"up\": [0, 0, 1], "
-        "\"ortho_half_height\": 2, \"near\": -1, \"far\": 5}, \"ambient\": [0.1, 0.2, 0.3], \"shading\": \"flat\", "
-        "\"reflection\": \"kajiya-kay\", \"stage\": \"vertex\", \"viewer\": \"infinite\", \"flat_normal\": \"vertex\", "
-        "\"match_highlights\": true, \"gl1\": true, \"up\": \"z\", \"lights\": [], " BALL "}");
+    lam_scene *scene =
+        good("{\"lambent\": 1, \"image\": {\"size\": [30, 20], \"samples\": 8, \"background\": "
+             "\"#80808080\", \"color\": \"raw\", "
+             "\"exposure\": 0}, \"camera\": {\"eye\": [1, 2, 3], \"target\": [0, 1, 0], \"up\": [0, 0, 1], "
+             "\"ortho_half_height\": 2, \"near\": -1, \"far\": 5}, \"ambient\": [0.1, 0.2, 0.3], "
+             "\"shading\": \"flat\", "
+             "\"reflection\": \"kajiya-kay\", \"stage\": \"vertex\", \"viewer\": \"infinite\", "
+             "\"flat_normal\": \"vertex\", "
+             "\"match_highlights\": true, \"gl1\": true, \"up\": \"z\", \"lights\": [], " BALL "}");
     lam_settings s;
     assert_true(lam_scene_settings(scene, &s));
     assert_int_equal(s.given, (LAM_GIVEN_LIGHTS << 1) - 1);
     assert_true(s.width == 30 && s.height == 20 && s.draw.samples == 8);
     assert_true(s.draw.background.r == (float)(128.0 / 255) && s.draw.background.a == (float)(128.0 / 255));
     assert_int_equal(s.draw.color, LAM_COLOR_RAW);
-    assert_true(s.camera.eye.z == 3 && s.camera.target.y == 1 && s.camera.up.z == 1 && s.camera.ortho_half_height == 2 &&
-                s.camera.near_plane == -1 && s.camera.far_plane == 5);
+    assert_true(s.camera.eye.z == 3 && s.camera.target.y == 1 && s.camera.up.z == 1 &&
+                s.camera.ortho_half_height == 2 && s.camera.near_plane == -1 && s.camera.far_plane == 5);
     assert_true(s.draw.shading == LAM_SHADING_FLAT && s.draw.reflection == LAM_REFLECTION_KAJIYA_KAY &&
                 s.draw.stage == LAM_STAGE_VERTEX && s.draw.viewer == LAM_VIEWER_INFINITE &&
                 s.draw.flat_normal == LAM_FLAT_NORMAL_VERTEX && s.draw.match_highlights && s.draw.gl1);
@@ -91,7 +95,8 @@ static void test_picture(void **unused)
 
     scene = good("{\"lambent\": 1, \"camera\": {\"fovy\": 60}, \"stage\": \"application\", " BALL "}");
     lam_scene_settings(scene, &s);
-    assert_true(fabs(s.camera.fovy_rad - acos(0.5)) < 1e-15 && s.camera.eye.z == 4 && s.camera.near_plane == 0);
+    assert_true(fabs(s.camera.fovy_rad - acos(0.5)) < 1e-15 && s.camera.eye.z == 4 &&
+                s.camera.near_plane == 0);
     assert_int_equal(s.draw.shading, LAM_SHADING_GOURAUD);
     lam_scene_free(scene);
 }
@@ -99,23 +104,32 @@ static void test_picture(void **unused)
 static void test_objects(void **unused)
 {
     (void)unused;
-    lam_scene *scene = good(
-        "{\"lambent\": 1, \"materials\": {\"m\": {\"diffuse\": [0.1, 0.2, 0.3, 0.5], \"specular\": \"white\", "
-        "\"emission\": [1, 2, 3], \"shininess\": 7, \"reflectivity\": [0.1, 0.1, 0.1], \"opacity\": 0.5, \"fibre\": true}}, "
-        "\"objects\": [{\"name\": \"one\", \"shape\": \"cube\", \"radius\": 2, \"transform\": [[\"translate\", 1, 2, 3], "
-        "[\"rotate\", 90, 0, 0, 1], [\"scale\", 2, 3, 4]], \"material\": \"m\", \"back_material\": {\"diffuse\": [1, 0, 0]}, "
-        "\"two_sided\": false, \"cull\": \"back\", \"tangents\": \"field\"}, "
-        "{\"name\": \"two\", \"file\": \"a.obj\", \"materials\": {\"blue\": {\"shininess\": 3}}, \"normals\": \"facet\", "
-        "\"transform\": [1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1], \"crease_angle\": 20}, "
-        "{\"file\": \"in/b.obj\", \"material\": \"Gold\", \"transform\": [[\"scale\", 2]]}]}");
-    const lam_object *one = lam_scene_object(scene, 0), *two = lam_scene_object(scene, 1), *three = lam_scene_object(scene, 2);
+    lam_scene *scene =
+        good("{\"lambent\": 1, \"materials\": {\"m\": {\"diffuse\": [0.1, 0.2, 0.3, 0.5], \"specular\": "
+             "\"white\", "
+             "\"emission\": [1, 2, 3], \"shininess\": 7, \"reflectivity\": [0.1, 0.1, 0.1], \"opacity\": "
+             "0.5, \"fibre\": true}}, "
+             "\"objects\": [{\"name\": \"one\", \"shape\": \"cube\", \"radius\": 2, \"transform\": "
+             "[[\"translate\", 1, 2, 3], "
+             "[\"rotate\", 90, 0, 0, 1], [\"scale\", 2, 3, 4]], \"material\": \"m\", \"back_material\": "
+             "{\"diffuse\": [1, 0, 0]}, "
+             "\"two_sided\": false, \"cull\": \"back\", \"tangents\": \"field\"}, "
+             "{\"name\": \"two\", \"file\": \"a.obj\", \"materials\": {\"blue\": {\"shininess\": 3}}, "
+             "\"normals\": \"facet\", "
+             "\"transform\": [1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1], \"crease_angle\": 20}, "
+             "{\"file\": \"in/b.obj\", \"material\": \"Gold\", \"transform\": [[\"scale\", 2]]}]}");
+    const lam_object *one = lam_scene_object(scene, 0), *two = lam_scene_object(scene, 1),
+                     *three = lam_scene_object(scene, 2);
     assert_string_equal(one->name, "one");
     // The last step acts first: (1, 0, 0) → scaled (2, 0, 0) → turned (0, 2, 0) → moved (1, 4, 3).
     const double(*m)[4] = one->transform.m;
-    assert_true(fabs(m[0][0] + m[0][3] - 1) < 1e-15 && fabs(m[1][0] + m[1][3] - 4) < 1e-15 && m[2][0] + m[2][3] == 3);
-    const lam_material *front = lam_scene_material(scene, one->material), *back = lam_scene_material(scene, one->back_material);
-    assert_true(front->diffuse.a == 0.25f && front->ambient.g == 0.2f && front->specular.r == 1 && front->emission.b == 3 &&
-                front->shininess == 7 && front->reflectivity.r == 0.1f && front->fibre);
+    assert_true(fabs(m[0][0] + m[0][3] - 1) < 1e-15 && fabs(m[1][0] + m[1][3] - 4) < 1e-15 &&
+                m[2][0] + m[2][3] == 3);
+    const lam_material *front = lam_scene_material(scene, one->material),
+                       *back = lam_scene_material(scene, one->back_material);
+    assert_true(front->diffuse.a == 0.25f && front->ambient.g == 0.2f && front->specular.r == 1 &&
+                front->emission.b == 3 && front->shininess == 7 && front->reflectivity.r == 0.1f &&
+                front->fibre);
     // What the back leaves out is the front's.
     assert_true(back->diffuse.r == 1 && back->ambient.g == 0.2f && back->shininess == 7 && back->fibre);
     assert_true(one->one_sided && one->cull == LAM_CULL_BACK);
@@ -128,7 +142,8 @@ static void test_objects(void **unused)
     assert_string_equal(red->name, "red");
     assert_true(red->shininess == 9 && blue->diffuse.b == 1 && blue->shininess == 3);
     assert_int_equal(three->transform.m[1][1], 2);
-    assert_true(lam_scene_material(scene, three->material)->shininess == lam_material_named(LAM_MATERIAL_GOLD).shininess);
+    assert_true(lam_scene_material(scene, three->material)->shininess ==
+                lam_material_named(LAM_MATERIAL_GOLD).shininess);
     const lam_mesh *inner = lam_scene_mesh(scene, three->mesh);
     assert_string_equal(lam_scene_material(scene, inner->parts[0].material)->name, "green");
     assert_null(lam_scene_warning(scene, 0));
@@ -139,25 +154,35 @@ static void test_lights(void **unused)
 {
     (void)unused;
     lam_scene *scene = good(
-        "{\"lambent\": 1, " BALL ", \"lights\": [{\"type\": \"ambient\", \"color\": [1, 1, 1], \"intensity\": 0.5}, "
-        "{\"type\": \"hemisphere\", \"sky\": [1, 0, 0], \"ground\": [0, 1, 0], \"up\": [1, 0, 0], \"frame\": \"camera\"}, "
-        "{\"name\": \"p\", \"type\": \"point\", \"position\": [2, 4, 6, 2], \"attenuation\": [0, 0, 1], \"range\": 9}, "
-        "{\"type\": \"point\", \"position\": [1, 2, 3, 0]}, {\"type\": \"directional\", \"position\": [0, 1, 0, 0]}, "
-        "{\"type\": \"directional\", \"direction\": [1, 0, 0], \"color\": [1, 0.5, 0], \"intensity\": 2, \"specular\": [0, 0, 1]}, "
-        "{\"type\": \"spot\", \"position\": [1, 1, 1], \"target\": [1, 0, 1], \"cutoff\": 30, \"exponent\": 2}, "
+        "{\"lambent\": 1, " BALL
+        ", \"lights\": [{\"type\": \"ambient\", \"color\": [1, 1, 1], \"intensity\": 0.5}, "
+        "{\"type\": \"hemisphere\", \"sky\": [1, 0, 0], \"ground\": [0, 1, 0], \"up\": [1, 0, 0], \"frame\": "
+        "\"camera\"}, "
+        "{\"name\": \"p\", \"type\": \"point\", \"position\": [2, 4, 6, 2], \"attenuation\": [0, 0, 1], "
+        "\"range\": 9}, "
+        "{\"type\": \"point\", \"position\": [1, 2, 3, 0]}, {\"type\": \"directional\", \"position\": [0, 1, "
+        "0, 0]}, "
+        "{\"type\": \"directional\", \"direction\": [1, 0, 0], \"color\": [1, 0.5, 0], \"intensity\": 2, "
+        "\"specular\": [0, 0, 1]}, "
+        "{\"type\": \"spot\", \"position\": [1, 1, 1], \"target\": [1, 0, 1], \"cutoff\": 30, \"exponent\": "
+        "2}, "
         "{\"type\": \"spot\", \"inner\": 10, \"outer\": 20, \"frame\": \"object\", \"object\": \"sphere\"}, "
-        "{\"type\": \"spot\", \"exponent\": 4}, {\"type\": \"spot\"}, {\"type\": \"spot\", \"cutoff\": 180}]}");
+        "{\"type\": \"spot\", \"exponent\": 4}, {\"type\": \"spot\"}, {\"type\": \"spot\", \"cutoff\": "
+        "180}]}");
     const lam_light *l[11];
     for (int i = 0; i < 11; i++)
         l[i] = lam_scene_light(scene, i);
     assert_true(l[0]->ambient.r == 0.5f);
-    assert_true(l[1]->sky.r == 1 && l[1]->ground.g == 1 && l[1]->up.x == 1 && l[1]->frame == LAM_FRAME_CAMERA);
+    assert_true(l[1]->sky.r == 1 && l[1]->ground.g == 1 && l[1]->up.x == 1 &&
+                l[1]->frame == LAM_FRAME_CAMERA);
     assert_true(l[2]->position.x == 1 && l[2]->position.z == 3 && l[2]->attenuation.quadratic == 1 &&
                 l[2]->attenuation.constant == 0 && l[2]->range == 9);
     assert_true(l[3]->type == LAM_LIGHT_DIRECTIONAL && l[3]->direction.x == -1 && l[3]->direction.z == -3);
     assert_true(l[4]->direction.y == -1);
-    assert_true(l[5]->diffuse.r == 2 && l[5]->diffuse.g == 1 && l[5]->specular.r == 0 && l[5]->specular.b == 1);
-    assert_true(l[6]->direction.y == -1 && fabs((double)l[6]->cutoff_rad - asin(0.5)) < 1e-7 && l[6]->exponent == 2);
+    assert_true(l[5]->diffuse.r == 2 && l[5]->diffuse.g == 1 && l[5]->specular.r == 0 &&
+                l[5]->specular.b == 1);
+    assert_true(l[6]->direction.y == -1 && fabs((double)l[6]->cutoff_rad - asin(0.5)) < 1e-7 &&
+                l[6]->exponent == 2);
     assert_true(l[7]->outer_rad > l[7]->inner_rad && l[7]->inner_rad > 0.17f && l[7]->cutoff_rad == 0);
     assert_string_equal(l[7]->object, "sphere");
     assert_true(l[8]->cutoff_rad == 0 && l[8]->exponent == 4);
@@ -172,27 +197,37 @@ static void test_errors(void **unused)
     static const struct {
         const char *text, *sentence;
     } rows[] = {
-#define WITH(more, sentence)    {"{\"lambent\": 1, " BALL ", " more "}", "s.json: " sentence}
-#define OBJECT(more, sentence)  {"{\"lambent\": 1, \"objects\": [{" more "}]}", "s.json: objects[0]" sentence}
-#define LIGHT(more, sentence)   WITH("\"lights\": [{" more "}]", "lights[0]" sentence)
-#define SPHERE                  "\"shape\": \"sphere\", "
+#define WITH(more, sentence) {"{\"lambent\": 1, " BALL ", " more "}", "s.json: " sentence}
+#define OBJECT(more, sentence)                                                                               \
+    {                                                                                                        \
+        "{\"lambent\": 1, \"objects\": [{" more "}]}", "s.json: objects[0]" sentence                         \
+    }
+#define LIGHT(more, sentence) WITH("\"lights\": [{" more "}]", "lights[0]" sentence)
+#define SPHERE                "\"shape\": \"sphere\", "
         {"{\"lambent\": 1,\n \"objects\": [}", "s.json:2: column 14: unexpected token near '}'"},
         {"{\"lambent\": 1, \"lambent\": 1}", "s.json:1: column 24: duplicate object key near '\"lambent\"'"},
-        {"{\"x\": \"\\\"lambent\\\"\", \"lambent\": 1}", "s.json: x: unknown key; expected lambent, image, camera, ambient, "
-         "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, gl1, up, materials, objects, lights"},
+        {"{\"x\": \"\\\"lambent\\\"\", \"lambent\": 1}",
+         "s.json: x: unknown key; expected lambent, image, camera, ambient, "
+         "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, gl1, up, "
+         "materials, objects, lights"},
         {"{\"lambent\": 1}", "s.json: 'objects' is missing, expected a list of at least one object"},
-        {"{\"lambent\": 2, " BALL "}", "s.json: lambent: the format's version is 2, this program reads version 1"},
+        {"{\"lambent\": 2, " BALL "}",
+         "s.json: lambent: the format's version is 2, this program reads version 1"},
         {"{\"lambent\": \"1\", " BALL "}", "s.json: lambent: found \"1\", expected a number"},
-        {"{\"lambent\": 1, \"objects\": []}", "s.json: objects: found a list of 0, expected a list of at least one object"},
+        {"{\"lambent\": 1, \"objects\": []}",
+         "s.json: objects: found a list of 0, expected a list of at least one object"},
         WITH("\"lihgts\": []", "lihgts: unknown key; did you mean 'lights'?"),
         WITH("\"image\": {\"size\": [0, 2]}", "image.size[0]: found 0, expected pixels from 1 to 65535"),
         WITH("\"image\": {\"size\": [2.5, 2]}", "image.size[0]: found 2.5, expected pixels from 1 to 65535"),
         WITH("\"image\": {\"samples\": 3}", "image.samples: found 3, expected 1, 2, 4, 8 or 16"),
-        WITH("\"image\": {\"color\": \"rwa\"}", "image.color: found \"rwa\", expected srgb or raw; did you mean 'raw'?"),
-        WITH("\"image\": {\"background\": [0, 0, 0, 2]}", "image.background[3]: found 2, expected a number from 0 to 1"),
+        WITH("\"image\": {\"color\": \"rwa\"}",
+             "image.color: found \"rwa\", expected srgb or raw; did you mean 'raw'?"),
+        WITH("\"image\": {\"background\": [0, 0, 0, 2]}",
+             "image.background[3]: found 2, expected a number from 0 to 1"),
         WITH("\"camera\": {\"fovy\": 180}", "camera.fovy: found 180, expected degrees above 0 and below 180"),
         WITH("\"camera\": {\"near\": 1}", "camera: has only near, expected both of near and far, or neither"),
-        WITH("\"camera\": {\"near\": 3, \"far\": 2}", "camera: near is 3 and far is 2, expected 0 < near < far"),
+        WITH("\"camera\": {\"near\": 3, \"far\": 2}",
+             "camera: near is 3 and far is 2, expected 0 < near < far"),
         WITH("\"camera\": {\"fovy\": 30, \"ortho_half_height\": 1}",
              "camera: has both fovy and ortho_half_height, expected one of them"),
         WITH("\"camera\": {\"eye\": [0, 0, 0]}", "camera: eye and target are the same point"),
@@ -201,19 +236,22 @@ static void test_errors(void **unused)
         WITH("\"camera\": {\"eye\": [0, 0, \"x\"]}", "camera.eye[2]: found \"x\", expected a number"),
         WITH("\"camera\": 5", "camera: found 5, expected an object, { … }"),
         WITH("\"ambient\": [0, -1, 0]", "ambient[1]: found -1, expected a number of at least 0"),
-        WITH("\"ambient\": \"blurple\"", "ambient: found \"blurple\", expected a colour: \"#rrggbb\", a name such as \"white\", or "
+        WITH("\"ambient\": \"blurple\"",
+             "ambient: found \"blurple\", expected a colour: \"#rrggbb\", a name such as \"white\", or "
              "a list of linear numbers"),
         WITH("\"gl1\": 1", "gl1: found 1, expected true or false"),
         WITH("\"stage\": \"vertex\", \"shading\": \"phong\"",
              "stage: Phong shading has the stage fragment; application and vertex go with flat and gouraud"),
         WITH("\"stage\": \"fragment\", \"shading\": \"gouraud\"",
-             "stage: Gouraud shading has the stages application and vertex; fragment goes with flat and phong"),
+             "stage: Gouraud shading has the stages application and vertex; fragment goes with flat and "
+             "phong"),
         WITH("\"environment\": {\"rotation\": 5}", "environment: expected one of faces and equirectangular"),
         WITH("\"environment\": {\"faces\": [\"a\"]}",
              "environment.faces: found a list of 1, expected six names of pictures: +x, -x, +y, -y, +z, -z"),
         WITH("\"materials\": {\"m\": {\"shininess\": -1}}",
              "materials.m.shininess: found -1, expected a number of at least 0"),
-        WITH("\"materials\": {\"m\": {\"shinines\": 1}}", "materials.m.shinines: unknown key; did you mean 'shininess'?"),
+        WITH("\"materials\": {\"m\": {\"shinines\": 1}}",
+             "materials.m.shinines: unknown key; did you mean 'shininess'?"),
         WITH("\"materials\": {\"m\": {\"ambient\": \"#11223344\"}}",
              "materials.m.ambient: has an alpha, expected a colour of three parts"),
         WITH("\"materials\": []", "materials: found a list of 0, expected an object of named materials"),
@@ -226,26 +264,36 @@ static void test_errors(void **unused)
         OBJECT("\"file\": \"none.obj\"", ".file: there is no such file"),
         OBJECT("\"file\": \"inner.json\"", ".file: 'inner.json' is a scene file, expected a model"),
         OBJECT("\"file\": \"\"", ".file: found \"\", expected a text that is not empty"),
-        OBJECT("\"file\": \"a.obj\", \"materials\": {\"green\": {}}", ".materials.green: the model has no material of this name"),
-        OBJECT("\"file\": \"a.obj\", \"parts\": [null]",
-               ".parts: found a list of 1, expected a list of 2, one material or null for each part of the model"),
-        OBJECT("\"file\": \"a.obj\", \"radius\": 4", ".radius: unknown key; expected name, transform, material, "
+        OBJECT("\"file\": \"a.obj\", \"materials\": {\"green\": {}}",
+               ".materials.green: the model has no material of this name"),
+        OBJECT("\"file\": \"a.obj\", \"parts\": [null]", ".parts: found a list of 1, expected a list of 2, "
+                                                         "one material or null for each part of the model"),
+        OBJECT("\"file\": \"a.obj\", \"radius\": 4",
+               ".radius: unknown key; expected name, transform, material, "
                "back_material, two_sided, cull, tangents, normals, crease_angle, file, materials, parts"),
-        OBJECT(SPHERE "\"material\": {\"shinines\": 4}", ".material.shinines: unknown key; did you mean 'shininess'?"),
-        OBJECT(SPHERE "\"material\": \"glod\"", ".material: no material is named 'glod'; did you mean 'gold'?"),
+        OBJECT(SPHERE "\"material\": {\"shinines\": 4}",
+               ".material.shinines: unknown key; did you mean 'shininess'?"),
+        OBJECT(SPHERE "\"material\": \"glod\"",
+               ".material: no material is named 'glod'; did you mean 'gold'?"),
         OBJECT(SPHERE "\"transform\": [[\"rotate\", 3, 0, 0, 0]]",
                ".transform[0]: the axis of the rotation is 0, 0, 0, expected a direction"),
-        OBJECT(SPHERE "\"transform\": [[\"scale\", 1, 0, 1]]", ".transform[0]: scales by 0, which leaves no surface to light"),
-        OBJECT(SPHERE "\"transform\": [[\"skew\", 1]]", ".transform[0]: found \"skew\" with 1 number, expected [\"translate\", x, "
+        OBJECT(SPHERE "\"transform\": [[\"scale\", 1, 0, 1]]",
+               ".transform[0]: scales by 0, which leaves no surface to light"),
+        OBJECT(SPHERE "\"transform\": [[\"skew\", 1]]",
+               ".transform[0]: found \"skew\" with 1 number, expected [\"translate\", x, "
                "y, z], [\"rotate\", degrees, x, y, z] or [\"scale\", x, y, z]"),
-        OBJECT(SPHERE "\"transform\": [1, 2, 3]", ".transform: found a list of 3, expected a list of 16 numbers"),
+        OBJECT(SPHERE "\"transform\": [1, 2, 3]",
+               ".transform: found a list of 3, expected a list of 16 numbers"),
         OBJECT(SPHERE "\"transform\": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1]",
-               ".transform: the transform cannot be inverted: it flattens the object, or its numbers are too large"),
+               ".transform: the transform cannot be inverted: it flattens the object, or its numbers are too "
+               "large"),
         OBJECT(SPHERE "\"transform\": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1]",
                ".transform: the matrix's last row is 0, 0, 1, 1, expected 0, 0, 0, 1"),
         OBJECT(SPHERE "\"cull\": \"both\"", ".cull: found \"both\", expected none, back or front"),
-        LIGHT("\"name\": \"x\"", ": 'type' is missing, expected ambient, hemisphere, point, directional or spot"),
-        LIGHT("\"type\": \"point\", \"cutoff\": 4", ".cutoff: unknown key; expected name, type, frame, object, color, "
+        LIGHT("\"name\": \"x\"",
+              ": 'type' is missing, expected ambient, hemisphere, point, directional or spot"),
+        LIGHT("\"type\": \"point\", \"cutoff\": 4",
+              ".cutoff: unknown key; expected name, type, frame, object, color, "
               "intensity, ambient, diffuse, specular, position, attenuation, range"),
         LIGHT("\"type\": \"point\", \"attenuation\": [0, 0, 0]",
               ".attenuation: all three numbers are 0, expected a + b d + c d^2 to be more than 0"),
@@ -256,15 +304,19 @@ static void test_errors(void **unused)
               ".position: a directional light has a direction, or a position whose fourth number is 0"),
         LIGHT("\"type\": \"spot\", \"position\": [1, 2, 3, 0]",
               ".position: the fourth number is 0, but a spot light stands somewhere"),
-        LIGHT("\"type\": \"point\", \"position\": [0, 0, 0, 0]", ".position: found 0, 0, 0, 0, expected a direction"),
+        LIGHT("\"type\": \"point\", \"position\": [0, 0, 0, 0]",
+              ".position: found 0, 0, 0, 0, expected a direction"),
         LIGHT("\"type\": \"spot\", \"inner\": 30, \"outer\": 20",
               ".inner: found 30, expected less than outer, which is 20"),
         LIGHT("\"type\": \"spot\", \"inner\": 30", ": inner is given without outer, expected both"),
-        LIGHT("\"type\": \"spot\", \"cutoff\": 120", ".cutoff: found 120, expected degrees above 0 and up to 90, or 180"),
+        LIGHT("\"type\": \"spot\", \"cutoff\": 120",
+              ".cutoff: found 120, expected degrees above 0 and up to 90, or 180"),
         LIGHT("\"type\": \"spot\", \"cutoff\": 20, \"outer\": 20",
               ": inner and outer stand beside cutoff or exponent, expected one pair of them"),
-        LIGHT("\"type\": \"spot\", \"direction\": [0, 0, 0]", ".direction: found 0, 0, 0, expected a direction"),
-        LIGHT("\"type\": \"point\", \"frame\": \"object\", \"object\": \"cube\"", ".object: no object is named 'cube'"),
+        LIGHT("\"type\": \"spot\", \"direction\": [0, 0, 0]",
+              ".direction: found 0, 0, 0, expected a direction"),
+        LIGHT("\"type\": \"point\", \"frame\": \"object\", \"object\": \"cube\"",
+              ".object: no object is named 'cube'"),
         LIGHT("\"type\": \"point\", \"object\": \"sphere\"", ".object: goes only with \"frame\": \"object\""),
         LIGHT("\"type\": \"point\", \"intensity\": 1e30, \"color\": [1e30, 0, 0]",
               ": point light: diffuse.r is inf, expected a finite number of 0 or more"),
@@ -278,7 +330,8 @@ static void test_errors(void **unused)
             assert_non_null(strstr(error.text, "real number overflow"));
         else
             assert_string_equal(error.text, rows[i].sentence);
-        assert_int_equal(error.code, strstr(rows[i].text, "\"lambent\": 2") ? LAM_UNSUPPORTED : LAM_CANNOT_READ);
+        assert_int_equal(error.code,
+                         strstr(rows[i].text, "\"lambent\": 2") ? LAM_UNSUPPORTED : LAM_CANNOT_READ);
         assert_null(load_scene(rows[i].text, NULL));
     }
     lam_error error = {0};
@@ -287,7 +340,8 @@ static void test_errors(void **unused)
 }
 
 static const char whole[] =
-    "{\"lambent\": 1, \"image\": {\"size\": [8, 8]}, \"materials\": {\"m\": {\"diffuse\": [1, 0, 0]}}, \"objects\": ["
+    "{\"lambent\": 1, \"image\": {\"size\": [8, 8]}, \"materials\": {\"m\": {\"diffuse\": [1, 0, 0]}}, "
+    "\"objects\": ["
     "{\"name\": \"x\", \"file\": \"a.obj\", \"transform\": [[\"scale\", 2]], \"back_material\": \"m\"}, "
     "{\"shape\": \"cube\", \"slices\": 3, \"stacks\": 1, \"normals\": \"smooth\"}], "
     "\"lights\": [{\"name\": \"l\", \"type\": \"point\", \"frame\": \"object\", \"object\": \"x\"}]}";
@@ -372,11 +426,19 @@ static void test_writing(void **unused)
     for (int i = 0; i < 4; i++)
         assert_true(lam_scene_add_light(scene, &lights[i], &error) == i);
     lam_scene_set_ambient(scene, (lam_rgb){0.1f, 0.7f, 1e-3f});
-    lam_settings s = {.given = (LAM_GIVEN_LIGHTS << 1) - 1, .width = 7, .height = 9, .camera = lam_camera_default()};
-    s.draw = (lam_draw_params){.samples = 2, .background = {0.1f, 0.2f, 0.3f, 0.4f}, .color = LAM_COLOR_RAW,
-                               .shading = LAM_SHADING_FLAT, .reflection = LAM_REFLECTION_PHONG, .stage = LAM_STAGE_VERTEX,
-                               .viewer = LAM_VIEWER_INFINITE, .flat_normal = LAM_FLAT_NORMAL_VERTEX, .gl1 = true,
-                               .rig = LAM_RIG_NONE, .match_highlights = true};
+    lam_settings s = {
+        .given = (LAM_GIVEN_LIGHTS << 1) - 1, .width = 7, .height = 9, .camera = lam_camera_default()};
+    s.draw = (lam_draw_params){.samples = 2,
+                               .background = {0.1f, 0.2f, 0.3f, 0.4f},
+                               .color = LAM_COLOR_RAW,
+                               .shading = LAM_SHADING_FLAT,
+                               .reflection = LAM_REFLECTION_PHONG,
+                               .stage = LAM_STAGE_VERTEX,
+                               .viewer = LAM_VIEWER_INFINITE,
+                               .flat_normal = LAM_FLAT_NORMAL_VERTEX,
+                               .gl1 = true,
+                               .rig = LAM_RIG_NONE,
+                               .match_highlights = true};
     s.camera.fovy_rad = 0.7123456789012345;
     s.camera.eye = (lam_vec3){1.0 / 3, 1e-9, 12345678.9};
     s.camera.near_plane = 0.1;
@@ -390,9 +452,10 @@ static void test_writing(void **unused)
     assert_int_equal(t.given, s.given);
     assert_memory_equal(&t.draw.samples, &s.draw.samples, sizeof s.draw.samples);
     assert_memory_equal(&t.draw.background, &s.draw.background, sizeof s.draw.background);
-    assert_true(t.draw.color == s.draw.color && t.draw.shading == s.draw.shading && t.draw.reflection == s.draw.reflection &&
-                t.draw.stage == s.draw.stage && t.draw.viewer == s.draw.viewer && t.draw.flat_normal == s.draw.flat_normal &&
-                t.draw.gl1 && t.draw.match_highlights && t.draw.rig == LAM_RIG_NONE);
+    assert_true(t.draw.color == s.draw.color && t.draw.shading == s.draw.shading &&
+                t.draw.reflection == s.draw.reflection && t.draw.stage == s.draw.stage &&
+                t.draw.viewer == s.draw.viewer && t.draw.flat_normal == s.draw.flat_normal && t.draw.gl1 &&
+                t.draw.match_highlights && t.draw.rig == LAM_RIG_NONE);
     assert_memory_equal(&t.camera.eye, &s.camera.eye, sizeof s.camera.eye);
     assert_true(fabs(t.camera.fovy_rad - s.camera.fovy_rad) <= 1.2e-16);
     assert_true(t.camera.near_plane == 0.1 && t.camera.far_plane == 100 && t.width == 7 && t.height == 9);
@@ -410,8 +473,10 @@ static void test_writing(void **unused)
     }
     for (int i = 0; i < 4; i++) {
         lam_light a = *lam_scene_light(scene, i), b = *lam_scene_light(back, i);
-        assert_memory_equal(&a.position, &b.position, sizeof a.position + sizeof a.direction + 3 * sizeof a.ambient);
-        assert_true(a.range == b.range && a.exponent == b.exponent && a.inner_rad == b.inner_rad && a.outer_rad == b.outer_rad);
+        assert_memory_equal(&a.position, &b.position,
+                            sizeof a.position + sizeof a.direction + 3 * sizeof a.ambient);
+        assert_true(a.range == b.range && a.exponent == b.exponent && a.inner_rad == b.inner_rad &&
+                    a.outer_rad == b.outer_rad);
         assert_true(a.cutoff_rad == b.cutoff_rad || a.outer_rad > 0);
         assert_true(a.sky.r == b.sky.r && a.ground.b == b.ground.b);
     }
@@ -440,8 +505,8 @@ static void test_writing(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults), cmocka_unit_test(test_picture),  cmocka_unit_test(test_objects),
-        cmocka_unit_test(test_lights),   cmocka_unit_test(test_errors),   cmocka_unit_test(test_prefixes),
+        cmocka_unit_test(test_defaults), cmocka_unit_test(test_picture), cmocka_unit_test(test_objects),
+        cmocka_unit_test(test_lights),   cmocka_unit_test(test_errors),  cmocka_unit_test(test_prefixes),
         cmocka_unit_test(test_memory),   cmocka_unit_test(test_writing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -24,26 +24,14 @@ typedef struct {
     double x, y, z;
 } point;
 
-static point minus(point a, point b)
-{
-    return (point){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-static double dot(point a, point b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+static point minus(point a, point b) { return (point){a.x - b.x, a.y - b.y, a.z - b.z}; }
+static double dot(point a, point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static point cross(point a, point b)
 {
     return (point){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-static double length(point a)
-{
-    return sqrt(dot(a, a));
-}
-static point from_floats(const float *f)
-{
-    return (point){(double)f[0], (double)f[1], (double)f[2]};
-}
+static double length(point a) { return sqrt(dot(a, a)); }
+static point from_floats(const float *f) { return (point){(double)f[0], (double)f[1], (double)f[2]}; }
 
 static uint32_t element(const uint32_t *own, const lam_mesh *mesh, size_t corner)
 {
@@ -308,9 +296,14 @@ static void test_shape_options(void **state)
         }
     }
     lam_error error;
-    static const lam_shape_params bad[] = {{.slices = 2},        {.slices = 16385}, {.slices = -1},
-                                           {.stacks = -1},       {.stacks = 16385}, {.radius = -1},
-                                           {.radius = (double)INFINITY}, {.radius = (double)NAN}};
+    static const lam_shape_params bad[] = {{.slices = 2},
+                                           {.slices = 16385},
+                                           {.slices = -1},
+                                           {.stacks = -1},
+                                           {.stacks = 16385},
+                                           {.radius = -1},
+                                           {.radius = (double)INFINITY},
+                                           {.radius = (double)NAN}};
     static const char *const named[] = {"slices", "slices", "slices", "stacks",
                                         "stacks", "radius", "radius", "radius"};
     for (int k = 0; k < 8; k++) {
@@ -568,10 +561,7 @@ static void infinite_point(void *user, double u, double v, lam_surface_point *ou
     *out = (lam_surface_point){{1 / (u - 0.3), 0, v}, {1, 0, 0}, {0, 1, 0}};
 }
 
-static double nan_value(void *user, lam_vec3 p)
-{
-    return p.x < 0 ? (double)NAN : ball_value(user, p);
-}
+static double nan_value(void *user, lam_vec3 p) { return p.x < 0 ? (double)NAN : ball_value(user, p); }
 
 static void test_bad_formulas(void **state)
 {

@@ -44,10 +44,7 @@ static void normal_of(const float *a, const float *b, const float *c, double n[3
     n[2] = u[0] * v[1] - u[1] * v[0];
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // Cuts and checks: numbers in range, every corner used, no triangle turned over, areas adding up to the
 // polygon's: together the triangles cover the polygon once. Returns how many triangles have no area.

@@ -2,11 +2,12 @@
 //
 //   num    LANES floats          inum   LANES 32-bit integers          mask   LANES truths, from comparing
 //
-// With LANES 1 a num is a float and the same text is ordinary C. With more it is a GCC/Clang vector type, which any
-// instruction set can carry (wider than the machine's registers: several of them), so every width runs everywhere and,
-// since only correctly rounded operations occur (+ − × ÷ √, no fused ones), gives the same bits.
-// This is the one file that may hold intrinsics. The words below and + − * / < <= > >= == != are the whole language;
-// vectors take a C float on one side of an operator, but a variable that starts from a float needs num_of().
+// With LANES 1 a num is a float and the same text is ordinary C. With more it is a GCC/Clang vector type,
+// which any instruction set can carry (wider than the machine's registers: several of them), so every width
+// runs everywhere and, since only correctly rounded operations occur (+ − × ÷ √, no fused ones), gives the
+// same bits. This is the one file that may hold intrinsics. The words below and + − * / < <= > >= == != are
+// the whole language; vectors take a C float on one side of an operator, but a variable that starts from a
+// float needs num_of().
 #ifndef LANES_H
 #define LANES_H
 
@@ -86,28 +87,36 @@ LANE_FN num num_of_bits(inum i)
     memcpy(&x, &i, 4);
     return x;
 }
-LANE_FN num pick(mask m, num a, num b) { return m ? a : b; }      // a where m, else b
+LANE_FN num pick(mask m, num a, num b) { return m ? a : b; } // a where m, else b
 LANE_FN inum ipick(mask m, inum a, inum b) { return m ? a : b; }
 LANE_FN mask both(mask a, mask b) { return a & b; }
 LANE_FN mask either(mask a, mask b) { return a | b; }
 LANE_FN mask negate(mask a) { return !a; }
 LANE_FN int any_lane(mask m) { return m != 0; }
 LANE_FN int all_lanes(mask m) { return m != 0; }
-LANE_FN unsigned mask_bits(mask m) { return m != 0; }              // bit i: lane i
-LANE_FN inum int_of(num x) { return (int32_t)x; }                  // towards zero; |x| < 2³¹, never NaN: clamp first
+LANE_FN unsigned mask_bits(mask m) { return m != 0; } // bit i: lane i
+LANE_FN inum int_of(num x) { return (int32_t)x; }     // towards zero; |x| < 2³¹, never NaN: clamp first
 LANE_FN num num_of_int(inum i) { return (float)i; }
 LANE_FN inum wrap_add(inum a, inum b) { return (int32_t)((uint32_t)a + (uint32_t)b); } // modulo 2³²
 LANE_FN inum wrap_sub(inum a, inum b) { return (int32_t)((uint32_t)a - (uint32_t)b); }
 LANE_FN inum wrap_mul(inum a, inum b) { return (int32_t)((uint32_t)a * (uint32_t)b); }
 LANE_FN inum shift_left(inum i, int n) { return (int32_t)((uint32_t)i << n); }
-LANE_FN inum shift_right(inum i, int n) { return i >> n; }         // keeps the sign
+LANE_FN inum shift_right(inum i, int n) { return i >> n; } // keeps the sign
 LANE_FN num root(num x) { return __builtin_sqrtf(x); }
-LANE_FN float lane(num x, int i) { (void)i; return x; }
-LANE_FN int32_t ilane(inum x, int i) { (void)i; return x; }
+LANE_FN float lane(num x, int i)
+{
+    (void)i;
+    return x;
+}
+LANE_FN int32_t ilane(inum x, int i)
+{
+    (void)i;
+    return x;
+}
 #else
-LANE_FN num num_load(const float *at) { return (num)*(const num_memory *)at; }
+LANE_FN num num_load(const float *at) { return (num) * (const num_memory *)at; }
 LANE_FN void num_store(float *at, num x) { *(num_memory *)at = (num_memory)x; }
-LANE_FN inum inum_load(const int32_t *at) { return (inum)*(const inum_memory *)at; }
+LANE_FN inum inum_load(const int32_t *at) { return (inum) * (const inum_memory *)at; }
 LANE_FN void inum_store(int32_t *at, inum x) { *(inum_memory *)at = (inum_memory)x; }
 LANE_FN inum bits_of(num x) { return (inum)x; }
 LANE_FN num num_of_bits(inum i) { return (num)i; }

@@ -8,13 +8,14 @@ double math_sqrt(double x) { return x > 0 ? __builtin_sqrt(x) : 0; }
 double math_radians(double degrees) { return degrees * (PI / 180); }
 double math_degrees(double radians) { return radians * (180 / PI); }
 
-// π/2 in three parts, the first two with 33 significant bits, so that their products with the quotient are exact.
+// π/2 in three parts, the first two with 33 significant bits, so that their products with the quotient are
+// exact.
 #define HALF_PI_1 1.57079632673412561417e+00
 #define HALF_PI_2 6.07710050630396597660e-11
 #define HALF_PI_3 2.02226624879595063154e-21
 
-// x = quarter·π/2 + rest with |rest| ≤ π/4 (a little more by rounding). Exact enough for |x| ≤ 1e6; beyond, the angle is
-// taken to be 0 turns off: no user gives such an angle, and the result stays finite.
+// x = quarter·π/2 + rest with |rest| ≤ π/4 (a little more by rounding). Exact enough for |x| ≤ 1e6; beyond,
+// the angle is taken to be 0 turns off: no user gives such an angle, and the result stays finite.
 static double reduce(double x, int *quarter)
 {
     if (!(x > -1e9 && x < 1e9)) {
@@ -32,11 +33,11 @@ static double reduce(double x, int *quarter)
 static double sine_series(double x)
 {
     double z = x * x;
-    double s = 1.0 / 355687428096000.0;            // 1/17!
-    s = s * z - 1.0 / 1307674368000.0;             // 15!
-    s = s * z + 1.0 / 6227020800.0;                // 13!
-    s = s * z - 1.0 / 39916800.0;                  // 11!
-    s = s * z + 1.0 / 362880.0;                    // 9!
+    double s = 1.0 / 355687428096000.0; // 1/17!
+    s = s * z - 1.0 / 1307674368000.0;  // 15!
+    s = s * z + 1.0 / 6227020800.0;     // 13!
+    s = s * z - 1.0 / 39916800.0;       // 11!
+    s = s * z + 1.0 / 362880.0;         // 9!
     s = s * z - 1.0 / 5040.0;
     s = s * z + 1.0 / 120.0;
     s = s * z - 1.0 / 6.0;
@@ -46,11 +47,11 @@ static double sine_series(double x)
 static double cosine_series(double x)
 {
     double z = x * x;
-    double c = -1.0 / 6402373705728000.0;          // 1/18!
-    c = c * z + 1.0 / 20922789888000.0;            // 16!
-    c = c * z - 1.0 / 87178291200.0;               // 14!
-    c = c * z + 1.0 / 479001600.0;                 // 12!
-    c = c * z - 1.0 / 3628800.0;                   // 10!
+    double c = -1.0 / 6402373705728000.0; // 1/18!
+    c = c * z + 1.0 / 20922789888000.0;   // 16!
+    c = c * z - 1.0 / 87178291200.0;      // 14!
+    c = c * z + 1.0 / 479001600.0;        // 12!
+    c = c * z - 1.0 / 3628800.0;          // 10!
     c = c * z + 1.0 / 40320.0;
     c = c * z - 1.0 / 720.0;
     c = c * z + 1.0 / 24.0;
@@ -77,7 +78,8 @@ double math_cos(double x)
 
 double math_tan(double x) { return math_sin(x) / math_cos(x); }
 
-// atan of t in [0, 1]: halved twice by atan t = 2 atan(t / (1 + √(1 + t²))), then its series for t ≤ tan(π/16).
+// atan of t in [0, 1]: halved twice by atan t = 2 atan(t / (1 + √(1 + t²))), then its series for t ≤
+// tan(π/16).
 static double arctangent(double t)
 {
     for (int i = 0; i < 2; i++)

@@ -1,5 +1,6 @@
-// linear.h: vectors, matrices and angles in double, in one fixed order of operations, for set-up work: cameras, rotations,
-// transforms. The per-pixel side is lanes.h. No libm: its last bits differ between machines and versions.
+// linear.h: vectors, matrices and angles in double, in one fixed order of operations, for set-up work:
+// cameras, rotations, transforms. The per-pixel side is lanes.h. No libm: its last bits differ between
+// machines and versions.
 #ifndef LINEAR_H
 #define LINEAR_H
 
@@ -20,7 +21,8 @@ double v3_length(lam_vec3 a);
 lam_vec3 v3_unit(lam_vec3 a); // the zero vector stays zero; safe from overflow and underflow
 bool v3_finite(lam_vec3 a);
 
-// Correctly rounded √ (the processor's own), and angle functions within 2 units in the last place for |x| ≤ 1e6.
+// Correctly rounded √ (the processor's own), and angle functions within 2 units in the last place for |x| ≤
+// 1e6.
 double math_sqrt(double x);
 double math_sin(double x);
 double math_cos(double x);
@@ -31,10 +33,10 @@ double math_radians(double degrees);
 double math_degrees(double radians);
 bool math_finite(double x);
 
-lam_mat4 mat4_mul(const lam_mat4 *a, const lam_mat4 *b); // a·b: b acts first
-lam_vec3 mat4_point(const lam_mat4 *m, lam_vec3 p);      // affine: w = 1, last row ignored
-lam_vec3 mat4_vector(const lam_mat4 *m, lam_vec3 v);     // upper 3×3 only
-double mat4_determinant3(const lam_mat4 *m);             // of the upper 3×3
+lam_mat4 mat4_mul(const lam_mat4 *a, const lam_mat4 *b);    // a·b: b acts first
+lam_vec3 mat4_point(const lam_mat4 *m, lam_vec3 p);         // affine: w = 1, last row ignored
+lam_vec3 mat4_vector(const lam_mat4 *m, lam_vec3 v);        // upper 3×3 only
+double mat4_determinant3(const lam_mat4 *m);                // of the upper 3×3
 bool mat4_inverse_affine(const lam_mat4 *m, lam_mat4 *out); // false where the 3×3 is singular
 // Cofactors of the upper 3×3: the inverse transpose times the determinant; a normal goes by it, with the
 // determinant's sign kept apart (a mirror turns the winding, not the normal).

@@ -16,6 +16,7 @@
 #include "device.h"
 #include "environment.h"
 #include "explain.h"
+#include "gl.h"
 #include "image.h"
 #include "light.h"
 #include "material.h"

@@ -1,0 +1,99 @@
+// loader.c: libEGL opened by name, and OpenGL's functions by theirs. Nothing is linked, so that the program
+// starts and draws on a machine without any of it.
+#include "loader.h"
+
+#include "fail.h"
+
+#include <dlfcn.h>
+#include <stdio.h>
+#include <string.h>
+
+#define TO_INSTALL                                                                                           \
+    "on Debian: apt install libegl1 libegl-mesa0 libgl1-mesa-dri, or the graphics card's own driver"
+
+bool egl_open(struct egl *egl, const char *library, lam_error *error)
+{
+    memset(egl, 0, sizeof *egl);
+    snprintf(egl->library, sizeof egl->library, "%s", library ? library : "libEGL.so.1");
+    void *opened = dlopen(egl->library, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    if (!opened) {
+        const char *why = dlerror();
+        return fail(error, LAM_UNSUPPORTED, "OpenGL: the library %s cannot be opened (%.150s); " TO_INSTALL,
+                    egl->library, why ? why : "no reason told");
+    }
+#define FIND(name)                                                                                           \
+    *(void **)&egl->name = dlsym(opened, "egl" #name);                                                       \
+    if (!egl->name)                                                                                          \
+        return fail(error, LAM_UNSUPPORTED,                                                                  \
+                    "OpenGL: the library %s has no function egl" #name                                       \
+                    ", expected EGL 1.4 or newer; " TO_INSTALL,                                              \
+                    egl->library);
+    EGL_FUNCTIONS(FIND)
+#undef FIND
+    const char *client = egl->QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    if (list_has(client, "EGL_EXT_platform_base"))
+        egl->GetPlatformDisplay =
+            (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl->GetProcAddress("eglGetPlatformDisplayEXT");
+    if (list_has(client, "EGL_EXT_device_base") || list_has(client, "EGL_EXT_device_enumeration")) {
+        egl->QueryDevices = (PFNEGLQUERYDEVICESEXTPROC)egl->GetProcAddress("eglQueryDevicesEXT");
+        egl->QueryDeviceString =
+            (PFNEGLQUERYDEVICESTRINGEXTPROC)egl->GetProcAddress("eglQueryDeviceStringEXT");
+    }
+    return true;
+}
+
+const char *egl_reason(const struct egl *egl)
+{
+    switch (egl->GetError()) {
+    case EGL_SUCCESS:
+        return "no reason told";
+    case EGL_NOT_INITIALIZED:
+        return "the driver cannot be started (EGL_NOT_INITIALIZED)";
+    case EGL_BAD_ACCESS:
+        return "the driver is not accessible from here (EGL_BAD_ACCESS)";
+    case EGL_BAD_ALLOC:
+        return "out of memory (EGL_BAD_ALLOC)";
+    case EGL_BAD_ATTRIBUTE:
+        return "the driver does not know what is asked for (EGL_BAD_ATTRIBUTE)";
+    case EGL_BAD_CONFIG:
+        return "no fitting configuration (EGL_BAD_CONFIG)";
+    case EGL_BAD_MATCH:
+        return "the driver has no such version (EGL_BAD_MATCH)";
+    case EGL_BAD_DISPLAY:
+        return "no such display (EGL_BAD_DISPLAY)";
+    case EGL_CONTEXT_LOST:
+        return "the device was lost (EGL_CONTEXT_LOST)";
+    default:
+        return "the driver refused";
+    }
+}
+
+bool list_has(const char *list, const char *word)
+{
+    size_t length = strlen(word);
+    for (const char *at = list ? strstr(list, word) : NULL; at; at = strstr(at + 1, word))
+        if ((at == list || at[-1] == ' ') && (at[length] == 0 || at[length] == ' '))
+            return true;
+    return false;
+}
+
+bool gl_load(struct gl *gl, lam_gl_get_proc *get, void *user, lam_error *error)
+{
+    memset(gl, 0, sizeof *gl);
+#define FIND(name)                                                                                           \
+    gl->name = (__typeof__(gl->name))get(user, "gl" #name);                                                  \
+    if (!gl->name)                                                                                           \
+        return fail(error, LAM_UNSUPPORTED,                                                                  \
+                    "OpenGL: the driver has no function gl" #name ", expected OpenGL 3.3 or OpenGL ES 3.0");
+    GL_FUNCTIONS(FIND)
+#undef FIND
+#define FIND(name) gl->name = (__typeof__(gl->name))get(user, "gl" #name);
+    GL_OPTIONAL_FUNCTIONS(FIND)
+#undef FIND
+    if (!gl->DebugMessageCallback) {
+        gl->DebugMessageCallback =
+            (__typeof__(gl->DebugMessageCallback))get(user, "glDebugMessageCallbackKHR");
+        gl->DebugMessageControl = (__typeof__(gl->DebugMessageControl))get(user, "glDebugMessageControlKHR");
+    }
+    return true;
+}

@@ -1,0 +1,65 @@
+// devices.c: the command `devices`: what pictures can be drawn with on this machine.
+#include "command.h"
+
+#include <stdio.h>
+
+#include "json.h"
+#include "report.h"
+
+enum { DEVICES_MOST = 64 };
+
+static void tell_json(const char *cpu, const lam_gl_device *list, int count, const lam_error *error)
+{
+    struct json json = {.file = stdout};
+    json_open(&json, NULL, '{');
+    json_text(&json, "cpu", cpu);
+    json_open(&json, "gl", '[');
+    for (int i = 0; i < count; i++) {
+        const lam_gl_device *d = &list[i];
+        json_open(&json, NULL, '{');
+        json_count(&json, "number", (uint64_t)d->number);
+        json_text(&json, "name", d->usable ? d->name : NULL);
+        json_text(&json, "driver", d->usable ? d->driver : NULL);
+        json_text(&json, "place", d->place);
+        json_text(&json, "kind", d->software ? "software" : "hardware");
+        json_text(&json, "versions", d->usable ? d->versions : NULL);
+        json_text(&json, "reason", d->usable ? NULL : d->reason);
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_text(&json, "gl_reason", count < 0 ? error->text : NULL);
+    json_close(&json, '}');
+    putchar('\n');
+}
+
+static void tell_text(const char *cpu, const lam_gl_device *list, int count, const lam_error *error)
+{
+    printf("cpu   %s; the same bytes everywhere\n", cpu);
+    for (int i = 0; i < count; i++) {
+        const lam_gl_device *d = &list[i];
+        const char *kind = d->software ? "software: this processor does the work" : "hardware";
+        if (d->usable)
+            printf("gl %d  %s; %s\n      %s; %s\n", d->number, d->name, kind, d->versions, d->driver);
+        else
+            printf("gl %d  cannot be used (%s)\n      %s\n", d->number, d->place, d->reason);
+    }
+    if (count < 0)
+        printf("gl    cannot be used\n      %s\n", error->text);
+}
+
+int run_devices(int operand_count, char **operands, const struct options *options)
+{
+    (void)operand_count, (void)operands;
+    lam_error error = {0};
+    lam_device *device = lam_device_cpu(NULL, &error);
+    if (!device)
+        return tell_failure(&error, options);
+    static lam_gl_device list[DEVICES_MOST];
+    int count = lam_gl_devices(NULL, list, DEVICES_MOST, &error);
+    if (options->json)
+        tell_json(lam_device_name(device), list, count, &error);
+    else
+        tell_text(lam_device_name(device), list, count, &error);
+    lam_device_free(device);
+    return 0;
+}

@@ -282,8 +282,8 @@ int run_compare(int operand_count, char **operands, const struct options *option
     interrupt_start();
     struct compare c = {.options = options, .model = operands[0]};
     lam_error error = {0};
-    char *store = NULL, *path = NULL;
-    bool ok = sheet_choose(options, &c.sheet, &store, &error);
+    char *store[ACROSS_MOST] = {0}, *path = NULL;
+    bool ok = sheet_choose(options, &c.sheet, store, &error);
     if (ok && !(path = path_of(options, c.model, c.sheet.name)))
         ok = complain(&error, LAM_LIMIT, "out of memory");
     ok = ok && check(options, c.model, path, &error) && lay_out(&c, &error);
@@ -301,7 +301,8 @@ int run_compare(int operand_count, char **operands, const struct options *option
         drawing_free(&c.drawing);
     }
     free(path);
-    free(store);
+    for (int i = 0; i < ACROSS_MOST; i++)
+        free(store[i]);
     if (interrupted())
         interrupt_finish();
     return ok ? 0 : tell_failure(&error, options);

@@ -382,14 +382,15 @@ const struct option option_table[] = {
      "What is compared: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words,
      .store = store_word, FIELD(sheet)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
-     "A row of pictures in place of a sheet: shading, or shininess=10,50,1000.",
+     "A row of pictures in place of a sheet: shading, or shininess=10,50,1000; a second makes columns.",
      "OPTION is one of the options above without its dashes. The values stand with commas between them; "
      "those of `light`, "
      "`material` and other options that have commas of their own, with semicolons "
      "(`light=point;directional:color=red,frame=camera`). Left out, they are the words that the option "
      "takes; for `shininess` "
-     "10, 50 and 1000, for `light` one of each type, for `show`, which may be called `term`, the five terms.",
-     .store = store_text, FIELD(across)},
+     "10, 50 and 1000, for `light` one of each type, for `show`, which may be called `term`, the five terms. "
+     "Given twice, the first makes the lines of a grid and the second its columns.",
+     .store = store_across, FIELD(across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The horizontal axis goes from 0 to X: a distance, or degrees.",
      NULL, .store = store_number, FIELD(to), .least = 1e-6, .most = 1e9},

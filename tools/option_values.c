@@ -232,6 +232,13 @@ bool store_rotation(const struct option *option, const char *value, struct optio
     return append(option, value, options, error);
 }
 
+bool store_across(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    if (options->across.count == ACROSS_MOST)
+        return complain(error, LAM_BAD_ARGUMENT, "given a third time: a grid has lines and columns, no more");
+    return append(option, value, options, error);
+}
+
 bool store_light_color(const struct option *option, const char *value, struct options *options,
                        lam_error *error)
 {

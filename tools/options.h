@@ -5,7 +5,7 @@
 
 #include <lambent/lambent.h>
 
-enum { OPTIONS_MAX = 128 };
+enum { OPTIONS_MAX = 128, ACROSS_MOST = 2 };
 
 // The values of an option that may be repeated, in order.
 struct texts {
@@ -80,9 +80,9 @@ struct options {
     // Plots and sheets
     const char *font; // NULL: the system's
     bool no_captions;
-    int sheet;          // enum sheet_name
-    const char *across; // as written; NULL: none
-    double to;          // right end of a plot's axis; 0: fitted
+    int sheet;           // enum sheet_name
+    struct texts across; // as written, at most ACROSS_MOST
+    double to;           // right end of a plot's axis; 0: fitted
 
     // Reports
     bool json, quiet, verbose, version, help;
@@ -201,6 +201,8 @@ bool store_camera(const struct option *, const char *, struct options *,
 bool store_light(const struct option *, const char *, struct options *, lam_error *); // struct texts, checked
 bool store_material(const struct option *, const char *, struct options *,
                     lam_error *); // struct texts, checked
+bool store_across(const struct option *, const char *, struct options *,
+                  lam_error *); // repeatable, to ACROSS_MOST
 bool store_rotation(const struct option *, const char *, struct options *,
                     lam_error *); // struct texts, checked
 bool store_light_color(const struct option *, const char *, struct options *,

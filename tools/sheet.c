@@ -191,11 +191,38 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
     return ok;
 }
 
-bool sheet_choose(const struct options *options, struct sheet *sheet, char **store, lam_error *error)
+// Two rows crossed: one line for each picture of the first, one column for each of the second.
+static bool cross(const struct sheet *lines, const struct sheet *columns, struct sheet *sheet,
+                  lam_error *error)
 {
-    *store = NULL;
-    if (options->across)
-        return choose_across(options->across, sheet, store, error);
-    *sheet = sheets[options->sheet];
+    *sheet = (struct sheet){.name = "across", .columns = columns->count};
+    snprintf(sheet->title, sizeof sheet->title, "By %.24s and %.24s", lines->name, columns->name);
+    if (lines->count * columns->count > CELLS_MOST)
+        return complain(error, LAM_LIMIT, "options '--across': %d times %d pictures, at most %d",
+                        lines->count, columns->count, CELLS_MOST);
+    for (int i = 0; i < lines->count * columns->count; i++) {
+        const struct cell *a = &lines->cells[i / columns->count], *b = &columns->cells[i % columns->count];
+        struct cell *cell = &sheet->cells[sheet->count++];
+        *cell = (struct cell){.words = {a->words[0], a->words[1], b->words[0], b->words[1]}};
+        snprintf(cell->caption, sizeof cell->caption, "%.45s, %.45s", a->caption, b->caption);
+    }
     return true;
+}
+
+bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MOST],
+                  lam_error *error)
+{
+    for (int i = 0; i < ACROSS_MOST; i++)
+        store[i] = NULL;
+    const struct texts *across = &options->across;
+    if (across->count == 0) {
+        *sheet = sheets[options->sheet];
+        return true;
+    }
+    if (across->count == 1)
+        return choose_across(across->items[0], sheet, &store[0], error);
+    struct sheet lines, columns;
+    return choose_across(across->items[0], &lines, &store[0], error) &&
+           choose_across(across->items[1], &columns, &store[1], error) &&
+           cross(&lines, &columns, sheet, error);
 }

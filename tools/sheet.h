@@ -20,7 +20,8 @@ struct sheet {
     struct cell cells[CELLS_MOST];
 };
 
-// The sheet that the options ask for. `store` keeps the words of --across; free() it after the sheet.
-bool sheet_choose(const struct options *options, struct sheet *sheet, char **store, lam_error *error);
+// The sheet that the options ask for. `store` keeps the words of each --across; free() them after the sheet.
+bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MOST],
+                  lam_error *error);
 
 #endif

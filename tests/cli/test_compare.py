@@ -73,6 +73,17 @@ class Compare(Case):
         two = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "azimuth=0,10,20,30,40,50,60,70")
         self.assertEqual(two[:2], (4 * 51 + 3, 2 * 43 + 3))
 
+    def test_grid(self):
+        """Two rows crossed: the first makes the lines, the second the columns."""
+        page = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "shading=flat,phong", "--across", "azimuth=0,30,60")
+        self.assertEqual(page[:2], (3 * 51 + 3, 2 * 43 + 3))
+        for line, shading in enumerate(("flat", "phong")):
+            for column, azimuth in enumerate((0, 30, 60)):
+                one = self.alone("cube.obj", "-s", "48x40", "--shading", shading, "--azimuth", azimuth)
+                self.assertEqual(part(page, 3 + column * 51, 3 + line * 43, 48, 40), one, (shading, azimuth))
+        self.bad(1, "compare", "cube.obj", "--across", "shading", "--across", "stage", "--across", "view", says="third")
+        self.bad(4, "compare", "cube.obj", "--across", "samples=1,2,4,8,16", "--across", "azimuth=1,2,3,4,5", says="24")
+
     def test_names(self):
         done = self.good("compare", "cube.obj", "-s", 32)
         self.assertIn(b"cube-summary.png", done.stderr)

@@ -17,7 +17,7 @@ help:
 	@echo 'make install    installs to $$(DESTDIR)$$(prefix), prefix=$(prefix)'
 	@echo 'make uninstall  removes what install put there'
 	@echo 'make docs       writes the generated parts of docs/ anew, and the pictures of the README'
-	@echo 'make gallery    that, and the pictures of known mistakes (docs/mistakes.md)'
+	@echo 'make gallery    all pictures of docs/: those of make docs, and the known mistakes'
 	@echo 'make clean      removes everything that was built'
 
 $(build)/build.ninja:

@@ -13,7 +13,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def commands():
-    for path in [os.path.join(ROOT, "README.md")] + sorted(glob.glob(os.path.join(ROOT, "docs", "*.md"))):
+    for path in [os.path.join(ROOT, "README.md")] + sorted(glob.glob(os.path.join(ROOT, "docs", "**", "*.md"), recursive=True)):
         for line in open(path, encoding="utf-8"):
             if re.match(r"\s*lambent .*-o docs/pictures/", line):
                 yield shlex.split(line, comments=True)
@@ -21,7 +21,7 @@ def commands():
 
 def main():
     program = os.path.abspath(sys.argv[1])
-    os.makedirs(os.path.join(ROOT, "docs", "pictures"), exist_ok=True)
+    os.makedirs(os.path.join(ROOT, "docs", "pictures", "lighting"), exist_ok=True)
     manual = subprocess.run([program, "generate", "markdown"], stdout=subprocess.PIPE, check=True).stdout
     with open(os.path.join(ROOT, "docs", "command-line.md"), "wb") as file:
         file.write(manual)

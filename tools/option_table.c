@@ -245,7 +245,7 @@ const struct option option_table[] = {
      .store = store_light, FIELD(lights)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A ready-made set of lights: studio, headlight, three-point, lecture, file (the model's), none or auto.",
-     "A named rig takes the place of the model's own lights. docs/lighting.md has the numbers.", rig_words,
+     "A named rig takes the place of the model's own lights. docs/lighting/lights.md has the numbers.", rig_words,
      .store = store_word, FIELD(rig), .has_field = offsetof(struct options, has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Light from everywhere: #rrggbb, r/g/b, a name or one number.",
      NULL, .store = store_light_color, FIELD(ambient)},
@@ -335,7 +335,7 @@ const struct option option_table[] = {
      "size. `sky` and "
      "`studio` are built in (`./sky` is a file). It is seen in materials with a reflectivity only: see "
      "`--reflectivity`. "
-     "`docs/lighting.md` tells how each lies around the model.",
+     "`docs/lighting/reflection.md` tells how each lies around the model.",
      .takes_file = true, .store = store_text, FIELD(environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
      "Turns the environment about the up axis, counter-clockwise from above.", NULL, .store = store_number,

@@ -54,6 +54,33 @@ class Docs(Case):
         kept = (ROOT / "docs" / "command-line.md").read_text()
         self.assertEqual(kept, made, "refresh it: lambent generate markdown > docs/command-line.md")
 
+    def test_links_and_pictures(self):
+        """Every link leads somewhere, every picture is shown somewhere, and each is drawn by a command that stands in a page or by
+        the program of mistakes."""
+        shown, drawn = set(), set()
+        for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
+            text = page.read_text()
+            for link in re.findall(r"\]\(([^)#\s]*)(?:#[^)\s]*)?\)", text):
+                if link and "://" not in link:
+                    target = (page.parent / link).resolve()
+                    self.assertTrue(target.exists(), f"{page.name}: {link}")
+                    if target.suffix == ".png":
+                        shown.add(target)
+            drawn |= {ROOT / name for name in re.findall(r"(?m)^\s+lambent .*-o (docs/pictures/\S+)", text)}
+        kept = set((ROOT / "docs" / "pictures").rglob("*.png"))
+        self.assertEqual(shown, kept)
+        self.assertEqual({p for p in kept if not p.name.startswith("mistake-")}, drawn)
+
+    def test_anchors(self):
+        """A link to a place in a page names a heading of it."""
+        for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
+            for link, place in re.findall(r"\]\(([^)#\s]*)#([^)\s]*)\)", page.read_text()):
+                if "://" not in link:
+                    target = (page.parent / link).resolve() if link else page
+                    headings = {re.sub(r"[^\w\- ]", "", h.lower()).replace(" ", "-")
+                                for h in re.findall(r"(?m)^#+ (.*)$", target.read_text())}
+                    self.assertIn(place, headings, f"{page.name}: {link}#{place}")
+
     def test_completions(self):
         script = self.good("generate", "bash").stdout
         subprocess.run(["bash", "-n"], input=script, check=True)

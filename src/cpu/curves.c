@@ -59,9 +59,9 @@ float lam_highlight_at(lam_reflection reflection, float shininess, double angle_
     vec3 l = {0, 0, 1};
     float result = 0.0f;
     if (reflection == LAM_REFLECTION_PHONG)
-        result = phong(s, l, shininess).specular;
+        result = reflect_light(s, l, shininess, MODEL_PHONG, 0).specular;
     else if (reflection == LAM_REFLECTION_BLINN_PHONG || reflection == LAM_REFLECTION_AUTO)
-        result = blinn_phong(s, l, shininess).specular;
+        result = reflect_light(s, l, shininess, MODEL_BLINN_PHONG, 0).specular;
     float_state_leave(state);
     return result;
 }

@@ -23,12 +23,21 @@ STRUCT(surface)
     vec3 t; // along the surface, perpendicular to n; only Kajiya-Kay looks at it
 };
 
+// How the surface meets the light of one direction, but for the highlight's power.
+STRUCT(answer)
+{
+    num diffuse; // D
+    num n_dot_l; // cosine between normal and light, -1...1
+    num base;    // of the highlight before it goes to the power: r.v or n.h or the cone's cosine, at most 1
+    mask lit;    // whether there is a highlight: S is 0 elsewhere
+};
+
 STRUCT(reflected)
 {
     num diffuse;  // D
     num specular; // S
-    num n_dot_l;  // cosine between normal and light, -1...1
-    num base;     // of the highlight before it goes to the power: r.v or n.h or the cone's cosine, 0...1
+    num n_dot_l;  // as above
+    num base;     // as above, 0...1
 };
 
 // x in -1...1: a dot product of unit vectors may be a rounding more.
@@ -49,41 +58,37 @@ FN vec3 perpendicular3(vec3 w, vec3 n) { return unit3(sub3(w, scale3(n, dot3(n, 
 
 // Lambert (1760): a matt surface sends the light it takes in evenly to all sides, and takes in the more the
 // steeper the light falls:  D = max(n.l, 0)
-FN reflected lambert(surface s, vec3 l)
+FN answer lambert_lobe(surface s, vec3 l)
 {
-    reflected r;
-    r.n_dot_l = cosine(dot3(s.n, l));
-    r.diffuse = positive(r.n_dot_l);
-    r.specular = num_of(0.0f);
-    r.base = num_of(0.0f);
-    return r;
+    answer b;
+    b.n_dot_l = cosine(dot3(s.n, l));
+    b.diffuse = positive(b.n_dot_l);
+    b.base = num_of(0.0f);
+    b.lit = both(b.n_dot_l > 0.0f, present(s.v));
+    return b;
 }
 
 // Phong (1975): the highlight is round the mirror image of the light.  S = [n.l > 0] max(r.v, 0)^shininess
 // r.v is taken as 1 - |r - v|^2 / 2, the same for unit vectors: an error in the length of n would count
 // fourfold in the product where the highlight is brightest, and here it does not count at all.
-FN reflected phong(surface s, vec3 l, num shininess)
+FN answer phong_lobe(surface s, vec3 l)
 {
-    reflected r = lambert(s, l);
+    answer b = lambert_lobe(s, l);
     vec3 apart = sub3(mirror3(l, s.n), s.v);
-    num c = 1.0f - 0.5f * dot3(apart, apart);
-    r.base = saturate(c);
-    r.specular = pick(both(r.n_dot_l > 0.0f, present(s.v)), unit_power(c, shininess), num_of(0.0f));
-    return r;
+    b.base = 1.0f - 0.5f * dot3(apart, apart);
+    return b;
 }
 
 // Blinn (1977), the lectures' modified Phong: how near the normal comes to the vector halfway between light
 // and eye. S = [n.l > 0] max(n.h, 0)^shininess  with  h = (l + v) / |l + v| The length is divided by after
 // the product with n, which saves three products; n.l + n.v in place of n.(l + v) would save more and lose
 // digits where l and v are nearly opposite.
-FN reflected blinn_phong(surface s, vec3 l, num shininess)
+FN answer blinn_phong_lobe(surface s, vec3 l)
 {
-    reflected r = lambert(s, l);
+    answer b = lambert_lobe(s, l);
     vec3 sum = add3(l, s.v);
-    num c = dot3(s.n, sum) * inverse_root(dot3(sum, sum));
-    r.base = saturate(c);
-    r.specular = pick(both(r.n_dot_l > 0.0f, present(s.v)), unit_power(c, shininess), num_of(0.0f));
-    return r;
+    b.base = dot3(s.n, sum) * inverse_root(dot3(sum, sum));
+    return b;
 }
 
 // Kajiya and Kay (1989): a thread along t mirrors light into a cone round t. With the angles between t and l,
@@ -93,47 +98,66 @@ FN reflected blinn_phong(surface s, vec3 l, num shininess)
 //                         some print it
 // sin(t,l) = |t x l|: the root of 1 - (t.l)^2 would lose half of the digits where l is nearly along t. On a
 // solid surface D and S are gated by n.l > 0; a fibre has no inside, and the lecture's form has no gate.
-FN reflected kajiya_kay(surface s, vec3 l, num shininess, int lecture, int fibre)
+FN answer kajiya_kay_lobe(surface s, vec3 l, int lecture, int fibre)
 {
     vec3 across_l = cross3(s.t, l);
     vec3 across_v = cross3(s.t, s.v);
     num sine_l = lesser(root(dot3(across_l, across_l)), num_of(1.0f));
     num sine_v = lesser(root(dot3(across_v, across_v)), num_of(1.0f));
     num cosines = dot3(s.t, l) * dot3(s.t, s.v);
-    num c = sine_l * sine_v - cosines;
+    answer b;
+    b.n_dot_l = cosine(dot3(s.n, l));
+    b.base = sine_l * sine_v - cosines;
     if (lecture != 0) {
-        c = sine_l * sine_v + cosines;
+        b.base = sine_l * sine_v + cosines;
     }
-    reflected r;
-    r.n_dot_l = cosine(dot3(s.n, l));
-    r.base = saturate(c);
-    mask lit = both(present(s.t), present(l));
+    mask there = both(present(s.t), present(l));
     if (fibre == 0 && lecture == 0) {
-        lit = both(lit, r.n_dot_l > 0.0f);
+        there = both(there, b.n_dot_l > 0.0f);
     }
-    r.diffuse = pick(lit, sine_l, num_of(0.0f));
-    r.specular = pick(both(lit, present(s.v)), unit_power(c, shininess), num_of(0.0f));
-    return r;
+    b.diffuse = pick(there, sine_l, num_of(0.0f));
+    b.lit = both(there, present(s.v));
+    return b;
 }
 
 // The model by its number. MODEL_NONE answers no light: its colour is `unlit` in sum.h.
-FN reflected reflect_light(surface s, vec3 l, num shininess, int model, int fibre)
+FN answer lobe_of(surface s, vec3 l, int model, int fibre)
 {
-    reflected r = lambert(s, l);
+    answer b = lambert_lobe(s, l);
     if (model == MODEL_NONE) {
-        r.diffuse = num_of(0.0f);
+        b.diffuse = num_of(0.0f);
     }
     if (model == MODEL_PHONG) {
-        r = phong(s, l, shininess);
+        b = phong_lobe(s, l);
     }
     if (model == MODEL_BLINN_PHONG) {
-        r = blinn_phong(s, l, shininess);
+        b = blinn_phong_lobe(s, l);
     }
     if (model == MODEL_KAJIYA_KAY) {
-        r = kajiya_kay(s, l, shininess, 0, fibre);
+        b = kajiya_kay_lobe(s, l, 0, fibre);
     }
     if (model == MODEL_KAJIYA_KAY_LECTURE) {
-        r = kajiya_kay(s, l, shininess, 1, fibre);
+        b = kajiya_kay_lobe(s, l, 1, fibre);
+    }
+    return b;
+}
+
+// The highlight to its power.
+FN reflected reflected_of(answer b, num shininess)
+{
+    reflected r;
+    r.diffuse = b.diffuse;
+    r.specular = pick(b.lit, unit_power(b.base, shininess), num_of(0.0f));
+    r.n_dot_l = b.n_dot_l;
+    r.base = saturate(b.base);
+    return r;
+}
+
+FN reflected reflect_light(surface s, vec3 l, num shininess, int model, int fibre)
+{
+    reflected r = reflected_of(lobe_of(s, l, model, fibre), shininess);
+    if (model <= MODEL_LAMBERT) { // and MODEL_NONE: no highlight
+        r.specular = num_of(0.0f);
     }
     return r;
 }

@@ -100,15 +100,25 @@ LANE_FN num least_base(num exponent)
 // the base is 0, negative or below the smallest normal number; 0 where it is NaN. Results below the smallest
 // normal number are 0: denormals cost two to three times the rest. Relative error at most 2e-6 for exponents
 // up to 128, and 3e-6 for all.
-LANE_FN num unit_power(num base, num exponent)
+//
+// In two steps, so that a loop over many powers need not wait for each one's end: the logarithm, with a head
+// of −∞ where the result is 0, and the power of two.
+LANE_FN struct two_parts unit_power_logarithm(num base, num exponent)
 {
     struct two_parts y = scaled_log2(lesser(base, num_of(1.0f)), exponent);
+    y.head = pick(base >= least_base(exponent), y.head, num_of(-__builtin_inff()));
+    return y;
+}
+
+LANE_FN num unit_power_of(struct two_parts y)
+{
     num sum = y.head + y.tail;
     struct whole_power w = whole_power_of(sum);
     num fraction = (y.head - w.whole) + y.tail;
-    mask some = both(base >= least_base(exponent), sum >= -126.0f);
-    return pick(some, exp2_fraction(fraction) * w.power, num_of(0.0f));
+    return pick(sum >= -126.0f, exp2_fraction(fraction) * w.power, num_of(0.0f));
 }
+
+LANE_FN num unit_power(num base, num exponent) { return unit_power_of(unit_power_logarithm(base, exponent)); }
 
 // As unit_power, for any base ≥ 0. Results above 2^127.5 become about that.
 LANE_FN num power(num base, num exponent)

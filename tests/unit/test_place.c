@@ -57,6 +57,60 @@ static void sphere_is_the_models(void **state)
     lam_scene_free(empty);
 }
 
+// A curve of points in the order of a walk along it, and the same in an order that leaps about: the search
+// for the points that decide the camera looks into few of the first and all of the second, and must find the
+// same.
+static void camera_does_not_depend_on_the_order(void **state)
+{
+    (void)state;
+    enum { COUNT = 12000 };
+    static float points[2][3 * COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        double a = i * 0.0021, r = 1 + 0.3 * sin(i * 0.017);
+        const float p[3] = {(float)(3 + r * cos(a)), (float)(0.4 * sin(3 * a) + 0.1 * r),
+                            (float)(r * sin(a) - 2)};
+        memcpy(points[0] + 3 * i, p, sizeof p);
+        memcpy(points[1] + (size_t)3 * ((size_t)i * 7919 % COUNT), p, sizeof p);
+    }
+    for (int turn = 0; turn < 12; turn++) {
+        lam_camera cameras[2];
+        for (int order = 0; order < 2; order++) {
+            lam_error error;
+            lam_scene *scene = lam_scene_make(&error);
+            lam_mesh mesh = {.positions = points[order], .vertex_count = COUNT, .triangle_count = COUNT / 3};
+            lam_object object = lam_object_default();
+            object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
+            object.transform.m[0][1] = 0.25;
+            object.transform.m[2][2] = turn % 3 ? 1 : -2;
+            assert_true(object.mesh >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
+            lam_view view = {.from_angles = true,
+                             .azimuth_rad = 0.5 * turn,
+                             .elevation_rad = 0.3 * turn - 1.5,
+                             .aspect = turn % 2 ? 1.7 : 0.6,
+                             .orthographic = turn % 4 == 3};
+            cameras[order] = lam_camera_fit(scene, &view);
+            // And every point is inside the picture, touching it somewhere.
+            lam_mat4 look = lam_camera_view(&cameras[order]);
+            double farthest = 0;
+            for (int i = 0; i < COUNT; i++) {
+                const float *p = points[order] + 3 * i;
+                double w[3] = {(double)p[0] + 0.25 * (double)p[1], (double)p[1],
+                               (double)p[2] * object.transform.m[2][2]};
+                double e[3];
+                for (int k = 0; k < 3; k++)
+                    e[k] = look.m[k][0] * w[0] + look.m[k][1] * w[1] + look.m[k][2] * w[2] + look.m[k][3];
+                double half = view.orthographic ? cameras[order].ortho_half_height
+                                                : -e[2] * tan(cameras[order].fovy_rad / 2);
+                double x = fabs(e[0]) / (half * view.aspect), y = fabs(e[1]) / half;
+                farthest = fmax(farthest, fmax(x, y));
+            }
+            near(farthest, 0.92, 1e-5);
+            lam_scene_free(scene);
+        }
+        assert_memory_equal(&cameras[0], &cameras[1], sizeof cameras[0]);
+    }
+}
+
 static void turning_and_moving(void **state)
 {
     (void)state;
@@ -303,15 +357,11 @@ static void tangents_can_be_bounded(void **state)
 int main(void)
 {
     const struct CMUnitTest all[] = {
-        cmocka_unit_test(sphere_is_the_models),
-        cmocka_unit_test(turning_and_moving),
-        cmocka_unit_test(rigs_stand_about_the_scene),
-        cmocka_unit_test(lights_go_with_the_model),
-        cmocka_unit_test(view_matrix),
-        cmocka_unit_test(parts_change_their_material),
-        cmocka_unit_test(tangents_of_a_square),
-        cmocka_unit_test(tangents_of_a_torus),
-        cmocka_unit_test(tangents_can_be_bounded),
+        cmocka_unit_test(sphere_is_the_models),        cmocka_unit_test(camera_does_not_depend_on_the_order),
+        cmocka_unit_test(turning_and_moving),          cmocka_unit_test(rigs_stand_about_the_scene),
+        cmocka_unit_test(lights_go_with_the_model),    cmocka_unit_test(view_matrix),
+        cmocka_unit_test(parts_change_their_material), cmocka_unit_test(tangents_of_a_square),
+        cmocka_unit_test(tangents_of_a_torus),         cmocka_unit_test(tangents_can_be_bounded),
     };
     return cmocka_run_group_tests(all, NULL, NULL);
 }

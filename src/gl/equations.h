@@ -1,0 +1,12 @@
+// equations.h: the equations as plain GLSL: what a text calls of them, with their comments.
+#ifndef EQUATIONS_H
+#define EQUATIONS_H
+
+#include "template.h"
+
+// Appends those of the words and equations that `calls`, a GLSL text, calls, directly or through others, in
+// their order. The words of the dialect become GLSL's own: num float, mask bool, FN and STRUCT nothing and
+// struct.
+void equations_add(struct text *text, const char *calls);
+
+#endif

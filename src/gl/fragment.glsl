@@ -1,0 +1,84 @@
+
+// --- the fragment
+//@if passes_anything
+
+//@end
+//@if per_fragment
+//@if passes_position
+@varying@vec3 eye_position;
+//@end
+//@if passes_normal
+@varying@vec3 eye_normal;
+//@end
+//@if passes_tangent
+@varying@vec3 eye_tangent;
+//@end
+//@if colors
+@varying@vec4 tint;
+//@end
+//@if ids
+@flat_varying@int triangle;
+//@end
+//@else
+@varying@vec4 front_light;
+//@if two_sided
+@varying@vec4 back_light;
+//@end
+//@end
+//@if !old
+
+out vec4 pixel;
+//@end
+//@if encoded
+
+// Linear light to the numbers of a screen (sRGB, IEC 61966-2-1).
+float encode(float x)
+{
+    x = saturate(x);
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
+}
+//@end
+
+void main()
+{
+//@if shows_place
+//@if depth
+    float depth = -eye_position.z; // in front of the eye
+    @pixel@ = vec4(depth, depth, depth, 1.0);
+//@elif facing
+    float side = gl_FrontFacing ? 1.0 : -1.0;
+    @pixel@ = vec4(side, side, side, 1.0);
+//@elif ids
+    @pixel@ = vec4(float(triangle % 16777216), object, float(triangle / 16777216), 1.0);
+//@else
+    @pixel@ = vec4(1.0);
+//@end
+//@elif per_fragment
+//@if passes_normal
+    vec3 n = eye_normal;
+//@if two_sided
+    if (!gl_FrontFacing) {
+        n = negate3(n);
+    }
+//@end
+//@end
+    vec4 light = light_point(@fragment_arguments@);
+//@else
+    vec4 light = front_light;
+//@if two_sided
+    if (!gl_FrontFacing) {
+        light = back_light;
+    }
+//@end
+//@end
+//@if !shows_place
+    light.a = saturate(light.a);
+//@if encoded
+    @pixel@ = vec4(encode(light.r), encode(light.g), encode(light.b), light.a);
+//@elif premultiplied
+    @pixel@ = vec4(light.rgb * light.a, light.a);
+//@else
+    @pixel@ = light;
+//@end
+//@end
+}

@@ -1,0 +1,311 @@
+// glsl.c: choices to the texts of a vertex and a fragment shader.
+#include "glsl.h"
+
+#include "equations.h"
+#include "fail.h"
+#include "glsl_rows.h"
+#include "pieces.inc"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_error *error)
+{
+    if (c->version == GLSL_120 && c->storage != GLSL_ARRAY)
+        return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no %s: its lights stand in an array",
+                    c->storage == GLSL_BLOCK ? "uniform blocks" : "texelFetch");
+    if (c->version == GLSL_120 && (c->environment == GLSL_FACES || c->show == LAM_SHOW_IDS))
+        return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no %s",
+                    c->show == LAM_SHOW_IDS ? "gl_VertexID"
+                                            : "array textures: its environment is a cube map");
+    if (f->shading == LAM_SHADING_PHONG && !f->per_fragment)
+        return fail(error, LAM_BAD_ARGUMENT, "Phong shading lights every fragment: its stage is fragment");
+    if (f->shading == LAM_SHADING_GOURAUD && f->per_fragment)
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "Gouraud shading lights every vertex: its stage is application or vertex");
+    return true;
+}
+
+// --- pieces that depend on more than flags
+
+static const char *model_call(const struct glsl_choices *c)
+{
+    switch (c->reflection) {
+    case LAM_REFLECTION_LAMBERT:
+        return "reflected_of(lambert_lobe(s, t.l), 1.0)"; // whose base is 0: no highlight
+    case LAM_REFLECTION_PHONG:
+        return "reflected_of(phong_lobe(s, t.l), shininess)";
+    case LAM_REFLECTION_KAJIYA_KAY:
+        return "reflected_of(kajiya_kay_lobe(s, t.l, 0, fibre), shininess)";
+    case LAM_REFLECTION_KAJIYA_KAY_LECTURE:
+        return "reflected_of(kajiya_kay_lobe(s, t.l, 1, fibre), shininess)";
+    default:
+        return "reflected_of(blinn_phong_lobe(s, t.l), shininess)";
+    }
+}
+
+static const char *const kind_words[GLSL_KINDS] = {"LIGHT_POINT", "LIGHT_DIRECTIONAL", "LIGHT_SPOT_CUTOFF",
+                                                   "LIGHT_SPOT_EXPONENT", "LIGHT_SPOT_CONES"};
+static const char *const falloff_words[GLSL_FALLOFFS] = {"FALLOFF_NONE", "FALLOFF_DISTANCE", "FALLOFF_RANGE"};
+
+static const char *list_argument(const struct glsl_facts *f)
+{
+    return !f->choices->products ? ", m" : f->back ? ", front" : "";
+}
+
+static void add_groups(struct text *text, const struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    int first = 0;
+    for (int i = 0; f->lights && i < c->group_count; i++) {
+        const struct glsl_group *group = &c->groups[i];
+        text_print(text, "    for (int i = %d; i < %d; i++) {\n", first, first + group->count);
+        text_print(text, "        source light = light_of(i%s);\n", list_argument(f));
+        text_print(text, "        toward t = toward_light(s.p, light, %s, %s);\n", kind_words[group->kind],
+                   falloff_words[group->falloff]);
+        text_print(text, "        sum = add_reflected(sum, light, t, %s);\n", model_call(c));
+        if (c->gl1)
+            text_print(text, "        sum = add_arriving_ambient(sum, ambient_of(i%s), t);\n",
+                       list_argument(f));
+        first += group->count;
+        text_add(text, first < c->light_count ? "    }\n" : "    }");
+    }
+}
+
+static const char *shown_term(const struct glsl_choices *c)
+{
+    switch (c->show) {
+    case LAM_SHOW_AMBIENT:
+        return "sum.ambient";
+    case LAM_SHOW_DIFFUSE:
+        return "sum.diffuse";
+    case LAM_SHOW_SPECULAR:
+        return "sum.specular";
+    case LAM_SHOW_EMISSION:
+        return "sum.emission";
+    case LAM_SHOW_REFLECTION:
+        return "sum.reflection";
+    case LAM_SHOW_LIGHT:
+        return c->reflection == LAM_REFLECTION_NONE ? "black3()"
+                                                    : "add3(add3(sum.ambient, sum.diffuse), sum.specular)";
+    default:
+        return "sum_terms(sum)";
+    }
+}
+
+static void add_shown_vector(struct text *text, const struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    if (!f->shows_one_light) {
+        text_print(text, "    return vec4(%s, 1.0);", c->show == LAM_SHOW_TANGENTS ? "s.t" : "s.n");
+        return;
+    }
+    bool texture = c->storage == GLSL_TEXTURE;
+    text_add(text, "    source light;\n");
+    text_print(text, "    light.position = %s.xyz;\n",
+               texture ? "texelFetch(light_list, ivec2(0, 0), 0)" : "lights[0].position");
+    text_print(text, "    light.direction = %s.xyz;\n",
+               texture ? "texelFetch(light_list, ivec2(1, 0), 0)" : "lights[0].direction");
+    text_print(text, "    vec3 l = toward_light(s.p, light, %s, FALLOFF_NONE).l;\n",
+               kind_words[c->group_count ? c->groups[0].kind == 1 : 0]);
+    text_print(text, "    float c = cosine(dot3(s.n, %s));\n    return vec4(c, c, c, 1.0);",
+               c->show == LAM_SHOW_N_L ? "l" : "halfway3(l, s.v)");
+}
+
+// Texels of a light, of its products, of a hemisphere in the lists.
+static int light_texels(const struct glsl_choices *c) { return c->products ? 4 : c->gl1 ? 7 : 6; }
+static int product_texels(const struct glsl_choices *c) { return c->gl1 ? 3 : 2; }
+static int hemisphere_texels(const struct glsl_choices *c) { return c->products ? 1 : 3; }
+
+static const char *list_parameter(const struct glsl_facts *f)
+{
+    return !f->choices->products ? ", Material m" : f->back ? ", bool front" : "";
+}
+
+static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment)
+{
+    const struct glsl_choices *c = f->choices;
+    bool old = c->version == GLSL_120, light_up = f->lit && fragment == f->per_fragment;
+    bool flat = f->shading == LAM_SHADING_FLAT, surface = !f->paints && f->lit;
+    bool passes_tangent = f->threads && c->tangents, field = f->threads && !c->tangents;
+    bool clamps = c->gl1 && f->per_vertex && (c->show == LAM_SHOW_PICTURE || c->show == LAM_SHOW_CLIPPED);
+    bool tints = c->colors && f->lit && !f->shows_vector;
+    bool eye = surface || c->show == LAM_SHOW_DEPTH;
+    const struct template_flag flags[] = {
+        {"old", old},
+        {"array", c->storage == GLSL_ARRAY},
+        {"block", c->storage == GLSL_BLOCK},
+        {"texture", c->storage == GLSL_TEXTURE},
+        {"products", c->products},
+        {"gl1", c->gl1},
+        {"clamps", clamps},
+        {"two_sided", c->two_sided},
+        {"back_material", f->back},
+        {"flat", flat},
+        {"application", f->application},
+        {"per_fragment", f->per_fragment},
+        {"shows_place", f->shows_place},
+        {"shows_vector", f->shows_vector},
+        {"paints", f->paints},
+        {"threads", f->threads},
+        {"passes_tangent", passes_tangent},
+        {"passes_normal", surface},
+        {"passes_position", eye},
+        {"passes_anything",
+         eye || surface || tints || f->application || f->per_vertex || c->show == LAM_SHOW_IDS},
+        {"field", field},
+        {"colors", tints},
+        {"reads_lists", (f->lights || f->skies) && !f->shows_vector},
+        {"has_lights", f->lights},
+        {"has_hemispheres", f->skies},
+        {"has_falloff", f->falloff},
+        {"has_cone", f->cones},
+        {"has_environment", f->environment},
+        {"cube", c->environment == GLSL_CUBE},
+        {"highlights", f->highlights},
+        {"kajiya_kay", f->kajiya_kay},
+        {"provoking", flat && old && eye},
+        {"depth", c->show == LAM_SHOW_DEPTH},
+        {"facing", c->show == LAM_SHOW_FACING},
+        {"ids", c->show == LAM_SHOW_IDS},
+        {"encoded", c->output == GLSL_ENCODED},
+        {"premultiplied", c->output == GLSL_PREMULTIPLIED},
+        {NULL, false},
+    };
+    char numbers[8][16];
+    const int counts[8] = {c->light_count,
+                           c->hemisphere_count,
+                           light_texels(c),
+                           product_texels(c),
+                           hemisphere_texels(c),
+                           c->light_count * light_texels(c),
+                           c->light_count * product_texels(c),
+                           GLSL_LIST_WIDTH};
+    for (int i = 0; i < 8; i++)
+        snprintf(numbers[i], sizeof numbers[i], "%d", counts[i]);
+    char varying[32], point[8][64], attribute[7][32];
+    snprintf(varying, sizeof varying, "%s%s", flat && !old ? "flat " : "",
+             old        ? "varying "
+             : fragment ? "in "
+                        : "out ");
+    for (int i = 0; i < 7; i++)
+        snprintf(attribute[i], sizeof attribute[i], old ? "attribute " : "layout(location = %d) in ", i);
+    const char *const position = f->paints ? NULL : "p", *const sides[4] = {NULL, "true", "false",
+                                                                            "gl_FrontFacing"};
+    for (int i = 0; i < 4; i++) {
+        const char *p = i == 0 ? "vec3 p, vec3 normal" : i == 3 ? "eye_position, n" : "p, n";
+        const char *t = !f->threads ? ""
+                        : i == 0    ? ", vec3 tangent"
+                        : !field    ? (i == 3 ? ", eye_tangent" : ", t")
+                                    : ", field_tangent(n)";
+        const char *color = !tints ? "" : i == 0 ? ", vec4 tint" : i == 3 ? ", tint" : ", color";
+        if (!position) {
+            p = t = "";
+            color += tints ? 2 : 0;
+        }
+        snprintf(point[i], sizeof point[i], "%s%s%s%s%s", p, t, color, f->back && (*p || *color) ? ", " : "",
+                 !f->back ? ""
+                 : i == 0 ? "bool front"
+                          : sides[i]);
+    }
+    struct text groups = {0}, vector = {0};
+    add_groups(&groups, f);
+    if (f->shows_vector)
+        add_shown_vector(&vector, f);
+    const char *pixel = old ? "gl_FragColor" : "pixel";
+    const struct template_value values[] = {
+        {"hemispheres", numbers[1]},
+        {"light_texels", numbers[2]},
+        {"product_texels", numbers[3]},
+        {"hemisphere_texels", numbers[4]},
+        {"hemispheres_at", numbers[5]},
+        {"hemisphere_products_at", numbers[6]},
+        {"list_width", numbers[7]},
+        {"list_argument", list_argument(f)},
+        {"list_parameter", list_parameter(f)},
+        {"lit_parameters", point[0]},
+        {"front_arguments", point[1]},
+        {"back_arguments", point[2]},
+        {"fragment_arguments", point[3]},
+        {"lit_position", flat && old ? "provoking_position" : "position"},
+        {"viewer", c->distant_viewer ? "VIEWER_INFINITE" : "VIEWER_LOCAL"},
+        {"groups", groups.bytes ? groups.bytes : ""},
+        {"shown", shown_term(c)},
+        {"shown_vector", vector.bytes ? vector.bytes : ""},
+        {"texture_cube", old ? "textureCube" : "texture"},
+        {"varying", varying},
+        {"flat_varying", fragment ? "flat in " : "flat out "},
+        {"attribute0", attribute[0]},
+        {"attribute1", attribute[1]},
+        {"attribute2", attribute[2]},
+        {"attribute3", attribute[3]},
+        {"attribute4", attribute[4]},
+        {"attribute5", attribute[5]},
+        {"attribute6", attribute[6]},
+        {"pixel", pixel},
+        {NULL, NULL},
+    };
+    const struct template_words words = {flags, values};
+    if (groups.failed || vector.failed) {
+        text->failed = true;
+        text->error = groups.failed ? groups.error : vector.error;
+    }
+    if (light_up)
+        template_add(text, text_lighting_glsl, &words);
+    template_add(text, fragment ? text_fragment_glsl : text_vertex_glsl, &words);
+    free(groups.bytes);
+    free(vector.bytes);
+}
+
+// --- the whole
+
+static const char *const version_lines[] = {
+    "#version 120\n", "#version 330 core\n",
+    "#version 300 es\nprecision highp float;\nprecision highp int;\n"};
+
+static char *make_one(const struct glsl_facts *f, bool fragment, lam_error *error)
+{
+    struct text own = {0}, whole = {0};
+    add_lit(&own, f, fragment);
+    const struct glsl_choices *c = f->choices;
+    text_add(&whole, version_lines[c->version]);
+    if (c->version == GLSL_300_ES && fragment == f->per_fragment && c->storage == GLSL_TEXTURE)
+        text_add(&whole, "precision highp sampler2D;\n");
+    if (c->version == GLSL_300_ES && fragment == f->per_fragment && f->environment)
+        text_print(&whole, "precision highp %s;\n",
+                   c->environment == GLSL_CUBE ? "samplerCube" : "sampler2DArray");
+    if (own.bytes && !own.failed) {
+        equations_add(&whole, own.bytes);
+        glsl_declare(&whole, f, fragment);
+        text_add(&whole, own.bytes);
+    }
+    bool failed = own.failed || whole.failed || !whole.bytes;
+    if (failed) {
+        const lam_error *first = own.failed ? &own.error : &whole.error;
+        fail(error, first->code ? first->code : LAM_LIMIT, "%s", first->code ? first->text : "out of memory");
+        free(whole.bytes);
+    }
+    free(own.bytes);
+    return failed ? NULL : whole.bytes;
+}
+
+bool glsl_make(const struct glsl_choices *choices, struct glsl_text *text, lam_error *error)
+{
+    *text = (struct glsl_text){0};
+    struct glsl_facts facts = glsl_facts_of(choices);
+    if (!check(choices, &facts, error))
+        return false;
+    text->vertex = make_one(&facts, false, error);
+    text->fragment = text->vertex ? make_one(&facts, true, error) : NULL;
+    if (!text->fragment)
+        glsl_free(text);
+    return text->fragment != NULL;
+}
+
+void glsl_free(struct glsl_text *text)
+{
+    free(text->vertex);
+    free(text->fragment);
+    *text = (struct glsl_text){0};
+}

@@ -1,0 +1,345 @@
+// glsl_rows.c: the table of a text's uniforms, and their declarations.
+#include "glsl_rows.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "fail.h"
+
+static bool is_place(lam_show show)
+{
+    return show == LAM_SHOW_DEPTH || show == LAM_SHOW_FACING || show == LAM_SHOW_IDS ||
+           show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW;
+}
+
+struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
+{
+    struct glsl_facts f = {.choices = c};
+    f.shows_place = is_place(c->show);
+    f.shows_one_light = c->show == LAM_SHOW_N_L || c->show == LAM_SHOW_N_H;
+    f.shows_vector = f.shows_one_light || c->show == LAM_SHOW_NORMALS || c->show == LAM_SHOW_TANGENTS;
+    f.shading = f.shows_place ? LAM_SHADING_PHONG : c->shading;
+    f.application = c->stage == LAM_STAGE_APPLICATION && !f.shows_place;
+    f.per_vertex = c->stage == LAM_STAGE_VERTEX && !f.shows_place;
+    f.per_fragment = !f.application && !f.per_vertex;
+    f.lit = !f.application && !f.shows_place;
+    f.paints = f.lit && c->reflection == LAM_REFLECTION_NONE && !f.shows_vector;
+    bool sums = f.lit && !f.paints && !f.shows_vector;
+    f.lights = c->light_count > 0 && (sums || f.shows_one_light);
+    f.skies = c->hemisphere_count > 0 && sums;
+    f.environment = c->environment != GLSL_NO_ENVIRONMENT && sums;
+    f.kajiya_kay = sums && (c->reflection == LAM_REFLECTION_KAJIYA_KAY ||
+                            c->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE);
+    f.threads = f.kajiya_kay || (f.lit && c->show == LAM_SHOW_TANGENTS);
+    f.highlights = sums && c->light_count > 0 && c->reflection != LAM_REFLECTION_LAMBERT;
+    f.back = c->two_sided && c->back_material && f.lit && !f.shows_vector;
+    for (int i = 0; i < c->group_count; i++) {
+        f.falloff |= f.lights && !f.shows_vector && c->groups[i].falloff != 0;
+        f.cones |= f.lights && !f.shows_vector && c->groups[i].kind >= 2;
+    }
+    return f;
+}
+
+struct list {
+    struct glsl_row *rows;
+    int count;
+};
+
+__attribute__((format(printf, 6, 7))) static void add(struct list *list, enum glsl_what what,
+                                                      const char *type, int count, const char *block,
+                                                      const char *name, ...);
+static void add(struct list *list, enum glsl_what what, const char *type, int count, const char *block,
+                const char *name, ...)
+{
+    struct glsl_row *row = &list->rows[list->count++];
+    *row = (struct glsl_row){.what = what, .type = type, .count = count, .block = block};
+    __builtin_va_list arguments;
+    __builtin_va_start(arguments, name);
+    vsnprintf(row->name, sizeof row->name, name, arguments);
+    __builtin_va_end(arguments);
+}
+
+static void mean(struct list *list, const char *meaning) { list->rows[list->count - 1].meaning = meaning; }
+
+static void add_products(struct list *list, const struct glsl_facts *f, bool back)
+{
+    const struct glsl_choices *c = f->choices;
+    const char *p = back ? "back_" : "",
+               *block = c->storage == GLSL_BLOCK ? (back ? "BackProducts" : "Products") : NULL;
+    bool all = block != NULL, lists = c->storage != GLSL_TEXTURE, sums = !f->paints;
+    int first = list->count, lights = f->lights && lists ? c->light_count : 0,
+        skies = f->skies && lists ? c->hemisphere_count : 0;
+    if (all || sums) {
+        add(list, GLSL_AMBIENT_PRODUCT, "vec4", 0, block, "%sambient_product", p);
+        mean(list, "ka La: the material's ambient colour times all light from everywhere");
+        add(list, GLSL_EMISSION, "vec4", 0, block, "%semission", p);
+        mean(list, "light that the surface itself gives");
+    }
+    add(list, GLSL_DIFFUSE, "vec4", 0, block, "%sdiffuse", p);
+    mean(list, f->paints ? "kd: the colour, and the opacity in a"
+                         : "kd, and the opacity in a; only the opacity is looked at");
+    if (all || f->environment) {
+        add(list, GLSL_REFLECTIVITY, "vec4", 0, block, "%sreflectivity", p);
+        mean(list, "kr: share of the surroundings that is mirrored");
+    }
+    if (all || f->highlights) {
+        add(list, GLSL_SHININESS, "float", 0, block, "%sshininess", p);
+        mean(list, "the highlight's exponent");
+    }
+    if (all || f->kajiya_kay) {
+        add(list, GLSL_FIBRE, "float", 0, block, "%sfibre", p);
+        mean(list, "1: threads in the air, lit from behind as well; 0: a solid surface");
+    }
+    if (lights) {
+        add(list, GLSL_DIFFUSE_PRODUCT, "vec4", lights, block, "%sdiffuse_product", p);
+        mean(list, "kd Ld, for each light");
+        if (all || f->highlights) {
+            add(list, GLSL_SPECULAR_PRODUCT, "vec4", lights, block, "%sspecular_product", p);
+            mean(list, "ks Ls, for each light");
+        }
+        if (c->gl1) {
+            add(list, GLSL_LIGHT_AMBIENT_PRODUCT, "vec4", lights, block, "%slight_ambient_product", p);
+            mean(list, "ka La of each light, weakened like the rest of it");
+        }
+    }
+    if (skies) {
+        add(list, GLSL_SKY_PRODUCT, "vec4", skies, block, "%ssky_product", p);
+        mean(list, "ka times the light from above, for each hemisphere");
+        add(list, GLSL_GROUND_PRODUCT, "vec4", skies, block, "%sground_product", p);
+        mean(list, "ka times the light from below, for each hemisphere");
+    }
+    if (!lists && (f->lights || f->skies)) {
+        add(list, GLSL_FIRST_PRODUCT, "int", 0, NULL, "%sfirst_product", p);
+        mean(list, "the texel of product_list where the material's products begin");
+    }
+    for (int i = first; i < list->count; i++)
+        list->rows[i].back = back;
+}
+
+int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
+{
+    const struct glsl_choices *c = f->choices;
+    struct list list = {.rows = rows};
+    add(&list, GLSL_MODEL_VIEW_PROJECTION, "mat4", 0, NULL, "model_view_projection");
+    mean(&list, "positions of the mesh to clip space");
+    bool normals = f->lit && !f->paints;
+    if (normals || c->show == LAM_SHOW_DEPTH) {
+        add(&list, GLSL_MODEL_VIEW, "mat4", 0, NULL, "model_view");
+        mean(&list, "positions of the mesh to eye space");
+    }
+    if (normals) {
+        add(&list, GLSL_NORMAL_MATRIX, "mat3", 0, NULL, "normal_matrix");
+        mean(&list,
+             "normals to eye space: the inverse transpose of model_view's 3x3, times any positive number");
+    }
+    if (c->show == LAM_SHOW_IDS) {
+        add(&list, GLSL_OBJECT, "float", 0, NULL, "object");
+        mean(&list, "the object's number");
+    }
+    if (f->environment) {
+        add(&list, GLSL_ENVIRONMENT_MATRIX, "mat3", 0, NULL, "environment_matrix");
+        mean(&list, "directions of eye space to the axes of the surroundings");
+        if (c->environment == GLSL_CUBE) {
+            add(&list, GLSL_ENVIRONMENT, "samplerCube", 0, NULL, "environment");
+            mean(&list, "the surroundings in linear light: bilinear, seamless, no mipmaps");
+        } else {
+            add(&list, GLSL_ENVIRONMENT, "sampler2DArray", 0, NULL, "environment_faces");
+            mean(&list, "the surroundings in linear light: six faces +x -x +y -y +z -z, each with a border "
+                        "of one texel");
+        }
+    }
+    if (!f->lit || f->shows_vector) {
+        if (f->lights) {
+            const char *block = c->storage == GLSL_BLOCK ? "Lights" : NULL;
+            add(&list, GLSL_LIGHTS, c->storage == GLSL_TEXTURE ? "sampler2D" : "Light",
+                c->storage == GLSL_TEXTURE ? 0 : c->light_count, block,
+                c->storage == GLSL_TEXTURE ? "light_list" : "lights");
+            list.rows[list.count - 1].what = c->storage == GLSL_TEXTURE ? GLSL_LIGHT_LIST : GLSL_LIGHTS;
+            mean(&list, "the light");
+        }
+        return list.count;
+    }
+    const char *block = c->storage == GLSL_BLOCK ? "Lights" : NULL;
+    if (!c->products && !f->paints) {
+        add(&list, GLSL_AMBIENT_LIGHT, "vec4", 0, block, "ambient_light");
+        mean(&list, "La: all light from everywhere, that of the lights included");
+    }
+    if (c->storage == GLSL_TEXTURE) {
+        if (f->lights || f->skies) {
+            add(&list, GLSL_LIGHT_LIST, "sampler2D", 0, NULL, "light_list");
+            mean(&list, "float texture, 1024 texels wide, no filter: the lights, then the hemispheres "
+                        "(docs/shaders.md)");
+            if (c->products) {
+                add(&list, GLSL_PRODUCT_LIST, "sampler2D", 0, NULL, "product_list");
+                mean(&list, "the same: the materials' products with them");
+            }
+        }
+    } else {
+        if (f->lights) {
+            add(&list, GLSL_LIGHTS, "Light", c->light_count, block, "lights");
+            mean(&list, "the lights, those of one kind side by side");
+        }
+        if (f->skies) {
+            add(&list, GLSL_HEMISPHERES, "Hemisphere", c->hemisphere_count, block, "hemispheres");
+            mean(&list, "skies over a ground");
+        }
+    }
+    for (int back = 0; back <= f->back; back++) {
+        if (c->products) {
+            add_products(&list, f, back);
+            continue;
+        }
+        add(&list, GLSL_MATERIAL, "Material", 0, c->storage == GLSL_BLOCK ? "Materials" : NULL, "%smaterial",
+            back ? "back_" : "");
+        mean(&list, back ? "of the back" : "of the front");
+        list.rows[list.count - 1].back = back;
+    }
+    return list.count;
+}
+
+bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool fragment)
+{
+    switch (row->what) {
+    case GLSL_MODEL_VIEW_PROJECTION:
+    case GLSL_NORMAL_MATRIX:
+        return !fragment;
+    case GLSL_MODEL_VIEW: // also the axis of threads without tangents
+        return !fragment || (f->per_fragment && f->threads && !f->choices->tangents);
+    default:
+        return fragment == f->per_fragment;
+    }
+}
+
+int glsl_members(const struct glsl_facts *f, const char *type, struct glsl_row rows[GLSL_ROWS_MAX])
+{
+    const struct glsl_choices *c = f->choices;
+    struct list list = {.rows = rows};
+    bool all = c->storage == GLSL_BLOCK; // a block keeps its layout, whatever is looked at
+    if (strcmp(type, "Light") == 0) {
+        add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "position");
+        mean(&list, "in eye space, w 1; a directional light's is not looked at");
+        add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "direction");
+        mean(&list, "in eye space, unit, w 0: the way a directional light travels, a spot's axis");
+        if (all || f->falloff) {
+            add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "attenuation");
+            mean(&list, "constant, linear, quadratic, 1 / range (0: no range)");
+        }
+        if (all || f->cones) {
+            add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "cone");
+            mean(&list, "cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner - cos outer); "
+                        "of these what the spot has");
+        }
+        if (c->products || f->shows_vector)
+            return list.count;
+        add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "diffuse");
+        mean(&list, "Ld");
+        if (all || f->highlights) {
+            add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "specular");
+            mean(&list, "Ls");
+        }
+        if (c->gl1) {
+            add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "ambient");
+            mean(&list, "La, weakened like the rest");
+        }
+    } else if (strcmp(type, "Hemisphere") == 0) {
+        add(&list, GLSL_HEMISPHERES, "vec4", 0, NULL, "up");
+        mean(&list, "in eye space, unit, w 0: towards the sky");
+        if (c->products)
+            return list.count;
+        add(&list, GLSL_HEMISPHERES, "vec4", 0, NULL, "sky");
+        mean(&list, "light from above");
+        add(&list, GLSL_HEMISPHERES, "vec4", 0, NULL, "ground");
+        mean(&list, "light from below");
+    } else if (strcmp(type, "Material") == 0) {
+        if (all || !f->paints) {
+            add(&list, GLSL_MATERIAL, "vec4", 0, NULL, "ambient");
+            mean(&list, "ka: share of the light from everywhere that is reflected");
+        }
+        add(&list, GLSL_MATERIAL, "vec4", 0, NULL, "diffuse");
+        mean(&list, "kd: share that is reflected evenly, and the opacity in a");
+        if (all || f->highlights) {
+            add(&list, GLSL_MATERIAL, "vec4", 0, NULL, "specular");
+            mean(&list, "ks: strength of the highlight");
+        }
+        if (all || !f->paints) {
+            add(&list, GLSL_MATERIAL, "vec4", 0, NULL, "emission");
+            mean(&list, "light that the surface itself gives");
+        }
+        if (all || f->environment) {
+            add(&list, GLSL_MATERIAL, "vec4", 0, NULL, "reflectivity");
+            mean(&list, "kr: share of the surroundings that is mirrored");
+        }
+        if (all || f->highlights) {
+            add(&list, GLSL_MATERIAL, "float", 0, NULL, "shininess");
+            mean(&list, "the highlight's exponent");
+        }
+        if (all || f->kajiya_kay) {
+            add(&list, GLSL_MATERIAL, "float", 0, NULL, "fibre");
+            mean(&list, "1: threads in the air, lit from behind as well; 0: a solid surface");
+        }
+    }
+    return list.count;
+}
+
+static int width_of(const struct glsl_row *row)
+{
+    return (int)strlen(row->type) + (int)strlen(row->name) +
+           (row->count ? snprintf(NULL, 0, "[%d]", row->count) : 0);
+}
+
+// The comments of rows that stand together begin in one column.
+static void declare(struct text *text, const char *start, const struct glsl_row *row, int width)
+{
+    char name[48];
+    snprintf(name, sizeof name, row->count ? "%s[%d];" : "%s;", row->name, row->count);
+    text_print(text, "%s%s %s%*s // %s\n", start, row->type, name, width - width_of(row), "", row->meaning);
+}
+
+static void declare_struct(struct text *text, const struct glsl_facts *facts, const char *type)
+{
+    struct glsl_row members[GLSL_ROWS_MAX];
+    int count = glsl_members(facts, type, members);
+    if (!count)
+        return;
+    text_print(text, "struct %s {\n", type);
+    int width = 0;
+    for (int i = 0; i < count; i++)
+        width = width_of(&members[i]) > width ? width_of(&members[i]) : width;
+    for (int i = 0; i < count; i++)
+        declare(text, "    ", &members[i], width);
+    text_add(text, "};\n");
+}
+
+void glsl_declare(struct text *text, const struct glsl_facts *facts, bool fragment)
+{
+    struct glsl_row rows[GLSL_ROWS_MAX];
+    int count = glsl_rows(facts, rows);
+    const char *block = NULL;
+    int width = 0;
+    for (int i = 0; i < count; i++)
+        if (glsl_row_is_in(facts, &rows[i], fragment))
+            width = width_of(&rows[i]) > width ? width_of(&rows[i]) : width;
+    if (!width)
+        return;
+    text_add(text, "\n// --- what the program sets\n\n");
+    for (int i = 0; i < count; i++) { // a struct stands before what has it
+        bool told = !glsl_row_is_in(facts, &rows[i], fragment);
+        for (int k = 0; k < i; k++)
+            told |= strcmp(rows[k].type, rows[i].type) == 0;
+        if (!told)
+            declare_struct(text, facts, rows[i].type);
+    }
+    for (int i = 0; i < count; i++) {
+        if (!glsl_row_is_in(facts, &rows[i], fragment))
+            continue;
+        bool opens = rows[i].block && (!block || strcmp(block, rows[i].block) != 0);
+        if (block && (opens || !rows[i].block))
+            text_add(text, "};\n");
+        if (opens)
+            text_print(text, "layout(std140) uniform %s {\n", rows[i].block);
+        block = rows[i].block;
+        declare(text, block ? "    " : "uniform ", &rows[i], width);
+    }
+    if (block)
+        text_add(text, "};\n");
+}

@@ -1,0 +1,215 @@
+// glsl_values.c: choices that a frame asks for, and what the lists and materials of the texts hold.
+#include "glsl.h"
+
+#include <string.h>
+
+// The kinds of src/lighting/sources.h, which GLSL and C share by number.
+enum { POINT, DIRECTIONAL, SPOT_CUTOFF, SPOT_EXPONENT, SPOT_CONES };
+enum { NONE, DISTANCE, RANGE };
+
+int glsl_kind(const struct frame_light *light)
+{
+    static const int of_cone[] = {[CONE_NONE] = POINT,
+                                  [CONE_EXPONENT] = SPOT_EXPONENT,
+                                  [CONE_CUTOFF] = SPOT_CUTOFF,
+                                  [CONE_SOFT] = SPOT_CONES};
+    return light->directional ? DIRECTIONAL : of_cone[light->cone];
+}
+
+int glsl_falloff(const struct frame_light *light)
+{
+    const float *a = light->attenuation;
+    if (light->inverse_range > 0)
+        return RANGE;
+    return a[0] == 1 && a[1] == 0 && a[2] == 0 ? NONE : DISTANCE;
+}
+
+static void find_groups(struct glsl_choices *c, const struct frame *frame)
+{
+    int counts[GLSL_KINDS][GLSL_FALLOFFS] = {{0}};
+    for (int i = 0; i < frame->light_count; i++)
+        counts[glsl_kind(&frame->lights[i])][glsl_falloff(&frame->lights[i])]++;
+    for (int kind = 0; kind < GLSL_KINDS; kind++)
+        for (int falloff = 0; falloff < GLSL_FALLOFFS; falloff++)
+            if (counts[kind][falloff])
+                c->groups[c->group_count++] = (struct glsl_group){kind, falloff, counts[kind][falloff]};
+    c->light_count = frame->light_count;
+    c->hemisphere_count = frame->hemisphere_count;
+}
+
+static bool mirrors(const lam_material *m)
+{
+    return m->reflectivity.r != 0 || m->reflectivity.g != 0 || m->reflectivity.b != 0;
+}
+
+struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_surface *surface,
+                                lam_stage stage)
+{
+    struct glsl_choices c;
+    memset(&c, 0, sizeof c);
+    const struct frame_draw *draw = &frame->draws[surface->draw];
+    c.shading = frame->shading;
+    c.stage = stage ? stage : frame->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX : LAM_STAGE_FRAGMENT;
+    c.reflection = frame->reflection;
+    c.show = frame->show;
+    c.distant_viewer = frame->distant_viewer;
+    c.gl1 = frame->gl1;
+    c.two_sided = !draw->one_sided;
+    c.back_material = c.two_sided && surface->back != surface->front;
+    c.colors = draw->mesh->colors != NULL;
+    c.tangents = draw->mesh->tangents != NULL;
+    if (frame->environment && (mirrors(frame->materials[surface->front]) ||
+                               (c.back_material && mirrors(frame->materials[surface->back]))))
+        c.environment = GLSL_FACES;
+    find_groups(&c, frame);
+    return c;
+}
+
+int glsl_frame_light(const struct glsl_choices *c, const struct frame *frame, int i)
+{
+    int group = 0;
+    while (group < c->group_count && i >= c->groups[group].count)
+        i -= c->groups[group++].count;
+    for (int k = 0; group < c->group_count && k < frame->light_count; k++) {
+        const struct frame_light *light = &frame->lights[k];
+        if (glsl_kind(light) == c->groups[group].kind && glsl_falloff(light) == c->groups[group].falloff &&
+            i-- == 0)
+            return k;
+    }
+    return -1;
+}
+
+static void set3(float out[4], const float *from, float w)
+{
+    memcpy(out, from, 3 * sizeof *out);
+    out[3] = w;
+}
+
+struct glsl_light glsl_light_of(const struct frame_light *light)
+{
+    struct glsl_light out;
+    set3(out.position, light->position, 1);
+    set3(out.direction, light->axis, 0);
+    set3(out.attenuation, light->attenuation, light->inverse_range);
+    const float cone[4] = {light->cos_cutoff, light->exponent, light->cos_outer, light->inverse_width};
+    memcpy(out.cone, cone, sizeof cone);
+    set3(out.diffuse, light->diffuse, 1);
+    set3(out.specular, light->specular, 1);
+    set3(out.ambient, light->ambient, 1);
+    return out;
+}
+
+static float shininess_of(const struct frame *frame, const lam_material *material)
+{
+    float shininess = material->shininess;
+    if (frame->match_highlights && frame->reflection == LAM_REFLECTION_BLINN_PHONG)
+        shininess *= 4;
+    return frame->gl1 && shininess > 128 ? 128 : shininess;
+}
+
+struct glsl_material glsl_material_of(const struct frame *frame, const lam_material *material)
+{
+    struct glsl_material out = {.shininess = shininess_of(frame, material), .fibre = material->fibre};
+    set3(out.ambient, &material->ambient.r, 1);
+    memcpy(out.diffuse, &material->diffuse, sizeof out.diffuse);
+    set3(out.specular, &material->specular.r, 1);
+    set3(out.emission, &material->emission.r, 1);
+    set3(out.reflectivity, &material->reflectivity.r, 1);
+    return out;
+}
+
+static void product(float out[4], const float *a, const float *b)
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = a[i] * b[i];
+    out[3] = 1;
+}
+
+struct glsl_products glsl_products_of(const struct frame *frame, const lam_material *material)
+{
+    struct glsl_products out = {.shininess = shininess_of(frame, material), .fibre = material->fibre};
+    product(out.ambient_product, &material->ambient.r, frame->ambient);
+    set3(out.emission, &material->emission.r, 1);
+    memcpy(out.diffuse, &material->diffuse, sizeof out.diffuse);
+    set3(out.reflectivity, &material->reflectivity.r, 1);
+    return out;
+}
+
+// --- lists
+
+static size_t floats_of_light(const struct glsl_choices *c) { return c->products ? 16 : c->gl1 ? 28 : 24; }
+
+size_t glsl_lights_bytes(const struct glsl_choices *c)
+{
+    size_t lights = (size_t)c->light_count * floats_of_light(c),
+           skies = (size_t)c->hemisphere_count * (c->products ? 4 : 12),
+           head = !c->products && c->storage == GLSL_BLOCK ? 4 : 0, all = head + lights + skies;
+    return (all ? all : 4) * sizeof(float);
+}
+
+void glsl_pack_lights(const struct glsl_choices *c, const struct frame *frame, float *out)
+{
+    if (!c->products && c->storage == GLSL_BLOCK) {
+        set3(out, frame->ambient, 1);
+        out += 4;
+    }
+    size_t each = floats_of_light(c);
+    for (int g = 0; g < c->group_count; g++)
+        for (int i = 0; i < frame->light_count; i++) {
+            const struct frame_light *light = &frame->lights[i];
+            if (glsl_kind(light) != c->groups[g].kind || glsl_falloff(light) != c->groups[g].falloff)
+                continue;
+            struct glsl_light packed = glsl_light_of(light);
+            memcpy(out, &packed, each * sizeof *out);
+            out += each;
+        }
+    for (int i = 0; i < frame->hemisphere_count; i++) {
+        const struct frame_hemisphere *h = &frame->hemispheres[i];
+        set3(out, h->up, 0);
+        out += 4;
+        if (c->products)
+            continue;
+        set3(out, h->sky, 1);
+        set3(out + 4, h->ground, 1);
+        out += 8;
+    }
+}
+
+size_t glsl_products_bytes(const struct glsl_choices *c)
+{
+    size_t lists = (size_t)c->light_count * (c->gl1 ? 12 : 8) + (size_t)c->hemisphere_count * 8;
+    size_t head = c->storage == GLSL_BLOCK ? sizeof(struct glsl_products) : 0;
+    size_t all = head + lists * sizeof(float);
+    return all ? all : 16;
+}
+
+void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame, const lam_material *material,
+                        float *out)
+{
+    bool block = c->storage == GLSL_BLOCK;
+    if (block) {
+        struct glsl_products head = glsl_products_of(frame, material);
+        memcpy(out, &head, sizeof head);
+        out += sizeof head / sizeof *out;
+    }
+    // A block has an array of each product, a texture all products of a light side by side.
+    size_t lights = (size_t)c->light_count, skies = (size_t)c->hemisphere_count, at = 0;
+    size_t step = block ? 4 : c->gl1 ? 12 : 8, next = block ? 4 * lights : 4;
+    for (int g = 0; g < c->group_count; g++)
+        for (int i = 0; i < frame->light_count; i++) {
+            const struct frame_light *light = &frame->lights[i];
+            if (glsl_kind(light) != c->groups[g].kind || glsl_falloff(light) != c->groups[g].falloff)
+                continue;
+            product(out + at, &material->diffuse.r, light->diffuse);
+            product(out + at + next, &material->specular.r, light->specular);
+            if (c->gl1)
+                product(out + at + 2 * next, &material->ambient.r, light->ambient);
+            at += step;
+        }
+    out += lights * (c->gl1 ? 12 : 8);
+    for (size_t i = 0; i < skies; i++) {
+        float *sky = block ? out + 4 * i : out + 8 * i, *ground = block ? sky + 4 * skies : sky + 4;
+        product(sky, &material->ambient.r, frame->hemispheres[i].sky);
+        product(ground, &material->ambient.r, frame->hemispheres[i].ground);
+    }
+}

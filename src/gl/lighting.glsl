@@ -1,0 +1,294 @@
+//@if has_environment
+
+// --- the surroundings
+
+//@if cube
+// What the surroundings send along the direction d of eye space.
+vec3 environment_color(vec3 d) { return @texture_cube@(environment, environment_matrix * d).rgb; }
+//@else
+// What the surroundings send along the direction d of eye space. Each layer of the texture is a face of the cube with a border
+// of one texel from its neighbours, so that the four texels round any place can be mixed without a case at the edges.
+vec3 environment_color(vec3 d)
+{
+    vec3 e = environment_matrix * d;
+    vec3 size = abs(e);
+    bool on_x = size.x >= size.y && size.x >= size.z;
+    bool on_y = !on_x && size.y >= size.z;
+    // OpenGL's table (4.6, 8.13): the axis with the largest size names the face.
+    float major = on_x ? size.x : (on_y ? size.y : size.z);
+    bool minus = (on_x ? e.x : (on_y ? e.y : e.z)) < 0.0;
+    float across = on_x ? (minus ? e.z : -e.z) : (on_y ? e.x : (minus ? -e.x : e.x));
+    float down = on_y ? (minus ? -e.z : e.z) : -e.y;
+    int face = (on_x ? 0 : (on_y ? 2 : 4)) + (minus ? 1 : 0);
+    float side = float(textureSize(environment_faces, 0).x - 2);
+    float middle = 0.5 * side + 0.5;
+    vec2 place = major > 0.0 ? vec2(across, down) / major * (0.5 * side) + middle : vec2(middle);
+    place = clamp(place, vec2(0.5), vec2(side + 0.5));
+    ivec2 corner = ivec2(place);
+    vec2 part = place - vec2(corner);
+    vec3 a = texelFetch(environment_faces, ivec3(corner, face), 0).rgb;
+    vec3 b = texelFetch(environment_faces, ivec3(corner + ivec2(1, 0), face), 0).rgb;
+    vec3 c = texelFetch(environment_faces, ivec3(corner + ivec2(0, 1), face), 0).rgb;
+    vec3 f = texelFetch(environment_faces, ivec3(corner + ivec2(1, 1), face), 0).rgb;
+    return mix3(mix3(a, b, part.x), mix3(c, f, part.x), part.y);
+}
+//@end
+//@end
+//@if reads_lists
+
+// --- the lists
+//@if texture
+
+vec4 list_texel(sampler2D list, int number)
+{
+    return texelFetch(list, ivec2(number % @list_width@, number / @list_width@), 0);
+}
+//@end
+//@if has_lights
+
+// Light i, and its products with the material.
+source light_of(int i@list_parameter@)
+{
+    source light;
+//@if texture
+    int first = i * @light_texels@;
+    light.position = list_texel(light_list, first).xyz;
+    light.direction = list_texel(light_list, first + 1).xyz;
+//@if has_falloff
+    vec4 attenuation = list_texel(light_list, first + 2);
+//@end
+//@if has_cone
+    vec4 cone = list_texel(light_list, first + 3);
+//@end
+//@else
+    light.position = lights[i].position.xyz;
+    light.direction = lights[i].direction.xyz;
+//@if has_falloff
+    vec4 attenuation = lights[i].attenuation;
+//@end
+//@if has_cone
+    vec4 cone = lights[i].cone;
+//@end
+//@end
+//@if has_falloff
+    light.constant = attenuation.x;
+    light.linear = attenuation.y;
+    light.quadratic = attenuation.z;
+    light.inverse_range = attenuation.w;
+//@else
+    light.constant = 1.0;
+    light.linear = 0.0;
+    light.quadratic = 0.0;
+    light.inverse_range = 0.0;
+//@end
+//@if has_cone
+    light.cos_cutoff = cone.x;
+    light.exponent = cone.y;
+    light.cos_outer = cone.z;
+    light.inverse_width = cone.w;
+//@else
+    light.cos_cutoff = -1.0;
+    light.exponent = 0.0;
+    light.cos_outer = -1.0;
+    light.inverse_width = 1.0;
+//@end
+//@if products
+//@if texture
+    int product = $(first_product) + i * @product_texels@;
+    light.diffuse = list_texel(product_list, product).rgb;
+    light.specular = list_texel(product_list, product + 1).rgb;
+//@else
+    light.diffuse = $(diffuse_product[i]).rgb;
+//@if highlights
+    light.specular = $(specular_product[i]).rgb;
+//@else
+    light.specular = black3();
+//@end
+//@end
+//@else
+//@if texture
+    light.diffuse = mul3(m.diffuse.rgb, list_texel(light_list, first + 4).rgb);
+//@if highlights
+    light.specular = mul3(m.specular.rgb, list_texel(light_list, first + 5).rgb);
+//@else
+    light.specular = black3();
+//@end
+//@else
+    light.diffuse = mul3(m.diffuse.rgb, lights[i].diffuse.rgb);
+//@if highlights
+    light.specular = mul3(m.specular.rgb, lights[i].specular.rgb);
+//@else
+    light.specular = black3();
+//@end
+//@end
+//@end
+    return light;
+}
+//@if gl1
+
+// What light i adds to the ambient term before it is weakened: ka La.
+vec3 ambient_of(int i@list_parameter@)
+{
+//@if products
+//@if texture
+    return list_texel(product_list, $(first_product) + i * @product_texels@ + 2).rgb;
+//@else
+    return $(light_ambient_product[i]).rgb;
+//@end
+//@else
+//@if texture
+    return mul3(m.ambient.rgb, list_texel(light_list, i * @light_texels@ + 6).rgb);
+//@else
+    return mul3(m.ambient.rgb, lights[i].ambient.rgb);
+//@end
+//@end
+}
+//@end
+//@end
+//@if has_hemispheres
+
+hemisphere hemisphere_of(int i@list_parameter@)
+{
+    hemisphere h;
+//@if texture
+    int first = @hemispheres_at@ + i * @hemisphere_texels@;
+    h.up = list_texel(light_list, first).xyz;
+//@if products
+    int product = $(first_product) + @hemisphere_products_at@ + i * 2;
+    h.sky = list_texel(product_list, product).rgb;
+    h.ground = list_texel(product_list, product + 1).rgb;
+//@else
+    h.sky = mul3(m.ambient.rgb, list_texel(light_list, first + 1).rgb);
+    h.ground = mul3(m.ambient.rgb, list_texel(light_list, first + 2).rgb);
+//@end
+//@else
+    h.up = hemispheres[i].up.xyz;
+//@if products
+    h.sky = $(sky_product[i]).rgb;
+    h.ground = $(ground_product[i]).rgb;
+//@else
+    h.sky = mul3(m.ambient.rgb, hemispheres[i].sky.rgb);
+    h.ground = mul3(m.ambient.rgb, hemispheres[i].ground.rgb);
+//@end
+//@end
+    return h;
+}
+//@end
+//@end
+
+// --- one point
+
+//@if paints
+// The colour of a surface that is not lit, and its opacity.
+//@else
+// The light that leaves a point p of the surface towards the eye, and its opacity. The normal is that of the side that is seen;
+// all in eye space, the normal of any length.
+//@end
+//@if colors
+// `tint` is the vertex colour: it multiplies what is reflected evenly, and the opacity.
+//@end
+vec4 light_point(@lit_parameters@)
+{
+//@if !products
+//@if !shows_vector
+    Material m = material;
+//@if back_material
+    if (!front) {
+        m = back_material;
+    }
+//@end
+//@end
+//@end
+//@if paints
+//@if products
+    terms sum = unlit_terms($(diffuse).rgb);
+//@else
+    terms sum = unlit_terms(m.diffuse.rgb);
+//@end
+//@end
+//@if !paints
+    surface s;
+    s.p = p;
+    s.n = unit3(normal);
+    s.v = to_eye(p, @viewer@);
+//@if threads
+    s.t = perpendicular3(tangent, s.n);
+//@else
+    s.t = black3();
+//@end
+//@end
+//@if shows_vector
+@shown_vector@
+//@else
+//@if !paints
+//@if products
+    terms sum = start_terms($(ambient_product).rgb, $(emission).rgb);
+//@else
+    terms sum = start_terms(mul3(m.ambient.rgb, ambient_light.rgb), m.emission.rgb);
+//@end
+//@if highlights
+//@if products
+    float shininess = $(shininess);
+//@else
+    float shininess = m.shininess;
+//@end
+//@end
+//@if kajiya_kay
+//@if products
+    int fibre = $(fibre) > 0.5 ? 1 : 0;
+//@else
+    int fibre = m.fibre > 0.5 ? 1 : 0;
+//@end
+//@end
+//@if has_hemispheres
+    for (int i = 0; i < @hemispheres@; i++) {
+        sum = add_hemisphere(sum, s, hemisphere_of(i@list_argument@));
+    }
+//@end
+//@if has_lights
+@groups@
+//@end
+//@if has_environment
+    if (present(s.n) && present(s.v)) {
+//@if products
+        sum = add_environment(sum, $(reflectivity).rgb, environment_color(mirror3(s.v, s.n)));
+//@else
+        sum = add_environment(sum, m.reflectivity.rgb, environment_color(mirror3(s.v, s.n)));
+//@end
+    }
+//@end
+//@end
+//@if colors
+    sum = tint_terms(sum, tint.rgb);
+//@end
+    vec3 color = @shown@;
+//@if clamps
+    // As OpenGL 1 did: what a vertex hands on is within 0...1.
+    color = vec3(saturate(color.x), saturate(color.y), saturate(color.z));
+//@end
+//@if products
+    float opacity = $(diffuse).a;
+//@else
+    float opacity = m.diffuse.a;
+//@end
+//@if colors
+    opacity = opacity * tint.a;
+//@end
+//@if clamps
+    opacity = saturate(opacity);
+//@end
+    return vec4(color, opacity);
+//@end
+}
+//@if field
+
+// The direction of surfaces that have no tangents: round the mesh's y axis, as a lathe leaves its marks (y x n; along x where n
+// is along y).
+vec3 field_tangent(vec3 n)
+{
+    vec3 axis = unit3(model_view[1].xyz);
+    vec3 side = unit3(model_view[0].xyz);
+    vec3 around = cross3(axis, unit3(n));
+    return dot3(around, around) < 1.0e-8 ? side : around;
+}
+//@end

@@ -1,0 +1,96 @@
+
+// --- the vertex
+
+@attribute0@vec3 position; // of the mesh
+//@if passes_normal
+//@if flat
+@attribute1@vec3 normal; // the triangle's own, the same at its three vertices
+//@else
+@attribute1@vec3 normal; // of the mesh, of any length
+//@end
+//@end
+//@if colors
+@attribute2@vec4 color; // linear, not premultiplied
+//@end
+//@if passes_tangent
+@attribute3@vec3 tangent; // of the mesh, along the surface
+//@end
+//@if application
+@attribute4@vec4 front_color; // the light that leaves the front
+//@if two_sided
+@attribute5@vec4 back_color; // and the back
+//@end
+//@end
+//@if provoking
+@attribute6@vec3 provoking_position; // of the triangle's last vertex, at its three vertices: where a flat triangle is lit
+//@end
+//@if passes_anything
+
+//@end
+//@if per_fragment
+//@if passes_position
+@varying@vec3 eye_position;
+//@end
+//@if passes_normal
+@varying@vec3 eye_normal;
+//@end
+//@if passes_tangent
+@varying@vec3 eye_tangent;
+//@end
+//@if colors
+@varying@vec4 tint;
+//@end
+//@if ids
+@flat_varying@int triangle;
+//@end
+//@else
+@varying@vec4 front_light;
+//@if two_sided
+@varying@vec4 back_light;
+//@end
+//@end
+
+void main()
+{
+    gl_Position = model_view_projection * vec4(position, 1.0);
+//@if per_fragment
+//@if passes_position
+    eye_position = (model_view * vec4(@lit_position@, 1.0)).xyz;
+//@end
+//@if passes_normal
+    eye_normal = unit3(normal_matrix * normal);
+//@end
+//@if passes_tangent
+    eye_tangent = unit3(mat3(model_view) * tangent);
+//@end
+//@if colors
+    tint = color;
+//@end
+//@if ids
+    triangle = gl_VertexID / 3;
+//@end
+//@elif application
+    front_light = front_color;
+//@if two_sided
+    back_light = back_color;
+//@end
+//@else
+//@if passes_normal
+    vec3 p = (model_view * vec4(@lit_position@, 1.0)).xyz;
+    vec3 n = unit3(normal_matrix * normal);
+//@end
+//@if passes_tangent
+    vec3 t = unit3(mat3(model_view) * tangent);
+//@end
+//@if two_sided
+    // Both sides are lit; the fragment takes the one that is seen.
+//@end
+    front_light = light_point(@front_arguments@);
+//@if two_sided
+//@if passes_normal
+    n = negate3(n);
+//@end
+    back_light = light_point(@back_arguments@);
+//@end
+//@end
+}

@@ -1,0 +1,105 @@
+// glsl_combinations.c: the choices that the shader tests go through.
+#include "glsl_combinations.h"
+
+#include <string.h>
+
+struct visitor {
+    void (*visit)(void *user, const struct glsl_choices *choices);
+    void *user;
+    int count;
+};
+
+static void call(struct visitor *v, const struct glsl_choices *choices)
+{
+    v->visit(v->user, choices);
+    v->count++;
+}
+
+static const struct way {
+    lam_shading shading;
+    lam_stage stage;
+} ways[] = {
+    {LAM_SHADING_PHONG, LAM_STAGE_FRAGMENT},   {LAM_SHADING_GOURAUD, LAM_STAGE_VERTEX},
+    {LAM_SHADING_FLAT, LAM_STAGE_VERTEX},      {LAM_SHADING_FLAT, LAM_STAGE_FRAGMENT},
+    {LAM_SHADING_FLAT, LAM_STAGE_APPLICATION}, {LAM_SHADING_GOURAUD, LAM_STAGE_APPLICATION},
+};
+enum { WAYS = sizeof ways / sizeof *ways };
+
+static void every_light(struct glsl_choices *c)
+{
+    for (int kind = 0; kind < GLSL_KINDS; kind++)
+        for (int falloff = 0; falloff < (kind == 1 ? 1 : GLSL_FALLOFFS); falloff++) {
+            c->groups[c->group_count++] = (struct glsl_group){kind, falloff, 1 + falloff};
+            c->light_count += 1 + falloff;
+        }
+    c->hemisphere_count = 2;
+}
+
+// What does not depend on the rest.
+static void single_choices(struct visitor *v, const struct glsl_choices *base)
+{
+    for (int show = LAM_SHOW_PICTURE; show < LAM_SHOW_COUNT; show++) {
+        struct glsl_choices c = *base;
+        c.show = (lam_show)show;
+        if (show != LAM_SHOW_IDS || c.version != GLSL_120)
+            call(v, &c);
+        c.reflection = LAM_REFLECTION_NONE;
+        if (show != LAM_SHOW_IDS || c.version != GLSL_120)
+            call(v, &c);
+    }
+    static const int some[] = {0, 1, 2, 4, 8, 16, 32, 63};
+    for (int i = 0; i < 8; i++) {
+        int bits = some[i];
+        struct glsl_choices c = *base;
+        c.distant_viewer = bits & 1;
+        c.gl1 = bits & 2;
+        c.colors = bits & 4;
+        c.tangents = bits & 8;
+        c.output = bits & 16 ? GLSL_PREMULTIPLIED : GLSL_STRAIGHT;
+        if (bits & 32)
+            c.environment = c.version == GLSL_120 ? GLSL_CUBE : GLSL_FACES;
+        call(v, &c);
+        c.environment = bits & 32 ? GLSL_CUBE : GLSL_NO_ENVIRONMENT;
+        c.reflection = LAM_REFLECTION_KAJIYA_KAY;
+        call(v, &c);
+        c.reflection = LAM_REFLECTION_NONE;
+        call(v, &c);
+        memset(c.groups, 0, sizeof c.groups); // nothing but light from everywhere
+        c.group_count = c.light_count = 0;
+        c.reflection = LAM_REFLECTION_BLINN_PHONG;
+        call(v, &c);
+        c.hemisphere_count = 0;
+        call(v, &c);
+    }
+}
+
+int glsl_combinations(void (*visit)(void *user, const struct glsl_choices *choices), void *user)
+{
+    struct visitor v = {visit, user, 0};
+    for (int version = GLSL_120; version <= GLSL_300_ES; version++)
+        for (int storage = GLSL_ARRAY; storage <= (version == GLSL_120 ? GLSL_ARRAY : GLSL_TEXTURE);
+             storage++)
+            for (int way = 0; way < WAYS; way++)
+                for (int products = 0; products < 2; products++) {
+                    struct glsl_choices base;
+                    memset(&base, 0, sizeof base);
+                    base.version = (enum glsl_version)version;
+                    base.storage = (enum glsl_storage)storage;
+                    base.shading = ways[way].shading;
+                    base.stage = ways[way].stage;
+                    base.products = products;
+                    every_light(&base);
+                    for (int model = LAM_REFLECTION_NONE; model <= LAM_REFLECTION_KAJIYA_KAY_LECTURE; model++)
+                        for (int sides = 0; sides < 3; sides++) {
+                            struct glsl_choices c = base;
+                            c.reflection = (lam_reflection)model;
+                            c.two_sided = sides > 0;
+                            c.back_material = sides > 1;
+                            call(&v, &c);
+                        }
+                    base.reflection = LAM_REFLECTION_BLINN_PHONG;
+                    base.two_sided = base.back_material = true;
+                    single_choices(&v, &base);
+                }
+    return v.count;
+}

@@ -202,15 +202,12 @@ static bool make_lists(struct cpu_device *device, struct cpu_frame *cpu, size_t 
         return fail(error, LAM_LIMIT, "the scene has %llu vertices, at most %d can be drawn at once",
                     (unsigned long long)vertices, INT32_MAX);
     size_t pieces = *vertex_pieces + *triangle_pieces;
-    size_t stride = ((size_t)vertices + 2 * LANES_MAX) & ~(size_t)(LANES_MAX - 1);
     if (!buffer_reserve(&device->lists,
                         pieces * sizeof(struct piece) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t),
                         cpu->watch, error) ||
-        !buffer_reserve(&device->vertices, stride * 3 * sizeof(float), cpu->watch, error))
+        !buffer_reserve(&device->vertices, ((size_t)vertices * 3 + 1) * sizeof(float), cpu->watch, error))
         return false;
-    cpu->vertices.x = device->vertices.data;
-    cpu->vertices.y = cpu->vertices.x + stride;
-    cpu->vertices.key = cpu->vertices.y + stride;
+    cpu->vertices = device->vertices.data;
     struct piece *list = device->lists.data;
     uint32_t *first_vertex = (uint32_t *)(list + pieces), next = 0;
     size_t v = 0, t = *vertex_pieces;

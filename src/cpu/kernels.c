@@ -2,11 +2,13 @@
 // (meson.build).
 #include "kernels.h"
 
-#include "lanes.h"
+#include "triples.h"
 
 #include "project.inc"
+#include "corners.inc"
 #include "bin.inc"
 #include "cover.inc"
+#include "cover_packet.inc"
 #include "gather.inc"
 #include "light.inc"
 #include "resolve.inc"

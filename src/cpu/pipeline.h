@@ -54,11 +54,6 @@ enum outside {
 };
 #define OUTSIDE_NAN 0x7fc00000
 
-// Vertices of all draws: pixel coordinates (y down, not snapped) and depth key (larger is nearer).
-struct vertices {
-    float *x, *y, *key;
-};
-
 // A piece of a triangle that was clipped: its own window coordinates, and the triangle that it belongs to.
 struct clipped_piece {
     float x[3], y[3], key[3];
@@ -73,7 +68,7 @@ struct piece {
 
 // Bins: for each tile a chain of blocks with triangle numbers. Every thread has its own, so no locks are
 // taken; the picture does not depend on the order in which a tile's triangles come.
-enum { BIN_BLOCK_IDS = 62 };
+enum { BIN_BLOCK_IDS = 240 }; // a multiple of LANES_MAX: whole packets can be read
 struct bin_block {
     struct bin_block *next;
     uint32_t count;
@@ -169,9 +164,9 @@ struct cpu_frame {
     struct watch *watch;
     struct pool *pool;
     int tiles_across, tiles_down;
-    float guard[2]; // |x|, |y| of a vertex up to which the fast path takes it, in multiples of w, about the
-                    // window's middle
-    struct vertices vertices;
+    float guard[2];  // |x|, |y| of a vertex up to which the fast path takes it, in multiples of w, about the
+                     // window's middle
+    float *vertices; // of all draws, x, y, key of each: pixels (y down, not snapped), and larger is nearer
     const uint32_t *first_vertex; // of each draw
     const struct piece *vertex_pieces, *triangle_pieces;
     const struct material_products *materials;
@@ -195,19 +190,27 @@ struct clipped_piece *new_clipped_piece(struct cpu_frame *cpu, struct thread_sta
 const struct clipped_piece *clipped_piece(const struct thread_state *thread, uint32_t number);
 void slabs_free(struct slab_list *list);
 
+// The block of a tile's bin that takes `room` numbers more; NULL: out of memory.
+static inline struct bin_block *bin_with_room(struct cpu_frame *cpu, struct thread_state *thread, int tile,
+                                              uint32_t room)
+{
+    struct bin_block *block = thread->bins[tile];
+    if (block && block->count + room <= BIN_BLOCK_IDS)
+        return block;
+    struct bin_block *fresh = new_bin_block(cpu, thread);
+    if (!fresh)
+        return NULL;
+    fresh->next = block;
+    fresh->count = 0;
+    return thread->bins[tile] = fresh;
+}
+
 // Appends a number to a tile's bin.
 static inline void bin_put(struct cpu_frame *cpu, struct thread_state *thread, int tile, uint32_t id)
 {
-    struct bin_block *block = thread->bins[tile];
-    if (!block || block->count == BIN_BLOCK_IDS) {
-        struct bin_block *fresh = new_bin_block(cpu, thread);
-        if (!fresh)
-            return;
-        fresh->next = block;
-        fresh->count = 0;
-        thread->bins[tile] = block = fresh;
-    }
-    block->ids[block->count++] = id;
+    struct bin_block *block = bin_with_room(cpu, thread, tile, 1);
+    if (block)
+        block->ids[block->count++] = id;
 }
 
 // Snapped coordinates of a triangle's corners, in the order that makes its area positive with y down.

@@ -193,4 +193,33 @@ LANE_FN num positive(num x) { return greater(x, num_of(0.0f)); }
 // x clamped to 0…1; NaN gives 0.
 LANE_FN num saturate(num x) { return lesser(positive(x), num_of(1.0f)); }
 
+// The lanes that bits name: those of mask_bits.
+LANE_FN mask mask_of_bits(unsigned bits)
+{
+#if LANES == 1
+    return (int32_t)(bits & 1);
+#elif LANES == 16 && defined(__AVX512DQ__)
+    return (mask)_mm512_movm_epi32((__mmask16)bits);
+#else
+    return (inum_of((int32_t)bits) >> lane_numbers() & 1) == 1;
+#endif
+}
+
+// Writes the lanes named by `bits` (bit i: lane i) side by side, in their order; room for LANES is needed.
+// How many they are.
+LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
+{
+#if LANES == 16 && defined(__AVX512F__)
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, (__m512i)x));
+    return (uint32_t)__builtin_popcount(bits);
+#else
+    uint32_t count = 0;
+    for (int i = 0; i < LANES; i++) {
+        to[count] = ilane(x, i);
+        count += bits >> i & 1;
+    }
+    return count;
+#endif
+}
+
 #endif

@@ -1,0 +1,85 @@
+// triples.h: points in memory, x y z x y z …, to lanes and back.
+//
+// Points are read and written four floats at a time and turned round in registers: that is several times
+// faster than a float at a time.
+#ifndef TRIPLES_H
+#define TRIPLES_H
+
+#include "lanes.h"
+
+// Three floats from each of LANES places, and to LANES consecutive ones. On the way there are four in hand: a
+// place is readable one float past its three, and `store_triples` writes a meaningless one behind the last.
+struct triples {
+    num x, y, z;
+};
+#if LANES == 1
+LANE_FN struct triples load_triples(const float *const at[LANES])
+{
+    return (struct triples){at[0][0], at[0][1], at[0][2]};
+}
+LANE_FN void store_triples(float *to, struct triples t)
+{
+    to[0] = t.x;
+    to[1] = t.y;
+    to[2] = t.z;
+}
+#else
+typedef float quad __attribute__((vector_size(16)));
+typedef float quad_memory __attribute__((vector_size(16), aligned(4), may_alias));
+// Quads i, i + 4, i + 8 … side by side.
+LANE_FN num quads_apart(const float *const at[LANES], int i)
+{
+#define QUAD(n) ((quad) * (const quad_memory *)at[n])
+#if LANES == 4
+    return QUAD(i);
+#else
+    typedef float pair __attribute__((vector_size(32)));
+    pair low = __builtin_shufflevector(QUAD(i), QUAD(i + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+#if LANES == 8
+    return low;
+#else
+    pair high = __builtin_shufflevector(QUAD(i + 8), QUAD(i + 12), 0, 1, 2, 3, 4, 5, 6, 7);
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+#endif
+#endif
+#undef QUAD
+}
+// Picks two of four floats of a and two of b (4 … 7), in each quad of them.
+#define FROM(i, quad)             ((i) % 4 + 4 * (quad) + ((i) < 4 ? 0 : LANES))
+#define OF_QUAD(i, j, k, l, quad) FROM(i, quad), FROM(j, quad), FROM(k, quad), FROM(l, quad)
+#if LANES == 4
+#define SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, OF_QUAD(i, j, k, l, 0))
+#elif LANES == 8
+#define SHUFFLE(a, b, i, j, k, l)                                                                            \
+    __builtin_shufflevector(a, b, OF_QUAD(i, j, k, l, 0), OF_QUAD(i, j, k, l, 1))
+#else
+#define SHUFFLE(a, b, i, j, k, l)                                                                            \
+    __builtin_shufflevector(a, b, OF_QUAD(i, j, k, l, 0), OF_QUAD(i, j, k, l, 1), OF_QUAD(i, j, k, l, 2),    \
+                            OF_QUAD(i, j, k, l, 3))
+#endif
+LANE_FN struct triples load_triples(const float *const at[LANES])
+{
+    num a = quads_apart(at, 0), b = quads_apart(at, 1), c = quads_apart(at, 2), d = quads_apart(at, 3);
+    num xy_low = SHUFFLE(a, b, 0, 4, 1, 5), xy_high = SHUFFLE(c, d, 0, 4, 1, 5);
+    num z_low = SHUFFLE(a, b, 2, 6, 3, 7), z_high = SHUFFLE(c, d, 2, 6, 3, 7);
+    return (struct triples){SHUFFLE(xy_low, xy_high, 0, 1, 4, 5), SHUFFLE(xy_low, xy_high, 2, 3, 6, 7),
+                            SHUFFLE(z_low, z_high, 0, 1, 4, 5)};
+}
+LANE_FN void store_triples(float *to, struct triples t)
+{
+    num xy_low = SHUFFLE(t.x, t.y, 0, 4, 1, 5), xy_high = SHUFFLE(t.x, t.y, 2, 6, 3, 7);
+    num zz_low = SHUFFLE(t.z, t.z, 0, 0, 1, 1), zz_high = SHUFFLE(t.z, t.z, 2, 2, 3, 3);
+    num of[4] = {SHUFFLE(xy_low, zz_low, 0, 1, 4, 5), SHUFFLE(xy_low, zz_low, 2, 3, 6, 7),
+                 SHUFFLE(xy_high, zz_high, 0, 1, 4, 5), SHUFFLE(xy_high, zz_high, 2, 3, 6, 7)};
+    for (int i = 0; i < LANES; i++) { // each overwrites the fourth of the one before
+        quad q;
+        memcpy(&q, (const char *)&of[i & 3] + 16 * (i >> 2), sizeof q);
+        *(quad_memory *)(to + 3 * i) = q;
+    }
+}
+#undef SHUFFLE
+#undef OF_QUAD
+#undef FROM
+#endif
+
+#endif

@@ -104,6 +104,7 @@ static void carve_thread(struct carving *carving, struct thread_state *thread, c
         slots *= 2;
     thread->point_table = carve(carving, slots * sizeof(uint32_t));
     thread->point_key = carve(carving, points * sizeof *thread->point_key);
+    thread->points = carve(carving, sizeof *thread->points);
     thread->counts = frame->show == LAM_SHOW_OVERDRAW ? carve(carving, entries * sizeof(int32_t)) : NULL;
     thread->shown = frame->show == LAM_SHOW_CLIPPED ? carve(carving, TILE * TILE * 4 * sizeof(float)) : NULL;
     if (!frame->translucent)

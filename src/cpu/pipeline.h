@@ -94,6 +94,15 @@ struct rectangle {
     int left, top, right, bottom;
 };
 
+// Points about to be lit, side by side, and in the end their colours.
+enum { POINTS_AT_ONCE = 512 };
+struct lit_points {
+    float p[3][POINTS_AT_ONCE], n[3][POINTS_AT_ONCE], v[3][POINTS_AT_ONCE], t[3][POINTS_AT_ONCE];
+    float color[3][POINTS_AT_ONCE], alpha[POINTS_AT_ONCE]; // of the vertices, then as seen
+    uint32_t triangle[POINTS_AT_ONCE];                     // of the mesh
+    float b1[POINTS_AT_ONCE], b2[POINTS_AT_ONCE];          // weights of its corners 1 and 2
+};
+
 struct thread_state {
     struct bin_block **bins; // first block of each tile, newest first
     struct slab_list blocks;
@@ -117,6 +126,7 @@ struct thread_state {
     uint32_t (*point_key)[4]; // what makes a point: position, normal, colour, tangent element
     uint32_t *fragment_point; // 3 per fragment
     float *point_color[4];
+    struct lit_points *points;
     int32_t *counts; // triangles that cover each sample; NULL: nobody asks (show.c)
     float *shown;    // the tile's part of the picture, for LAM_SHOW_CLIPPED
     // Sums of a tile's pixels: r, g, b premultiplied, and alpha.

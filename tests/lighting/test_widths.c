@@ -5,6 +5,8 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
+#include <sys/mman.h>
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -154,8 +156,40 @@ static void test_same_bits(void **state)
                  (unsigned long long)RECORDED_HASH);
 }
 
+// Every width finds the same numbers, bit for bit, and touches nothing behind the last one: there the page
+// ends.
+static void test_gather(void **state)
+{
+    (void)state;
+    enum { PLACES = 64, PAGE = 4096 };
+    const struct width *widths[WIDTHS_MAX];
+    int count = widths_usable(widths, WIDTHS_MAX);
+    char *pages = mmap(NULL, 2 * PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    assert_true(pages != MAP_FAILED);
+    assert_int_equal(mprotect(pages + PAGE, PAGE, PROT_NONE), 0);
+    struct random r = {5};
+    for (int stride = 3; stride <= 4; stride++) {
+        int rows = PAGE / 4 / stride;
+        float *from = (float *)(void *)(pages + PAGE) - ((rows - 1) * stride + 3);
+        for (int i = 0; i < (rows - 1) * stride + 3; i++)
+            from[i] = float_of_bits(random_bits(&r) & 0x7f7fffff); // any finite number
+        uint32_t at[PLACES];
+        for (int i = 0; i < PLACES; i++)
+            at[i] = i % 3 == 0 ? (uint32_t)rows - 1 : random_bits(&r) % (uint32_t)rows;
+        for (int w = 0; w < count; w++) {
+            float columns[3][PLACES];
+            widths[w]->gather(from, at, stride, (float *const[]){columns[0], columns[1], columns[2]}, PLACES);
+            for (int i = 0; i < PLACES; i++)
+                for (int k = 0; k < 3; k++)
+                    if (memcmp(&columns[k][i], &from[at[i] * (uint32_t)stride + (uint32_t)k], 4) != 0)
+                        fail_msg("%s: stride %d, place %d, number %d", widths[w]->name, stride, i, k);
+        }
+    }
+    munmap(pages, 2 * PAGE);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits), cmocka_unit_test(test_gather)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -103,8 +103,18 @@ static void light(const struct modes *modes, const float *const in[INPUTS], floa
     }
 }
 
+static void gather(const float *from, const uint32_t *at, int stride, float *const out[3], int count)
+{
+    for (int i = 0; i < count; i += LANES) {
+        num columns[3];
+        gather3(from, at + i, stride, columns);
+        for (int k = 0; k < 3; k++)
+            num_store(out[k] + i, columns[k]);
+    }
+}
+
 extern const struct width WIDTH_NAME;
 
 #define TEXT(x)  TEXT_(x)
 #define TEXT_(x) #x
-const struct width WIDTH_NAME = {TEXT(WIDTH_NAME), WIDTH_FEATURES, apply, light};
+const struct width WIDTH_NAME = {TEXT(WIDTH_NAME), WIDTH_FEATURES, apply, light, gather};

@@ -2,6 +2,8 @@
 #ifndef WIDTHS_H
 #define WIDTHS_H
 
+#include <stdint.h>
+
 // Functions of one or two numbers.
 enum function {
     FUNCTION_EXP2,
@@ -76,6 +78,8 @@ struct width {
     void (*apply)(enum function function, const float *a, const float *b, float *out, int count);
     void (*light)(const struct modes *modes, const float *const in[INPUTS], float *const out[OUTPUTS],
                   int count);
+    // Three neighbours from each of `count` places, `stride` numbers apart, into three arrays.
+    void (*gather)(const float *from, const uint32_t *at, int stride, float *const out[3], int count);
 };
 
 // Compiled into this program; those that this processor cannot run are left out. The first has one lane,

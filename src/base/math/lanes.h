@@ -222,4 +222,79 @@ LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
 #endif
 }
 
+// Three neighbours from each of LANES places in memory: lane i of out[k] is the 32 bits at from[stride ·
+// at[i] + k]. Nothing else is read: the last of them may end the array. x86 takes the three at once and turns
+// rows into columns; its own gather takes four times as long.
+LANE_FN void igather3(const void *from, const uint32_t *at, int stride, inum out[3])
+{
+    const char *base = from;
+    size_t step = (size_t)stride * 4;
+#if (LANES == 16 && defined(__AVX512VL__) && defined(__AVX512DQ__)) || (LANES == 8 && defined(__AVX2__))
+    enum { QUADS = LANES / 4 };
+    __m128i three = _mm_set_epi32(0, -1, -1, -1);
+    inum row[4]; // row[j]: places j, 4 + j …, four numbers for each, the fourth 0
+    for (int j = 0; j < 4; j++) {
+        __m128i v[QUADS];
+        for (int q = 0; q < QUADS; q++)
+            v[q] = _mm_maskload_epi32((const int *)(const void *)(base + at[4 * q + j] * step), three);
+        __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(v[0]), v[1], 1);
+#if LANES == 16
+        __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(v[2]), v[3], 1);
+        row[j] = (inum)_mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+#else
+        row[j] = (inum)low;
+#endif
+    }
+#if LANES == 16
+    __m512i xy0 = _mm512_unpacklo_epi32((__m512i)row[0], (__m512i)row[1]);
+    __m512i xy1 = _mm512_unpacklo_epi32((__m512i)row[2], (__m512i)row[3]);
+    __m512i z0 = _mm512_unpackhi_epi32((__m512i)row[0], (__m512i)row[1]);
+    __m512i z1 = _mm512_unpackhi_epi32((__m512i)row[2], (__m512i)row[3]);
+    out[0] = (inum)_mm512_unpacklo_epi64(xy0, xy1);
+    out[1] = (inum)_mm512_unpackhi_epi64(xy0, xy1);
+    out[2] = (inum)_mm512_unpacklo_epi64(z0, z1);
+#else
+    __m256i xy0 = _mm256_unpacklo_epi32((__m256i)row[0], (__m256i)row[1]);
+    __m256i xy1 = _mm256_unpacklo_epi32((__m256i)row[2], (__m256i)row[3]);
+    __m256i z0 = _mm256_unpackhi_epi32((__m256i)row[0], (__m256i)row[1]);
+    __m256i z1 = _mm256_unpackhi_epi32((__m256i)row[2], (__m256i)row[3]);
+    out[0] = (inum)_mm256_unpacklo_epi64(xy0, xy1);
+    out[1] = (inum)_mm256_unpackhi_epi64(xy0, xy1);
+    out[2] = (inum)_mm256_unpacklo_epi64(z0, z1);
+#endif
+#elif LANES == 4 && defined(__SSE2__)
+    __m128i row[4];
+    for (int j = 0; j < 4; j++) {
+        const char *at_row = base + at[j] * step;
+        int32_t third;
+        memcpy(&third, at_row + 8, 4);
+        row[j] = _mm_unpacklo_epi64(_mm_loadl_epi64((const __m128i *)(const void *)at_row),
+                                    _mm_cvtsi32_si128(third));
+    }
+    __m128i xy0 = _mm_unpacklo_epi32(row[0], row[1]), xy1 = _mm_unpacklo_epi32(row[2], row[3]);
+    __m128i z0 = _mm_unpackhi_epi32(row[0], row[1]), z1 = _mm_unpackhi_epi32(row[2], row[3]);
+    out[0] = (inum)_mm_unpacklo_epi64(xy0, xy1);
+    out[1] = (inum)_mm_unpackhi_epi64(xy0, xy1);
+    out[2] = (inum)_mm_unpacklo_epi64(z0, z1);
+#else
+    int32_t columns[3][LANES];
+    for (int i = 0; i < LANES; i++) {
+        int32_t row[3];
+        memcpy(row, base + at[i] * step, sizeof row);
+        for (int k = 0; k < 3; k++)
+            columns[k][i] = row[k];
+    }
+    for (int k = 0; k < 3; k++)
+        out[k] = inum_load(columns[k]);
+#endif
+}
+
+LANE_FN void gather3(const float *from, const uint32_t *at, int stride, num out[3])
+{
+    inum bits[3];
+    igather3(from, at, stride, bits);
+    for (int k = 0; k < 3; k++)
+        out[k] = num_of_bits(bits[k]);
+}
+
 #endif

@@ -23,6 +23,7 @@
 #include "mesh.h"
 #include "scene.h"
 #include "settings.h"
+#include "shader.h"
 #include "text.h"
 
 #endif

@@ -184,13 +184,11 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
                            GLSL_LIST_WIDTH};
     for (int i = 0; i < 8; i++)
         snprintf(numbers[i], sizeof numbers[i], "%d", counts[i]);
-    char varying[32], point[8][64], attribute[7][32];
+    char varying[32], point[8][64];
     snprintf(varying, sizeof varying, "%s%s", flat && !old ? "flat " : "",
              old        ? "varying "
              : fragment ? "in "
                         : "out ");
-    for (int i = 0; i < 7; i++)
-        snprintf(attribute[i], sizeof attribute[i], old ? "attribute " : "layout(location = %d) in ", i);
     const char *const position = f->paints ? NULL : "p", *const sides[4] = {NULL, "true", "false",
                                                                             "gl_FrontFacing"};
     for (int i = 0; i < 4; i++) {
@@ -209,7 +207,8 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
                  : i == 0 ? "bool front"
                           : sides[i]);
     }
-    struct text groups = {0}, vector = {0};
+    struct text groups = {0}, vector = {0}, attributes = {0};
+    glsl_declare_attributes(&attributes, f);
     add_groups(&groups, f);
     if (f->shows_vector)
         add_shown_vector(&vector, f);
@@ -236,26 +235,23 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {"texture_cube", old ? "textureCube" : "texture"},
         {"varying", varying},
         {"flat_varying", fragment ? "flat in " : "flat out "},
-        {"attribute0", attribute[0]},
-        {"attribute1", attribute[1]},
-        {"attribute2", attribute[2]},
-        {"attribute3", attribute[3]},
-        {"attribute4", attribute[4]},
-        {"attribute5", attribute[5]},
-        {"attribute6", attribute[6]},
+        {"attributes", attributes.bytes ? attributes.bytes : ""},
         {"pixel", pixel},
         {NULL, NULL},
     };
     const struct template_words words = {flags, values};
-    if (groups.failed || vector.failed) {
-        text->failed = true;
-        text->error = groups.failed ? groups.error : vector.error;
-    }
+    const struct text *parts[] = {&groups, &vector, &attributes};
+    for (int i = 0; i < 3; i++)
+        if (parts[i]->failed) {
+            text->failed = true;
+            text->error = parts[i]->error;
+        }
     if (light_up)
         template_add(text, text_lighting_glsl, &words);
     template_add(text, fragment ? text_fragment_glsl : text_vertex_glsl, &words);
     free(groups.bytes);
     free(vector.bytes);
+    free(attributes.bytes);
 }
 
 // --- the whole

@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "fail.h"
-
 static bool is_place(lam_show show)
 {
     return show == LAM_SHOW_DEPTH || show == LAM_SHOW_FACING || show == LAM_SHOW_IDS ||
@@ -57,6 +55,14 @@ static void add(struct list *list, enum glsl_what what, const char *type, int co
     __builtin_va_start(arguments, name);
     vsnprintf(row->name, sizeof row->name, name, arguments);
     __builtin_va_end(arguments);
+}
+
+static void add_member(struct list *list, enum glsl_what what, const char *type, int at, const char *name,
+                       const char *meaning)
+{
+    add(list, what, type, 0, NULL, "%s", name);
+    list->rows[list->count - 1].at = at;
+    list->rows[list->count - 1].meaning = meaning;
 }
 
 static void mean(struct list *list, const char *meaning) { list->rows[list->count - 1].meaning = meaning; }
@@ -197,6 +203,53 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
     return list.count;
 }
 
+int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX])
+{
+    const struct glsl_choices *c = f->choices;
+    bool flat = f->shading == LAM_SHADING_FLAT, old = c->version == GLSL_120, looks = f->lit && !f->paints;
+    int count = 0;
+    rows[count++] = (struct glsl_attribute){0, "vec3", "position", "of the mesh"};
+    if (looks)
+        rows[count++] =
+            (struct glsl_attribute){1, "vec3", "normal",
+                                    flat ? "of the mesh: the triangle's own, the same at its three vertices"
+                                         : "of the mesh, of any length"};
+    if (c->colors && f->lit && !f->shows_vector)
+        rows[count++] = (struct glsl_attribute){
+            2, "vec4", "color",
+            flat && old ? "linear, not premultiplied: of the triangle's last vertex, at its three"
+                        : "linear, not premultiplied"};
+    if (f->threads && c->tangents)
+        rows[count++] = (struct glsl_attribute){
+            3, "vec3", "tangent",
+            flat && old ? "of the mesh, along the surface: of the triangle's last vertex, at its three"
+                        : "of the mesh, along the surface"};
+    if (f->application) {
+        rows[count++] = (struct glsl_attribute){4, "vec4", "front_color",
+                                                "the light that leaves the front there, and the opacity"};
+        if (c->two_sided)
+            rows[count++] = (struct glsl_attribute){5, "vec4", "back_color",
+                                                    "the light that leaves the back there, and the opacity"};
+    }
+    if (flat && old && looks)
+        rows[count++] = (struct glsl_attribute){
+            6, "vec3", "provoking_position",
+            "of the triangle's last vertex, at its three: where a flat triangle is lit"};
+    return count;
+}
+
+void glsl_declare_attributes(struct text *text, const struct glsl_facts *f)
+{
+    struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX];
+    int count = glsl_attributes(f, rows);
+    for (int i = 0; i < count; i++) {
+        char start[40];
+        snprintf(start, sizeof start, "layout(location = %d) in ", rows[i].location);
+        text_print(text, "%s%s %s; // %s%s", f->choices->version == GLSL_120 ? "attribute " : start,
+                   rows[i].type, rows[i].name, rows[i].meaning, i + 1 < count ? "\n" : "");
+    }
+}
+
 bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool fragment)
 {
     switch (row->what) {
@@ -216,66 +269,57 @@ int glsl_members(const struct glsl_facts *f, const char *type, struct glsl_row r
     struct list list = {.rows = rows};
     bool all = c->storage == GLSL_BLOCK; // a block keeps its layout, whatever is looked at
     if (strcmp(type, "Light") == 0) {
-        add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "position");
-        mean(&list, "in eye space, w 1; a directional light's is not looked at");
-        add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "direction");
-        mean(&list, "in eye space, unit, w 0: the way a directional light travels, a spot's axis");
+        add_member(&list, GLSL_LIGHTS, "vec4", 0, "position",
+                   "in eye space, w 1; a directional light's is not looked at");
+        add_member(&list, GLSL_LIGHTS, "vec4", 4, "direction",
+                   "in eye space, unit, w 0: the way a directional light travels, a spot's axis");
         if (all || f->falloff) {
-            add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "attenuation");
-            mean(&list, "constant, linear, quadratic, 1 / range (0: no range)");
+            add_member(&list, GLSL_LIGHTS, "vec4", 8, "attenuation",
+                       "constant, linear, quadratic, 1 / range (0: no range)");
         }
         if (all || f->cones) {
-            add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "cone");
-            mean(&list, "cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner - cos outer); "
-                        "of these what the spot has");
+            add_member(&list, GLSL_LIGHTS, "vec4", 12, "cone",
+                       "cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner - cos outer); "
+                       "of these what the spot has");
         }
         if (c->products || f->shows_vector)
             return list.count;
-        add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "diffuse");
-        mean(&list, "Ld");
+        add_member(&list, GLSL_LIGHTS, "vec4", 16, "diffuse", "Ld");
         if (all || f->highlights) {
-            add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "specular");
-            mean(&list, "Ls");
+            add_member(&list, GLSL_LIGHTS, "vec4", 20, "specular", "Ls");
         }
         if (c->gl1) {
-            add(&list, GLSL_LIGHTS, "vec4", 0, NULL, "ambient");
-            mean(&list, "La, weakened like the rest");
+            add_member(&list, GLSL_LIGHTS, "vec4", 24, "ambient", "La, weakened like the rest");
         }
     } else if (strcmp(type, "Hemisphere") == 0) {
-        add(&list, GLSL_HEMISPHERES, "vec4", 0, NULL, "up");
-        mean(&list, "in eye space, unit, w 0: towards the sky");
+        add_member(&list, GLSL_HEMISPHERES, "vec4", 0, "up", "in eye space, unit, w 0: towards the sky");
         if (c->products)
             return list.count;
-        add(&list, GLSL_HEMISPHERES, "vec4", 0, NULL, "sky");
-        mean(&list, "light from above");
-        add(&list, GLSL_HEMISPHERES, "vec4", 0, NULL, "ground");
-        mean(&list, "light from below");
+        add_member(&list, GLSL_HEMISPHERES, "vec4", 4, "sky", "light from above");
+        add_member(&list, GLSL_HEMISPHERES, "vec4", 8, "ground", "light from below");
     } else if (strcmp(type, "Material") == 0) {
         if (all || !f->paints) {
-            add(&list, GLSL_MATERIAL, "vec4", 0, NULL, "ambient");
-            mean(&list, "ka: share of the light from everywhere that is reflected");
+            add_member(&list, GLSL_MATERIAL, "vec4", 0, "ambient",
+                       "ka: share of the light from everywhere that is reflected");
         }
-        add(&list, GLSL_MATERIAL, "vec4", 0, NULL, "diffuse");
-        mean(&list, "kd: share that is reflected evenly, and the opacity in a");
+        add_member(&list, GLSL_MATERIAL, "vec4", 4, "diffuse",
+                   "kd: share that is reflected evenly, and the opacity in a");
         if (all || f->highlights) {
-            add(&list, GLSL_MATERIAL, "vec4", 0, NULL, "specular");
-            mean(&list, "ks: strength of the highlight");
+            add_member(&list, GLSL_MATERIAL, "vec4", 8, "specular", "ks: strength of the highlight");
         }
         if (all || !f->paints) {
-            add(&list, GLSL_MATERIAL, "vec4", 0, NULL, "emission");
-            mean(&list, "light that the surface itself gives");
+            add_member(&list, GLSL_MATERIAL, "vec4", 12, "emission", "light that the surface itself gives");
         }
         if (all || f->environment) {
-            add(&list, GLSL_MATERIAL, "vec4", 0, NULL, "reflectivity");
-            mean(&list, "kr: share of the surroundings that is mirrored");
+            add_member(&list, GLSL_MATERIAL, "vec4", 16, "reflectivity",
+                       "kr: share of the surroundings that is mirrored");
         }
         if (all || f->highlights) {
-            add(&list, GLSL_MATERIAL, "float", 0, NULL, "shininess");
-            mean(&list, "the highlight's exponent");
+            add_member(&list, GLSL_MATERIAL, "float", 20, "shininess", "the highlight's exponent");
         }
         if (all || f->kajiya_kay) {
-            add(&list, GLSL_MATERIAL, "float", 0, NULL, "fibre");
-            mean(&list, "1: threads in the air, lit from behind as well; 0: a solid surface");
+            add_member(&list, GLSL_MATERIAL, "float", 21, "fibre",
+                       "1: threads in the air, lit from behind as well; 0: a solid surface");
         }
     }
     return list.count;

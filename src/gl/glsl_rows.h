@@ -42,6 +42,7 @@ struct glsl_row {
     const char *block; // NULL: a plain uniform
     const char *meaning;
     bool back; // of the back's material
+    int at; // of a member: where it stands in struct glsl_light, glsl_material or up, sky, ground; in floats
 };
 enum { GLSL_ROWS_MAX = 40 };
 
@@ -65,11 +66,20 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *choices);
 // The uniforms of both texts, in the order of their declaration (that of each block is its layout). Returns
 // their number.
 int glsl_rows(const struct glsl_facts *facts, struct glsl_row rows[GLSL_ROWS_MAX]);
+// The vertex attributes.
+struct glsl_attribute {
+    int location;
+    const char *type, *name, *meaning;
+};
+enum { GLSL_ATTRIBUTES_MAX = 7 };
+int glsl_attributes(const struct glsl_facts *facts, struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX]);
+
 // Whether a row is read by the vertex or the fragment text.
 bool glsl_row_is_in(const struct glsl_facts *facts, const struct glsl_row *row, bool fragment);
 // The members of a struct type; 0: no struct.
 int glsl_members(const struct glsl_facts *facts, const char *type, struct glsl_row rows[GLSL_ROWS_MAX]);
-// Appends their declarations.
+// Append their declarations.
+void glsl_declare_attributes(struct text *text, const struct glsl_facts *facts);
 void glsl_declare(struct text *text, const struct glsl_facts *facts, bool fragment);
 
 #endif

@@ -1,29 +1,7 @@
 
 // --- the vertex
 
-@attribute0@vec3 position; // of the mesh
-//@if passes_normal
-//@if flat
-@attribute1@vec3 normal; // the triangle's own, the same at its three vertices
-//@else
-@attribute1@vec3 normal; // of the mesh, of any length
-//@end
-//@end
-//@if colors
-@attribute2@vec4 color; // linear, not premultiplied
-//@end
-//@if passes_tangent
-@attribute3@vec3 tangent; // of the mesh, along the surface
-//@end
-//@if application
-@attribute4@vec4 front_color; // the light that leaves the front
-//@if two_sided
-@attribute5@vec4 back_color; // and the back
-//@end
-//@end
-//@if provoking
-@attribute6@vec3 provoking_position; // of the triangle's last vertex, at its three vertices: where a flat triangle is lit
-//@end
+@attributes@
 //@if passes_anything
 
 //@end

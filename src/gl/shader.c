@@ -1,0 +1,480 @@
+// shader.c: lam_shader_make: a scene's shaders, and the value of every uniform.
+#include <lambent/shader.h>
+
+#include "arena.h"
+#include "fail.h"
+#include "float_state.h"
+#include "glsl_rows.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *lam_glsl_name(lam_glsl version)
+{
+    static const char *const names[LAM_GLSL_COUNT] = {"330", "120", "300es"};
+    return (unsigned)version < LAM_GLSL_COUNT ? names[version] : NULL;
+}
+
+// The shader and what holds it.
+struct shader {
+    lam_shader told; // first
+    struct arena arena;
+    struct glsl_text text;
+};
+
+struct making {
+    struct shader *shader;
+    const lam_scene *scene;
+    struct frame frame;
+    struct glsl_choices choices;
+    struct glsl_facts facts;
+    struct glsl_row rows[GLSL_ROWS_MAX];
+    int row_count;
+    int *order; // frame light of each of the text's lights
+    int width, height;
+};
+
+// --- choices for a whole scene
+
+static bool is_meant(const struct frame *frame, const struct frame_surface *surface, int object)
+{
+    return object < 0 || frame->draws[surface->draw].object == object;
+}
+
+// One pair of sources for all surfaces. Colours, materials of backs and surroundings that only some have do
+// not hurt the others; the number of sides and tangents must be one.
+static bool unite(struct making *m, lam_stage stage, int object, lam_error *error)
+{
+    const struct frame *frame = &m->frame;
+    int first = -1;
+    for (int i = 0; i < frame->surface_count; i++) {
+        const struct frame_surface *surface = &frame->surfaces[i];
+        if (!is_meant(frame, surface, object))
+            continue;
+        struct glsl_choices own = glsl_choose(frame, surface, stage);
+        if (first < 0) {
+            m->choices = own;
+            first = i;
+            continue;
+        }
+        const int a = frame->draws[frame->surfaces[first].draw].object,
+                  b = frame->draws[surface->draw].object;
+        if (own.two_sided != m->choices.two_sided)
+            return fail(
+                error, LAM_BAD_ARGUMENT,
+                "objects %d and %d: one is one-sided, the other is not, and one shader cannot be both; "
+                "expected the number of one object",
+                a, b);
+        struct glsl_facts facts = glsl_facts_of(&own);
+        if (facts.threads && own.tangents != m->choices.tangents)
+            return fail(
+                error, LAM_BAD_ARGUMENT,
+                "objects %d and %d: one has tangents, the other has not, and one shader cannot serve both; "
+                "expected the number of one object",
+                a, b);
+        m->choices.colors |= own.colors;
+        m->choices.back_material |= own.back_material;
+        if (own.environment)
+            m->choices.environment = own.environment;
+    }
+    if (first < 0)
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "object is %d, expected one of the scene's with triangles (0 to %d)", object,
+                    lam_scene_object_count(m->scene) - 1);
+    return true;
+}
+
+static bool choose(struct making *m, const lam_draw_params *draw, int object, const lam_shader_params *params,
+                   lam_error *error)
+{
+    static const enum glsl_version versions[] = {GLSL_330, GLSL_120, GLSL_300_ES};
+    static const enum glsl_storage storages[] = {GLSL_BLOCK, GLSL_ARRAY, GLSL_BLOCK, GLSL_TEXTURE};
+    if ((unsigned)params->glsl >= LAM_GLSL_COUNT || (unsigned)params->lights >= LAM_SHADER_LIGHTS_COUNT)
+        return fail(error, LAM_BAD_ARGUMENT, "shader parameters: glsl or lights is out of its range");
+    if (!unite(m, draw->stage, object, error))
+        return false;
+    struct glsl_choices *c = &m->choices;
+    c->version = versions[params->glsl];
+    c->storage = !params->lights && c->version == GLSL_120 ? GLSL_ARRAY : storages[params->lights];
+    c->output = m->frame.color == LAM_COLOR_RAW ? GLSL_STRAIGHT : GLSL_ENCODED;
+    c->products = params->products;
+    if (c->environment)
+        c->environment = GLSL_CUBE;
+    m->facts = glsl_facts_of(c);
+    m->row_count = glsl_rows(&m->facts, m->rows);
+    return true;
+}
+
+// --- values
+
+static int put(float *out, const float *from, int count)
+{
+    memcpy(out, from, (size_t)count * sizeof *out);
+    return count;
+}
+
+// A matrix of rows as OpenGL takes it, columns first.
+static int put_matrix(float *out, const float *rows, int stride, int size)
+{
+    for (int column = 0; column < size; column++)
+        for (int row = 0; row < size; row++)
+            out[size * column + row] = rows[stride * row + column];
+    return size * size;
+}
+
+// Mesh positions to clip space: the frame's rows are in pixels, y down.
+static int put_projection(float out[16], const struct frame_draw *draw, int width, int height)
+{
+    float rows[16];
+    for (int j = 0; j < 4; j++) {
+        double w = (double)draw->pixel[3][j];
+        rows[j] = (float)(2 * (double)draw->pixel[0][j] / width - w);
+        rows[4 + j] = (float)(w - 2 * (double)draw->pixel[1][j] / height);
+        rows[8 + j] = draw->pixel[2][j];
+        rows[12 + j] = draw->pixel[3][j];
+    }
+    return put_matrix(out, rows, 4, 4);
+}
+
+static int put_member(float *out, const float *whole, const struct glsl_row *member)
+{
+    return put(out, whole + member->at, strcmp(member->type, "float") == 0 ? 1 : 4);
+}
+
+static int put_sky(float *out, const struct frame_hemisphere *h, const struct glsl_row *member)
+{
+    const float whole[12] = {h->up[0],     h->up[1],     h->up[2],     0, h->sky[0], h->sky[1], h->sky[2], 1,
+                             h->ground[0], h->ground[1], h->ground[2], 1};
+    return put_member(out, whole, member);
+}
+
+static int put_product(float *out, const float *a, const float *b)
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = a[i] * b[i];
+    out[3] = 1;
+    return 4;
+}
+
+// The numbers of element `index` of a row, of that member of it where the row is of structs. `surface` is
+// NULL for what the whole frame has. Returns how many.
+static int value_of(const struct making *m, const struct frame_surface *surface, const struct glsl_row *row,
+                    const struct glsl_row *member, int index, float out[16])
+{
+    const struct frame *frame = &m->frame;
+    const struct frame_draw *draw = surface ? &frame->draws[surface->draw] : NULL;
+    int number = surface ? (row->back ? surface->back : surface->front) : 0;
+    const lam_material *material = frame->materials[number];
+    struct glsl_products head = glsl_products_of(frame, material);
+    struct glsl_material whole = glsl_material_of(frame, material);
+    bool of_light = row->what == GLSL_LIGHTS || row->what == GLSL_DIFFUSE_PRODUCT ||
+                    row->what == GLSL_SPECULAR_PRODUCT || row->what == GLSL_LIGHT_AMBIENT_PRODUCT;
+    struct glsl_light light = {0};
+    if (of_light)
+        light = glsl_light_of(&frame->lights[m->order[index]]);
+    switch (row->what) {
+    case GLSL_MODEL_VIEW_PROJECTION:
+        return put_projection(out, draw, m->width, m->height);
+    case GLSL_MODEL_VIEW: {
+        float rows[16] = {[15] = 1};
+        memcpy(rows, draw->eye, sizeof draw->eye);
+        return put_matrix(out, rows, 4, 4);
+    }
+    case GLSL_NORMAL_MATRIX:
+        return put_matrix(out, &draw->normal[0][0], 3, 3);
+    case GLSL_ENVIRONMENT_MATRIX:
+        return put_matrix(out, &frame->to_environment[0][0], 3, 3);
+    case GLSL_AMBIENT_LIGHT:
+        put(out, frame->ambient, 3);
+        out[3] = 1;
+        return 4;
+    case GLSL_LIGHTS:
+        return put_member(out, light.position, member);
+    case GLSL_HEMISPHERES:
+        return put_sky(out, &frame->hemispheres[index], member);
+    case GLSL_MATERIAL:
+        return put_member(out, whole.ambient, member);
+    case GLSL_AMBIENT_PRODUCT:
+        return put(out, head.ambient_product, 4);
+    case GLSL_EMISSION:
+        return put(out, head.emission, 4);
+    case GLSL_DIFFUSE:
+        return put(out, head.diffuse, 4);
+    case GLSL_REFLECTIVITY:
+        return put(out, head.reflectivity, 4);
+    case GLSL_SHININESS:
+        return put(out, &head.shininess, 1);
+    case GLSL_FIBRE:
+        return put(out, &head.fibre, 1);
+    case GLSL_DIFFUSE_PRODUCT:
+        return put_product(out, whole.diffuse, light.diffuse);
+    case GLSL_SPECULAR_PRODUCT:
+        return put_product(out, whole.specular, light.specular);
+    case GLSL_LIGHT_AMBIENT_PRODUCT:
+        return put_product(out, whole.ambient, light.ambient);
+    case GLSL_SKY_PRODUCT:
+        return put_product(out, whole.ambient, frame->hemispheres[index].sky);
+    case GLSL_GROUND_PRODUCT:
+        return put_product(out, whole.ambient, frame->hemispheres[index].ground);
+    case GLSL_FIRST_PRODUCT:
+        out[0] = (float)((size_t)number * glsl_products_bytes(&m->choices) / 16);
+        return 1;
+    case GLSL_OBJECT:
+        out[0] = (float)draw->object;
+        return 1;
+    case GLSL_ENVIRONMENT:
+    case GLSL_LIGHT_LIST:
+    case GLSL_PRODUCT_LIST:
+        break;
+    }
+    return 0;
+}
+
+// --- the lists that are told
+
+static bool is_of_draw(enum glsl_what what)
+{
+    return what == GLSL_MODEL_VIEW_PROJECTION || what == GLSL_MODEL_VIEW || what == GLSL_NORMAL_MATRIX ||
+           what == GLSL_OBJECT || what == GLSL_FIRST_PRODUCT || what == GLSL_MATERIAL ||
+           (what >= GLSL_AMBIENT_PRODUCT && what <= GLSL_GROUND_PRODUCT);
+}
+
+static char *name_of(struct arena *arena, const struct glsl_row *row, const struct glsl_row *member,
+                     int index)
+{
+    char name[96], place[24] = "";
+    if (row->count)
+        snprintf(place, sizeof place, "[%d]", index);
+    snprintf(name, sizeof name, "%s%s%s%s", row->name, place, member ? "." : "", member ? member->name : "");
+    return arena_string(arena, name);
+}
+
+// std140 (OpenGL 4.6, 7.6.2.2): where a value lies in its block.
+static int place_in_block(int *end, const char *type)
+{
+    bool single = strcmp(type, "float") == 0;
+    int at = single ? *end : (*end + 15) & ~15;
+    *end = at + (single ? 4 : 16);
+    return at;
+}
+
+struct telling {
+    lam_shader_uniform *out;
+    int count;
+    int end; // of the block so far
+    const char *block;
+    bool failed;
+};
+
+static void tell_leaf(const struct making *m, struct telling *t, const struct frame_surface *surface,
+                      const struct glsl_row *row, const struct glsl_row *member, int index)
+{
+    lam_shader_uniform *u = &t->out[t->count++];
+    *u = (lam_shader_uniform){.type = member ? member->type : row->type,
+                              .block = row->block,
+                              .meaning = member ? member->meaning : row->meaning};
+    if (row->block)
+        u->offset = place_in_block(&t->end, u->type);
+    u->count = value_of(m, surface, row, member, index, u->value);
+    u->name = name_of(&m->shader->arena, row, member, index);
+    t->failed |= !u->name;
+}
+
+// The uniforms of a draw, or (NULL) of the frame. An element of an array begins at a multiple of 16 in its
+// block.
+static bool tell_uniforms(const struct making *m, const struct frame_surface *surface,
+                          const lam_shader_uniform **out, int *count)
+{
+    struct glsl_row members[GLSL_ROWS_MAX];
+    size_t room = 0;
+    for (int i = 0; i < m->row_count; i++) {
+        int fields = glsl_members(&m->facts, m->rows[i].type, members);
+        room += (size_t)(m->rows[i].count ? m->rows[i].count : 1) * (size_t)(fields ? fields : 1);
+    }
+    struct telling t = {.out = arena_array(&m->shader->arena, room, sizeof *t.out)};
+    if (!t.out)
+        return false;
+    for (int i = 0; i < m->row_count; i++) {
+        const struct glsl_row *row = &m->rows[i];
+        if (is_of_draw(row->what) != (surface != NULL))
+            continue;
+        if (!row->block || !t.block || strcmp(row->block, t.block) != 0)
+            t.end = 0;
+        t.block = row->block;
+        int fields = glsl_members(&m->facts, row->type, members);
+        for (int k = 0; k < (row->count ? row->count : 1); k++) {
+            if (fields || row->count)
+                t.end = (t.end + 15) & ~15;
+            for (int f = 0; f < (fields ? fields : 1); f++)
+                tell_leaf(m, &t, surface, row, fields ? &members[f] : NULL, k);
+        }
+        if (fields)
+            t.end = (t.end + 15) & ~15;
+    }
+    *out = t.out;
+    *count = t.count;
+    return !t.failed;
+}
+
+static bool tell_draws(const struct making *m, int object)
+{
+    const struct frame *frame = &m->frame;
+    lam_shader *told = &m->shader->told;
+    lam_shader_draw *draws = arena_array(&m->shader->arena, (size_t)frame->surface_count, sizeof *draws);
+    if (!draws)
+        return false;
+    for (int i = 0; i < frame->surface_count; i++) {
+        const struct frame_surface *s = &frame->surfaces[i];
+        if (!is_meant(frame, s, object))
+            continue;
+        const struct frame_draw *draw = &frame->draws[s->draw];
+        lam_shader_draw *out = &draws[told->draw_count++];
+        *out = (lam_shader_draw){.object = draw->object,
+                                 .object_name = lam_scene_object(m->scene, draw->object)->name,
+                                 .first_triangle = s->first_id - draw->first_id,
+                                 .triangle_count = s->count,
+                                 .material_name = frame->materials[s->front]->name,
+                                 .clockwise = draw->mirrored,
+                                 .cull = draw->cull,
+                                 .translucent = s->translucent,
+                                 .has_colors = draw->mesh->colors != NULL,
+                                 .has_tangents = draw->mesh->tangents != NULL};
+        memcpy(out->origin, draw->mesh->origin, sizeof out->origin);
+        if (!tell_uniforms(m, s, &out->uniforms, &out->uniform_count))
+            return false;
+    }
+    told->draws = draws;
+    return true;
+}
+
+static bool tell_attributes(const struct making *m)
+{
+    struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX];
+    int count = glsl_attributes(&m->facts, rows);
+    lam_shader *told = &m->shader->told;
+    lam_shader_attribute *out = arena_array(&m->shader->arena, (size_t)count, sizeof *out);
+    for (int i = 0; out && i < count; i++)
+        out[i] = (lam_shader_attribute){rows[i].name, rows[i].type, rows[i].location, rows[i].meaning};
+    told->attributes = out;
+    told->attribute_count = count;
+    return out != NULL;
+}
+
+static bool tell_lists(const struct making *m)
+{
+    const struct glsl_choices *c = &m->choices;
+    lam_shader *told = &m->shader->told;
+    lam_shader_list *lists = arena_array(&m->shader->arena, 2, sizeof *lists);
+    if (!lists)
+        return false;
+    told->lists = lists;
+    if (c->storage != GLSL_TEXTURE || (!m->facts.lights && !m->facts.skies))
+        return true;
+    size_t bytes = glsl_lights_bytes(c), each = glsl_products_bytes(c),
+           materials = (size_t)m->frame.material_count;
+    float *values = arena_alloc(&m->shader->arena, bytes);
+    if (!values)
+        return false;
+    glsl_pack_lights(c, &m->frame, values);
+    lists[told->list_count++] = (lam_shader_list){"light_list", (int)(bytes / 16), values};
+    if (!c->products)
+        return true;
+    values = arena_array(&m->shader->arena, materials, each);
+    if (!values || materials * each / 16 > (size_t)INT32_MAX)
+        return false;
+    for (size_t i = 0; i < materials; i++)
+        glsl_pack_products(c, &m->frame, m->frame.materials[i], values + i * (each / sizeof *values));
+    lists[told->list_count++] = (lam_shader_list){"product_list", (int)(materials * each / 16), values};
+    return true;
+}
+
+static bool find_order(struct making *m)
+{
+    const struct frame *frame = &m->frame;
+    m->order = arena_array(&m->shader->arena, (size_t)frame->light_count + 1, sizeof *m->order);
+    int at = 0;
+    for (int g = 0; m->order && g < m->choices.group_count; g++)
+        for (int i = 0; i < frame->light_count; i++)
+            if (glsl_kind(&frame->lights[i]) == m->choices.groups[g].kind &&
+                glsl_falloff(&frame->lights[i]) == m->choices.groups[g].falloff)
+                m->order[at++] = i;
+    return m->order != NULL;
+}
+
+static bool make(struct making *m, const lam_camera *camera, const lam_draw_params *draw, int object,
+                 const lam_shader_params *params, lam_error *error)
+{
+    struct watch watch;
+    watch_start(&watch, NULL);
+    if (!frame_build(&m->frame, m->scene, camera, draw, m->width, m->height, &watch, error) ||
+        !choose(m, draw, object, params, error) || !glsl_make(&m->choices, &m->shader->text, error))
+        return false;
+    static const lam_shader_lights storages[] = {[GLSL_ARRAY] = LAM_SHADER_LIGHTS_ARRAY,
+                                                 [GLSL_BLOCK] = LAM_SHADER_LIGHTS_BLOCK,
+                                                 [GLSL_TEXTURE] = LAM_SHADER_LIGHTS_TEXTURE};
+    lam_shader *told = &m->shader->told;
+    *told = (lam_shader){.glsl = params->glsl,
+                         .lights = storages[m->choices.storage],
+                         .products = m->choices.products,
+                         .vertex = m->shader->text.vertex,
+                         .fragment = m->shader->text.fragment,
+                         .flat = m->facts.shading == LAM_SHADING_FLAT};
+    if (!find_order(m) || !tell_attributes(m) ||
+        !tell_uniforms(m, NULL, &told->uniforms, &told->uniform_count) || !tell_draws(m, object) ||
+        !tell_lists(m))
+        return fail(error, LAM_LIMIT, "out of memory for the shader's numbers");
+    return true;
+}
+
+lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *draw,
+                            int width, int height, int object, const lam_shader_params *params,
+                            lam_error *error)
+{
+    static const lam_draw_params plain_draw = {0};
+    static const lam_shader_params plain = {0};
+    draw = draw ? draw : &plain_draw;
+    if (!scene || !camera) {
+        fail(error, LAM_BAD_ARGUMENT, "lam_shader_make: %s is NULL", scene ? "camera" : "scene");
+        return NULL;
+    }
+    if (width < 1 || height < 1 || width > 65535 || height > 65535) {
+        fail(error, LAM_BAD_ARGUMENT, "lam_shader_make: %d×%d pixels, expected 1 to 65535 each way", width,
+             height);
+        return NULL;
+    }
+    if (!lam_show_is_light(draw->show)) {
+        fail(error, LAM_UNSUPPORTED, "a shader shows the picture, a term of it or a light; found %s",
+             lam_show_name(draw->show) ? lam_show_name(draw->show) : "a number that is no show");
+        return NULL;
+    }
+    struct shader *shader = calloc(1, sizeof *shader);
+    struct making *making = calloc(1, sizeof *making);
+    if (!shader || !making) {
+        fail(error, LAM_LIMIT, "out of memory");
+        free(shader);
+        free(making);
+        return NULL;
+    }
+    arena_start(&shader->arena, NULL);
+    *making = (struct making){.shader = shader, .scene = scene, .width = width, .height = height};
+    uint64_t state = float_state_enter();
+    bool ok = make(making, camera, draw, object, params ? params : &plain, error);
+    float_state_leave(state);
+    frame_free(&making->frame);
+    free(making);
+    if (ok)
+        return &shader->told;
+    lam_shader_free(&shader->told);
+    return NULL;
+}
+
+void lam_shader_free(lam_shader *shader)
+{
+    if (!shader)
+        return;
+    struct shader *whole = (struct shader *)shader;
+    glsl_free(&whole->text);
+    arena_free(&whole->arena);
+    free(whole);
+}

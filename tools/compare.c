@@ -7,7 +7,6 @@
 
 #include "console.h"
 #include "drawing.h"
-#include "environment_option.h"
 #include "interrupt.h"
 #include "job.h"
 #include "output.h"
@@ -60,16 +59,12 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
         options.background = "white";
     struct job job = {.options = &options, .model = c->model, .device = c->device};
     job.times.start = clock_ms();
-    lam_environment *environment = NULL;
     bool ok = options_parse(count, words, find_groups("render"), &options, error) >= 0 &&
-              environment_option_load(&options, &environment, error);
-    job.environment = environment;
-    ok = ok && job_draw(&job, LAM_RGBA8, &c->progress, error);
+              job_draw(&job, LAM_RGBA8, &c->progress, error);
     for (int i = 0; ok && c->done == 0 && !options.quiet && lam_scene_warning(job.scene, i); i++)
         say_warning(lam_scene_warning(job.scene, i));
     c->done++;
     lam_scene_free(job.scene);
-    lam_environment_free(environment);
     if (ok)
         *image = job.image;
     else

@@ -31,48 +31,117 @@ char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUN
     return NULL;
 }
 
-static lam_environment *load_faces(const char *text, lam_color_mode color, lam_error *error)
+const char *environment_option_built_in(const char *name)
 {
+    for (int i = 0; lam_environment_name(i); i++)
+        if (strcmp(name, lam_environment_name(i)) == 0)
+            return lam_environment_name(i);
+    return NULL;
+}
+
+static lam_environment *load(const char *text, lam_color_mode color, const lam_control *control,
+                             lam_error *error)
+{
+    if (environment_option_built_in(text))
+        return lam_environment_built_in(text, error);
+    if (!strchr(text, ','))
+        return lam_environment_load(text, color, control, error);
     const char *paths[LAM_FACE_COUNT];
     char *copy = environment_option_faces(text, paths, error);
-    lam_environment *environment = copy ? lam_environment_load_faces(paths, color, error) : NULL;
+    lam_environment *environment = copy ? lam_environment_load_faces(paths, color, control, error) : NULL;
     free(copy);
     return environment;
 }
 
-bool environment_option_load(const struct options *options, lam_environment **environment, lam_error *error)
+// Where no material is named, the default one gives way to a copy, which a scene file can hold.
+static bool replace_default(lam_scene *scene, int material, lam_error *error)
 {
-    const char *text = options->environment;
-    lam_color_mode color = (lam_color_mode)options->color;
-    *environment = NULL;
-    if (!text)
-        return true;
-    for (int i = 0; lam_environment_name(i); i++)
-        if (strcmp(text, lam_environment_name(i)) == 0)
-            return (*environment = lam_environment_built_in(text, error)) != NULL;
-    *environment =
-        strchr(text, ',') ? load_faces(text, color, error) : lam_environment_load(text, color, error);
-    return *environment != NULL;
+    for (int i = 0; i < lam_scene_object_count(scene); i++) {
+        lam_object object = *lam_scene_object(scene, i);
+        uint32_t parts = lam_scene_mesh(scene, object.mesh)->part_count;
+        if (object.material >= 0)
+            continue;
+        object.material = material;
+        if (!parts && !lam_scene_set_object(scene, i, &object, error))
+            return false;
+        for (uint32_t k = 0; k < parts; k++)
+            if (lam_scene_mesh(scene, object.mesh)->parts[k].material < 0 &&
+                !lam_scene_set_part_material(scene, object.mesh, k, material, error))
+                return false;
+    }
+    return true;
 }
 
 static bool set_reflectivity(lam_scene *scene, lam_rgb reflectivity, lam_error *error)
 {
-    lam_material material = *lam_scene_default_material(scene);
-    material.reflectivity = reflectivity;
-    bool ok = lam_scene_set_default_material(scene, &material, error);
-    for (int i = 0; ok && i < lam_scene_material_count(scene); i++) {
+    lam_material material;
+    for (int i = 0; i < lam_scene_material_count(scene); i++) {
         material = *lam_scene_material(scene, i);
         material.reflectivity = reflectivity;
-        ok = lam_scene_set_material(scene, i, &material, error);
+        if (!lam_scene_set_material(scene, i, &material, error))
+            return false;
     }
-    return ok;
+    material = *lam_scene_default_material(scene);
+    material.reflectivity = reflectivity;
+    int copy = lam_scene_add_material(scene, &material, error);
+    return copy >= 0 && replace_default(scene, copy, error);
 }
 
-bool environment_option_apply(const struct options *options, const lam_environment *environment,
-                              lam_scene *scene, lam_error *error)
+static bool mirrors(const lam_material *material)
+{
+    return material->reflectivity.r > 0 || material->reflectivity.g > 0 || material->reflectivity.b > 0;
+}
+
+static bool material_mirrors(const lam_scene *scene, int index)
+{
+    return mirrors(index >= 0 ? lam_scene_material(scene, index) : lam_scene_default_material(scene));
+}
+
+static bool object_mirrors(const lam_scene *scene, const lam_object *object)
+{
+    const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
+    if (object->back_material >= 0 && material_mirrors(scene, object->back_material))
+        return true;
+    if (object->material >= 0 || !mesh->part_count)
+        return material_mirrors(scene, object->material);
+    for (uint32_t i = 0; i < mesh->part_count; i++)
+        if (material_mirrors(scene, mesh->parts[i].material))
+            return true;
+    return false;
+}
+
+static void warn_unseen(const struct options *options, lam_scene *scene)
+{
+    if (!lam_scene_environment(scene)) {
+        if (option_given(options, "environment-rotation"))
+            lam_scene_add_warning(scene,
+                                  "option '--environment-rotation' turns nothing: there is no environment");
+        return;
+    }
+    for (int i = 0; i < lam_scene_object_count(scene); i++)
+        if (object_mirrors(scene, lam_scene_object(scene, i)))
+            return;
+    lam_scene_add_warning(
+        scene,
+        "the environment is not seen: no material has a reflectivity (--reflectivity 0.5 gives them one)");
+}
+
+bool environment_option_apply(const struct options *options, lam_scene *scene, const lam_control *control,
+                              lam_error *error)
 {
     if (options->has_reflectivity && !set_reflectivity(scene, options->reflectivity, error))
         return false;
-    return !environment ||
-           lam_scene_set_environment(scene, environment, radians(options->environment_rotation_deg), error);
+    double rotation_rad = radians(options->environment_rotation_deg);
+    bool ok = true;
+    if (options->environment) {
+        lam_environment *environment =
+            load(options->environment, (lam_color_mode)options->color, control, error);
+        ok = environment && lam_scene_set_environment(scene, environment, rotation_rad, error);
+        lam_environment_free(environment); // the scene has it
+    } else if (option_given(options, "environment-rotation") && lam_scene_environment(scene)) {
+        ok = lam_scene_set_environment(scene, lam_scene_environment(scene), rotation_rad, error);
+    }
+    if (ok)
+        warn_unseen(options, scene);
+    return ok;
 }

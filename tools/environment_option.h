@@ -8,11 +8,13 @@
 // caller frees. NULL: there are not six.
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error);
 
-// Reads or makes what --environment names; *environment is NULL without that option. The caller frees it.
-bool environment_option_load(const struct options *options, lam_environment **environment, lam_error *error);
+// The built-in environment of that name; NULL: it is none.
+const char *environment_option_built_in(const char *name);
 
-// Gives it to a scene, turned as asked, and its materials the reflectivity asked for, if one is.
-bool environment_option_apply(const struct options *options, const lam_environment *environment,
-                              lam_scene *scene, lam_error *error);
+// Reads or makes what --environment names and gives it to the scene, turned as --environment-rotation says
+// (which also turns a scene file's own), and gives the materials the --reflectivity asked for. Where a scene
+// has an environment that no surface reflects, it gets a warning.
+bool environment_option_apply(const struct options *options, lam_scene *scene, const lam_control *control,
+                              lam_error *error);
 
 #endif

@@ -56,6 +56,8 @@ static void matrix(struct json *json, const char *key, lam_rgb ambient, lam_rgb 
     json_close(json, ']');
 }
 
+static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
 static void tell_light(struct json *json, const lam_explained_light *l)
 {
     json_open(json, NULL, '{');
@@ -107,7 +109,7 @@ static void tell_point(struct json *json, const lam_explained_point *p)
     vector(json, "position", p->position);
     vector(json, "n", p->n);
     vector(json, "v", p->v);
-    if (p->t.x == 0 && p->t.y == 0 && p->t.z == 0)
+    if (is_zero(p->t))
         json_none(json, "t");
     else
         vector(json, "t", p->t);
@@ -132,6 +134,15 @@ static void tell_point(struct json *json, const lam_explained_point *p)
         json_close(json, '}');
     }
     json_close(json, ']');
+    if (is_zero(p->reflected)) {
+        json_none(json, "environment");
+    } else {
+        json_open(json, "environment", '{');
+        vector(json, "R", p->reflected);
+        vector(json, "direction", p->environment_direction);
+        color(json, "light", p->environment_light);
+        json_close(json, '}');
+    }
     json_open(json, "terms", '{');
     color(json, "emission", p->emission);
     color(json, "ambient", p->ambient);
@@ -213,7 +224,8 @@ void explain_json(const lam_explanation *e, const char *model)
     color4(&json, "background", e->background);
     color4(&json, "result", e->result);
     color(&json, "straight", e->straight);
-    json_count(&json, "exposure", 1);
+    json_number(&json, "exposure_stops", e->stops);
+    real(&json, "exposure", e->exposure);
     json_text(&json, "encoding", e->color == LAM_COLOR_RAW ? "raw" : "srgb");
     color(&json, "encoded", e->encoded);
     json_open(&json, "bytes", '[');

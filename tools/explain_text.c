@@ -196,6 +196,13 @@ static void tell_point(const lam_explanation *e, const lam_explained_fragment *f
     for (int i = 0; i < p->hemisphere_count; i++)
         tell_hemisphere(&p->hemispheres[i], i);
 
+    if (!is_zero(p->reflected)) {
+        printf("\n  environment\n");
+        vector(4, "R", p->reflected, "2 (n·v) n − v, the eye vector's mirror image");
+        vector(4, "direction", p->environment_direction, "R in the environment's own axes");
+        color(4, "light from there", p->environment_light, "");
+    }
+
     printf("\n  terms\n");
     const char *tint = colored ? ", times the vertex colour" : "";
     char text[200];
@@ -211,14 +218,18 @@ static void tell_point(const lam_explanation *e, const lam_explained_fragment *f
         snprintf(text, sizeof text, "Σ of those of the lights%s", tint);
         color(4, "diffuse", p->diffuse, text);
         color(4, "specular", p->specular, "Σ of those of the lights");
-        color(4, "reflection", p->reflection, "");
+        snprintf(text, sizeof text, "kr ⊙ environment = (%.7g %.7g %.7g) ⊙ (%.7g %.7g %.7g)",
+                 (double)f->surface.reflectivity.r, (double)f->surface.reflectivity.g,
+                 (double)f->surface.reflectivity.b, (double)p->environment_light.r,
+                 (double)p->environment_light.g, (double)p->environment_light.b);
+        color(4, "reflection", p->reflection, e->has_environment ? text : "");
     }
     color(4, "sum", p->sum, "emission + ambient + diffuse + specular + reflection");
     if (p->result.r != p->sum.r || p->result.g != p->sum.g || p->result.b != p->sum.b)
         color(4, "clamped", p->result, "to 0…1, as OpenGL 1 did");
 }
 
-static void tell_material(const lam_explained_fragment *f)
+static void tell_material(const lam_explanation *e, const lam_explained_fragment *f)
 {
     const lam_material *m = &f->surface;
     if (f->material >= 0)
@@ -232,6 +243,8 @@ static void tell_material(const lam_explained_fragment *f)
     three(4, "diffuse kd", (double)m->diffuse.r, (double)m->diffuse.g, (double)m->diffuse.b, "");
     color(4, "specular ks", m->specular, "");
     color(4, "emission", m->emission, "");
+    if (e->has_environment)
+        color(4, "reflectivity kr", m->reflectivity, "");
     number(4, "shininess α", (double)f->shininess,
            f->shininess == m->shininess ? "" : "as changed by the options");
     if (m->diffuse.a != 1)
@@ -261,7 +274,7 @@ static void tell_fragment(const lam_explanation *e, const lam_explained_fragment
                f->lit_sample);
     three(2, "weights of the corners", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2],
           "barycentric, perspective-correct");
-    tell_material(f);
+    tell_material(e, f);
     for (int i = 0; i < f->point_count; i++)
         tell_point(e, f, &f->points[i]);
     if (f->point_count == 3)
@@ -301,14 +314,17 @@ static void tell_pixel(const lam_explanation *e)
     label(2, "weighted sum");
     printf("%13.7g %13.7g %13.7g %13.7g   Σ weight · alpha · colour\n", (double)e->sum.r, (double)e->sum.g,
            (double)e->sum.b, (double)e->sum.a);
+    char stops[64];
+    snprintf(stops, sizeof stops, "2^%.7g stops, multiplies the sum's colour", e->stops);
+    number(2, "exposure", (double)e->exposure, e->exposure == 1 ? "none is applied" : stops);
     label(2, "background");
     printf("%13.7g %13.7g %13.7g %13.7g\n", (double)e->background.r, (double)e->background.g,
            (double)e->background.b, (double)e->background.a);
     label(2, "over it");
-    printf("%13.7g %13.7g %13.7g %13.7g   sum + (1 − alpha) · background; .pfm holds this\n",
-           (double)e->result.r, (double)e->result.g, (double)e->result.b, (double)e->result.a);
+    printf("%13.7g %13.7g %13.7g %13.7g   %ssum + (1 − alpha) · background; .pfm holds this\n",
+           (double)e->result.r, (double)e->result.g, (double)e->result.b, (double)e->result.a,
+           e->exposure == 1 ? "" : "exposure · ");
     color(2, "colour ÷ alpha", e->straight, "");
-    number(2, "exposure", 1, "none is applied");
     color(2, "encoded", e->encoded,
           e->color == LAM_COLOR_RAW ? "clamped to 0…1 (--color raw)" : "by the sRGB curve");
     label(2, "bytes");

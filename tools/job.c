@@ -242,7 +242,7 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
     struct model_sphere sphere;
     lam_control control;
     if (!control_of(job, progress, &control, error) || !job_dress(job, &control, &sphere, error) ||
-        !environment_option_apply(job->options, job->environment, job->scene, error))
+        !environment_option_apply(job->options, job->scene, &control, error))
         return false;
     place_camera(job);
     return job_light(job, &sphere, error) && (!job->options->show_lights || light_markers_add(job, error));

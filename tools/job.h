@@ -31,8 +31,7 @@ struct job {
     lam_image image;
     lam_rgba background; // behind the model, as --background says
     lam_device *device;
-    const lam_environment *environment; // of all models; NULL: none
-    uint64_t bytes;                     // of the file written
+    uint64_t bytes; // of the file written
     bool written;
     struct options own;    // the options with what a scene file says where the command line says nothing
     lam_settings settings; // of the scene file; nothing given: the model is none

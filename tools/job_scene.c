@@ -170,6 +170,7 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
     return (lam_draw_params){
         .samples = o->samples,
         .color = (lam_color_mode)o->color,
+        .exposure = o->exposure,
         .rig = rig,
         .shading = o->has_shading ? (lam_shading)o->shading
                    : by_vertex    ? LAM_SHADING_GOURAUD

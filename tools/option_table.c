@@ -160,6 +160,14 @@ const struct option option_table[] = {
      .store = store_color, FIELD(background)},
     {"color", 0, GROUP_PICTURE, "MODE", "srgb", "How colours become numbers: srgb or raw (no conversion).",
      NULL, color_words, .store = store_word, FIELD(color)},
+    {"exposure", 0, GROUP_PICTURE, "STOPS", "0",
+     "Make the picture brighter or darker: 1 doubles its light, -1 halves it.",
+     "The light of the model is multiplied by 2 to the power of STOPS before anything is clamped or encoded, "
+     "also with "
+     "`--color raw`, in float pictures and in what `--show` gives of the light. The background stays as it "
+     "was asked "
+     "for.",
+     .store = store_number, FIELD(exposure), .least = -100, .most = 100},
     {"show", 0, GROUP_PICTURE, "WHAT", "the picture",
      "A term of the light, one light, or numbers of the surfaces in place of the picture.",
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. "

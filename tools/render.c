@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "console.h"
-#include "environment_option.h"
 #include "interrupt.h"
 #include "job.h"
 #include "output.h"
@@ -164,10 +163,9 @@ static void name_model(const struct job *job, lam_error *error)
 }
 
 // Returns the exit code of one model.
-static int render_one(const char *model, lam_device *device, const lam_environment *environment,
-                      const struct options *o)
+static int render_one(const char *model, lam_device *device, const struct options *o)
 {
-    struct job job = {.options = o, .model = model, .device = device, .environment = environment};
+    struct job job = {.options = o, .model = model, .device = device};
     job.times.start = clock_ms();
     FILE *stream = report_stream(o);
     bool may_talk = stream != stderr;
@@ -210,17 +208,11 @@ int run_render(int operand_count, char **operands, const struct options *options
     lam_device *device = lam_device_cpu(&params, &error);
     if (!device)
         return tell_failure(&error, options);
-    lam_environment *environment = NULL;
-    if (!environment_option_load(options, &environment, &error)) {
-        lam_device_free(device);
-        return tell_failure(&error, options);
-    }
     int worst = 0;
     for (int i = 0; i < operand_count && !interrupted(); i++) {
-        int code = render_one(operands[i], device, environment, options);
+        int code = render_one(operands[i], device, options);
         worst = code > worst ? code : worst;
     }
-    lam_environment_free(environment);
     lam_device_free(device);
     if (interrupted()) {
         fflush(stdout);

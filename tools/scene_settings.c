@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "console.h"
+#include "camera_option.h"
 #include "environment_option.h"
 
 // Settings that an option can override, by the option's name.
@@ -30,6 +30,8 @@ void scene_settings_apply(struct job *job)
         own->samples = s->draw.samples;
     if (free_to_take(job, LAM_GIVEN_COLOR, "color"))
         own->color = (int)s->draw.color;
+    if (free_to_take(job, LAM_GIVEN_EXPOSURE, "exposure"))
+        own->exposure = s->draw.exposure;
     if (free_to_take(job, LAM_GIVEN_SHADING, "shading")) {
         own->shading = (int)s->draw.shading;
         own->has_shading = !option_given(own, "stage");
@@ -62,29 +64,29 @@ bool scene_settings_has_camera(const struct job *job)
     return job->settings.given & LAM_GIVEN_CAMERA;
 }
 
-// The environment that the command line names, in place of the scene file's. `names` keeps the six names.
+// The environment as it is drawn: the command line's, or the scene file's with the command line's turn.
+// `names` keeps the six names.
 static bool take_environment(const struct options *o, lam_settings *s, char **names, lam_error *error)
 {
     const char *text = o->environment;
+    if (text || option_given(o, "environment-rotation"))
+        s->environment_rotation_rad = radians(o->environment_rotation_deg);
     if (!text)
         return true;
-    for (int i = 0; lam_environment_name(i); i++)
-        if (strcmp(text, lam_environment_name(i)) == 0)
-            return complain(error, LAM_UNSUPPORTED,
-                            "%s: a scene file names pictures, it cannot hold the built-in environment '%s'",
-                            o->save_scene, text);
     memset(s->faces, 0, sizeof s->faces);
-    s->equirectangular = strchr(text, ',') ? NULL : text;
-    s->environment_rotation_rad = o->environment_rotation_deg * (3.14159265358979323846 / 180);
+    s->built_in = environment_option_built_in(text);
+    s->equirectangular = s->built_in || strchr(text, ',') ? NULL : text;
     s->given |= LAM_GIVEN_ENVIRONMENT;
-    return s->equirectangular || (*names = environment_option_faces(text, s->faces, error)) != NULL;
+    return s->built_in || s->equirectangular ||
+           (*names = environment_option_faces(text, s->faces, error)) != NULL;
 }
 
 bool scene_settings_save(const struct job *job, lam_error *error)
 {
     const lam_draw_params *draw = &job->draw;
     lam_settings s = job->settings;
-    s.given &= LAM_GIVEN_EXPOSURE | LAM_GIVEN_ENVIRONMENT;
+    s.given &= LAM_GIVEN_ENVIRONMENT;
+    s.given |= draw->exposure != 0 ? LAM_GIVEN_EXPOSURE : 0;
     s.given |= LAM_GIVEN_SIZE | LAM_GIVEN_SAMPLES | LAM_GIVEN_BACKGROUND | LAM_GIVEN_COLOR |
                LAM_GIVEN_CAMERA | LAM_GIVEN_SHADING | LAM_GIVEN_REFLECTION | LAM_GIVEN_MATCH_HIGHLIGHTS |
                LAM_GIVEN_GL1;

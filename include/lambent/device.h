@@ -141,6 +141,10 @@ typedef struct lam_draw_params {
     int samples;         // per pixel: 1, 2, 4, 8 or 16; 0: 4
     lam_rgba background; // linear, not premultiplied; default clear
     lam_color_mode color;
+    // Stops, −100…100: the light of the picture, of a term and of a light is multiplied by 2^exposure, in
+    // linear light, before it lies over the background (which stays as it is) and is encoded. Alpha and the
+    // numbers of surfaces stay as they are. 0: as the equations give it.
+    double exposure;
     lam_rig rig;
     lam_shading shading;
     lam_reflection reflection;

@@ -48,13 +48,16 @@ LAM_API
 lam_environment *lam_environment_from_image(const struct lam_image *image, lam_color_mode color,
                                             lam_error *error);
 
-// The same from files, in any format that lam_image_load_linear reads: six of them, or one. Errors: as there,
-// and LAM_UNSUPPORTED where a picture's size does not fit; every message names the file.
+// The same from files, in any format that lam_image_load_linear reads: six of them, or one. `control` may be
+// NULL; its memory limit counts the pictures (16 bytes a pixel, while they are read) and the faces (12).
+// Errors: as there, LAM_UNSUPPORTED where a picture's size does not fit (every message names the file),
+// LAM_LIMIT, LAM_CANCELLED.
 LAM_API
 lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
-                                            lam_error *error);
+                                            const lam_control *control, lam_error *error);
 LAM_API
-lam_environment *lam_environment_load(const char *path, lam_color_mode color, lam_error *error);
+lam_environment *lam_environment_load(const char *path, lam_color_mode color, const lam_control *control,
+                                      lam_error *error);
 
 // The built-in ones, computed: "sky" (a low sun over grey-brown ground) and "studio" (soft boxes of light in
 // a dark room).

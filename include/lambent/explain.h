@@ -64,6 +64,10 @@ typedef struct lam_explained_point {
     int hemisphere_count;
     const lam_explained_light *lights;
     int light_count;
+    // Where there is an environment (has_environment), else zero; and zero without n or v:
+    lam_vec3 reflected;             // R = 2 (n·v) n − v, the eye vector's mirror image
+    lam_vec3 environment_direction; // R in the environment's own axes, which it is looked up with
+    lam_rgb environment_light;      // what comes from there; the reflection term is kr ⊙ it
     // The terms, ambient and diffuse times the vertex colour, and their sum: emission + ambient + diffuse +
     // specular + reflection.
     lam_rgb emission, ambient, diffuse, specular, reflection;
@@ -104,13 +108,16 @@ typedef struct lam_explanation {
     lam_reflection reflection; // never AUTO
     bool distant_viewer;       // v = (0, 0, 1) for every point
     bool gl1;
+    bool has_environment;
     const lam_explained_fragment
         *fragments; // in the order of the nearest sample that shows them; translucent ones first, by depth
     int fragment_count; // 0: the pixel shows the background alone
 
     lam_rgba sum;        // Σ weight · alpha · color, and Σ weight · alpha
+    double stops;        // the exposure asked for
+    float exposure;      // 2^stops
     lam_rgba background; // not premultiplied
-    lam_rgba result;     // premultiplied: the sum over the background; what LAM_RGBA32F holds
+    lam_rgba result;     // premultiplied: exposure · sum over the background; what LAM_RGBA32F holds
     lam_rgb straight;    // result ÷ alpha
     lam_rgb encoded;     // sRGB curve, or clamped with LAM_COLOR_RAW
     uint8_t bytes[4];    // what LAM_RGBA8 holds: floor(255·encoded + ½), and alpha

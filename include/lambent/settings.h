@@ -32,16 +32,16 @@ enum {
 typedef struct lam_settings {
     unsigned given;
     int width, height; // pixels
-    double exposure;   // stops; 0: as it is
     lam_camera camera;
-    // samples, background, color, shading, reflection, stage, viewer, flat_normal, match_highlights, gl1; rig
-    // is LAM_RIG_NONE where lights are given, be it an empty list.
+    // samples, background, color, exposure, shading, reflection, stage, viewer, flat_normal,
+    // match_highlights, gl1; rig is LAM_RIG_NONE where lights are given, be it an empty list.
     lam_draw_params draw;
-    // The environment's pictures: six faces (+x −x +y −y +z −z), or one equirectangular picture: paths
-    // that can be opened from here (as in the file where that came from memory). They live as long as the
-    // scene.
+    // The environment: six faces (+x −x +y −y +z −z), or one picture (equirectangular or a cross), as paths
+    // that can be opened from here (as in the file where that came from memory); or the name of a built-in
+    // one. They live as long as the scene.
     const char *faces[6];
     const char *equirectangular;
+    const char *built_in;
     double environment_rotation_rad; // about the up axis
 } lam_settings;
 

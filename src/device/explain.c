@@ -93,7 +93,9 @@ static void take_frame(lam_explanation *out, const struct frame *frame)
     out->reflection = frame->reflection;
     out->distant_viewer = frame->distant_viewer;
     out->gl1 = frame->gl1;
+    out->has_environment = frame->environment != NULL;
     out->background = frame->background;
+    out->exposure = frame->exposure;
 }
 
 static bool check_place(const lam_device *device, const lam_draw_params *params, int width, int height, int x,
@@ -143,6 +145,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
         return NULL;
     }
     take_frame(out, &device->frame);
+    out->stops = params ? params->exposure : 0;
     complete(&recorder, scene);
     return out;
 }

@@ -2,10 +2,10 @@
 // formats.
 #include "scene_file.h"
 
+#include "cube_map.h"
 #include "fail.h"
 #include "linear.h"
 
-#include <lambent/environment.h>
 #include <string.h>
 
 // --- is it one?
@@ -67,13 +67,10 @@ static bool read_image(struct scene_reader *r, const json_t *root)
     }
     s->draw.background.a = 0;
     if (!take_rgba(r, place, image, "background", &s->draw.background) ||
-        !take_number(r, place, image, "exposure", -100, 100, &s->exposure))
+        !take_number(r, place, image, "exposure", -100, 100, &s->draw.exposure))
         return false;
     s->given |= json_object_get(image, "background") ? LAM_GIVEN_BACKGROUND : 0;
     s->given |= json_object_get(image, "exposure") ? LAM_GIVEN_EXPOSURE : 0;
-    if (s->exposure != 0)
-        scene_warn(r->scene, "%s: image.exposure is kept, but this version draws without exposure",
-                   r->source->name);
     return true;
 }
 
@@ -186,9 +183,53 @@ static const char *picture_path(struct scene_reader *r, const char *name)
     return path;
 }
 
+static bool read_faces(struct scene_reader *r, const struct place *place, const json_t *faces)
+{
+    char kind[32];
+    if (!json_is_array(faces) || json_array_size(faces) != 6)
+        return fail_place(r, place, "found %s, expected six names of pictures: +x, -x, +y, -y, +z, -z",
+                          json_kind(faces, kind));
+    for (size_t i = 0; i < 6; i++) {
+        const json_t *face = json_array_get(faces, i);
+        if (!json_is_string(face) || !json_string_length(face))
+            return fail_place(r, ELEMENT_OF(place, i), "found %s, expected a picture's name",
+                              json_kind(face, kind));
+        if (!(r->settings->faces[i] = picture_path(r, json_string_value(face))))
+            return false;
+    }
+    return true;
+}
+
+static bool read_built_in(struct scene_reader *r, const struct place *place, const char **name)
+{
+    const char *known[8];
+    int count = 0;
+    while (count < 8 && (known[count] = lam_environment_name(count))) {
+        if (strcmp(known[count], *name) == 0) {
+            *name = known[count];
+            return true;
+        }
+        count++;
+    }
+    const char *near_word = nearest_word(*name, known, count);
+    return fail_place(r, place, "found '%.60s', expected sky or studio%s%s%s", *name,
+                      near_word ? "; did you mean '" : "", near_word ? near_word : "", near_word ? "'?" : "");
+}
+
+static struct lam_environment *load_environment(const struct scene_reader *r)
+{
+    const lam_settings *s = r->settings;
+    struct watch *watch = r->source->watch;
+    if (s->built_in)
+        return lam_environment_built_in(s->built_in, r->error);
+    return s->equirectangular
+               ? environment_load(s->equirectangular, r->color, watch, r->error)
+               : environment_load_faces((const char *const *)s->faces, r->color, watch, r->error);
+}
+
 static bool read_environment(struct scene_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"faces", "equirectangular", "rotation", NULL};
+    static const char *const keys[] = {"faces", "equirectangular", "builtin", "rotation", NULL};
     const json_t *value = json_object_get(root, "environment");
     const struct place *place = KEY_OF(NULL, "environment");
     lam_settings *s = r->settings;
@@ -197,35 +238,21 @@ static bool read_environment(struct scene_reader *r, const json_t *root)
         return true;
     if (!check_keys(r, place, value, keys) ||
         !take_text(r, place, value, "equirectangular", &s->equirectangular) ||
+        !take_text(r, place, value, "builtin", &s->built_in) ||
         !take_number(r, place, value, "rotation", -360000, 360000, &rotation))
         return false;
     const json_t *faces = json_object_get(value, "faces");
-    const struct place *here = KEY_OF(place, "faces");
-    if (!faces == !s->equirectangular)
-        return fail_place(r, place, "expected one of faces and equirectangular");
-    if (faces && (!json_is_array(faces) || json_array_size(faces) != 6)) {
-        char kind[32];
-        return fail_place(r, here, "found %s, expected six names of pictures: +x, -x, +y, -y, +z, -z",
-                          json_kind(faces, kind));
-    }
-    for (size_t i = 0; faces && i < 6; i++) {
-        const json_t *face = json_array_get(faces, i);
-        char kind[32];
-        if (!json_is_string(face) || !json_string_length(face))
-            return fail_place(r, ELEMENT_OF(here, i), "found %s, expected a picture's name",
-                              json_kind(face, kind));
-        s->faces[i] = picture_path(r, json_string_value(face));
-        if (!s->faces[i])
-            return false;
-    }
+    if ((faces != NULL) + (s->equirectangular != NULL) + (s->built_in != NULL) != 1)
+        return fail_place(r, place, "expected one of faces, equirectangular and builtin");
+    if (faces && !read_faces(r, KEY_OF(place, "faces"), faces))
+        return false;
+    if (s->built_in && !read_built_in(r, KEY_OF(place, "builtin"), &s->built_in))
+        return false;
     if (s->equirectangular && !(s->equirectangular = picture_path(r, s->equirectangular)))
         return false;
     s->environment_rotation_rad = math_radians(rotation);
     s->given |= LAM_GIVEN_ENVIRONMENT;
-    lam_environment *environment =
-        s->equirectangular
-            ? lam_environment_load(s->equirectangular, s->draw.color, r->error)
-            : lam_environment_load_faces((const char *const *)s->faces, s->draw.color, r->error);
+    lam_environment *environment = load_environment(r);
     bool ok = environment &&
               lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->error);
     lam_environment_free(environment);

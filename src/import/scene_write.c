@@ -432,7 +432,7 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_settings *
     if (s->given & LAM_GIVEN_COLOR)
         put(w, out, "color", word(color_words, (int)s->draw.color));
     if (s->given & LAM_GIVEN_EXPOSURE)
-        put(w, out, "exposure", number(s->exposure));
+        put(w, out, "exposure", number(s->draw.exposure));
     if (json_object_size(out))
         put(w, root, "image", out);
     else
@@ -441,8 +441,10 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_settings *
 
 static bool put_environment(struct scene_writer *w, json_t *root, const lam_settings *s)
 {
-    json_t *out = json_object(), *faces = s->equirectangular ? NULL : json_array();
+    json_t *out = json_object(), *faces = s->equirectangular || s->built_in ? NULL : json_array();
     put(w, root, "environment", out);
+    if (s->built_in)
+        put(w, out, "builtin", json_string(s->built_in));
     if (faces)
         put(w, out, "faces", faces);
     for (int i = 0; faces && i < 6; i++)

@@ -12,7 +12,7 @@
 struct lam_environment *cube_make(int size, lam_error *error)
 {
     struct lam_environment *cube = malloc(sizeof *cube);
-    size_t side = (size_t)size + 2, bytes = side * side * LAM_FACE_COUNT * 3 * sizeof(float);
+    size_t bytes = cube_bytes(size);
     float *texels = cube ? malloc(bytes) : NULL;
     if (!texels) {
         free(cube);

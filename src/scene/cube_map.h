@@ -29,6 +29,18 @@ static inline float *cube_texel(const struct lam_environment *cube, int face, in
 // A cube of that size, texels undefined. NULL: out of memory.
 struct lam_environment *cube_make(int size, lam_error *error);
 
+static inline size_t cube_bytes(int size)
+{
+    return ((size_t)size + 2) * ((size_t)size + 2) * LAM_FACE_COUNT * 3 * sizeof(float);
+}
+
+// lam_environment_load_faces and lam_environment_load within a call that has its watch already.
+struct watch;
+struct lam_environment *environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
+                                               struct watch *watch, lam_error *error);
+struct lam_environment *environment_load(const char *path, lam_color_mode color, struct watch *watch,
+                                         lam_error *error);
+
 // Fills the borders from the faces.
 void cube_close(struct lam_environment *cube);
 

@@ -4,8 +4,27 @@
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
+#include "watch.h"
 
 #include <string.h>
+
+// --- memory
+
+// Takes it from the call's budget; `watch` NULL: none.
+static bool charge(struct watch *watch, size_t bytes, lam_error *error)
+{
+    return !watch || watch_charge(watch, bytes) || watch_memory_error(watch, bytes, error);
+}
+
+static size_t bytes_of(const lam_image *image)
+{
+    return image->pixels ? (size_t)image->width * (size_t)image->height * 4 * sizeof(float) : 0;
+}
+
+static struct lam_environment *cube_within(struct watch *watch, int size, lam_error *error)
+{
+    return charge(watch, cube_bytes(size), error) ? cube_make(size, error) : NULL;
+}
 
 // --- pieces of pictures to faces
 
@@ -39,14 +58,14 @@ static bool copy_face(struct lam_environment *cube, int face, const struct piece
 
 static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE_COUNT],
                                               const char *const names[LAM_FACE_COUNT], int size,
-                                              lam_error *error)
+                                              struct watch *watch, lam_error *error)
 {
     if (size > CUBE_SIDE_MOST) {
         fail(error, LAM_LIMIT, "%s: a face of %d×%d pixels, expected at most %d×%d", names[0], size, size,
              CUBE_SIDE_MOST, CUBE_SIDE_MOST);
         return NULL;
     }
-    struct lam_environment *cube = cube_make(size, error);
+    struct lam_environment *cube = cube_within(watch, size, error);
     for (int face = 0; cube && face < LAM_FACE_COUNT; face++) {
         if (!copy_face(cube, face, &pieces[face], names[face], error)) {
             lam_environment_free(cube);
@@ -59,7 +78,7 @@ static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE
 }
 
 static struct lam_environment *cube_of_faces(const lam_image *faces, const char *const names[LAM_FACE_COUNT],
-                                             lam_error *error)
+                                             struct watch *watch, lam_error *error)
 {
     struct piece pieces[LAM_FACE_COUNT];
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
@@ -71,7 +90,7 @@ static struct lam_environment *cube_of_faces(const lam_image *faces, const char 
              faces[face].width, faces[face].height, faces[0].width, faces[0].width);
         return NULL;
     }
-    return cube_of_pieces(pieces, names, faces[0].width, error);
+    return cube_of_pieces(pieces, names, faces[0].width, watch, error);
 }
 
 // --- an equirectangular picture
@@ -112,7 +131,8 @@ static bool check_light(const lam_image *image, const char *name, lam_error *err
     return true;
 }
 
-static struct lam_environment *cube_of_sphere(const lam_image *image, const char *name, lam_error *error)
+static struct lam_environment *cube_of_sphere(const lam_image *image, const char *name, struct watch *watch,
+                                              lam_error *error)
 {
     int size = (int)((double)image->width / PI) + 1;
     if (size > CUBE_SIDE_MOST) {
@@ -120,7 +140,7 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
              (int)(CUBE_SIDE_MOST * PI));
         return NULL;
     }
-    struct lam_environment *cube = check_light(image, name, error) ? cube_make(size, error) : NULL;
+    struct lam_environment *cube = check_light(image, name, error) ? cube_within(watch, size, error) : NULL;
     if (!cube)
         return NULL;
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
@@ -137,14 +157,15 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
 }
 
 // One linear picture, by the ratio of its sides.
-static struct lam_environment *cube_of_image(const lam_image *image, const char *name, lam_error *error)
+static struct lam_environment *cube_of_image(const lam_image *image, const char *name, struct watch *watch,
+                                             lam_error *error)
 {
     static const int lying[LAM_FACE_COUNT][2] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}};
     static const int standing[LAM_FACE_COUNT][2] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {1, 3}};
     int64_t width = image->width, height = image->height;
     bool lies = width % 4 == 0 && 3 * width == 4 * height, stands = width % 3 == 0 && 4 * width == 3 * height;
     if (width == 2 * height)
-        return cube_of_sphere(image, name, error);
+        return cube_of_sphere(image, name, watch, error);
     if (!lies && !stands) {
         fail(error, LAM_UNSUPPORTED,
              "%s: %d×%d pixels, expected a cross of six squares (4:3 or 3:4) or an equirectangular picture "
@@ -160,7 +181,7 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
         pieces[face] = (struct piece){image, at[0] * size, at[1] * size, stands && face == LAM_FACE_NZ};
         names[face] = name;
     }
-    return cube_of_pieces(pieces, names, size, error);
+    return cube_of_pieces(pieces, names, size, watch, error);
 }
 
 // --- pictures of the caller
@@ -192,7 +213,7 @@ lam_environment *lam_environment_make(const lam_image *const faces[LAM_FACE_COUN
     bool ok = faces || fail(error, LAM_BAD_ARGUMENT, "environment: no faces are given");
     for (int face = 0; ok && face < LAM_FACE_COUNT; face++)
         ok = linear_copy(faces[face], color, &linear[face], error);
-    struct lam_environment *cube = ok ? cube_of_faces(linear, names, error) : NULL;
+    struct lam_environment *cube = ok ? cube_of_faces(linear, names, NULL, error) : NULL;
     for (int face = 0; face < LAM_FACE_COUNT; face++)
         lam_image_free(&linear[face]);
     float_state_leave(state);
@@ -204,7 +225,7 @@ lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mo
     uint64_t state = float_state_enter();
     lam_image linear;
     struct lam_environment *cube =
-        linear_copy(image, color, &linear, error) ? cube_of_image(&linear, "environment", error) : NULL;
+        linear_copy(image, color, &linear, error) ? cube_of_image(&linear, "environment", NULL, error) : NULL;
     lam_image_free(&linear);
     float_state_leave(state);
     return cube;
@@ -212,29 +233,63 @@ lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mo
 
 // --- files
 
-lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
-                                            lam_error *error)
+// A file's picture, linear; its memory is the caller's to refund.
+static bool load_picture(lam_image *image, const char *path, lam_color_mode color, struct watch *watch,
+                         lam_error *error)
+{
+    if (!watch_on(watch))
+        return watch_error(watch, error);
+    if (!lam_image_load_linear(image, path, color, error))
+        return false;
+    if (charge(watch, bytes_of(image), error))
+        return true;
+    lam_image_free(image);
+    return false;
+}
+
+struct lam_environment *environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
+                                               struct watch *watch, lam_error *error)
 {
     lam_image faces[LAM_FACE_COUNT] = {{0}};
     bool ok = paths || fail(error, LAM_BAD_ARGUMENT, "environment: no faces are given");
     for (int face = 0; ok && face < LAM_FACE_COUNT; face++)
-        ok = lam_image_load_linear(&faces[face], paths[face], color, error);
+        ok = load_picture(&faces[face], paths[face], color, watch, error);
     uint64_t state = float_state_enter();
-    struct lam_environment *cube = ok ? cube_of_faces(faces, paths, error) : NULL;
+    struct lam_environment *cube = ok ? cube_of_faces(faces, paths, watch, error) : NULL;
     float_state_leave(state);
-    for (int face = 0; face < LAM_FACE_COUNT; face++)
+    for (int face = 0; face < LAM_FACE_COUNT; face++) {
+        watch_refund(watch, bytes_of(&faces[face]));
         lam_image_free(&faces[face]);
+    }
     return cube;
 }
 
-lam_environment *lam_environment_load(const char *path, lam_color_mode color, lam_error *error)
+struct lam_environment *environment_load(const char *path, lam_color_mode color, struct watch *watch,
+                                         lam_error *error)
 {
-    lam_image image;
-    if (!lam_image_load_linear(&image, path, color, error))
+    lam_image image = {0};
+    if (!load_picture(&image, path, color, watch, error))
         return NULL;
     uint64_t state = float_state_enter();
-    struct lam_environment *cube = cube_of_image(&image, path, error);
+    struct lam_environment *cube = cube_of_image(&image, path, watch, error);
     float_state_leave(state);
+    watch_refund(watch, bytes_of(&image));
     lam_image_free(&image);
     return cube;
+}
+
+lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
+                                            const lam_control *control, lam_error *error)
+{
+    struct watch watch;
+    watch_start(&watch, control);
+    return environment_load_faces(paths, color, &watch, error);
+}
+
+lam_environment *lam_environment_load(const char *path, lam_color_mode color, const lam_control *control,
+                                      lam_error *error)
+{
+    struct watch watch;
+    watch_start(&watch, control);
+    return environment_load(path, color, &watch, error);
 }

@@ -44,6 +44,9 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
                         "background: a channel is %g, expected a number of at least 0", (double)b[i]);
     if (b[3] > 1)
         return fail(error, LAM_BAD_ARGUMENT, "background: alpha is %g, expected 0 to 1", (double)b[3]);
+    if (!(params->exposure >= -100 && params->exposure <= 100))
+        return fail(error, LAM_BAD_ARGUMENT, "exposure is %g, expected stops from -100 to 100",
+                    params->exposure);
     if ((unsigned)params->color > LAM_COLOR_RAW || (unsigned)params->rig > LAM_RIG_LECTURE ||
         (unsigned)params->shading > LAM_SHADING_FLAT ||
         (unsigned)params->reflection > LAM_REFLECTION_KAJIYA_KAY_LECTURE)
@@ -380,6 +383,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->samples = params->samples ? params->samples : 4;
     frame->background = params->background;
     frame->color = params->color;
+    frame->exposure = rounded(math_exp2(params->exposure));
     frame->shading = params->shading;
     frame->reflection =
         params->reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : params->reflection;

@@ -72,6 +72,7 @@ struct frame {
     int samples;
     lam_rgba background;
     lam_color_mode color;
+    float exposure; // the factor, 2^stops
     lam_shading shading;
     lam_reflection reflection; // never AUTO
     lam_flat_normal flat_normal;

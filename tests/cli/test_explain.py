@@ -58,6 +58,27 @@ class Explain(Case):
         words = ("explain", "teapot", "30,30", "-s", 64, "--json")
         self.assertEqual(self.good(*words).stdout, self.good(*words, "--isa", "plain", "-j", 1).stdout)
 
+    def test_environment(self):
+        """The reflection term comes from R, told in both spaces, and the light that the environment sends from there."""
+        scene = ("-s", 64, "--environment", "sky", "--reflectivity", "0.25/0.5/1", "--samples", 1)
+        self.same_as_picture("sphere", *scene, "--environment-rotation", 70, count=3)
+        told = [self.told("sphere", "32,32", *scene, "--environment-rotation", turn) for turn in (0, 90)]
+        points = [t["triangles"][0]["points"][0] for t in told]
+        for point in points:
+            n, v, r = point["n"], point["v"], point["environment"]["R"]
+            twice = 2 * sum(a * b for a, b in zip(n, v))
+            for c in range(3):
+                self.assertAlmostEqual(r[c], twice * n[c] - v[c], 5)
+                self.assertAlmostEqual(point["terms"]["reflection"][c], (0.25, 0.5, 1)[c] * point["environment"]["light"][c], 6)
+        # The environment turned counter-clockwise, seen from above: the place where it is looked up turns back.
+        straight, turned = (p["environment"]["direction"] for p in points)
+        for got, expected in zip(turned, (-straight[2], straight[1], straight[0])):
+            self.assertAlmostEqual(got, expected, 5)
+        self.assertIsNone(self.told("sphere", "32,32", "-s", 64)["triangles"][0]["points"][0]["environment"])
+        text = self.good("explain", "sphere", "32,32", *scene).stdout.decode()
+        for part in ("2 (n·v) n − v", "environment's own axes", "light from there", "kr ⊙ environment = (0.25 0.5 1) ⊙ ("):
+            self.assertIn(part, text)
+
     def test_text(self):
         text = self.good("explain", "teapot", "31,34", "-s", 64, "--rig", "headlight").stdout.decode()
         for part in ("teapot: pixel 31,34 of 64x64", "triangle", "4 samples a pixel", "weights of the corners", "θ", "φ", "ψ", "°   between n and l",

@@ -1,9 +1,10 @@
 # test_scene.py: scene files: drawn, overridden by options, written and drawn again to the same bytes, and held to their schema.
 import json
 import shutil
+import struct
 import unittest
 
-from harness import OWN_MODELS, ROOT, SHARED_MODELS, Case
+from harness import OWN_MODELS, ROOT, SHARED_MODELS, Case, pixel, read_png
 
 SCHEMA = json.loads((ROOT / "docs" / "scene.schema.json").read_text())
 KNOWN = {"type", "enum", "const", "required", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
@@ -181,10 +182,6 @@ class Scene(Case):
             self.assertIn(b"scene.json: " + str(path[0]).encode(), done.stderr)
 
 
-if __name__ == "__main__":
-    unittest.main()
-
-
 class Environment(Case):
     def test_faces(self):
         """A scene's environment is the one that the command line would give; without it the picture is another."""
@@ -210,12 +207,93 @@ class Environment(Case):
                   "--save-scene", "saved.json")
         self.good("saved.json", "-o", "saved.png")
         self.assertEqual(read("saved.png"), read("asked.png"))
-        done = self.run_program("bare.json", "--environment", "sky", "-o", "asked.png", "--save-scene", "sky.json")
-        self.assertEqual(done.returncode, 3)
-        self.assertIn(b"built-in environment 'sky'", done.stderr)
+        # A scene file's own environment is turned by the option, and kept so.
+        self.good("mirrored.json", "--environment-rotation", "75", "-q", "-o", "asked.png", "--save-scene", "saved.json")
+        self.assertEqual(json.loads(read("saved.json"))["environment"]["rotation"], 75)
+        self.good("saved.json", "-o", "saved.png")
+        self.good("bare.json", "--environment", ",".join(names), "--environment-rotation", "75", "-o", "turned.png")
+        self.assertEqual(read("saved.png"), read("turned.png"))
+        self.assertEqual(read("saved.png"), read("asked.png"))
+        self.assertNotEqual(read("saved.png"), read("mirrored.png"))
+
+    def test_built_in(self):
+        for model in ("sphere", "cube.obj"):
+            self.good(model, "-s", 40, "--environment", "sky", "--environment-rotation", 20, "--reflectivity", "0.4/0.5/0.6", "-q",
+                      "-o", "asked.png", "--save-scene", "sky.json")
+            self.assertEqual(json.loads((self.folder / "sky.json").read_text())["environment"], {"builtin": "sky", "rotation": 20})
+            self.good("sky.json", "-o", "saved.png")
+            self.assertEqual((self.folder / "asked.png").read_bytes(), (self.folder / "saved.png").read_bytes())
+        self.scene("bad.json", {"lambent": 1, "environment": {"builtin": "studoi"}, "objects": [{"shape": "cube"}]})
+        self.given |= self.new_files()
+        self.bad(2, "bad.json", says=("environment.builtin", "'studoi'", "sky or studio", "did you mean 'studio'"))
+
+    def scene(self, name, content):
+        (self.folder / name).write_text(json.dumps(content))
+        self.given.add(name)
+
+    def test_unseen(self):
+        """An environment that nothing reflects is told; so is one that costs more than the memory limit."""
+        self.assertIn(b"environment is not seen", self.good("cube.obj", "-s", 20, "--environment", "sky", "-o", "a.png").stderr)
+        self.assertNotIn(b"not seen", self.good("cube.obj", "-s", 20, "--environment", "sky", "--reflectivity", 1, "-o", "a.png").stderr)
+        self.scene("unseen.json", {"lambent": 1, "environment": {"builtin": "studio"}, "objects": [{"shape": "cube"}]})
+        self.assertIn(b"environment is not seen", self.good("unseen.json", "-s", 20, "-o", "a.png").stderr)
+        self.good("cube.obj", "-s", "1200x600", "-q", "-o", "wide.png")
+        self.scene("heavy.json", {"lambent": 1, "environment": {"equirectangular": "wide.png"}, "objects": [{"shape": "cube"}]})
+        self.given |= self.new_files()
+        self.bad(4, "heavy.json", "--memory-limit", "10M", "-s", 20, says="memory limit")
+        self.good("unseen.json", "--memory-limit", "10M", "-s", 20, "-q", "-o", "a.png")
+        self.given |= self.new_files()
+        self.bad(4, "unseen.json", "--environment", "wide.png", "--memory-limit", "10M", "-s", 20, says="memory limit")
+
+    def test_exposure(self):
+        """2^stops times the light; the background and alpha stay."""
+        box = {"lambent": 1, "image": {"size": [24, 24], "samples": 4, "color": "raw", "exposure": 1.5, "background": [0.1, 0.2, 0.3, 0.5]},
+               "objects": [{"shape": "sphere"}], "lights": [{"type": "directional", "direction": [0, 0, -1]}]}
+        self.scene("bright.json", box)
+        self.good("bright.json", "--exposure", 0, "-o", "plain.pfm")
+        self.good("bright.json", "-o", "bright.pfm")
+        self.good("bright.json", "--show", "diffuse", "-o", "diffuse.pfm")
+        self.good("bright.json", "--show", "specular", "-o", "specular.pfm")
+        self.good("bright.json", "-b", "transparent", "-o", "clear.pfm")
+        plain, bright, clear = (self.floats(name) for name in ("plain.pfm", "bright.pfm", "clear.pfm"))
+        self.assertEqual(bright[:3], plain[:3])
+        middle = 3 * (12 * 24 + 12)
+        for c in range(3):
+            self.assertAlmostEqual(bright[middle + c] / plain[middle + c], 2**1.5, 5)
+        # The terms over a clear background add up to the picture over it.
+        self.good("bright.json", "-b", "transparent", "--show", "diffuse", "-o", "diffuse.pfm")
+        self.good("bright.json", "-b", "transparent", "--show", "specular", "-o", "specular.pfm")
+        self.good("bright.json", "-b", "transparent", "--show", "ambient", "-o", "ambient.pfm")
+        for whole, *terms in zip(clear, *(self.floats(name) for name in ("diffuse.pfm", "specular.pfm", "ambient.pfm"))):
+            self.assertAlmostEqual(whole, sum(terms), 5)
+        # Numbers of the surface are none of the light.
+        for what in ("normals", "depth", "n.l"):
+            self.good("bright.json", "--show", what, "-o", "a.pfm")
+            self.good("bright.json", "--show", what, "--exposure", 0, "-o", "b.pfm")
+            self.assertEqual((self.folder / "a.pfm").read_bytes(), (self.folder / "b.pfm").read_bytes())
+        self.good("bright.json", "--exposure", -2.25, "-q", "-o", "asked.png", "--save-scene", "kept.json")
+        self.assertEqual(json.loads((self.folder / "kept.json").read_text())["image"]["exposure"], -2.25)
+        self.good("kept.json", "-o", "kept.png")
+        self.assertEqual((self.folder / "asked.png").read_bytes(), (self.folder / "kept.png").read_bytes())
+        told = json.loads(self.good("explain", "bright.json", "12,12", "--json").stdout)
+        self.good("bright.json", "-o", "bright.png")
+        self.assertAlmostEqual(told["exposure"], 2**1.5, 6)
+        self.assertEqual(told["exposure_stops"], 1.5)
+        self.assertEqual(tuple(told["bytes"]), pixel(read_png((self.folder / "bright.png").read_bytes()), 12, 12))
+        self.given |= self.new_files()
+        self.bad(1, "bright.json", "--exposure", "200", says="-100 to 100")
+
+    def floats(self, name):
+        data = (self.folder / name).read_bytes()
+        head = data.split(b"\n", 3)
+        return struct.unpack(f"<{24 * 24 * 3}f", head[3])
 
     def test_missing_face(self):
         (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "environment": {"faces": ["no.png"] * 6},
                                                          "objects": [{"shape": "cube"}]}))
         self.given.add("s.json")
         self.bad(2, "s.json", says="no.png")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -495,7 +495,8 @@ static void test_files_of_16_bits(void **state)
     }
     for (int mode = 0; mode < 2; mode++) {
         lam_error error = {0};
-        lam_environment *e = lam_environment_load_faces(paths, mode ? LAM_COLOR_RAW : LAM_COLOR_SRGB, &error);
+        lam_environment *e =
+            lam_environment_load_faces(paths, mode ? LAM_COLOR_RAW : LAM_COLOR_SRGB, NULL, &error);
         if (!e)
             fail_msg("%s", error.text);
         for (int face = 0; face < 6; face++) {
@@ -510,7 +511,7 @@ static void test_files_of_16_bits(void **state)
     // A file that fails is named.
     paths[3] = "no-such-face.png";
     lam_error error = {0};
-    assert_null(lam_environment_load_faces(paths, LAM_COLOR_SRGB, &error));
+    assert_null(lam_environment_load_faces(paths, LAM_COLOR_SRGB, NULL, &error));
     assert_non_null(strstr(error.text, "no-such-face.png"));
     for (int face = 0; face < 6; face++)
         unlink(names[face]);
@@ -534,8 +535,8 @@ static void test_real_files(void **state)
         paths[face] = names[face];
     }
     lam_error error = {0};
-    lam_environment *sphere = lam_environment_load(hdr, LAM_COLOR_SRGB, &error),
-                    *cube = lam_environment_load_faces(paths, LAM_COLOR_SRGB, &error);
+    lam_environment *sphere = lam_environment_load(hdr, LAM_COLOR_SRGB, NULL, &error),
+                    *cube = lam_environment_load_faces(paths, LAM_COLOR_SRGB, NULL, &error);
     if (!sphere || !cube)
         fail_msg("%s", error.text);
     assert_int_equal(lam_environment_size(sphere), 326);
@@ -610,8 +611,8 @@ static void test_refusals(void **state)
     refused(lam_environment_make(faces, LAM_COLOR_RAW, &error), &error, LAM_BAD_ARGUMENT, "missing");
     refused(lam_environment_make(NULL, LAM_COLOR_RAW, &error), &error, LAM_BAD_ARGUMENT, "no faces");
     refused(lam_environment_built_in("heaven", &error), &error, LAM_BAD_ARGUMENT, "heaven");
-    refused(lam_environment_load("no-such-picture.hdr", LAM_COLOR_SRGB, &error), &error, LAM_CANNOT_READ,
-            "no-such-picture.hdr");
+    refused(lam_environment_load("no-such-picture.hdr", LAM_COLOR_SRGB, NULL, &error), &error,
+            LAM_CANNOT_READ, "no-such-picture.hdr");
     lam_scene *scene = lam_scene_make(&error);
     assert_false(lam_scene_set_environment(scene, NULL, (double)NAN, &error));
     assert_true(lam_scene_set_environment(scene, NULL, 0, &error));

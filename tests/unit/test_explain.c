@@ -45,6 +45,8 @@ static void assert_rgb(lam_rgb told, const float expected[3])
 
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
+static int reflections; // points whose reflection term was checked and is not 0
+
 static void check_light(const lam_explanation *e, const lam_explained_fragment *f,
                         const lam_explained_point *p, const lam_explained_light *l)
 {
@@ -82,9 +84,36 @@ static void check_light(const lam_explanation *e, const lam_explained_fragment *
     }
 }
 
-static void check_point(const lam_explanation *e, const lam_explained_fragment *f,
-                        const lam_explained_point *p)
+// The mirrored eye vector, what the environment gives from there, and what becomes of it.
+static void check_environment(const lam_explanation *e, const lam_explained_fragment *f,
+                              const lam_explained_point *p, const lam_environment *environment)
 {
+    assert_true(e->has_environment == (environment != NULL));
+    bool looks = environment && e->reflection != LAM_REFLECTION_NONE && dot(p->n, p->n) > 0;
+    lam_rgb light = {0, 0, 0};
+    if (looks) {
+        double n_v = dot(p->n, p->v), length = dot(p->environment_direction, p->environment_direction);
+        for (int c = 0; c < 3; c++)
+            assert_true(fabs((&p->reflected.x)[c] - (2 * n_v * (&p->n.x)[c] - (&p->v.x)[c])) < 2e-6);
+        assert_true(fabs(length - 1) < 1e-5);
+        // The public call makes the direction unit once more: the last digits differ.
+        lam_rgb near = lam_environment_look(environment, p->environment_direction);
+        light = p->environment_light;
+        for (int c = 0; c < 3; c++)
+            assert_true(fabs((double)((&light.r)[c] - (&near.r)[c])) < 1e-4 * (1 + (double)(&near.r)[c]));
+        reflections += light.r > 0 && p->reflection.r > 0;
+    } else {
+        assert_true(dot(p->reflected, p->reflected) == 0);
+    }
+    assert_memory_equal(&p->environment_light, &light, sizeof light);
+    for (int c = 0; c < 3; c++)
+        assert_true((&p->reflection.r)[c] == (&f->surface.reflectivity.r)[c] * (&light.r)[c]);
+}
+
+static void check_point(const lam_explanation *e, const lam_explained_fragment *f,
+                        const lam_explained_point *p, const lam_environment *environment)
+{
+    check_environment(e, f, p, environment);
     if (e->reflection != LAM_REFLECTION_NONE) {
         float ambient[3] = {p->ambient_term.r, p->ambient_term.g, p->ambient_term.b}, diffuse[3] = {0},
               specular[3] = {0};
@@ -119,13 +148,14 @@ static float between(const float w[3], float a, float b, float c)
     return a + ((b - a) * w[1] + (c - a) * w[2]);
 }
 
-static void check_fragment(const lam_explanation *e, const lam_explained_fragment *f)
+static void check_fragment(const lam_explanation *e, const lam_explained_fragment *f,
+                           const lam_environment *environment)
 {
     assert_true(f->samples >= 1 && f->samples <= e->samples && f->lit_sample < e->samples);
     assert_true(fabs(f->picture_x - e->x - 0.5) <= 0.5 && fabs(f->picture_y - e->y - 0.5) <= 0.5);
     assert_int_equal(f->point_count, e->shading == LAM_SHADING_GOURAUD ? 3 : 1);
     for (int i = 0; i < f->point_count; i++)
-        check_point(e, f, &f->points[i]);
+        check_point(e, f, &f->points[i], environment);
     const lam_explained_point *p = f->points;
     float color[3] = {p->result.r, p->result.g, p->result.b};
     if (f->point_count == 3)
@@ -134,14 +164,14 @@ static void check_fragment(const lam_explanation *e, const lam_explained_fragmen
     assert_memory_equal(&f->color, color, sizeof color);
 }
 
-static void check_numbers(const lam_explanation *e)
+static void check_numbers(const lam_explanation *e, const lam_environment *environment)
 {
     float sum[4] = {0};
     bool layered = false; // then each sample is blended by itself, and the sum of the shares is the same but
                           // for rounding
     for (int i = 0; i < e->fragment_count; i++) {
         const lam_explained_fragment *f = &e->fragments[i];
-        check_fragment(e, f);
+        check_fragment(e, f, environment);
         float alpha = f->color.a * f->weight;
         add(sum, (lam_rgb){f->color.r * alpha, f->color.g * alpha, f->color.b * alpha});
         sum[3] += alpha;
@@ -159,7 +189,8 @@ static void check_numbers(const lam_explanation *e)
     assert_memory_equal(&e->sum, sum, sizeof sum);
     for (int c = 0; c < 3; c++) {
         float clear = 1 - sum[3], straight = e->result.a > 0 ? (&e->result.r)[c] / e->result.a : 0;
-        assert_true((&e->result.r)[c] == sum[c] + clear * ((&e->background.r)[c] * e->background.a));
+        assert_true((&e->result.r)[c] ==
+                    sum[c] * e->exposure + clear * ((&e->background.r)[c] * e->background.a));
         assert_true((&e->straight.r)[c] == straight);
         assert_int_equal(e->bytes[c], (int)floorf((&e->encoded.r)[c] * 255 + 0.5f));
     }
@@ -180,7 +211,7 @@ static void check_pixel(lam_device *device, const struct demo *demo, const lam_i
     const void *told = image->format == LAM_RGBA8 ? (const void *)e->bytes : (const void *)&e->result;
     if (memcmp(pixel, told, size) != 0)
         fail_msg("%s: pixel %d,%d is not the one explained", name, x, y);
-    check_numbers(e);
+    check_numbers(e, lam_scene_environment(demo->scene));
     lam_explanation_free(e);
 }
 
@@ -234,6 +265,7 @@ static void test_scenes(void **state)
         }
         lam_scene_free(demo.scene);
     }
+    assert_true(reflections > 20);
     lam_device_free(widest);
     lam_device_free(plain);
 }
@@ -287,6 +319,7 @@ static void test_ways(void **state)
             demo.params.match_highlights = way & 2;
             demo.params.viewer = way & 4 ? LAM_VIEWER_INFINITE : LAM_VIEWER_LOCAL;
             demo.params.shading = shadings[way % 3];
+            demo.params.exposure = 0.75 * way - 1.5;
             check_pixels(device, device, &demo, "lights");
         }
         lam_scene_free(demo.scene);

@@ -245,7 +245,8 @@ static void test_errors(void **unused)
         WITH("\"stage\": \"fragment\", \"shading\": \"gouraud\"",
              "stage: Gouraud shading has the stages application and vertex; fragment goes with flat and "
              "phong"),
-        WITH("\"environment\": {\"rotation\": 5}", "environment: expected one of faces and equirectangular"),
+        WITH("\"environment\": {\"rotation\": 5}",
+             "environment: expected one of faces, equirectangular and builtin"),
         WITH("\"environment\": {\"faces\": [\"a\"]}",
              "environment.faces: found a list of 1, expected six names of pictures: +x, -x, +y, -y, +z, -z"),
         WITH("\"materials\": {\"m\": {\"shininess\": -1}}",

@@ -115,6 +115,20 @@ double math_acos(double x)
     return math_atan2(math_sqrt((1 - x) * (1 + x)), x);
 }
 
+// The whole part by doubling or halving, the rest, at most ½, by the series of e^(x ln 2).
+double math_exp2(double x)
+{
+    int whole = (int)(x < 0 ? x - 0.5 : x + 0.5);
+    double y = (x - whole) * 0.69314718055994530942, sum = 1;
+    for (int k = 18; k >= 1; k--)
+        sum = 1 + sum * y / k;
+    for (; whole > 0; whole--)
+        sum *= 2;
+    for (; whole < 0; whole++)
+        sum *= 0.5;
+    return sum;
+}
+
 bool v3_finite(lam_vec3 a) { return math_finite(a.x) && math_finite(a.y) && math_finite(a.z); }
 
 static double magnitude(lam_vec3 a)

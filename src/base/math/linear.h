@@ -29,6 +29,7 @@ double math_cos(double x);
 double math_tan(double x);
 double math_acos(double x); // argument clamped to −1…1; result 0…π
 double math_atan2(double y, double x);
+double math_exp2(double x); // 2^x, |x| ≤ 1000; exact for whole numbers
 double math_radians(double degrees);
 double math_degrees(double radians);
 bool math_finite(double x);

@@ -106,6 +106,17 @@ static void add_guess(const struct job *job, lam_error *error)
         snprintf(error->text + length, sizeof error->text - length, "; did you mean '%s'?", nearest.best);
 }
 
+// Whether one frame will be drawn, of which the normals that it shows are enough.
+static bool draws_once(const struct job *job)
+{
+    const struct options *o = job->options;
+    if (job->device && lam_device_isa(job->device) == LAM_ISA_AUTO) // not the CPU's
+        return false;
+    bool tangents =
+        o->reflection == LAM_REFLECTION_KAJIYA_KAY || o->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    return o->repeat == 1 && !show_is_all(o) && !tangents;
+}
+
 bool job_load(struct job *job, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
@@ -123,7 +134,8 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
                                   .models_anywhere = true,
                                   .normals = (lam_normals)o->normals,
                                   .crease_angle_rad = crease_of(o),
-                                  .threads = o->threads};
+                                  .threads = o->threads,
+                                  .normals_when_drawn = draws_once(job)};
         job->scene = lam_scene_load(job->model, &params, &control, error);
         if (job->scene)
             lam_scene_times(job->scene, &job->times.read, &job->times.prepare);

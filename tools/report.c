@@ -77,6 +77,8 @@ void report_table(const struct job *job)
     time_row("  flatten", frame->frame_ms);
     time_row("  vertices", frame->vertices_ms);
     time_row("  triangles", frame->triangles_ms);
+    if (frame->normals_ms > 0)
+        time_row("  normals", frame->normals_ms);
     time_row("  tiles", frame->tiles_ms);
     time_row("    coverage", frame->coverage_ms);
     time_row("    lighting", frame->lighting_ms);
@@ -185,6 +187,7 @@ static void json_times(struct json *json, const struct job_times *times)
     json_ms(json, "flatten", frame->frame_ms);
     json_ms(json, "vertices", frame->vertices_ms);
     json_ms(json, "triangles", frame->triangles_ms);
+    json_ms(json, "normals", frame->normals_ms);
     json_ms(json, "tiles", frame->tiles_ms);
     json_ms(json, "coverage", frame->coverage_ms);
     json_ms(json, "lighting", frame->lighting_ms);

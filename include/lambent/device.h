@@ -163,6 +163,7 @@ typedef struct lam_frame_report {
     double frame_ms;     // flattening the scene: lights and matrices into eye space
     double vertices_ms;  // positions to clip space
     double triangles_ms; // rejecting, clipping, binning
+    double normals_ms;   // making those that meshes lack (lam_load_params.normals_when_drawn)
     double tiles_ms;     // coverage, lighting and resolve of all tiles, wall time
     double total_ms;     // the whole call
     // Shares of tiles_ms by work, from times summed over the threads.

@@ -51,6 +51,11 @@ typedef struct lam_load_params {
     // Made normals are split where neighbouring faces meet at more than this angle, radians, 0..π.
     double crease_angle_rad; // 0: 40°; for 0 itself use LAM_NORMALS_FACET
     int threads;             // 0: one for each processor
+    // Smooth normals that the file lacks are left to the device, which makes those of the triangles that a
+    // frame shows, each time it draws: the same picture sooner, where a large model is drawn once.
+    // lam_mesh.normals stays NULL then; lam_scene_make_normals makes them all after all. Not for scene files,
+    // nor for other devices than the CPU's.
+    bool normals_when_drawn;
     // Scene files: the models that they name may lie anywhere, as on a command line; false: only in the scene
     // file's folder and those below it. What the models name themselves always stays in the model's folder.
     bool models_anywhere;

@@ -21,6 +21,7 @@ struct cpu_device {
     struct buffer lists;    // pieces, first vertices
     struct buffer products; // material × light
     struct buffer bins;     // heads of all threads' bins
+    struct seeing_room seeing;
     float decode_srgb[256], decode_linear[256];
 };
 
@@ -145,7 +146,9 @@ static bool make_threads_ready(struct cpu_device *device, struct cpu_frame *cpu,
 static uint64_t cpu_memory(const struct lam_device *base)
 {
     const struct cpu_device *device = (const struct cpu_device *)base;
-    uint64_t bytes = device->vertices.room + device->lists.room + device->products.room + device->bins.room;
+    const struct seeing_room *seeing = &device->seeing;
+    uint64_t bytes = device->vertices.room + device->lists.room + device->products.room + device->bins.room +
+                     seeing->sets.room + seeing->normals.room + seeing->stashes.room;
     for (int i = 0; i < device->thread_count; i++) {
         const struct thread_state *thread = &device->threads[i];
         bytes += thread->scratch.room + ((uint64_t)(thread->blocks.count + thread->pieces.count) << 20);
@@ -167,6 +170,9 @@ static void cpu_free(struct lam_device *base)
     buffer_free(&device->lists);
     buffer_free(&device->products);
     buffer_free(&device->bins);
+    buffer_free(&device->seeing.sets);
+    buffer_free(&device->seeing.normals);
+    buffer_free(&device->seeing.stashes);
     free(device);
 }
 
@@ -333,13 +339,18 @@ static void tile_task(void *user, size_t index, int number)
         width = width < TILE ? width : TILE;
         height = height < TILE ? height : TILE;
         uint64_t start = now_ns();
-        cpu->kernels->cover(cpu, thread, tile_x, tile_y);
-        if (thread->translucent_triangles) {
-            thread->coverage_ns += now_ns() - start;
-            blend_tile(cpu, thread, tile_x, tile_y, width, height);
-            start = now_ns();
+        if (cpu->stashes) {
+            take_stash(cpu, thread, index);
+        } else {
+            cpu->kernels->cover(cpu, thread, tile_x, tile_y);
+            if (thread->translucent_triangles) {
+                thread->coverage_ns += now_ns() - start;
+                blend_tile(cpu, thread, tile_x, tile_y, width, height);
+                start = now_ns();
+            }
+            collect_fragments(cpu, thread, width, height);
         }
-        collect_fragments(cpu, thread, width, height);
+        group_fragments(cpu->frame, thread);
         uint64_t covered = now_ns();
         lam_show show = cpu->frame->show;
         if (show != LAM_SHOW_COVERAGE && show != LAM_SHOW_OVERDRAW)
@@ -447,18 +458,24 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     base->report.triangles_ms = milliseconds_since(&clock);
     if (!step_done(&cpu, error))
         return false;
-    if (base->recorder)
+    cpu.recorder = base->recorder;
+    bool ok =
+        !frame->makes_normals || (see_triangles(&cpu, &device->seeing, error) && step_done(&cpu, error));
+    if (frame->makes_normals)
+        base->report.normals_ms = milliseconds_since(&clock) - device->seeing.search_ms;
+    if (ok && base->recorder)
         record_tile(&cpu, base->recorder);
-    else
+    else if (ok)
         pool_run(device->pool, (size_t)cpu.tiles_across * (size_t)cpu.tiles_down, tile_task, &cpu);
-    base->report.tiles_ms = milliseconds_since(&clock);
+    seeing_room_empty(&device->seeing, device->thread_count);
+    base->report.tiles_ms = milliseconds_since(&clock) + (cpu.stashes ? device->seeing.search_ms : 0);
     fill_report(&base->report, device);
-    return step_done(&cpu, error);
+    return ok && step_done(&cpu, error);
 }
 
 lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
 {
-    static const struct device_type type = {cpu_draw, cpu_memory, cpu_free};
+    static const struct device_type type = {cpu_draw, cpu_memory, cpu_free, .makes_normals = true};
     static const lam_cpu_params plain = {0};
     if (!params)
         params = &plain;

@@ -98,5 +98,4 @@ void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread,
             thread->pixels_covered += count > before;
         }
     thread->fragment_count = count;
-    group_fragments(cpu->frame, thread);
 }

@@ -13,6 +13,7 @@
 #include "buffer.h"
 #include "frame.h"
 #include "pool.h"
+#include "seen_normals.h"
 #include "watch.h"
 
 enum {
@@ -166,6 +167,12 @@ struct material_products {
 
 struct kernels;
 
+// What is kept of a tile's fragments while normals are made for all that is seen.
+struct stash {
+    int count;
+    void *fragments;
+};
+
 struct cpu_frame {
     const struct frame *frame;
     const struct kernels *kernels;
@@ -184,8 +191,10 @@ struct cpu_frame {
     const float *decode_srgb, *decode_linear; // 256 entries each: what a colour byte stands for
     struct recorder
         *recorder; // of the one pixel that is explained (recorder.h), in the recording kernels; else NULL
-    uint8_t empty_pixel[16]; // what a pixel without fragments holds
-    int failed;              // enum failure, set atomically by a worker
+    struct seen_normals seen; // of draws whose meshes have none; its set is of the frame's triangle numbers
+    struct stash *stashes;    // of each tile; NULL: tiles are drawn in one go
+    uint8_t empty_pixel[16];  // what a pixel without fragments holds
+    int failed;               // enum failure, set atomically by a worker
 };
 
 enum failure {
@@ -238,6 +247,20 @@ void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const str
 
 // Lists the opaque fragments of a tile.
 void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height);
+
+// For frames that make normals (frame.h): finds the triangles that the frame shows, and makes the normals of
+// those. Where the opaque ones are all there is, each tile's fragments are found on the way and kept; else
+// every triangle that is in a bin counts. The memory is the device's, and lasts from frame to frame but for
+// the stashes.
+struct seeing_room {
+    struct buffer sets, normals, stashes;
+    struct arena *arenas; // of each thread, for the stashes
+    double search_ms;     // of the last frame: finding what the tiles show
+};
+bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error);
+void seeing_room_empty(struct seeing_room *room, int threads); // ends the stashes
+// Puts a tile's kept fragments back.
+void take_stash(const struct cpu_frame *cpu, struct thread_state *thread, size_t tile);
 
 // Finds the groups of the listed fragments, and their order by group.
 void group_fragments(const struct frame *frame, struct thread_state *thread);

@@ -43,6 +43,11 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
                           image->height, &watch, error);
     device->report.frame_ms = (double)(now_ns() - watch.start_ns) * 1e-6;
     device->report.triangles = device->frame.triangle_count;
+    if (ok && device->frame.makes_normals && !device->type->makes_normals)
+        ok = fail(error, LAM_UNSUPPORTED,
+                  "lam_draw: meshes of the scene have no normals (normals_when_drawn), which this device "
+                  "does not make; "
+                  "lam_scene_make_normals does");
     ok = ok && device->type->draw(device, &device->frame, image, &watch, error);
     device->report.total_ms = (double)(now_ns() - watch.start_ns) * 1e-6;
     device->report.memory_bytes = device->type->memory(device) + device->frame.storage.room;

@@ -14,6 +14,7 @@ struct device_type {
     // Bytes held from frame to frame.
     uint64_t (*memory)(const struct lam_device *device);
     void (*free)(struct lam_device *device); // frees the device itself too
+    bool makes_normals;                      // draws frames whose makes_normals is set
 };
 
 // The head of every device; a device's own struct begins with it.

@@ -304,7 +304,10 @@ static bool build(struct lam_scene *scene, const struct import_source *source,
     uint64_t read_ns = now_ns();
     scene->read_ms = (double)(read_ns - start_ns) * 1e-6;
     watch_progress(source->watch, 0.8, "normals");
-    if (!scene_prepare(scene, params->normals, params->crease_angle_rad, source->pool, source->watch, error))
+    if (params->normals_when_drawn && params->normals != LAM_NORMALS_FACET && importer != &importer_scene)
+        scene_defer_normals(scene, params->normals, params->crease_angle_rad);
+    else if (!scene_prepare(scene, params->normals, params->crease_angle_rad, source->pool, source->watch,
+                            error))
         return false;
     if (!scene_measure(scene, source->pool, error))
         return false;

@@ -127,7 +127,8 @@ static void build_draw(struct frame_draw *draw, const lam_scene *scene, int obje
                                 .first_id = first_id,
                                 .mirrored = determinant < 0,
                                 .one_sided = object->one_sided,
-                                .cull = object->cull};
+                                .cull = object->cull,
+                                .crease_rad = mesh->normals ? 0 : scene->deferred_crease_rad};
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             draw->pixel[i][j] = rounded(whole.m[i][j]);
@@ -395,7 +396,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->show = params->show;
     frame->draw_count = frame->surface_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
-    frame->translucent = false;
+    frame->translucent = frame->makes_normals = false;
 
     frame->default_material = scene->default_material;
     frame->material_count = scene->materials.count + 1;
@@ -423,10 +424,16 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         if (next + triangles > TRIANGLES_MAX)
             return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
         build_draw(&frame->draws[frame->draw_count], scene, i, (uint32_t)next, &view, &pixel);
+        frame->makes_normals |= frame->draws[frame->draw_count].crease_rad > 0;
         build_surfaces(frame, scene, frame->draw_count++);
         next += triangles;
     }
     frame->triangle_count = (uint32_t)next;
+    // Faces have their own normals, and counts of triangles ask for none.
+    if (lam_show_is_light(frame->show)
+            ? frame->shading == LAM_SHADING_FLAT && frame->flat_normal == LAM_FLAT_NORMAL_FACE
+            : frame->show == LAM_SHOW_COVERAGE || frame->show == LAM_SHOW_OVERDRAW)
+        frame->makes_normals = false;
     // Numbers are those of the nearest surface, however clear it is.
     if (!lam_show_is_light(frame->show) && frame->show != LAM_SHOW_CLIPPED)
         frame->translucent = false;

@@ -23,6 +23,8 @@ struct frame_draw {
     bool mirrored;       // the transform turns the winding
     bool one_sided;
     lam_cull cull;
+    double crease_rad; // > 0: the mesh has no normals; the device makes those that it needs, creased at this
+                       // angle
 };
 
 // A run of triangles of one draw with the same materials.
@@ -80,7 +82,8 @@ struct frame {
     lam_show show;
     bool distant_viewer; // v = +z for every point: an orthographic camera, or asked for
     bool orthographic;
-    bool translucent; // any surface is
+    bool translucent;   // any surface is
+    bool makes_normals; // some draw has a crease_rad, and its normals will be asked for
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the
     // window.
     float near_plane, far_plane;

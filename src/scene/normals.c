@@ -22,9 +22,6 @@ enum {
     PIECE = 1 << 12, // positions of one piece of work
 };
 
-// Positions are floats: one and the same angle, computed from two of its sides, differs in the seventh digit.
-#define CREASE_SLACK 1e-6
-
 // The normals of one piece, in the arena of the thread that made them.
 struct piece {
     float (*normals)[3];
@@ -74,12 +71,6 @@ static void link_chunk(void *user, size_t index, int thread)
 
 // --- Fans
 
-static int compare_corners(const void *left, const void *right)
-{
-    uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
-    return a < b ? -1 : a > b;
-}
-
 // The list was pushed in nearly ascending order, so it is read in nearly descending order.
 static void sort_corners(uint32_t *corners, uint32_t count)
 {
@@ -88,20 +79,7 @@ static void sort_corners(uint32_t *corners, uint32_t count)
         corners[i] = corners[j];
         corners[j] = swap;
     }
-    if (count > 64) {
-        bool sorted = true;
-        for (uint32_t i = 1; i < count; i++)
-            sorted &= corners[i - 1] < corners[i];
-        if (!sorted)
-            qsort(corners, count, sizeof *corners, compare_corners);
-        return;
-    }
-    for (uint32_t i = 1; i < count; i++) {
-        uint32_t corner = corners[i], j = i;
-        for (; j > 0 && corners[j - 1] > corner; j--)
-            corners[j] = corners[j - 1];
-        corners[j] = corner;
-    }
+    fan_sort(corners, count);
 }
 
 // The corners of a position into room->corners. False when memory is out.
@@ -221,7 +199,7 @@ bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena
     arena_start(&scratch, watch);
     struct smoothing s = {
         .mesh = mesh,
-        .least_cosine = math_cos(crease_angle_rad) - CREASE_SLACK,
+        .least_cosine = fan_least_cosine(crease_angle_rad),
         .scratch = &scratch,
         .pool = pool,
         .halt = {.watch = watch},

@@ -16,6 +16,35 @@ struct fan_edge {
 _Static_assert(2 * sizeof(struct fan_edge) >= 3 * sizeof(double),
                "a fan's sum must fit into the room of a spoke's edges");
 
+// Positions are floats: one and the same angle, computed from two of its sides, differs in the seventh digit.
+#define CREASE_SLACK 1e-6
+
+double fan_least_cosine(double crease_angle_rad) { return math_cos(crease_angle_rad) - CREASE_SLACK; }
+
+static int compare_corners(const void *left, const void *right)
+{
+    uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+    return a < b ? -1 : a > b;
+}
+
+void fan_sort(uint32_t *corners, uint32_t count)
+{
+    if (count > 64) {
+        bool sorted = true;
+        for (uint32_t i = 1; i < count; i++)
+            sorted &= corners[i - 1] < corners[i];
+        if (!sorted)
+            qsort(corners, count, sizeof *corners, compare_corners);
+        return;
+    }
+    for (uint32_t i = 1; i < count; i++) {
+        uint32_t corner = corners[i], j = i;
+        for (; j > 0 && corners[j - 1] > corner; j--)
+            corners[j] = corners[j - 1];
+        corners[j] = corner;
+    }
+}
+
 void fan_room_start(struct fan_room *room, struct watch *watch)
 {
     *room = (struct fan_room){0};

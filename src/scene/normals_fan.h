@@ -38,6 +38,12 @@ bool fan_room_reserve(struct fan_room *room, uint32_t count);
 // tells one), fans being numbered by their first corner, and room->spokes[i].fan is the fan of corner i.
 uint32_t fan_normals(const lam_mesh *mesh, double least_cosine, struct fan_room *room, uint32_t count);
 
+// Puts the corners in order, quickly where they nearly are.
+void fan_sort(uint32_t *corners, uint32_t count);
+
+// The cosine that two faces' normals must reach for fan_normals, from the crease angle between them.
+double fan_least_cosine(double crease_angle_rad);
+
 // The vertex of a corner.
 static inline uint32_t corner_vertex(const lam_mesh *mesh, size_t corner)
 {

@@ -129,7 +129,9 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
         origin->crease_angle_rad = crease_angle_rad;
     }
     if (crease_angle_rad == 0)
-        crease_angle_rad = math_radians(40);
+        crease_angle_rad = scene->deferred_crease_rad > 0 && normals == LAM_NORMALS_FILE
+                               ? scene->deferred_crease_rad
+                               : math_radians(40);
     for (int i = 0; i < scene->meshes.count; i++) {
         lam_mesh *mesh = (lam_mesh *)scene->meshes.items + i;
         if (mesh->normals && normals == LAM_NORMALS_FILE)
@@ -140,7 +142,22 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
         if (!ok)
             return false;
     }
+    scene->deferred_crease_rad = 0;
     return true;
+}
+
+void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad)
+{
+    for (int i = 0; i < scene->meshes.count; i++) {
+        lam_mesh *mesh = (lam_mesh *)scene->meshes.items + i;
+        if (normals == LAM_NORMALS_SMOOTH) {
+            mesh->normals = NULL;
+            mesh->normal_count = 0;
+            mesh->normal_indices = NULL;
+        }
+        if (!mesh->normals)
+            scene->deferred_crease_rad = crease_angle_rad > 0 ? crease_angle_rad : math_radians(40);
+    }
 }
 
 lam_object lam_object_default(void)

@@ -68,6 +68,8 @@ struct lam_scene {
     lam_color_mode color;            // what the file's colours were read as
     const char *format;
     double read_ms, prepare_ms;
+    double deferred_crease_rad; // meshes without normals get theirs from the device that draws them, creased
+                                // at this angle; 0: there are none
 };
 
 // As lam_scene_make, charging `watch` (may be NULL) while the scene is being built; scene_built ends that.
@@ -100,6 +102,8 @@ int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_
 // Makes every mesh ready to draw: normals where they are missing or asked for, degenerate ones told.
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,
                    struct watch *watch, lam_error *error);
+// The same, but leaves smooth normals to the device.
+void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad);
 
 // Works out the extents of meshes that have none yet; every public call that adds meshes ends with it, so
 // that readers never write. False when memory is out.

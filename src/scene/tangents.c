@@ -211,7 +211,8 @@ bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_e
     watch_start(&watch, control);
     uint64_t state = float_state_enter();
     scene->arena.watch = &watch;
-    bool ok = true;
+    bool ok =
+        scene->deferred_crease_rad <= 0 || scene_prepare(scene, LAM_NORMALS_FILE, 0, NULL, &watch, error);
     for (int i = 0; ok && i < scene->meshes.count; i++) {
         lam_mesh *mesh = (lam_mesh *)scene->meshes.items + i;
         if (mesh->tangents || !mesh->texcoords || !mesh->normals || !mesh->triangle_count)

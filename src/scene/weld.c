@@ -44,17 +44,10 @@ struct welding {
     struct arena *thread_arenas;
 };
 
-static uint64_t hash_of(const uint32_t bits[3])
-{
-    uint64_t h = (bits[0] | (uint64_t)bits[1] << 32) * UINT64_C(0x9e3779b97f4a7c15);
-    h = (h ^ h >> 32 ^ bits[2]) * UINT64_C(0xd6e8feb86659fd93);
-    return h ^ h >> 32;
-}
-
 static uint64_t vertex_hash(const struct welding *w, size_t vertex, uint32_t bits[3])
 {
     position_bits(w->points + 3 * vertex, bits);
-    return hash_of(bits);
+    return position_hash(bits);
 }
 
 static size_t chunk_end(const struct welding *w, size_t index)
@@ -119,7 +112,7 @@ static bool table_double(struct weld_table *table, struct arena *arena, size_t r
     size_t steps = 0;
     for (size_t i = 0; i < room; i++)
         if (old[i].vertex != NO_VERTEX)
-            *find_slot(table->slots, 2 * room - 1, hash_of(old[i].position), old[i].position, &steps) =
+            *find_slot(table->slots, 2 * room - 1, position_hash(old[i].position), old[i].position, &steps) =
                 old[i];
     return true;
 }

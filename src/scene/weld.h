@@ -19,4 +19,12 @@ static inline void position_bits(const float *position, uint32_t bits[3])
         bits[a] = bits[a] == 0x80000000u ? 0 : bits[a];
 }
 
+// A hash of those bits: the upper ones and the lower ones will do by themselves.
+static inline uint64_t position_hash(const uint32_t bits[3])
+{
+    uint64_t h = (bits[0] | (uint64_t)bits[1] << 32) * UINT64_C(0x9e3779b97f4a7c15);
+    h = (h ^ h >> 32 ^ bits[2]) * UINT64_C(0xd6e8feb86659fd93);
+    return h ^ h >> 32;
+}
+
 #endif

@@ -308,13 +308,100 @@ static void test_fit(void **state)
         }
 }
 
+// A bumpy sheet with a fold, without normals, as OBJ.
+static lam_scene *load_sheet(bool when_drawn, bool clear)
+{
+    enum { SIDE = 60 };
+    static char text[SIDE * SIDE * 80];
+    size_t used = 0;
+    for (int j = 0; j <= SIDE; j++)
+        for (int i = 0; i <= SIDE; i++)
+            used +=
+                (size_t)snprintf(text + used, sizeof text - used, "v %d.%02d %d %d\n", i / 10,
+                                 i % 10 * 7 % 100, (i * i * 7 + j * 3) % 5 + (j > 30 ? 3 * j - 90 : 0), j);
+    for (int j = 0; j < SIDE; j++)
+        for (int i = 0; i < SIDE; i++) {
+            int a = j * (SIDE + 1) + i + 1;
+            used += (size_t)snprintf(text + used, sizeof text - used, "f %d %d %d %d\n", a, a + SIDE + 1,
+                                     a + SIDE + 2, a + 1);
+        }
+    lam_error error = {0};
+    lam_scene *scene = lam_scene_load_memory(
+        text, used, "sheet.obj",
+        &(lam_load_params){.normals_when_drawn = when_drawn, .crease_angle_rad = 0.6}, NULL, &error);
+    if (!scene)
+        fail_msg("%s", error.text);
+    assert_int_equal(lam_scene_mesh(scene, 0)->normals == NULL, when_drawn);
+    // Twice: the second one mirrored, and of glass where asked.
+    lam_object object = *lam_scene_object(scene, 0);
+    object.transform.m[0][0] = -1.5;
+    lam_material glass = lam_material_default();
+    glass.diffuse.a = 0.4f;
+    object.material = lam_scene_add_material(scene, &glass, &error);
+    if (!clear)
+        object.material = -1;
+    assert_true(lam_scene_add_object(scene, &object, &error) >= 0);
+    return scene;
+}
+
+// Normals that are made while drawing give the bytes of those that were made before, whatever is drawn.
+static void test_normals_when_drawn(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2 * 3 * 2 * 3; i++) {
+        bool clear = i % 2;
+        lam_draw_params params = {.shading = (lam_shading)(i / 2 % 3), .samples = i / 6 % 2 ? 4 : 1};
+        params.flat_normal = i / 6 % 2 ? LAM_FLAT_NORMAL_VERTEX : LAM_FLAT_NORMAL_FACE;
+        params.show = i / 12 == 0 ? LAM_SHOW_PICTURE : i / 12 == 1 ? LAM_SHOW_NORMALS : LAM_SHOW_DEPTH;
+        lam_image images[3];
+        lam_scene *scenes[2] = {load_sheet(false, clear), load_sheet(true, clear)};
+        lam_camera camera = lam_camera_fit(scenes[0], NULL);
+        camera.fovy_rad *= 0.6; // some triangles are outside, some cross the edge
+        lam_device *device = make_device(2);
+        for (int k = 0; k < 3; k++) { // twice by the same device
+            images[k] = make_image(200, 150);
+            lam_error error = {0};
+            if (!lam_draw(device, scenes[k > 0], &camera, &params, &images[k], NULL, &error))
+                fail_msg("%s", error.text);
+            assert_memory_equal(images[k].pixels, images[0].pixels, 200 * 150 * 4);
+        }
+        lam_frame_report report;
+        lam_device_report(device, &report);
+        bool asked =
+            params.shading != LAM_SHADING_FLAT || params.flat_normal == LAM_FLAT_NORMAL_VERTEX || i >= 12;
+        assert_true((report.normals_ms > 0) == asked);
+        // Made after all, they are the scene's, and the picture stays.
+        assert_true(lam_scene_make_normals(scenes[1], LAM_NORMALS_FILE, 0, 1, NULL, NULL));
+        const lam_mesh *made = lam_scene_mesh(scenes[1], 0), *first = lam_scene_mesh(scenes[0], 0);
+        assert_int_equal(made->normal_count, first->normal_count);
+        assert_memory_equal(made->normals, first->normals, made->normal_count * 12);
+        assert_true(lam_draw(device, scenes[1], &camera, &params, &images[1], NULL, NULL));
+        assert_memory_equal(images[1].pixels, images[0].pixels, 200 * 150 * 4);
+        // A budget that is too small ends it.
+        lam_scene *again = load_sheet(true, clear);
+        lam_error error = {0};
+        lam_device *fresh = make_device(2);
+        assert_false(lam_draw(fresh, again, &camera, &params, &images[1],
+                              &(lam_control){.memory_limit_bytes = 100000}, &error));
+        assert_int_equal(error.code, LAM_LIMIT);
+        lam_device_free(fresh);
+        lam_device_free(device);
+        lam_scene_free(again);
+        for (int k = 0; k < 3; k++)
+            lam_image_free(&images[k]);
+        for (int k = 0; k < 2; k++)
+            lam_scene_free(scenes[k]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_arguments),   cmocka_unit_test(test_cancel_and_limits),
-        cmocka_unit_test(test_progress),    cmocka_unit_test(test_memory_settles),
-        cmocka_unit_test(test_float_state), cmocka_unit_test(test_shared_scene),
-        cmocka_unit_test(test_null_device), cmocka_unit_test(test_fit),
+        cmocka_unit_test(test_arguments),          cmocka_unit_test(test_cancel_and_limits),
+        cmocka_unit_test(test_progress),           cmocka_unit_test(test_memory_settles),
+        cmocka_unit_test(test_float_state),        cmocka_unit_test(test_shared_scene),
+        cmocka_unit_test(test_null_device),        cmocka_unit_test(test_fit),
+        cmocka_unit_test(test_normals_when_drawn),
     };
     return cmocka_run_group_tests_name("device", tests, NULL, NULL);
 }

@@ -14,10 +14,79 @@
 #include "arena.h"
 #include "normals.h"
 #include "pool.h"
+#include "seen_normals.h"
 
 #include <lambent/scene.h>
 
 #define RADIANS(degrees) ((degrees)*M_PI / 180)
+
+// Sees those of a mesh's triangles that `take` picks (0: all), numbered from `first` on; the arrays lie in
+// `arena`.
+static bool see(const lam_mesh *mesh, uint32_t first, uint32_t take, double crease_rad,
+                struct seen_normals *seen, struct arena *arena, struct pool *pool, lam_error *error)
+{
+    *seen = (struct seen_normals){.triangles.size = (size_t)first + mesh->triangle_count + 40};
+    struct number_set *set = &seen->triangles;
+    size_t words = number_set_words(set->size);
+    set->bits = arena_alloc_zeroed(arena, words * sizeof *set->bits);
+    set->before = arena_array(arena, words, sizeof *set->before);
+    // Other meshes' triangles on both sides.
+    for (uint32_t i = 0; set->bits && i < set->size; i++)
+        if (i < first ? i % 2
+                      : i - first >= mesh->triangle_count || !take || (i - first) * 2654435761u % take == 0)
+            number_set_add(set, i);
+    bool ok = set->bits && set->before;
+    if (ok) {
+        number_set_count(set);
+        seen->elements = arena_array(arena, set->count, 3 * sizeof *seen->elements);
+        seen->normals = arena_array(arena, set->count, 3 * sizeof *seen->normals);
+        ok = seen->elements && seen->normals;
+    }
+    if (!ok) {
+        error->code = LAM_LIMIT;
+        return false;
+    }
+    memset(seen->elements, 0xff, (size_t)set->count * 12);
+    return normals_seen(mesh, first, crease_rad, seen, pool, NULL, error);
+}
+
+// Of any triangles that are seen, the normals are those of the whole mesh, and corners that share one there
+// do here.
+static void seen_as_made(const lam_mesh *mesh, double crease_degrees, struct pool *pool)
+{
+    static const uint32_t firsts[] = {0, 70, 64}, takes[] = {0, 3, 17};
+    for (int k = 0; k < 3; k++) {
+        struct arena arena;
+        arena_start(&arena, NULL);
+        struct seen_normals seen;
+        lam_error error = {0};
+        lam_mesh bare = *mesh;
+        bare.normals = NULL;
+        bare.normal_indices = NULL;
+        if (!see(&bare, firsts[k], takes[k], RADIANS(crease_degrees), &seen, &arena, pool, &error))
+            fail_msg("%s", error.text);
+        uint32_t *same = arena_array(&arena, mesh->normal_count, sizeof *same), members = 0;
+        memset(same, 0xff, mesh->normal_count * sizeof *same);
+        for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+            if (!number_set_holds(&seen.triangles, firsts[k] + t))
+                continue;
+            members++;
+            for (uint32_t c = 0; c < 3; c++) {
+                uint32_t element = seen_element(&seen, firsts[k] + t, c),
+                         made = mesh->normal_indices[3 * t + c];
+                assert_memory_equal(seen.normals[element], mesh->normals + 3 * (size_t)made, 12);
+                assert_true(same[made] == UINT32_MAX || same[made] == element);
+                same[made] = element;
+            }
+        }
+        assert_true(members > 0 || !mesh->triangle_count);
+        // What belongs to other meshes is left alone.
+        for (uint32_t i = 1; i < firsts[k]; i += 2)
+            assert_int_equal(seen_element(&seen, i, 0), UINT32_MAX);
+        assert_int_equal(seen_element(&seen, firsts[k] + mesh->triangle_count, 2), UINT32_MAX);
+        arena_free(&arena);
+    }
+}
 
 static void smooth(lam_mesh *mesh, double crease_degrees, struct arena *arena, struct pool *pool)
 {
@@ -26,6 +95,7 @@ static void smooth(lam_mesh *mesh, double crease_degrees, struct arena *arena, s
         fail_msg("%s", error.text);
     for (size_t c = 0; c < 3 * (size_t)mesh->triangle_count; c++)
         assert_true(mesh->normal_indices[c] < mesh->normal_count);
+    seen_as_made(mesh, crease_degrees, pool);
 }
 
 static const float *normal_of(const lam_mesh *mesh, size_t corner)
@@ -510,6 +580,18 @@ static void test_controls(void **state)
         arena_start(&arena, NULL);
         arena_fail_after(k);
         done = normals_smooth(&copy, 0.7, &arena, NULL, NULL, &error);
+        arena_fail_after(-1);
+        assert_true(done || error.code == LAM_LIMIT);
+        arena_free(&arena);
+    }
+    done = false;
+    copy.normals = NULL;
+    for (long k = 0; !done; k++) {
+        assert_true(k < 100);
+        struct seen_normals seen;
+        arena_start(&arena, NULL);
+        arena_fail_after(k);
+        done = see(&copy, 0, 2, 0.7, &seen, &arena, NULL, &error);
         arena_fail_after(-1);
         assert_true(done || error.code == LAM_LIMIT);
         arena_free(&arena);

@@ -1,0 +1,169 @@
+// seen.c: for meshes without normals: which triangles the frame shows, and the normals of those.
+#include "kernels.h"
+
+#include "fail.h"
+
+#include <string.h>
+
+static bool goes_on(const struct cpu_frame *cpu)
+{
+    return !__atomic_load_n(&cpu->failed, __ATOMIC_RELAXED) && watch_on(cpu->watch);
+}
+
+// --- every triangle in a bin
+
+static void mark_bins(void *user, size_t index, int number)
+{
+    (void)number;
+    struct cpu_frame *cpu = user;
+    if (!goes_on(cpu))
+        return;
+    for (int i = 0; i < pool_threads(cpu->pool); i++)
+        for (const struct bin_block *block = cpu->threads[i].bins[index]; block; block = block->next)
+            for (uint32_t k = 0; k < block->count; k++) {
+                uint32_t id = block->ids[k];
+                if (id & CLIPPED)
+                    id = clipped_piece(&cpu->threads[i], id & ~CLIPPED)->id;
+                number_set_add(&cpu->seen.triangles, id);
+            }
+}
+
+// --- the triangles of the tiles' fragments
+
+struct tile_search {
+    struct cpu_frame *cpu;
+    struct arena *arenas;
+};
+
+// A stash holds, for each fragment, its triangle, then its pixel, then weight and sample.
+enum { STASHED = sizeof(uint32_t) + sizeof(uint16_t) + 2 };
+
+static void keep_stash(struct cpu_frame *cpu, struct arena *arena, const struct thread_state *thread,
+                       size_t tile)
+{
+    struct stash *stash = &cpu->stashes[tile];
+    size_t count = (size_t)thread->fragment_count;
+    char *to = arena_array(arena, count, STASHED);
+    if (!to) {
+        __atomic_store_n(&cpu->failed, FAILED_MEMORY, __ATOMIC_RELAXED);
+        return;
+    }
+    *stash = (struct stash){thread->fragment_count, to};
+    memcpy(to, thread->fragment_id, count * sizeof(uint32_t));
+    memcpy(to + count * 4, thread->fragment_pixel, count * sizeof(uint16_t));
+    memcpy(to + count * 6, thread->fragment_weight, count);
+    memcpy(to + count * 7, thread->fragment_sample, count);
+}
+
+void take_stash(const struct cpu_frame *cpu, struct thread_state *thread, size_t tile)
+{
+    const struct stash *stash = &cpu->stashes[tile];
+    size_t count = (size_t)stash->count;
+    const char *from = stash->fragments;
+    thread->fragment_count = stash->count;
+    thread->translucent_triangles = 0;
+    if (!count)
+        return;
+    memcpy(thread->fragment_id, from, count * sizeof(uint32_t));
+    memcpy(thread->fragment_pixel, from + count * 4, count * sizeof(uint16_t));
+    memcpy(thread->fragment_weight, from + count * 6, count);
+    memcpy(thread->fragment_sample, from + count * 7, count);
+}
+
+static void search_tile(void *user, size_t index, int number)
+{
+    struct tile_search *search = user;
+    struct cpu_frame *cpu = search->cpu;
+    struct thread_state *thread = &cpu->threads[number];
+    if (!goes_on(cpu))
+        return;
+    bool any = false;
+    for (int i = 0; i < pool_threads(cpu->pool); i++)
+        any |= cpu->threads[i].bins[index] != NULL;
+    if (!any)
+        return;
+    uint64_t start = now_ns();
+    int tile_x = (int)(index % (size_t)cpu->tiles_across), tile_y = (int)(index / (size_t)cpu->tiles_across);
+    int width = cpu->image->width - tile_x * TILE, height = cpu->image->height - tile_y * TILE;
+    cpu->kernels->cover(cpu, thread, tile_x, tile_y);
+    collect_fragments(cpu, thread, width < TILE ? width : TILE, height < TILE ? height : TILE);
+    uint32_t before = NOTHING;
+    for (int i = 0; i < thread->fragment_count; i++) {
+        uint32_t id = thread->fragment_id[i] & ~BACK_SIDE;
+        if (id != before)
+            number_set_add(&cpu->seen.triangles, id);
+        before = id;
+    }
+    keep_stash(cpu, &search->arenas[number], thread, index);
+    thread->coverage_ns += now_ns() - start;
+}
+
+static bool search_tiles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
+{
+    size_t tiles = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down,
+           threads = (size_t)pool_threads(cpu->pool);
+    if (!buffer_reserve(&room->stashes, tiles * sizeof(struct stash) + threads * sizeof(struct arena),
+                        cpu->watch, error))
+        return false;
+    cpu->stashes = room->stashes.data;
+    memset(cpu->stashes, 0, tiles * sizeof(struct stash));
+    room->arenas = (struct arena *)(cpu->stashes + tiles);
+    for (size_t i = 0; i < threads; i++)
+        arena_start(&room->arenas[i], cpu->watch);
+    uint64_t start = now_ns();
+    pool_run(cpu->pool, tiles, search_tile, &(struct tile_search){cpu, room->arenas});
+    room->search_ms = (double)(now_ns() - start) * 1e-6;
+    return true;
+}
+
+// --- both
+
+static bool make_set(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
+{
+    struct number_set *set = &cpu->seen.triangles;
+    size_t words = number_set_words(cpu->frame->triangle_count);
+    if (!buffer_reserve(&room->sets, words * (sizeof *set->bits + sizeof *set->before), cpu->watch, error))
+        return false;
+    set->size = cpu->frame->triangle_count;
+    set->bits = room->sets.data;
+    set->before = (uint32_t *)(set->bits + words);
+    memset(set->bits, 0, words * sizeof *set->bits);
+    return true;
+}
+
+bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
+{
+    const struct frame *frame = cpu->frame;
+    struct seen_normals *seen = &cpu->seen;
+    room->search_ms = 0;
+    if (!make_set(cpu, room, error))
+        return false;
+    if (!frame->translucent && !cpu->recorder && lam_show_is_light(frame->show)) {
+        if (!search_tiles(cpu, room, error))
+            return false;
+    } else {
+        pool_run(cpu->pool, (size_t)cpu->tiles_across * (size_t)cpu->tiles_down, mark_bins, cpu);
+    }
+    if (!goes_on(cpu))
+        return true; // the caller asks why
+    number_set_count(&seen->triangles);
+    size_t corners = 3 * (size_t)seen->triangles.count;
+    if (!buffer_reserve(&room->normals, corners * (sizeof *seen->elements + sizeof *seen->normals),
+                        cpu->watch, error))
+        return false;
+    seen->normals = room->normals.data;
+    seen->elements = (uint32_t *)(seen->normals + corners);
+    for (int i = 0; i < frame->draw_count; i++)
+        if (frame->draws[i].crease_rad > 0 &&
+            !normals_seen(frame->draws[i].mesh, frame->draws[i].first_id, frame->draws[i].crease_rad, seen,
+                          cpu->pool, cpu->watch, error))
+            return false;
+    return true;
+}
+
+void seeing_room_empty(struct seeing_room *room, int threads)
+{
+    for (int i = 0; room->arenas && i < threads; i++)
+        arena_free(&room->arenas[i]);
+    room->arenas = NULL;
+}

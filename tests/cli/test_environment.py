@@ -1,0 +1,97 @@
+# test_environment.py: --environment in each of its forms, its turn, what is wrong with one; and --opacity.
+import struct
+import unittest
+
+from harness import Case, pixel, read_png
+
+FACES = ((255, 0, 0), (0, 255, 255), (255, 255, 255), (30, 30, 30), (0, 255, 0), (0, 0, 255))
+MIRROR = ("sphere", "-s", 40, "--view", "front", "--samples", 1, "--rig", "none", "--reflectivity", 1, "--material", "ambient=0", "-q")
+
+
+class EnvironmentOption(Case):
+    def ppm(self, name, width, height, color_at):
+        """A picture of the colours that color_at(x, y) gives."""
+        data = bytes(part for y in range(height) for x in range(width) for part in color_at(x, y))
+        (self.folder / name).write_bytes(b"P6\n%d %d\n255\n" % (width, height) + data)
+        self.given.add(name)
+        return name
+
+    def draw(self, environment, *more, model=MIRROR):
+        data = self.good(*model, "--environment", environment, *more, "-o", "-").stdout
+        return read_png(data), data
+
+    def six(self):
+        return ",".join(self.ppm(f"f{i}.ppm", 4, 4, lambda x, y: color) for i, color in enumerate(FACES))
+
+    def test_crosses_are_six_faces(self):
+        places = {True: ((2, 1), (0, 1), (1, 0), (1, 2), (1, 1), (3, 1)), False: ((2, 1), (0, 1), (1, 0), (1, 2), (1, 1), (1, 3))}
+        six = self.draw(self.six())[1]
+        for lying, at in places.items():
+            colors = dict(zip(at, FACES))
+            cross = self.ppm("cross.ppm", 16 if lying else 12, 12 if lying else 16, lambda x, y: colors.get((x // 4, y // 4), (9, 9, 9)))
+            self.assertEqual(self.draw(cross)[1], six, lying)
+
+    def test_where_faces_lie(self):
+        """A mirror ball from the front shows what lies behind the eye in its middle: +Z, and +X at its right."""
+        picture, _ = self.draw(self.six())
+        self.assertEqual(pixel(picture, 20, 20)[:3], FACES[4])
+        self.assertEqual(pixel(picture, 34, 20)[:3], FACES[0])
+        self.assertEqual(pixel(picture, 6, 20)[:3], FACES[1])
+        self.assertEqual(pixel(picture, 20, 6)[:3], FACES[2])
+        self.assertEqual(pixel(picture, 20, 34)[:3], FACES[3])
+        # Counter-clockwise from above: what was at +X comes to -Z, what was at +Z to +X.
+        picture, data = self.draw(self.six(), "--environment-rotation", 90)
+        self.assertEqual(pixel(picture, 34, 20)[:3], FACES[4])
+        self.assertEqual(pixel(picture, 20, 20)[:3], FACES[1])
+        self.assertEqual(self.draw(self.six(), "--environment-rotation", -270)[1], data)
+        picture, _ = self.draw(self.six(), "--reflectivity", "0/0.5/1", "--color", "raw")
+        self.assertEqual(pixel(picture, 6, 20)[:3], (0, 128, 255))
+
+    def test_equirectangular(self):
+        halves = self.ppm("halves.ppm", 64, 32, lambda x, y: (255, 0, 0) if x < 32 else (0, 0, 255))
+        read = lambda data: [pixel(data, x, 20)[:3] for x in (6, 34)]
+        self.assertEqual(read(self.draw(halves)[0]), [(255, 0, 0), (0, 0, 255)])
+        self.assertEqual(read(self.draw(halves, "--environment-rotation", 180)[0]), [(0, 0, 255), (255, 0, 0)])
+        # The same as PNG, and floats as Radiance and PFM.
+        self.good("teapot", "-s", "64x32", "-q", "-b", "#406080", "-o", "a.png")
+        self.good("teapot", "-s", "64x32", "-q", "-b", "#406080", "-o", "a.ppm")
+        self.assertEqual(self.draw("a.png")[1], self.draw("a.ppm")[1])
+        (self.folder / "b.hdr").write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n" + bytes((64, 128, 192, 128)) * 8)
+        (self.folder / "b.pfm").write_bytes(b"PF\n4 2\n-1.0\n" + struct.pack("<24f", *(0.25, 0.5, 0.75) * 8))
+        (picture, one), (_, other) = self.draw("b.hdr", "--color", "raw"), self.draw("b.pfm", "--color", "raw")
+        self.assertEqual(one, other)
+        self.assertEqual(pixel(picture, 20, 20)[:3], (64, 128, 191))
+
+    def test_explained(self):
+        text = self.good("explain", "sphere", "20,20", *MIRROR[1:-1], "--environment", self.six()).stdout.decode()
+        self.assertIn("kr ⊙ environment = (1 1 1) ⊙ (0 1 0)", text)
+
+    def test_wrong(self):
+        self.ppm("odd.ppm", 10, 7, lambda x, y: (1, 2, 3))
+        good = self.ppm("good.ppm", 4, 4, lambda x, y: (1, 2, 3))
+        self.bad(2, *MIRROR, "--environment", "missing.hdr", "-o", "x.png", says=("missing.hdr", "cannot open"))
+        self.bad(3, *MIRROR, "--environment", "odd.ppm", "-o", "x.png", says=("odd.ppm", "10×7", "2:1"))
+        self.bad(3, *MIRROR, "--environment", ",".join([good] * 5 + ["odd.ppm"]), "-o", "x.png", says=("odd.ppm", "squares of one size"))
+        self.bad(1, *MIRROR, "--environment", ",".join([good] * 5), "-o", "x.png", says=("found 5 names", "px,nx,py,ny,pz,nz"))
+        self.bad(1, *MIRROR, "--environment", ",".join([good] * 5) + ",", "-o", "x.png", says="one of them empty")
+        (self.folder / "text.png").write_text("not a picture")
+        self.given.add("text.png")
+        self.bad(2, *MIRROR, "--environment", "text.png", "-o", "x.png", says=("text.png", "byte 0"))
+        self.bad(1, *MIRROR, "--reflectivity", "-1", "-o", "x.png", says="0 to 1000")
+
+
+class Opacity(Case):
+    def test_layers(self):
+        """One side of a cube lets half through, both sides a quarter; 1 is opaque, 0 shows nothing."""
+        words = ("cube", "-s", 20, "--view", "front", "--samples", 1)
+        for opacity, more, alpha in ((0.5, ("--cull", "back"), 128), (0.5, (), 191), (1, (), 255), (0, (), 0), (0.2, ("--cull", "front"), 51)):
+            picture = self.png(*words, "--opacity", opacity, *more)
+            self.assertEqual(pixel(picture, 10, 10)[3], alpha, (opacity, more))
+        # Over white, in raw numbers: the mean of the surface and of what is behind it.
+        plain, half = (pixel(self.png(*words, "--cull", "back", "--color", "raw", "-b", "white", "--opacity", opacity), 10, 10) for opacity in (1, 0.5))
+        for c in range(3):
+            self.assertLessEqual(abs(half[c] - (plain[c] + 255) / 2), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -208,6 +208,7 @@ static void blend_rectangle(struct cpu_frame *cpu, struct thread_state *thread, 
         return;
     }
     int samples = cpu->frame->samples;
+    struct cells cells = cells_of(samples);
     sort_by_pixel(thread);
     if (thread->layers_clipped) {
         join_pieces(thread, samples);
@@ -224,7 +225,7 @@ static void blend_rectangle(struct cpu_frame *cpu, struct thread_state *thread, 
             if (thread->layer_start[pixel] == thread->layer_start[pixel + 1])
                 continue;
             blend_pixel(cpu, thread, pixel);
-            thread->pixels_covered += bare(thread->ids + y * tile_stride(samples) + x * samples, samples);
+            thread->pixels_covered += bare(thread->ids + pixel_place(&cells, x, y), samples);
         }
     thread->coverage_ns += gathered - start;
     thread->lighting_ns += lit - gathered;

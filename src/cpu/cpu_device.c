@@ -83,7 +83,7 @@ static void *carve(struct carving *carving, size_t bytes)
 static void carve_thread(struct carving *carving, struct thread_state *thread, const struct frame *frame)
 {
     int samples = frame->samples;
-    size_t entries = (size_t)tile_stride(samples) * TILE;
+    size_t entries = (size_t)TILE * TILE * (size_t)samples;
     size_t opaque = (size_t)fragments_of_tile(samples), points = 3 * (opaque + LANES_MAX);
     size_t fragments = (frame->translucent && opaque < LAYERS_MAX ? (size_t)LAYERS_MAX : opaque) + LANES_MAX;
     thread->keys = carve(carving, entries * sizeof(float));

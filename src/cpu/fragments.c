@@ -79,10 +79,11 @@ void group_fragments(const struct frame *frame, struct thread_state *thread)
 void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height)
 {
     const struct sample_pattern *pattern = cpu->pattern;
-    int samples = pattern->count, stride = tile_stride(samples), count = 0;
+    int samples = pattern->count, count = 0;
+    struct cells cells = cells_of(samples);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            const uint32_t *ids = thread->ids + (size_t)y * (size_t)stride + (size_t)x * (size_t)samples;
+            const uint32_t *ids = thread->ids + pixel_place(&cells, x, y);
             int before = count, same = 1;
             while (same < samples && ids[same] == ids[0])
                 same++;

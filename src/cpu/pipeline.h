@@ -110,7 +110,7 @@ struct thread_state {
     struct slab_list pieces;
     uint32_t piece_count;
 
-    // One tile's visibility: rows of TILE·samples + LANES_MAX entries.
+    // One tile's visibility, each sample's: in cells.
     float *keys;
     uint32_t *ids;
     // One tile's fragments, in the order of pixels.
@@ -290,8 +290,27 @@ static inline uint32_t corner_element(const uint32_t *own, const uint32_t *share
     return own ? own[corner] : shared ? shared[corner] : corner;
 }
 
-// Numbers in a row of a tile's visibility arrays.
-static inline int tile_stride(int samples) { return TILE * samples + LANES_MAX; }
+// A tile's visibility arrays are cut into cells of CELL samples: of as square a part of the tile as has so many, so that small
+// triangles touch few. Within a cell pixels lie row by row, and a pixel's samples side by side.
+enum { CELL = 16 };
+struct cells {
+    int x_shift, y_shift; // a cell's width and height in pixels: 1 << shift
+    int across;           // cells in a row of the tile
+    int samples;          // of a pixel
+};
+static inline struct cells cells_of(int samples)
+{
+    int x_shift = samples <= 2 ? 2 : samples <= 8 ? 1 : 0, y_shift = samples == 1 ? 2 : samples <= 4 ? 1 : 0;
+    return (struct cells){x_shift, y_shift, TILE >> x_shift, samples};
+}
+
+// Where a pixel's samples begin.
+static inline int pixel_place(const struct cells *cells, int x, int y)
+{
+    int cell = (y >> cells->y_shift) * cells->across + (x >> cells->x_shift);
+    int column = x & ((1 << cells->x_shift) - 1), row = y & ((1 << cells->y_shift) - 1);
+    return cell * CELL + ((row << cells->x_shift) + column) * cells->samples;
+}
 
 // The most opaque fragments that a tile can have.
 static inline int fragments_of_tile(int samples) { return TILE * TILE * samples; }

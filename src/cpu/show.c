@@ -85,10 +85,11 @@ static void sum_coverage(const struct cpu_frame *cpu, struct thread_state *threa
 
 static void sum_overdraw(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height)
 {
-    int samples = cpu->frame->samples, stride = tile_stride(samples);
+    int samples = cpu->frame->samples;
+    struct cells cells = cells_of(samples);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            const int32_t *counts = thread->counts + (size_t)y * (size_t)stride + (size_t)x * (size_t)samples;
+            const int32_t *counts = thread->counts + pixel_place(&cells, x, y);
             uint64_t sum = 0;
             for (int i = 0; i < samples; i++)
                 sum += (uint64_t)counts[i];

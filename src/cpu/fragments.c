@@ -57,8 +57,25 @@ static void sort_by_group(struct thread_state *thread, uint32_t largest)
         memcpy(thread->order, from, n * sizeof *from);
 }
 
+// Where there is one surface its two sides are the only groups; mostly all fragments are of one.
+static bool group_sides(struct thread_state *thread)
+{
+    uint32_t backs = 0, n = (uint32_t)thread->fragment_count;
+    for (uint32_t i = 0; i < n; i++) {
+        thread->fragment_group[i] = thread->fragment_id[i] >> 31;
+        backs += thread->fragment_group[i];
+        thread->order[i] = i;
+    }
+    return backs == 0 || backs == n;
+}
+
 void group_fragments(const struct frame *frame, struct thread_state *thread)
 {
+    if (frame->surface_count == 1) {
+        if (!group_sides(thread))
+            sort_by_group(thread, 1);
+        return;
+    }
     uint32_t largest = 0;
     uint32_t low = 0, count = 0; // the surface of the fragment before
     int surface = 0;
@@ -76,27 +93,66 @@ void group_fragments(const struct frame *frame, struct thread_state *thread)
     sort_by_group(thread, largest);
 }
 
-void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height)
+// A tile of one sample for each pixel: every covered one is a fragment.
+static void collect_single(const struct cells *cells, struct thread_state *thread, int width, int height)
 {
-    const struct sample_pattern *pattern = cpu->pattern;
+    int count = 0;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x += 4) { // a row of a cell
+            const uint32_t *ids = thread->ids + pixel_place(cells, x, y);
+            int end = width - x < 4 ? width - x : 4;
+            for (int i = 0; i < end; i++) {
+                thread->fragment_id[count] = ids[i];
+                thread->fragment_pixel[count] = (uint16_t)(y * TILE + x + i);
+                count += ids[i] != NOTHING;
+            }
+        }
+    memset(thread->fragment_weight, 1, (size_t)count);
+    memset(thread->fragment_sample, 0, (size_t)count);
+    thread->pixels_covered += (uint64_t)count;
+    thread->fragment_count = count;
+}
+
+// Whether all samples of a pixel, 2 or more, show the same.
+static bool all_same(const uint32_t *ids, int samples)
+{
+    uint64_t first, differ = 0;
+    memcpy(&first, ids, sizeof first);
+    for (int i = 2; i < samples; i += 2) {
+        uint64_t pair;
+        memcpy(&pair, ids + i, sizeof pair);
+        differ |= pair ^ first;
+    }
+    return (differ | (first >> 32 ^ (first & 0xffffffff))) == 0;
+}
+
+static void collect_several(const struct sample_pattern *pattern, const struct cells *cells,
+                            struct thread_state *thread, int width, int height)
+{
     int samples = pattern->count, count = 0;
-    struct cells cells = cells_of(samples);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            const uint32_t *ids = thread->ids + pixel_place(&cells, x, y);
-            int before = count, same = 1;
-            while (same < samples && ids[same] == ids[0])
-                same++;
-            if (same < samples) {
+            const uint32_t *ids = thread->ids + pixel_place(cells, x, y);
+            if (!all_same(ids, samples)) {
                 count = split_pixel(pattern, ids, thread, count, (uint16_t)(y * TILE + x));
-            } else if (ids[0] != NOTHING) {
-                thread->fragment_id[count] = ids[0];
-                thread->fragment_pixel[count] = (uint16_t)(y * TILE + x);
-                thread->fragment_weight[count] = (uint8_t)samples;
-                thread->fragment_sample[count] = pattern->by_distance[0];
-                count++;
+                thread->pixels_covered++;
+                continue;
             }
-            thread->pixels_covered += count > before;
+            thread->fragment_id[count] = ids[0];
+            thread->fragment_pixel[count] = (uint16_t)(y * TILE + x);
+            thread->fragment_weight[count] = (uint8_t)samples;
+            thread->fragment_sample[count] = pattern->by_distance[0];
+            count += ids[0] != NOTHING;
+            thread->pixels_covered += ids[0] != NOTHING;
         }
     thread->fragment_count = count;
+}
+
+void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height)
+{
+    struct cells cells = cells_of(cpu->pattern->count);
+    if (cpu->pattern->count == 1)
+        collect_single(&cells, thread, width, height);
+    else
+        collect_several(cpu->pattern, &cells, thread, width, height);
 }

@@ -131,6 +131,7 @@ static void resolve_apart(const struct cpu_frame *cpu, struct thread_state *thre
     lam_image part = {width, height, LAM_RGBA32F, thread->shown};
     struct cpu_frame copy = *cpu;
     copy.image = &part;
+    cpu->kernels->resolve_empty(&copy);
     cpu->kernels->resolve(&copy, thread, 0, 0);
 }
 

@@ -15,7 +15,7 @@ const struct command command_table[] = {
      run_compare},
     {"explain", "MODEL X,Y",
      "Tell every number of one pixel: what it shows, the vectors, angles and terms of each light, the sum, "
-     "the byte.",
+     "the byte. No picture or scene file is written: --output and --save-scene do nothing here.",
      ALL, 2, 2, run_explain},
     {"diff", "A B", "Tell how far two pictures are apart, and draw where.",
      ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET, 2, 2, run_diff},
@@ -31,7 +31,7 @@ const struct command command_table[] = {
     {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.",
      ABOUT, 0, 0, run_formats},
     {"materials", NULL, "List the named materials with their numbers; -o FILE also draws a sheet of them.",
-     ABOUT | 1u << GROUP_PICTURE, 0, 0, run_materials},
+     ABOUT | 1u << GROUP_PICTURE | 1u << GROUP_CAPTIONS, 0, 0, run_materials},
     {"devices", NULL,
      "List what pictures can be drawn with on this machine, and why what cannot be used cannot.",
      ABOUT | TAKES_JSON, 0, 0, run_devices},

@@ -75,12 +75,17 @@ static void print_options(unsigned groups)
     }
 }
 
+static void print_command(const struct command *command)
+{
+    printf("Usage: lambent %s%s%s\n\n%s\n", command->name, command->operands ? " " : "",
+           command->operands ? command->operands : "", command->summary);
+    print_options(command->groups);
+}
+
 void print_help(const struct command *command)
 {
     if (command != command_table) {
-        printf("Usage: lambent %s%s%s\n\n%s\n", command->name, command->operands ? " " : "",
-               command->operands ? command->operands : "", command->summary);
-        print_options(command->groups);
+        print_command(command);
         return;
     }
     printf("lambent lights 3D models: a model file becomes a picture.\n\n"
@@ -132,12 +137,24 @@ int run_help(int operand_count, char **operands, const struct options *options)
         struct suggestion nearest = suggest_start(operands[0]);
         for (const struct command *c = command_table; c->name; c++)
             suggest_try(&nearest, c->name);
-        complain(&error, LAM_BAD_ARGUMENT, "unknown command '%.100s'%s%s%s", operands[0],
-                 nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+        char known[256] = "";
+        for (const struct command *c = command_table; c->name; c++) {
+            strncat(known,
+                    c == command_table ? ""
+                    : c[1].name        ? ", "
+                                       : " or ",
+                    sizeof known - strlen(known) - 1);
+            strncat(known, c->name, sizeof known - strlen(known) - 1);
+        }
+        complain(&error, LAM_BAD_ARGUMENT, "help: unknown command '%.60s', expected %s%s%s%s", operands[0],
+                 known, nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
                  nearest.best ? "'?" : "");
         say_error(error.text);
         return error.code;
     }
-    print_help(command);
+    if (operand_count)
+        print_command(command);
+    else
+        print_help(command);
     return 0;
 }

@@ -9,6 +9,9 @@
 #include "output.h"
 #include "report.h"
 
+// Model units from a teapot's middle down to its caption's baseline.
+#define CAPTION_BELOW 0.83
+
 enum { COLUMNS = 6, ROWS = (LAM_MATERIAL_COUNT + COLUMNS - 1) / COLUMNS };
 
 static void print_triple(float r, float g, float b)
@@ -57,6 +60,48 @@ static bool build_scene(lam_scene *scene, lam_error *error)
     return lam_scene_add_light(scene, &light, error) >= 0;
 }
 
+// --- captions
+
+static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+// The name of each material beneath its teapot: in grey, which is read on any background.
+static bool draw_captions(const lam_scene *scene, const struct options *o, const lam_camera *camera,
+                          lam_image *image, lam_error *error)
+{
+    lam_font *font = lam_font_open(o->font, error);
+    if (!font) {
+        if (error->code == LAM_UNSUPPORTED) {
+            lam_error reason = *error;
+            complain(error, LAM_UNSUPPORTED, "%.400s; --no-captions draws without them", reason.text);
+        }
+        return false;
+    }
+    bool bytes = image->format == LAM_RGBA8, ok = true;
+    float grey = bytes ? 0.5f : 0.21f;
+    double unit = image->height / (2 * camera->ortho_half_height); // pixels
+    lam_vec3 centre;
+    double radius;
+    for (int i = 0; ok && i < lam_scene_object_count(scene) && lam_scene_sphere(scene, i, &centre, &radius);
+         i++) {
+        const lam_object *object = lam_scene_object(scene, i);
+        // Seen level from the front but for a little from above: x is the picture's, y and z make its height.
+        lam_vec3 from_target = {centre.x + object->transform.m[0][3] - camera->target.x,
+                                centre.y + object->transform.m[1][3] - camera->target.y,
+                                centre.z - camera->target.z};
+        double size = 0.21 * unit, most = 2.1 * unit, width = lam_text_width(font, size, object->name);
+        if (width > most) {
+            size *= most / width;
+            width = most;
+        }
+        double x = image->width / 2.0 + from_target.x * unit - width / 2;
+        double y = image->height / 2.0 - (dot(from_target, camera->up) - CAPTION_BELOW) * unit;
+        ok = size < 1 ||
+             lam_text_draw(image, font, x, y, size, (lam_rgba){grey, grey, grey, 1}, object->name, error);
+    }
+    lam_font_free(font);
+    return ok;
+}
+
 static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_image *image, lam_error *error)
 {
     lam_rgba background = {0, 0, 0, 0};
@@ -76,7 +121,7 @@ static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_imag
     lam_control control = {.cancel = interrupt_flag()};
     bool ok = device && lam_draw(device, scene, &camera, &params, image, &control, error);
     lam_device_free(device);
-    return ok;
+    return ok && (o->no_captions || draw_captions(scene, o, &camera, image, error));
 }
 
 static bool write_sheet(const struct options *o, const lam_image *image, lam_error *error)

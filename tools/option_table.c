@@ -8,7 +8,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_PICTURE] = "Picture",     [GROUP_VIEW] = "View",
     [GROUP_SHADING] = "Shading",     [GROUP_WORK] = "Work",
     [GROUP_REPORT] = "Reports",      [GROUP_DIFF] = "Comparing pictures (diff)",
-    [GROUP_PLOT] = "Plots (plot)",   [GROUP_CAPTIONS] = "Captions (compare, plot)",
+    [GROUP_PLOT] = "Plots (plot)",   [GROUP_CAPTIONS] = "Captions (compare, plot, materials)",
     [GROUP_ABOUT] = "About",         [GROUP_LIGHTS] = "Lights",
     [GROUP_MATERIALS] = "Materials", [GROUP_SHEET] = "Sheets (compare)",
 };
@@ -117,7 +117,8 @@ static const struct word normals_words[] = {
     {NULL, 0, NULL}};
 
 static const struct word sheet_words[] = {
-    {"summary", SHEET_SUMMARY, "flat, smooth, normal interpolation and anisotropic"},
+    {"summary", SHEET_SUMMARY,
+     "flat, smooth, normal interpolation, reflection (of --environment, else of the sky) and anisotropic"},
     {"terms", SHEET_TERMS,
      "ambient, diffuse and specular alone; all at shininess 50, at 1000, and at 1000 flat"},
     {"stages", SHEET_STAGES, "lit per vertex and per fragment, the brightest highlight enlarged"},
@@ -253,8 +254,8 @@ const struct option option_table[] = {
      .store = store_light, FIELD(lights)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A ready-made set of lights: studio, headlight, three-point, lecture, file (the model's), none or auto.",
-     "A named rig takes the place of the model's own lights. docs/lighting/lights.md has the numbers.", rig_words,
-     .store = store_word, FIELD(rig), .has_field = offsetof(struct options, has_rig)},
+     "A named rig takes the place of the model's own lights. docs/lighting/lights.md has the numbers.",
+     rig_words, .store = store_word, FIELD(rig), .has_field = offsetof(struct options, has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Light from everywhere: #rrggbb, r/g/b, a name or one number.",
      NULL, .store = store_light_color, FIELD(ambient)},
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,

@@ -22,12 +22,14 @@
 static const struct sheet sheets[] = {
     [SHEET_SUMMARY] = {"summary",
                        "Shading and reflection",
-                       4,
+                       5,
                        false,
-                       4,
+                       5,
                        {{"Flat", {"--shading", "flat"}},
                         {"Smooth (Gouraud)", {"--shading", "gouraud"}},
                         {"Normal interpolation (Phong)", {"--shading", "phong"}},
+                        {"Reflection (environment)",
+                         {"--environment", "sky", "--reflectivity", "0.7", "--light-scale", "0.4"}},
                         {"Anisotropic (Kajiya–Kay)",
                          {"--reflection", "kajiya-kay", "--light-scale", "0.6"}}}},
     [SHEET_TERMS] =
@@ -217,6 +219,11 @@ bool sheet_choose(const struct options *options, struct sheet *sheet, char *stor
     const struct texts *across = &options->across;
     if (across->count == 0) {
         *sheet = sheets[options->sheet];
+        if (options->environment) // the user's own in place of the sky
+            for (int i = 0; i < sheet->count; i++)
+                for (int k = 1; k < CELL_WORDS && sheet->cells[i].words[k]; k++)
+                    if (strcmp(sheet->cells[i].words[k - 1], "--environment") == 0)
+                        sheet->cells[i].words[k] = options->environment;
         return true;
     }
     if (across->count == 1)

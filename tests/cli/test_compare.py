@@ -23,7 +23,7 @@ class Compare(Case):
             self.assertEqual(part(page, gap + i * (48 + gap), gap, 48, 40), one, shading)
 
     def test_named_sheets(self):
-        sizes = {"summary": (4, 1), "terms": (3, 2), "stages": (2, 1), "light": (2, 2), "ambient": (3, 1), "frames": (3, 2),
+        sizes = {"summary": (5, 1), "terms": (3, 2), "stages": (2, 1), "light": (2, 2), "ambient": (3, 1), "frames": (3, 2),
                  "surfaces": (3, 1)}
         for name, (columns, rows) in sizes.items():
             with self.subTest(name):

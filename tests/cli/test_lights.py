@@ -221,6 +221,12 @@ class Materials(Pictures):
         self.assertEqual((width, height), (300, 200))
         middles = {pixel(sheet, 25 + 50 * column, y)[:3] for column in range(6) for y in (45, 82, 120, 158)}
         self.assertGreaterEqual(len(middles), 20)
+        # The words stand beneath the swatches, and nowhere else.
+        words, plain = self.png("materials", "-s", "300x200"), self.png("materials", "-s", "300x200", "--no-captions")
+        differs = [(x, y) for y in range(200) for x in range(300) if pixel(words, x, y) != pixel(plain, x, y)]
+        self.assertGreater(len(differs), 24 * 20)
+        self.assertTrue(all(pixel(plain, x, y)[3] == 0 for x, y in differs))
+        self.bad(2, "materials", "-o", "none.png", "--font", "/nowhere.ttf", says="/nowhere.ttf", leaves={"sheet.png"})
         self.bad(1, "materials", "gold", says="unexpected argument", leaves={"sheet.png"})
         self.bad(1, "materials", "-o", "folder/", says="is a folder", leaves={"sheet.png"})
 

@@ -300,6 +300,11 @@ class CommandLine(Case):
         self.bad(1, "generate", says="argument is missing")
         self.bad(1, "generate", "mna", says="did you mean 'man'?")
         self.bad(1, "help", "shaeps", says="did you mean 'shapes'?")
+        self.bad(1, "help", "nope", says=("unknown command 'nope'", "render, compare, explain"))
+        render = self.good("help", "render").stdout
+        self.assertTrue(render.startswith(b"Usage: lambent render MODEL"))
+        self.assertIn(b"--exposure", render)
+        self.assertNotIn(b"--tolerance", render)
         self.assertEqual(self.good("help", "shapes").stdout, self.good("shapes", "--help").stdout)
         self.bad(2, "-q", "shapes", says="a command comes first")
 

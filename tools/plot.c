@@ -9,6 +9,7 @@
 #include "command.h"
 #include "console.h"
 #include "json.h"
+#include "light_option.h"
 #include "output.h"
 #include "report.h"
 #include "suggest.h"
@@ -79,34 +80,111 @@ static bool wrong(lam_error *error, const char *kind, const char *word, const ch
     return complain(error, LAM_BAD_ARGUMENT, "plot %s: found '%.100s', expected %s", kind, word, expected);
 }
 
-// "a/b/c" or "a/b/c/range".
+// The curve of a light, `name` before its numbers (NULL: none).
+static bool add_faded(struct plot *plot, const lam_light *light, const char *name, lam_error *error)
+{
+    struct curve *curve = add_curve(plot, attenuation_value, error);
+    if (!curve)
+        return false;
+    curve->light = *light;
+    curve->light.name = NULL; // the name's owner goes before the plot does
+    curve->light.object = NULL;
+    curve->marked = true;
+    lam_attenuation a = light->attenuation;
+    if (a.constant == 0 && a.linear == 0 && a.quadratic == 0)
+        a.constant = 1;
+    int used = snprintf(curve->label, sizeof curve->label, "%.40s%sa/b/c = %.5g/%.5g/%.5g", name ? name : "",
+                        name ? ": " : "", (double)a.constant, (double)a.linear, (double)a.quadratic);
+    if (light->range > 0)
+        snprintf(curve->label + used, sizeof curve->label - (size_t)used, ", range %.5g",
+                 (double)light->range);
+    return true;
+}
+
+static bool fades(const lam_light *light)
+{
+    return light->type == LAM_LIGHT_POINT || light->type == LAM_LIGHT_SPOT;
+}
+
+// A light as --light takes it: "point:attenuation=1/0.5/0.2,name=lamp".
+static bool add_light(struct plot *plot, const char *word, lam_error *error)
+{
+    struct light_option option;
+    lam_error reason;
+    if (!light_option_parse(word, LAM_COLOR_SRGB, &option, &reason))
+        return complain(error, LAM_BAD_ARGUMENT, "plot attenuation: '%.60s': %.300s", word, reason.text);
+    if (option.none || !fades(&option.light))
+        return wrong(error, "attenuation", word, "a point or spot light: the others do not fade");
+    if (option.linear_in_radii || option.quadratic_in_radii || option.range_in_radii)
+        return wrong(error, "attenuation", word,
+                     "numbers without r: there is no model whose radius it could be");
+    if (!lam_light_check(&option.light, &reason))
+        return complain(error, LAM_BAD_ARGUMENT, "plot attenuation: '%.60s': %.300s", word, reason.text);
+    return add_faded(plot, &option.light, option.light.name, error);
+}
+
+// The lights of a model or scene file.
+static bool add_lights_of(struct plot *plot, const char *path, lam_error *error)
+{
+    lam_scene *scene = lam_scene_load(path, &(lam_load_params){.models_anywhere = true}, NULL, error);
+    if (!scene)
+        return false;
+    bool ok = true;
+    int found = 0;
+    for (int i = 0; ok && i < lam_scene_light_count(scene); i++) {
+        const lam_light *light = lam_scene_light(scene, i);
+        if (!fades(light))
+            continue;
+        char number[32];
+        snprintf(number, sizeof number, "light %d", i + 1);
+        ok = add_faded(plot, light, light->name ? light->name : number, error);
+        found++;
+    }
+    lam_scene_free(scene);
+    return ok &&
+           (found ||
+            complain(error, LAM_BAD_ARGUMENT,
+                     "plot attenuation: '%.200s' has no point or spot light, whose light would fade", path));
+}
+
+static bool is_light(const char *word)
+{
+    static const char *const types[] = {"ambient", "hemisphere", "point", "directional", "spot"};
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (strncmp(word, types[i], strlen(types[i])) == 0 &&
+            (word[strlen(types[i])] == ':' || !word[strlen(types[i])]))
+            return true;
+    return false;
+}
+
+// "a/b/c" or "a/b/c/range", a light, or a file that has lights.
 static bool add_attenuation(struct plot *plot, const char *word, lam_error *error)
 {
     double part[4] = {0};
     int count = 0;
     const char *rest = word;
+    if (is_light(word))
+        return add_light(plot, word, error);
+    if (access(word, F_OK) == 0)
+        return add_lights_of(plot, word, error);
     do {
         rest = count < 4 ? read_number(count ? rest + 1 : rest, &part[count]) : NULL;
         count++;
     } while (rest && *rest == '/');
     if (!rest || *rest || count < 3)
-        return wrong(error, "attenuation", word, "a/b/c or a/b/c/range, such as 1/0.54/0.2");
-    struct curve *curve = add_curve(plot, attenuation_value, error);
-    if (!curve)
-        return false;
-    curve->light = lam_light_default(LAM_LIGHT_POINT);
-    curve->light.attenuation = (lam_attenuation){(float)part[0], (float)part[1], (float)part[2]};
-    curve->light.range = (float)part[3];
-    curve->marked = true;
+        return wrong(
+            error, "attenuation", word,
+            "a/b/c or a/b/c/range, such as 1/0.54/0.2, a light such as point:attenuation=1/0.54/0.2, or a "
+            "file with lights");
+    lam_light light = lam_light_default(LAM_LIGHT_POINT);
+    light.attenuation = (lam_attenuation){(float)part[0], (float)part[1], (float)part[2]};
+    light.range = (float)part[3];
     lam_error reason;
     if (part[0] == 0 && part[1] == 0 && part[2] == 0)
         return wrong(error, "attenuation", word, "at least one of a, b and c over 0");
-    if (!lam_light_check(&curve->light, &reason))
+    if (!lam_light_check(&light, &reason))
         return complain(error, LAM_BAD_ARGUMENT, "plot attenuation: '%.60s': %.300s", word, reason.text);
-    snprintf(curve->label, sizeof curve->label, "a/b/c = %.*g/%.*g/%.*g", 5, part[0], 5, part[1], 5, part[2]);
-    if (part[3] > 0)
-        snprintf(curve->label + strlen(curve->label), 24, ", range %.5g", part[3]);
-    return true;
+    return add_faded(plot, &light, NULL, error);
 }
 
 // "cutoff=30,exponent=8" or "inner=20,outer=35", as in a light.

@@ -27,6 +27,27 @@ class Plot(Case):
         text = self.good("plot", "attenuation", "1/0/1", "1/0/0", "-o", "p.png").stdout.decode()
         self.assertRegex(text, r"1/0/1 +below 1/255 from 15\.937\n.*1/0/0 +never below")
 
+    def test_attenuation_of_lights(self):
+        """Lights as --light takes them, and those of a scene file, are the curves of their numbers."""
+        scene = {"lambent": 1, "objects": [{"shape": "cube"}], "lights": [
+            {"type": "point", "name": "key", "attenuation": [1, 0.02, 0.01]}, {"type": "directional"},
+            {"type": "spot", "attenuation": [0, 0, 2], "range": 3}]}
+        (self.folder / "lights.json").write_text(json.dumps(scene))
+        (self.folder / "dark.json").write_text(json.dumps({**scene, "lights": []}))
+        self.given |= {"lights.json", "dark.json"}
+        found = self.numbers("attenuation", "1/0/1", "point:attenuation=1/0/1,name=lamp", "spot:attenuation=1/0.5/0.25,range=9", "lights.json")
+        curves = found["curves"]
+        self.assertEqual([c["label"] for c in curves], ["a/b/c = 1/0/1", "lamp: a/b/c = 1/0/1", "a/b/c = 1/0.5/0.25, range 9",
+                                                        "key: a/b/c = 1/0.02/0.01", "light 3: a/b/c = 0/0/2, range 3"])
+        self.assertEqual(curves[0]["points"], curves[1]["points"])
+        self.assertEqual(curves[0]["below_1_255_from"], curves[1]["below_1_255_from"])
+        self.assertAlmostEqual(curves[3]["below_1_255_from"], (-0.02 + math.sqrt(0.0004 + 0.04 * 254)) / 0.02, 3)
+        for d, value in curves[2]["points"]:
+            self.assertAlmostEqual(value, max(1 - (d / 9) ** 4, 0) / (1 + 0.5 * d + 0.25 * d * d), 6)
+        for word, says in (("point:attenuation=1/2r/3", "without r"), ("directional", "point or spot"), ("point:atenuation=1", "attenuation"),
+                           ("dark.json", "no point or spot light"), ("missing.obj", "file with lights"), ("none", "a/b/c")):
+            self.bad(1, "plot", "attenuation", word, says=says, leaves={"p.png"})
+
     def test_spot(self):
         found = self.numbers("spot", "cutoff=30,exponent=8", "inner=20,outer=35")
         for angle, value in found["curves"][0]["points"]:

@@ -208,6 +208,40 @@ bool file_read(const char *path, struct pool *pool, struct watch *watch, struct 
     return ok;
 }
 
+bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out)
+{
+    struct stat about;
+    if (strcmp(path, "-") == 0 || stat(path, &about) != 0 || !S_ISREG(about.st_mode) ||
+        about.st_size < FILE_LARGE)
+        return false;
+    out->file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    out->size = (size_t)about.st_size;
+    memset(head + FILE_HEAD, 0, FILE_PADDING);
+    if (out->file >= 0 && fstat(out->file, &about) == 0 && (size_t)about.st_size == out->size &&
+        S_ISREG(about.st_mode) && file_read_part(out, 0, head, FILE_HEAD))
+        return true;
+    file_close_parts(out);
+    return false;
+}
+
+bool file_read_part(const struct file_parts *parts, size_t offset, void *to, size_t bytes)
+{
+    for (size_t done = 0; done < bytes;) {
+        ssize_t got = pread(parts->file, (uint8_t *)to + done, bytes - done, (off_t)(offset + done));
+        if (got == 0 || (got < 0 && errno != EINTR))
+            return false;
+        done += got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+void file_close_parts(struct file_parts *parts)
+{
+    if (parts->file >= 0)
+        close(parts->file);
+    parts->file = -1;
+}
+
 static bool write_all(int file, const void *data, size_t size)
 {
     const uint8_t *at = data;

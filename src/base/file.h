@@ -23,6 +23,18 @@ struct file_bytes {
 bool file_read(const char *path, struct pool *pool, struct watch *watch, struct file_bytes *out,
                lam_error *error);
 
+// A large file that is read in parts, by any thread.
+enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
+struct file_parts {
+    int file;
+    size_t size;
+};
+// Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD. False: it is none, or cannot be
+// read.
+bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out);
+bool file_read_part(const struct file_parts *parts, size_t offset, void *to, size_t bytes);
+void file_close_parts(struct file_parts *parts);
+
 // A padded copy of memory, as file_read would give it.
 bool file_copy(const void *bytes, size_t size, struct watch *watch, struct file_bytes *out, lam_error *error);
 

@@ -43,12 +43,14 @@ out_of_memory:
     return NULL;
 }
 
-void slabs_free(struct slab_list *list)
+size_t slabs_free(struct slab_list *list)
 {
+    size_t bytes = (size_t)list->count * SLAB;
     for (int i = 0; i < list->count; i++)
         pages_free(list->slabs[i], SLAB);
     free(list->slabs);
     *list = (struct slab_list){0};
+    return bytes;
 }
 
 struct bin_block *new_bin_block(struct cpu_frame *cpu, struct thread_state *thread)

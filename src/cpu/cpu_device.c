@@ -331,7 +331,7 @@ static void tile_task(void *user, size_t index, int number)
     if (!still_on(cpu))
         return;
     int tile_x = (int)(index % (size_t)cpu->tiles_across), tile_y = (int)(index / (size_t)cpu->tiles_across);
-    bool any = false;
+    bool any = cpu->stashes && cpu->stashes[index].count;
     for (int i = 0; i < pool_threads(cpu->pool); i++)
         any |= cpu->threads[i].bins[index] != NULL;
     if (any || cpu->recorder) {
@@ -509,6 +509,7 @@ lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
     device->pool = pool;
     device->thread_count = pool_threads(pool);
     device->threads = threads;
+    device->seeing.vertices = &device->vertices;
     for (int i = 0; i < 256; i++) {
         device->decode_srgb[i] = (float)srgb_linear(i / 255.0);
         device->decode_linear[i] = (float)(i / 255.0);

@@ -207,7 +207,7 @@ enum failure {
 struct bin_block *new_bin_block(struct cpu_frame *cpu, struct thread_state *thread);
 struct clipped_piece *new_clipped_piece(struct cpu_frame *cpu, struct thread_state *thread, uint32_t *number);
 const struct clipped_piece *clipped_piece(const struct thread_state *thread, uint32_t number);
-void slabs_free(struct slab_list *list);
+size_t slabs_free(struct slab_list *list); // how many bytes that were
 
 // The block of a tile's bin that takes `room` numbers more; NULL: out of memory.
 static inline struct bin_block *bin_with_room(struct cpu_frame *cpu, struct thread_state *thread, int tile,
@@ -254,8 +254,9 @@ void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread,
 // the stashes.
 struct seeing_room {
     struct buffer sets, normals, stashes;
-    struct arena *arenas; // of each thread, for the stashes
-    double search_ms;     // of the last frame: finding what the tiles show
+    struct buffer *vertices; // of the device: given up before normals are made
+    struct arena *arenas;    // of each thread, for the stashes
+    double search_ms;        // of the last frame: finding what the tiles show
 };
 bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error);
 void seeing_room_empty(struct seeing_room *room, int threads); // ends the stashes

@@ -116,6 +116,20 @@ static bool search_tiles(struct cpu_frame *cpu, struct seeing_room *room, lam_er
     return true;
 }
 
+// The vertices and bins are done with: their memory may serve for the normals.
+static void release(struct cpu_frame *cpu, struct seeing_room *room)
+{
+    watch_refund(cpu->watch, room->vertices->room);
+    buffer_free(room->vertices);
+    cpu->vertices = NULL;
+    size_t tiles = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down;
+    for (int i = 0; i < pool_threads(cpu->pool); i++) {
+        struct thread_state *thread = &cpu->threads[i];
+        memset(thread->bins, 0, tiles * sizeof(struct bin_block *));
+        watch_refund(cpu->watch, slabs_free(&thread->blocks));
+    }
+}
+
 // --- both
 
 static bool make_set(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
@@ -146,6 +160,8 @@ bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *e
     }
     if (!goes_on(cpu))
         return true; // the caller asks why
+    if (cpu->stashes)
+        release(cpu, room);
     number_set_count(&seen->triangles);
     size_t corners = 3 * (size_t)seen->triangles.count;
     if (!buffer_reserve(&room->normals, corners * (sizeof *seen->elements + sizeof *seen->normals),

@@ -8,6 +8,7 @@
 #include <lambent/image.h>
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -283,14 +284,25 @@ static bool check_not_empty(const struct lam_scene *scene, const char *name, lam
     return fail(error, LAM_CANNOT_READ, "%s: holds no triangles", name);
 }
 
-static bool build(struct lam_scene *scene, const struct import_source *source,
-                  const struct importer *importer, uint64_t start_ns, lam_error *error)
+static struct lam_scene *start_scene(const struct import_source *source, const struct importer *importer,
+                                     lam_error *error)
 {
     const lam_load_params *params = source->params;
-    scene->format = importer->name;
-    scene->color = params->color;
-    scene->up = params->up == LAM_UP_AUTO ? importer->up : params->up;
-    if (!importer->load(source, scene, error) || !check_not_empty(scene, source->name, error))
+    struct lam_scene *scene = scene_make(source->watch, error);
+    if (scene) {
+        scene->format = importer->name;
+        scene->color = params->color;
+        scene->up = params->up == LAM_UP_AUTO ? importer->up : params->up;
+    }
+    return scene;
+}
+
+// What follows reading: where it came from, normals, extents.
+static bool finish(struct lam_scene *scene, const struct import_source *source,
+                   const struct importer *importer, uint64_t start_ns, lam_error *error)
+{
+    const lam_load_params *params = source->params;
+    if (!check_not_empty(scene, source->name, error))
         return false;
     // A scene file notes where each of its models came from by itself.
     struct scene_origin origin = {.normals = params->normals, .crease_angle_rad = params->crease_angle_rad};
@@ -314,6 +326,45 @@ static bool build(struct lam_scene *scene, const struct import_source *source,
     scene->prepare_ms = (double)(now_ns() - read_ns) * 1e-6;
     watch_progress(source->watch, 1, "normals");
     return true;
+}
+
+// The importer that reads a file of this beginning and size part by part: the one that would be chosen for
+// the whole.
+static const struct importer *importer_of_parts(const char *name, const uint8_t *head, size_t size,
+                                                const char *wanted)
+{
+    if (wanted) {
+        const struct importer *importer = importer_for(name, NULL, wanted, NULL);
+        return importer && importer->load_parts ? importer : NULL;
+    }
+    for (int i = 0; i < IMPORTERS; i++) // those that have load_parts look at no more than the head
+        if (importers[i]->probe(head, importers[i]->load_parts ? size : FILE_HEAD) == 2)
+            return importers[i]->load_parts ? importers[i] : NULL;
+    return NULL;
+}
+
+// A large file of a layout that is read part by part; NULL: it is none, and nothing was said.
+static struct lam_scene *load_parts(struct import_source *source, const struct importer **importer)
+{
+    uint8_t *head = malloc(FILE_HEAD + FILE_PADDING);
+    struct file_parts file;
+    struct lam_scene *scene = NULL;
+    if (head && source->path && file_open_parts(source->path, head, &file)) {
+        source->bytes = head;
+        source->size = FILE_HEAD;
+        *importer = importer_of_parts(source->name, head, file.size, source->params->format);
+        if (*importer)
+            scene = start_scene(source, *importer, NULL);
+        if (scene && !(*importer)->load_parts(source, &file, scene)) {
+            lam_scene_free(scene);
+            scene = NULL;
+        }
+        file_close_parts(&file);
+        source->bytes = NULL;
+        source->size = 0;
+    }
+    free(head);
+    return scene;
 }
 
 // `path` or else `bytes`.
@@ -340,17 +391,22 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     };
     struct lam_scene *scene = NULL;
     struct file_bytes file = {0};
+    const struct importer *importer = NULL;
     bool ok = source.pool || fail(error, LAM_LIMIT, "%s: out of memory for threads", name);
-    ok = ok && (path ? file_read(path, source.pool, &watch, &file, error)
-                     : file_copy(bytes, size, &watch, &file, error));
-    if (ok) {
+    if (ok)
+        scene = load_parts(&source, &importer);
+    ok = ok && (scene  ? true
+                : path ? file_read(path, source.pool, &watch, &file, error)
+                       : file_copy(bytes, size, &watch, &file, error));
+    if (ok && !scene) {
         source.bytes = file.data;
         source.size = file.size;
         watch_progress(&watch, 0.05, "read");
-        const struct importer *importer = importer_for(name, &file, params->format, error);
-        scene = importer ? scene_make(&watch, error) : NULL;
-        ok = scene && build(scene, &source, importer, start_ns, error);
+        importer = importer_for(name, &file, params->format, error);
+        scene = importer ? start_scene(&source, importer, error) : NULL;
+        ok = scene && importer->load(&source, scene, error);
     }
+    ok = ok && finish(scene, &source, importer, start_ns, error);
     if (ok)
         scene_built(scene);
     else

@@ -36,6 +36,11 @@ struct importer {
     // Fills an empty scene: meshes, materials, one object a mesh. The arena is the scene's; on failure the
     // caller frees it.
     bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);
+    // NULL, or: the same from a large file whose first FILE_HEAD bytes are the source's, without holding it
+    // whole. False where it is not of a layout that this serves, or something is wrong: then `load` is asked,
+    // with a fresh scene and the whole file.
+    bool (*load_parts)(const struct import_source *source, const struct file_parts *file,
+                       struct lam_scene *scene);
 };
 
 extern const struct importer importer_obj, importer_stl, importer_ply, importer_scene;

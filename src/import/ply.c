@@ -198,4 +198,5 @@ const struct importer importer_ply = {
     .up = LAM_UP_Y,
     .probe = ply_probe,
     .load = ply_load,
+    .load_parts = ply_load_parts,
 };

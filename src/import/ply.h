@@ -131,4 +131,8 @@ bool ply_faces(const struct import_source *source, const struct ply_table *faces
 bool ply_strips(const struct import_source *source, const struct ply_table *strips, struct lam_scene *scene,
                 lam_mesh *mesh, lam_error *error);
 
+// ply_parts.c: the importer's load_parts.
+bool ply_load_parts(const struct import_source *source, const struct file_parts *file,
+                    struct lam_scene *scene);
+
 #endif

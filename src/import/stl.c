@@ -104,4 +104,5 @@ const struct importer importer_stl = {
     .up = LAM_UP_Z,
     .probe = stl_probe,
     .load = stl_load,
+    .load_parts = stl_load_parts,
 };

@@ -20,6 +20,10 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
 bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh,
                     lam_error *error);
 
+// stl_parts.c: the importer's load_parts.
+bool stl_load_parts(const struct import_source *source, const struct file_parts *file,
+                    struct lam_scene *scene);
+
 // More corners than 32-bit numbers can tell apart: LAM_LIMIT.
 bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error);
 enum { STL_FACETS_MAX = 1431655765 }; // (2³² − 1) ÷ 3

@@ -20,21 +20,17 @@ enum {
     BATCH = 32,       // vertices looked up at a time
     RANGE_SHIFT = 11, // positions of a range, at least 2^
     RANGES_MAX = 1 << 10,
-    BIN_CORNERS = 255, // corners in a block of a bin
+    BLOCK_VALUES = 508, // in a block of a bin; even
     SLAB = 2 << 20,
 };
 
 #define NONE UINT32_MAX
 
-// A corner, and the number of its position.
-struct placed_corner {
-    uint32_t position, corner;
-};
-
+// Corners, each behind the number of its position where that cannot be asked for again.
 struct corner_block {
     struct corner_block *before;
-    uint32_t count;
-    struct placed_corner corners[BIN_CORNERS];
+    uint32_t count; // of values
+    uint32_t values[BLOCK_VALUES];
 };
 
 // What a thread holds.
@@ -306,13 +302,15 @@ static struct corner_block *new_block(struct seeing *s, struct worker *worker, s
 static inline bool put(struct seeing *s, struct worker *worker, uint32_t position, uint32_t corner)
 {
     struct corner_block **bin = &worker->bins[position >> s->range_shift], *block = *bin;
-    if (!block || block->count == BIN_CORNERS) {
+    if (!block || block->count == BLOCK_VALUES) {
         block = new_block(s, worker, block);
         if (!block)
             return false;
         *bin = block;
     }
-    block->corners[block->count++] = (struct placed_corner){position, corner};
+    if (!s->position_of)
+        block->values[block->count++] = position;
+    block->values[block->count++] = corner;
     return true;
 }
 
@@ -368,23 +366,29 @@ static bool make_fans(struct seeing *s, struct fan_room *room, const uint32_t *c
     return true;
 }
 
+// The position of value i of a block, a corner.
+static inline uint32_t position_at(const struct seeing *s, const struct corner_block *block, uint32_t i)
+{
+    return s->position_of ? s->position_of[corner_vertex(s->mesh, block->values[i])] : block->values[i - 1];
+}
+
 static void fan_range(void *user, size_t index, int thread)
 {
     struct seeing *s = user;
     if (!goes_on(&s->halt))
         return;
     struct worker *worker = &s->workers[thread];
-    size_t first = index << s->range_shift, size = (size_t)1 << s->range_shift, total = 0;
-    uint32_t *starts = worker->starts;
+    size_t first = index << s->range_shift, size = (size_t)1 << s->range_shift;
+    uint32_t *starts = worker->starts, end = 0, step = s->position_of ? 1 : 2;
     memset(starts, 0, (size + 1) * sizeof *starts);
     for (int t = 0; t < pool_threads(s->pool); t++)
-        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before) {
-            for (uint32_t i = 0; i < b->count; i++)
-                starts[b->corners[i].position - first]++;
-            total += b->count;
-        }
-    if (total > worker->sorted_room) {
-        worker->sorted_room = total + total / 2;
+        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before)
+            for (uint32_t i = step - 1; i < b->count; i += step)
+                starts[position_at(s, b, i) - first]++;
+    for (size_t i = 0; i <= size; i++)
+        starts[i] = end += starts[i];
+    if (end > worker->sorted_room) {
+        worker->sorted_room = end + end / 2;
         worker->sorted = arena_array(&worker->arena, worker->sorted_room, sizeof *worker->sorted);
         if (!worker->sorted) {
             worker->sorted_room = 0;
@@ -392,14 +396,11 @@ static void fan_range(void *user, size_t index, int thread)
             return;
         }
     }
-    uint32_t end = 0;
-    for (size_t i = 0; i <= size; i++)
-        starts[i] = end += starts[i];
     // From the back, and from the newest block to the oldest: a thread's corners then come in order.
     for (int t = 0; t < pool_threads(s->pool); t++)
         for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before)
-            for (uint32_t i = b->count; i-- > 0;)
-                worker->sorted[--starts[b->corners[i].position - first]] = b->corners[i].corner;
+            for (uint32_t i = b->count; i > 0; i -= step)
+                worker->sorted[--starts[position_at(s, b, i - 1) - first]] = b->values[i - 1];
     for (size_t i = 0; i < size; i++)
         if (starts[i + 1] > starts[i] &&
             !make_fans(s, &worker->room, worker->sorted + starts[i], starts[i + 1] - starts[i])) {
@@ -416,8 +417,7 @@ static bool start_workers(struct seeing *s)
     s->ranges = (s->positions >> s->range_shift) + 1;
     // Blocks for a small model come in small slabs.
     s->slab = SLAB;
-    while (s->slab > 16 * sizeof(struct corner_block) &&
-           s->slab / 2 > s->corners * sizeof(struct placed_corner))
+    while (s->slab > 16 * sizeof(struct corner_block) && s->slab / 2 > s->corners * 8)
         s->slab /= 2;
     size_t threads = (size_t)pool_threads(s->pool);
     s->workers = arena_alloc_zeroed(&s->scratch, threads * sizeof *s->workers);
@@ -514,7 +514,7 @@ bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad,
         if (binned)
             pool_run(pool, s.ranges, fan_range, &s);
         if (ok)
-            ok = goes_on(&s.halt) || halt_error(&s.halt, corners * sizeof(struct placed_corner), error);
+            ok = goes_on(&s.halt) || halt_error(&s.halt, corners * 8, error);
     }
     stop_workers(&s);
     arena_free(&s.scratch);

@@ -74,7 +74,8 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
         return NULL;
     lam_object object = lam_object_default();
     object.name = name;
-    object.mesh = lam_scene_add_shape(scene, name, NULL, error);
+    lam_shape_params params = {.slices = o->slices, .stacks = o->stacks, .control = control};
+    object.mesh = lam_scene_add_shape(scene, name, &params, error);
     bool ok = object.mesh >= 0 && lam_scene_add_object(scene, &object, error) >= 0;
     if (ok && (o->normals != LAM_NORMALS_FILE || o->crease_angle_deg >= 0))
         ok = lam_scene_make_normals(scene, (lam_normals)o->normals, crease_of(o), o->threads, control, error);
@@ -152,6 +153,8 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
         return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw",
                         job->model);
     scene_settings_apply(job);
+    if (o->slices && lam_shape_find(job->model) < 0)
+        lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
     return true;
 }
 

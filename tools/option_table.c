@@ -336,6 +336,11 @@ const struct option option_table[] = {
      .store = store_word, FIELD(normals)},
     {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Made normals are split at sharper edges than this.",
      NULL, .store = store_number, FIELD(crease_angle_deg), .least = 0, .most = 180},
+    {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
+     "Segments of a built-in shape: slices around, and stacks along, such as 64x32.",
+     "N is 3 to 16384; `lambent shapes` says what the segments are of each shape. M left out is the shape's "
+     "own number. gyroid and metaballs count at most 1024 cells and take no M.",
+     .store = store_segments, .most = 16384},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "What shiny surfaces mirror: an image, six faces, sky or studio.",
      "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, PPM, PFM or "

@@ -136,6 +136,22 @@ bool store_size(const struct option *option, const char *value, struct options *
     return true;
 }
 
+// "64", or "64x32".
+bool store_segments(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    char *end = (char *)(uintptr_t)value;
+    long slices = *value >= '0' && *value <= '9' ? strtol(value, &end, 10) : 0, stacks = 0;
+    bool both = end > value && *end == 'x' && end[1] >= '0' && end[1] <= '9';
+    if (both)
+        stacks = strtol(end + 1, &end, 10);
+    if (*end || slices < 3 || slices > (long)option->most ||
+        (both && (stacks < 1 || stacks > (long)option->most)))
+        return wrong(error, value, "N or NxM, slices from 3 and stacks from 1 to 16384, such as 64x32");
+    options->slices = (int)slices;
+    options->stacks = (int)stacks;
+    return true;
+}
+
 // "500M": k, M, G, T are powers of 1000, with an i behind them of 1024.
 bool store_bytes(const struct option *option, const char *value, struct options *options, lam_error *error)
 {

@@ -61,6 +61,7 @@ struct options {
     int cull; // lam_cull
     bool has_cull;
     struct texts rotations;  // as written, checked
+    int slices, stacks;      // of a built-in shape; 0: its own
     int normals;             // lam_normals
     double crease_angle_deg; // < 0: the library's default
     const char *environment; // as written; NULL: none
@@ -187,13 +188,14 @@ bool option_is_taken(const struct option *option, unsigned groups);
 int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error);
 
 // The kinds of values, for the table's `store`.
-bool store_switch(const struct option *, const char *, struct options *, lam_error *);  // bool
-bool store_text(const struct option *, const char *, struct options *, lam_error *);    // const char *
-bool store_word(const struct option *, const char *, struct options *, lam_error *);    // int
-bool store_integer(const struct option *, const char *, struct options *, lam_error *); // int
-bool store_number(const struct option *, const char *, struct options *, lam_error *);  // double
-bool store_size(const struct option *, const char *, struct options *, lam_error *);    // width, height
-bool store_bytes(const struct option *, const char *, struct options *, lam_error *);   // uint64_t
+bool store_switch(const struct option *, const char *, struct options *, lam_error *);   // bool
+bool store_text(const struct option *, const char *, struct options *, lam_error *);     // const char *
+bool store_word(const struct option *, const char *, struct options *, lam_error *);     // int
+bool store_integer(const struct option *, const char *, struct options *, lam_error *);  // int
+bool store_number(const struct option *, const char *, struct options *, lam_error *);   // double
+bool store_size(const struct option *, const char *, struct options *, lam_error *);     // width, height
+bool store_segments(const struct option *, const char *, struct options *, lam_error *); // slices, stacks
+bool store_bytes(const struct option *, const char *, struct options *, lam_error *);    // uint64_t
 bool store_color(const struct option *, const char *, struct options *, lam_error *); // const char *, checked
 bool store_show(const struct option *, const char *, struct options *, lam_error *);  // const char *, checked
 bool store_reflectivity(const struct option *, const char *, struct options *, lam_error *); // lam_rgb

@@ -288,6 +288,22 @@ class CommandLine(Case):
         self.bad(1, "cube.obj", "cube.stl", says="would both be written to 'cube.png'")
         self.bad(1, "cube.obj", "-", says="single model")
 
+    def test_segments(self):
+        """Built-in shapes with as many segments as asked for, also in what --save-scene writes."""
+        count = lambda *words: self.report(*words, "-s", 16, "-o", "a.png")["model"]["triangles"]
+        self.assertEqual(count("cylinder", "--segments", "8x3"), 8 * 2 * 3 + 2 * 8)
+        self.assertEqual(count("sphere", "--segments", "12x6"), 12 * 2 * 5)
+        self.assertEqual(count("cube", "--segments", "4"), 2 * (4 * 4 * 2) + 4 * 4 * 2)
+        self.good("sphere", "--segments", "9x5", "-s", 32, "--shading", "flat", "-q", "-o", "a.png", "--save-scene", "a.json")
+        self.good("a.json", "-q", "-o", "b.png")
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+        self.assertIn(b"'--segments' changes nothing", self.good("cube.obj", "--segments", 8, "-s", 16, "-o", "a.png").stderr)
+        self.given |= self.new_files()
+        for value in ("0", "2x", "x2", "8x0", "20000", "8.5", "-3", "8x4x2", ""):
+            self.bad(1, "sphere", "--segments", value, says="--segments")
+        self.bad(1, "sphere", "--segments", "2", says="slices")
+        self.bad(4, "sphere", "--segments", "4000x4000", "--memory-limit", "50M", says="memory limit")
+
     def test_commands(self):
         shapes = [line.split()[0] for line in self.good("shapes").stdout.decode().splitlines()]
         for name in ("sphere", "torus", "plane", "cube", "cylinder", "cone", "teapot"):

@@ -245,7 +245,7 @@ void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread,
 // the stashes.
 struct seeing_room {
     struct buffer sets, normals, stashes;
-    struct buffer *vertices; // of the device: given up before normals are made
+    struct buffer *vertices; // of the device: normals may lie there once the tiles are searched
     struct arena *arenas;    // of each thread, for the stashes
     double search_ms;        // of the last frame: finding what the tiles show
 };
@@ -282,8 +282,9 @@ static inline uint32_t corner_element(const uint32_t *own, const uint32_t *share
     return own ? own[corner] : shared ? shared[corner] : corner;
 }
 
-// A tile's visibility arrays are cut into cells of CELL samples: of as square a part of the tile as has so many, so that small
-// triangles touch few. Within a cell pixels lie row by row, and a pixel's samples side by side.
+// A tile's visibility arrays are cut into cells of CELL samples: of as square a part of the tile as has so
+// many, so that small triangles touch few. Within a cell pixels lie row by row, and a pixel's samples side by
+// side.
 enum { CELL = 16 };
 struct cells {
     int x_shift, y_shift; // a cell's width and height in pixels: 1 << shift

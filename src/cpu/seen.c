@@ -116,12 +116,9 @@ static bool search_tiles(struct cpu_frame *cpu, struct seeing_room *room, lam_er
     return true;
 }
 
-// The vertices and bins are done with: their memory may serve for the normals.
-static void release(struct cpu_frame *cpu, struct seeing_room *room)
+// The bins are done with.
+static void release_bins(struct cpu_frame *cpu)
 {
-    watch_refund(cpu->watch, room->vertices->room);
-    buffer_free(room->vertices);
-    cpu->vertices = NULL;
     size_t tiles = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down;
     for (int i = 0; i < pool_threads(cpu->pool); i++) {
         struct thread_state *thread = &cpu->threads[i];
@@ -160,19 +157,26 @@ bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *e
     }
     if (!goes_on(cpu))
         return true; // the caller asks why
-    if (cpu->stashes)
-        release(cpu, room);
+    // The vertices are done with too; what is made may lie where they did.
+    struct spare spare = {0};
+    if (cpu->stashes) {
+        release_bins(cpu);
+        spare = (struct spare){.memory = room->vertices->data, .room = room->vertices->room};
+        cpu->vertices = NULL;
+    }
     number_set_count(&seen->triangles);
     size_t corners = 3 * (size_t)seen->triangles.count;
-    if (!buffer_reserve(&room->normals, corners * (sizeof *seen->elements + sizeof *seen->normals),
-                        cpu->watch, error))
+    size_t bytes = corners * (sizeof *seen->elements + sizeof *seen->normals);
+    bool lies_there = bytes <= spare.room;
+    if (!lies_there && !buffer_reserve(&room->normals, bytes, cpu->watch, error))
         return false;
-    seen->normals = room->normals.data;
+    seen->normals = lies_there ? spare.memory : room->normals.data;
+    spare.used = lies_there && bytes + 63 < spare.room ? (bytes + 63) / 64 * 64 : lies_there ? spare.room : 0;
     seen->elements = (uint32_t *)(seen->normals + corners);
     for (int i = 0; i < frame->draw_count; i++)
         if (frame->draws[i].crease_rad > 0 &&
             !normals_seen(frame->draws[i].mesh, frame->draws[i].first_id, frame->draws[i].crease_rad, seen,
-                          cpu->pool, cpu->watch, error))
+                          spare, cpu->pool, cpu->watch, error))
             return false;
     return true;
 }

@@ -53,6 +53,7 @@ struct seeing {
     struct pool *pool;
     struct halt halt;
     struct arena scratch;
+    struct spare spare;
     size_t vertices, corners;
     struct number_set shown; // vertices of the triangles that are seen
 
@@ -79,6 +80,28 @@ void number_set_count(struct number_set *set)
         count += count_bits(set->bits[i]);
     }
     set->count = count;
+}
+
+// From the spare memory while there is some, by any thread; else from the arena.
+static void *take(struct seeing *s, struct arena *arena, size_t count, size_t size)
+{
+    size_t bytes, used = __atomic_load_n(&s->spare.used, __ATOMIC_RELAXED);
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX / 4)
+        return NULL;
+    size_t whole = (bytes + 63) / 64 * 64;
+    while (whole <= s->spare.room - used)
+        if (__atomic_compare_exchange_n(&s->spare.used, &used, used + whole, false, __ATOMIC_RELAXED,
+                                        __ATOMIC_RELAXED))
+            return (char *)s->spare.memory + used;
+    return arena_alloc(arena, bytes);
+}
+
+static void *take_zeroed(struct seeing *s, size_t bytes)
+{
+    void *memory = take(s, &s->scratch, bytes, 1);
+    if (memory)
+        memset(memory, 0, bytes);
+    return memory;
 }
 
 static size_t pieces_of(size_t total, size_t piece) { return (total + piece - 1) / piece; }
@@ -114,8 +137,8 @@ static bool find_shown(struct seeing *s)
 {
     size_t words = number_set_words(s->vertices);
     s->shown.size = s->vertices;
-    s->shown.bits = arena_alloc_zeroed(&s->scratch, words * sizeof *s->shown.bits);
-    s->shown.before = arena_array(&s->scratch, words, sizeof *s->shown.before);
+    s->shown.bits = take_zeroed(s, words * sizeof *s->shown.bits);
+    s->shown.before = take(s, &s->scratch, words, sizeof *s->shown.before);
     if (!s->shown.bits || !s->shown.before)
         return false;
     size_t last = s->first + (size_t)s->mesh->triangle_count;
@@ -227,8 +250,8 @@ static bool fill_table(struct seeing *s)
         s->filter_shift--;
     }
     s->slot_mask = slots - 1;
-    s->slots = arena_array(&s->scratch, slots, sizeof *s->slots);
-    s->filter = arena_alloc_zeroed(&s->scratch, bits / 8);
+    s->slots = take(s, &s->scratch, slots, sizeof *s->slots);
+    s->filter = take_zeroed(s, bits / 8);
     if (!s->slots || !s->filter)
         return false;
     memset(s->slots, 0xff, slots * sizeof *s->slots);
@@ -284,7 +307,7 @@ static void place_chunk(void *user, size_t index, int thread)
 static struct corner_block *new_block(struct seeing *s, struct worker *worker, struct corner_block *before)
 {
     if (worker->slab_left < sizeof(struct corner_block)) {
-        worker->slab = arena_alloc(&worker->arena, s->slab);
+        worker->slab = take(s, &worker->arena, 1, s->slab);
         worker->slab_left = worker->slab ? s->slab : 0;
         if (!worker->slab) {
             no_memory(&s->halt);
@@ -389,7 +412,7 @@ static void fan_range(void *user, size_t index, int thread)
         starts[i] = end += starts[i];
     if (end > worker->sorted_room) {
         worker->sorted_room = end + end / 2;
-        worker->sorted = arena_array(&worker->arena, worker->sorted_room, sizeof *worker->sorted);
+        worker->sorted = take(s, &worker->arena, worker->sorted_room, sizeof *worker->sorted);
         if (!worker->sorted) {
             worker->sorted_room = 0;
             no_memory(&s->halt);
@@ -420,15 +443,15 @@ static bool start_workers(struct seeing *s)
     while (s->slab > 16 * sizeof(struct corner_block) && s->slab / 2 > s->corners * 8)
         s->slab /= 2;
     size_t threads = (size_t)pool_threads(s->pool);
-    s->workers = arena_alloc_zeroed(&s->scratch, threads * sizeof *s->workers);
+    s->workers = take_zeroed(s, threads * sizeof *s->workers);
     if (!s->workers)
         return false;
     for (size_t i = 0; i < threads; i++) {
         struct worker *worker = &s->workers[i];
         arena_start(&worker->arena, s->halt.watch);
         fan_room_start(&worker->room, s->halt.watch);
-        worker->bins = arena_alloc_zeroed(&s->scratch, s->ranges * sizeof(struct corner_block *));
-        worker->starts = arena_array(&s->scratch, ((size_t)1 << s->range_shift) + 1, sizeof *worker->starts);
+        worker->bins = take_zeroed(s, s->ranges * sizeof(struct corner_block *));
+        worker->starts = take(s, &s->scratch, ((size_t)1 << s->range_shift) + 1, sizeof *worker->starts);
         if (!worker->bins || !worker->starts)
             return false;
     }
@@ -439,13 +462,13 @@ static bool start_workers(struct seeing *s)
 static bool weld_all(struct seeing *s, lam_error *error)
 {
     uint32_t positions;
-    s->position_of = arena_array(&s->scratch, s->vertices, sizeof *s->position_of);
+    s->position_of = take(s, &s->scratch, s->vertices, sizeof *s->position_of);
     if (!s->position_of)
         return watch_memory_error(s->halt.watch, s->vertices * 4, error);
     if (!weld_positions(s->mesh->positions, s->vertices, s->position_of, &positions, s->pool, s->halt.watch,
                         error))
         return false;
-    uint8_t *shown = arena_alloc_zeroed(&s->scratch, positions);
+    uint8_t *shown = take_zeroed(s, positions);
     if (!shown)
         return watch_memory_error(s->halt.watch, positions, error);
     for (size_t v = 0; v < s->vertices; v++)
@@ -464,7 +487,7 @@ static bool find_positions(struct seeing *s, lam_error *error)
         return watch_memory_error(s->halt.watch, s->vertices / 4, error);
     s->positions = s->shown.count;
     if (s->mesh->indices && !s->crowded) {
-        s->position_of = arena_array(&s->scratch, s->vertices, sizeof *s->position_of);
+        s->position_of = take(s, &s->scratch, s->vertices, sizeof *s->position_of);
         if (!s->position_of)
             return watch_memory_error(s->halt.watch, s->vertices * 4, error);
         pool_run(s->pool, pieces_of(s->vertices, CHUNK), place_chunk, s);
@@ -491,13 +514,14 @@ static bool bin_corners(struct seeing *s)
 }
 
 bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad, struct seen_normals *seen,
-                  struct pool *pool, struct watch *watch, lam_error *error)
+                  struct spare spare, struct pool *pool, struct watch *watch, lam_error *error)
 {
     size_t corners = 3 * (size_t)mesh->triangle_count;
     struct seeing s = {.mesh = mesh,
                        .first = first,
                        .least_cosine = fan_least_cosine(crease_angle_rad),
                        .seen = seen,
+                       .spare = spare,
                        .pool = pool,
                        .halt = {.watch = watch},
                        .vertices = mesh->indices ? mesh->vertex_count : corners,

@@ -66,9 +66,16 @@ static inline uint32_t seen_element(const struct seen_normals *seen, size_t tria
     return seen->elements[3 * (size_t)number_set_place(&seen->triangles, triangle) + k];
 }
 
+// Memory, aligned to 64 bytes, that may be written over.
+struct spare {
+    void *memory;
+    size_t room, used;
+};
+
 // Makes the normals of one mesh, whose triangle t has the number first + t in the set. The set is counted.
-// Errors: LAM_LIMIT, LAM_CANCELLED.
+// `spare` saves fresh memory, whose first touch costs more than its use; all zero: there is none. Errors:
+// LAM_LIMIT, LAM_CANCELLED.
 bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad, struct seen_normals *seen,
-                  struct pool *pool, struct watch *watch, lam_error *error);
+                  struct spare spare, struct pool *pool, struct watch *watch, lam_error *error);
 
 #endif

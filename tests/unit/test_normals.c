@@ -47,7 +47,13 @@ static bool see(const lam_mesh *mesh, uint32_t first, uint32_t take, double crea
         return false;
     }
     memset(seen->elements, 0xff, (size_t)set->count * 12);
-    return normals_seen(mesh, first, crease_rad, seen, pool, NULL, error);
+    // With spare memory for a part of what is needed, and without any.
+    struct spare spare = {.room = take == 17 ? 64 * (size_t)mesh->triangle_count : 0};
+    spare.memory = arena_alloc(arena, spare.room + 64);
+    if (spare.memory && spare.room)
+        memset(spare.memory, 0xa5, spare.room);
+    spare.room = spare.memory ? spare.room : 0;
+    return normals_seen(mesh, first, crease_rad, seen, spare, pool, NULL, error);
 }
 
 // Of any triangles that are seen, the normals are those of the whole mesh, and corners that share one there

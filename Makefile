@@ -5,7 +5,7 @@ prefix  ?= /usr/local
 DESTDIR ?=
 MAKEFLAGS += --no-print-directory
 
-.PHONY: all demo test bench docs gallery install uninstall clean help
+.PHONY: all demo test bench bench-check bench-check-record docs gallery install uninstall clean help
 
 all: $(build)/lambent
 
@@ -13,7 +13,9 @@ help:
 	@echo 'make            builds $(build)/lambent (missing Debian packages are installed first)'
 	@echo 'make demo       builds and renders the Utah teapot to out/demo.png'
 	@echo 'make test       builds and runs the whole test suite, both compilers, with sanitizers'
-	@echo 'make bench      measures, into bench/results'
+	@echo 'make bench      measures against other programs, into bench/results and docs/speed.md (BENCH=full: everything)'
+	@echo 'make bench-check         counts instructions, beside the recorded ones (part of make test)'
+	@echo 'make bench-check-record  records them anew, where they were meant to change'
 	@echo 'make install    installs to $$(DESTDIR)$$(prefix), prefix=$(prefix)'
 	@echo 'make uninstall  removes what install put there'
 	@echo 'make docs       writes the generated parts of docs/ anew, and the pictures of the README'
@@ -39,10 +41,16 @@ test:
 	@scripts/setup.sh build test
 	@python3 tests/run.py
 
+# A build of its own, of the release kind whatever $(build) is; models and pictures lie there too.
 bench:
-	@scripts/setup.sh build test bench
-	@$(MAKE) all
+	@scripts/setup.sh build bench
+	@test -e build-bench/build.ninja || meson setup build-bench --buildtype=release -Dtests=false -Dbench=true
+	@ninja -C build-bench
 	@python3 bench/run.py
+
+bench-check bench-check-record: $(build)/lambent
+	@scripts/setup.sh test
+	@python3 bench/check.py $(build)/lambent $(if $(findstring record,$@),--record)
 
 # The prefix is baked into lambent.pc: configured before the build that makes it.
 install: $(build)/build.ninja

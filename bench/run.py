@@ -1,96 +1,150 @@
 #!/usr/bin/env python3
-"""run.py: measures lambent as a whole process beside F3D (when it is installed), alternating, medians and ratios.
+"""run.py: the whole bench: `make bench` (24 named rows, under ten minutes) or `BENCH=full make bench` (the whole product).
 
-Writes bench/results/DATE.json. Times are wall-clock seconds; a ratio is the median of the pairs' ratios, so that a machine whose
-speed drifts does not decide it. BENCH=full adds the files of ten million triangles."""
+Writes bench/results/DATE.json, the tables and plots of docs/speed.md (report.py), and pictures to build-bench/pictures.
+`run.py WORD…` measures only the rows whose names have one of the words, and writes build-bench/part.json instead."""
 import datetime
 import json
+import math
 import os
-import platform
-import shutil
 import statistics
-import subprocess
 import sys
 import time
 
-import models
-
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-LAMBENT = os.path.join(ROOT, "build", "lambent")
-SHARED = os.environ.get("LAMBENT_MODELS", os.path.join(ROOT, "..", "shared", "models"))
-OUT = os.path.join(ROOT, "build-bench")
-
-
-def seconds(command):
-    start = time.perf_counter()
-    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    if done.returncode:
-        raise RuntimeError("%s: exit %d: %s" % (" ".join(command), done.returncode, done.stderr.decode()[-300:]))
-    return time.perf_counter() - start
+import frames
+import measure
+import paths
+import report
+import steps
+import whole
 
 
-def measure(ours, peer, runs):
-    """Alternating runs after a warm-up of each: lists of seconds."""
-    mine, theirs = [], []
-    seconds(ours)
-    if peer:
-        seconds(peer)
-    for _ in range(runs):
-        mine.append(seconds(ours))
-        if peer:
-            theirs.append(seconds(peer))
-    return mine, theirs
+def judged_ratio(result, target, isas, at_least=True):
+    """A row that is a ratio with each instruction set: reached when it is with all of them."""
+    values = [result["ratio"][isa]["median"] for isa in isas]
+    result["reached"] = target is None or all(v >= target if at_least else v <= target for v in values)
+    return result
 
 
-def rows():
-    for name, path in (("spot", "obj/spot/spot_quadrangulated.obj"), ("koala", "obj/koala/koala.obj"),
-                       ("koala", "stl/derived/koala.stl"), ("gallery", "ply/derived/gallery.ply")):
-        path = os.path.join(SHARED, path)
-        if os.path.exists(path):
-            yield "%s.%s" % (name, path.rsplit(".", 1)[1]), path
-        else:
-            print("left out: %s is not here" % path)
-    for triangles in [100000, 1000000] + ([10000000] if os.environ.get("BENCH") == "full" else []):
-        for kind, path in models.make(os.path.join(OUT, "models"), triangles).items():
-            yield "%d triangles, %s" % (triangles, kind), path
+def row_list(isas, gl_device, full):
+    """(name, target in words, function that measures and judges)."""
+    def ratio_row(name, target, run, at_least=True):
+        sign = "≥" if at_least else "≤"
+        words = "%s %g ×" % (sign, target) if target else "no target"
+        return name, words, lambda: judged_ratio(run(), target, isas, at_least)
+
+    def whole_row(name, target, run):
+        def judge():
+            result = judged_ratio(run(), target, isas)
+            if "spot" in name or "teapot" in name:
+                result["reached"] = result["reached"] and result["besides_encoder_ms"] < 10
+            return result
+        words = "≥ %g ×" % target if target else "no target"
+        return name, words + (", < 10 ms besides the encoder" if name in ("whole spot", "whole teapot") else ""), judge
+
+    for name, target, run in whole.rows(isas, full):
+        yield whole_row(name, target, run)
+    for name, target, run in frames.rows(isas, gl_device, full):
+        yield ratio_row(name, target, run)
+    yield ratio_row("1,000 lights", 2, lambda: frames.many_lights(1000, 16, isas), False)
+    yield ratio_row("10,000 lights", 5, lambda: frames.many_lights(10000, 48, isas), False)
+    for kind, rate in (("ply", 4), ("stl", 4), ("obj", 2)):
+        def judge(kind=kind, rate=rate):
+            result = steps.reading(kind, isas)
+            result["reached"] = all(result["rates"][word + ", lambent"]["median"] >= rate for word in ("1M", "10M"))
+            return result
+        yield "reading " + kind, "≥ %d GB/s" % rate, judge
+
+    def judge_png():
+        result = steps.png()
+        ours, theirs = result["encoders"]["lambent"], result["encoders"]["libpng_1"]
+        result["reached"] = ours["ms"] <= 3 and ours["bytes"] <= theirs["bytes"]
+        return result
+    yield "png", "≤ 3 ms, no more bytes than libpng level 1", judge_png
+
+    def judge_lighting():
+        result = steps.lighting_step(isas)
+        result["reached"] = all(share["median"] >= 0.5 for share in result["shares"].values())
+        return result
+    yield "lighting step", "≥ 50 % of multiply and add, apart", judge_lighting
+    yield ratio_row("two threads", 1.8, lambda: frames.threads(isas))
+    yield ratio_row("memory 10M ply", 1.6, lambda: steps.memory_of_10m(isas), False)
+
+    def judge_start():
+        result = steps.start_up()
+        result["reached"] = result["over_ms"]["median"] <= 2 and not result["opengl_or_gui_libraries"]
+        return result
+    yield "start", "≤ 2 ms over /bin/true, no OpenGL or GUI library", judge_start
+
+
+def geometric_mean(rows, isas):
+    """Of the frames' ratios, with each instruction set; and the smallest."""
+    found = {}
+    for isa in isas:
+        ratios = [row["ratio"][isa]["median"] for row in rows if row["name"].startswith("frame ") and "ratio" in row]
+        if ratios:
+            found[isa] = {"mean": math.exp(statistics.mean(map(math.log, ratios))), "least": min(ratios), "rows": len(ratios)}
+    return found
+
+
+def run_row(number, name, target, judge):
+    begun = time.monotonic()
+    row = {"number": number, "name": name, "target": target}
+    try:
+        row.update(judge())
+    except (measure.Failed, OSError, KeyError, ValueError, json.JSONDecodeError) as problem:
+        row.update(not_measured="%s: %s" % (type(problem).__name__, problem), reached=False)
+    row["took_s"] = round(time.monotonic() - begun, 1)
+    print("%2d  %s" % (number, report.line(row)), flush=True)
+    return row
+
+
+def attempt(what, run, problems):
+    try:
+        return run()
+    except (measure.Failed, OSError, KeyError, ValueError) as problem:
+        problems.append("%s: %s" % (what, problem))
+        print("    not measured: %s: %s" % (what, problem), flush=True)
+        return None
 
 
 def main():
-    f3d = shutil.which("f3d") and shutil.which("xvfb-run")
-    os.makedirs(OUT, exist_ok=True)
-    display = None
-    if f3d:
-        # One display for all runs: starting the X server is not F3D's time.
-        display = subprocess.Popen(["Xvfb", ":77", "-screen", "0", "1280x1100x24"], stderr=subprocess.DEVNULL)
-        os.environ["DISPLAY"] = ":77"
-        time.sleep(1)
-    else:
-        print("f3d or xvfb is not installed: no ratios")
-    table = []
+    full, words = os.environ.get("BENCH") == "full", sys.argv[1:]
+    begun = time.monotonic()
+    os.makedirs(paths.PICTURES, exist_ok=True)
+    os.makedirs(paths.RESULTS, exist_ok=True)
+    facts, problems = measure.machine(), []
+    isas = measure.usable_isas()
+    gl_device = frames.has_gl_device()
+    print("%s, %d processors, load %.2f; %s%s" % (facts["processor"], facts["processors"], facts["load_before"], ", ".join(isas),
+                                                "" if gl_device else "; no OpenGL device of our own here"), flush=True)
+    result = {"date": datetime.date.today().isoformat(), "version": measure.output([paths.LAMBENT, "--version"]).strip(), "machine": facts,
+              "isas": isas, "our_opengl_device": gl_device, "full": full, "rows": []}
+    display = whole.Display()
+    attempt("F3D", display.__enter__, problems)
     try:
-        for name, path in rows():
-            ours = [LAMBENT, "-q", path, "-o", os.path.join(OUT, "ours.png")]
-            peer = ["f3d", path, "--output=" + os.path.join(OUT, "f3d.png"), "--resolution=1024,1024"] if f3d else None
-            mine, theirs = measure(ours, peer, 5)
-            row = {"name": name, "lambent_s": statistics.median(mine), "lambent_runs_s": mine}
-            if theirs:
-                row.update(f3d_s=statistics.median(theirs), f3d_runs_s=theirs,
-                           ratio=statistics.median(b / a for a, b in zip(mine, theirs)))
-            table.append(row)
-            print("%-28s lambent %8.1f ms" % (name, row["lambent_s"] * 1e3) +
-                  ("   f3d %8.1f ms   %5.1f times" % (row["f3d_s"] * 1e3, row["ratio"]) if theirs else ""), flush=True)
+        for number, (name, target, judge) in enumerate(row_list(isas, gl_device, full), 1):
+            if not words or any(word in name for word in words):
+                result["rows"].append(run_row(number, name, target, judge))
     finally:
-        if display:
-            display.terminate()
-    os.makedirs(os.path.join(ROOT, "bench", "results"), exist_ok=True)
-    version = subprocess.run([LAMBENT, "--version"], stdout=subprocess.PIPE, text=True).stdout.strip()
-    report = {"date": datetime.date.today().isoformat(), "machine": platform.processor() or platform.machine(),
-              "processors": os.cpu_count(), "load": os.getloadavg(), "version": version, "size": "1024x1024", "samples": 4, "rows": table}
-    path = os.path.join(ROOT, "bench", "results", report["date"] + ".json")
+        display.__exit__()
+    result["frames"] = geometric_mean(result["rows"], isas)
+    if not words:
+        result["limits"] = attempt("limits", steps.limits, problems)
+        if result["limits"]:
+            result["distance"] = attempt("distance from the limits", lambda: steps.distance(
+                isas[0], result["limits"]["memory_gb_s"], result["limits"]["process_ms"]["median"]), problems)
+        result["growth"] = attempt("growth", lambda: frames.growth(isas), problems)
+    facts["load_after"], result["took_s"], result["problems"] = os.getloadavg()[0], round(time.monotonic() - begun, 1), problems
+    path = os.path.join(paths.OUT, "part.json") if words else os.path.join(paths.RESULTS, result["date"] + ".json")
     with open(path, "w") as file:
-        json.dump(report, file, indent=1)
+        json.dump(result, file, indent=1, ensure_ascii=False)
         file.write("\n")
-    print("written: " + os.path.relpath(path, ROOT))
+    if not words:
+        report.write_page(result)
+    reached = sum(1 for row in result["rows"] if row["reached"])
+    print("%d of %d rows reached, in %.0f s; written: %s" % (reached, len(result["rows"]), result["took_s"], os.path.relpath(path, paths.ROOT)))
+    return 1 if problems or any("not_measured" in row for row in result["rows"]) else 0
 
 
 if __name__ == "__main__":

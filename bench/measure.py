@@ -1,0 +1,107 @@
+"""measure.py: contestants measured in turn, round after round, so that a machine whose speed drifts does not decide; medians,
+and ratios of the same round with their spread."""
+import json
+import os
+import statistics
+import subprocess
+import time
+
+import paths
+
+
+class Failed(Exception):
+    """A program did not do what it was asked; the text says which and how."""
+
+
+def output(command, **more):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **more)
+    if done.returncode:
+        raise Failed("%s: exit %d: %s" % (" ".join(command[:3]), done.returncode, done.stderr.decode(errors="replace").strip()[-300:]))
+    return done.stdout.decode()
+
+
+def wall_ms(command):
+    """A whole process, from the call that starts it to its end."""
+    start = time.perf_counter()
+    output(command)
+    return (time.perf_counter() - start) * 1e3
+
+
+def lambent(*arguments):
+    """Runs lambent and returns its report."""
+    return json.loads(output([paths.LAMBENT, "--json", *map(str, arguments)]))
+
+
+def usable_isas():
+    """The instruction sets to report, the widest first: AVX-512 and AVX2 where the machine has them."""
+    found = []
+    for isa in ("avx512", "avx2", "neon"):
+        try:
+            lambent("sphere", "-s", 16, "--isa", isa, "-o", os.path.join(paths.PICTURES, "try.png"))
+            found.append(isa)
+        except Failed:
+            pass
+    return found or ["auto"]
+
+
+def in_turn(contestants, seconds, least_rounds=3, most_rounds=15):
+    """Runs every contestant once to warm up, then all of them in turn until the time is used, at least `least_rounds` times.
+    `contestants` is {name: function that returns a number}. Returns {name: [numbers, one for each round]}."""
+    for run in contestants.values():
+        run()
+    begun = time.monotonic()
+    taken = {name: [] for name in contestants}
+    rounds = 0
+    while rounds < most_rounds and (rounds < least_rounds or time.monotonic() - begun < seconds):
+        for name, run in contestants.items():
+            taken[name].append(run())
+        rounds += 1
+    return taken
+
+
+def spread(numbers):
+    """The median with the least, the most and the count."""
+    return {"median": statistics.median(numbers), "least": min(numbers), "most": max(numbers), "rounds": len(numbers)}
+
+
+def ratio(numerators, denominators):
+    """Ratios of the same round."""
+    return spread([a / b for a, b in zip(numerators, denominators)])
+
+
+def peak_bytes(command):
+    """The most memory that a process held at once."""
+    child = os.posix_spawn(command[0], command, os.environ, file_actions=[
+        (os.POSIX_SPAWN_OPEN, 1, "/dev/null", os.O_WRONLY, 0), (os.POSIX_SPAWN_OPEN, 2, "/dev/null", os.O_WRONLY, 0)])
+    _, status, used = os.wait4(child, 0)
+    if status:
+        raise Failed("%s: status %d" % (" ".join(command[:3]), status))
+    return used.ru_maxrss * 1024
+
+
+def start_ms(command):
+    """A process that does next to nothing, started as cheaply as can be."""
+    start = time.perf_counter()
+    child = os.posix_spawn(command[0], command, os.environ, file_actions=[(os.POSIX_SPAWN_OPEN, 1, "/dev/null", os.O_WRONLY, 0)])
+    _, status = os.waitpid(child, 0)
+    taken = (time.perf_counter() - start) * 1e3
+    if status:
+        raise Failed("%s: status %d" % (" ".join(command), status))
+    return taken
+
+
+def machine():
+    """What the numbers were taken on, and how busy it was."""
+    facts = {"processor": "unknown", "processors": len(os.sched_getaffinity(0)), "load_before": os.getloadavg()[0], "kernel": os.uname().release}
+    for line in open("/proc/cpuinfo"):
+        if line.startswith("model name"):
+            facts["processor"] = line.split(":", 1)[1].strip()
+            break
+    for line in open("/proc/meminfo"):
+        if line.startswith("MemTotal"):
+            facts["memory_bytes"] = int(line.split()[1]) * 1024
+    try:
+        facts["system"] = open("/etc/debian_version").read().strip()
+    except OSError:
+        facts["system"] = "not Debian"
+    return facts

@@ -1,0 +1,131 @@
+"""steps.py: single steps: reading, PNG, the lighting step, memory, start-up; and what this machine could do at most."""
+import json
+import os
+
+import measure
+import paths
+import scenes
+
+
+def read_ms(path, isa="auto"):
+    """What lambent takes from a file's name to usable positions and indices, and to normals (welding and making)."""
+    times = measure.lambent("-s", 16, "--samples", 1, "--isa", isa, "-o", os.path.join(paths.PICTURES, "read.png"), path)["times_ms"]
+    return times["read"], times["prepare"]
+
+
+def reading(kind, isas):
+    """1 M and 10 M triangles, from the page cache, each in a fresh process; the slower rate of the two decides."""
+    result = {"rates": {}, "ms": {}, "ratio": {}, "peer": "Assimp"}
+    for triangles, word, seconds in ((1000000, "1M", 4), (10000000, "10M", 6)):
+        path = scenes.model(triangles, kind)
+        size = os.path.getsize(path)
+        prepare = []
+
+        def ours():
+            read, made = read_ms(path)
+            prepare.append(made)
+            return read
+        contestants = {"lambent": ours}
+        for other in ("assimp", "copy", "touch"):
+            contestants[other] = lambda other=other: float(measure.output([paths.program("reading"), other, path]))
+        taken = measure.in_turn(contestants, seconds, most_rounds=7)
+        result["ms"].update({"%s, %s" % (word, key): measure.spread(t) for key, t in taken.items()})
+        result["ms"]["%s, normals" % word] = measure.spread(prepare[1:])
+        result["rates"].update({"%s, %s" % (word, key): measure.spread([size / 1e6 / ms for ms in t]) for key, t in taken.items()})
+        result["ratio"][word] = measure.ratio(taken["assimp"], taken["lambent"])
+    return result
+
+
+def png():
+    """A lit picture of the bumpy sphere, 1024x1024, RGBA."""
+    picture = os.path.join(paths.PICTURES, "lit.png")
+    measure.lambent("-s", 1024, "--zoom", 1.2, "-o", picture, scenes.model(1000000))
+    return {"encoders": json.loads(measure.output([paths.program("png"), picture, "25"])), "peer": "libpng level 1"}
+
+
+# Floating-point operations of one point light with attenuation at one point, Blinn-Phong, by the text of src/lighting and
+# base/math/functions.h: each + - x, comparison and choice is one, so is a division. What a compiler can take out of the loop
+# over the lights, and integer work on a float's bits, is not counted.
+OPERATIONS = {"way to the light, its square and inverse root": 3 + 5 + 13, "direction, distance": 3 + 1, "attenuation": 7 + 2,
+              "n.l, clamped, gate": 5 + 2 + 1 + 1, "l + v, n.(l + v), its length": 3 + 5 + 5 + 13 + 1,
+              "logarithm": 1 + 1 + 1 + 21 + 4 + 3 + 2, "times the shininess": 4, "power of two": 1 + 2 + 2 + 11 + 1 + 2,
+              "gate of the highlight": 1, "two products of colour, two sums": 2 + 6 + 6}
+
+
+def lighting_step(isas):
+    """The lighting step of a frame (attributes fetched and interpolated, the equations of 16 lights), in operations counted by
+    the text, beside what the processors can do without fused operations."""
+    count = sum(OPERATIONS.values())
+    rates = json.loads(measure.output([paths.program("arithmetic")]))
+    scene = scenes.Scene("lighting", scenes.model(100000), scenes.around(16))
+    picture = os.path.join(paths.PICTURES, "lighting.ppm")
+    threads = len(os.sched_getaffinity(0))
+    result = {"operations": count, "arithmetic": rates, "shares": {}, "rates": {}, "threads": threads, "peer": "multiply and add, apart"}
+
+    def per_second(isa):
+        report = measure.lambent("--repeat", 15, "--isa", isa, "-j", threads, "-o", picture, scene.json)
+        return report["counts"]["points_lit"] * 16 * count / report["times_ms"]["steps"]["lighting"] / 1e6
+    taken = measure.in_turn({isa: (lambda isa=isa: per_second(isa)) for isa in isas if isa in rates}, 4)
+    # The machine's rate again between the rounds: whichever was better counts.
+    again = json.loads(measure.output([paths.program("arithmetic")]))
+    for isa, values in taken.items():
+        peak = max(rates[isa]["unfused"], again[isa]["unfused"]) * threads
+        result["shares"][isa] = measure.spread([v / peak for v in values])
+        result["rates"][isa] = measure.spread(values)
+    if not result["shares"]:
+        raise measure.Failed("no instruction set here whose rate is known")
+    return result
+
+
+def memory_of_10m(isas):
+    path = scenes.model(10000000)
+    picture = os.path.join(paths.PICTURES, "memory.png")
+    size = os.path.getsize(path)
+    peaks = {isa: measure.peak_bytes([paths.LAMBENT, "-q", path, "--samples", "1", "--isa", isa, "-o", picture]) for isa in isas}
+    peaks["4 samples"] = measure.peak_bytes([paths.LAMBENT, "-q", path, "-o", picture])
+    return {"bytes": peaks, "file_bytes": size, "ratio": {key: measure.spread([p / size]) for key, p in peaks.items()}, "peer": "the file"}
+
+
+def start_up():
+    """`lambent --version` (every option table read, one line written) beside a program that does nothing."""
+    taken = measure.in_turn({"lambent": lambda: measure.start_ms([paths.LAMBENT, "--version"]),
+                             "true": lambda: measure.start_ms(["/bin/true"])}, 3, least_rounds=50, most_rounds=400)
+    over = [a - b for a, b in zip(taken["lambent"], taken["true"])]
+    return {"ms": {key: measure.spread(t) for key, t in taken.items()}, "over_ms": measure.spread(over), "peer": "/bin/true",
+            "opengl_or_gui_libraries": loaded_graphics()}
+
+
+def loaded_graphics():
+    """Libraries of OpenGL or windows that the program is linked with: there must be none."""
+    names = measure.output(["ldd", paths.LAMBENT])
+    return [line.split()[0] for line in names.splitlines() if any(word in line for word in ("libGL", "libEGL", "libgtk", "libX11", "wayland"))]
+
+
+def limits():
+    """What the memory can do (memory.c) and what starting a process costs."""
+    return {"arithmetic": json.loads(measure.output([paths.program("arithmetic")])),
+            "memory_gb_s": json.loads(measure.output([paths.program("memory")])),
+            "process_ms": measure.spread([measure.start_ms(["/bin/true"]) for _ in range(100)])}
+
+
+def distance(isa, memory, process_ms):
+    """Each step of drawing the 1 M PLY beside the least that it could take on this machine: [(step, ms, least ms, why)]."""
+    path, width = scenes.model(1000000), 1024
+    reports = [measure.lambent("-s", width, "--samples", 1, "--isa", isa, "-o", os.path.join(paths.PICTURES, "steps.png"), path)
+               for _ in range(5)]
+    report = sorted(reports, key=lambda r: r["times_ms"]["total"])[2]
+    times, steps, vertices = report["times_ms"], report["times_ms"]["steps"], report["model"]["vertices"]
+    triangles, size = report["model"]["triangles"], os.path.getsize(path)
+    read, copy, touch = (memory[name + "_2"] * 1e6 for name in ("read", "copy", "first_touch_2m"))  # bytes a millisecond
+    kept = 12 * vertices + 12 * triangles
+    pixels = width * width
+    return [
+        ("start", process_ms, process_ms, "a process that does nothing"),
+        ("read", times["read"], size / read + kept / touch, "the file read once, positions and indices written to fresh memory"),
+        ("normals", times["prepare"], kept / read + 12 * vertices / touch, "positions and indices read once, a normal for each vertex written"),
+        ("camera", times["camera"], 12 * vertices / read, "positions read once"),
+        ("vertices", steps["vertices"], 12 * vertices / read + 16 * vertices / touch, "positions read once, projected ones written once"),
+        ("triangles", steps["triangles"], (12 * triangles + 16 * vertices) / read, "indices and projected vertices read once"),
+        ("resolve", steps["resolve"], 4 * pixels / touch, "the picture written once"),
+        ("encode", times["encode"], 4 * pixels / read + report["image"]["bytes"] / copy, "the picture read once, the file written"),
+    ]

@@ -1,0 +1,107 @@
+"""whole.py: lambent as a whole process, model file to PNG, beside F3D drawing the same file with the same camera.
+
+Both light with a studio of their own (F3D: VTK's light kit), both write 1024x1024 PNG. F3D runs on a display that is there
+already: starting the X server is not its time. The pictures stay in build-bench/pictures for the eye to compare."""
+import os
+import shutil
+import statistics
+import subprocess
+
+import measure
+import paths
+import scenes
+
+SIZE = 1024
+
+
+class Display:
+    """An X server without a screen, on the first free number."""
+
+    def __enter__(self):
+        self.server = None
+        if not (shutil.which("f3d") and shutil.which("Xvfb")):
+            raise measure.Failed("f3d or Xvfb is not installed (packages.txt, group bench)")
+        read, write = os.pipe()
+        # -noreset: a server that begins anew when its last client has gone makes the next client crash now and then.
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x1100x24", "-nolisten", "tcp", "-noreset"],
+                                       pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        number = os.read(read, 16).decode().strip()
+        os.close(read)
+        if not number:
+            raise measure.Failed("Xvfb does not start")
+        os.environ["DISPLAY"] = ":" + number
+        return self
+
+    def __exit__(self, *_):
+        if self.server:
+            self.server.terminate()
+            self.server.wait()
+
+
+def f3d_command(path, report, picture, size):
+    """F3D with the camera that lambent fitted."""
+    def numbers(vector):
+        return ",".join("%.9g" % x for x in vector)
+    camera = report["camera"]
+    return ["f3d", path, "--dry-run", "--quiet", "--output=" + picture, "--resolution=%d,%d" % (size, size), "--no-background",
+            "--camera-position=" + numbers(camera["eye"]), "--camera-focal-point=" + numbers(camera["target"]),
+            "--camera-view-up=" + numbers(camera["up"]), "--camera-view-angle=%.9g" % camera["fovy_deg"]]
+
+
+def picture(name):
+    return os.path.join(paths.PICTURES, name + ".png")
+
+
+def whole(name, path, samples, isas, seconds, size=SIZE):
+    """One file: lambent with each instruction set, with the other number of samples beside, and F3D. `samples` decides."""
+    file_name = name.replace(" ", "-").replace(",", "")
+    other = 4 if samples == 1 else 1
+
+    def ours(isa, count):
+        return [paths.LAMBENT, "-q", path, "-s", str(size), "--samples", str(count), "--isa", isa, "-o", picture(file_name + "-lambent")]
+    report = measure.lambent(path, "-s", size, "--samples", samples, "-o", picture(file_name + "-lambent"))
+    commands = {isa: ours(isa, samples) for isa in isas}
+    commands["%d samples" % other] = ours(isas[0], other)
+    commands["f3d"] = f3d_command(path, report, picture(file_name + "-f3d"), size)
+    taken = measure.in_turn({key: (lambda c=command: measure.wall_ms(c)) for key, command in commands.items()}, seconds)
+    # What is not the encoder: of runs of its own, since a report costs time.
+    besides = [r["times_ms"]["total"] - r["times_ms"]["encode"] for r in
+               (measure.lambent(path, "-s", size, "--samples", samples, "-o", picture(file_name + "-lambent")) for _ in range(3))]
+    return {"file_bytes": os.path.getsize(path), "triangles": report["model"]["triangles"], "samples": samples, "size": size,
+            "ms": {key: measure.spread(t) for key, t in taken.items()},
+            "ratio": {key: measure.ratio(taken["f3d"], t) for key, t in taken.items() if key != "f3d"},
+            "steps_ms": report["times_ms"], "besides_encoder_ms": statistics.median(besides), "peer": "F3D"}
+
+
+def small_model(name):
+    """A real model from the collection beside the checkout; lambent and F3D must both be able to read it."""
+    path = os.path.normpath(os.path.join(paths.REAL_MODELS, {"spot": "obj/spot/spot_triangulated.obj", "teapot": "obj/teapot/teapot.obj",
+                                                             "koala": "obj/koala/koala.obj", "koala.stl": "stl/derived/koala.stl",
+                                                             "gallery": "ply/derived/gallery.ply"}[name]))
+    if not os.path.exists(path):
+        raise measure.Failed("%s is not here; LAMBENT_MODELS names the folder of models" % path)
+    return path
+
+
+def rows(isas, full):
+    """(name, target, function that measures) of the rows of whole processes."""
+    for name in ("spot", "teapot"):
+        yield "whole " + name, 30, lambda name=name: whole("whole " + name, small_model(name), 4, isas, 4)
+    for triangles, word, targets, seconds in ((1000000, "1M", (30, 15, 25), 5), (10000000, "10M", (15, 8, 20), 8)):
+        for kind, target in zip(("ply", "stl", "obj"), targets):
+            yield ("whole %s %s" % (word, kind), target, lambda triangles=triangles, kind=kind, word=word, seconds=seconds:
+                   whole("whole %s %s" % (word, kind), scenes.model(triangles, kind), 1, isas, seconds))
+    if not full:
+        return
+    for size in (256, 1024):
+        for name in ("koala", "koala.stl", "gallery"):
+            label = "whole %s %d px" % (name, size)
+            yield label, None, lambda label=label, name=name, size=size: whole(label, small_model(name), 4, isas, 6, size)
+        for triangles in (10000, 100000, 1000000, 10000000):
+            for kind in ("ply", "stl", "obj"):
+                if size == 1024 and triangles >= 1000000:
+                    continue  # above
+                label = "whole %d %s %d px" % (triangles, kind, size)
+                yield label, None, lambda label=label, triangles=triangles, kind=kind, size=size: whole(
+                    label, scenes.model(triangles, kind), 1, isas, 6, size)

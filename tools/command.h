@@ -23,7 +23,7 @@ extern const struct command
 
 command_fn run_render, run_shapes, run_lights, run_formats, run_help, run_generate, run_diff, run_plot,
     run_compare, run_explain;
-command_fn run_materials, run_devices;
+command_fn run_check, run_materials, run_devices;
 
 // The exit codes, for the help, the man page and the docs. Ends with a NULL meaning.
 struct exit_code {

@@ -5,7 +5,7 @@
 // All that a picture of a model takes.
 #define ALL                                                                                                  \
     (((1u << GROUP_COUNT) - 1) &                                                                             \
-     ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET))
+     ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET | 1u << GROUP_CHECK))
 
 const struct command command_table[] = {
     {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL,
@@ -17,6 +17,12 @@ const struct command command_table[] = {
      "Tell every number of one pixel: what it shows, the vectors, angles and terms of each light, the sum, "
      "the byte. No picture or scene file is written: --output and --save-scene do nothing here.",
      ALL, 2, 2, run_explain},
+    {"check", "SHADER.frag",
+     "Run a GLSL shader over reference scenes, tell how far its pictures are off, and which known mistake "
+     "they look like.",
+     ABOUT | 1u << GROUP_CHECK | 1u << GROUP_DIFF | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE |
+         TAKES_JSON | TAKES_QUIET,
+     0, 1, run_check},
     {"diff", "A B", "Tell how far two pictures are apart, and draw where.",
      ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET, 2, 2, run_diff},
     {"plot", "attenuation|spot|highlight [CURVE...]",
@@ -55,6 +61,8 @@ const struct example examples[] = {
      "also a scene file, to edit and to draw again"},
     {"lambent koala.json", "a scene file: objects, materials, lights and camera"},
     {"lambent explain teapot 512,400", "how that pixel of the picture came about, number by number"},
+    {"lambent check phong.frag --vertex phong.vert -o check.png",
+     "what a shader's lighting gets wrong, and why"},
     {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
     {NULL, NULL},
 };
@@ -66,7 +74,7 @@ const struct exit_code exit_codes[] = {
     {3, "not supported: a format, or an instruction set that this machine lacks"},
     {4, "a limit was hit: time, memory, or a picture too large for this machine"},
     {5, "the output cannot be written, or would overwrite a file that lambent did not write"},
-    {6, "`diff`: the pictures differ by more than the tolerance"},
+    {6, "`diff`: the pictures differ by more than the tolerance; `check`: the shader does not pass"},
     {130, "interrupted (Ctrl-C); nothing half done is left behind"},
     {0, NULL},
 };
@@ -117,6 +125,25 @@ const struct topic topics[] = {
                            "bit; `docs/lighting.md` has the formulas. With `--json` the same is one line. No "
                            "picture is written, and `--output` does "
                            "not matter."},
+    {"Checking shaders", "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with "
+                         "the shaders and compares the "
+                         "pictures with the CPU device's. Without `--vertex` a correct vertex shader is "
+                         "supplied. The names that the shaders "
+                         "use for uniforms and attributes tell the contract; `--list` prints the contracts, "
+                         "the scenes and the known "
+                         "mistakes. Where pictures differ, the same scenes are drawn with known mistakes "
+                         "made on purpose, and the smallest "
+                         "set that gives the shader's pictures is told, with a line to write instead. `-o` "
+                         "draws theirs, the reference and "
+                         "the difference (times `--gain`) of each scene on one sheet. `--tolerance` (2 "
+                         "unless given) is for each channel "
+                         "of a pixel: one pixel in 200 may be over it, and the mean must not be above a "
+                         "quarter of it. The shaders run "
+                         "in a process of their own, which `--stop-after` stops. The exit code is 0 where "
+                         "every scene is the reference's, "
+                         "and else 6, also for shaders that do not compile, do not end, or write NaN. With "
+                         "`--json` the report is one "
+                         "line (`docs/check.schema.json`). More: `docs/check.md`."},
     {"Comparing pictures", "`lambent diff A B` reads two pictures of the same size (PNG or PPM with 8 bits, "
                            "PFM with floats, both of one "
                            "kind) and prints the largest difference of a channel, the mean and the root of "

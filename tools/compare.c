@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "console.h"
-#include "device_option.h"
 #include "drawing.h"
 #include "interrupt.h"
 #include "job.h"
@@ -284,7 +283,8 @@ int run_compare(int operand_count, char **operands, const struct options *option
         ok = complain(&error, LAM_LIMIT, "out of memory");
     ok = ok && check(options, c.model, path, &error) && lay_out(&c, &error);
     if (ok) {
-        c.device = device_option_make(options, &error);
+        lam_cpu_params params = {.threads = options->threads, .isa = (lam_isa)options->isa};
+        c.device = lam_device_cpu(&params, &error);
         progress_start(&c.progress, c.model, console_is_terminal() && !options->quiet);
         ok = c.device && draw_sheet(&c, &error);
         progress_end(&c.progress);

@@ -7,7 +7,6 @@
 
 #include "command.h"
 #include "console.h"
-#include "device_option.h"
 #include "interrupt.h"
 #include "report.h"
 
@@ -92,7 +91,8 @@ int run_explain(int operand_count, char **operands, const struct options *given)
     if (error.code)
         return tell_failure(&error, &options);
     interrupt_start();
-    job.device = device_option_make(&options, &error);
+    lam_cpu_params params = {.threads = options.threads, .isa = (lam_isa)options.isa};
+    job.device = lam_device_cpu(&params, &error);
     if (!job.device)
         return tell_failure(&error, &options);
     job.times.start = clock_ms();

@@ -5,16 +5,40 @@
 #define FIELD(name) .field = offsetof(struct options, name)
 
 const char *const group_titles[GROUP_COUNT] = {
-    [GROUP_PICTURE] = "Picture",     [GROUP_VIEW] = "View",
-    [GROUP_SHADING] = "Shading",     [GROUP_WORK] = "Work",
-    [GROUP_REPORT] = "Reports",      [GROUP_DIFF] = "Comparing pictures (diff)",
-    [GROUP_PLOT] = "Plots (plot)",   [GROUP_CAPTIONS] = "Captions (compare, plot, materials)",
-    [GROUP_ABOUT] = "About",         [GROUP_LIGHTS] = "Lights",
-    [GROUP_MATERIALS] = "Materials", [GROUP_SHEET] = "Sheets (compare)",
+    [GROUP_PICTURE] = "Picture",
+    [GROUP_VIEW] = "View",
+    [GROUP_SHADING] = "Shading",
+    [GROUP_WORK] = "Work",
+    [GROUP_REPORT] = "Reports",
+    [GROUP_DIFF] = "Comparing pictures (diff, check)",
+    [GROUP_PLOT] = "Plots (plot)",
+    [GROUP_CAPTIONS] = "Captions (compare, plot, materials, check)",
+    [GROUP_ABOUT] = "About",
+    [GROUP_LIGHTS] = "Lights",
+    [GROUP_MATERIALS] = "Materials",
+    [GROUP_SHEET] = "Sheets (compare)",
+    [GROUP_CHECK] = "Checking shaders (check)",
 };
 
 static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
                                            {"8", 8, NULL}, {"16", 16, NULL}, {NULL, 0, NULL}};
+
+static const struct word contract_words[] = {
+    {"auto", LAM_CONTRACT_AUTO, "told by the names that the shaders use"},
+    {"lambent", LAM_CONTRACT_LAMBENT, "the names of `lambent shader`"},
+    {"pittsburgh", LAM_CONTRACT_PITTSBURGH, "vPosition, model_view, ambient_product ..."},
+    {"oregon", LAM_CONTRACT_OREGON, "gl_Vertex, uKa, uColor, uLightX ..."},
+    {"nyu", LAM_CONTRACT_NYU, "position, modelViewMatrix, lights[i].lightPosition ..."},
+    {NULL, 0, NULL}};
+
+static const struct word light_frame_words[] = {
+    {"object", LAM_FRAME_OBJECT, "in the model's space: it goes by the model-view matrix, as vertices do"},
+    {"camera", LAM_FRAME_CAMERA, "in eye space: used as given"},
+    {NULL, 0, NULL}};
+
+static const struct word highlight_words[] = {{"phong", LAM_REFLECTION_PHONG, "r.v"},
+                                              {"blinn-phong", LAM_REFLECTION_BLINN_PHONG, "n.h"},
+                                              {NULL, 0, NULL}};
 
 static const struct word color_words[] = {
     {"srgb", LAM_COLOR_SRGB, "colours of files are decoded, lighting is linear, the picture is encoded"},
@@ -93,13 +117,6 @@ static const struct word stage_words[] = {
     {"application", LAM_STAGE_APPLICATION, "colours are worked out before drawing (flat, gouraud)"},
     {"vertex", LAM_STAGE_VERTEX, "for each vertex (flat, gouraud)"},
     {"fragment", LAM_STAGE_FRAGMENT, "for each fragment (flat, phong)"},
-    {NULL, 0, NULL}};
-
-static const struct word device_words[] = {
-    {"auto", DEVICE_AUTO, "the CPU; OpenGL where `--gl-device` asks for one"},
-    {"cpu", DEVICE_CPU, "the processor: the same bytes everywhere"},
-    {"gl", DEVICE_GL, "OpenGL 3.3"},
-    {"gles", DEVICE_GLES, "OpenGL ES 3.0, which is what WebGL 2 has"},
     {NULL, 0, NULL}};
 
 static const struct word viewer_words[] = {
@@ -371,15 +388,6 @@ const struct option option_table[] = {
     {"isa", 0, GROUP_WORK, "NAME", "auto", "Instruction set: plain, sse4, avx2, avx512, neon or auto.",
      "Every one gives the same bytes; one that this machine or this build does not have is refused (exit 3).",
      isa_words, .store = store_word, FIELD(isa)},
-    {"device", 0, GROUP_WORK, "NAME", "auto", "What draws: cpu, gl, gles or auto.",
-     "OpenGL gives the same picture within a tolerance (`docs/opengl.md`); where it cannot be had the reason "
-     "is told "
-     "(exit 3), and nothing else is drawn in its place. `lambent devices` lists what there is.",
-     device_words, .store = store_word, FIELD(device)},
-    {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable",
-     "Which OpenGL device, by number or part of its name.",
-     "The number is that of `lambent devices`, where hardware stands before software.", .store = store_text,
-     FIELD(gl_device)},
     {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median one's time.", NULL,
      .store = store_integer, FIELD(repeat), .least = 1, .most = 100000},
     {"time-limit", 0, GROUP_WORK, "SECONDS", "none", "Give up on a model after this time (exit 4).", NULL,
@@ -424,6 +432,26 @@ const struct option option_table[] = {
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The horizontal axis goes from 0 to X: a distance, or degrees.",
      NULL, .store = store_number, FIELD(to), .least = 1e-6, .most = 1e9},
+
+    {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader that belongs to the fragment shader.",
+     "Without it a correct one is supplied, whose varyings are told by name and type (`docs/check.md`).",
+     .takes_file = true, .store = store_text, FIELD(vertex)},
+    {"contract", 0, GROUP_CHECK, "NAME", "auto",
+     "Whose names the shaders use: lambent, pittsburgh, oregon, nyu or auto.", NULL, contract_words,
+     .store = store_word, FIELD(contract)},
+    {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's",
+     "What the light's position is given in: object or camera.", NULL, light_frame_words, .store = store_word,
+     FIELD(light_frame)},
+    {"highlight", 0, GROUP_CHECK, "NAME", "the contract's",
+     "The highlight that is asked for: phong or blinn-phong.", NULL, highlight_words, .store = store_word,
+     FIELD(highlight)},
+    {"scenes", 0, GROUP_CHECK, "NAMES", "all",
+     "The scenes to check with, commas between them: all,gate,near.", NULL, .store = store_text,
+     FIELD(scenes)},
+    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "The time that the shaders may take for all scenes.",
+     NULL, .store = store_number, FIELD(stop_after_s), .least = 0.1, .most = 1e6},
+    {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
+     .store = store_switch, FIELD(list)},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
      "Without it the environment's `LAMBENT_FONT` names one; else the first there is of DejaVu Sans, "

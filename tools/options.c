@@ -10,8 +10,13 @@
 
 struct options option_defaults(void)
 {
-    return (struct options){
-        .width = 1024, .height = 1024, .crease_angle_deg = -1, .light_scale = 1, .repeat = 1, .gain = 16};
+    return (struct options){.width = 1024,
+                            .height = 1024,
+                            .crease_angle_deg = -1,
+                            .light_scale = 1,
+                            .repeat = 1,
+                            .gain = 16,
+                            .stop_after_s = 10};
 }
 
 void options_free(struct options *options)

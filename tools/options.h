@@ -70,10 +70,8 @@ struct options {
     bool has_reflectivity;
 
     // Work
-    int threads;           // 0: one for each processor
-    int isa;               // lam_isa
-    int device;            // enum device_name
-    const char *gl_device; // a number or a part of a name; NULL: the first
+    int threads; // 0: one for each processor
+    int isa;     // lam_isa
     int repeat;
     double time_limit_s;         // 0: none
     uint64_t memory_limit_bytes; // 0: none
@@ -87,6 +85,15 @@ struct options {
     int sheet;           // enum sheet_name
     struct texts across; // as written, at most ACROSS_MOST
     double to;           // right end of a plot's axis; 0: fitted
+
+    // Checks of shaders
+    const char *vertex; // file; NULL: none
+    const char *scenes; // as written; NULL: all
+    int contract;       // lam_check_contract
+    int light_frame;    // lam_light_frame; WORLD: the contract's
+    int highlight;      // lam_reflection; AUTO: the contract's
+    double stop_after_s;
+    bool list;
 
     // Reports
     bool json, quiet, verbose, version, help;
@@ -116,8 +123,6 @@ enum view_name {
 // --rig none: no light but the ambient; beside the values of lam_rig.
 enum { RIG_DARK = 100 };
 
-enum device_name { DEVICE_AUTO, DEVICE_CPU, DEVICE_GL, DEVICE_GLES };
-
 enum sheet_name {
     SHEET_SUMMARY,
     SHEET_TERMS,
@@ -140,6 +145,7 @@ enum option_group {
     GROUP_PLOT,
     GROUP_CAPTIONS,
     GROUP_SHEET,
+    GROUP_CHECK,
     GROUP_ABOUT, // every command has these
     GROUP_COUNT,
 };

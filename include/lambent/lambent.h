@@ -12,6 +12,7 @@
 
 #include "base.h"
 #include "camera.h"
+#include "check.h"
 #include "curves.h"
 #include "device.h"
 #include "environment.h"

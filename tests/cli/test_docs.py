@@ -45,7 +45,7 @@ class Docs(Case):
         for line in re.findall(r"(?m)^  (lambent .*?)(?:  .*)?$", self.help().split("\nPicture:")[0]):
             words = line.replace("*.stl", "cube.stl").split("<")[0].split()[1:]
             (self.folder / "pictures").mkdir(exist_ok=True)
-            limit = ["--memory-limit", "1k"] if words[0] not in ("diff", "plot", "explain") else []
+            limit = ["--memory-limit", "1k"] if words[0] not in ("diff", "plot", "explain", "check") else []
             done = self.run_program(*words, *limit, stdin=b"")
             self.assertNotEqual(done.returncode, 1, (line, done.stderr))
 

@@ -1,0 +1,405 @@
+// check.c: a check from beginning to end.
+#include "complete.h"
+#include "judge.h"
+#include "notes.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fail.h"
+#include "srgb.h"
+
+struct run {
+    const lam_check_params *params;
+    lam_check_report *report;
+    struct arena *arena;
+    struct notes notes;
+    struct reading reading;
+    int size;
+    double tolerance;
+    lam_light_frame frame;
+    lam_reflection reflection;
+    char *vertex;    // made, where none was given
+    lam_bytes bytes; // what the drawing process answered
+    struct check_drawn drawn;
+    struct judged *scenes;
+    int scene_count;
+};
+
+// --- before drawing
+
+static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
+{
+    const lam_check_params *p = r->params;
+    *scenes = 0;
+    for (int i = 0; i < study_count; i++) {
+        bool asked = p->scenes == NULL;
+        for (int k = 0; p->scenes && k < p->scene_count; k++)
+            asked |= strcmp(p->scenes[k], studies[i].name) == 0;
+        if (asked && (studies[i].needs & ~r->reading.offers) == 0)
+            *scenes |= 1u << i;
+        else if (asked && p->scenes)
+            return fail(error, LAM_BAD_ARGUMENT,
+                        "scene '%s': the shader has no names of the contract %s for what it needs",
+                        studies[i].name, r->reading.contract->name);
+    }
+    for (int k = 0; p->scenes && k < p->scene_count; k++)
+        if (study_find(p->scenes[k]) < 0) {
+            const char *names[32];
+            for (int i = 0; i < study_count; i++)
+                names[i] = studies[i].name;
+            const char *near = nearest_word(p->scenes[k], names, study_count);
+            return fail(error, LAM_BAD_ARGUMENT,
+                        "there is no scene '%.60s'%s%s%s; `lambent check --list` has their names",
+                        p->scenes[k], near ? ", is '" : "", near ? near : "", near ? "' meant?" : "");
+        }
+    return true;
+}
+
+static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
+{
+    const lam_check_params *p = r->params;
+    if (!p->fragment)
+        return fail(error, LAM_BAD_ARGUMENT, "check: no fragment shader is given");
+    r->size = p->size ? p->size : 128;
+    if (r->size < 32 || r->size > 1024)
+        return fail(error, LAM_BAD_ARGUMENT, "check: pictures of %d pixels, expected 32 to 1024", r->size);
+    r->tolerance = p->tolerance > 0 ? p->tolerance : 2.0 / 255;
+    if (!reading_make(&r->reading, p->vertex, p->fragment, p->contract, error))
+        return false;
+    r->frame = p->light_frame == LAM_FRAME_WORLD ? r->reading.contract->light_frame : p->light_frame;
+    r->reflection = p->reflection == LAM_REFLECTION_AUTO ? r->reading.contract->reflection : p->reflection;
+    if (r->reflection != LAM_REFLECTION_PHONG && r->reflection != LAM_REFLECTION_BLINN_PHONG)
+        return fail(error, LAM_BAD_ARGUMENT, "check: the highlight can be phong or blinn-phong");
+    if (!p->vertex) {
+        char unknown[256];
+        r->vertex = complete_vertex(&r->reading, unknown, error);
+        if (!r->vertex)
+            return false;
+        r->report->made_vertex = true;
+        if (unknown[0])
+            notes_add(&r->notes, LAM_CHECK_NOTE_HINT, p->fragment_name, 0,
+                      "no vertex shader is given, and what %s should hold cannot be told from the names: "
+                      "zero; give yours "
+                      "with --vertex",
+                      unknown);
+    }
+    return choose_scenes(r, scenes, error);
+}
+
+// --- drawing
+
+static bool draw_here(struct run *r, const lam_bytes *job, lam_error *error)
+{
+    return lam_check_draw(job->data, job->size, r->params->gl_device, &r->bytes, error);
+}
+
+// False: no verdict can be had. The report's verdict tells what else came of it.
+static bool draw(struct run *r, unsigned scenes, lam_error *error)
+{
+    const lam_check_params *p = r->params;
+    struct check_job job = {.contract = r->reading.which,
+                            .light_frame = r->frame,
+                            .size = r->size,
+                            .scenes = scenes,
+                            .vertex = p->vertex ? p->vertex : r->vertex,
+                            .fragment = p->fragment};
+    lam_bytes bytes = {0};
+    if (!job_write(&job, &bytes, error))
+        return false;
+    bool ok = true;
+    if (p->draw)
+        switch (p->draw(p->user, &bytes, &r->bytes, error)) {
+        case LAM_CHECK_DRAWN:
+            break;
+        case LAM_CHECK_TIMEOUT:
+            r->report->verdict = LAM_CHECK_ENDLESS;
+            break;
+        case LAM_CHECK_CRASHED:
+            r->report->verdict = LAM_CHECK_CRASHES;
+            break;
+        default:
+            ok = false;
+            break;
+        }
+    else
+        ok = draw_here(r, &bytes, error);
+    lam_bytes_free(&bytes);
+    if (!ok || r->report->verdict != LAM_CHECK_PASSES)
+        return ok;
+    if (!drawn_read(&r->bytes, r->size, &r->drawn, error))
+        return false;
+    snprintf(r->report->driver, sizeof r->report->driver, "%s", r->drawn.driver);
+    if (r->drawn.state != DRAWN_PICTURES) {
+        r->report->verdict = LAM_CHECK_REFUSED;
+        notes_of_refusal(&r->notes, &r->drawn, &r->reading, p);
+    }
+    return true;
+}
+
+// --- the reference
+
+static void find_inside(struct judged *scene, int size)
+{
+    for (int y = 1; y + 1 < size; y++)
+        for (int x = 1; x + 1 < size; x++) {
+            bool all = true;
+            for (int k = 0; k < 9; k++) {
+                size_t at = (size_t)(y + k / 3 - 1) * (size_t)size + (size_t)(x + k % 3 - 1);
+                all = all && scene->reference[4 * at + 3] > 0;
+            }
+            scene->inside[(size_t)y * (size_t)size + (size_t)x] = all;
+        }
+}
+
+static bool draw_reference(struct run *r, lam_device *device, struct judged *scene, lam_error *error)
+{
+    lam_camera camera;
+    struct study opaque = scene->study; // what stands behind a translucent surface is no matter of its shader
+    opaque.alpha = 1;
+    lam_scene *world = study_scene(&opaque, &camera, error);
+    lam_image image = {0};
+    bool two_sides = (r->reading.contract->offers & NEED_TWO_SIDES) != 0;
+    lam_draw_params draw = {
+        .samples = 1,
+        .rig = LAM_RIG_NONE,
+        .reflection = r->reflection,
+        .shading = scene->study.flat       ? LAM_SHADING_FLAT
+                   : r->reading.vertex_lit ? LAM_SHADING_GOURAUD
+                                           : LAM_SHADING_PHONG,
+        .flat_normal = LAM_FLAT_NORMAL_VERTEX,
+    };
+    if (world && !two_sides) {
+        lam_object object = *lam_scene_object(world, 0);
+        object.one_sided = true;
+        lam_scene_set_object(world, 0, &object, NULL);
+    }
+    bool ok = world && lam_image_make(&image, r->size, r->size, LAM_RGBA32F, error) &&
+              lam_draw(device, world, &camera, &draw, &image, NULL, error);
+    if (ok) {
+        scene->reference = image.pixels; // kept by the report
+        for (size_t i = 0; i < (size_t)r->size * (size_t)r->size; i++)
+            scene->reference[4 * i + 3] *= scene->study.alpha;
+        find_inside(scene, r->size);
+    } else {
+        lam_image_free(&image);
+    }
+    lam_scene_free(world);
+    return ok;
+}
+
+static bool make_scenes(struct run *r, unsigned scenes, lam_error *error)
+{
+    size_t pixels = (size_t)r->size * (size_t)r->size, at = 0;
+    int lights = r->drawn.has_list ? r->drawn.light_count : 1;
+    lam_device *device = lam_device_cpu(NULL, error);
+    r->scenes = arena_alloc_zeroed(r->arena, (size_t)study_count * sizeof *r->scenes);
+    r->report->scenes = arena_alloc_zeroed(r->arena, (size_t)study_count * sizeof *r->report->scenes);
+    bool ok = device && r->scenes && r->report->scenes;
+    for (int i = 0; ok && i < study_count; i++) {
+        if (!(scenes >> i & 1))
+            continue;
+        struct judged *scene = &r->scenes[r->scene_count++];
+        scene->row = &studies[i];
+        scene->study = contract_study(r->reading.contract, r->reading.offers, &studies[i], lights);
+        scene->theirs = r->drawn.pixels + at;
+        scene->alpha = studies[i].needs & NEED_ALPHA;
+        scene->inside = arena_alloc_zeroed(r->arena, pixels);
+        ok = scene->inside && draw_reference(r, device, scene, error);
+        lam_check_scene *out = &r->report->scenes[r->report->scene_count++];
+        *out = (lam_check_scene){.name = scene->row->name,
+                                 .shows = scene->row->shows,
+                                 .reference = {r->size, r->size, LAM_RGBA32F, scene->reference}};
+        ok = ok && lam_image_make(&out->theirs, r->size, r->size, LAM_RGBA32F, error);
+        if (ok)
+            memcpy(out->theirs.pixels, scene->theirs, pixels * 4 * sizeof(float));
+        at += 4 * pixels;
+    }
+    lam_device_free(device);
+    return ok;
+}
+
+// --- the verdict
+
+static uint64_t count_not_numbers(const float *pixels, size_t count)
+{
+    uint64_t found = 0;
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 4; c++) {
+            float x = pixels[4 * i + (size_t)c];
+            if (!(x - x == 0)) {
+                found++;
+                break;
+            }
+        }
+    return found;
+}
+
+static float decode(float encoded) { return (float)srgb_linear((double)encoded); }
+
+// Lambent's own shaders write sRGB-encoded colours for a plain window, told by the constant of the encoding:
+// then theirs are decoded before they are compared.
+static bool is_encoded(const struct run *r)
+{
+    return r->reading.which == LAM_CONTRACT_LAMBENT && declarations_use(&r->reading.fragment, "12.92");
+}
+
+static bool decode_all(struct run *r)
+{
+    size_t count = 4 * (size_t)r->size * (size_t)r->size;
+    for (int k = 0; k < r->scene_count; k++) {
+        float *decoded = arena_array(r->arena, count, sizeof *decoded);
+        if (!decoded)
+            return false;
+        for (size_t i = 0; i < count; i++)
+            decoded[i] = i % 4 == 3 ? r->scenes[k].theirs[i] : decode(r->scenes[k].theirs[i]);
+        r->scenes[k].theirs = decoded;
+        memcpy(r->report->scenes[k].theirs.pixels, decoded, count * sizeof *decoded);
+    }
+    return true;
+}
+
+static void measure(struct run *r)
+{
+    lam_check_report *report = r->report;
+    for (int i = 0; i < r->scene_count; i++) {
+        lam_check_scene *out = &report->scenes[i];
+        struct distance d = judge_distance(&r->scenes[i], r->scenes[i].reference, r->size, r->tolerance);
+        r->scenes[i].apart = d.mean;
+        r->scenes[i].passes = d.fits;
+        out->maximum = d.maximum;
+        out->mean = d.mean;
+        out->share_over = d.share_over;
+        out->pixels = d.pixels;
+        out->not_numbers = count_not_numbers(r->scenes[i].theirs, (size_t)r->size * (size_t)r->size);
+        out->passes = d.fits && out->not_numbers == 0;
+        report->mean += d.mean / r->scene_count;
+        if (!out->passes && report->verdict == LAM_CHECK_PASSES)
+            report->verdict = LAM_CHECK_DIFFERS;
+        if (out->not_numbers)
+            report->verdict = LAM_CHECK_NOT_NUMBER;
+    }
+    if (report->verdict == LAM_CHECK_NOT_NUMBER)
+        notes_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
+                  "NaN or infinity reaches the picture: pow() of a negative base, normalize() of a zero "
+                  "vector and a division "
+                  "by 0 give it; pow(max(x, 0.0), shininess) does not");
+}
+
+// More than pixels that are no numbers, which count as black.
+static bool has_differences(const struct run *r)
+{
+    bool fits = true;
+    for (int i = 0; i < r->scene_count; i++)
+        fits = fits && judge_distance(&r->scenes[i], r->scenes[i].reference, r->size, r->tolerance).fits;
+    return !fits;
+}
+
+static bool explain(struct run *r, lam_error *error)
+{
+    lam_check_report *report = r->report;
+    struct search s = {.reading = &r->reading,
+                       .frame = r->frame,
+                       .reflection = r->reflection,
+                       .scenes = r->scenes,
+                       .scene_count = r->scene_count,
+                       .size = r->size,
+                       .room = r->drawn.has_list ? r->drawn.light_count : 1,
+                       .tolerance = r->tolerance,
+                       .before = report->mean};
+    for (int i = 0; i < r->scene_count; i++)
+        s.needs |= r->scenes[i].row->needs;
+    for (int i = 0; i < r->scene_count; i++) // plain scenes show more than they need
+        s.needs |=
+            (r->scenes[i].study.ka > 0 ? NEED_AMBIENT : 0) |
+            (r->reading.contract->has_attenuation && (r->reading.offers & NEED_POINT) ? NEED_ATTENUATION : 0);
+    s.alone = arena_alloc_zeroed(r->arena, (size_t)r->scene_count * sizeof *s.alone + 1);
+    s.model = s.alone ? model_open(r->params->gl_device, r->size, error) : NULL;
+    bool ok = s.model && judge_search(&s, error);
+    model_close(s.model);
+    if (!ok)
+        return false;
+    report->findings = arena_alloc_zeroed(r->arena, FOUND_MOST * sizeof *report->findings);
+    for (int i = 0; report->findings && i < s.count; i++) {
+        char says[400], write[400];
+        mistake_write(s.found[i]->says, &r->reading, r->frame, r->reflection, says, sizeof says);
+        mistake_write(s.found[i]->write, &r->reading, r->frame, r->reflection, write, sizeof write);
+        report->findings[report->finding_count++] =
+            (lam_check_finding){.mistake = s.found[i]->id,
+                                .says = arena_string(r->arena, says),
+                                .write = arena_string(r->arena, write),
+                                .certain = s.certain,
+                                .mean_before = i ? s.after[i - 1] : s.before,
+                                .mean_after = s.after[i]};
+    }
+    for (int i = 0; i < r->scene_count; i++)
+        if (!report->scenes[i].passes && s.alone[i])
+            report->scenes[i].looks_like = s.alone[i]->id;
+    return true;
+}
+
+bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error)
+{
+    *report = (lam_check_report){0};
+    struct run r = {.params = params, .report = report};
+    r.arena = report->memory = calloc(1, sizeof *r.arena);
+    if (!r.arena)
+        return fail_memory(error, sizeof *r.arena);
+    arena_start(r.arena, NULL);
+    r.notes.arena = r.arena;
+    unsigned scenes = 0;
+    bool ok = prepare(&r, &scenes, error) && draw(&r, scenes, error);
+    if (ok) {
+        report->contract = r.reading.which;
+        report->vertex_lit = r.reading.vertex_lit;
+        notes_of_names(&r.notes, &r.drawn, &r.reading, params);
+    }
+    if (ok && report->verdict == LAM_CHECK_PASSES) {
+        ok = make_scenes(&r, scenes, error);
+        if (ok && is_encoded(&r))
+            ok = decode_all(&r);
+        if (ok)
+            measure(&r);
+        if (ok && report->verdict != LAM_CHECK_PASSES && has_differences(&r))
+            ok = explain(&r, error);
+    }
+    if (ok && r.notes.failed)
+        ok = fail_memory(error, 1);
+    report->notes = r.notes.items;
+    report->note_count = r.notes.count;
+    reading_free(&r.reading);
+    free(r.vertex);
+    lam_bytes_free(&r.bytes);
+    if (!ok)
+        lam_check_report_free(report);
+    return ok;
+}
+
+void lam_check_report_free(lam_check_report *report)
+{
+    for (int i = 0; i < report->scene_count; i++) {
+        lam_image_free(&report->scenes[i].theirs);
+        lam_image_free(&report->scenes[i].reference);
+    }
+    if (report->memory)
+        arena_free(report->memory);
+    free(report->memory);
+    *report = (lam_check_report){0};
+}
+
+const char *lam_check_verdict_name(lam_check_verdict verdict)
+{
+    static const char *const names[] = {"passes", "differs", "refused", "endless", "crashes", "not a number"};
+    return verdict >= LAM_CHECK_PASSES && verdict <= LAM_CHECK_NOT_NUMBER ? names[verdict] : NULL;
+}
+
+const char *lam_check_scene_name(int index)
+{
+    return index >= 0 && index < study_count ? studies[index].name : NULL;
+}
+
+const char *lam_check_scene_shows(int index)
+{
+    return index >= 0 && index < study_count ? studies[index].shows : NULL;
+}

@@ -1,0 +1,358 @@
+// declarations.c: reads the declarations of a GLSL source.
+#include "declarations.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fail.h"
+
+// A struct of the text, kept while it is read.
+struct shape {
+    char name[64];
+    int first, count; // its members among `members`
+};
+
+enum { SHAPES_MOST = 16, MEMBERS_MOST = 128 };
+
+struct reader {
+    struct declarations *d;
+    int at; // word
+    struct shape shapes[SHAPES_MOST];
+    int shape_count;
+    struct declaration members[MEMBERS_MOST];
+    int member_count;
+};
+
+static bool is_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
+
+static bool add_word(struct declarations *d, const char *from, size_t length, int line, int depth)
+{
+    if ((d->word_count & (d->word_count - 1)) == 0) { // room doubles at each power of two
+        size_t room = d->word_count ? 2 * (size_t)d->word_count : 1;
+        struct word *words = realloc(d->words, room * sizeof *words);
+        if (!words)
+            return false;
+        d->words = words;
+    }
+    struct word *w = &d->words[d->word_count];
+    snprintf(w->text, sizeof w->text, "%.*s", (int)(length < 63 ? length : 63), from);
+    w->line = line;
+    w->depth = depth;
+    w->after_member = d->word_count > 0 && strcmp(w[-1].text, ".") == 0;
+    d->word_count++;
+    return true;
+}
+
+// A preprocessor line: only its version and constants matter. Returns its end.
+static const char *read_directive(struct declarations *d, const char *c, int *line)
+{
+    const char *start = c;
+    while (*c && *c != '\n') {
+        if (c[0] == '\\' && c[1] == '\n') {
+            (*line)++;
+            c++;
+        }
+        c++;
+    }
+    int version = 0;
+    char text[80], profile[16] = "";
+    snprintf(text, sizeof text, "%.*s", (int)(c - start < 79 ? c - start : 79), start);
+    if (sscanf(text, "# version %d %15s", &version, profile) >= 1) {
+        d->version = version;
+        snprintf(d->profile, sizeof d->profile, "%s", isalpha((unsigned char)profile[0]) ? profile : "");
+    }
+    return c;
+}
+
+static bool split(struct declarations *d, const char *c)
+{
+    int line = 1, depth = 0;
+    bool fresh = true; // nothing but blanks on this line yet
+    while (*c) {
+        if (*c == '\n') {
+            line++;
+            fresh = true;
+            c++;
+        } else if (isspace((unsigned char)*c)) {
+            c++;
+        } else if (c[0] == '/' && c[1] == '/') {
+            while (*c && *c != '\n')
+                c++;
+        } else if (c[0] == '/' && c[1] == '*') {
+            for (c += 2; *c && !(c[0] == '*' && c[1] == '/'); c++)
+                line += *c == '\n';
+            c += *c ? 2 : 0;
+        } else if (*c == '#' && fresh) {
+            c = read_directive(d, c, &line);
+        } else {
+            const char *from = c++;
+            if (isdigit((unsigned char)*from) || (*from == '.' && isdigit((unsigned char)*c)))
+                while (is_name(*c) || *c == '.')
+                    c++;
+            else if (is_name(*from))
+                while (is_name(*c))
+                    c++;
+            depth -= *from == '}';
+            if (!add_word(d, from, (size_t)(c - from), line, depth))
+                return false;
+            depth += *from == '{';
+            fresh = false;
+        }
+    }
+    return true;
+}
+
+static const char *word_at(const struct reader *r, int ahead)
+{
+    return r->at + ahead < r->d->word_count ? r->d->words[r->at + ahead].text : "";
+}
+
+static bool next_is(const struct reader *r, const char *text) { return strcmp(word_at(r, 0), text) == 0; }
+
+static bool is_identifier(const char *text) { return isalpha((unsigned char)text[0]) || text[0] == '_'; }
+
+static bool take(struct reader *r, const char *text)
+{
+    bool there = next_is(r, text);
+    r->at += there;
+    return there;
+}
+
+static void skip_to(struct reader *r, const char *open,
+                    const char *close) // over a bracket that has been taken
+{
+    for (int depth = 1; r->at < r->d->word_count && depth > 0; r->at++)
+        depth += next_is(r, open) - next_is(r, close);
+}
+
+// [N], [] or nothing. A size that is a name is looked up as `const int NAME = N`.
+static int read_count(struct reader *r)
+{
+    int count = 0;
+    while (take(r, "[")) {
+        int n = -1;
+        const char *size = word_at(r, 0);
+        if (isdigit((unsigned char)size[0]))
+            n = atoi(size);
+        else
+            for (int i = 1; i + 2 < r->d->word_count; i++)
+                if (strcmp(r->d->words[i].text, size) == 0 && strcmp(r->d->words[i + 1].text, "=") == 0 &&
+                    strcmp(r->d->words[i - 1].text, "int") == 0)
+                    n = atoi(r->d->words[i + 2].text);
+        skip_to(r, "[", "]");
+        if (count == 0)
+            count = n > 0 ? n : -1;
+    }
+    return count;
+}
+
+static bool is_qualifier(const char *w)
+{
+    static const char *const words[] = {"highp",    "mediump",   "lowp",    "smooth", "noperspective",
+                                        "centroid", "invariant", "precise", "const"};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (strcmp(w, words[i]) == 0)
+            return true;
+    return false;
+}
+
+static bool add_declaration(struct declarations *d, const struct declaration *item)
+{
+    if ((d->count & (d->count - 1)) == 0) {
+        size_t room = d->count ? 2 * (size_t)d->count : 1;
+        struct declaration *items = realloc(d->items, room * sizeof *items);
+        if (!items)
+            return false;
+        d->items = items;
+    }
+    d->items[d->count++] = *item;
+    return true;
+}
+
+// A name that is declared, and where its type is a struct of the text, each of its members.
+static bool add_expanded(struct reader *r, const struct declaration *item)
+{
+    for (int s = 0; s < r->shape_count; s++)
+        if (strcmp(r->shapes[s].name, item->type) == 0) {
+            for (int m = 0; m < r->shapes[s].count; m++) {
+                struct declaration member = r->members[r->shapes[s].first + m];
+                char name[200];
+                snprintf(name, sizeof name, "%.60s%s.%.40s", item->name, item->count ? "[]" : "",
+                         member.name);
+                snprintf(member.name, sizeof member.name, "%.95s", name);
+                member.kind = item->kind;
+                member.count = item->count;
+                member.line = item->line;
+                if (!add_declaration(r->d, &member))
+                    return false;
+            }
+            return true;
+        }
+    return add_declaration(r->d, item);
+}
+
+// name [count] {, name [count]} ;
+static bool read_names(struct reader *r, struct declaration item, bool as_members)
+{
+    while (is_identifier(word_at(r, 0))) {
+        item.line = r->d->words[r->at].line;
+        snprintf(item.name, sizeof item.name, "%s", word_at(r, 0));
+        r->at++;
+        item.count = read_count(r);
+        if (as_members) {
+            if (r->member_count < MEMBERS_MOST)
+                r->members[r->member_count++] = item;
+        } else if (!add_expanded(r, &item)) {
+            return false;
+        }
+        while (r->at < r->d->word_count && !next_is(r, ",") && !next_is(r, ";") && !next_is(r, "}"))
+            r->at++; // an initialiser
+        if (!take(r, ","))
+            break;
+    }
+    take(r, ";");
+    return true;
+}
+
+static void read_struct(struct reader *r) // behind `struct`
+{
+    struct shape shape = {.first = r->member_count};
+    snprintf(shape.name, sizeof shape.name, "%s", word_at(r, 0));
+    r->at++;
+    if (!take(r, "{"))
+        return;
+    while (r->at < r->d->word_count && !take(r, "}")) {
+        while (is_qualifier(word_at(r, 0)))
+            r->at++;
+        struct declaration member = {.kind = DECLARED_UNIFORM};
+        snprintf(member.type, sizeof member.type, "%.31s", word_at(r, 0));
+        r->at++;
+        int before = r->at;
+        read_names(r, member, true);
+        if (r->at == before)
+            r->at++;
+    }
+    shape.count = r->member_count - shape.first;
+    if (r->shape_count < SHAPES_MOST)
+        r->shapes[r->shape_count++] = shape;
+}
+
+// uniform NAME { members } [instance];
+static bool read_block(struct reader *r)
+{
+    struct declaration member = {.kind = DECLARED_UNIFORM, .in_block = true};
+    while (r->at < r->d->word_count && !take(r, "}")) {
+        while (is_qualifier(word_at(r, 0)))
+            r->at++;
+        snprintf(member.type, sizeof member.type, "%.31s", word_at(r, 0));
+        r->at++;
+        int before = r->at;
+        if (!read_names(r, member, false))
+            return false;
+        if (r->at == before)
+            r->at++;
+    }
+    return true;
+}
+
+static bool read_statement(struct reader *r)
+{
+    struct declaration item = {.kind = -1};
+    for (; r->at < r->d->word_count; r->at++) {
+        if (next_is(r, "layout") && strcmp(word_at(r, 1), "(") == 0) {
+            r->at += 2;
+            skip_to(r, "(", ")");
+            r->at--;
+        } else if (next_is(r, "flat")) {
+            item.flat = true;
+        } else if (next_is(r, "uniform")) {
+            item.kind = DECLARED_UNIFORM;
+        } else if (next_is(r, "in") || next_is(r, "attribute")) {
+            item.kind = DECLARED_INPUT;
+        } else if (next_is(r, "out")) {
+            item.kind = DECLARED_OUTPUT;
+        } else if (next_is(r, "varying")) {
+            item.kind = DECLARED_OUTPUT; // of a vertex shader; declarations_read() turns it for a fragment's
+            item.in_block = true;        // marks it until then
+        } else if (!is_qualifier(word_at(r, 0))) {
+            break;
+        }
+    }
+    if (take(r, "struct")) {
+        char name[64];
+        snprintf(name, sizeof name, "%s", word_at(r, 0));
+        read_struct(r);
+        if ((int)item.kind >= 0) {
+            snprintf(item.type, sizeof item.type, "%.31s", name);
+            return read_names(r, item, false);
+        }
+    } else if ((int)item.kind >= 0 && strcmp(word_at(r, 1), "{") == 0) {
+        r->at += 2;
+        if (!read_block(r))
+            return false;
+    } else if ((int)item.kind >= 0) {
+        snprintf(item.type, sizeof item.type, "%.31s", word_at(r, 0));
+        r->at++;
+        return read_names(r, item, false);
+    }
+    // Anything else: a function, a constant, a precision.
+    while (r->at < r->d->word_count && !next_is(r, ";") && !next_is(r, "{"))
+        r->at++;
+    if (take(r, "{"))
+        skip_to(r, "{", "}");
+    else
+        r->at++;
+    return true;
+}
+
+bool declarations_read(struct declarations *d, const char *text, lam_error *error)
+{
+    *d = (struct declarations){0};
+    struct reader *r = calloc(1, sizeof *r);
+    bool ok = r && split(d, text);
+    if (r)
+        r->d = d;
+    while (ok && r->at < d->word_count)
+        ok = read_statement(r);
+    free(r);
+    if (!ok) {
+        declarations_free(d);
+        return fail_memory(error, strlen(text));
+    }
+    // A varying is written by the vertex shader and read by the fragment shader, told by gl_Position.
+    bool vertex = declarations_use(d, "gl_Position");
+    for (int i = 0; i < d->count; i++)
+        if (d->items[i].kind == DECLARED_OUTPUT && d->items[i].in_block) {
+            d->items[i].kind = vertex ? DECLARED_OUTPUT : DECLARED_INPUT;
+            d->items[i].in_block = false;
+        }
+    return true;
+}
+
+void declarations_free(struct declarations *d)
+{
+    free(d->items);
+    free(d->words);
+    *d = (struct declarations){0};
+}
+
+bool declarations_use(const struct declarations *d, const char *name)
+{
+    int times = 0, declared = 0;
+    for (int i = 0; i < d->word_count; i++)
+        times += strcmp(d->words[i].text, name) == 0;
+    for (int i = 0; i < d->count; i++)
+        declared += strcmp(d->items[i].name, name) == 0;
+    return times > declared;
+}
+
+const struct declaration *declarations_find(const struct declarations *d, enum declared kind,
+                                            const char *name)
+{
+    for (int i = 0; i < d->count; i++)
+        if (d->items[i].kind == kind && strcmp(d->items[i].name, name) == 0)
+            return &d->items[i];
+    return NULL;
+}

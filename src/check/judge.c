@@ -1,0 +1,188 @@
+// judge.c: which mistakes explain the pictures.
+//
+// The model draws the scenes with one mistake after the other; where none explains every picture, with those
+// of the nearest few and one more, and so on: a beam search for the smallest set of mistakes whose pictures
+// are the ones that the shader gave.
+#include "judge.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "fail.h"
+
+enum { BEAM = 5 };
+
+static double clamped(float x) { return x > 0 ? (x < 1 ? (double)x : 1) : 0; } // NaN: 0
+
+// Alpha is blended with before anything clamps it, so what is above 1 counts.
+static double bounded(float x) { return x > 0 ? (x < 4 ? (double)x : 4) : 0; }
+
+struct distance judge_distance(const struct judged *scene, const float *other, int size, double tolerance)
+{
+    struct distance d = {0};
+    double sum = 0;
+    uint64_t over = 0;
+    int channels = scene->alpha ? 4 : 3;
+    for (size_t i = 0; i < (size_t)size * (size_t)size; i++) {
+        if (!scene->inside[i])
+            continue;
+        double most = 0;
+        for (int c = 0; c < channels; c++) {
+            float a = scene->theirs[4 * i + (size_t)c], b = other[4 * i + (size_t)c];
+            double apart = c < 3 ? clamped(a) - clamped(b) : bounded(a) - bounded(b);
+            apart = apart < 0 ? -apart : apart;
+            sum += apart;
+            most = apart > most ? apart : most;
+        }
+        d.pixels++;
+        over += most > tolerance;
+        d.maximum = most > d.maximum ? most : d.maximum;
+    }
+    if (d.pixels) {
+        d.mean = sum / ((double)d.pixels * channels);
+        d.share_over = (double)over / (double)d.pixels;
+    }
+    d.fits = d.share_over <= 0.005 && d.mean <= tolerance / 4;
+    return d;
+}
+
+// A set of mistakes that has been tried.
+struct tried {
+    const struct mistake *rows[FOUND_MOST];
+    double after[FOUND_MOST];
+    int count;
+    mistake_set set;
+    double mean;
+    bool fits;
+};
+
+// Stops where the mean is above `most` already: then it is of no use. `each` (may be NULL) is filled for all
+// scenes that do not pass; those stand first.
+static bool try_set(struct search *s, struct tried *t, double most, float *pixels, struct distance *each,
+                    lam_error *error)
+{
+    t->mean = 0;
+    t->fits = true;
+    for (int k = 0; k < s->scene_count; k++) {
+        int i = s->order[k];
+        if (t->mean > most && (!each || s->scenes[i].passes))
+            break;
+        if (!model_draw(s->model, &s->scenes[i].study, s->reading, s->room, s->frame, s->reflection, t->set,
+                        pixels, error))
+            return false;
+        struct distance d = judge_distance(&s->scenes[i], pixels, s->size, s->tolerance);
+        if (each)
+            each[i] = d;
+        t->mean += d.mean / s->scene_count;
+        t->fits = t->fits && d.fits;
+    }
+    t->after[t->count - 1] = t->mean;
+    return true;
+}
+
+static bool nearer(const struct tried *a, const struct tried *b)
+{
+    return a->fits != b->fits ? a->fits : a->mean < b->mean - 1e-7; // equal ones keep the table's order
+}
+
+// Keeps the nearest BEAM, nearest first.
+static void keep(struct tried beam[BEAM], int *count, const struct tried *t)
+{
+    for (int i = 0; i < *count; i++)
+        if (beam[i].set == t->set)
+            return;
+    int at = *count;
+    while (at > 0 && nearer(t, &beam[at - 1]))
+        at--;
+    if (at == BEAM)
+        return;
+    int last = *count < BEAM ? (*count)++ : BEAM - 1;
+    for (int i = last; i > at; i--)
+        beam[i] = beam[i - 1];
+    beam[at] = *t;
+}
+
+static void note_alone(struct search *s, const struct mistake *row, const struct distance *each,
+                       double *nearest)
+{
+    for (int i = 0; i < s->scene_count; i++)
+        if (!s->scenes[i].passes && each[i].fits && each[i].mean < nearest[i] - 1e-7) {
+            nearest[i] = each[i].mean;
+            s->alone[i] = row;
+        }
+}
+
+// Scenes that do not pass first, the farthest off before the others.
+static void put_in_order(struct search *s)
+{
+    for (int i = 0; i < s->scene_count; i++) {
+        int at = i;
+        while (at > 0 && s->scenes[s->order[at - 1]].apart < s->scenes[i].apart) {
+            s->order[at] = s->order[at - 1];
+            at--;
+        }
+        s->order[at] = i;
+    }
+    int kept[ORDER_MOST], count = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = 0; k < s->scene_count; k++)
+            if (s->scenes[s->order[k]].passes == pass)
+                kept[count++] = s->order[k];
+    memcpy(s->order, kept, (size_t)count * sizeof *kept);
+}
+
+bool judge_search(struct search *s, lam_error *error)
+{
+    put_in_order(s);
+    size_t bytes = 4 * (size_t)s->size * (size_t)s->size * sizeof(float), scenes = (size_t)s->scene_count;
+    float *pixels = malloc(bytes);
+    struct distance *each = malloc(scenes * sizeof *each);
+    double *nearest = malloc(scenes * sizeof *nearest);
+    bool ok = pixels && each && nearest;
+    if (!ok)
+        fail_memory(error, bytes);
+    struct tried beam[BEAM] = {{.mean = s->before}};
+    int held = 1;
+    for (size_t i = 0; ok && i < scenes; i++) {
+        nearest[i] = 1e9;
+        s->alone[i] = NULL;
+    }
+    struct tried best = {.mean = s->before};
+    for (int depth = 1; ok && depth <= FOUND_MOST && !best.fits; depth++) {
+        struct tried next[BEAM];
+        int count = 0;
+        for (int b = 0; ok && b < held; b++)
+            for (int m = 0; ok && m < mistake_count; m++) {
+                const struct mistake *row = &mistakes[m];
+                struct tried t = beam[b];
+                if ((t.set & row->set) == row->set ||
+                    !mistake_applies(row, s->reading, s->frame, s->reflection, s->needs))
+                    continue;
+                t.set |= row->set;
+                t.rows[t.count++] = row;
+                double most = count == BEAM ? next[BEAM - 1].mean : 1e9;
+                ok = try_set(s, &t, most, pixels, depth == 1 ? each : NULL, error);
+                if (ok && depth == 1)
+                    note_alone(s, row, each, nearest);
+                if (ok && t.mean <= most)
+                    keep(next, &count, &t);
+            }
+        // One mistake more must explain more.
+        if (count == 0 || (!next[0].fits && next[0].mean > 0.95 * best.mean))
+            break;
+        best = next[0];
+        memcpy(beam, next, sizeof beam);
+        held = count;
+    }
+    free(pixels);
+    free(each);
+    free(nearest);
+    s->certain = best.fits;
+    // Short of an explanation, what leaves more than a quarter unexplained is none.
+    s->count = best.fits || best.mean < 0.25 * s->before ? best.count : 0;
+    for (int i = 0; i < s->count; i++) {
+        s->found[i] = best.rows[i];
+        s->after[i] = best.after[i];
+    }
+    return ok;
+}

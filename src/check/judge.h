@@ -1,0 +1,55 @@
+// judge.h: pictures against pictures: how far apart, and with which mistakes the model's pictures are
+// nearest.
+#ifndef JUDGE_H
+#define JUDGE_H
+
+#include "model.h"
+
+// One scene as it is judged.
+struct judged {
+    const struct study *row; // of the table
+    struct study study;      // as the contract can say it
+    const float *theirs;     // straight RGBA
+    float *reference;        // the CPU device's, straight alpha
+    unsigned char *inside;   // of each pixel: its 3×3 neighbours are all covered in the reference
+    bool alpha;              // alpha counts
+    double apart;            // mean difference from the reference
+    bool passes;
+};
+
+struct distance {
+    double maximum, mean, share_over;
+    uint64_t pixels;
+    bool fits;
+};
+
+// Of the pixels inside, colours clamped to 0…1.
+struct distance judge_distance(const struct judged *scene, const float *other, int size, double tolerance);
+
+enum { FOUND_MOST = 4, ORDER_MOST = 32 };
+
+struct search {
+    struct model *model;
+    const struct reading *reading;
+    lam_light_frame frame;
+    lam_reflection reflection;
+    struct judged *scenes;
+    int scene_count, size;
+    int room; // lights that the shaders have room for
+    double tolerance;
+    int order[ORDER_MOST];
+    unsigned needs; // of the scenes together
+    // Results: mistakes in the order found, the mean distance after each, and whether they explain
+    // everything.
+    const struct mistake *found[FOUND_MOST];
+    double after[FOUND_MOST];
+    int count;
+    bool certain;
+    double before;
+    const struct mistake **alone; // for each scene, the one mistake that explains it by itself; NULL: none
+};
+
+// Looks for the fewest mistakes that explain the pictures. `alone` has room for scene_count.
+bool judge_search(struct search *search, lam_error *error);
+
+#endif

@@ -1,0 +1,166 @@
+// functions.h: the OpenGL functions that lambent calls, in one list, and the table that holds them.
+//
+// Nothing here is linked: every function is asked for by name when a context is made (loader.c). The types
+// are those of the declarations in Debian's libgl-dev. One list serves OpenGL 3.3 and OpenGL ES 3.0.
+#ifndef FUNCTIONS_H
+#define FUNCTIONS_H
+
+#define GL_GLEXT_PROTOTYPES // their types are taken; a plain call of one would not link
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+// In OpenGL 3.3 core and in OpenGL ES 3.0: all of them must be there.
+#define GL_FUNCTIONS(X)                                                                                      \
+    X(ActiveTexture)                                                                                         \
+    X(AttachShader)                                                                                          \
+    X(BeginQuery)                                                                                            \
+    X(BindAttribLocation)                                                                                    \
+    X(BindBuffer)                                                                                            \
+    X(BindBufferBase)                                                                                        \
+    X(BindBufferRange)                                                                                       \
+    X(BindFramebuffer)                                                                                       \
+    X(BindRenderbuffer)                                                                                      \
+    X(BindTexture)                                                                                           \
+    X(BindVertexArray)                                                                                       \
+    X(BlendEquation)                                                                                         \
+    X(BlendEquationSeparate)                                                                                 \
+    X(BlendFunc)                                                                                             \
+    X(BlendFuncSeparate)                                                                                     \
+    X(BlitFramebuffer)                                                                                       \
+    X(BufferData)                                                                                            \
+    X(BufferSubData)                                                                                         \
+    X(CheckFramebufferStatus)                                                                                \
+    X(Clear)                                                                                                 \
+    X(ClearBufferfv)                                                                                         \
+    X(ClearBufferuiv)                                                                                        \
+    X(ClearColor)                                                                                            \
+    X(ClientWaitSync)                                                                                        \
+    X(ColorMask)                                                                                             \
+    X(CompileShader)                                                                                         \
+    X(CreateProgram)                                                                                         \
+    X(CreateShader)                                                                                          \
+    X(CullFace)                                                                                              \
+    X(DeleteBuffers)                                                                                         \
+    X(DeleteFramebuffers)                                                                                    \
+    X(DeleteProgram)                                                                                         \
+    X(DeleteQueries)                                                                                         \
+    X(DeleteRenderbuffers)                                                                                   \
+    X(DeleteShader)                                                                                          \
+    X(DeleteSync)                                                                                            \
+    X(DeleteTextures)                                                                                        \
+    X(DeleteVertexArrays)                                                                                    \
+    X(DepthFunc)                                                                                             \
+    X(DepthMask)                                                                                             \
+    X(Disable)                                                                                               \
+    X(DisableVertexAttribArray)                                                                              \
+    X(DrawArrays)                                                                                            \
+    X(DrawBuffers)                                                                                           \
+    X(DrawElements)                                                                                          \
+    X(Enable)                                                                                                \
+    X(EnableVertexAttribArray)                                                                               \
+    X(EndQuery)                                                                                              \
+    X(FenceSync)                                                                                             \
+    X(Finish)                                                                                                \
+    X(Flush)                                                                                                 \
+    X(FramebufferRenderbuffer)                                                                               \
+    X(FramebufferTexture2D)                                                                                  \
+    X(FrontFace)                                                                                             \
+    X(GenBuffers)                                                                                            \
+    X(GenFramebuffers)                                                                                       \
+    X(GenQueries)                                                                                            \
+    X(GenRenderbuffers)                                                                                      \
+    X(GenTextures)                                                                                           \
+    X(GenVertexArrays)                                                                                       \
+    X(GetActiveAttrib)                                                                                       \
+    X(GetActiveUniform)                                                                                      \
+    X(GetActiveUniformBlockName)                                                                             \
+    X(GetActiveUniformBlockiv)                                                                               \
+    X(GetActiveUniformsiv)                                                                                   \
+    X(GetAttribLocation)                                                                                     \
+    X(GetBooleanv)                                                                                           \
+    X(GetError)                                                                                              \
+    X(GetFloatv)                                                                                             \
+    X(GetIntegeri_v)                                                                                         \
+    X(GetIntegerv)                                                                                           \
+    X(GetProgramInfoLog)                                                                                     \
+    X(GetProgramiv)                                                                                          \
+    X(GetQueryObjectuiv)                                                                                     \
+    X(GetShaderInfoLog)                                                                                      \
+    X(GetShaderiv)                                                                                           \
+    X(GetString)                                                                                             \
+    X(GetStringi)                                                                                            \
+    X(GetUniformBlockIndex)                                                                                  \
+    X(GetUniformIndices)                                                                                     \
+    X(GetUniformLocation)                                                                                    \
+    X(IsEnabled)                                                                                             \
+    X(LinkProgram)                                                                                           \
+    X(MapBufferRange)                                                                                        \
+    X(PixelStorei)                                                                                           \
+    X(ReadBuffer)                                                                                            \
+    X(ReadPixels)                                                                                            \
+    X(RenderbufferStorage)                                                                                   \
+    X(RenderbufferStorageMultisample)                                                                        \
+    X(Scissor)                                                                                               \
+    X(ShaderSource)                                                                                          \
+    X(TexImage2D)                                                                                            \
+    X(TexImage3D)                                                                                            \
+    X(TexParameteri)                                                                                         \
+    X(TexSubImage2D)                                                                                         \
+    X(TexSubImage3D)                                                                                         \
+    X(Uniform1f)                                                                                             \
+    X(Uniform1fv)                                                                                            \
+    X(Uniform1i)                                                                                             \
+    X(Uniform1iv)                                                                                            \
+    X(Uniform1ui)                                                                                            \
+    X(Uniform2f)                                                                                             \
+    X(Uniform2fv)                                                                                            \
+    X(Uniform2i)                                                                                             \
+    X(Uniform3f)                                                                                             \
+    X(Uniform3fv)                                                                                            \
+    X(Uniform4f)                                                                                             \
+    X(Uniform4fv)                                                                                            \
+    X(UniformBlockBinding)                                                                                   \
+    X(UniformMatrix3fv)                                                                                      \
+    X(UniformMatrix4fv)                                                                                      \
+    X(UnmapBuffer)                                                                                           \
+    X(UseProgram)                                                                                            \
+    X(VertexAttrib4f)                                                                                        \
+    X(VertexAttribIPointer)                                                                                  \
+    X(VertexAttribPointer)                                                                                   \
+    X(Viewport)
+
+// In some versions only; NULL where the driver has no such name, and even where it has one the context's
+// version and extensions decide whether it may be called.
+#define GL_OPTIONAL_FUNCTIONS(X)                                                                             \
+    X(BindFragDataLocation) /* desktop */                                                                    \
+    X(DebugMessageCallback) /* KHR_debug */                                                                  \
+    X(DebugMessageControl)                                                                                   \
+    X(PolygonMode) /* desktop */                                                                             \
+    X(Begin)       /* compatibility contexts, from here on */                                                \
+    X(Color4f)                                                                                               \
+    X(ColorPointer)                                                                                          \
+    X(DisableClientState)                                                                                    \
+    X(EnableClientState)                                                                                     \
+    X(End)                                                                                                   \
+    X(Lightfv)                                                                                               \
+    X(LoadIdentity)                                                                                          \
+    X(LoadMatrixf)                                                                                           \
+    X(Materialfv)                                                                                            \
+    X(MatrixMode)                                                                                            \
+    X(MultiTexCoord4f)                                                                                       \
+    X(Normal3f)                                                                                              \
+    X(NormalPointer)                                                                                         \
+    X(TexCoord4f)                                                                                            \
+    X(TexCoordPointer)                                                                                       \
+    X(Vertex3f)                                                                                              \
+    X(VertexPointer)
+
+// gl->DrawArrays(…) is glDrawArrays(…) of the context that is current.
+struct gl {
+#define GL_FIELD(name) __typeof__(&gl##name) name;
+    GL_FUNCTIONS(GL_FIELD)
+    GL_OPTIONAL_FUNCTIONS(GL_FIELD)
+#undef GL_FIELD
+};
+
+#endif

@@ -1,0 +1,237 @@
+# test_check.py: the command `check`: right shaders pass, each known mistake is told as that mistake, and shaders that do
+# not compile, end or give numbers are reported.
+import json
+import sys
+
+from harness import ROOT, Case, PROGRAM, check_value, read_png
+
+import subprocess
+
+sys.path.insert(0, str(ROOT / "tests" / "check"))
+from mistakes import MISTAKES  # noqa: E402
+
+SHADERS = ROOT / "tests" / "check"
+SCHEMA = json.loads((ROOT / "docs" / "check.schema.json").read_text())
+
+
+def gl_missing():
+    devices = json.loads(subprocess.run([PROGRAM, "devices", "--json"], stdout=subprocess.PIPE).stdout)
+    if any(device["reason"] is None for device in devices["gl"]):
+        return None
+    return "no OpenGL here: " + (devices["gl_reason"] or "; ".join(d["reason"] for d in devices["gl"]) or "no device")
+
+
+class CheckTest(Case):
+    MISSING = gl_missing()
+
+    def setUp(self):
+        super().setUp()
+        if self.MISSING:
+            self.skipTest(self.MISSING)
+
+    def shader(self, name, edits=()):
+        """Writes a shader of tests/check, edited, as s.frag and s.vert; the words of a command line that checks it."""
+        words = ["s.frag"]
+        for ending in ("frag", "vert"):
+            path = SHADERS / f"{name}.{ending}"
+            if not path.exists():
+                continue
+            text = path.read_text()
+            for which, old, new in edits:
+                if which == ending:
+                    self.assertEqual(text.count(old), 1, f"{name}.{ending}: {old}")
+                    text = text.replace(old, new)
+            (self.folder / f"s.{ending}").write_text(text)
+            if ending == "vert":
+                words += ["--vertex", "s.vert"]
+        return words
+
+    def report_of(self, *words, code=0, size=64, **more):
+        done = self.run_program("check", *words, "-s", size, "--json", **more)
+        self.assertEqual(done.returncode, code, done.stderr.decode() + done.stdout.decode())
+        report = json.loads(done.stdout)
+        check_value(self, report, SCHEMA, "check")
+        return report
+
+    def notes(self, report, kind):
+        return [note["text"] for note in report["notes"] if note["kind"] == kind]
+
+
+class Right(CheckTest):
+    def test_each_contract(self):
+        for name, contract, lit in (("pittsburgh", "pittsburgh", "fragment"), ("pittsburgh-vertex", "pittsburgh", "vertex"),
+                                    ("oregon", "oregon", "fragment"), ("nyu", "nyu", "fragment"),
+                                    ("nyu-direction", "nyu", "fragment"), ("lambent", "lambent", "fragment")):
+            with self.subTest(name):
+                report = self.report_of(*self.shader(name), size=128)
+                self.assertEqual((report["verdict"], report["contract"], report["lit_in"]), ("passes", contract, lit))
+                self.assertEqual((report["mistakes"], report["notes"]), ([], []))
+                # The reference is the CPU device's: the pictures agree far within the tolerance.
+                self.assertLess(max(scene["maximum"] for scene in report["scenes"]), 1e-3)
+                self.assertGreater(min(scene["pixels"] for scene in report["scenes"]), 1000)
+
+    def test_alone(self):
+        """A fragment shader alone gets a right vertex shader, in its own version of GLSL."""
+        for name in ("pittsburgh", "oregon", "nyu", "lambent"):
+            with self.subTest(name):
+                self.shader(name)
+                self.assertEqual(self.report_of("s.frag")["verdict"], "passes")
+
+    def test_versions(self):
+        """The same shaders without a version line, in 120, 330 core, 330 compatibility and 300 es."""
+        modern = {"attribute ": "in ", "gl_FragColor": "pixel"}
+        for first, out in (("", False), ("#version 120\n", False), ("#version 330 compatibility\n", False),
+                           ("#version 330 core\n", True), ("#version 300 es\nprecision highp float;\n", True)):
+            with self.subTest(first):
+                words = self.shader("nyu")
+                for ending in ("vert", "frag"):
+                    text = (SHADERS / f"nyu.{ending}").read_text().replace("#version 120\n", "")
+                    if out:
+                        text = text.replace("varying ", "out " if ending == "vert" else "in ")
+                        for old, new in modern.items():
+                            text = text.replace(old, new)
+                        if ending == "frag":
+                            text = "out vec4 pixel;\n" + text
+                    (self.folder / f"s.{ending}").write_text(first + text)
+                self.assertEqual(self.report_of(*words)["verdict"], "passes")
+
+    def test_options(self):
+        words = self.shader("pittsburgh", [("vert", "vec4 light = model_view * light_position", "vec4 light = light_position")])
+        self.assertEqual(self.report_of(*words, "--light-frame", "camera")["verdict"], "passes")
+        words = self.shader("pittsburgh", [("frag", "dot(n, h)", "dot(reflect(-l, n), v)")])
+        self.assertEqual(self.report_of(*words, "--highlight", "phong")["verdict"], "passes")
+        report = self.report_of(*words, "--scenes", "diffuse,ambient")
+        self.assertEqual([scene["name"] for scene in report["scenes"]], ["ambient", "diffuse"])
+        self.assertEqual(report["verdict"], "passes")
+        self.assertEqual(self.report_of(*words, "--tolerance", 255)["verdict"], "passes")
+
+    def test_sheet_and_text(self):
+        words = self.shader("oregon", [("frag", "dot(n, l) > 0.0 ?", "true ?")])
+        done = self.run_program("check", *words, "-s", 48, "-o", "sheet.png", "--no-captions")
+        self.assertEqual(done.returncode, 6, done.stderr)
+        for part in ("contract oregon", "no-gate", "write  float s = dot(N, L) > 0.0 ? pow(max(dot(R, V), 0.0), uShininess)"):
+            self.assertIn(part, done.stdout.decode())
+        width, height, _ = read_png((self.folder / "sheet.png").read_bytes())
+        self.assertGreater(width, 3 * 48)
+        self.assertGreater(height, 9 * 48)
+        lists = self.good("check", "--list").stdout.decode()
+        for part in ("contract pittsburgh", "uLightX", "lights[].lightPosition", "no-gate", "coarse"):
+            self.assertIn(part, lists)
+
+
+class Mistakes(CheckTest):
+    """One method for each row of tests/check/mistakes.py, made below."""
+
+    def tell(self, shader, expected, edits):
+        report = self.report_of(*self.shader(shader, edits), code=6)
+        told = report["mistakes"]
+        self.assertEqual(sorted(m["id"] for m in told), sorted(expected.split()), json.dumps(report["scenes"]))
+        for mistake in told:
+            self.assertEqual(mistake["certain"], 1)
+            self.assertTrue(mistake["says"] and mistake["write"])
+            self.assertNotIn("{", mistake["write"].replace("{ ", ""))
+
+
+for number, row in enumerate(MISTAKES):
+    def method(self, row=row):
+        self.tell(*row)
+    setattr(Mistakes, "test_%03d_%s_%s" % (number, row[0], row[1].replace(" ", "_and_")), method)
+
+
+class Refused(CheckTest):
+    def told(self, name, edits, *hints):
+        report = self.report_of(*self.shader(name, edits), code=6)
+        self.assertEqual(report["verdict"], "refused")
+        self.assertTrue(self.notes(report, "compiler"))
+        found = " | ".join(self.notes(report, "hint"))
+        for hint in hints:
+            self.assertIn(hint, found)
+        return report
+
+    def test_spelling(self):
+        self.told("pittsburgh", [("vert", "void main()", "main()")], "void main()")
+        self.told("pittsburgh", [("vert", "gl_Position", "gl_position")], "'gl_position' is written gl_Position")
+        self.told("oregon", [("frag", "in vec3 vNs, vLs, vEs;", "in vec3v Ns; in vec3v Ls; in vec3v Es;")], "in `vec3 vNs`".replace("in ", "is "))
+        self.told("pittsburgh", [("frag", "vec3 h = normalize(l + v);", "vec3 half = normalize(l + v); vec3 h = half;")], "reserved word")
+        self.told("pittsburgh-vertex", [("vert", "max(dot(n, l), 0.0)", "max(dot(n, l), 0)")], "0.0")
+        self.told("pittsburgh", [("frag", "vec3 n = normalize(N);", "vec3 n = normalize(N)")], "';'")
+        report = self.told("pittsburgh", [("frag", "vec3 v = normalize(V);", "vec3 v = normalize(eye_point - P);\nuniform vec3 eye_position;")])
+        line = [note["line"] for note in report["notes"] if note["kind"] == "compiler"][0]
+        self.assertEqual((SHADERS / "pittsburgh.frag").read_text().splitlines()[line - 1].strip(), "vec3 v = normalize(V);")
+
+    def test_names_of_two(self):
+        self.told("pittsburgh", [("frag", "uniform float shininess;", "uniform float shininess; uniform vec3 eye_point;"),
+                                 ("frag", "normalize(V)", "normalize(eye_position)")], "'eye_point' is. Is it meant?")
+        self.told("pittsburgh", [("frag", "uniform vec4 ambient_product;", "uniform mat4 ambient_product;")],
+                  "write uniform vec4 ambient_product")
+
+    def test_old_and_new(self):
+        self.told("oregon", [("vert", "#version 330 compatibility\n", ""), ("frag", "#version 330 compatibility\n", "")],
+                  "#version 330 compatibility")
+        self.told("oregon", [("vert", "330 compatibility", "330 core")], "exists only in old GLSL")
+
+    def test_link(self):
+        self.told("pittsburgh", [("vert", "varying vec3 L;", "varying vec3 LL;"), ("vert", "    L = light.w", "    LL = light.w")],
+                  "writes no 'L'")
+        self.told("pittsburgh", [("vert", "varying vec3 L;", "varying vec4 L;"), ("vert", "L = light.w == 0.0 ? light.xyz : light.xyz - point.xyz", "L = light")],
+                  "is a vec3 here and a vec4")
+
+
+class Unruly(CheckTest):
+    def test_unknown_names(self):
+        report = self.report_of(*self.shader("pittsburgh", [("frag", "uniform float shininess;", "uniform float shinines;"),
+                                                            ("frag", "0.0), shininess)", "0.0), shinines)")]), code=6)
+        self.assertIn("the nearest that it knows is 'shininess'", " ".join(self.notes(report, "unknown")))
+
+    def test_none_known(self):
+        report = self.report_of(*self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")]), code=6)
+        self.assertEqual((report["verdict"], report["mistakes"]), ("differs", []))
+        self.assertIn("none of the known", self.run_program("check", "s.frag", "-s", 32).stdout.decode())
+
+    def test_two_together(self):
+        report = self.report_of(*self.shader("nyu", [("frag", "normalize(varyingNormal)", "varyingNormal"), ("frag", "* s * attenuation", "* s")]),
+                                code=6)
+        self.assertEqual({m["id"] for m in report["mistakes"]}, {"normal-not-unit", "specular-not-attenuated"})
+
+    def test_not_numbers(self):
+        report = self.report_of(*self.shader("oregon", [("frag", "max(dot(r, e), 0.0)", "dot(r, e)"), ("frag", "dot(n, l) > 0.0 ?", "true ?")]), code=6)
+        self.assertEqual(report["verdict"], "not a number")
+        self.assertGreater(sum(scene["not_numbers"] for scene in report["scenes"]), 0)
+        self.assertTrue(any("NaN" in text for text in self.notes(report, "hint")))
+
+    def test_endless(self):
+        loop = "float turn = 0.0;\n    for (int i = 0; i >= 0; i += 0) turn = sin(turn + shininess);\n    vec3 n = turn + normalize(N);"
+        report = self.report_of(*self.shader("pittsburgh", [("frag", "vec3 n = normalize(N);", loop)]), "--stop-after", 0.3, size=512, code=6)
+        self.assertEqual((report["verdict"], report["scenes"]), ("endless", []))
+
+    def test_driver_dies(self):
+        """A stand-in for the driver, whose first function ends the process."""
+        source = self.folder / "egl.c"
+        source.write_text("#include <stdlib.h>\nvoid *eglGetProcAddress(const char *n) { (void)n; abort(); }\n" + "".join(
+            f"void *egl{name}(void) {{ abort(); }}\n" for name in
+            ("BindAPI", "ChooseConfig", "CreateContext", "CreatePbufferSurface", "DestroyContext", "DestroySurface", "GetCurrentContext",
+             "GetCurrentDisplay", "GetCurrentSurface", "GetDisplay", "GetError", "Initialize", "MakeCurrent", "QueryAPI", "QueryString")))
+        if subprocess.run(["cc", "-shared", "-fPIC", "-o", self.folder / "libEGL.so.1", source]).returncode:
+            self.skipTest("no C compiler")
+        report = self.report_of(*self.shader("oregon"), code=6, env={"LD_LIBRARY_PATH": str(self.folder)})
+        self.assertEqual(report["verdict"], "crashes")
+
+    def test_bad_use(self):
+        self.shader("oregon")
+        self.bad(1, "check", says="no shader", leaves=("s.frag", "s.vert"))
+        self.bad(2, "check", "none.frag", says="none.frag", leaves=("s.frag", "s.vert"))
+        self.bad(1, "check", "s.frag", "--scenes", "gat", says=("'gat'", "'gate'"), leaves=("s.frag", "s.vert"))
+        self.bad(1, "check", "s.frag", "--scenes", "spot", says="spot", leaves=("s.frag", "s.vert"))
+        self.bad(1, "check", "s.frag", "-s", "64x32", says="square", leaves=("s.frag", "s.vert"))
+        (self.folder / "s.frag").write_text("void main() { gl_FragColor = vec4(1.0); }\n")
+        self.bad(1, "check", "s.frag", says=("--contract", "none"), leaves=("s.frag", "s.vert"))
+
+
+class Without(Case):
+    def test_no_gl(self):
+        """Where there is no libEGL the sentence says what to install."""
+        (self.folder / "libEGL.so.1").write_text("no library")
+        (self.folder / "s.frag").write_text((SHADERS / "oregon.frag").read_text())
+        done = self.run_program("check", "s.frag", env={"LD_LIBRARY_PATH": str(self.folder)})
+        self.assertEqual(done.returncode, 3, done.stdout)
+        self.assertIn("install", done.stderr.decode())

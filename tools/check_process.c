@@ -1,0 +1,203 @@
+// check_process.c: the shaders under test run in a process of their own: this program again, which is stopped
+// when its time is over, and whose death is a finding.
+#include "check.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "console.h"
+#include "interrupt.h"
+
+enum { BYTES_MOST = 1 << 30 };
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+
+// --- the process that draws
+
+static bool read_all(int from, lam_bytes *bytes)
+{
+    size_t room = 0;
+    for (;;) {
+        if (bytes->size == room) {
+            room = room ? 2 * room : 1 << 16;
+            void *more = room <= BYTES_MOST ? realloc(bytes->data, room) : NULL;
+            if (!more)
+                return false;
+            bytes->data = more;
+        }
+        ssize_t n = read(from, (char *)bytes->data + bytes->size, room - bytes->size);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n <= 0)
+            return n == 0;
+        bytes->size += (size_t)n;
+    }
+}
+
+static bool write_all(int to, const void *data, size_t size)
+{
+    for (size_t at = 0; at < size;) {
+        ssize_t n = write(to, (const char *)data + at, size - at);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n <= 0)
+            return false;
+        at += (size_t)n;
+    }
+    return true;
+}
+
+int check_worker(void)
+{
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // never outlives who asked
+    setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
+#ifndef SANITIZED                         // whose shadow memory is larger than any bound
+    const rlim_t most = (rlim_t)16 << 30; // a shader may ask for any amount
+    setrlimit(RLIMIT_AS, &(struct rlimit){most, most});
+#endif
+    int answer = dup(STDOUT_FILENO), nowhere = open("/dev/null", O_WRONLY);
+    if (answer < 0 || nowhere < 0 || dup2(nowhere, STDOUT_FILENO) < 0 || dup2(nowhere, STDERR_FILENO) < 0)
+        return LAM_LIMIT; // drivers talk on both
+    lam_bytes job = {0}, drawn = {0};
+    lam_error error = {0};
+    bool ok = read_all(STDIN_FILENO, &job) || complain(&error, LAM_LIMIT, "out of memory");
+    ok = ok && lam_check_draw(job.data, job.size, NULL, &drawn, &error);
+    int code = ok ? 0 : (int)error.code;
+    if (!write_all(answer, ok ? drawn.data : error.text, ok ? drawn.size : strlen(error.text)))
+        code = LAM_CANNOT_WRITE;
+    lam_bytes_free(&job);
+    lam_bytes_free(&drawn);
+    close(answer);
+    return code;
+}
+
+// --- the process that waits
+
+static double now_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+struct child {
+    pid_t pid;
+    int to, from; // −1: closed
+};
+
+static bool start(struct child *child, lam_error *error)
+{
+    int in[2] = {-1, -1}, out[2] = {-1, -1};
+    *child = (struct child){-1, -1, -1};
+    bool piped = pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0;
+    child->pid = piped ? fork() : -1;
+    if (child->pid == 0) {
+        if (dup2(in[0], STDIN_FILENO) >= 0 && dup2(out[1], STDOUT_FILENO) >= 0)
+            execl("/proc/self/exe", "lambent", CHECK_WORKER, (char *)NULL);
+        _exit(127);
+    }
+    close(in[0]);
+    close(out[1]);
+    if (child->pid < 0) {
+        int reason = errno;
+        close(in[1]);
+        close(out[0]);
+        return complain(error, LAM_LIMIT, "cannot start a process for the shader: %s", strerror(reason));
+    }
+    child->to = in[1];
+    child->from = out[0];
+    fcntl(child->to, F_SETFL, O_NONBLOCK);
+    fcntl(child->from, F_SETFL, O_NONBLOCK);
+    return true;
+}
+
+// Sends what the pipe takes. The other end closed early: it has died, which is told later.
+static void send_some(struct child *child, const lam_bytes *job, size_t *sent)
+{
+    ssize_t n = write(child->to, (const char *)job->data + *sent, job->size - *sent);
+    if (n > 0)
+        *sent += (size_t)n;
+    if (*sent == job->size || (n < 0 && errno != EAGAIN && errno != EINTR)) {
+        close(child->to);
+        child->to = -1;
+    }
+}
+
+// Reads what is there; false at the end.
+static bool receive_some(struct child *child, lam_bytes *drawn, size_t *room)
+{
+    if (drawn->size == *room) {
+        size_t larger = *room ? 2 * *room : 1 << 20;
+        void *more = larger <= BYTES_MOST ? realloc(drawn->data, larger) : NULL;
+        if (!more)
+            return false;
+        drawn->data = more;
+        *room = larger;
+    }
+    ssize_t n = read(child->from, (char *)drawn->data + drawn->size, *room - drawn->size);
+    if (n > 0)
+        drawn->size += (size_t)n;
+    return n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
+}
+
+lam_check_end check_process(void *user, const lam_bytes *job, lam_bytes *drawn, lam_error *error)
+{
+    const struct check_process *how = user;
+    struct child child;
+    signal(SIGPIPE, SIG_IGN);
+    if (!start(&child, error))
+        return LAM_CHECK_FAILED;
+    double end = now_s() + how->time_limit_s;
+    size_t sent = 0, room = 0;
+    *drawn = (lam_bytes){0};
+    bool open = true, late = false;
+    while (open && !late && !interrupted()) {
+        double left = end - now_s();
+        struct pollfd wait[2] = {{child.from, POLLIN, 0}, {child.to, POLLOUT, 0}};
+        late = left <= 0;
+        if (late || poll(wait, child.to >= 0 ? 2 : 1, left < 0.2 ? (int)(left * 1000) + 1 : 200) <= 0)
+            continue;
+        if (child.to >= 0 && wait[1].revents)
+            send_some(&child, job, &sent);
+        if (wait[0].revents)
+            open = receive_some(&child, drawn, &room);
+    }
+    if (open)
+        kill(child.pid, SIGKILL);
+    int status = 0;
+    while (waitpid(child.pid, &status, 0) < 0 && errno == EINTR)
+        continue;
+    close(child.from);
+    if (child.to >= 0)
+        close(child.to);
+    if (late)
+        return LAM_CHECK_TIMEOUT;
+    if (interrupted()) {
+        complain(error, LAM_CANCELLED, "interrupted");
+        return LAM_CHECK_FAILED;
+    }
+    if (WIFSIGNALED(status))
+        return LAM_CHECK_CRASHED;
+    if (WEXITSTATUS(status) == 0)
+        return LAM_CHECK_DRAWN;
+    if (WEXITSTATUS(status) > LAM_CANCELLED) // an exit of the driver's own, or no such program
+        return LAM_CHECK_CRASHED;
+    complain(error, (lam_code)WEXITSTATUS(status), "%.*s", (int)(drawn->size < 480 ? drawn->size : 480),
+             drawn->data ? (const char *)drawn->data : "the process that draws failed");
+    return LAM_CHECK_FAILED;
+}

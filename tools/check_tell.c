@@ -1,0 +1,165 @@
+// check_tell.c: what came of a check, as text and as JSON (docs/check.schema.json).
+#include "check.h"
+
+#include <string.h>
+
+#include "json.h"
+
+static const char *what(lam_check_verdict verdict)
+{
+    switch (verdict) {
+    case LAM_CHECK_PASSES:
+        return "passes: its pictures are the reference's";
+    case LAM_CHECK_DIFFERS:
+        return "differs from the reference";
+    case LAM_CHECK_REFUSED:
+        return "is refused: it does not compile, or its two shaders do not link";
+    case LAM_CHECK_ENDLESS:
+        return "does not end: it was stopped when its time was over (--stop-after)";
+    case LAM_CHECK_CRASHES:
+        return "crashes: the graphics driver died of it";
+    case LAM_CHECK_NOT_NUMBER:
+        return "writes NaN or infinity";
+    }
+    return "";
+}
+
+static const char *kind_name(lam_check_note_kind kind)
+{
+    return kind == LAM_CHECK_NOTE_COMPILER ? "compiler" : kind == LAM_CHECK_NOTE_HINT ? "hint" : "unknown";
+}
+
+static void tell_notes(FILE *file, const lam_check_report *r)
+{
+    for (int i = 0; i < r->note_count; i++) {
+        const lam_check_note *n = &r->notes[i];
+        fputs("  ", file);
+        if (n->file)
+            fprintf(file, "%s:", n->file);
+        if (n->line)
+            fprintf(file, "%d:", n->line);
+        fprintf(file, "%s%s%s\n", n->file || n->line ? " " : "",
+                n->kind == LAM_CHECK_NOTE_HINT ? "hint: " : "", n->text);
+    }
+}
+
+static void tell_scenes(FILE *file, const lam_check_report *r, double tolerance)
+{
+    if (!r->scene_count)
+        return;
+    fprintf(file, "  scene         largest     mean  over %g/255\n", tolerance);
+    for (int i = 0; i < r->scene_count; i++) {
+        const lam_check_scene *s = &r->scenes[i];
+        fprintf(file, "  %-12s %8.4f %8.5f %8.2f %%   %s%s%s", s->name, s->maximum, s->mean,
+                s->share_over * 100, s->passes ? "same" : "differs", s->looks_like ? ", looks like " : "",
+                s->looks_like ? s->looks_like : "");
+        if (s->not_numbers)
+            fprintf(file, ", %llu pixels are no numbers", (unsigned long long)s->not_numbers);
+        putc('\n', file);
+    }
+}
+
+static void tell_findings(FILE *file, const lam_check_report *r)
+{
+    if (!r->finding_count) {
+        if (r->verdict == LAM_CHECK_DIFFERS)
+            fputs("It looks like none of the known mistakes.\n", file);
+        return;
+    }
+    bool certain = r->findings[0].certain;
+    fprintf(file,
+            certain ? "It looks like%s:\n" : "It looks most like%s, which does not explain all of it:\n",
+            r->finding_count > 1 ? " these together" : " this");
+    for (int i = 0; i < r->finding_count; i++) {
+        const lam_check_finding *f = &r->findings[i];
+        fprintf(file, "  %s: %s\n    mean difference %.5f without it, %.5f with it\n    write  %s\n",
+                f->mistake, f->says, f->mean_before, f->mean_after, f->write);
+    }
+}
+
+void check_tell_text(FILE *file, const lam_check_report *r, const char *shader, double tolerance)
+{
+    fprintf(file, "%s %s\n", shader, what(r->verdict));
+    fprintf(file, "  contract %s; lit in the %s shader%s%s%s\n", lam_check_contract_name(r->contract),
+            r->vertex_lit ? "vertex" : "fragment",
+            r->made_vertex ? "; the vertex shader is the check's own" : "", r->driver[0] ? "; " : "",
+            r->driver);
+    tell_notes(file, r);
+    tell_scenes(file, r, tolerance);
+    tell_findings(file, r);
+}
+
+void check_tell_json(FILE *file, const lam_check_report *r, const char *shader, const char *vertex,
+                     double tolerance, const char *picture)
+{
+    struct json json = {.file = file};
+    json_open(&json, NULL, '{');
+    json_text(&json, "fragment", shader);
+    json_text(&json, "vertex", vertex);
+    json_text(&json, "verdict", lam_check_verdict_name(r->verdict));
+    json_text(&json, "contract", lam_check_contract_name(r->contract));
+    json_text(&json, "lit_in", r->vertex_lit ? "vertex" : "fragment");
+    json_text(&json, "driver", r->driver[0] ? r->driver : NULL);
+    json_number(&json, "tolerance", tolerance);
+    json_number(&json, "mean", r->mean);
+    json_open(&json, "scenes", '[');
+    for (int i = 0; i < r->scene_count; i++) {
+        const lam_check_scene *s = &r->scenes[i];
+        json_open(&json, NULL, '{');
+        json_text(&json, "name", s->name);
+        json_text(&json, "shows", s->shows);
+        json_count(&json, "passes", s->passes);
+        json_number(&json, "maximum", s->maximum);
+        json_number(&json, "mean", s->mean);
+        json_number(&json, "share_over", s->share_over);
+        json_count(&json, "pixels", s->pixels);
+        json_count(&json, "not_numbers", s->not_numbers);
+        json_text(&json, "looks_like", s->looks_like);
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_open(&json, "mistakes", '[');
+    for (int i = 0; i < r->finding_count; i++) {
+        const lam_check_finding *f = &r->findings[i];
+        json_open(&json, NULL, '{');
+        json_text(&json, "id", f->mistake);
+        json_text(&json, "says", f->says);
+        json_text(&json, "write", f->write);
+        json_count(&json, "certain", f->certain);
+        json_number(&json, "mean_before", f->mean_before);
+        json_number(&json, "mean_after", f->mean_after);
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_open(&json, "notes", '[');
+    for (int i = 0; i < r->note_count; i++) {
+        const lam_check_note *n = &r->notes[i];
+        json_open(&json, NULL, '{');
+        json_text(&json, "kind", kind_name(n->kind));
+        json_text(&json, "file", n->file);
+        json_count(&json, "line", (uint64_t)n->line);
+        json_text(&json, "text", n->text);
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_text(&json, "picture", picture);
+    json_close(&json, '}');
+    putc('\n', file);
+}
+
+void check_tell_lists(FILE *file)
+{
+    lam_check_name row;
+    for (int c = LAM_CONTRACT_LAMBENT; c < LAM_CONTRACT_COUNT; c++) {
+        fprintf(file, "contract %s\n", lam_check_contract_name((lam_check_contract)c));
+        for (int i = 0; lam_check_contract_row((lam_check_contract)c, i, &row); i++)
+            fprintf(file, "  %-9s %-5s %-28s %s%s%s\n", row.attribute ? "attribute" : "uniform", row.type,
+                    row.name, row.meaning, row.synonyms ? "; also " : "", row.synonyms ? row.synonyms : "");
+    }
+    fputs("scenes\n", file);
+    for (int i = 0; lam_check_scene_name(i); i++)
+        fprintf(file, "  %-12s %s\n", lam_check_scene_name(i), lam_check_scene_shows(i));
+    fputs("mistakes\n", file);
+    for (int i = 0; lam_check_mistake(i); i++)
+        fprintf(file, "  %-26s %s\n", lam_check_mistake(i), lam_check_mistake_says(i));
+}

@@ -68,7 +68,7 @@ def test(variant):
     log = os.path.join(folder, "meson-logs", "testlog.json")
     if os.path.exists(log):
         os.remove(log)
-    run(["meson", "test", "-C", folder, "--no-rebuild", "--num-processes", "2"] + variant.get("only", []),
+    run(["meson", "test", "-C", folder, "--no-rebuild", "--num-processes", "2", "--timeout-multiplier", "4"] + variant.get("only", []),
         env={**os.environ, **ENVIRONMENT})
     totals = [0, 0, 0]
     if not os.path.exists(log):

@@ -166,6 +166,8 @@ bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *e
     }
     number_set_count(&seen->triangles);
     size_t corners = 3 * (size_t)seen->triangles.count;
+    if (corners == 0)
+        return true; // no triangle is seen
     size_t bytes = corners * (sizeof *seen->elements + sizeof *seen->normals);
     bool lies_there = bytes <= spare.room;
     if (!lies_there && !buffer_reserve(&room->normals, bytes, cpu->watch, error))

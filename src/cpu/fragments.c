@@ -30,6 +30,28 @@ static int split_pixel(const struct sample_pattern *pattern, const uint32_t *ids
     return count;
 }
 
+// As split_pixel, for few samples (a constant where this is inlined): every sample is written, and kept where
+// it is the first to show its triangle. Which pixels are split nobody can foresee, so branches are dear.
+static inline int split_few(const struct sample_pattern *pattern, const uint32_t *ids,
+                            struct thread_state *thread, int count, uint16_t pixel, int samples)
+{
+    for (int i = 0; i < samples; i++) {
+        uint32_t id = ids[pattern->by_distance[i]];
+        int first = id != NOTHING, weight = 1;
+        for (int j = 0; j < samples; j++) {
+            int same = ids[pattern->by_distance[j]] == id;
+            first &= j < i ? !same : 1;
+            weight += j > i ? same : 0;
+        }
+        thread->fragment_id[count] = id;
+        thread->fragment_pixel[count] = pixel;
+        thread->fragment_weight[count] = (uint8_t)weight;
+        thread->fragment_sample[count] = pattern->by_distance[i];
+        count += first;
+    }
+    return count;
+}
+
 // Sorts the fragments' numbers by group: by 11 bits at a time from the lowest, keeping the order within a
 // group.
 static void sort_by_group(struct thread_state *thread, uint32_t largest)
@@ -126,15 +148,18 @@ static bool all_same(const uint32_t *ids, int samples)
     return (differ | (first >> 32 ^ (first & 0xffffffff))) == 0;
 }
 
-static void collect_several(const struct sample_pattern *pattern, const struct cells *cells,
-                            struct thread_state *thread, int width, int height)
+// `samples` is a constant where this is inlined.
+static inline void collect_several(const struct sample_pattern *pattern, const struct cells *cells,
+                                   struct thread_state *thread, int width, int height, int samples)
 {
-    int samples = pattern->count, count = 0;
+    int count = 0;
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             const uint32_t *ids = thread->ids + pixel_place(cells, x, y);
             if (!all_same(ids, samples)) {
-                count = split_pixel(pattern, ids, thread, count, (uint16_t)(y * TILE + x));
+                uint16_t pixel = (uint16_t)(y * TILE + x);
+                count = samples <= 4 ? split_few(pattern, ids, thread, count, pixel, samples)
+                                     : split_pixel(pattern, ids, thread, count, pixel);
                 thread->pixels_covered++;
                 continue;
             }
@@ -151,8 +176,17 @@ static void collect_several(const struct sample_pattern *pattern, const struct c
 void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height)
 {
     struct cells cells = cells_of(cpu->pattern->count);
-    if (cpu->pattern->count == 1)
+    switch (cpu->pattern->count) {
+    case 1:
         collect_single(&cells, thread, width, height);
-    else
-        collect_several(cpu->pattern, &cells, thread, width, height);
+        break;
+    case 2:
+        collect_several(cpu->pattern, &cells, thread, width, height, 2);
+        break;
+    case 4:
+        collect_several(cpu->pattern, &cells, thread, width, height, 4);
+        break;
+    default:
+        collect_several(cpu->pattern, &cells, thread, width, height, cpu->pattern->count);
+    }
 }

@@ -193,6 +193,17 @@ LANE_FN num positive(num x) { return greater(x, num_of(0.0f)); }
 // x clamped to 0…1; NaN gives 0.
 LANE_FN num saturate(num x) { return lesser(positive(x), num_of(1.0f)); }
 
+// Writes x where m, to where `old` lies.
+LANE_FN void num_store_where(float *at, mask m, num x, num old)
+{
+#if LANES == 16 && defined(__AVX512DQ__)
+    (void)old;
+    _mm512_mask_storeu_ps(at, _mm512_movepi32_mask((__m512i)m), (__m512)x);
+#else
+    num_store(at, pick(m, x, old));
+#endif
+}
+
 // The lanes that bits name: those of mask_bits.
 LANE_FN mask mask_of_bits(unsigned bits)
 {
@@ -205,6 +216,16 @@ LANE_FN mask mask_of_bits(unsigned bits)
 #endif
 }
 
+// The lanes that are below 0, as bits.
+LANE_FN unsigned negative_bits(inum x)
+{
+#if LANES == 16 && defined(__AVX512DQ__)
+    return (unsigned)_mm512_movepi32_mask((__m512i)x);
+#else
+    return mask_bits(x < 0);
+#endif
+}
+
 // Writes the lanes named by `bits` (bit i: lane i) side by side, in their order; room for LANES is needed.
 // How many they are.
 LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
@@ -213,11 +234,11 @@ LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, (__m512i)x));
     return (uint32_t)__builtin_popcount(bits);
 #else
+    int32_t lanes[LANES];
+    inum_store(lanes, x);
     uint32_t count = 0;
-    for (int i = 0; i < LANES; i++) {
-        to[count] = ilane(x, i);
-        count += bits >> i & 1;
-    }
+    for (; bits; bits &= bits - 1)
+        to[count++] = lanes[__builtin_ctz(bits)];
     return count;
 #endif
 }

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "console.h"
+#include "device_option.h"
 #include "drawing.h"
 #include "interrupt.h"
 #include "job.h"
@@ -283,8 +284,7 @@ int run_compare(int operand_count, char **operands, const struct options *option
         ok = complain(&error, LAM_LIMIT, "out of memory");
     ok = ok && check(options, c.model, path, &error) && lay_out(&c, &error);
     if (ok) {
-        lam_cpu_params params = {.threads = options->threads, .isa = (lam_isa)options->isa};
-        c.device = lam_device_cpu(&params, &error);
+        c.device = device_option_make(options, &error);
         progress_start(&c.progress, c.model, console_is_terminal() && !options->quiet);
         ok = c.device && draw_sheet(&c, &error);
         progress_end(&c.progress);

@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "console.h"
+#include "device_option.h"
 #include "interrupt.h"
 #include "report.h"
 
@@ -91,8 +92,7 @@ int run_explain(int operand_count, char **operands, const struct options *given)
     if (error.code)
         return tell_failure(&error, &options);
     interrupt_start();
-    lam_cpu_params params = {.threads = options.threads, .isa = (lam_isa)options.isa};
-    job.device = lam_device_cpu(&params, &error);
+    job.device = device_option_make(&options, &error);
     if (!job.device)
         return tell_failure(&error, &options);
     job.times.start = clock_ms();

@@ -119,6 +119,13 @@ static const struct word stage_words[] = {
     {"fragment", LAM_STAGE_FRAGMENT, "for each fragment (flat, phong)"},
     {NULL, 0, NULL}};
 
+static const struct word device_words[] = {
+    {"auto", DEVICE_AUTO, "the CPU; OpenGL where `--gl-device` asks for one"},
+    {"cpu", DEVICE_CPU, "the processor: the same bytes everywhere"},
+    {"gl", DEVICE_GL, "OpenGL 3.3"},
+    {"gles", DEVICE_GLES, "OpenGL ES 3.0, which is what WebGL 2 has"},
+    {NULL, 0, NULL}};
+
 static const struct word viewer_words[] = {
     {"local", LAM_VIEWER_LOCAL, "the eye is where the camera is"},
     {"infinite", LAM_VIEWER_INFINITE, "it is infinitely far: the same direction for every point"},
@@ -388,6 +395,15 @@ const struct option option_table[] = {
     {"isa", 0, GROUP_WORK, "NAME", "auto", "Instruction set: plain, sse4, avx2, avx512, neon or auto.",
      "Every one gives the same bytes; one that this machine or this build does not have is refused (exit 3).",
      isa_words, .store = store_word, FIELD(isa)},
+    {"device", 0, GROUP_WORK, "NAME", "auto", "What draws: cpu, gl, gles or auto.",
+     "OpenGL gives the same picture within a tolerance (`docs/opengl.md`); where it cannot be had the reason "
+     "is told "
+     "(exit 3), and nothing else is drawn in its place. `lambent devices` lists what there is.",
+     device_words, .store = store_word, FIELD(device)},
+    {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable",
+     "Which OpenGL device, by number or part of its name.",
+     "The number is that of `lambent devices`, where hardware stands before software.", .store = store_text,
+     FIELD(gl_device)},
     {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median one's time.", NULL,
      .store = store_integer, FIELD(repeat), .least = 1, .most = 100000},
     {"time-limit", 0, GROUP_WORK, "SECONDS", "none", "Give up on a model after this time (exit 4).", NULL,

@@ -70,8 +70,10 @@ struct options {
     bool has_reflectivity;
 
     // Work
-    int threads; // 0: one for each processor
-    int isa;     // lam_isa
+    int threads;           // 0: one for each processor
+    int isa;               // lam_isa
+    int device;            // enum device_name
+    const char *gl_device; // a number or a part of a name; NULL: the first
     int repeat;
     double time_limit_s;         // 0: none
     uint64_t memory_limit_bytes; // 0: none
@@ -122,6 +124,8 @@ enum view_name {
 
 // --rig none: no light but the ambient; beside the values of lam_rig.
 enum { RIG_DARK = 100 };
+
+enum device_name { DEVICE_AUTO, DEVICE_CPU, DEVICE_GL, DEVICE_GLES };
 
 enum sheet_name {
     SHEET_SUMMARY,

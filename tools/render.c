@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "console.h"
+#include "device_option.h"
 #include "interrupt.h"
 #include "job.h"
 #include "output.h"
@@ -204,8 +205,7 @@ int run_render(int operand_count, char **operands, const struct options *options
         !check_names(operand_count, operands, options->output, &error))
         return tell_failure(&error, options);
     interrupt_start();
-    lam_cpu_params params = {.threads = options->threads, .isa = (lam_isa)options->isa};
-    lam_device *device = lam_device_cpu(&params, &error);
+    lam_device *device = device_option_make(options, &error);
     if (!device)
         return tell_failure(&error, options);
     int worst = 0;

@@ -66,23 +66,35 @@ void report_table(const struct job *job)
     say_plain("picture  %s, %dx%d, %" PRIu64 " bytes\n",
               strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width,
               job->image.height, job->bytes);
-    say_plain("drawn    %" PRIu64 " of %" PRIu64 " triangles, %" PRIu64 " pixels covered, %" PRIu64
-              " points lit, %.1f MB\n",
-              frame->triangles_binned, frame->triangles, frame->pixels_covered, frame->points_lit,
-              (double)frame->memory_bytes / 1e6);
+    if (lam_device_isa(job->device) == LAM_ISA_AUTO)
+        say_plain("drawn    %" PRIu64 " triangles, %" PRIu64 " pixels covered, %.1f MB sent, %.1f MB\n",
+                  frame->triangles, frame->pixels_covered, (double)frame->bytes_uploaded / 1e6,
+                  (double)frame->memory_bytes / 1e6);
+    else
+        say_plain("drawn    %" PRIu64 " of %" PRIu64 " triangles, %" PRIu64 " pixels covered, %" PRIu64
+                  " points lit, %.1f MB\n",
+                  frame->triangles_binned, frame->triangles, frame->pixels_covered, frame->points_lit,
+                  (double)frame->memory_bytes / 1e6);
     time_row("read", job->times.read);
     time_row("prepare", job->times.prepare);
     time_row("camera", job->times.camera);
     time_row("frame", frame->total_ms);
     time_row("  flatten", frame->frame_ms);
-    time_row("  vertices", frame->vertices_ms);
-    time_row("  triangles", frame->triangles_ms);
-    if (frame->normals_ms > 0)
-        time_row("  normals", frame->normals_ms);
-    time_row("  tiles", frame->tiles_ms);
-    time_row("    coverage", frame->coverage_ms);
-    time_row("    lighting", frame->lighting_ms);
-    time_row("    resolve", frame->resolve_ms);
+    if (lam_device_isa(job->device) == LAM_ISA_AUTO) {
+        time_row("  lighting", frame->lighting_ms);
+        time_row("  upload", frame->upload_ms);
+        time_row("  draw", frame->draw_ms);
+        time_row("  read", frame->read_ms);
+    } else {
+        time_row("  vertices", frame->vertices_ms);
+        time_row("  triangles", frame->triangles_ms);
+        if (frame->normals_ms > 0)
+            time_row("  normals", frame->normals_ms);
+        time_row("  tiles", frame->tiles_ms);
+        time_row("    coverage", frame->coverage_ms);
+        time_row("    lighting", frame->lighting_ms);
+        time_row("    resolve", frame->resolve_ms);
+    }
     if (job->times.frames > 1)
         say_plain("  %d frames, the median one above; %.2f to %.2f ms\n", job->times.frames,
                   job->times.frame_least, job->times.frame_most);
@@ -192,6 +204,9 @@ static void json_times(struct json *json, const struct job_times *times)
     json_ms(json, "coverage", frame->coverage_ms);
     json_ms(json, "lighting", frame->lighting_ms);
     json_ms(json, "resolve", frame->resolve_ms);
+    json_ms(json, "upload", frame->upload_ms);
+    json_ms(json, "draw", frame->draw_ms);
+    json_ms(json, "read", frame->read_ms);
     json_close(json, '}');
     json_count(json, "frames", (uint64_t)times->frames);
     json_ms(json, "frame_least", times->frame_least);
@@ -207,6 +222,7 @@ static void json_counts(struct json *json, const lam_frame_report *frame)
     json_count(json, "pixels_covered", frame->pixels_covered);
     json_count(json, "points_lit", frame->points_lit);
     json_count(json, "memory_bytes", frame->memory_bytes);
+    json_count(json, "bytes_uploaded", frame->bytes_uploaded);
     json_close(json, '}');
 }
 

@@ -168,10 +168,17 @@ typedef struct lam_frame_report {
     double total_ms;     // the whole call
     // Shares of tiles_ms by work, from times summed over the threads.
     double coverage_ms, lighting_ms, resolve_ms;
-    uint64_t triangles;        // given
+    // The OpenGL device: making and sending what was not there or has changed (without lighting_ms, that of
+    // the stage `application`); drawing, waited for; reading back and encoding. The times above tiles_ms are
+    // 0 there.
+    double upload_ms, draw_ms, read_ms;
+    uint64_t
+        bytes_uploaded; // vertices, colours, lights, materials, environment sent to the device in this frame
+    uint64_t triangles; // given
     uint64_t triangles_binned; // that reached a tile
     uint64_t pixels_covered;
-    uint64_t points_lit;   // evaluations of the lighting: pixels, vertices or triangles
+    uint64_t points_lit; // evaluations of the lighting: pixels, vertices or triangles; OpenGL tells only the
+                         // processor's own
     uint64_t memory_bytes; // held by the device after the frame
 } lam_frame_report;
 

@@ -13,6 +13,7 @@
 #include "buffer.h"
 #include "frame.h"
 #include "pool.h"
+#include "samples.h"
 #include "seen_normals.h"
 #include "watch.h"
 
@@ -21,7 +22,6 @@ enum {
     TILE_SHIFT = 6,
     SUBPIXEL = 256, // steps of a snapped vertex in a pixel
     SUBPIXEL_SHIFT = 8,
-    SAMPLES_MAX = 16,
     LANES_MAX = 16,
     VERTEX_PIECE = 8192, // vertices and triangles in one piece of parallel work
     TRIANGLE_PIECE = 4096,
@@ -33,15 +33,6 @@ enum {
 #define NOTHING   0xffffffffu // a sample that no triangle covers
 #define BACK_SIDE 0x80000000u // in a visibility number: the triangle shows its back
 #define CLIPPED   0x80000000u // in a bin: the number of a clipped piece, not of a triangle
-
-// Where samples lie in a pixel, in 1/16 pixel from its centre (y down), and in which order they are near to
-// it.
-struct sample_pattern {
-    int count;
-    int8_t x[SAMPLES_MAX], y[SAMPLES_MAX];
-    uint8_t by_distance[SAMPLES_MAX];
-};
-const struct sample_pattern *sample_pattern(int samples);
 
 // A vertex that the fast path cannot use has x = NaN whose low bits say why: outside of which planes it lies.
 enum outside {

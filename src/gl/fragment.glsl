@@ -16,16 +16,25 @@
 //@if colors
 @varying@vec4 tint;
 //@end
-//@if ids
-@flat_varying@int triangle;
-//@end
 //@else
 @varying@vec4 front_light;
 //@if two_sided
 @varying@vec4 back_light;
 //@end
 //@end
-//@if !old
+//@if numbers
+@flat_varying@int triangle;
+//@end
+//@if places
+
+uniform int first_triangle; // the number of the draw's first triangle
+//@if peels
+uniform usampler2D nearer_places; // of the layer in front
+uniform usampler2D opaque_places;
+//@end
+layout(location = 0) out vec4 pixel;
+layout(location = 1) out uvec2 place; // the depth's bits, and the triangle's number + 1; 0: nothing is there
+//@elif !old
 
 out vec4 pixel;
 //@end
@@ -41,6 +50,19 @@ float encode(float x)
 
 void main()
 {
+//@if places
+    place = uvec2(floatBitsToUint(gl_FragCoord.z), uint(first_triangle + triangle) + 1u);
+//@end
+//@if peels
+    // Of equal depths the lower number is in front.
+    uvec2 nearer = texelFetch(nearer_places, ivec2(gl_FragCoord.xy), 0).xy;
+    uvec2 opaque = texelFetch(opaque_places, ivec2(gl_FragCoord.xy), 0).xy;
+    bool peeled = place.x < nearer.x || (place.x == nearer.x && place.y <= nearer.y);
+    bool hidden = opaque.y != 0u && (place.x > opaque.x || (place.x == opaque.x && place.y > opaque.y));
+    if (peeled || hidden) {
+        discard;
+    }
+//@end
 //@if shows_place
 //@if depth
     float depth = -eye_position.z; // in front of the eye

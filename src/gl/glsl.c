@@ -19,6 +19,8 @@ static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_
         return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no %s",
                     c->show == LAM_SHOW_IDS ? "gl_VertexID"
                                             : "array textures: its environment is a cube map");
+    if (c->version == GLSL_120 && c->layer != GLSL_NO_LAYERS)
+        return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no integers in textures: nothing is peeled");
     if (f->shading == LAM_SHADING_PHONG && !f->per_fragment)
         return fail(error, LAM_BAD_ARGUMENT, "Phong shading lights every fragment: its stage is fragment");
     if (f->shading == LAM_SHADING_GOURAUD && f->per_fragment)
@@ -132,6 +134,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
     bool clamps = c->gl1 && f->per_vertex && (c->show == LAM_SHOW_PICTURE || c->show == LAM_SHOW_CLIPPED);
     bool tints = c->colors && f->lit && !f->shows_vector;
     bool eye = surface || c->show == LAM_SHOW_DEPTH;
+    bool numbers_triangles = c->show == LAM_SHOW_IDS || c->layer != GLSL_NO_LAYERS;
     const struct template_flag flags[] = {
         {"old", old},
         {"array", c->storage == GLSL_ARRAY},
@@ -152,8 +155,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {"passes_tangent", passes_tangent},
         {"passes_normal", surface},
         {"passes_position", eye},
-        {"passes_anything",
-         eye || surface || tints || f->application || f->per_vertex || c->show == LAM_SHOW_IDS},
+        {"passes_anything", eye || surface || tints || f->application || f->per_vertex || numbers_triangles},
         {"field", field},
         {"colors", tints},
         {"reads_lists", (f->lights || f->skies) && !f->shows_vector},
@@ -169,6 +171,9 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {"depth", c->show == LAM_SHOW_DEPTH},
         {"facing", c->show == LAM_SHOW_FACING},
         {"ids", c->show == LAM_SHOW_IDS},
+        {"numbers", numbers_triangles},
+        {"places", c->layer != GLSL_NO_LAYERS},
+        {"peels", c->layer == GLSL_PEELS},
         {"encoded", c->output == GLSL_ENCODED},
         {"premultiplied", c->output == GLSL_PREMULTIPLIED},
         {NULL, false},
@@ -266,6 +271,8 @@ static char *make_one(const struct glsl_facts *f, bool fragment, lam_error *erro
     add_lit(&own, f, fragment);
     const struct glsl_choices *c = f->choices;
     text_add(&whole, version_lines[c->version]);
+    if (c->version == GLSL_300_ES && fragment && c->layer == GLSL_PEELS)
+        text_add(&whole, "precision highp usampler2D;\n");
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && c->storage == GLSL_TEXTURE)
         text_add(&whole, "precision highp sampler2D;\n");
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && f->environment)

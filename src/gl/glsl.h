@@ -36,6 +36,14 @@ enum glsl_environment {
                 // as cube_lookup.h reads them (330, 300 es)
 };
 
+// Pictures whose translucent surfaces are peeled layer by layer (gl_passes.c); 330 and 300 es. A second
+// target, `place`, takes the depth and the number of the triangle of each pixel.
+enum glsl_layer {
+    GLSL_NO_LAYERS,
+    GLSL_WRITES_PLACES, // an opaque surface
+    GLSL_PEELS,         // a layer: what lies behind nearer_places and not behind opaque_places
+};
+
 // Lights of one kind stand side by side in the lists and are looped over with their kind as a constant.
 struct glsl_group {
     int kind, falloff; // LIGHT_…, FALLOFF_… of src/lighting/sources.h
@@ -49,6 +57,7 @@ struct glsl_choices {
     enum glsl_storage storage;
     enum glsl_output output;
     enum glsl_environment environment;
+    enum glsl_layer layer;
     lam_stage stage; // never AUTO
     lam_shading shading;
     lam_reflection reflection; // never AUTO

@@ -2,7 +2,7 @@
 #ifndef LOADER_H
 #define LOADER_H
 
-#include "functions.h"
+#include "gl_functions.h"
 
 #include <lambent/gl.h>
 

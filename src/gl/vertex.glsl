@@ -18,19 +18,22 @@
 //@if colors
 @varying@vec4 tint;
 //@end
-//@if ids
-@flat_varying@int triangle;
-//@end
 //@else
 @varying@vec4 front_light;
 //@if two_sided
 @varying@vec4 back_light;
 //@end
 //@end
+//@if numbers
+@flat_varying@int triangle;
+//@end
 
 void main()
 {
     gl_Position = model_view_projection * vec4(position, 1.0);
+//@if numbers
+    triangle = gl_VertexID / 3;
+//@end
 //@if per_fragment
 //@if passes_position
     eye_position = (model_view * vec4(@lit_position@, 1.0)).xyz;
@@ -43,9 +46,6 @@ void main()
 //@end
 //@if colors
     tint = color;
-//@end
-//@if ids
-    triangle = gl_VertexID / 3;
 //@end
 //@elif application
     front_light = front_color;

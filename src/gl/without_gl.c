@@ -16,3 +16,10 @@ int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int room
     left_out(error);
     return -1;
 }
+
+lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
+{
+    (void)params;
+    left_out(error);
+    return NULL;
+}

@@ -379,6 +379,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     if (!check_camera(camera, error) || !check_params(params, error) ||
         !make_room(frame, scene, watch, error))
         return false;
+    frame->token = scene->token;
     frame->width = width;
     frame->height = height;
     frame->samples = params->samples ? params->samples : 4;
@@ -386,6 +387,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->color = params->color;
     frame->exposure = rounded(math_exp2(params->exposure));
     frame->shading = params->shading;
+    frame->stage = params->stage                            ? params->stage
+                   : params->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX
+                                                            : LAM_STAGE_FRAGMENT;
     frame->reflection =
         params->reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : params->reflection;
     frame->orthographic = camera->ortho_half_height > 0;

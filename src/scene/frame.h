@@ -70,12 +70,14 @@ struct frame_hemisphere {
 };
 
 struct frame {
+    struct scene_token *token; // the scene's; not held
     int width, height;
     int samples;
     lam_rgba background;
     lam_color_mode color;
     float exposure; // the factor, 2^stops
     lam_shading shading;
+    lam_stage stage;           // never AUTO
     lam_reflection reflection; // never AUTO
     lam_flat_normal flat_normal;
     bool match_highlights, gl1;

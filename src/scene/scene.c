@@ -16,6 +16,13 @@ struct lam_scene *scene_make(struct watch *watch, lam_error *error)
         fail_memory(error, sizeof *scene);
         return NULL;
     }
+    scene->token = malloc(sizeof *scene->token);
+    if (!scene->token) {
+        fail_memory(error, sizeof *scene->token);
+        free(scene);
+        return NULL;
+    }
+    *scene->token = (struct scene_token){.references = 1};
     arena_start(&scene->arena, watch);
     scene->up = LAM_UP_Y;
     scene->placement = lam_mat4_identity();
@@ -34,7 +41,21 @@ void lam_scene_free(lam_scene *scene)
         return;
     arena_free(&scene->arena);
     lam_environment_free(scene->environment);
+    __atomic_store_n(&scene->token->gone, 1, __ATOMIC_RELEASE);
+    scene_token_release(scene->token);
     free(scene);
+}
+
+struct scene_token *scene_token_hold(struct scene_token *token)
+{
+    __atomic_add_fetch(&token->references, 1, __ATOMIC_RELAXED);
+    return token;
+}
+
+void scene_token_release(struct scene_token *token)
+{
+    if (token && __atomic_sub_fetch(&token->references, 1, __ATOMIC_ACQ_REL) == 0)
+        free(token);
 }
 
 // Appends an item; −1 when memory is out.

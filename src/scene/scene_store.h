@@ -49,8 +49,16 @@ struct scene_origin {
     int part_count;
 };
 
+// Stands for a scene in the caches of devices: whoever holds it knows that no other scene has the same one, though
+// another may come to lie at the same address, and sees when it is gone.
+struct scene_token {
+    int references; // touched atomically
+    int gone;       // likewise: the scene was freed
+};
+
 struct lam_scene {
     struct arena arena;
+    struct scene_token *token;
     struct scene_list meshes;     // lam_mesh
     struct scene_list extents;    // struct scene_extent, one for each measured mesh, in the same order
     struct scene_list materials;  // lam_material
@@ -75,6 +83,9 @@ struct lam_scene {
 // As lam_scene_make, charging `watch` (may be NULL) while the scene is being built; scene_built ends that.
 struct lam_scene *scene_make(struct watch *watch, lam_error *error);
 void scene_built(struct lam_scene *scene);
+
+struct scene_token *scene_token_hold(struct scene_token *token);
+void scene_token_release(struct scene_token *token); // NULL is fine
 
 // Take what already lies in the scene's arena, without copying and without making normals. Return the index,
 // −1 when memory is out.

@@ -1,6 +1,6 @@
 // samples.c: where samples lie in a pixel: Direct3D's standard multisample patterns (D3D11 functional
 // specification, "Multisample patterns"), the ones that graphics processors use.
-#include "pipeline.h"
+#include "samples.h"
 
 // by_distance: the sample numbers from the nearest to the farthest of the centre, the lowest of equals first.
 static const struct sample_pattern patterns[] = {

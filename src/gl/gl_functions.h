@@ -1,9 +1,9 @@
-// functions.h: the OpenGL functions that lambent calls, in one list, and the table that holds them.
+// gl_functions.h: the OpenGL functions that lambent calls, in one list, and the table that holds them.
 //
 // Nothing here is linked: every function is asked for by name when a context is made (loader.c). The types
 // are those of the declarations in Debian's libgl-dev. One list serves OpenGL 3.3 and OpenGL ES 3.0.
-#ifndef FUNCTIONS_H
-#define FUNCTIONS_H
+#ifndef GL_FUNCTIONS_H
+#define GL_FUNCTIONS_H
 
 #define GL_GLEXT_PROTOTYPES // their types are taken; a plain call of one would not link
 #include <GL/gl.h>
@@ -20,6 +20,7 @@
     X(BindBufferRange)                                                                                       \
     X(BindFramebuffer)                                                                                       \
     X(BindRenderbuffer)                                                                                      \
+    X(BindSampler)                                                                                           \
     X(BindTexture)                                                                                           \
     X(BindVertexArray)                                                                                       \
     X(BlendEquation)                                                                                         \

@@ -1,0 +1,88 @@
+// picture_pixels.h: linear light to the pixels of a picture, LANES at a time: over the background, encoded.
+// One code for all devices. Include with LANES defined (lanes.h).
+#ifndef PICTURE_PIXELS_H
+#define PICTURE_PIXELS_H
+
+#include "frame.h"
+
+#include "encoding.h"
+
+#include <string.h>
+
+struct pixel_lanes {
+    num r, g, b, a;
+};
+
+// A sum of premultiplied colours, exposed, over the background.
+LANE_FN struct pixel_lanes over_background(const struct frame *frame, struct pixel_lanes p)
+{
+    const lam_rgba *back = &frame->background;
+    num clear = 1.0f - p.a;
+    p.r = p.r * frame->exposure + clear * (back->r * back->a);
+    p.g = p.g * frame->exposure + clear * (back->g * back->a);
+    p.b = p.b * frame->exposure + clear * (back->b * back->a);
+    p.a = p.a + clear * back->a;
+    return p;
+}
+
+LANE_FN num straight_channel(num x, num a) { return pick(a > 0.0f, x / a, num_of(0.0f)); }
+LANE_FN num encoded_channel(num straight, int raw)
+{
+    return raw ? saturate(straight) : srgb_encode(straight);
+}
+
+// A premultiplied channel to a byte: colour ÷ alpha, encoded, rounded.
+LANE_FN inum to_byte(num x, num a, int raw)
+{
+    return int_of(encoded_channel(straight_channel(x, a), raw) * 255.0f + 0.5f);
+}
+
+LANE_FN inum to_rgba8(const struct frame *frame, struct pixel_lanes p)
+{
+    int raw = frame->color == LAM_COLOR_RAW;
+    inum r = to_byte(p.r, p.a, raw), g = to_byte(p.g, p.a, raw), b = to_byte(p.b, p.a, raw);
+    inum a = int_of(saturate(p.a) * 255.0f + 0.5f);
+    return r | shift_left(g, 8) | shift_left(b, 16) | shift_left(a, 24);
+}
+
+// As to_rgba8, of opaque pixels: no background shows, and a colour divided by 1 is itself.
+LANE_FN inum opaque_to_rgba8(const struct frame *frame, struct pixel_lanes p)
+{
+    int raw = frame->color == LAM_COLOR_RAW;
+    num one = num_of(1.0f);
+    inum r = to_byte(p.r * frame->exposure, one, raw), g = to_byte(p.g * frame->exposure, one, raw);
+    inum b = to_byte(p.b * frame->exposure, one, raw);
+    return r | shift_left(g, 8) | shift_left(b, 16) | inum_of((int32_t)0xff000000);
+}
+
+// Writes the first `count` pixels of a vector to the picture.
+LANE_FN void write_pixels(const struct frame *frame, struct pixel_lanes p, lam_pixel_format format, void *to,
+                          int count)
+{
+    if (format == LAM_RGBA8 && all_lanes(p.a == 1.0f)) {
+        int32_t packed[LANES];
+        inum_store(packed, opaque_to_rgba8(frame, p));
+        memcpy(to, packed, (size_t)count * 4);
+        return;
+    }
+    p = over_background(frame, p);
+    if (format == LAM_RGBA8) {
+        int32_t packed[LANES];
+        inum_store(packed, to_rgba8(frame, p));
+        memcpy(to, packed, (size_t)count * 4);
+        return;
+    }
+    float r[LANES], g[LANES], b[LANES], a[LANES], *out = to;
+    num_store(r, p.r);
+    num_store(g, p.g);
+    num_store(b, p.b);
+    num_store(a, p.a);
+    for (int i = 0; i < count; i++) {
+        out[4 * i] = r[i];
+        out[4 * i + 1] = g[i];
+        out[4 * i + 2] = b[i];
+        out[4 * i + 3] = a[i];
+    }
+}
+
+#endif

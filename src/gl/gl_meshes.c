@@ -1,0 +1,270 @@
+// gl_meshes.c: meshes as vertex buffers: made once, kept while their scene lives.
+#include "gl_device.h"
+
+#include "fail.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { CHUNK = 4096 }; // vertices packed at once
+
+// Positions, normals, colours and tangents by one index: then the vertices can be shared as the mesh has
+// them.
+bool mesh_can_share(const lam_mesh *mesh)
+{
+    return mesh->indices && mesh->normals && !mesh->normal_indices &&
+           mesh->normal_count >= mesh->vertex_count &&
+           (!mesh->colors || (mesh->colors_rate == LAM_PER_VERTEX && !mesh->color_indices &&
+                              mesh->color_count >= mesh->vertex_count)) &&
+           (!mesh->tangents || (!mesh->tangent_indices && mesh->tangent_count >= mesh->vertex_count));
+}
+
+uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form)
+{
+    return form == FORM_SHARED ? mesh->vertex_count : 3 * mesh->triangle_count;
+}
+
+static uint32_t element(const uint32_t *own, const uint32_t *shared, uint32_t corner)
+{
+    return own ? own[corner] : shared ? shared[corner] : corner;
+}
+
+static void copy_color(const struct gl_device *device, const lam_mesh *mesh, uint32_t at, float out[4])
+{
+    if (mesh->colors_format == LAM_COLORS_LINEAR_F32) {
+        memcpy(out, (const float *)mesh->colors + 4 * (size_t)at, 4 * sizeof *out);
+        return;
+    }
+    const uint8_t *bytes = (const uint8_t *)mesh->colors + 4 * (size_t)at;
+    for (int c = 0; c < 4; c++)
+        out[c] = c < 3 && mesh->colors_format == LAM_COLORS_SRGB8 ? device->decode_srgb[bytes[c]]
+                                                                  : (float)(bytes[c] / 255.0);
+}
+
+static void unit(float v[3])
+{
+    float square = (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2];
+    float inverse = square > 0 ? 1 / __builtin_sqrtf(square) : 0;
+    for (int i = 0; i < 3; i++)
+        v[i] *= inverse;
+}
+
+// (p1 − p0) × (p2 − p0). The edges are made unit first: their product could be too small for a float.
+static void face_normal(const lam_mesh *mesh, uint32_t triangle, float out[3])
+{
+    float edge[2][3];
+    const float *p[3];
+    for (uint32_t k = 0; k < 3; k++)
+        p[k] = mesh->positions + 3 * (size_t)element(NULL, mesh->indices, 3 * triangle + k);
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < 3; i++)
+            edge[k][i] = p[k + 1][i] - p[0][i];
+        unit(edge[k]);
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        out[i] = edge[0][j] * edge[1][k] - edge[0][k] * edge[1][j];
+    }
+    unit(out);
+}
+
+void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form,
+                   uint32_t first, uint32_t count, struct mesh_vertex *out)
+{
+    for (uint32_t i = 0; i < count; i++, out++) {
+        uint32_t corner = first + i, triangle = corner / 3;
+        uint32_t attribute = form >= FORM_FLAT_FACE ? 3 * triangle + 2 : corner; // flat: the last corner's
+        bool shared = form == FORM_SHARED;
+        uint32_t p = shared ? corner : element(NULL, mesh->indices, corner);
+        memcpy(out->position, mesh->positions + 3 * (size_t)p, sizeof out->position);
+        if (form == FORM_FLAT_FACE || !mesh->normals)
+            face_normal(mesh, triangle, out->normal);
+        else
+            memcpy(out->normal,
+                   mesh->normals +
+                       3 * (size_t)(shared ? p : element(mesh->normal_indices, mesh->indices, attribute)),
+                   sizeof out->normal);
+        if (mesh->colors)
+            copy_color(device, mesh,
+                       shared ? p
+                       : mesh->colors_rate == LAM_PER_TRIANGLE
+                           ? triangle
+                           : element(mesh->color_indices, mesh->indices, attribute),
+                       out->color);
+        if (mesh->tangents)
+            memcpy(out->tangent,
+                   mesh->tangents +
+                       4 * (size_t)(shared ? p : element(mesh->tangent_indices, mesh->indices, attribute)),
+                   sizeof out->tangent);
+    }
+}
+
+// --- on the device
+
+static size_t floats_of(const lam_mesh *mesh)
+{
+    return 6 + (mesh->colors ? 4 : 0) + (mesh->tangents ? 3 : 0);
+}
+
+static bool send_vertices(struct gl_frame *f, const struct gl_mesh *row, lam_error *error)
+{
+    struct gl_device *device = f->device;
+    const lam_mesh *mesh = &row->mesh;
+    size_t floats = floats_of(mesh), each = floats * sizeof(float);
+    uint32_t count = mesh_vertex_count(mesh, row->form);
+    if (!count)
+        return true;
+    if (!buffer_reserve(&device->scratch, CHUNK * sizeof(struct mesh_vertex), f->watch, error))
+        return false;
+    struct mesh_vertex *from = device->scratch.data;
+    float *to = gl_map_new(f, row->vertices, count * each, GL_STATIC_DRAW, error);
+    if (!to)
+        return false;
+    bool on = true;
+    for (uint32_t first = 0; on && first < count; first += CHUNK) {
+        uint32_t some = count - first < CHUNK ? count - first : CHUNK;
+        on = watch_on(f->watch);
+        mesh_vertices(device, mesh, row->form, first, some, from);
+        for (uint32_t i = 0; i < some; i++, to += floats) {
+            memcpy(to, from[i].position, sizeof from[i].position);
+            memcpy(to + 3, from[i].normal, sizeof from[i].normal);
+            if (mesh->colors)
+                memcpy(to + 6, from[i].color, sizeof from[i].color);
+            if (mesh->tangents)
+                memcpy(to + floats - 3, from[i].tangent, sizeof from[i].tangent);
+        }
+    }
+    f->gl->UnmapBuffer(GL_ARRAY_BUFFER);
+    return on || watch_error(f->watch, error);
+}
+
+// Attributes as glsl.h numbers them: 0 position, 1 normal, 2 color, 3 tangent.
+static void describe(struct gl_frame *f, const struct gl_mesh *row)
+{
+    const struct gl *gl = f->gl;
+    GLsizei stride = (GLsizei)(floats_of(&row->mesh) * sizeof(float));
+    gl_use_array(f->device, row->array);
+    gl->BindBuffer(GL_ARRAY_BUFFER, row->vertices);
+    static const GLint sizes[4] = {3, 3, 4, 3};
+    const bool has[4] = {true, true, row->mesh.colors != NULL, row->mesh.tangents != NULL};
+    size_t at = 0;
+    for (GLuint i = 0; i < 4; i++)
+        if (has[i]) {
+            gl->EnableVertexAttribArray(i);
+            gl->VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, stride,
+                                    (const void *)(at * sizeof(float)));
+            at += (size_t)sizes[i];
+        }
+    if (row->elements)
+        gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, row->elements);
+}
+
+// The arrays that the vertices were made of are the same: a scene never writes into an array that it has
+// made.
+static bool same_arrays(const lam_mesh *a, const lam_mesh *b)
+{
+    return a->positions == b->positions && a->indices == b->indices && a->normals == b->normals &&
+           a->normal_indices == b->normal_indices && a->colors == b->colors &&
+           a->color_indices == b->color_indices && a->tangents == b->tangents &&
+           a->tangent_indices == b->tangent_indices && a->triangle_count == b->triangle_count &&
+           a->vertex_count == b->vertex_count;
+}
+
+static void drop(struct gl_device *device, struct gl_mesh *row)
+{
+    const struct gl *gl = &device->context.gl;
+    gl->DeleteBuffers(1, &row->vertices);
+    gl->DeleteBuffers(1, &row->elements);
+    gl->DeleteVertexArrays(1, &row->array);
+    if (device->now.array == row->array)
+        device->now.array = 0;
+    // The names may come back with other buffers.
+    for (int i = 0; i < device->color_room; i++)
+        if (device->colors[i].of_vertices == row->vertices)
+            device->colors[i].of_vertices = 0;
+    scene_token_release(row->token);
+    *row = (struct gl_mesh){0};
+}
+
+static struct gl_mesh *free_row(struct gl_device *device, lam_error *error)
+{
+    for (int i = 0; i < device->mesh_count; i++)
+        if (!device->meshes[i].token)
+            return &device->meshes[i];
+    if (device->mesh_count == device->mesh_room) {
+        int room = device->mesh_room ? 2 * device->mesh_room : 8;
+        struct gl_mesh *grown = realloc(device->meshes, (size_t)room * sizeof *grown);
+        if (!grown) {
+            fail_memory(error, (size_t)room * sizeof *grown);
+            return NULL;
+        }
+        device->meshes = grown;
+        device->mesh_room = room;
+    }
+    struct gl_mesh *row = &device->meshes[device->mesh_count++];
+    *row = (struct gl_mesh){0};
+    return row;
+}
+
+struct gl_mesh *mesh_on_device(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form,
+                               lam_error *error)
+{
+    struct gl_device *device = f->device;
+    for (int i = 0; i < device->mesh_count; i++) {
+        struct gl_mesh *row = &device->meshes[i];
+        if (row->token == f->frame->token && row->form == form && same_arrays(&row->mesh, mesh)) {
+            row->used = device->frame_number;
+            return row;
+        }
+    }
+    uint64_t vertices = form == FORM_SHARED ? mesh->vertex_count : 3 * (uint64_t)mesh->triangle_count;
+    if (vertices > INT32_MAX) {
+        fail(error, LAM_LIMIT, "OpenGL: a mesh has %llu vertices, at most %d can be drawn at once",
+             (unsigned long long)vertices, INT32_MAX);
+        return NULL;
+    }
+    struct gl_mesh *row = free_row(device, error);
+    uint64_t elements = form == FORM_SHARED ? 3 * (uint64_t)mesh->triangle_count * sizeof(uint32_t) : 0;
+    uint64_t bytes = vertices * floats_of(mesh) * sizeof(float) + elements;
+    if (!row || !gl_charge(f, &row->bytes, bytes, error))
+        return NULL;
+    row->token = scene_token_hold(f->frame->token);
+    row->mesh = *mesh;
+    row->form = form;
+    row->used = device->frame_number;
+    f->gl->GenBuffers(1, &row->vertices);
+    f->gl->GenVertexArrays(1, &row->array);
+    if (!send_vertices(f, row, error)) {
+        drop(device, row);
+        return NULL;
+    }
+    if (elements) {
+        f->gl->GenBuffers(1, &row->elements);
+        gl_use_array(device, row->array);
+        f->gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, row->elements);
+        f->gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)elements, mesh->indices, GL_STATIC_DRAW);
+        device->base.report.bytes_uploaded += elements;
+    }
+    describe(f, row);
+    return row;
+}
+
+void meshes_drop(struct gl_frame *f)
+{
+    struct gl_device *device = f->device;
+    for (int i = 0; i < device->mesh_count; i++) {
+        struct gl_mesh *row = &device->meshes[i];
+        bool gone = row->token && __atomic_load_n(&row->token->gone, __ATOMIC_ACQUIRE);
+        bool unused = row->token == f->frame->token && row->used + 2 < device->frame_number;
+        if (row->token && (gone || unused))
+            drop(device, row);
+    }
+}
+
+void meshes_free(struct gl_device *device)
+{
+    for (int i = 0; i < device->mesh_count; i++)
+        if (device->meshes[i].token)
+            drop(device, &device->meshes[i]);
+    free(device->meshes);
+}

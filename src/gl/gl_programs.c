@@ -1,0 +1,203 @@
+// gl_programs.c: the shaders of glsl.h compiled, one program for each set of choices, and their uniforms.
+#include "gl_device.h"
+
+#include "fail.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const uniform_names[UNIFORM_COUNT] = {
+    [UNIFORM_MODEL_VIEW_PROJECTION] = "model_view_projection",
+    [UNIFORM_MODEL_VIEW] = "model_view",
+    [UNIFORM_NORMAL_MATRIX] = "normal_matrix",
+    [UNIFORM_ENVIRONMENT_MATRIX] = "environment_matrix",
+    [UNIFORM_OBJECT] = "object",
+    [UNIFORM_SHININESS] = "shininess",
+    [UNIFORM_FIBRE] = "fibre",
+    [UNIFORM_BACK_SHININESS] = "back_shininess",
+    [UNIFORM_BACK_FIBRE] = "back_fibre",
+    [UNIFORM_AMBIENT_PRODUCT] = "ambient_product",
+    [UNIFORM_EMISSION] = "emission",
+    [UNIFORM_DIFFUSE] = "diffuse",
+    [UNIFORM_REFLECTIVITY] = "reflectivity",
+    [UNIFORM_BACK_AMBIENT_PRODUCT] = "back_ambient_product",
+    [UNIFORM_BACK_EMISSION] = "back_emission",
+    [UNIFORM_BACK_DIFFUSE] = "back_diffuse",
+    [UNIFORM_BACK_REFLECTIVITY] = "back_reflectivity",
+    [UNIFORM_FIRST_PRODUCT] = "first_product",
+    [UNIFORM_BACK_FIRST_PRODUCT] = "back_first_product",
+    [UNIFORM_FIRST_TRIANGLE] = "first_triangle",
+};
+
+static GLuint compile(const struct gl *gl, GLenum kind, const char *text, lam_error *error)
+{
+    GLuint shader = gl->CreateShader(kind);
+    GLint done = 0;
+    gl->ShaderSource(shader, 1, &text, NULL);
+    gl->CompileShader(shader);
+    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &done);
+    if (done)
+        return shader;
+    char log[320] = "";
+    gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
+    gl->DeleteShader(shader);
+    fail(error, LAM_UNSUPPORTED, "OpenGL: the driver does not compile the %s shader: %s",
+         kind == GL_VERTEX_SHADER ? "vertex" : "fragment", log);
+    return 0;
+}
+
+// 0: the error tells.
+static GLuint link_program(const struct gl *gl, const char *vertex, const char *fragment, lam_error *error)
+{
+    GLuint parts[2] = {compile(gl, GL_VERTEX_SHADER, vertex, error), 0};
+    parts[1] = parts[0] ? compile(gl, GL_FRAGMENT_SHADER, fragment, error) : 0;
+    GLuint program = parts[1] ? gl->CreateProgram() : 0;
+    if (program) {
+        GLint done = 0;
+        gl->AttachShader(program, parts[0]);
+        gl->AttachShader(program, parts[1]);
+        gl->LinkProgram(program);
+        gl->GetProgramiv(program, GL_LINK_STATUS, &done);
+        if (!done) {
+            char log[320] = "";
+            gl->GetProgramInfoLog(program, sizeof log, NULL, log);
+            gl->DeleteProgram(program);
+            program = 0;
+            fail(error, LAM_UNSUPPORTED, "OpenGL: the driver does not link the shaders: %s", log);
+        }
+    }
+    for (int i = 0; i < 2; i++)
+        if (parts[i])
+            gl->DeleteShader(parts[i]);
+    return program;
+}
+
+static void look_up(struct gl_frame *f, struct gl_program *program)
+{
+    const struct gl *gl = f->gl;
+    gl_use_program(f->device, program->name);
+    for (int u = 0; u < UNIFORM_COUNT; u++)
+        program->locations[u] = gl->GetUniformLocation(program->name, uniform_names[u]);
+    static const char *const textures[UNIT_COPY] = {"environment_faces", "light_list", "product_list", "nearer_places",
+                                                    "opaque_places"};
+    for (int unit = 0; unit < UNIT_COPY; unit++) {
+        GLint at = gl->GetUniformLocation(program->name, textures[unit]);
+        if (at >= 0)
+            gl->Uniform1i(at, unit);
+    }
+    static const char *const blocks[POINT_COUNT] = {"Lights", "Products", "BackProducts"};
+    for (GLuint point = 0; point < POINT_COUNT; point++) {
+        GLuint block = gl->GetUniformBlockIndex(program->name, blocks[point]);
+        if (block != GL_INVALID_INDEX)
+            gl->UniformBlockBinding(program->name, block, point);
+    }
+}
+
+struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error)
+{
+    struct gl_device *device = f->device;
+    for (int i = 0; i < device->program_count; i++)
+        if (memcmp(&device->programs[i].choices, choices, sizeof *choices) == 0)
+            return &device->programs[i];
+    if (device->program_count == device->program_room) {
+        // Pointers to programs are held only while one frame is set up, after all of it is compiled (gl_device.c).
+        int room = device->program_room ? 2 * device->program_room : 8;
+        struct gl_program *grown = realloc(device->programs, (size_t)room * sizeof *grown);
+        if (!grown) {
+            fail_memory(error, (size_t)room * sizeof *grown);
+            return NULL;
+        }
+        device->programs = grown;
+        device->program_room = room;
+    }
+    struct glsl_text text;
+    if (!glsl_make(choices, &text, error))
+        return NULL;
+    GLuint name = link_program(f->gl, text.vertex, text.fragment, error);
+    glsl_free(&text);
+    if (!name)
+        return NULL;
+    struct gl_program *program = &device->programs[device->program_count++];
+    *program = (struct gl_program){.name = name};
+    memcpy(&program->choices, choices, sizeof *choices); // with its padding, for memcmp
+    look_up(f, program);
+    return program;
+}
+
+// --- uniforms, sent where they are other than before
+
+void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values, int count)
+{
+    GLint at = program->locations[uniform];
+    float *before = program->values[uniform];
+    size_t bytes = (size_t)count * sizeof *values;
+    if (at < 0 || (program->set[uniform] && memcmp(before, values, bytes) == 0))
+        return;
+    memcpy(before, values, bytes);
+    program->set[uniform] = true;
+    gl_use_program(f->device, program->name);
+    if (count == 16)
+        f->gl->UniformMatrix4fv(at, 1, GL_FALSE, values);
+    else if (count == 9)
+        f->gl->UniformMatrix3fv(at, 1, GL_FALSE, values);
+    else if (count == 4)
+        f->gl->Uniform4fv(at, 1, values);
+    else
+        f->gl->Uniform1f(at, values[0]);
+}
+
+void program_set_number(struct gl_frame *f, struct gl_program *program, enum uniform uniform, int value)
+{
+    GLint at = program->locations[uniform];
+    int *before = &program->numbers[uniform - UNIFORM_FLOATS];
+    if (at < 0 || (program->set[uniform] && *before == value))
+        return;
+    *before = value;
+    program->set[uniform] = true;
+    gl_use_program(f->device, program->name);
+    f->gl->Uniform1i(at, value);
+}
+
+// --- from one target into another
+
+static const char copy_vertex[] = "void main()\n"
+                                  "{\n"
+                                  "    // One triangle over the whole target.\n"
+                                  "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
+                                  "}\n";
+static const char copy_fragment[] = "uniform sampler2D picture;\n"
+                                    "uniform float factor;\n"
+                                    "out vec4 pixel;\n"
+                                    "void main() { pixel = texelFetch(picture, ivec2(gl_FragCoord.xy), 0) * factor; }\n";
+
+bool program_copy_make(struct gl_device *device, lam_error *error)
+{
+    static const char *const starts[] = {"#version 330 core\n",
+                                         "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"};
+    char vertex[512], fragment[512];
+    snprintf(vertex, sizeof vertex, "%s%s", starts[device->context.es], copy_vertex);
+    snprintf(fragment, sizeof fragment, "%s%s", starts[device->context.es], copy_fragment);
+    const struct gl *gl = &device->context.gl;
+    device->copy_program = link_program(gl, vertex, fragment, error);
+    if (!device->copy_program)
+        return false;
+    device->copy_factor = gl->GetUniformLocation(device->copy_program, "factor");
+    gl_use_program(device, device->copy_program);
+    gl->Uniform1i(gl->GetUniformLocation(device->copy_program, "picture"), UNIT_COPY);
+    gl->Uniform1f(device->copy_factor, device->copy_factor_now = 1);
+    gl->GenVertexArrays(1, &device->empty_array);
+    return true;
+}
+
+void programs_free(struct gl_device *device)
+{
+    const struct gl *gl = &device->context.gl;
+    for (int i = 0; i < device->program_count; i++)
+        gl->DeleteProgram(device->programs[i].name);
+    free(device->programs);
+    if (device->copy_program)
+        gl->DeleteProgram(device->copy_program);
+    if (device->empty_array)
+        gl->DeleteVertexArrays(1, &device->empty_array);
+}

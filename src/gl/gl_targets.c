@@ -1,0 +1,118 @@
+// gl_targets.c: the framebuffers that a part of the picture is drawn into: floats in linear light, so that it is encoded once, by
+// the same code as the CPU device's.
+#include "gl_device.h"
+
+#include "fail.h"
+
+#include <string.h>
+
+static GLuint make_texture(struct gl_frame *f, GLenum format, int width, int height, GLenum layout, GLenum type)
+{
+    const struct gl *gl = f->gl;
+    GLuint name;
+    gl->GenTextures(1, &name);
+    gl_use_texture(f->device, UNIT_COPY, GL_TEXTURE_2D, name);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, layout, type, NULL);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    return name;
+}
+
+static void free_target(struct gl_device *device, struct gl_target *t)
+{
+    const struct gl *gl = &device->context.gl;
+    const GLuint textures[] = {t->color, t->place, t->depth};
+    gl->DeleteTextures(3, textures); // 0 is left alone
+    gl->DeleteFramebuffers(1, &t->framebuffer);
+    *t = (struct gl_target){0};
+}
+
+// A target with a colour, and on request places (depth and triangle of each pixel) and depth.
+static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int height, bool place, bool depth,
+                        lam_error *error)
+{
+    const struct gl *gl = f->gl;
+    gl->GenFramebuffers(1, &t->framebuffer);
+    gl_use_framebuffer(f->device, t->framebuffer);
+    t->color = make_texture(f, f->device->float_format, width, height, GL_RGBA, GL_FLOAT);
+    gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, t->color, 0);
+    if (place) {
+        static const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+        t->place = make_texture(f, GL_RG32UI, width, height, GL_RG_INTEGER, GL_UNSIGNED_INT);
+        gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, t->place, 0);
+        gl->DrawBuffers(2, both);
+    }
+    if (depth) {
+        t->depth = make_texture(f, GL_DEPTH_COMPONENT32F, width, height, GL_DEPTH_COMPONENT, GL_FLOAT);
+        gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, t->depth, 0);
+    }
+    GLenum status = gl->CheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status == GL_FRAMEBUFFER_COMPLETE)
+        return true;
+    return fail(error, LAM_UNSUPPORTED, "OpenGL: the driver cannot draw into floats (framebuffer status 0x%x)", status);
+}
+
+// Whether a small target of the format can be drawn into. Blending is told by an extension.
+static bool can_draw(struct gl_device *device, GLenum format)
+{
+    struct gl_frame f = {.device = device, .gl = &device->context.gl};
+    struct gl_target t = {0};
+    device->float_format = format;
+    lam_error unused;
+    bool can = make_target(&f, &t, 4, 4, false, true, &unused);
+    free_target(device, &t);
+    return can;
+}
+
+bool targets_find_format(struct gl_device *device, lam_error *error)
+{
+    const struct gl *gl = &device->context.gl;
+    bool floats = !device->context.es || (gl_has(gl, "GL_EXT_color_buffer_float") && gl_has(gl, "GL_EXT_float_blend"));
+    bool halves = floats || gl_has(gl, "GL_EXT_color_buffer_float") || gl_has(gl, "GL_EXT_color_buffer_half_float");
+    if ((floats && can_draw(device, GL_RGBA32F)) || (halves && can_draw(device, GL_RGBA16F)))
+        return true;
+    return fail(error, LAM_UNSUPPORTED,
+                "OpenGL: the driver of '%s' cannot draw into floats, expected GL_EXT_color_buffer_float",
+                device->context.renderer);
+}
+
+bool targets_make(struct gl_frame *f, int width, int height, bool layered, lam_error *error)
+{
+    struct gl_device *device = f->device;
+    struct gl_targets *t = &device->targets;
+    if (t->sample.framebuffer && width <= t->width && height <= t->height && (t->layered || !layered))
+        return true;
+    width = width > t->width ? width : t->width;
+    height = height > t->height ? height : t->height;
+    layered |= t->layered;
+    targets_free(device);
+    uint64_t pixels = (uint64_t)width * (uint64_t)height;
+    if (!gl_charge(f, &device->target_bytes, pixels * (layered ? 3 * 28 + 2 * 16 : 20 + 16), error))
+        return false;
+    t->layered = layered;
+    bool ok = make_target(f, &t->sample, width, height, layered, true, error) &&
+              make_target(f, &t->picture, width, height, false, false, error);
+    if (ok && layered)
+        ok = make_target(f, &t->layers[0], width, height, true, true, error) &&
+             make_target(f, &t->layers[1], width, height, true, true, error) &&
+             make_target(f, &t->sum, width, height, false, false, error);
+    if (!ok) {
+        targets_free(device);
+        return false;
+    }
+    t->width = width;
+    t->height = height;
+    return true;
+}
+
+void targets_free(struct gl_device *device)
+{
+    struct gl_targets *t = &device->targets;
+    struct gl_target *all[] = {&t->sample, &t->layers[0], &t->layers[1], &t->sum, &t->picture};
+    for (int i = 0; i < 5; i++)
+        if (all[i]->framebuffer)
+            free_target(device, all[i]);
+    *t = (struct gl_targets){0};
+    gl_forget(device);
+}

@@ -1,0 +1,25 @@
+// device_option.c: `--device`, `--gl-device`, `--isa`, `--threads`: the device that draws.
+#include "device_option.h"
+
+#include "console.h"
+
+lam_device *device_option_make(const struct options *o, lam_error *error)
+{
+    bool gl =
+        o->device == DEVICE_GL || o->device == DEVICE_GLES || (o->device == DEVICE_AUTO && o->gl_device);
+    if (o->gl_device && !gl) {
+        complain(error, LAM_BAD_ARGUMENT, "options '--device cpu' and '--gl-device' cannot be used together");
+        return NULL;
+    }
+    if (gl && o->isa) {
+        complain(error, LAM_BAD_ARGUMENT, "option '--isa' goes with the CPU device, not with OpenGL");
+        return NULL;
+    }
+    if (gl) {
+        lam_gl_params params = {.api = o->device == DEVICE_GLES ? LAM_GL_ES : LAM_GL_CORE,
+                                .device = o->gl_device};
+        return lam_device_gl(&params, error);
+    }
+    lam_cpu_params params = {.threads = o->threads, .isa = (lam_isa)o->isa};
+    return lam_device_cpu(&params, error);
+}

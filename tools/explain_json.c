@@ -94,6 +94,7 @@ static void tell_light(struct json *json, const lam_explained_light *l)
     real(json, "S", l->S);
     color(json, "kd_Ld", l->kd_Ld);
     color(json, "ks_Ls", l->ks_Ls);
+    json_flag(json, "left_out", l->left_out);
     color(json, "ambient_term", l->ambient_term);
     color(json, "diffuse_term", l->diffuse_term);
     color(json, "specular_term", l->specular_term);

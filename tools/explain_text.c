@@ -4,7 +4,10 @@
 
 #include <stdio.h>
 
-enum { COLUMN = 26 };
+enum {
+    COLUMN = 26,
+    FEW_LIGHTS = 16, // all told; of more, those that add something
+};
 
 // A label and its padding: letters are counted, not bytes.
 static void label(int indent, const char *text)
@@ -62,6 +65,7 @@ static void named(const char *name)
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
 static bool is_thread(const lam_explanation *e)
 {
@@ -174,6 +178,27 @@ static void tell_hemisphere(const lam_explained_hemisphere *h, int number_in_lis
     color(4, "ambient", h->term, "ka ⊙ mix(ground, sky, ½ + ½ n·up)");
 }
 
+// All lights; of many, only those that add something here.
+static void tell_lights(const lam_explanation *e, const lam_explained_fragment *f,
+                        const lam_explained_point *p)
+{
+    int nothing = 0, left_out = 0;
+    for (int i = 0; i < p->light_count; i++) {
+        const lam_explained_light *l = &p->lights[i];
+        bool adds = !is_black(l->ambient_term) || !is_black(l->diffuse_term) || !is_black(l->specular_term);
+        left_out += l->left_out;
+        nothing += !adds;
+        if (p->light_count <= FEW_LIGHTS || (adds && !l->left_out))
+            tell_light(e, f, p, l, i);
+    }
+    if (p->light_count <= FEW_LIGHTS || nothing + left_out == 0)
+        return;
+    printf("\n  %d of %d lights add nothing here", nothing, p->light_count);
+    if (left_out)
+        printf("; %d more are left out: too weak (--light-cutoff)", left_out);
+    printf("\n");
+}
+
 // --- a point and a triangle
 
 static void tell_point(const lam_explanation *e, const lam_explained_fragment *f,
@@ -191,8 +216,7 @@ static void tell_point(const lam_explanation *e, const lam_explained_fragment *f
     bool colored = p->color.r != 1 || p->color.g != 1 || p->color.b != 1;
     if (colored)
         color(2, "vertex colour", p->color, "multiplies ambient and diffuse");
-    for (int i = 0; i < p->light_count; i++)
-        tell_light(e, f, p, &p->lights[i], i);
+    tell_lights(e, f, p);
     for (int i = 0; i < p->hemisphere_count; i++)
         tell_hemisphere(&p->hemispheres[i], i);
 

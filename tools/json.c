@@ -109,3 +109,9 @@ void json_none(struct json *json, const char *key)
     before(json, key);
     fputs("null", json->file);
 }
+
+void json_flag(struct json *json, const char *key, bool value)
+{
+    before(json, key);
+    fputs(value ? "true" : "false", json->file);
+}

@@ -23,6 +23,7 @@ void json_text(struct json *json, const char *key,
 void json_number(struct json *json, const char *key, double value); // not finite: null
 void json_count(struct json *json, const char *key, uint64_t value);
 void json_none(struct json *json, const char *key);
+void json_flag(struct json *json, const char *key, bool value);
 
 // The shortest decimal number that reads back as `value`, at most 24 bytes with the closing zero.
 void shortest_number(double value, char text[32]);

@@ -295,6 +295,18 @@ const struct option option_table[] = {
      "the lights' colours; "
      "the view does not move for them.",
      .store = store_switch, FIELD(show_lights)},
+    {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", "0.00196",
+     "Many lights: how much those too weak for a part of the picture may be worth; 0 evaluates every light "
+     "everywhere.",
+     "With more than 16 lights, each part of the picture leaves out the weakest ones, as long as all that "
+     "they "
+     "could add to a channel there, together, stays below this share of the channel's whole range. The "
+     "default is "
+     "half a step of an 8-bit channel (0.5/255): no byte is off by more than 1. Lights that add exactly "
+     "nothing "
+     "(behind the surface, beyond their range, outside of their cone) are always left out.",
+     .store = store_number, FIELD(light_cutoff), .has_field = offsetof(struct options, has_light_cutoff),
+     .least = 0, .most = 1},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "All lights this much brighter (not `--ambient`).", NULL,
      .store = store_number, FIELD(light_scale), .has_field = offsetof(struct options, has_light_scale),
      .least = 0, .most = 1e6},

@@ -41,8 +41,8 @@ struct options {
     int rig;             // lam_rig, or RIG_DARK
     bool has_rig;
     const char *ambient; // as written; NULL: none
-    double light_scale;
-    bool has_light_scale;
+    double light_scale, light_cutoff;
+    bool has_light_scale, has_light_cutoff;
 
     // Materials
     struct texts materials; // as written, checked

@@ -221,6 +221,7 @@ static void json_counts(struct json *json, const lam_frame_report *frame)
     json_count(json, "triangles_binned", frame->triangles_binned);
     json_count(json, "pixels_covered", frame->pixels_covered);
     json_count(json, "points_lit", frame->points_lit);
+    json_count(json, "lights_evaluated", frame->lights_evaluated);
     json_count(json, "memory_bytes", frame->memory_bytes);
     json_count(json, "bytes_uploaded", frame->bytes_uploaded);
     json_close(json, '}');

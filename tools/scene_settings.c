@@ -47,6 +47,10 @@ void scene_settings_apply(struct job *job)
         own->flat_normal = (int)s->draw.flat_normal;
     own->match_highlights |= s->draw.match_highlights;
     own->gl1 |= s->draw.gl1;
+    if (free_to_take(job, LAM_GIVEN_LIGHT_CUTOFF, "light-cutoff")) {
+        own->light_cutoff = (double)s->draw.light_cutoff;
+        own->has_light_cutoff = true;
+    }
     // Lights that are listed, be they none, leave no room for the studio.
     if (free_to_take(job, LAM_GIVEN_LIGHTS, "rig")) {
         own->rig = (int)LAM_RIG_NONE;
@@ -90,6 +94,7 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     s.given |= LAM_GIVEN_SIZE | LAM_GIVEN_SAMPLES | LAM_GIVEN_BACKGROUND | LAM_GIVEN_COLOR |
                LAM_GIVEN_CAMERA | LAM_GIVEN_SHADING | LAM_GIVEN_REFLECTION | LAM_GIVEN_MATCH_HIGHLIGHTS |
                LAM_GIVEN_GL1;
+    s.given |= draw->light_cutoff != 0 ? LAM_GIVEN_LIGHT_CUTOFF : 0;
     s.given |= draw->stage != LAM_STAGE_AUTO ? LAM_GIVEN_STAGE : 0;
     s.given |= draw->viewer != LAM_VIEWER_LOCAL ? LAM_GIVEN_VIEWER : 0;
     s.given |= draw->flat_normal != LAM_FLAT_NORMAL_FACE ? LAM_GIVEN_FLAT_NORMAL : 0;

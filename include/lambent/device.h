@@ -154,6 +154,11 @@ typedef struct lam_draw_params {
     bool match_highlights; // shininess is Phong's α: Blinn–Phong takes 4α, so that both highlights look alike
     bool gl1; // as OpenGL 1 did: vertex colours clamped to 0…1 before they are interpolated, shininess at
               // most 128, and each light's ambient attenuated and narrowed by its cone
+    // Many lights: in frames of more than 16, each part of the picture leaves out the weakest lights, as long
+    // as all that they could add to a channel, together, stays below this share of the whole range of the
+    // picture's encoded channels. 0: ½/255, so that no byte is off by more than 1; less than 0: every light
+    // is evaluated everywhere; at most 1. The OpenGL device always evaluates every light.
+    float light_cutoff;
     lam_show show;
     int show_light; // LAM_SHOW_LIGHT, LAM_SHOW_N_L, LAM_SHOW_N_H: which, by its number in lam_draw_lights
 } lam_draw_params;
@@ -179,7 +184,8 @@ typedef struct lam_frame_report {
     uint64_t pixels_covered;
     uint64_t points_lit; // evaluations of the lighting: pixels, vertices or triangles; OpenGL tells only the
                          // processor's own
-    uint64_t memory_bytes; // held by the device after the frame
+    uint64_t lights_evaluated; // summed over those points
+    uint64_t memory_bytes;     // held by the device after the frame
 } lam_frame_report;
 
 // Draws the scene as the camera sees it into `image` (made by the caller, whose size and pixel format

@@ -41,6 +41,8 @@ typedef struct lam_explained_light {
     lam_rgb specular_term; // spot · attenuation · S · ks ⊙ Ls
     lam_rgb ambient_term; // gl1: spot · attenuation · ka ⊙ La; else 0 here, and La is in the point's ambient
                           // light
+    bool left_out; // its terms are not in the sum: too weak in this part of the picture
+                   // (lam_draw_params.light_cutoff)
 } lam_explained_light;
 
 typedef struct lam_explained_hemisphere {

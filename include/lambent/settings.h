@@ -26,6 +26,7 @@ enum {
     LAM_GIVEN_GL1 = 1 << 12,
     LAM_GIVEN_LIGHTS = 1 << 13,
     LAM_GIVEN_ENVIRONMENT = 1 << 14,
+    LAM_GIVEN_LIGHT_CUTOFF = 1 << 15,
 };
 
 // What a scene file says about its picture, beside what lam_scene holds. Fields that are not given are zero.
@@ -34,7 +35,7 @@ typedef struct lam_settings {
     int width, height; // pixels
     lam_camera camera;
     // samples, background, color, exposure, shading, reflection, stage, viewer, flat_normal,
-    // match_highlights, gl1; rig is LAM_RIG_NONE where lights are given, be it an empty list.
+    // match_highlights, gl1, light_cutoff; rig is LAM_RIG_NONE where lights are given, be it an empty list.
     lam_draw_params draw;
     // The environment: six faces (+x −x +y −y +z −z), or one picture (equirectangular or a cross), as paths
     // that can be opened from here (as in the file where that came from memory); or the name of a built-in

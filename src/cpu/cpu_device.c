@@ -20,7 +20,9 @@ struct cpu_device {
     struct buffer vertices; // x, y and key of all vertices
     struct buffer lists;    // pieces, first vertices
     struct buffer products; // material × light
-    struct buffer bins;     // heads of all threads' bins
+    struct buffer lights;   // their table
+    struct light_table light_table;
+    struct buffer bins; // heads of all threads' bins
     struct seeing_room seeing;
     float decode_srgb[256], decode_linear[256];
 };
@@ -106,6 +108,12 @@ static void carve_thread(struct carving *carving, struct thread_state *thread, c
     thread->point_table = carve(carving, slots * sizeof(uint32_t));
     thread->point_key = carve(carving, points * sizeof *thread->point_key);
     thread->points = carve(carving, sizeof *thread->points);
+    if (light_lists_wanted(frame)) {
+        size_t lights = (size_t)frame->light_count;
+        thread->choice.numbers = carve(carving, lights * sizeof *thread->choice.numbers);
+        thread->choice.most = carve(carving, lights * sizeof *thread->choice.most);
+        thread->choice.bits = carve(carving, (lights + 63) / 64 * sizeof *thread->choice.bits);
+    }
     thread->counts = frame->show == LAM_SHOW_OVERDRAW ? carve(carving, entries * sizeof(int32_t)) : NULL;
     thread->shown = frame->show == LAM_SHOW_CLIPPED ? carve(carving, TILE * TILE * 4 * sizeof(float)) : NULL;
     if (!frame->translucent)
@@ -138,7 +146,7 @@ static bool make_threads_ready(struct cpu_device *device, struct cpu_frame *cpu,
         thread->blocks.used = thread->pieces.used = 0;
         thread->piece_count = 0;
         thread->coverage_ns = thread->lighting_ns = thread->resolve_ns = 0;
-        thread->pixels_covered = thread->points_lit = thread->triangles_binned = 0;
+        thread->pixels_covered = thread->points_lit = thread->lights_evaluated = thread->triangles_binned = 0;
     }
     return true;
 }
@@ -147,8 +155,9 @@ static uint64_t cpu_memory(const struct lam_device *base)
 {
     const struct cpu_device *device = (const struct cpu_device *)base;
     const struct seeing_room *seeing = &device->seeing;
-    uint64_t bytes = device->vertices.room + device->lists.room + device->products.room + device->bins.room +
-                     seeing->sets.room + seeing->normals.room + seeing->stashes.room;
+    uint64_t bytes = device->vertices.room + device->lists.room + device->products.room +
+                     device->lights.room + device->bins.room + seeing->sets.room + seeing->normals.room +
+                     seeing->stashes.room;
     for (int i = 0; i < device->thread_count; i++) {
         const struct thread_state *thread = &device->threads[i];
         bytes += thread->scratch.room + ((uint64_t)(thread->blocks.count + thread->pieces.count) << 20);
@@ -169,6 +178,7 @@ static void cpu_free(struct lam_device *base)
     buffer_free(&device->vertices);
     buffer_free(&device->lists);
     buffer_free(&device->products);
+    buffer_free(&device->lights);
     buffer_free(&device->bins);
     buffer_free(&device->seeing.sets);
     buffer_free(&device->seeing.normals);
@@ -283,7 +293,10 @@ static bool make_products(struct cpu_device *device, struct cpu_frame *cpu, lam_
         }
     }
     cpu->materials = products;
-    return true;
+    if (!light_lists_wanted(frame))
+        return true;
+    cpu->lights = &device->light_table;
+    return light_table_make(&device->light_table, &device->lights, frame, products, cpu->watch, error);
 }
 
 // --- the steps
@@ -413,6 +426,7 @@ static void fill_report(lam_frame_report *report, const struct cpu_device *devic
         resolved += thread->resolve_ns;
         report->pixels_covered += thread->pixels_covered;
         report->points_lit += thread->points_lit;
+        report->lights_evaluated += thread->lights_evaluated;
         report->triangles_binned += thread->triangles_binned;
     }
     double sum = (double)(coverage + lighting + resolved);

@@ -12,6 +12,7 @@
 
 #include "buffer.h"
 #include "frame.h"
+#include "light_table.h"
 #include "pool.h"
 #include "samples.h"
 #include "seen_normals.h"
@@ -95,6 +96,14 @@ struct lit_points {
     float b1[POINTS_AT_ONCE], b2[POINTS_AT_ONCE];          // weights of its corners 1 and 2
 };
 
+// The lights that some points are lit by (light_lists.inc).
+struct light_choice {
+    uint32_t *numbers; // in the frame, ascending
+    int count;
+    uint64_t *bits; // of every light of the frame: whether it is among them
+    float *most;    // while they are chosen: the most that each can add
+};
+
 struct thread_state {
     struct bin_block **bins; // first block of each tile, newest first
     struct slab_list blocks;
@@ -119,6 +128,7 @@ struct thread_state {
     uint32_t *fragment_point; // 3 per fragment
     float *point_color[4];
     struct lit_points *points;
+    struct light_choice choice;
     int32_t *counts; // triangles that cover each sample; NULL: nobody asks (show.c)
     float *shown;    // the tile's part of the picture, for LAM_SHOW_CLIPPED
     // Sums of a tile's pixels: r, g, b premultiplied, and alpha.
@@ -136,7 +146,8 @@ struct thread_state {
     float *clear;            // what the layers over each sample let through
 
     struct buffer scratch; // holds the arrays above but the slabs
-    uint64_t coverage_ns, lighting_ns, resolve_ns, pixels_covered, points_lit, triangles_binned;
+    uint64_t coverage_ns, lighting_ns, resolve_ns, pixels_covered, points_lit, lights_evaluated,
+        triangles_binned;
 };
 
 // A light against a material: the products that the sum needs (conventions, "The sum").
@@ -178,6 +189,7 @@ struct cpu_frame {
     const uint32_t *first_vertex; // of each draw
     const struct piece *vertex_pieces, *triangle_pieces;
     const struct material_products *materials;
+    const struct light_table *lights; // NULL: every light is evaluated everywhere
     struct thread_state *threads;
     const float *decode_srgb, *decode_linear; // 256 entries each: what a colour byte stands for
     struct recorder

@@ -122,15 +122,19 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
     lam_draw_params *draw = &r->settings->draw;
     int shading = 0, reflection = 0, stage = 0, viewer = 0, flat_normal = 0, up = LAM_UP_Y;
     lam_rgb ambient = {0, 0, 0};
+    double cutoff = 0;
     if (!take_word(r, NULL, root, "shading", shading_words, &shading) ||
         !take_word(r, NULL, root, "reflection", reflection_words, &reflection) ||
         !take_word(r, NULL, root, "stage", stage_words, &stage) ||
         !take_word(r, NULL, root, "viewer", viewer_words, &viewer) ||
         !take_word(r, NULL, root, "flat_normal", flat_normal_words, &flat_normal) ||
         !take_bool(r, NULL, root, "match_highlights", &draw->match_highlights) ||
-        !take_bool(r, NULL, root, "gl1", &draw->gl1) || !take_word(r, NULL, root, "up", up_words, &up) ||
-        !take_rgb(r, NULL, root, "ambient", &ambient))
+        !take_bool(r, NULL, root, "gl1", &draw->gl1) ||
+        !take_number(r, NULL, root, "light_cutoff", 0, 1, &cutoff) ||
+        !take_word(r, NULL, root, "up", up_words, &up) || !take_rgb(r, NULL, root, "ambient", &ambient))
         return false;
+    if (json_object_get(root, "light_cutoff"))
+        draw->light_cutoff = cutoff > 0 ? (float)cutoff : -1;
     draw->shading = (lam_shading)shading;
     draw->reflection = (lam_reflection)reflection;
     draw->stage = (lam_stage)stage;
@@ -148,7 +152,8 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
                 {"viewer", LAM_GIVEN_VIEWER},
                 {"flat_normal", LAM_GIVEN_FLAT_NORMAL},
                 {"match_highlights", LAM_GIVEN_MATCH_HIGHLIGHTS},
-                {"gl1", LAM_GIVEN_GL1}};
+                {"gl1", LAM_GIVEN_GL1},
+                {"light_cutoff", LAM_GIVEN_LIGHT_CUTOFF}};
     for (size_t i = 0; i < sizeof bits / sizeof *bits; i++)
         r->settings->given |= json_object_get(root, bits[i].key) ? bits[i].bit : 0;
     bool by_vertex = draw->stage == LAM_STAGE_APPLICATION || draw->stage == LAM_STAGE_VERTEX;
@@ -263,10 +268,10 @@ static bool read_environment(struct scene_reader *r, const json_t *root)
 
 static bool read_root(struct scene_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"lambent",          "image",      "camera", "ambient",   "environment",
-                                       "shading",          "reflection", "viewer", "stage",     "flat_normal",
-                                       "match_highlights", "gl1",        "up",     "materials", "objects",
-                                       "lights",           NULL};
+    static const char *const keys[] = {
+        "lambent",    "image",     "camera",  "ambient",     "environment",      "shading",
+        "reflection", "viewer",    "stage",   "flat_normal", "match_highlights", "gl1",
+        "up",         "materials", "objects", "lights",      "light_cutoff",     NULL};
     int version = 0;
     if (!check_keys(r, NULL, root, keys) ||
         !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))

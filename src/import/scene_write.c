@@ -477,6 +477,9 @@ static bool put_settings(struct scene_writer *w, json_t *root, const lam_setting
         put(w, root, "match_highlights", json_true());
     if ((s->given & LAM_GIVEN_GL1) && s->draw.gl1)
         put(w, root, "gl1", json_true());
+    if ((s->given & LAM_GIVEN_LIGHT_CUTOFF) && s->draw.light_cutoff != 0)
+        put(w, root, "light_cutoff",
+            s->draw.light_cutoff > 0 ? number_float(s->draw.light_cutoff) : json_integer(0));
     return true;
 }
 

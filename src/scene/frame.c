@@ -56,6 +56,9 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
         (unsigned)params->flat_normal > LAM_FLAT_NORMAL_VERTEX)
         return fail(error, LAM_BAD_ARGUMENT,
                     "draw parameters: stage, viewer or flat_normal is out of its range");
+    if (!(params->light_cutoff >= -3e38f && params->light_cutoff <= 1))
+        return fail(error, LAM_BAD_ARGUMENT, "light_cutoff is %g, expected at most 1",
+                    (double)params->light_cutoff);
     if ((unsigned)params->show >= LAM_SHOW_COUNT || params->show_light < 0)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: show or show_light is out of its range");
     if (params->shading == LAM_SHADING_PHONG &&
@@ -398,6 +401,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->match_highlights = params->match_highlights;
     frame->gl1 = params->gl1;
     frame->show = params->show;
+    frame->light_cutoff = params->light_cutoff > 0    ? params->light_cutoff
+                          : params->light_cutoff == 0 ? 0.5f / 255.0f
+                                                      : 0;
     frame->draw_count = frame->surface_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
     frame->translucent = frame->makes_normals = false;

@@ -82,6 +82,8 @@ struct frame {
     lam_flat_normal flat_normal;
     bool match_highlights, gl1;
     lam_show show;
+    float light_cutoff;  // share of the encoded range that lights left out may be worth together; 0: none is
+                         // left out
     bool distant_viewer; // v = +z for every point: an orthographic camera, or asked for
     bool orthographic;
     bool translucent;   // any surface is

@@ -1,7 +1,9 @@
 # test_lights.py: lights, materials and methods from the command line.
+import json
+import math
 import unittest
 
-from harness import Case, pixel
+from harness import Case, pixel, read_png
 
 DIFFUSE_ONLY = ("--material", "specular=0,ambient=0")
 
@@ -278,6 +280,32 @@ class Methods(Pictures):
         self.same((*shiny, "--match-highlights", "--shininess", "8"), (*shiny, "--shininess", "32"))
         for words in (("--viewer", "far"), ("--flat-normal", "edge"), ("--cull", "all")):
             self.bad(1, "sphere", *words, says=["option '" + words[0] + "'", "expected"])
+
+    def test_many_lights(self):
+        lights = [{"type": "point", "position": [2.5 * math.cos(i), math.sin(7 * i), 2.5 * math.sin(i)], "intensity": 0.004,
+                   "attenuation": [1, 0, 2], "range": 2.5} for i in range(300)]
+        scene = {"lambent": 1, "image": {"size": [64, 64]}, "objects": [{"shape": "sphere"}], "lights": lights}
+        (self.folder / "many.json").write_text(json.dumps(scene))
+        (self.folder / "all.json").write_text(json.dumps(dict(scene, light_cutoff=0)))
+
+        def picture(name, *words):
+            report = self.report(name, *words, "-o", "lit.png")
+            return read_png((self.folder / "lit.png").read_bytes()), report["counts"]["lights_evaluated"]
+        some, every, coarse = (picture("many.json", *words) for words in ((), ("--light-cutoff", "0"), ("--light-cutoff", "0.2")))
+        self.assertLessEqual(difference(some[0], every[0]), 1)
+        self.assertLess(difference(coarse[0], every[0]), 0.2 * 255 + 1)
+        self.assertGreater(difference(coarse[0], every[0]), 1)
+        self.assertLess(coarse[1], some[1])
+        self.assertLessEqual(some[1], every[1])
+        # The file says it, the command line overrides it, a file written keeps it.
+        self.assertEqual(picture("all.json"), every)
+        self.assertEqual(picture("all.json", "--light-cutoff", "0.2"), coarse)
+        self.assertEqual(picture("many.json", "--light-cutoff", "0.2", "--save-scene", "kept.json"), coarse)
+        self.assertEqual(json.loads((self.folder / "kept.json").read_text())["light_cutoff"], 0.2)
+        self.assertEqual(picture("kept.json"), coarse)
+        told = self.good("explain", "many.json", "20,30", "--light-cutoff", "0.2").stdout.decode()
+        self.assertRegex(told, r"\d+ of 300 lights add nothing here; \d+ more are left out: too weak")
+        self.assertEqual(self.run_program("many.json", "--light-cutoff", "1.5").returncode, 1)
 
     def test_tangents_from_texture_coordinates(self):
         quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

@@ -76,10 +76,12 @@ static void test_picture(void **unused)
              "\"shading\": \"flat\", "
              "\"reflection\": \"kajiya-kay\", \"stage\": \"vertex\", \"viewer\": \"infinite\", "
              "\"flat_normal\": \"vertex\", "
-             "\"match_highlights\": true, \"gl1\": true, \"up\": \"z\", \"lights\": [], " BALL "}");
+             "\"match_highlights\": true, \"gl1\": true, \"up\": \"z\", \"light_cutoff\": 0.25, \"lights\": "
+             "[], " BALL "}");
     lam_settings s;
     assert_true(lam_scene_settings(scene, &s));
-    assert_int_equal(s.given, (LAM_GIVEN_LIGHTS << 1) - 1);
+    assert_int_equal(s.given, ((LAM_GIVEN_LIGHTS << 1) - 1) | LAM_GIVEN_LIGHT_CUTOFF);
+    assert_true(s.draw.light_cutoff == 0.25f);
     assert_true(s.width == 30 && s.height == 20 && s.draw.samples == 8);
     assert_true(s.draw.background.r == (float)(128.0 / 255) && s.draw.background.a == (float)(128.0 / 255));
     assert_int_equal(s.draw.color, LAM_COLOR_RAW);
@@ -209,7 +211,7 @@ static void test_errors(void **unused)
         {"{\"x\": \"\\\"lambent\\\"\", \"lambent\": 1}",
          "s.json: x: unknown key; expected lambent, image, camera, ambient, "
          "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, gl1, up, "
-         "materials, objects, lights"},
+         "materials, objects, lights, light_cutoff"},
         {"{\"lambent\": 1}", "s.json: 'objects' is missing, expected a list of at least one object"},
         {"{\"lambent\": 2, " BALL "}",
          "s.json: lambent: the format's version is 2, this program reads version 1"},
@@ -427,8 +429,10 @@ static void test_writing(void **unused)
     for (int i = 0; i < 4; i++)
         assert_true(lam_scene_add_light(scene, &lights[i], &error) == i);
     lam_scene_set_ambient(scene, (lam_rgb){0.1f, 0.7f, 1e-3f});
-    lam_settings s = {
-        .given = (LAM_GIVEN_LIGHTS << 1) - 1, .width = 7, .height = 9, .camera = lam_camera_default()};
+    lam_settings s = {.given = ((LAM_GIVEN_LIGHTS << 1) - 1) | LAM_GIVEN_LIGHT_CUTOFF,
+                      .width = 7,
+                      .height = 9,
+                      .camera = lam_camera_default()};
     s.draw = (lam_draw_params){.samples = 2,
                                .background = {0.1f, 0.2f, 0.3f, 0.4f},
                                .color = LAM_COLOR_RAW,
@@ -439,6 +443,7 @@ static void test_writing(void **unused)
                                .flat_normal = LAM_FLAT_NORMAL_VERTEX,
                                .gl1 = true,
                                .rig = LAM_RIG_NONE,
+                               .light_cutoff = -1,
                                .match_highlights = true};
     s.camera.fovy_rad = 0.7123456789012345;
     s.camera.eye = (lam_vec3){1.0 / 3, 1e-9, 12345678.9};
@@ -456,7 +461,7 @@ static void test_writing(void **unused)
     assert_true(t.draw.color == s.draw.color && t.draw.shading == s.draw.shading &&
                 t.draw.reflection == s.draw.reflection && t.draw.stage == s.draw.stage &&
                 t.draw.viewer == s.draw.viewer && t.draw.flat_normal == s.draw.flat_normal && t.draw.gl1 &&
-                t.draw.match_highlights && t.draw.rig == LAM_RIG_NONE);
+                t.draw.match_highlights && t.draw.rig == LAM_RIG_NONE && t.draw.light_cutoff < 0);
     assert_memory_equal(&t.camera.eye, &s.camera.eye, sizeof s.camera.eye);
     assert_true(fabs(t.camera.fovy_rad - s.camera.fovy_rad) <= 1.2e-16);
     assert_true(t.camera.near_plane == 0.1 && t.camera.far_plane == 100 && t.width == 7 && t.height == 9);

@@ -4,8 +4,8 @@
 #define ABOUT (1u << GROUP_ABOUT)
 // All that a picture of a model takes.
 #define ALL                                                                                                  \
-    (((1u << GROUP_COUNT) - 1) &                                                                             \
-     ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET | 1u << GROUP_CHECK))
+    (((1u << GROUP_COUNT) - 1) & ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS |              \
+                                   1u << GROUP_SHEET | 1u << GROUP_CHECK | 1u << GROUP_SHADER))
 
 const struct command command_table[] = {
     {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL,
@@ -23,6 +23,9 @@ const struct command command_table[] = {
      ABOUT | 1u << GROUP_CHECK | 1u << GROUP_DIFF | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE |
          TAKES_JSON | TAKES_QUIET,
      0, 1, run_check},
+    {"shader", "[MODEL]",
+     "Print the shaders that light a model, for a program of your own, and what they ask for.",
+     ALL | 1u << GROUP_SHADER, 0, 1, run_shader},
     {"diff", "A B", "Tell how far two pictures are apart, and draw where.",
      ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET, 2, 2, run_diff},
     {"plot", "attenuation|spot|highlight [CURVE...]",
@@ -63,6 +66,7 @@ const struct example examples[] = {
     {"lambent explain teapot 512,400", "how that pixel of the picture came about, number by number"},
     {"lambent check phong.frag --vertex phong.vert -o check.png",
      "what a shader's lighting gets wrong, and why"},
+    {"lambent shader teapot --glsl 120 --host c -o teapot", "its shaders, and C code that sets them"},
     {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
     {NULL, NULL},
 };

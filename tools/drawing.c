@@ -1,11 +1,8 @@
 // drawing.c: lines, boxes and words on a page: SVG as its own elements, PNG by a small antialiasing painter.
 #include "drawing.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "console.h"
 #include "output.h"
@@ -284,33 +281,6 @@ void draw_image(struct drawing *d, const lam_image *image, int left, int top)
 
 // --- writing
 
-// Beside the target under another name, then renamed.
-static bool save_text(const char *path, const lam_bytes *bytes, lam_error *error)
-{
-    char *beside = malloc(strlen(path) + sizeof ".XXXXXX");
-    if (!beside)
-        return complain(error, LAM_LIMIT, "out of memory");
-    sprintf(beside, "%s.XXXXXX", path);
-    int made = mkstemp(beside);
-    FILE *file = made < 0 ? NULL : fdopen(made, "wb");
-    bool ok = file && fwrite(bytes->data, 1, bytes->size, file) == bytes->size;
-    int reason = errno;
-    if (file && fclose(file) != 0 && ok) {
-        ok = false;
-        reason = errno;
-    }
-    mode_t mask = umask(0);
-    umask(mask);
-    if (ok && (chmod(beside, 0666 & ~mask) != 0 || rename(beside, path) != 0)) {
-        ok = false;
-        reason = errno;
-    }
-    if (!ok && made >= 0)
-        unlink(beside);
-    free(beside);
-    return ok || complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(reason));
-}
-
 bool drawing_write(struct drawing *d, const char *path, lam_error *error)
 {
     lam_bytes bytes = {0};
@@ -320,7 +290,7 @@ bool drawing_write(struct drawing *d, const char *path, lam_error *error)
         if (fflush(d->svg) != 0 || ferror(d->svg))
             return complain(error, LAM_LIMIT, "out of memory");
         bytes = (lam_bytes){d->svg_text, d->svg_size};
-        return save_text(path, &bytes, error);
+        return output_replace(path, &bytes, error);
     }
     if (!stream)
         return lam_image_save(&d->image, path, NULL, error);

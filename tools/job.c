@@ -307,3 +307,17 @@ lam_explanation *job_explain(struct job *job, int x, int y, struct progress *pro
     return lam_explain(job->device, job->scene, &job->camera, &params, o->width, o->height, LAM_RGBA8, x, y,
                        &control, error);
 }
+
+lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *error)
+{
+    if (!job_load(job, progress, error) || !job_arrange(job, progress, error))
+        return NULL;
+    const struct options *o = job->options; // now with what the scene file says
+    lam_draw_params draw = draw_params_of(o, job->rig);
+    lam_shader_params params = {
+        .glsl = (lam_glsl)o->glsl, .lights = (lam_shader_lights)o->lights_in, .products = o->products};
+    if (!show_option_apply(o->show, job->scene, &draw, error))
+        return NULL;
+    return lam_shader_make(job->scene, &job->camera, &draw, o->width, o->height,
+                           o->has_object ? o->object : -1, &params, error);
+}

@@ -57,4 +57,7 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error);
 // The same up to the drawing, and then one pixel is explained. NULL on failure.
 lam_explanation *job_explain(struct job *job, int x, int y, struct progress *progress, lam_error *error);
 
+// The same up to the drawing, and then the shaders are made that would draw it. NULL on failure.
+lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *error);
+
 #endif

@@ -18,6 +18,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_MATERIALS] = "Materials",
     [GROUP_SHEET] = "Sheets (compare)",
     [GROUP_CHECK] = "Checking shaders (check)",
+    [GROUP_SHADER] = "Shaders (shader)",
 };
 
 static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
@@ -64,6 +65,21 @@ static const struct word show_words[] = {
     {"clipped", LAM_SHOW_CLIPPED, "where the picture leaves 0 to 1: above red, below blue"},
     {"all", LAM_SHOW_PICTURE, "the picture, every term and every light, as layers of a .exr"},
     {NULL, 0, NULL}};
+
+static const struct word glsl_words[] = {
+    {"330", LAM_GLSL_330, "OpenGL 3.3"},
+    {"120", LAM_GLSL_120, "OpenGL 2.1: attribute and varying, no blocks, no flat"},
+    {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
+    {NULL, 0, NULL}};
+
+static const struct word lights_in_words[] = {
+    {"auto", LAM_SHADER_LIGHTS_AUTO, "an array in GLSL 120, else a block"},
+    {"array", LAM_SHADER_LIGHTS_ARRAY, "plain uniforms, set one by one: lights[0].position"},
+    {"block", LAM_SHADER_LIGHTS_BLOCK, "uniform blocks, std140"},
+    {"texture", LAM_SHADER_LIGHTS_TEXTURE, "textures of floats: thousands of lights"},
+    {NULL, 0, NULL}};
+
+static const struct word host_words[] = {{"c", 1, NULL}, {NULL, 0, NULL}};
 
 static const struct word view_words[] = {
     {"front", VIEW_FRONT, "level, from +Z (with Y up)"},
@@ -480,6 +496,27 @@ const struct option option_table[] = {
      NULL, .store = store_number, FIELD(stop_after_s), .least = 0.1, .most = 1e6},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(list)},
+    {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The language of the shaders: 330, 120 or 300es.", NULL,
+     glsl_words, .store = store_word, FIELD(glsl)},
+    {"host", 0, GROUP_SHADER, "LANGUAGE", NULL,
+     "Also print code that sets everything the shaders ask for: c.",
+     "Functions that compile the sources, tell OpenGL what a vertex is, and set every uniform to the value "
+     "that it has in "
+     "this picture, with nothing but OpenGL's own calls. With `-o NAME` it is `NAME.c`.",
+     host_words, .store = store_word, FIELD(host)},
+    {"products", 0, GROUP_SHADER, NULL, NULL,
+     "Uniforms are the products ka La, kd Ld and ks Ls, formed before drawing, as in the lectures.", NULL,
+     .store = store_switch, FIELD(products)},
+    {"lights-in", 0, GROUP_SHADER, "PLACE", "auto", "Where the lights stand: array, block or texture.",
+     "None of them has a fixed greatest number of lights; what OpenGL allows an array is the least, a "
+     "texture most.",
+     lights_in_words, .store = store_word, FIELD(lights_in)},
+    {"object", 0, GROUP_SHADER, "N", "all", "Only this object of the scene, counted from 0.",
+     "One pair of shaders serves a whole scene, unless some objects have two sides and others one, or some "
+     "have tangents for "
+     "Kajiya-Kay and others have not.",
+     .store = store_integer, FIELD(object), .has_field = offsetof(struct options, has_object), .least = 0,
+     .most = 1e9},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
      "Without it the environment's `LAMBENT_FONT` names one; else the first there is of DejaVu Sans, "

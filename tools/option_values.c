@@ -108,6 +108,8 @@ bool store_integer(const struct option *option, const char *value, struct option
     if (!number_between(option, value, true, &number, error))
         return false;
     *(int *)field_of(options, option->field) = (int)number;
+    if (option->has_field)
+        *(bool *)field_of(options, option->has_field) = true;
     return true;
 }
 

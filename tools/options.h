@@ -97,6 +97,14 @@ struct options {
     double stop_after_s;
     bool list;
 
+    // Shaders
+    int glsl;      // lam_glsl
+    int lights_in; // lam_shader_lights
+    int host;      // 1: C code as well
+    bool products;
+    int object; // valid where the switch below is set
+    bool has_object;
+
     // Reports
     bool json, quiet, verbose, version, help;
 
@@ -150,6 +158,7 @@ enum option_group {
     GROUP_CAPTIONS,
     GROUP_SHEET,
     GROUP_CHECK,
+    GROUP_SHADER,
     GROUP_ABOUT, // every command has these
     GROUP_COUNT,
 };

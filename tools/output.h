@@ -24,6 +24,10 @@ bool output_is_stream(const char *path);
 // Writes to such a path; LAM_CANNOT_WRITE.
 bool output_write(const char *path, const lam_bytes *bytes, lam_error *error);
 
+// Writes a file beside the target under another name, then renames it: it appears whole or not at all.
+// LAM_CANNOT_WRITE.
+bool output_replace(const char *path, const lam_bytes *bytes, lam_error *error);
+
 // Bytes of the file at `path`; 0 where it is none.
 uint64_t output_size(const char *path);
 

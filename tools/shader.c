@@ -1,0 +1,181 @@
+// shader.c: the command `shader`: a scene's shaders as text, what they ask for, and code that sets it.
+#include "shader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "console.h"
+#include "environment_option.h"
+#include "interrupt.h"
+#include "job.h"
+#include "output.h"
+#include "report.h"
+
+// --- the list of what is to be set
+
+static void list_uniforms(FILE *file, const lam_shader_uniform *list, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const lam_shader_uniform *u = &list[i];
+        fprintf(file, "//   %-11s %-28s ", u->type, u->name);
+        if (u->block)
+            fprintf(file, "(block %s, byte %d) ", u->block, u->offset);
+        if (u->count)
+            fprintf(file, "= ");
+        shader_numbers(file, u->value, u->count);
+        // What it means stands once: at the first of a list.
+        const char *place = strchr(u->name, '[');
+        bool first = !place || strncmp(place, "[0]", 3) == 0;
+        fprintf(file, "%s%s%s\n", u->count && first ? "  " : "", first ? "// " : "", first ? u->meaning : "");
+    }
+}
+
+void shader_contract(FILE *file, const lam_shader *s)
+{
+    fprintf(file, "// Attributes%s:\n",
+            s->glsl == LAM_GLSL_120 ? ", bound to these locations before linking"
+                                    : ", at the locations in the text");
+    for (int i = 0; i < s->attribute_count; i++)
+        fprintf(file, "//   %d  %-5s %-20s // %s\n", s->attributes[i].location, s->attributes[i].type,
+                s->attributes[i].name, s->attributes[i].meaning);
+    if (s->flat && s->glsl == LAM_GLSL_120)
+        fprintf(file, "//   Flat shading: GLSL 120 has no `flat`, so the three vertices of a triangle carry "
+                      "the same values.\n");
+    else if (s->flat)
+        fprintf(file,
+                "//   Flat shading: each triangle has three vertices of its own, with its face normal.\n");
+    if (s->uniform_count) {
+        fprintf(file, "// Uniforms of the frame (matrices column by column):\n");
+        list_uniforms(file, s->uniforms, s->uniform_count);
+    }
+    for (int i = 0; i < s->list_count; i++)
+        fprintf(file, "//   %s holds %d texels; --host c and --json have them.\n", s->lists[i].name,
+                s->lists[i].texels);
+    for (int i = 0; i < s->draw_count; i++) {
+        const lam_shader_draw *d = &s->draws[i];
+        fprintf(file, "// Uniforms of draw %d, object %d%s%s%s, triangles %u to %u, front %s%s%s:\n", i,
+                d->object, d->object_name ? " '" : "", d->object_name ? d->object_name : "",
+                d->object_name ? "'" : "", d->first_triangle, d->first_triangle + d->triangle_count - 1,
+                d->clockwise ? "clockwise" : "counter-clockwise",
+                d->cull == LAM_CULL_BACK    ? ", backs culled"
+                : d->cull == LAM_CULL_FRONT ? ", fronts culled"
+                                            : "",
+                d->translucent ? ", to be blended" : "");
+        if (d->origin[0] != 0 || d->origin[1] != 0 || d->origin[2] != 0)
+            fprintf(file, "//   position is relative to (%.17g, %.17g, %.17g)\n", d->origin[0], d->origin[1],
+                    d->origin[2]);
+        list_uniforms(file, d->uniforms, d->uniform_count);
+    }
+}
+
+// --- files
+
+// NAME of NAME.vert and NAME.frag, from malloc: `output` without such an ending, or in the folder that it is
+// the model's.
+static char *base_of(const char *output, const char *model)
+{
+    size_t length = strlen(output);
+    const char *last = strrchr(model, '/');
+    const char *name = strcmp(model, "-") == 0 ? "model" : last ? last + 1 : model;
+    char *base = malloc(length + strlen(name) + 2);
+    if (!base)
+        return NULL;
+    strcpy(base, output);
+    if (length && output[length - 1] == '/') {
+        strcat(base, name);
+        char *point = strrchr(base + length, '.');
+        if (point && point > base + length)
+            *point = 0;
+    } else if (length > 5 &&
+               (strcmp(base + length - 5, ".vert") == 0 || strcmp(base + length - 5, ".frag") == 0)) {
+        base[length - 5] = 0;
+    }
+    return base;
+}
+
+static bool write_file(const char *base, const char *ending, const char *text, size_t size, lam_error *error)
+{
+    char *path = malloc(strlen(base) + strlen(ending) + 1);
+    if (!path)
+        return complain(error, LAM_LIMIT, "out of memory");
+    strcpy(path, base);
+    strcat(path, ending);
+    lam_bytes bytes = {(void *)(uintptr_t)text, size};
+    bool ok = output_check(path, "", true, error) && output_replace(path, &bytes, error);
+    free(path);
+    return ok;
+}
+
+static bool write_files(const struct options *o, const lam_shader *shader, const char *model,
+                        lam_error *error)
+{
+    char *base = base_of(o->output, model), *host = NULL;
+    size_t host_size = 0;
+    if (!base)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool ok = write_file(base, ".vert", shader->vertex, strlen(shader->vertex), error) &&
+              write_file(base, ".frag", shader->fragment, strlen(shader->fragment), error);
+    if (ok && o->host) {
+        FILE *file = open_memstream(&host, &host_size);
+        const char *name = strrchr(base, '/');
+        if (file)
+            shader_host(file, shader, name ? name + 1 : base, model);
+        ok = (file && fclose(file) == 0) || complain(error, LAM_LIMIT, "out of memory");
+        ok = ok && write_file(base, ".c", host, host_size, error);
+        free(host);
+    }
+    if (ok && !o->quiet)
+        say_plain("%s.vert, %s.frag%s%s%s: GLSL %s\n", base, base, o->host ? ", " : "", o->host ? base : "",
+                  o->host ? ".c" : "", lam_glsl_name(shader->glsl));
+    free(base);
+    return ok;
+}
+
+static void print(const struct options *o, const lam_shader *shader, const char *model, bool sources)
+{
+    if (sources) {
+        printf("// ===== vertex shader =====\n%s\n", shader->vertex);
+        printf("// ===== fragment shader =====\n%s\n", shader->fragment);
+    }
+    printf("// ===== what to set =====\n");
+    shader_contract(stdout, shader);
+    if (o->host && sources) {
+        printf("\n// ===== host code =====\n");
+        shader_host(stdout, shader, "shader", model);
+    }
+}
+
+int run_shader(int operand_count, char **operands, const struct options *given)
+{
+    struct options options = *given;
+    bool to_files = options.output && strcmp(options.output, "-") != 0;
+    struct job job = {.options = &options, .model = operand_count ? operands[0] : "sphere"};
+    lam_error error = {0};
+    if (!*job.model) {
+        complain(&error, LAM_BAD_ARGUMENT, "a model's name is empty");
+        return tell_failure(&error, given);
+    }
+    interrupt_start();
+    job.times.start = clock_ms();
+    struct progress progress;
+    progress_start(&progress, job.model, console_is_terminal() && !options.quiet);
+    lam_environment *environment = NULL;
+    lam_shader *shader = NULL;
+    if (environment_option_load(&options, &environment, &error)) {
+        job.environment = environment;
+        shader = job_shader(&job, &progress, &error);
+    }
+    progress_end(&progress);
+    bool ok = shader && (!to_files || write_files(given, shader, job.model, &error));
+    if (ok && options.json)
+        shader_json(stdout, shader, job.model);
+    else if (ok)
+        print(given, shader, job.model, !to_files);
+    lam_shader_free(shader);
+    lam_scene_free(job.scene);
+    lam_environment_free(environment);
+    if (interrupted())
+        interrupt_finish();
+    return ok ? 0 : tell_failure(&error, given);
+}

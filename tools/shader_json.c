@@ -1,0 +1,106 @@
+// shader_json.c: a scene's shaders and their contract as JSON, on one line (docs/shader.schema.json).
+#include "shader.h"
+
+#include "json.h"
+
+static void numbers(struct json *json, const char *key, const float *values, int count)
+{
+    json_open(json, key, '[');
+    for (int i = 0; i < count; i++)
+        json_number(json, NULL, (double)values[i]);
+    json_close(json, ']');
+}
+
+static void uniforms(struct json *json, const char *key, const lam_shader_uniform *list, int count)
+{
+    json_open(json, key, '[');
+    for (int i = 0; i < count; i++) {
+        const lam_shader_uniform *u = &list[i];
+        json_open(json, NULL, '{');
+        json_text(json, "name", u->name);
+        json_text(json, "type", u->type);
+        json_text(json, "block", u->block);
+        if (u->block)
+            json_count(json, "offset", (uint64_t)u->offset);
+        else
+            json_none(json, "offset");
+        json_text(json, "meaning", u->meaning);
+        if (u->count)
+            numbers(json, "value", u->value, u->count);
+        else
+            json_none(json, "value");
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+}
+
+static void yes_or_no(struct json *json, const char *key, bool yes)
+{
+    fprintf(json->file, "%s\"%s\": %s", json->comma ? ", " : "", key, yes ? "true" : "false");
+    json->comma = true;
+}
+
+static void draws(struct json *json, const lam_shader *s)
+{
+    static const char *const culls[] = {"none", "back", "front"};
+    json_open(json, "draws", '[');
+    for (int i = 0; i < s->draw_count; i++) {
+        const lam_shader_draw *d = &s->draws[i];
+        json_open(json, NULL, '{');
+        json_count(json, "object", (uint64_t)d->object);
+        json_text(json, "object_name", d->object_name);
+        json_count(json, "first_triangle", d->first_triangle);
+        json_count(json, "triangle_count", d->triangle_count);
+        json_text(json, "material", d->material_name);
+        json_text(json, "front", d->clockwise ? "clockwise" : "counter-clockwise");
+        json_text(json, "cull", culls[d->cull]);
+        yes_or_no(json, "translucent", d->translucent);
+        yes_or_no(json, "has_colors", d->has_colors);
+        yes_or_no(json, "has_tangents", d->has_tangents);
+        json_open(json, "origin", '[');
+        for (int k = 0; k < 3; k++)
+            json_number(json, NULL, d->origin[k]);
+        json_close(json, ']');
+        uniforms(json, "uniforms", d->uniforms, d->uniform_count);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+}
+
+void shader_json(FILE *file, const lam_shader *s, const char *model)
+{
+    static const char *const lights[] = {"auto", "array", "block", "texture"};
+    struct json json = {.file = file};
+    json_open(&json, NULL, '{');
+    json_text(&json, "model", model);
+    json_text(&json, "glsl", lam_glsl_name(s->glsl));
+    json_text(&json, "lights_in", lights[s->lights]);
+    yes_or_no(&json, "products", s->products);
+    yes_or_no(&json, "flat", s->flat);
+    json_text(&json, "vertex", s->vertex);
+    json_text(&json, "fragment", s->fragment);
+    json_open(&json, "attributes", '[');
+    for (int i = 0; i < s->attribute_count; i++) {
+        const lam_shader_attribute *a = &s->attributes[i];
+        json_open(&json, NULL, '{');
+        json_text(&json, "name", a->name);
+        json_text(&json, "type", a->type);
+        json_count(&json, "location", (uint64_t)a->location);
+        json_text(&json, "meaning", a->meaning);
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    uniforms(&json, "uniforms", s->uniforms, s->uniform_count);
+    draws(&json, s);
+    json_open(&json, "lists", '[');
+    for (int i = 0; i < s->list_count; i++) {
+        json_open(&json, NULL, '{');
+        json_text(&json, "name", s->lists[i].name);
+        json_count(&json, "texels", (uint64_t)s->lists[i].texels);
+        numbers(&json, "values", s->lists[i].values, 4 * s->lists[i].texels);
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_close(&json, '}');
+    putc('\n', file);
+}

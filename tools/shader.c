@@ -6,7 +6,6 @@
 
 #include "command.h"
 #include "console.h"
-#include "environment_option.h"
 #include "interrupt.h"
 #include "job.h"
 #include "output.h"
@@ -160,12 +159,7 @@ int run_shader(int operand_count, char **operands, const struct options *given)
     job.times.start = clock_ms();
     struct progress progress;
     progress_start(&progress, job.model, console_is_terminal() && !options.quiet);
-    lam_environment *environment = NULL;
-    lam_shader *shader = NULL;
-    if (environment_option_load(&options, &environment, &error)) {
-        job.environment = environment;
-        shader = job_shader(&job, &progress, &error);
-    }
+    lam_shader *shader = job_shader(&job, &progress, &error);
     progress_end(&progress);
     bool ok = shader && (!to_files || write_files(given, shader, job.model, &error));
     if (ok && options.json)
@@ -174,7 +168,6 @@ int run_shader(int operand_count, char **operands, const struct options *given)
         print(given, shader, job.model, !to_files);
     lam_shader_free(shader);
     lam_scene_free(job.scene);
-    lam_environment_free(environment);
     if (interrupted())
         interrupt_finish();
     return ok ? 0 : tell_failure(&error, given);

@@ -95,6 +95,9 @@ void main()
 //@end
 //@if !shows_place
     light.a = saturate(light.a);
+//@if exposes
+    light.rgb = light.rgb * exposure;
+//@end
 //@if encoded
     @pixel@ = vec4(encode(light.r), encode(light.g), encode(light.b), light.a);
 //@elif premultiplied

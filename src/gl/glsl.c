@@ -174,6 +174,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {"numbers", numbers_triangles},
         {"places", c->layer != GLSL_NO_LAYERS},
         {"peels", c->layer == GLSL_PEELS},
+        {"exposes", c->exposes && !f->shows_vector},
         {"encoded", c->output == GLSL_ENCODED},
         {"premultiplied", c->output == GLSL_PREMULTIPLIED},
         {NULL, false},

@@ -64,6 +64,7 @@ struct glsl_choices {
     lam_show show; // a term, a vector or a place; COVERAGE and OVERDRAW give 1, CLIPPED the picture
     bool distant_viewer;
     bool gl1;
+    bool exposes;       // the fragment multiplies its light by the uniform `exposure`
     bool products;      // uniforms are ka·La, kd·Ld, ks·Ls; else material and light come apart
     bool two_sided;     // the back is lit with −n
     bool back_material; // and has a material of its own

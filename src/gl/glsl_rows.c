@@ -138,6 +138,10 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
         mean(&list,
              "normals to eye space: the inverse transpose of model_view's 3x3, times any positive number");
     }
+    if (c->exposes && !f->shows_place && !f->shows_vector) {
+        add(&list, GLSL_EXPOSURE, "float", 0, NULL, "exposure");
+        mean(&list, "all light is multiplied by it: 2 to the power of the stops");
+    }
     if (c->show == LAM_SHOW_IDS) {
         add(&list, GLSL_OBJECT, "float", 0, NULL, "object");
         mean(&list, "the object's number");
@@ -256,6 +260,8 @@ bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool
     case GLSL_MODEL_VIEW_PROJECTION:
     case GLSL_NORMAL_MATRIX:
         return !fragment;
+    case GLSL_EXPOSURE:
+        return fragment;
     case GLSL_MODEL_VIEW: // also the axis of threads without tangents
         return !fragment || (f->per_fragment && f->threads && !f->choices->tangents);
     default:

@@ -32,6 +32,7 @@ enum glsl_what {
     GLSL_SKY_PRODUCT,
     GLSL_GROUND_PRODUCT,
     GLSL_OBJECT,
+    GLSL_EXPOSURE,
 };
 
 struct glsl_row {

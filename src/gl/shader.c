@@ -98,6 +98,7 @@ static bool choose(struct making *m, const lam_draw_params *draw, int object, co
     c->version = versions[params->glsl];
     c->storage = !params->lights && c->version == GLSL_120 ? GLSL_ARRAY : storages[params->lights];
     c->output = m->frame.color == LAM_COLOR_RAW ? GLSL_STRAIGHT : GLSL_ENCODED;
+    c->exposes = m->frame.exposure != 1;
     c->products = params->products;
     if (c->environment)
         c->environment = GLSL_CUBE;
@@ -222,6 +223,9 @@ static int value_of(const struct making *m, const struct frame_surface *surface,
         return 1;
     case GLSL_OBJECT:
         out[0] = (float)draw->object;
+        return 1;
+    case GLSL_EXPOSURE:
+        out[0] = frame->exposure;
         return 1;
     case GLSL_ENVIRONMENT:
     case GLSL_LIGHT_LIST:

@@ -54,6 +54,7 @@ static void single_choices(struct visitor *v, const struct glsl_choices *base)
         c.distant_viewer = bits & 1;
         c.gl1 = bits & 2;
         c.colors = bits & 4;
+        c.exposes = bits & 4;
         c.tangents = bits & 8;
         c.output = bits & 16 ? GLSL_PREMULTIPLIED : GLSL_STRAIGHT;
         if (bits & 32)

@@ -1,0 +1,98 @@
+# test_shader.py: the command `shader`: its outputs, its contract, and what it refuses. tests/gl/contract.py draws with it.
+import json
+import re
+
+from harness import Case
+
+
+def uniforms_of(contract):
+    return contract["uniforms"] + [u for draw in contract["draws"] for u in draw["uniforms"]]
+
+
+class Shader(Case):
+    def contract(self, *words):
+        return json.loads(self.good("shader", *words, "--json").stdout)
+
+    def test_standard_output_has_everything(self):
+        text = self.good("shader", "cube.obj", "--host", "c").stdout.decode()
+        parts = re.findall(r"(?m)^// ===== (.*) =====$", text)
+        self.assertEqual(parts, ["vertex shader", "fragment shader", "what to set", "host code"])
+        self.assertEqual(text.count("#version 330 core"), 2)
+        self.assertIn("Blinn (1977)", text)
+        self.assertIn("model_view_projection", text)
+
+    def test_without_a_model_the_switches_decide(self):
+        text = self.good("shader", "--reflection", "phong", "--glsl", "300es").stdout.decode()
+        self.assertIn("#version 300 es", text)
+        self.assertIn("Phong (1975)", text)
+        self.assertNotIn("Blinn", text)
+
+    def test_files(self):
+        self.good("shader", "cube.obj", "--glsl", "120", "-o", "mine", "--host", "c")
+        self.assertEqual(self.new_files(), {"mine.vert", "mine.frag", "mine.c"})
+        for name in ("mine.vert", "mine.frag"):
+            text = (self.folder / name).read_text()
+            self.assertTrue(text.startswith("#version 120\n"))
+            self.assertNotRegex(text, r"\bflat (in|out)\b|layout|\buniform \w+ \{")
+        self.assertIn("uniform Light lights[", (self.folder / "mine.frag").read_text())
+        host = (self.folder / "mine.c").read_text()
+        self.assertRegex(host, r'glUniform4fv\(glGetUniformLocation\(program, "lights\[0\]\.direction"\), 1, \w+\);')
+        (self.folder / "folder").mkdir()
+        self.good("shader", "cube.obj", "-o", "folder/")
+        self.assertTrue((self.folder / "folder" / "cube.frag").exists())
+        self.good("shader", "cube.obj", "-o", "again.frag")
+        self.assertTrue((self.folder / "again.vert").exists())
+
+    def test_every_uniform_of_the_text_is_in_the_contract_and_back(self):
+        for words in (["--glsl", "120"], ["--glsl", "120", "--products"], ["--lights-in", "array", "--back-material", "gold"],
+                      ["--glsl", "300es", "--products", "--lights-in", "texture"], ["--gl1", "--shading", "gouraud", "--glsl", "120"]):
+            contract = self.contract("cube.obj", *words)
+            text = contract["vertex"] + contract["fragment"]
+            declared = set(re.findall(r"(?m)^uniform \w+ (\w+)", text))
+            told = {re.split(r"[.\[]", u["name"])[0] for u in uniforms_of(contract)}
+            self.assertEqual(declared, told, words)
+            declared = set(re.findall(r"(?m)^(?:attribute|layout\(location = \d\) in) \w+ (\w+)", contract["vertex"]))
+            self.assertEqual(declared, {a["name"] for a in contract["attributes"]}, words)
+            for u in uniforms_of(contract):
+                size = {"float": 1, "int": 1, "vec3": 3, "vec4": 4, "mat3": 9, "mat4": 16}.get(u["type"])
+                self.assertEqual(len(u["value"]) if u["value"] is not None else None, size, u["name"])
+
+    def test_blocks_have_the_layout_of_std140(self):
+        contract = self.contract("cube.obj", "--light", "point", "--light", "hemisphere")
+        offsets = {u["name"]: u["offset"] for u in uniforms_of(contract) if u["block"]}
+        self.assertEqual(offsets["ambient_light"], 0)
+        self.assertEqual(offsets["lights[0].position"], 16)
+        self.assertEqual(offsets["lights[0].specular"], 16 + 5 * 16)
+        self.assertEqual(offsets["hemispheres[0].up"], 16 + 6 * 16)
+        self.assertEqual(offsets["material.shininess"], 80)
+        self.assertEqual(offsets["material.fibre"], 84)
+
+    def test_values_are_the_scene_s(self):
+        lights = ["--light", "point:position=1/2/3,frame=camera,color=0.5/0.25/0.125,attenuation=1/0.5/0.25"]
+        values = {u["name"]: u["value"] for u in uniforms_of(self.contract("cube.obj", "--glsl", "120", *lights, "--shininess", "7"))}
+        self.assertEqual(values["lights[0].position"], [1, 2, 3, 1])
+        self.assertEqual(values["lights[0].attenuation"], [1, 0.5, 0.25, 0])
+        self.assertEqual(values["lights[0].diffuse"], [0.5, 0.25, 0.125, 1])
+        self.assertEqual(values["material.shininess"], [7])
+        products = {u["name"]: u["value"] for u in
+                    uniforms_of(self.contract("cube.obj", "--glsl", "120", "--products", *lights))}
+        for i in range(3):
+            self.assertAlmostEqual(products["diffuse_product[0]"][i], values["material.diffuse"][i] * values["lights[0].diffuse"][i], 6)
+
+    def test_hundreds_of_lights(self):
+        lights = [w for i in range(300) for w in ("--light", "point:position=%d/1/1" % i)]
+        contract = self.contract("cube.obj", "--lights-in", "texture", "--products", *lights)
+        self.assertIn("i < 300", contract["fragment"])
+        self.assertEqual({entry["name"]: entry["texels"] for entry in contract["lists"]}["light_list"], 1200)
+        self.assertIn("uniform Light lights[300];", self.contract("cube.obj", "--glsl", "120", *lights)["fragment"])
+
+    def test_what_is_refused(self):
+        self.bad(1, "shader", "cube.obj", "--glsl", "110", says="330, 120 or 300es")
+        self.bad(1, "shader", "cube.obj", "--glsl", "120", "--lights-in", "block", says="GLSL 120 has no uniform blocks")
+        self.bad(1, "shader", "cube.obj", "--glsl", "120", "--lights-in", "texture", says="texelFetch")
+        self.bad(1, "shader", "cube.obj", "--shading", "phong", "--stage", "vertex", says="fragment")
+        self.bad(1, "shader", "cube.obj", "--object", "5", says="object is 5")
+        self.bad(3, "shader", "cube.obj", "--show", "depth", says="depth")
+        self.bad(1, "shader", "cube.obj", "cube.stl", says="unexpected argument")
+        self.bad(2, "shader", "nothing.obj", says="nothing.obj")
+        self.bad(5, "shader", "cube.obj", "-o", "no/such/name", says="no/such")

@@ -75,10 +75,29 @@ static void print_options(unsigned groups)
     }
 }
 
+// The examples that begin with the words; NULL: all.
+static void print_examples(const char *words)
+{
+    bool any = false;
+    for (const struct example *e = examples; e->line; e++) {
+        if (words && strncmp(e->line, words, strlen(words)) != 0)
+            continue;
+        if (!any)
+            printf(words ? "\nExamples:\n" : "Examples:\n");
+        any = true;
+        char left[128];
+        snprintf(left, sizeof left, "  %s", e->line);
+        print_row(left, EXAMPLE_COLUMN, e->meaning);
+    }
+}
+
 static void print_command(const struct command *command)
 {
     printf("Usage: lambent %s%s%s\n\n%s\n", command->name, command->operands ? " " : "",
            command->operands ? command->operands : "", command->summary);
+    char words[64];
+    snprintf(words, sizeof words, "lambent %s ", command->name);
+    print_examples(words);
     print_options(command->groups);
 }
 
@@ -90,13 +109,8 @@ void print_help(const struct command *command)
     }
     printf("lambent lights 3D models: a model file becomes a picture.\n\n"
            "Usage: lambent [OPTIONS] MODEL...\n"
-           "       lambent COMMAND [ARGUMENTS]\n\n"
-           "Examples:\n");
-    for (const struct example *e = examples; e->line; e++) {
-        char left[128];
-        snprintf(left, sizeof left, "  %s", e->line);
-        print_row(left, EXAMPLE_COLUMN, e->meaning);
-    }
+           "       lambent COMMAND [ARGUMENTS]\n\n");
+    print_examples(NULL);
     print_options(command->groups);
     printf("\nCommands:\n");
     for (const struct command *c = command_table + 1; c->name; c++) {

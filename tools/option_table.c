@@ -470,7 +470,8 @@ const struct option option_table[] = {
      "`material` and other options that have commas of their own, with semicolons "
      "(`light=point;directional:color=red,frame=camera`). Left out, they are the words that the option "
      "takes; for `shininess` "
-     "10, 50 and 1000, for `light` one of each type, for `show`, which may be called `term`, the five terms. "
+     "10, 50 and 1000 (with `--material specular=0.5` where no material is given), for `light` one of each "
+     "type, for `show`, which may be called `term`, the five terms. "
      "Given twice, the first makes the lines of a grid and the second its columns.",
      .store = store_across, FIELD(across)},
 

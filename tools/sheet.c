@@ -144,7 +144,20 @@ static bool add_words(struct sheet *sheet, const char *dashed, const struct opti
     return true;
 }
 
-static bool choose_across(const char *across, struct sheet *sheet, char **store, lam_error *error)
+// Whether values with commas of their own stand with commas between them: "point,spot:cutoff=9" has a type
+// after a comma.
+static bool lacks_semicolons(const struct option *option, const char *values)
+{
+    if (strcmp(option->name, "light") != 0 || strchr(values, ';'))
+        return false;
+    for (const char *comma = strchr(values, ','); comma; comma = strchr(comma + 1, ','))
+        if (comma[1 + strcspn(comma + 1, ",:=")] == ':')
+            return true;
+    return false;
+}
+
+static bool choose_across(const char *across, bool own_material, struct sheet *sheet, char **store,
+                          lam_error *error)
 {
     size_t length = strcspn(across, "=");
     bool term =
@@ -153,6 +166,7 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
     if (!option)
         return false;
     const char *values = across[length] ? across + length + 1 : NULL;
+    bool glossy = strcmp(option->name, "shininess") == 0 && !own_material; // so that there is a highlight
     if (!values && strcmp(option->name, "shininess") == 0)
         values = "10,50,1000";
     if (!values && strcmp(option->name, "show") == 0)
@@ -162,6 +176,10 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
     if (!values && !option->words)
         return complain(error, LAM_BAD_ARGUMENT, "option '--across': '%s' needs values: %s=A,B,C",
                         option->name, option->name);
+    if (values && lacks_semicolons(option, values))
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "option '--across': found a comma between two lights in '%.200s', expected a semicolon", across);
     // One block: "--name", a zero, the values, each ended by a zero.
     size_t dashed = strlen(option->name) + 3;
     *store = malloc(dashed + (values ? strlen(values) : 0) + 1);
@@ -187,6 +205,10 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
             value = end;
         }
     }
+    for (int i = 0; glossy && i < sheet->count; i++) {
+        sheet->cells[i].words[2] = "--material";
+        sheet->cells[i].words[3] = "specular=0.5";
+    }
     // Up to six in a row; more in rows as even as can be.
     int rows = (sheet->count + 5) / 6;
     sheet->columns = rows ? (sheet->count + rows - 1) / rows : 1;
@@ -205,7 +227,12 @@ static bool cross(const struct sheet *lines, const struct sheet *columns, struct
     for (int i = 0; i < lines->count * columns->count; i++) {
         const struct cell *a = &lines->cells[i / columns->count], *b = &columns->cells[i % columns->count];
         struct cell *cell = &sheet->cells[sheet->count++];
-        *cell = (struct cell){.words = {a->words[0], a->words[1], b->words[0], b->words[1]}};
+        *cell = (struct cell){.words = {NULL}};
+        int words = 0;
+        for (int k = 0; k < 4 && a->words[k]; k++)
+            cell->words[words++] = a->words[k];
+        for (int k = 0; k < 4 && b->words[k]; k++)
+            cell->words[words++] = b->words[k];
         snprintf(cell->caption, sizeof cell->caption, "%.45s, %.45s", a->caption, b->caption);
     }
     return true;
@@ -226,10 +253,13 @@ bool sheet_choose(const struct options *options, struct sheet *sheet, char *stor
                         sheet->cells[i].words[k] = options->environment;
         return true;
     }
+    bool own = options->materials.count > 0;
+    for (int i = 0; i < across->count; i++)
+        own = own || strncmp(across->items[i], "material", 8) == 0;
     if (across->count == 1)
-        return choose_across(across->items[0], sheet, &store[0], error);
+        return choose_across(across->items[0], own, sheet, &store[0], error);
     struct sheet lines, columns;
-    return choose_across(across->items[0], &lines, &store[0], error) &&
-           choose_across(across->items[1], &columns, &store[1], error) &&
+    return choose_across(across->items[0], own, &lines, &store[0], error) &&
+           choose_across(across->items[1], own, &columns, &store[1], error) &&
            cross(&lines, &columns, sheet, error);
 }

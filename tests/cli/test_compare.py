@@ -73,6 +73,17 @@ class Compare(Case):
         two = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "azimuth=0,10,20,30,40,50,60,70")
         self.assertEqual(two[:2], (4 * 51 + 3, 2 * 43 + 3))
 
+        self.bad(1, "compare", "cube.obj", "--across", "light=point,spot:cutoff=9", says="semicolon")
+
+    def test_shininess(self):
+        """Alone it comes with a specular colour, so that there is a highlight; a material that is given is left as it is."""
+        plain = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "shininess=9")
+        glossy = self.alone("cube.obj", "-s", "48x40", "--shininess", 9, "--material", "specular=0.5")
+        self.assertEqual(part(plain, 3, 3, 48, 40), glossy)
+        for words in (["--material", "gold", "--across", "shininess=9"], ["--across", "material=gold", "--across", "shininess=9"]):
+            page = self.sheet("cube.obj", "-s", "48x40", "--no-captions", *words)
+            self.assertEqual(part(page, 3, 3, 48, 40), self.alone("cube.obj", "-s", "48x40", "--material", "gold", "--shininess", 9))
+
     def test_grid(self):
         """Two rows crossed: the first makes the lines, the second the columns."""
         page = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "shading=flat,phong", "--across", "azimuth=0,30,60")

@@ -1,5 +1,6 @@
 # test_docs.py: the help, the man page, the completions and the docs are complete, well formed and up to date.
 import re
+import shlex
 import shutil
 import subprocess
 import unittest
@@ -43,7 +44,7 @@ class Docs(Case):
     def test_examples_are_right(self):
         # Every option of an example is one of the table's, and each example's command line is read without complaint.
         for line in re.findall(r"(?m)^  (lambent .*?)(?:  .*)?$", self.help().split("\nPicture:")[0]):
-            words = line.replace("*.stl", "cube.stl").split("<")[0].split()[1:]
+            words = shlex.split(line.replace("*.stl", "cube.stl").split("<")[0])[1:]
             (self.folder / "pictures").mkdir(exist_ok=True)
             limit = ["--memory-limit", "1k"] if words[0] not in ("diff", "plot", "explain", "check") else []
             done = self.run_program(*words, *limit, stdin=b"")

@@ -322,6 +322,8 @@ class CommandLine(Case):
         self.assertIn(b"--exposure", render)
         self.assertNotIn(b"--tolerance", render)
         self.assertEqual(self.good("help", "shapes").stdout, self.good("shapes", "--help").stdout)
+        self.assertIn(b"lambent plot spot cutoff=", self.good("help", "plot").stdout)
+        self.assertNotIn(b"lambent compare", self.good("help", "plot").stdout)
         self.bad(2, "-q", "shapes", says="a command comes first")
 
     def test_version(self):

@@ -1,27 +1,17 @@
 // gl_caller.c: the state of the caller's own context that a frame changes: taken before, given back after.
 #include "gl_device.h"
 
-static const GLenum switches[] = {GL_DEPTH_TEST,
-                                  GL_BLEND,
-                                  GL_CULL_FACE,
-                                  GL_SCISSOR_TEST,
-                                  GL_STENCIL_TEST,
-                                  GL_RASTERIZER_DISCARD,
-                                  GL_SAMPLE_ALPHA_TO_COVERAGE,
-                                  GL_SAMPLE_COVERAGE,
-                                  GL_POLYGON_OFFSET_FILL,
-                                  GL_PRIMITIVE_RESTART_FIXED_INDEX,
-                                  // From here on desktop OpenGL alone.
-                                  GL_FRAMEBUFFER_SRGB,
-                                  GL_PRIMITIVE_RESTART,
-                                  GL_COLOR_LOGIC_OP,
-                                  GL_DEPTH_CLAMP,
-                                  GL_MULTISAMPLE};
+static const GLenum switches[] = {
+    GL_DEPTH_TEST, GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_RASTERIZER_DISCARD,
+    GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE, GL_POLYGON_OFFSET_FILL, GL_PRIMITIVE_RESTART_FIXED_INDEX,
+    // From here on desktop OpenGL alone.
+    GL_FRAMEBUFFER_SRGB, GL_PRIMITIVE_RESTART, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_MULTISAMPLE};
 enum { SWITCHES = sizeof switches / sizeof *switches, SWITCHES_ES = 10 };
 
-static const GLenum unpacking[] = {GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS,
+static const GLenum unpacking[] = {GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH,   GL_UNPACK_SKIP_ROWS,
                                    GL_UNPACK_SKIP_PIXELS, GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES};
-static const GLenum packing[] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS};
+static const GLenum packing[] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
+                                 GL_PACK_SKIP_PIXELS};
 static const GLint plain_alignment[6] = {4, 0, 0, 0, 0, 0};
 
 static bool is_there(const struct gl_device *device, int i)
@@ -130,7 +120,8 @@ void caller_restore(const struct gl_device *device, const struct gl_caller_state
     gl->ActiveTexture((GLenum)s->active_unit);
     for (GLuint i = 0; i < POINT_COUNT; i++)
         if (s->block_size[i])
-            gl->BindBufferRange(GL_UNIFORM_BUFFER, i, (GLuint)s->block_buffer[i], s->block_offset[i], s->block_size[i]);
+            gl->BindBufferRange(GL_UNIFORM_BUFFER, i, (GLuint)s->block_buffer[i], s->block_offset[i],
+                                s->block_size[i]);
         else
             gl->BindBufferBase(GL_UNIFORM_BUFFER, i, (GLuint)s->block_buffer[i]);
     gl->BindBuffer(GL_UNIFORM_BUFFER, (GLuint)s->uniform_buffer);

@@ -7,6 +7,7 @@
 
 #define LANES 4
 #include "cube_lookup.h"
+#include "cube_map.h"
 #include "lighting.h"
 
 #include <stdlib.h>
@@ -296,13 +297,14 @@ static bool send_colors(struct gl_frame *f, struct gl_colors *row, const struct 
     if (!lit)
         return false;
     bool on = true;
-    for (int i = 0; on && i < frame->surface_count; i++) {
+    bool shared = mesh->form == FORM_SHARED, done = false; // shared vertices: all runs have one material
+    for (int i = 0; on && !done && i < frame->surface_count; i++) {
         const struct frame_surface *s = &frame->surfaces[i];
         uint32_t first = 3 * (s->first_id - frame->draws[number].first_id);
-        // Shared vertices belong to the one surface that a draw in that form has.
-        if (s->draw == number)
-            on = light_run(f, mesh, s, mesh->form == FORM_SHARED ? 0 : first,
-                           mesh->form == FORM_SHARED ? count : first + 3 * s->count, lit);
+        if (s->draw != number)
+            continue;
+        on = light_run(f, mesh, s, shared ? 0 : first, shared ? count : first + 3 * s->count, lit);
+        done = shared;
     }
     f->gl->UnmapBuffer(GL_ARRAY_BUFFER);
     f->device->base.report.lighting_ms += (double)(now_ns() - start) * 1e-6;
@@ -343,6 +345,8 @@ GLuint colors_on_device(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_
         row->made_of = row->now;
         row->now = swapped;
         row->made_size = size;
+        lam_environment_free(row->environment);
+        row->environment = cube_share(f->frame->environment);
     }
     if (row->of_vertices != mesh->vertices) {
         size_t stride = (6 + (mesh->mesh.colors ? 4 : 0) + (mesh->mesh.tangents ? 3 : 0)) * sizeof(float);
@@ -369,6 +373,7 @@ void colors_free(struct gl_device *device)
         struct gl_colors *row = &device->colors[i];
         gl->DeleteBuffers(1, &row->colors);
         gl->DeleteVertexArrays(1, &row->array);
+        lam_environment_free(row->environment);
         buffer_free(&row->made_of);
         buffer_free(&row->now);
     }

@@ -33,8 +33,48 @@ void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum tar
 {
     if (device->now.textures[unit] == texture)
         return;
-    device->context.gl.ActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+    if (device->now.unit != (int)unit)
+        device->context.gl.ActiveTexture(GL_TEXTURE0 + (GLenum)(device->now.unit = (int)unit));
     device->context.gl.BindTexture(target, device->now.textures[unit] = texture);
+}
+
+void gl_use_blending(struct gl_device *device, enum gl_blending blending)
+{
+    const struct gl *gl = &device->context.gl;
+    enum gl_blending before = device->now.blending;
+    bool nearest = blending == BLENDING_NEAREST;
+    if (before == blending)
+        return;
+    if (before == BLENDING_UNKNOWN || nearest != (before == BLENDING_NEAREST)) {
+        (nearest ? gl->Enable : gl->Disable)(GL_DEPTH_TEST);
+        (nearest ? gl->Disable : gl->Enable)(GL_BLEND);
+    }
+    if (!nearest && device->now.factors != blending) {
+        gl->BlendFunc(blending == BLENDING_UNDER ? GL_ONE_MINUS_DST_ALPHA : GL_ONE, GL_ONE);
+        device->now.factors = blending;
+    }
+    device->now.blending = blending;
+}
+
+void gl_use_viewport(struct gl_device *device, int width, int height)
+{
+    if (device->now.width != width || device->now.height != height)
+        device->context.gl.Viewport(0, 0, device->now.width = width, device->now.height = height);
+}
+
+void gl_use_cull(struct gl_device *device, lam_cull cull)
+{
+    const struct gl *gl = &device->context.gl;
+    int before = device->now.cull;
+    if (before == (int)cull)
+        return;
+    if (cull == LAM_CULL_NONE)
+        gl->Disable(GL_CULL_FACE);
+    else if (before <= LAM_CULL_NONE)
+        gl->Enable(GL_CULL_FACE);
+    if (cull != LAM_CULL_NONE && device->now.culled != cull)
+        gl->CullFace((device->now.culled = cull) == LAM_CULL_BACK ? GL_BACK : GL_FRONT);
+    device->now.cull = (int)cull;
 }
 
 void gl_forget(struct gl_device *device)
@@ -45,7 +85,7 @@ void gl_forget(struct gl_device *device)
         device->now.textures[i] = UINT32_MAX;
     for (int i = 0; i < POINT_COUNT; i++)
         device->now.blocks[i].buffer = UINT32_MAX;
-    device->now.cull = device->now.front = -1;
+    device->now.cull = device->now.front = device->now.unit = -1;
 }
 
 bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *error)
@@ -63,9 +103,11 @@ void *gl_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, 
     f->gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)bytes, NULL, usage);
     void *mapped = f->gl->MapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)bytes,
                                          GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
-    if (!mapped)
+    if (!mapped) {
         fail(error, LAM_LIMIT, "OpenGL: the memory of '%s' is out: %zu bytes of vertices",
              f->device->context.renderer, bytes);
+        return NULL;
+    }
     f->device->base.report.bytes_uploaded += bytes;
     return mapped;
 }
@@ -133,16 +175,76 @@ static bool lists_are_read(const struct glsl_choices *c)
     return c->stage != LAM_STAGE_APPLICATION && !shows_place(c->show);
 }
 
+static bool same_call(const struct frame_surface *a, const struct frame_surface *b)
+{
+    return a->front == b->front && a->back == b->back && a->translucent == b->translucent;
+}
+
+// The draw calls of one draw, one for all of its surfaces that have the same materials: added to f->surfaces.
+// Returns the number of runs where these do not lie side by side, in device->runs; 0: they do. −1: the error
+// tells.
+static int add_calls(struct gl_frame *f, const struct frame_surface *list, int count, lam_error *error)
+{
+    const struct frame_draw *draw = &f->frame->draws[list->draw];
+    if (!buffer_reserve(&f->device->runs, (size_t)count * sizeof(struct mesh_run), f->watch, error))
+        return -1;
+    struct mesh_run *runs = f->device->runs.data;
+    struct gl_surface *calls = f->surfaces + f->surface_count;
+    int call_count = 0;
+    for (int i = 0; i < count; i++) {
+        int c = 0;
+        while (c < call_count && !same_call(calls[c].surface, &list[i]))
+            c++;
+        runs[i] = (struct mesh_run){list[i].first_id - draw->first_id, list[i].count, c};
+        if (c == call_count)
+            calls[call_count++] = (struct gl_surface){.surface = &list[i], .draw = draw};
+        calls[c].count += 3 * list[i].count;
+    }
+    for (int c = 1; c < call_count; c++)
+        calls[c].first = calls[c - 1].first + calls[c - 1].count;
+    f->surface_count += call_count;
+    return call_count < count ? count : 0;
+}
+
+// The buffers of one draw's calls.
+static bool set_up_draw(struct gl_frame *f, const struct frame_surface *list, int count, lam_error *error)
+{
+    const struct frame *frame = f->frame;
+    int first = f->surface_count, runs = add_calls(f, list, count, error);
+    if (runs < 0)
+        return false;
+    const struct frame_draw *draw = &frame->draws[list->draw];
+    struct gl_mesh *mesh = mesh_on_device(f, draw->mesh, form_of(f, draw, f->surface_count - first),
+                                          f->device->runs.data, runs, error);
+    if (!mesh)
+        return false;
+    bool colors = f->stage == LAM_STAGE_APPLICATION && !shows_place(frame->show);
+    GLuint array = colors ? colors_on_device(f, list->draw, mesh, error) : mesh->array;
+    if (!array)
+        return false;
+    for (int i = first; i < f->surface_count; i++) {
+        struct gl_surface *s = &f->surfaces[i];
+        struct glsl_choices c;
+        choices_of(f, s->surface, &c);
+        s->lit = lists_are_read(&c);
+        s->array = array;
+        s->by_elements = mesh->elements != 0;
+        s->program = program_for(f, &c, error); // compiled already
+        if (!s->program || (c.environment != GLSL_NO_ENVIRONMENT && !environment_send(f, error)))
+            return false;
+    }
+    return true;
+}
+
 // Everything that may have to be made or sent, before the first draw call.
 static bool set_up(struct gl_frame *f, lam_error *error)
 {
     const struct frame *frame = f->frame;
-    struct gl_device *device = f->device;
     if (!frame->surface_count)
         return true;
     struct glsl_choices any;
     choices_of(f, &frame->surfaces[0], &any);
-    f->storage = lists_storage(device, &any);
+    f->storage = lists_storage(f->device, &any);
     any.storage = f->storage;
     if (lists_are_read(&any) && !lists_send(f, &any, error))
         return false;
@@ -152,36 +254,11 @@ static bool set_up(struct gl_frame *f, lam_error *error)
         if (!program_for(f, &c, error) || !(watch_on(f->watch) || watch_error(f->watch, error)))
             return false;
     }
-    for (int i = 0, first = 0; i < frame->surface_count; i++) {
-        const struct frame_surface *surface = &frame->surfaces[i];
-        const struct frame_draw *draw = &frame->draws[surface->draw];
-        if (surface->draw != frame->surfaces[first].draw)
-            first = i;
-        int end = first;
-        while (end < frame->surface_count && frame->surfaces[end].draw == surface->draw)
+    for (int first = 0, end; first < frame->surface_count; first = end) {
+        for (end = first;
+             end < frame->surface_count && frame->surfaces[end].draw == frame->surfaces[first].draw;)
             end++;
-        struct glsl_choices c;
-        choices_of(f, surface, &c);
-        struct gl_surface *s = &f->surfaces[i];
-        *s = (struct gl_surface){.surface = surface, .draw = draw, .lit = lists_are_read(&c)};
-        if (i > first) {
-            s->array = f->surfaces[i - 1].array;
-            s->shared = f->surfaces[i - 1].shared;
-        } else {
-            struct gl_mesh *mesh = mesh_on_device(f, draw->mesh, form_of(f, draw, end - first), error);
-            if (!mesh)
-                return false;
-            s->shared = mesh->form == FORM_SHARED;
-            s->array = f->stage == LAM_STAGE_APPLICATION && !shows_place(frame->show)
-                           ? colors_on_device(f, surface->draw, mesh, error)
-                           : mesh->array;
-            if (!s->array)
-                return false;
-        }
-        if (c.environment != GLSL_NO_ENVIRONMENT && !environment_send(f, error))
-            return false;
-        s->program = program_for(f, &c, error);
-        if (!s->program)
+        if (!set_up_draw(f, &frame->surfaces[first], end - first, error))
             return false;
     }
     return true;
@@ -273,7 +350,7 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
 static uint64_t gl_memory(const struct lam_device *base)
 {
     const struct gl_device *device = (const struct gl_device *)base;
-    uint64_t bytes = device->scratch.room + device->pixels.room + device->surfaces.room +
+    uint64_t bytes = device->scratch.room + device->runs.room + device->pixels.room + device->surfaces.room +
                      device->environment_bytes + device->target_bytes;
     const struct gl_list *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++)
@@ -301,6 +378,7 @@ static void gl_free(struct lam_device *base)
     }
     gl_context_free(&device->context);
     buffer_free(&device->scratch);
+    buffer_free(&device->runs);
     buffer_free(&device->pixels);
     buffer_free(&device->surfaces);
     free(device);

@@ -46,10 +46,18 @@ struct mesh_vertex {
     float position[3], normal[3], color[4], tangent[3];
 };
 
+// A run of a mesh's triangles, and which draw call it is part of.
+struct mesh_run {
+    uint32_t first, count;
+    int call;
+};
+
 struct gl_mesh {
     struct scene_token *token; // held; NULL: the row is free
     lam_mesh mesh;             // the arrays that it was made of
     enum vertex_form form;
+    struct mesh_run *runs; // where runs of one material lie apart: the elements have them side by side
+    int run_count;
     GLuint vertices, elements, array; // buffers, vertex array
     uint64_t bytes;
     uint64_t used; // number of the frame that last drew it
@@ -57,7 +65,8 @@ struct gl_mesh {
 
 // Colours of one draw for the stage `application`.
 struct gl_colors {
-    struct buffer made_of, now; // what decides them: of the colours that were sent, of this frame
+    struct buffer made_of, now;          // what decides them: of the colours that were sent, of this frame
+    struct lam_environment *environment; // held: its address is part of what decides them
     size_t made_size;
     GLuint colors, array;
     GLuint of_vertices; // the mesh buffer that the array reads positions from
@@ -127,17 +136,29 @@ struct gl_list {
     struct buffer next;   // this frame's, before they are compared
 };
 
+// How fragments go into the target.
+enum gl_blending {
+    BLENDING_UNKNOWN,
+    BLENDING_NEAREST, // by their depth
+    BLENDING_ADD,     // all are added up
+    BLENDING_UNDER,   // as far as what is there lets through
+};
+
 // What the context has now, so that nothing is set twice. Forgotten at the start of a frame in the caller's
 // context.
 struct gl_now {
     GLuint program, array, framebuffer;
+    int unit; // of textures; −1: unknown
     GLuint textures[UNIT_COUNT];
     struct {
         GLuint buffer;
         size_t offset, size;
     } blocks[POINT_COUNT];
-    int cull;  // lam_cull; −1: unknown
-    int front; // 1: mirrored
+    int cull;                           // lam_cull; −1: unknown
+    lam_cull culled;                    // the side that was named last; LAM_CULL_NONE: unknown
+    int front;                          // 1: mirrored
+    enum gl_blending blending, factors; // factors: of the last that was not BLENDING_NEAREST
+    int width, height;                  // of the viewport
 };
 
 struct gl_device {
@@ -163,8 +184,8 @@ struct gl_device {
     GLuint environment_texture;
     uint64_t environment_bytes, target_bytes;
     struct gl_now now;
-    struct buffer scratch, pixels,
-        surfaces; // vertices on their way; pixels on their way back; draws of the frame
+    struct buffer scratch, pixels; // vertices on their way; pixels on their way back
+    struct buffer surfaces, runs;  // draw calls of the frame; runs of the draw that is being set up
 
     float decode_srgb[256];
     uint64_t frame_number;
@@ -172,12 +193,13 @@ struct gl_device {
 
 // One surface as it is drawn: a draw call.
 struct gl_surface {
-    const struct frame_surface *surface;
+    const struct frame_surface *surface; // the first of its runs
+    uint32_t first, count;               // vertices or elements
     const struct frame_draw *draw;
     struct gl_program *program;
     GLuint array;
-    bool shared; // drawn by elements
-    bool lit;    // the program reads the lists
+    bool by_elements;
+    bool lit; // the program reads the lists
 };
 
 // What one frame hands on.
@@ -187,7 +209,8 @@ struct gl_frame {
     const struct frame *frame;
     struct watch *watch;
     lam_image *image;
-    struct gl_surface *surfaces; // frame->surface_count
+    struct gl_surface *surfaces; // draw calls
+    int surface_count;
     enum glsl_storage storage;
     bool layered; // translucent surfaces are peeled
     lam_stage stage;
@@ -209,6 +232,9 @@ void gl_use_program(struct gl_device *device, GLuint program);
 void gl_use_array(struct gl_device *device, GLuint array);
 void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
 void gl_use_framebuffer(struct gl_device *device, GLuint framebuffer);
+void gl_use_blending(struct gl_device *device, enum gl_blending blending);
+void gl_use_viewport(struct gl_device *device, int width, int height);
+void gl_use_cull(struct gl_device *device, lam_cull cull);
 void gl_forget(struct gl_device *device); // nothing is known of the context
 
 // --- gl_meshes.c
@@ -217,10 +243,10 @@ bool mesh_can_share(const lam_mesh *mesh);
 void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form,
                    uint32_t first, uint32_t count, struct mesh_vertex *out);
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form);
-// The mesh's buffers, made where they are not there yet. The pointer lasts until the next call. NULL: the
-// error tells.
+// The mesh's buffers, made where they are not there yet; with runs (NULL: none) the elements are in the order
+// of their calls. The pointer lasts until the next call. NULL: the error tells.
 struct gl_mesh *mesh_on_device(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form,
-                               lam_error *error);
+                               const struct mesh_run *runs, int run_count, lam_error *error);
 // Lets go of the meshes of scenes that are gone, and of those that the frame's scene no longer has.
 void meshes_drop(struct gl_frame *f);
 void meshes_free(struct gl_device *device);

@@ -155,8 +155,6 @@ static void describe(struct gl_frame *f, const struct gl_mesh *row)
                                     (const void *)(at * sizeof(float)));
             at += (size_t)sizes[i];
         }
-    if (row->elements)
-        gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, row->elements);
 }
 
 // The arrays that the vertices were made of are the same: a scene never writes into an array that it has
@@ -183,6 +181,7 @@ static void drop(struct gl_device *device, struct gl_mesh *row)
         if (device->colors[i].of_vertices == row->vertices)
             device->colors[i].of_vertices = 0;
     scene_token_release(row->token);
+    free(row->runs);
     *row = (struct gl_mesh){0};
 }
 
@@ -206,13 +205,59 @@ static struct gl_mesh *free_row(struct gl_device *device, lam_error *error)
     return row;
 }
 
+static bool same_runs(const struct gl_mesh *row, const struct mesh_run *runs, int count)
+{
+    return row->run_count == count && (!count || memcmp(row->runs, runs, (size_t)count * sizeof *runs) == 0);
+}
+
+// The indices of the vertices, in the order in which the triangles are drawn.
+static bool send_elements(struct gl_frame *f, const struct gl_mesh *row, lam_error *error)
+{
+    const lam_mesh *mesh = &row->mesh;
+    size_t bytes = 3 * (size_t)mesh->triangle_count * sizeof(uint32_t);
+    gl_use_array(f->device, row->array); // keeps the binding
+    f->gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, row->elements);
+    f->device->base.report.bytes_uploaded += bytes;
+    if (!row->run_count) {
+        f->gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)bytes, mesh->indices, GL_STATIC_DRAW);
+        return true;
+    }
+    if (!buffer_reserve(&f->device->scratch, bytes, f->watch, error))
+        return false;
+    uint32_t *to = f->device->scratch.data;
+    int calls = 0;
+    for (int r = 0; r < row->run_count; r++)
+        calls = row->runs[r].call >= calls ? row->runs[r].call + 1 : calls;
+    for (int call = 0; call < calls; call++)
+        for (int r = 0; r < row->run_count; r++)
+            for (uint32_t i = 0; row->runs[r].call == call && i < 3 * row->runs[r].count; i++) {
+                uint32_t corner = 3 * row->runs[r].first + i;
+                *to++ = row->form == FORM_SHARED ? mesh->indices[corner] : corner;
+            }
+    f->gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)bytes, f->device->scratch.data, GL_STATIC_DRAW);
+    return true;
+}
+
+static bool keep_runs(struct gl_mesh *row, const struct mesh_run *runs, int count, lam_error *error)
+{
+    size_t bytes = (size_t)count * sizeof *runs;
+    row->runs = count ? malloc(bytes) : NULL;
+    if (count && !row->runs)
+        return fail_memory(error, bytes);
+    if (count)
+        memcpy(row->runs, runs, bytes);
+    row->run_count = count;
+    return true;
+}
+
 struct gl_mesh *mesh_on_device(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form,
-                               lam_error *error)
+                               const struct mesh_run *runs, int run_count, lam_error *error)
 {
     struct gl_device *device = f->device;
     for (int i = 0; i < device->mesh_count; i++) {
         struct gl_mesh *row = &device->meshes[i];
-        if (row->token == f->frame->token && row->form == form && same_arrays(&row->mesh, mesh)) {
+        if (row->token == f->frame->token && row->form == form && same_arrays(&row->mesh, mesh) &&
+            same_runs(row, runs, run_count)) {
             row->used = device->frame_number;
             return row;
         }
@@ -223,9 +268,10 @@ struct gl_mesh *mesh_on_device(struct gl_frame *f, const lam_mesh *mesh, enum ve
              (unsigned long long)vertices, INT32_MAX);
         return NULL;
     }
+    bool elements = form == FORM_SHARED || run_count;
+    uint64_t bytes = vertices * floats_of(mesh) * sizeof(float) +
+                     (elements ? 3 * (uint64_t)mesh->triangle_count * sizeof(uint32_t) : 0);
     struct gl_mesh *row = free_row(device, error);
-    uint64_t elements = form == FORM_SHARED ? 3 * (uint64_t)mesh->triangle_count * sizeof(uint32_t) : 0;
-    uint64_t bytes = vertices * floats_of(mesh) * sizeof(float) + elements;
     if (!row || !gl_charge(f, &row->bytes, bytes, error))
         return NULL;
     row->token = scene_token_hold(f->frame->token);
@@ -234,16 +280,12 @@ struct gl_mesh *mesh_on_device(struct gl_frame *f, const lam_mesh *mesh, enum ve
     row->used = device->frame_number;
     f->gl->GenBuffers(1, &row->vertices);
     f->gl->GenVertexArrays(1, &row->array);
-    if (!send_vertices(f, row, error)) {
+    if (elements)
+        f->gl->GenBuffers(1, &row->elements);
+    if (!keep_runs(row, runs, run_count, error) || !send_vertices(f, row, error) ||
+        (elements && !send_elements(f, row, error))) {
         drop(device, row);
         return NULL;
-    }
-    if (elements) {
-        f->gl->GenBuffers(1, &row->elements);
-        gl_use_array(device, row->array);
-        f->gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, row->elements);
-        f->gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)elements, mesh->indices, GL_STATIC_DRAW);
-        device->base.report.bytes_uploaded += elements;
     }
     describe(f, row);
     return row;

@@ -103,15 +103,7 @@ static void set_sides(struct gl_frame *f, const struct frame_draw *draw)
 {
     const struct gl *gl = f->gl;
     struct gl_now *now = &f->device->now;
-    if (now->cull != (int)draw->cull) {
-        if (draw->cull == LAM_CULL_NONE)
-            gl->Disable(GL_CULL_FACE);
-        else
-            gl->Enable(GL_CULL_FACE);
-        if (draw->cull != LAM_CULL_NONE)
-            gl->CullFace(draw->cull == LAM_CULL_BACK ? GL_BACK : GL_FRONT);
-        now->cull = (int)draw->cull;
-    }
+    gl_use_cull(f->device, draw->cull);
     if (now->front != draw->mirrored) {
         gl->FrontFace(draw->mirrored ? GL_CCW : GL_CW);
         now->front = draw->mirrored;
@@ -133,12 +125,11 @@ static void draw_surface(struct gl_frame *f, const struct gl_surface *s)
     set_sides(f, draw);
     gl_use_program(f->device, s->program->name);
     gl_use_array(f->device, s->array);
-    uint32_t first = 3 * (s->surface->first_id - draw->first_id), count = 3 * s->surface->count;
-    if (s->shared)
-        gl->DrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_INT,
-                         (const void *)((size_t)first * sizeof(uint32_t)));
+    if (s->by_elements)
+        gl->DrawElements(GL_TRIANGLES, (GLsizei)s->count, GL_UNSIGNED_INT,
+                         (const void *)((size_t)s->first * sizeof(uint32_t)));
     else
-        gl->DrawArrays(GL_TRIANGLES, (GLint)first, (GLsizei)count);
+        gl->DrawArrays(GL_TRIANGLES, (GLint)s->first, (GLsizei)s->count);
 }
 
 static bool is_layer(const struct gl_frame *f, const struct gl_surface *s)
@@ -146,9 +137,11 @@ static bool is_layer(const struct gl_frame *f, const struct gl_surface *s)
     return f->layered && s->surface->translucent;
 }
 
-static void draw_surfaces(struct gl_frame *f, bool layers)
+// BLENDING_ADD: each triangle over a pixel counts, whatever its depth.
+static void draw_surfaces(struct gl_frame *f, bool layers, enum gl_blending blending)
 {
-    for (int i = 0; i < f->frame->surface_count; i++)
+    gl_use_blending(f->device, blending);
+    for (int i = 0; i < f->surface_count; i++)
         if (is_layer(f, &f->surfaces[i]) == layers)
             draw_surface(f, &f->surfaces[i]);
 }
@@ -170,33 +163,21 @@ static void clear_target(struct gl_frame *f, const struct gl_target *t, int plac
         f->gl->ClearBufferfv(GL_DEPTH, 0, far);
 }
 
-// How a target's colours go into another one.
-enum copy {
-    COPY_ADD,   // times the factor
-    COPY_UNDER, // as far as what is there lets through
-};
-
+// A target's colours, times the factor, into another one.
 static void copy_target(struct gl_frame *f, const struct gl_target *from, const struct gl_target *to,
-                        enum copy how, float factor)
+                        enum gl_blending how, float factor)
 {
     const struct gl *gl = f->gl;
     struct gl_device *device = f->device;
     gl_use_framebuffer(device, to->framebuffer);
-    gl->Disable(GL_DEPTH_TEST);
-    gl->Enable(GL_BLEND);
-    gl->BlendFunc(how == COPY_UNDER ? GL_ONE_MINUS_DST_ALPHA : GL_ONE, GL_ONE);
-    if (device->now.cull != LAM_CULL_NONE) {
-        gl->Disable(GL_CULL_FACE);
-        device->now.cull = LAM_CULL_NONE;
-    }
+    gl_use_blending(device, how);
+    gl_use_cull(device, LAM_CULL_NONE);
     gl_use_program(device, device->copy_program);
     if (device->copy_factor_now != factor)
         gl->Uniform1f(device->copy_factor, device->copy_factor_now = factor);
     gl_use_texture(device, UNIT_COPY, GL_TEXTURE_2D, from->color);
     gl_use_array(device, device->empty_array);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
-    gl->Disable(GL_BLEND);
-    gl->Enable(GL_DEPTH_TEST);
 }
 
 // --- passes
@@ -218,26 +199,14 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
         gl_use_texture(device, UNIT_NEARER, GL_TEXTURE_2D, t->layers[1 - layer % 2].place);
         gl_use_texture(device, UNIT_OPAQUE, GL_TEXTURE_2D, t->sample.place);
         gl->BeginQuery(GL_ANY_SAMPLES_PASSED, device->query);
-        draw_surfaces(f, true);
+        draw_surfaces(f, true, BLENDING_NEAREST);
         gl->EndQuery(GL_ANY_SAMPLES_PASSED);
         gl->GetQueryObjectuiv(device->query, GL_QUERY_RESULT, &any);
         if (any)
-            copy_target(f, here, &t->sum, COPY_UNDER, 1);
+            copy_target(f, here, &t->sum, BLENDING_UNDER, 1);
     }
-    copy_target(f, &t->sample, &t->sum, COPY_UNDER, 1);
+    copy_target(f, &t->sample, &t->sum, BLENDING_UNDER, 1);
     return true;
-}
-
-// Each triangle over a pixel counts, whatever its depth.
-static void draw_overdraw(struct gl_frame *f)
-{
-    const struct gl *gl = f->gl;
-    gl->Disable(GL_DEPTH_TEST);
-    gl->Enable(GL_BLEND);
-    gl->BlendFunc(GL_ONE, GL_ONE);
-    draw_surfaces(f, false);
-    gl->Disable(GL_BLEND);
-    gl->Enable(GL_DEPTH_TEST);
 }
 
 // A number is that of the covered sample nearest to the centre, not an average.
@@ -251,7 +220,7 @@ bool passes_draw(struct gl_frame *f, lam_error *error)
 {
     struct gl_targets *t = &f->device->targets;
     const struct sample_pattern *pattern = sample_pattern(f->frame->samples);
-    f->gl->Viewport(0, 0, f->width, f->height);
+    gl_use_viewport(f->device, f->width, f->height);
     const struct gl_target *result = f->layered ? &t->sum : &t->sample;
     bool several = pattern->count > 1;
     if (several)
@@ -263,15 +232,12 @@ bool passes_draw(struct gl_frame *f, lam_error *error)
         f->sample_x = (float)pattern->x[s] * 0.0625f;
         f->sample_y = (float)pattern->y[s] * 0.0625f;
         clear_target(f, &t->sample, PLACE_FRONT);
-        if (f->frame->show == LAM_SHOW_OVERDRAW)
-            draw_overdraw(f);
-        else
-            draw_surfaces(f, false);
+        draw_surfaces(f, false, f->frame->show == LAM_SHOW_OVERDRAW ? BLENDING_ADD : BLENDING_NEAREST);
         if (f->layered && !draw_layers(f, error))
             return false;
         bool number = is_number(f->frame->show);
         if (several)
-            copy_target(f, result, &t->picture, number ? COPY_UNDER : COPY_ADD,
+            copy_target(f, result, &t->picture, number ? BLENDING_UNDER : BLENDING_ADD,
                         number ? 1 : 1.0f / (float)pattern->count);
     }
     gl_use_framebuffer(f->device, several ? t->picture.framebuffer : result->framebuffer);

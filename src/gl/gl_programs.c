@@ -79,8 +79,8 @@ static void look_up(struct gl_frame *f, struct gl_program *program)
     gl_use_program(f->device, program->name);
     for (int u = 0; u < UNIFORM_COUNT; u++)
         program->locations[u] = gl->GetUniformLocation(program->name, uniform_names[u]);
-    static const char *const textures[UNIT_COPY] = {"environment_faces", "light_list", "product_list", "nearer_places",
-                                                    "opaque_places"};
+    static const char *const textures[UNIT_COPY] = {"environment_faces", "light_list", "product_list",
+                                                    "nearer_places", "opaque_places"};
     for (int unit = 0; unit < UNIT_COPY; unit++) {
         GLint at = gl->GetUniformLocation(program->name, textures[unit]);
         if (at >= 0)
@@ -101,7 +101,8 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
         if (memcmp(&device->programs[i].choices, choices, sizeof *choices) == 0)
             return &device->programs[i];
     if (device->program_count == device->program_room) {
-        // Pointers to programs are held only while one frame is set up, after all of it is compiled (gl_device.c).
+        // Pointers to programs are held only while one frame is set up, after all of it is compiled
+        // (gl_device.c).
         int room = device->program_room ? 2 * device->program_room : 8;
         struct gl_program *grown = realloc(device->programs, (size_t)room * sizeof *grown);
         if (!grown) {
@@ -127,7 +128,8 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
 
 // --- uniforms, sent where they are other than before
 
-void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values, int count)
+void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values,
+                 int count)
 {
     GLint at = program->locations[uniform];
     float *before = program->values[uniform];
@@ -161,20 +163,23 @@ void program_set_number(struct gl_frame *f, struct gl_program *program, enum uni
 
 // --- from one target into another
 
-static const char copy_vertex[] = "void main()\n"
-                                  "{\n"
-                                  "    // One triangle over the whole target.\n"
-                                  "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
-                                  "}\n";
-static const char copy_fragment[] = "uniform sampler2D picture;\n"
-                                    "uniform float factor;\n"
-                                    "out vec4 pixel;\n"
-                                    "void main() { pixel = texelFetch(picture, ivec2(gl_FragCoord.xy), 0) * factor; }\n";
+static const char copy_vertex[] =
+    "void main()\n"
+    "{\n"
+    "    // One triangle over the whole target.\n"
+    "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
+    "}\n";
+static const char copy_fragment[] =
+    "uniform sampler2D picture;\n"
+    "uniform float factor;\n"
+    "out vec4 pixel;\n"
+    "void main() { pixel = texelFetch(picture, ivec2(gl_FragCoord.xy), 0) * factor; }\n";
 
 bool program_copy_make(struct gl_device *device, lam_error *error)
 {
-    static const char *const starts[] = {"#version 330 core\n",
-                                         "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"};
+    static const char *const starts[] = {
+        "#version 330 core\n",
+        "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"};
     char vertex[512], fragment[512];
     snprintf(vertex, sizeof vertex, "%s%s", starts[device->context.es], copy_vertex);
     snprintf(fragment, sizeof fragment, "%s%s", starts[device->context.es], copy_fragment);

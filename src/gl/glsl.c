@@ -131,7 +131,8 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
     bool old = c->version == GLSL_120, light_up = f->lit && fragment == f->per_fragment;
     bool flat = f->shading == LAM_SHADING_FLAT, surface = !f->paints && f->lit;
     bool passes_tangent = f->threads && c->tangents, field = f->threads && !c->tangents;
-    bool clamps = c->gl1 && f->per_vertex && (c->show == LAM_SHOW_PICTURE || c->show == LAM_SHOW_CLIPPED);
+    bool clamps = c->gl1 && f->shading != LAM_SHADING_PHONG &&
+                  (c->show == LAM_SHOW_PICTURE || c->show == LAM_SHOW_CLIPPED);
     bool tints = c->colors && f->lit && !f->shows_vector;
     bool eye = surface || c->show == LAM_SHOW_DEPTH;
     bool numbers_triangles = c->show == LAM_SHOW_IDS || c->layer != GLSL_NO_LAYERS;

@@ -1,0 +1,368 @@
+// test_calls.c: what the OpenGL device asks of the driver: in the caller's own context, through a
+// get_proc_address that counts. A frame of an unchanged scene makes nothing, sends nothing and sets no state
+// twice; each material of a mesh is one draw call; the caller's state is as it was.
+#include "context.h"
+#include "scenes.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static struct gl_context context; // the caller's
+static struct gl real;
+static int made, sent, set_uniform, drawn, twice; // calls by what they do
+static GLuint last_program, last_array, last_framebuffer;
+
+#define COUNT(name, counter, parameters, arguments)                                                          \
+    static void APIENTRY count_##name parameters                                                             \
+    {                                                                                                        \
+        counter++;                                                                                           \
+        real.name arguments;                                                                                 \
+    }
+COUNT(BufferData, made, (GLenum a, GLsizeiptr b, const void *c, GLenum d), (a, b, c, d))
+COUNT(GenBuffers, made, (GLsizei a, GLuint *b), (a, b))
+COUNT(GenTextures, made, (GLsizei a, GLuint *b), (a, b))
+COUNT(GenVertexArrays, made, (GLsizei a, GLuint *b), (a, b))
+COUNT(GenFramebuffers, made, (GLsizei a, GLuint *b), (a, b))
+COUNT(GenQueries, made, (GLsizei a, GLuint *b), (a, b))
+COUNT(TexImage2D, made,
+      (GLenum a, GLint b, GLint c, GLsizei d, GLsizei e, GLint f, GLenum g, GLenum h, const void *i),
+      (a, b, c, d, e, f, g, h, i))
+COUNT(LinkProgram, made, (GLuint a), (a))
+COUNT(BufferSubData, sent, (GLenum a, GLintptr b, GLsizeiptr c, const void *d), (a, b, c, d))
+COUNT(Uniform1f, set_uniform, (GLint a, GLfloat b), (a, b))
+COUNT(Uniform1i, set_uniform, (GLint a, GLint b), (a, b))
+COUNT(Uniform4fv, set_uniform, (GLint a, GLsizei b, const GLfloat *c), (a, b, c))
+COUNT(UniformMatrix3fv, set_uniform, (GLint a, GLsizei b, GLboolean c, const GLfloat *d), (a, b, c, d))
+COUNT(UniformMatrix4fv, set_uniform, (GLint a, GLsizei b, GLboolean c, const GLfloat *d), (a, b, c, d))
+COUNT(DrawArrays, drawn, (GLenum a, GLint b, GLsizei c), (a, b, c))
+COUNT(DrawElements, drawn, (GLenum a, GLsizei b, GLenum c, const void *d), (a, b, c, d))
+
+static void APIENTRY count_UseProgram(GLuint a)
+{
+    twice += a == last_program;
+    real.UseProgram(last_program = a);
+}
+static void APIENTRY count_BindVertexArray(GLuint a)
+{
+    twice += a == last_array;
+    real.BindVertexArray(last_array = a);
+}
+static void APIENTRY count_BindFramebuffer(GLenum a, GLuint b)
+{
+    twice += a == GL_FRAMEBUFFER && b == last_framebuffer;
+    last_framebuffer = a == GL_FRAMEBUFFER ? b : UINT32_MAX;
+    real.BindFramebuffer(a, b);
+}
+
+static lam_gl_function counting(void *user, const char *name)
+{
+    (void)user;
+#define ROW(function)                                                                                        \
+    if (strcmp(name, "gl" #function) == 0) {                                                                 \
+        real.function = context.gl.function;                                                                 \
+        return (lam_gl_function)count_##function;                                                            \
+    }
+    ROW(BufferData)
+    ROW(GenBuffers)
+    ROW(GenTextures)
+    ROW(GenVertexArrays)
+    ROW(GenFramebuffers)
+    ROW(GenQueries)
+    ROW(TexImage2D)
+    ROW(LinkProgram)
+    ROW(BufferSubData)
+    ROW(Uniform1f)
+    ROW(Uniform1i)
+    ROW(Uniform4fv)
+    ROW(UniformMatrix3fv)
+    ROW(UniformMatrix4fv)
+    ROW(DrawArrays)
+    ROW(DrawElements)
+    ROW(UseProgram)
+    ROW(BindVertexArray)
+    ROW(BindFramebuffer)
+#undef ROW
+    return context.egl.GetProcAddress(name);
+}
+
+static struct gl_previous previous;
+
+static lam_device *start(enum gl_profile profile)
+{
+    lam_error error = {0};
+    if (!gl_context_make(&context, NULL, NULL, profile, false, &error)) {
+        print_message("%s\n", error.text);
+        skip();
+    }
+    assert_true(gl_context_enter(&context, &previous, &error));
+    lam_gl_params params = {.get_proc_address = counting};
+    lam_device *device = lam_device_gl(&params, &error);
+    if (!device)
+        fail_msg("%s", error.text);
+    return device;
+}
+
+static void stop(lam_device *device)
+{
+    lam_device_free(device);
+    assert_int_equal(context.gl.GetError(), GL_NO_ERROR);
+    gl_context_leave(&context, &previous);
+    gl_context_free(&context);
+}
+
+static void build(const char *name, struct demo *demo)
+{
+    lam_error error = {0};
+    for (int i = 0; i < demo_count; i++)
+        if (strcmp(demos[i].name, name) == 0 && !demo_build(&demos[i], demo, &error))
+            fail_msg("%s", error.text);
+}
+
+static lam_frame_report frame(lam_device *device, const struct demo *demo, const lam_draw_params *params)
+{
+    lam_image image = {0};
+    lam_error error = {0};
+    if (!lam_image_make(&image, demo->width, demo->height, LAM_RGBA8, &error))
+        fail_msg("%s", error.text);
+    made = sent = set_uniform = drawn = twice = 0;
+    last_program = last_array = last_framebuffer = UINT32_MAX;
+    if (!lam_draw(device, demo->scene, &demo->camera, params, &image, NULL, &error))
+        fail_msg("%s", error.text);
+    lam_image_free(&image);
+    lam_frame_report report;
+    lam_device_report(device, &report);
+    return report;
+}
+
+static void test_unchanged(void **state)
+{
+    (void)state;
+    lam_device *device = start(GL_PROFILE_CORE);
+    static const char *const names[] = {"teapot", "lights", "translucent", "mirror-gouraud", "two-sides"};
+    static const lam_stage stages[] = {LAM_STAGE_APPLICATION, LAM_STAGE_VERTEX, LAM_STAGE_FRAGMENT};
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++)
+        for (int s = 0; s < 3; s++) {
+            struct demo demo;
+            build(names[n], &demo);
+            lam_draw_params params = demo.params;
+            params.samples = 1;
+            params.stage = stages[s];
+            params.shading = stages[s] == LAM_STAGE_FRAGMENT ? LAM_SHADING_PHONG : LAM_SHADING_GOURAUD;
+            lam_frame_report first = frame(device, &demo, &params);
+            assert_true(made > 0 || n > 0);
+            lam_frame_report second = frame(device, &demo, &params), report = frame(device, &demo, &params);
+            print_message("%-15s stage %d: first %llu bytes; unchanged: %d made, %d sent, %d draw calls\n",
+                          names[n], s, (unsigned long long)first.bytes_uploaded, made, sent, drawn);
+            assert_int_equal(made, 0);
+            assert_int_equal(sent, 0);
+            assert_int_equal(twice, 0);
+            assert_int_equal(report.bytes_uploaded, 0);
+            assert_int_equal(report.memory_bytes, second.memory_bytes);
+            // The camera turns: the vertices stay, and only the stage `application` sends colours.
+            demo.camera.eye.x += 0.1;
+            report = frame(device, &demo, &params);
+            if (stages[s] == LAM_STAGE_APPLICATION) {
+                assert_true(report.bytes_uploaded >= 32 * lam_scene_mesh(demo.scene, 0)->vertex_count);
+                assert_true(report.points_lit > 0);
+            } else {
+                assert_true(report.bytes_uploaded < 20000); // the lights in eye space
+                assert_int_equal(made, 0);
+            }
+            lam_scene_free(demo.scene);
+        }
+    stop(device);
+}
+
+// Parts that take turns with their materials are one draw call for each.
+static void test_one_call(void **state)
+{
+    (void)state;
+    lam_device *device = start(GL_PROFILE_ES);
+    lam_error error = {0};
+    struct demo demo = {.width = 64, .height = 64, .scene = lam_scene_make(&error)};
+    enum { STRIPS = 64 };
+    float positions[3 * (2 * STRIPS + 2)], normals[3 * (2 * STRIPS + 2)];
+    uint32_t indices[6 * STRIPS];
+    lam_part parts[STRIPS];
+    for (int i = 0; i <= STRIPS; i++)
+        for (int k = 0; k < 2; k++) {
+            memcpy(positions + 3 * (2 * i + k), (float[3]){(float)i / 32 - 1, (float)(2 * k - 1), 0}, 12);
+            memcpy(normals + 3 * (2 * i + k), (float[3]){0, 0, 1}, 12);
+        }
+    for (uint32_t i = 0; i < STRIPS; i++) {
+        const uint32_t quad[6] = {2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3};
+        memcpy(indices + 6 * i, quad, sizeof quad);
+        parts[i] = (lam_part){.first_triangle = 2 * i, .triangle_count = 2, .material = (int)i % 3};
+    }
+    lam_mesh mesh = {.positions = positions,
+                     .vertex_count = 2 * STRIPS + 2,
+                     .indices = indices,
+                     .triangle_count = 2 * STRIPS,
+                     .normals = normals,
+                     .normal_count = 2 * STRIPS + 2,
+                     .parts = parts,
+                     .part_count = STRIPS};
+    for (int i = 0; i < 3; i++) {
+        lam_material m = lam_material_default();
+        m.diffuse = (lam_rgba){i == 0, i == 1, i == 2, 1};
+        m.ambient = (lam_rgb){0};
+        lam_scene_add_material(demo.scene, &m, &error);
+    }
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_mesh(demo.scene, &mesh, &error);
+    assert_true(lam_scene_add_object(demo.scene, &object, &error) >= 0);
+    lam_view view = {.from_angles = true, .aspect = 1};
+    demo.camera = lam_camera_fit(demo.scene, &view);
+    lam_device *cpu = lam_device_cpu(NULL, &error);
+    for (int way = 0; way < 5; way++) {
+        lam_draw_params params = {.samples = 1};
+        params.shading = way == 0 ? LAM_SHADING_PHONG : way < 3 ? LAM_SHADING_GOURAUD : LAM_SHADING_FLAT;
+        params.stage = way == 1 || way == 3 ? LAM_STAGE_APPLICATION : LAM_STAGE_AUTO;
+        frame(device, &demo, &params);
+        assert_int_equal(drawn, 3);
+        lam_image a = {0}, b = {0};
+        lam_difference difference;
+        assert_true(lam_image_make(&a, 64, 64, LAM_RGBA8, &error) &&
+                    lam_image_make(&b, 64, 64, LAM_RGBA8, &error));
+        assert_true(lam_draw(cpu, demo.scene, &demo.camera, &params, &a, NULL, &error));
+        assert_true(lam_draw(device, demo.scene, &demo.camera, &params, &b, NULL, &error));
+        assert_true(lam_image_compare(&a, &b, &difference, &error));
+        assert_true(difference.share_over_1 <= 0.001);
+        params.show = LAM_SHOW_IDS;
+        assert_true(lam_draw(cpu, demo.scene, &demo.camera, &params, &a, NULL, &error));
+        assert_true(lam_draw(device, demo.scene, &demo.camera, &params, &b, NULL, &error));
+        assert_true(lam_image_compare(&a, &b, &difference, &error));
+        assert_true(difference.share_over_1 <= 0.001);
+        lam_image_free(&a);
+        lam_image_free(&b);
+    }
+    lam_device_free(cpu);
+    lam_scene_free(demo.scene);
+    stop(device);
+}
+
+// State that a caller may have set, as it can be asked for.
+static const GLenum asked[] = {GL_CURRENT_PROGRAM,
+                               GL_VERTEX_ARRAY_BINDING,
+                               GL_DRAW_FRAMEBUFFER_BINDING,
+                               GL_READ_FRAMEBUFFER_BINDING,
+                               GL_ACTIVE_TEXTURE,
+                               GL_ARRAY_BUFFER_BINDING,
+                               GL_UNIFORM_BUFFER_BINDING,
+                               GL_DEPTH_FUNC,
+                               GL_CULL_FACE_MODE,
+                               GL_FRONT_FACE,
+                               GL_BLEND_SRC_RGB,
+                               GL_BLEND_DST_ALPHA,
+                               GL_BLEND_EQUATION_RGB,
+                               GL_DEPTH_WRITEMASK,
+                               GL_UNPACK_ALIGNMENT,
+                               GL_PACK_ROW_LENGTH,
+                               GL_PIXEL_PACK_BUFFER_BINDING};
+static const GLenum switched[] = {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST};
+enum {
+    ASKED = sizeof asked / sizeof *asked,
+    SWITCHED = sizeof switched / sizeof *switched,
+    ANSWERS = ASKED + SWITCHED + 8
+};
+
+static void ask(const struct gl *gl, GLint out[ANSWERS])
+{
+    int n = 0;
+    for (int i = 0; i < ASKED; i++)
+        gl->GetIntegerv(asked[i], &out[n++]);
+    for (int i = 0; i < SWITCHED; i++)
+        out[n++] = gl->IsEnabled(switched[i]);
+    gl->GetIntegerv(GL_VIEWPORT, &out[n]);
+    n += 4;
+    GLint unit;
+    gl->GetIntegerv(GL_ACTIVE_TEXTURE, &unit);
+    for (GLuint i = 0; i < 2; i++) {
+        gl->ActiveTexture(GL_TEXTURE0 + i);
+        gl->GetIntegerv(GL_TEXTURE_BINDING_2D, &out[n++]);
+    }
+    gl->ActiveTexture((GLenum)unit);
+    gl->GetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, 1, &out[n++]);
+    gl->GetIntegeri_v(GL_UNIFORM_BUFFER_SIZE, 1, &out[n++]);
+}
+
+static void test_callers_state(void **state)
+{
+    (void)state;
+    for (int profile = 0; profile < GL_PROFILE_COUNT; profile++) {
+        lam_device *device = start((enum gl_profile)profile);
+        const struct gl *gl = &context.gl;
+        GLuint texture, buffer, array;
+        gl->GenTextures(1, &texture);
+        gl->GenBuffers(1, &buffer);
+        gl->GenVertexArrays(1, &array);
+        gl->BindVertexArray(array);
+        gl->ActiveTexture(GL_TEXTURE1);
+        gl->BindTexture(GL_TEXTURE_2D, texture);
+        gl->BindBuffer(GL_UNIFORM_BUFFER, buffer);
+        gl->BufferData(GL_UNIFORM_BUFFER, 1024, NULL, GL_STATIC_DRAW);
+        gl->BindBufferRange(GL_UNIFORM_BUFFER, 1, buffer, 256, 64);
+        gl->Enable(GL_BLEND);
+        gl->Enable(GL_SCISSOR_TEST);
+        gl->Enable(GL_STENCIL_TEST);
+        gl->Enable(GL_CULL_FACE);
+        gl->Scissor(1, 1, 2, 2);
+        gl->CullFace(GL_FRONT);
+        gl->FrontFace(GL_CW);
+        gl->BlendFunc(GL_DST_COLOR, GL_ZERO);
+        gl->BlendEquation(GL_FUNC_SUBTRACT);
+        gl->DepthFunc(GL_GREATER);
+        gl->DepthMask(GL_FALSE);
+        gl->ColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_TRUE);
+        gl->Viewport(3, 5, 7, 9);
+        gl->PixelStorei(GL_PACK_ROW_LENGTH, 77);
+        gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        if (profile != GL_PROFILE_ES)
+            gl->PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+        GLint before[ANSWERS], after[ANSWERS];
+        ask(gl, before);
+        lam_error error = {0};
+        lam_device *cpu = lam_device_cpu(NULL, &error);
+        static const char *const names[] = {"translucent", "mirror-sky"};
+        for (int n = 0; n < 2; n++) {
+            struct demo demo;
+            build(names[n], &demo);
+            lam_draw_params params = demo.params;
+            params.samples = 1;
+            lam_image a = {0}, b = {0};
+            lam_difference difference;
+            assert_true(lam_image_make(&a, 160, 120, LAM_RGBA8, &error) &&
+                        lam_image_make(&b, 160, 120, LAM_RGBA8, &error));
+            for (int again = 0; again < 2; again++) {
+                assert_true(lam_draw(device, demo.scene, &demo.camera, &params, &a, NULL, &error));
+                assert_true(lam_draw(cpu, demo.scene, &demo.camera, &params, &b, NULL, &error));
+                assert_true(lam_image_compare(&a, &b, &difference, &error));
+                assert_true(difference.share_over_1 <= 0.001);
+                ask(gl, after);
+                for (int i = 0; i < ANSWERS; i++)
+                    if (before[i] != after[i])
+                        fail_msg("profile %d: state %d was %d and is %d", profile, i, before[i], after[i]);
+            }
+            lam_image_free(&a);
+            lam_image_free(&b);
+            lam_scene_free(demo.scene);
+        }
+        lam_device_free(cpu);
+        gl->BindVertexArray(0);
+        stop(device);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_unchanged), cmocka_unit_test(test_one_call),
+                                       cmocka_unit_test(test_callers_state)};
+    return cmocka_run_group_tests_name("gl-calls", tests, NULL, NULL);
+}

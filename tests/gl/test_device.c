@@ -1,0 +1,292 @@
+// test_device.c: the OpenGL device beyond its pictures of the table: the three stages, exponents up to 1000,
+// more lights than a uniform block holds, pictures in parts, several samples, what is sent in a frame, and
+// the caller's own context.
+#include "context.h"
+#include "scenes.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static lam_device *cpu;
+
+static lam_device *device_or_skip(lam_gl_api api)
+{
+    lam_error error = {0};
+    lam_gl_params params = {.api = api, .debug = true};
+    lam_device *device = lam_device_gl(&params, &error);
+    if (!device) {
+        print_message("%s\n", error.text);
+        skip();
+    }
+    return device;
+}
+
+static void demo_named(const char *name, struct demo *demo)
+{
+    lam_error error = {0};
+    for (int i = 0; i < demo_count; i++)
+        if (strcmp(demos[i].name, name) == 0) {
+            if (!demo_build(&demos[i], demo, &error))
+                fail_msg("%s", error.text);
+            return;
+        }
+    fail_msg("there is no scene '%s'", name);
+}
+
+static lam_image draw(lam_device *device, const struct demo *demo, const lam_draw_params *params,
+                      lam_pixel_format format)
+{
+    lam_error error = {0};
+    lam_image image = {0};
+    if (!lam_image_make(&image, demo->width, demo->height, format, &error) ||
+        !lam_draw(device, demo->scene, &demo->camera, params, &image, NULL, &error))
+        fail_msg("%s: %s", lam_device_name(device), error.text);
+    return image;
+}
+
+// How far the two devices are apart: the share of pixels by more than 1/255, and the largest difference in
+// floats.
+struct apart {
+    double share, floats;
+};
+
+static struct apart compare(lam_device *gl, const struct demo *demo, const lam_draw_params *params)
+{
+    struct apart out = {0};
+    lam_image a = draw(cpu, demo, params, LAM_RGBA8), b = draw(gl, demo, params, LAM_RGBA8);
+    lam_difference difference;
+    lam_error error = {0};
+    assert_true(lam_image_compare(&a, &b, &difference, &error));
+    out.share = difference.share_over_1;
+    lam_image_free(&a);
+    lam_image_free(&b);
+    a = draw(cpu, demo, params, LAM_RGBA32F);
+    b = draw(gl, demo, params, LAM_RGBA32F);
+    const float *p = a.pixels, *q = b.pixels;
+    for (size_t i = 0; i < 4 * (size_t)demo->width * (size_t)demo->height; i++) {
+        double d = (double)p[i] - (double)q[i], size = (double)p[i] > 1 ? (double)p[i] : 1;
+        d = (d < 0 ? -d : d) / size;
+        out.floats = d > out.floats ? d : out.floats;
+    }
+    lam_image_free(&a);
+    lam_image_free(&b);
+    return out;
+}
+
+// Shading methods and the stages that they go with, under every reflection model: all of it in two scenes,
+// and a sixth of it in others, each time another.
+static void test_stages(void **state)
+{
+    static const struct {
+        lam_shading shading;
+        lam_stage stage;
+    } ways[] = {{LAM_SHADING_FLAT, LAM_STAGE_APPLICATION}, {LAM_SHADING_FLAT, LAM_STAGE_VERTEX},
+                {LAM_SHADING_FLAT, LAM_STAGE_FRAGMENT},    {LAM_SHADING_GOURAUD, LAM_STAGE_APPLICATION},
+                {LAM_SHADING_GOURAUD, LAM_STAGE_VERTEX},   {LAM_SHADING_PHONG, LAM_STAGE_FRAGMENT}};
+    static const char *const names[] = {"lights",         "translucent-sides", "two-sides-mirrored",
+                                        "vertex-colours", "triangle-colours",  "mirror-gouraud"};
+    (void)state;
+    lam_device *gl = device_or_skip(LAM_GL_CORE);
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+        struct demo demo;
+        demo_named(names[n], &demo);
+        lam_draw_params params = demo.params;
+        params.samples = 1;
+        double worst = 0;
+        for (size_t w = 0; w < sizeof ways / sizeof *ways; w++)
+            for (int model = LAM_REFLECTION_NONE; model <= LAM_REFLECTION_KAJIYA_KAY_LECTURE; model++)
+                for (int gl1 = 0; gl1 < 2; gl1++) {
+                    if (n > 1 && (w + n + (size_t)model) % 6)
+                        continue;
+                    params.shading = ways[w].shading;
+                    params.stage = ways[w].stage;
+                    params.reflection = (lam_reflection)model;
+                    params.gl1 = gl1;
+                    double share = compare(gl, &demo, &params).share;
+                    worst = share > worst ? share : worst;
+                    if (share > 0.001)
+                        fail_msg("%s: shading %d, stage %d, model %d, gl1 %d: %g of the pixels are off by "
+                                 "more than 1/255",
+                                 names[n], params.shading, params.stage, model, gl1, share);
+                }
+        print_message("%-20s at most %.4f %% over 1/255\n", names[n], 100 * worst);
+        lam_scene_free(demo.scene);
+    }
+    lam_device_free(gl);
+}
+
+// Terms and numbers of the surfaces; in light with each shading method, and where surfaces are translucent.
+static void test_shows(void **state)
+{
+    (void)state;
+    lam_device *gl = device_or_skip(LAM_GL_ES);
+    static const char *const names[] = {"lights", "translucent"};
+    for (int n = 0; n < 2; n++) {
+        struct demo demo;
+        demo_named(names[n], &demo);
+        lam_draw_params params = demo.params;
+        params.samples = 1;
+        for (int show = 0; show < LAM_SHOW_COUNT; show++)
+            for (int shading = 0; shading <= (n ? 0 : LAM_SHADING_FLAT); shading++) {
+                params.show = (lam_show)show;
+                params.shading = (lam_shading)shading;
+                double share = compare(gl, &demo, &params).share;
+                if (share > 0.001)
+                    fail_msg("%s, %s: shading %d: %g of the pixels are off by more than 1/255", names[n],
+                             lam_show_name(params.show), shading, share);
+            }
+        lam_scene_free(demo.scene);
+    }
+    lam_device_free(gl);
+}
+
+// A highlight's last bits count a thousandfold.
+static void test_sharp_highlights(void **state)
+{
+    (void)state;
+    lam_device *gl = device_or_skip(LAM_GL_CORE);
+    struct demo demo;
+    demo_named("inside", &demo); // no silhouette: every pixel counts
+    lam_error error = {0};
+    for (int shininess = 1; shininess <= 1000; shininess *= 10)
+        for (int model = LAM_REFLECTION_PHONG; model <= LAM_REFLECTION_KAJIYA_KAY; model++) {
+            lam_material m = lam_material_default();
+            m.specular = (lam_rgb){1, 1, 1};
+            m.shininess = (float)shininess;
+            for (int i = 0; i < lam_scene_material_count(demo.scene); i++)
+                assert_true(lam_scene_set_material(demo.scene, i, &m, &error));
+            lam_draw_params params = demo.params;
+            params.samples = 1;
+            params.reflection = (lam_reflection)model;
+            struct apart apart = compare(gl, &demo, &params);
+            print_message("shininess %4d, model %d: %.1e\n", shininess, model, apart.floats);
+            assert_true(apart.floats <= 5e-4);
+        }
+    lam_scene_free(demo.scene);
+    lam_device_free(gl);
+}
+
+// The lists go into textures.
+static void test_many_lights(void **state)
+{
+    (void)state;
+    lam_device *gl = device_or_skip(LAM_GL_CORE);
+    struct demo demo;
+    demo_named("lights", &demo);
+    demo.width = 96;
+    demo.height = 72;
+    lam_error error = {0};
+    for (int i = 0; i < 2500; i++) {
+        lam_light l = lam_light_default(i % 3 ? LAM_LIGHT_POINT : LAM_LIGHT_SPOT);
+        l.position = (lam_vec3){(i % 50) * 0.16 - 4, 1 + i % 7 * 0.2, (double)i / 50 * 0.16 - 4};
+        l.direction = (lam_vec3){0, -1, 0};
+        l.cutoff_rad = i % 3 ? 0 : 0.8f;
+        l.exponent = 2;
+        l.attenuation = (lam_attenuation){1, 0, (float)(i % 5)};
+        float c = 0.0005f * (float)(1 + i % 4);
+        l.diffuse = l.specular = (lam_rgb){c, 0.7f * c, 0.5f * c};
+        assert_true(lam_scene_add_light(demo.scene, &l, &error) >= 0);
+    }
+    for (int gouraud = 0; gouraud < 2; gouraud++) {
+        lam_draw_params params = demo.params;
+        params.samples = 1;
+        params.shading = gouraud ? LAM_SHADING_GOURAUD : LAM_SHADING_PHONG;
+        struct apart apart = compare(gl, &demo, &params);
+        print_message("2506 lights: %.4f %% over 1/255, %.1e in floats\n", 100 * apart.share, apart.floats);
+        assert_true(apart.share <= 0.001);
+    }
+    lam_scene_free(demo.scene);
+    lam_device_free(gl);
+}
+
+static void test_parts_and_samples(void **state)
+{
+    (void)state;
+    lam_device *gl = device_or_skip(LAM_GL_ES);
+    struct demo demo;
+    demo_named("translucent", &demo);
+    demo.width = 2100;
+    demo.height = 90;
+    lam_draw_params params = demo.params;
+    params.samples = 1;
+    assert_true(compare(gl, &demo, &params).share <= 0.001);
+    demo.width = 160;
+    demo.height = 120;
+    // Lit at each sample instead of once for each triangle: not the same, but the same shape (coverage is
+    // exact).
+    for (int samples = 2; samples <= 16; samples *= 2) {
+        params.samples = samples;
+        params.show = LAM_SHOW_COVERAGE;
+        assert_true(compare(gl, &demo, &params).share <= 0.001);
+        params.show = LAM_SHOW_PICTURE;
+        assert_true(compare(gl, &demo, &params).share <= 0.02);
+    }
+    lam_scene_free(demo.scene);
+    lam_device_free(gl);
+}
+
+// A scene that lies where another one lay is another one.
+static void test_scene_after_scene(void **state)
+{
+    (void)state;
+    lam_device *gl = device_or_skip(LAM_GL_CORE);
+    static const char *const names[] = {"teapot", "cone", "cylinder", "sphere-flat", "teapot", "knot-phong"};
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+        struct demo demo;
+        demo_named(names[n], &demo);
+        lam_draw_params params = demo.params;
+        params.samples = 1;
+        assert_true(compare(gl, &demo, &params).share <= 0.001);
+        lam_scene_free(demo.scene);
+    }
+    lam_device_free(gl);
+}
+
+static void test_limits(void **state)
+{
+    (void)state;
+    lam_device *gl = device_or_skip(LAM_GL_CORE);
+    struct demo demo;
+    demo_named("teapot", &demo);
+    lam_image image = {0};
+    lam_error error = {0};
+    assert_true(lam_image_make(&image, demo.width, demo.height, LAM_RGBA8, &error));
+    lam_control control = {.memory_limit_bytes = 100000};
+    assert_false(lam_draw(gl, demo.scene, &demo.camera, NULL, &image, &control, &error));
+    assert_int_equal(error.code, LAM_LIMIT);
+    lam_cancel cancel = {1};
+    control = (lam_control){.cancel = &cancel};
+    assert_false(lam_draw(gl, demo.scene, &demo.camera, NULL, &image, &control, &error));
+    assert_int_equal(error.code, LAM_CANCELLED);
+    assert_true(lam_draw(gl, demo.scene, &demo.camera, NULL, &image, NULL, &error)); // it goes on after that
+    assert_null(lam_explain(gl, demo.scene, &demo.camera, NULL, 16, 16, LAM_RGBA8, 1, 1, NULL, &error));
+    assert_int_equal(error.code, LAM_UNSUPPORTED);
+    lam_image_free(&image);
+    lam_scene_free(demo.scene);
+    lam_device_free(gl);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_stages),
+        cmocka_unit_test(test_shows),
+        cmocka_unit_test(test_sharp_highlights),
+        cmocka_unit_test(test_many_lights),
+        cmocka_unit_test(test_parts_and_samples),
+        cmocka_unit_test(test_scene_after_scene),
+        cmocka_unit_test(test_limits),
+    };
+    lam_error error = {0};
+    cpu = lam_device_cpu(NULL, &error);
+    int failed = cmocka_run_group_tests_name("gl-device", tests, NULL, NULL);
+    lam_device_free(cpu);
+    return failed;
+}

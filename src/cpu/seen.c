@@ -178,7 +178,7 @@ bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *e
     for (int i = 0; i < frame->draw_count; i++)
         if (frame->draws[i].crease_rad > 0 &&
             !normals_seen(frame->draws[i].mesh, frame->draws[i].first_id, frame->draws[i].crease_rad, seen,
-                          spare, cpu->pool, cpu->watch, error))
+                          spare, cpu->kernels->lanes, cpu->pool, cpu->watch, error))
             return false;
     return true;
 }

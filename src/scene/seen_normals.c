@@ -7,6 +7,7 @@
 // shows only in where things lie, never in a normal.
 #include "seen_normals.h"
 
+#include "fan_batch.h"
 #include "halt.h"
 #include "linear.h"
 #include "normals_fan.h"
@@ -17,7 +18,7 @@
 enum {
     WORDS = 1 << 10,  // of a set, in one piece of work
     CHUNK = 1 << 16,  // vertices or corners of one piece
-    BATCH = 32,       // vertices looked up at a time
+    BATCH = 64,       // vertices looked up at a time
     RANGE_SHIFT = 11, // positions of a range, at least 2^
     RANGES_MAX = 1 << 10,
     BLOCK_VALUES = 508, // in a block of a bin; even
@@ -40,6 +41,7 @@ struct worker {
     char *slab;
     size_t slab_left;
     struct fan_room room;
+    struct fan_batch *batch;
     uint32_t *sorted; // the corners of a range
     size_t sorted_room;
     uint32_t *starts; // of each position of a range, in `sorted`
@@ -49,6 +51,7 @@ struct seeing {
     const lam_mesh *mesh;
     uint32_t first; // number of the mesh's triangle 0
     double least_cosine;
+    const struct fan_lanes *lanes;
     struct seen_normals *seen;
     struct pool *pool;
     struct halt halt;
@@ -59,8 +62,8 @@ struct seeing {
 
     uint32_t *slots; // by position: the lowest shown vertex there
     size_t slot_mask;
-    uint64_t *filter; // a bit for some bits of the hash
-    unsigned filter_shift;
+    uint32_t *filter_bits; // a bit for some bits of the hash
+    struct fan_filter filter;
     int crowded; // touched atomically: a file was made so that positions fall into few slots
 
     uint32_t
@@ -168,13 +171,20 @@ static uint64_t vertex_hash(const struct seeing *s, size_t vertex)
     return position_hash(bits);
 }
 
+// Asks memory for what a slot's vertex will be compared by.
+static inline void prefetch_held(const struct seeing *s, uint32_t held)
+{
+    if (held != NONE)
+        __builtin_prefetch(point_of(s, held));
+}
+
 // Inserts a vertex, or lowers the one at its position. Returns the steps beyond the first slot.
 static size_t insert(struct seeing *s, uint32_t vertex, uint64_t hash)
 {
-    size_t steps = 0, bit = hash >> s->filter_shift;
-    uint64_t *word = &s->filter[bit / 64];
-    if (!(__atomic_load_n(word, __ATOMIC_RELAXED) >> bit % 64 & 1))
-        __atomic_fetch_or(word, (uint64_t)1 << bit % 64, __ATOMIC_RELAXED);
+    size_t steps = 0, bit = hash >> s->filter.shift;
+    uint32_t *word = &s->filter_bits[bit / 32];
+    if (!(__atomic_load_n(word, __ATOMIC_RELAXED) >> bit % 32 & 1))
+        __atomic_fetch_or(word, (uint32_t)1 << bit % 32, __ATOMIC_RELAXED);
     for (size_t i = hash & s->slot_mask;; i = (i + 1) & s->slot_mask, steps++) {
         uint32_t held = __atomic_load_n(&s->slots[i], __ATOMIC_RELAXED);
         if (held == NONE && __atomic_compare_exchange_n(&s->slots[i], &held, vertex, false, __ATOMIC_RELAXED,
@@ -232,6 +242,8 @@ static void insert_words(void *user, size_t index, int thread)
             __builtin_prefetch(&s->slots[hashes[i] & s->slot_mask]);
         }
         for (uint32_t i = 0; i < count; i++)
+            prefetch_held(s, __atomic_load_n(&s->slots[hashes[i] & s->slot_mask], __ATOMIC_RELAXED));
+        for (uint32_t i = 0; i < count; i++)
             steps += insert(s, vertices[i], hashes[i]);
         total += count;
         if (!few_steps(s, steps, total))
@@ -242,47 +254,50 @@ static void insert_words(void *user, size_t index, int thread)
 static bool fill_table(struct seeing *s)
 {
     size_t slots = 1 << 10, bits = 1 << 12;
-    s->filter_shift = 64 - 12;
+    s->filter.shift = 64 - 12;
     while (slots < 2 * (size_t)s->shown.count)
         slots *= 2;
     while (bits < 8 * (size_t)s->shown.count) {
         bits *= 2;
-        s->filter_shift--;
+        s->filter.shift--;
     }
     s->slot_mask = slots - 1;
     s->slots = take(s, &s->scratch, slots, sizeof *s->slots);
-    s->filter = take_zeroed(s, bits / 8);
-    if (!s->slots || !s->filter)
+    s->filter.bits = s->filter_bits = take_zeroed(s, bits / 8);
+    if (!s->slots || !s->filter_bits)
         return false;
     memset(s->slots, 0xff, slots * sizeof *s->slots);
     pool_run(s->pool, pieces_of(number_set_words(s->vertices), WORDS), insert_words, s);
     return true;
 }
 
-// The position numbers of `count` vertices from `first` on. Returns the steps beyond first slots.
+// The position numbers of `count` vertices from `first` on, NONE: none of a seen triangle. Most are none, and
+// few of those pass the filter. Returns the steps beyond first slots.
 static size_t look_up(const struct seeing *s, size_t first, size_t count, uint32_t out[BATCH])
 {
     uint64_t hashes[BATCH];
+    uint32_t has[BATCH], passed[BATCH], passing = 0;
     size_t steps = 0;
-    for (size_t i = 0; i < count; i++)
-        hashes[i] = vertex_hash(s, first + i);
-    for (size_t i = 0; i < count; i++) {
-        size_t bit = hashes[i] >> s->filter_shift;
-        out[i] = s->filter[bit / 64] >> bit % 64 & 1 ? 0 : NONE;
-        if (out[i] != NONE)
-            __builtin_prefetch(&s->slots[hashes[i] & s->slot_mask]);
+    s->lanes->ask(point_of(s, first), count, &s->filter, hashes, has);
+    for (uint32_t i = 0; i < count; i++) {
+        out[i] = NONE;
+        passed[passing] = i;
+        passing += has[i];
     }
-    for (size_t i = 0; i < count; i++) {
-        if (out[i] == NONE)
-            continue;
-        uint32_t vertex = (uint32_t)(first + i), held;
+    for (uint32_t k = 0; k < passing; k++)
+        __builtin_prefetch(&s->slots[hashes[passed[k]] & s->slot_mask]);
+    for (uint32_t k = 0; k < passing; k++)
+        prefetch_held(s, s->slots[hashes[passed[k]] & s->slot_mask]);
+    for (uint32_t k = 0; k < passing; k++) {
+        uint32_t i = passed[k], vertex = (uint32_t)(first + i), held;
         for (size_t at = hashes[i] & s->slot_mask;; at = (at + 1) & s->slot_mask) {
             held = s->slots[at];
             if (held == NONE || held == vertex || same_position(s, held, vertex))
                 break;
             steps++;
         }
-        out[i] = held == NONE ? NONE : number_set_place(&s->shown, held);
+        if (held != NONE)
+            out[i] = number_set_place(&s->shown, held);
     }
     return steps;
 }
@@ -355,38 +370,81 @@ static void bin_chunk(void *user, size_t index, int thread)
         } else
             for (size_t i = 0; i < count; i++)
                 found[i] = s->position_of[indices ? indices[c + i] : c + i];
-        for (size_t i = 0; i < count; i++)
-            if (found[i] != NONE && !put(s, worker, found[i], (uint32_t)(c + i)))
+        uint32_t kept[BATCH], keeping = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            kept[keeping] = i;
+            keeping += found[i] != NONE;
+        }
+        for (uint32_t k = 0; k < keeping; k++)
+            if (!put(s, worker, found[kept[k]], (uint32_t)(c + kept[k])))
                 return;
     }
 }
 
 // --- fans
 
-// The normals at one position, to the corners of triangles that are seen.
+// Gives a corner of a triangle that is seen its fan's normal. element_of[fan] is NONE until one has it.
+static inline void hand_out(struct seeing *s, uint32_t corner, uint32_t fan, const float normal[3],
+                            uint32_t *element_of)
+{
+    const struct number_set *triangles = &s->seen->triangles;
+    uint32_t triangle = corner / 3;
+    size_t number = s->first + (size_t)triangle;
+    if (!number_set_holds(triangles, number))
+        return;
+    uint32_t element = 3 * number_set_place(triangles, number) + (corner - 3 * triangle);
+    if (element_of[fan] == NONE) {
+        element_of[fan] = element;
+        memcpy(s->seen->normals[element], normal, 3 * sizeof *normal);
+    }
+    s->seen->elements[element] = element_of[fan];
+}
+
+// The normals at one position.
 static bool make_fans(struct seeing *s, struct fan_room *room, const uint32_t *corners, uint32_t count)
 {
     if (!fan_room_reserve(room, count))
         return false;
     memcpy(room->corners, corners, count * sizeof *corners);
-    fan_sort(room->corners, count);
     uint32_t fans = fan_normals(s->mesh, s->least_cosine, room, count);
-    uint32_t *element_of = room->corners; // free again: of each fan, once it has one
+    uint32_t *element_of = room->corners; // free again
     memset(element_of, 0xff, fans * sizeof *element_of);
-    const struct number_set *triangles = &s->seen->triangles;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t corner = room->spokes[i].corner, fan = room->spokes[i].fan;
-        size_t number = s->first + (size_t)(corner / 3);
-        if (!number_set_holds(triangles, number))
-            continue;
-        uint32_t element = 3 * number_set_place(triangles, number) + corner % 3;
-        if (element_of[fan] == NONE) {
-            element_of[fan] = element;
-            memcpy(s->seen->normals[element], room->normals[fan], sizeof *room->normals);
-        }
-        s->seen->elements[element] = element_of[fan];
-    }
+    for (uint32_t i = 0; i < count; i++)
+        hand_out(s, room->spokes[i].corner, room->spokes[i].fan, room->normals[room->spokes[i].fan],
+                 element_of);
     return true;
+}
+
+// The normals at the positions that were gathered.
+static bool make_batch(struct seeing *s, struct worker *worker)
+{
+    struct fan_batch *batch = worker->batch;
+    uint32_t element_of[FAN_CORNERS];
+    fan_batch_make(batch, s->mesh, s->least_cosine, s->lanes);
+    memset(element_of, 0xff, batch->fans * sizeof *element_of);
+    for (uint32_t p = 0; p < batch->places; p++) {
+        const struct fan_place *place = &batch->place[p];
+        if (!place->done && !make_fans(s, &worker->room, batch->corner + place->first, place->count))
+            return false;
+        for (uint32_t i = place->first; place->done && i < (uint32_t)place->first + place->count; i++) {
+            uint32_t fan = batch->fan[i];
+            const struct fan_sums *sums = &batch->sums;
+            float normal[3] = {sums->unit[0][fan], sums->unit[1][fan], sums->unit[2][fan]};
+            hand_out(s, batch->corner[i], fan, normal, element_of);
+        }
+    }
+    fan_batch_empty(batch);
+    return true;
+}
+
+// The normals at one position, now or with others.
+static bool add_position(struct seeing *s, struct worker *worker, uint32_t *corners, uint32_t count)
+{
+    fan_sort(corners, count);
+    if (count > FAN_FEW)
+        return make_fans(s, &worker->room, corners, count);
+    return fan_batch_add(worker->batch, corners, count) ||
+           (make_batch(s, worker) && fan_batch_add(worker->batch, corners, count));
 }
 
 // The position of value i of a block, a corner.
@@ -424,12 +482,12 @@ static void fan_range(void *user, size_t index, int thread)
         for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before)
             for (uint32_t i = b->count; i > 0; i -= step)
                 worker->sorted[--starts[position_at(s, b, i - 1) - first]] = b->values[i - 1];
-    for (size_t i = 0; i < size; i++)
-        if (starts[i + 1] > starts[i] &&
-            !make_fans(s, &worker->room, worker->sorted + starts[i], starts[i + 1] - starts[i])) {
-            no_memory(&s->halt);
-            return;
-        }
+    bool ok = true;
+    for (size_t i = 0; ok && i < size; i++)
+        if (starts[i + 1] > starts[i])
+            ok = add_position(s, worker, worker->sorted + starts[i], starts[i + 1] - starts[i]);
+    if (!ok || !make_batch(s, worker))
+        no_memory(&s->halt);
 }
 
 static bool start_workers(struct seeing *s)
@@ -452,8 +510,10 @@ static bool start_workers(struct seeing *s)
         fan_room_start(&worker->room, s->halt.watch);
         worker->bins = take_zeroed(s, s->ranges * sizeof(struct corner_block *));
         worker->starts = take(s, &s->scratch, ((size_t)1 << s->range_shift) + 1, sizeof *worker->starts);
-        if (!worker->bins || !worker->starts)
+        worker->batch = take(s, &s->scratch, 1, sizeof *worker->batch);
+        if (!worker->bins || !worker->starts || !worker->batch)
             return false;
+        fan_batch_start(worker->batch);
     }
     return true;
 }
@@ -514,12 +574,13 @@ static bool bin_corners(struct seeing *s)
 }
 
 bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad, struct seen_normals *seen,
-                  struct spare spare, struct pool *pool, struct watch *watch, lam_error *error)
+                  struct spare spare, int lanes, struct pool *pool, struct watch *watch, lam_error *error)
 {
     size_t corners = 3 * (size_t)mesh->triangle_count;
     struct seeing s = {.mesh = mesh,
                        .first = first,
                        .least_cosine = fan_least_cosine(crease_angle_rad),
+                       .lanes = fan_lanes_of(lanes),
                        .seen = seen,
                        .spare = spare,
                        .pool = pool,

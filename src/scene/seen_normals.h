@@ -73,9 +73,9 @@ struct spare {
 };
 
 // Makes the normals of one mesh, whose triangle t has the number first + t in the set. The set is counted.
-// `spare` saves fresh memory, whose first touch costs more than its use; all zero: there is none. Errors:
-// LAM_LIMIT, LAM_CANCELLED.
+// `spare` saves fresh memory, whose first touch costs more than its use; all zero: there is none. Works on no
+// more than `lanes` floats at a time. Errors: LAM_LIMIT, LAM_CANCELLED.
 bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad, struct seen_normals *seen,
-                  struct spare spare, struct pool *pool, struct watch *watch, lam_error *error);
+                  struct spare spare, int lanes, struct pool *pool, struct watch *watch, lam_error *error);
 
 #endif

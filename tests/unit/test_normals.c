@@ -22,7 +22,7 @@
 
 // Sees those of a mesh's triangles that `take` picks (0: all), numbered from `first` on; the arrays lie in
 // `arena`.
-static bool see(const lam_mesh *mesh, uint32_t first, uint32_t take, double crease_rad,
+static bool see(const lam_mesh *mesh, uint32_t first, uint32_t take, int lanes, double crease_rad,
                 struct seen_normals *seen, struct arena *arena, struct pool *pool, lam_error *error)
 {
     *seen = (struct seen_normals){.triangles.size = (size_t)first + mesh->triangle_count + 40};
@@ -53,15 +53,16 @@ static bool see(const lam_mesh *mesh, uint32_t first, uint32_t take, double crea
     if (spare.memory && spare.room)
         memset(spare.memory, 0xa5, spare.room);
     spare.room = spare.memory ? spare.room : 0;
-    return normals_seen(mesh, first, crease_rad, seen, spare, pool, NULL, error);
+    return normals_seen(mesh, first, crease_rad, seen, spare, lanes, pool, NULL, error);
 }
 
 // Of any triangles that are seen, the normals are those of the whole mesh, and corners that share one there
 // do here.
 static void seen_as_made(const lam_mesh *mesh, double crease_degrees, struct pool *pool)
 {
-    static const uint32_t firsts[] = {0, 70, 64}, takes[] = {0, 3, 17};
-    for (int k = 0; k < 3; k++) {
+    static const uint32_t firsts[] = {0, 70, 64, 70, 0}, takes[] = {0, 3, 17, 3, 0};
+    static const int lanes[] = {16, 16, 16, 8, 1};
+    for (int k = 0; k < (mesh->triangle_count > 20000 ? 3 : 5); k++) { // large ones take time
         struct arena arena;
         arena_start(&arena, NULL);
         struct seen_normals seen;
@@ -69,7 +70,7 @@ static void seen_as_made(const lam_mesh *mesh, double crease_degrees, struct poo
         lam_mesh bare = *mesh;
         bare.normals = NULL;
         bare.normal_indices = NULL;
-        if (!see(&bare, firsts[k], takes[k], RADIANS(crease_degrees), &seen, &arena, pool, &error))
+        if (!see(&bare, firsts[k], takes[k], lanes[k], RADIANS(crease_degrees), &seen, &arena, pool, &error))
             fail_msg("%s", error.text);
         uint32_t *same = arena_array(&arena, mesh->normal_count, sizeof *same), members = 0;
         memset(same, 0xff, mesh->normal_count * sizeof *same);
@@ -392,6 +393,48 @@ static void test_threads(void **state)
 
 // --- Meshes made to be slow: each must take about as long as any other mesh of its size
 
+// Triangles between random points of all magnitudes, some of them the same point, some zeros with a sign;
+// most positions have few corners, some very many.
+static void test_random(void **state)
+{
+    (void)state;
+    enum { POINTS = 1400, TRIANGLES = 3000 };
+    static float positions[3 * POINTS];
+    static uint32_t indices[3 * TRIANGLES], groups[TRIANGLES];
+    static const float coordinates[] = {0, -0.0f, 1, -1, 0.5f, 3e38f, -3e38f, 1e-45f, 1e-20f, 7, 1.5f, 2};
+    uint32_t random = 12345;
+    for (int pass = 0; pass < 3; pass++) {
+        for (size_t i = 0; i < 3 * POINTS; i++) {
+            random = random * 1664525u + 1013904223u;
+            positions[i] = pass == 0   ? coordinates[(random >> 8) % 12]
+                           : pass == 1 ? coordinates[(random >> 8) % 6]
+                                       : (float)(random >> 8 & 0xffff) / 4096.0f;
+        }
+        for (size_t i = 0; i < 3 * TRIANGLES; i++) {
+            random = random * 1664525u + 1013904223u;
+            // Mostly strips of neighbours, so that edges are shared.
+            indices[i] = pass == 2 ? (uint32_t)(i / 6 + (i % 6 == 1) + 2 * (i % 6 == 2) + 2 * (i % 6 == 3) +
+                                                (i % 6 == 4) + 3 * (i % 6 == 5)) %
+                                         POINTS
+                                   : (random >> 8) % POINTS;
+            groups[i / 3] = random >> 28 & 3;
+        }
+        for (int grouped = 0; grouped < 2; grouped++) {
+            struct arena arena;
+            arena_start(&arena, NULL);
+            lam_mesh mesh = {.positions = positions,
+                             .vertex_count = POINTS,
+                             .indices = indices,
+                             .triangle_count = TRIANGLES,
+                             .smoothing_groups = grouped ? groups : NULL};
+            smooth(&mesh, 60, &arena, NULL);
+            lam_mesh loose = {.positions = positions, .triangle_count = POINTS / 3};
+            smooth(&loose, 60, &arena, NULL);
+            arena_free(&arena);
+        }
+    }
+}
+
 static void within_seconds(clock_t start, double seconds)
 {
     assert_true((double)(clock() - start) / CLOCKS_PER_SEC < seconds);
@@ -597,7 +640,7 @@ static void test_controls(void **state)
         struct seen_normals seen;
         arena_start(&arena, NULL);
         arena_fail_after(k);
-        done = see(&copy, 0, 2, 0.7, &seen, &arena, NULL, &error);
+        done = see(&copy, 0, 2, 16, 0.7, &seen, &arena, NULL, &error);
         arena_fail_after(-1);
         assert_true(done || error.code == LAM_LIMIT);
         arena_free(&arena);
@@ -617,6 +660,7 @@ int main(void)
         cmocka_unit_test(test_bow_tie),
         cmocka_unit_test(test_inconsistent_winding),
         cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_random),
         cmocka_unit_test(test_million_at_one_vertex),
         cmocka_unit_test(test_colliding_positions),
         cmocka_unit_test(test_one_partition),

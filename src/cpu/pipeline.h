@@ -89,11 +89,25 @@ struct rectangle {
 
 // Points about to be lit, side by side, and in the end their colours.
 enum { POINTS_AT_ONCE = 512 };
+
+// Fragments beside each other that show the same triangle are a run: rows of what belongs to the triangle
+// (runs.inc).
+enum { RUN_CORNERS = 0, RUN_SPANNED = 9, RUN_MORE = 18, RUN_ROWS = 21 };
+struct runs {
+    int count;
+    uint32_t triangle[POINTS_AT_ONCE + LANES_MAX];
+    int32_t first[POINTS_AT_ONCE]; // of LANES fragments, the first one's run
+    int32_t from[POINTS_AT_ONCE];  // each fragment's, counted from there
+    float row[RUN_ROWS][POINTS_AT_ONCE + LANES_MAX];
+};
+
 struct lit_points {
     float p[3][POINTS_AT_ONCE], n[3][POINTS_AT_ONCE], v[3][POINTS_AT_ONCE], t[3][POINTS_AT_ONCE];
     float color[3][POINTS_AT_ONCE], alpha[POINTS_AT_ONCE]; // of the vertices, then as seen
     uint32_t triangle[POINTS_AT_ONCE];                     // of the mesh
+    float x[POINTS_AT_ONCE], y[POINTS_AT_ONCE];            // the pixel's centre, in pixels of the window
     float b1[POINTS_AT_ONCE], b2[POINTS_AT_ONCE];          // weights of its corners 1 and 2
+    struct runs runs;
 };
 
 // The lights that some points are lit by (light_lists.inc).
@@ -125,7 +139,7 @@ struct thread_state {
     // Gouraud and flat shading: the points lit in this tile, found again by hashing.
     uint32_t *point_table;    // slot → point + 1; a power of two of them, fitted to the group
     uint32_t (*point_key)[4]; // what makes a point: position, normal, colour, tangent element
-    uint32_t *fragment_point; // 3 per fragment
+    uint32_t *fragment_point; // 3 per run of fragments
     float *point_color[4];
     struct lit_points *points;
     struct light_choice choice;

@@ -226,6 +226,31 @@ LANE_FN unsigned negative_bits(inum x)
 #endif
 }
 
+// For each lane, how many of `bits` belong to it or to one before it.
+LANE_FN inum bits_up_to_lane(unsigned bits)
+{
+    inum x = inum_of((int32_t)bits) & ((inum_of(2) << lane_numbers()) - 1);
+    x = x - (x >> 1 & 0x5555); // in pairs of bits, then in fours, eights, sixteens
+    x = (x & 0x3333) + (x >> 2 & 0x3333);
+    x = (x + (x >> 4)) & 0x0f0f;
+    return (x + (x >> 8)) & 0x1f;
+}
+
+// Lane i is row[at[i]]; at: 0 to LANES − 1. All LANES floats of the row must be readable.
+LANE_FN num lanes_at(const float *row, inum at)
+{
+#if LANES == 16 && defined(__AVX512F__)
+    return (num)_mm512_permutexvar_ps((__m512i)at, _mm512_loadu_ps(row));
+#elif LANES == 8 && defined(__AVX2__)
+    return (num)_mm256_permutevar8x32_ps(_mm256_loadu_ps(row), (__m256i)at);
+#else
+    float lanes[LANES];
+    for (int i = 0; i < LANES; i++)
+        lanes[i] = row[ilane(at, i)];
+    return num_load(lanes);
+#endif
+}
+
 // Writes the lanes named by `bits` (bit i: lane i) side by side, in their order; room for LANES is needed.
 // How many they are.
 LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)

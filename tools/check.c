@@ -12,6 +12,7 @@
 #include "report.h"
 
 enum { EXIT_DIFFERS = 6, TEXT_MOST = 1 << 20, SCENES_MOST = 32 };
+static const size_t pictures_most = (size_t)384 << 20; // bytes of pictures kept for several shaders
 
 // A text file as a string, from malloc.
 static char *read_text(const char *path, lam_error *error)
@@ -44,39 +45,134 @@ static char *read_text(const char *path, lam_error *error)
     return NULL;
 }
 
-// "all,gate" into its names; cuts `list`.
-static int split(char *list, const char *names[SCENES_MOST])
+// What all shaders of a command line share.
+struct class
 {
-    int count = 0;
-    for (char *word = strtok(list, ","); word && count < SCENES_MOST; word = strtok(NULL, ","))
-        names[count++] = word;
-    return count;
-}
+    const struct options *options;
+    const char *scenes[SCENES_MOST];
+    int scene_count;
+    bool several;
+    double tolerance;
+    lam_check_pictures *pictures; // NULL: of a single shader none are kept
+    int passed;
+};
 
-static bool check_output(const struct options *o, const char *shader, lam_error *error)
+static bool check_output(const struct class *c, const char *path, const char *shader, lam_error *error)
 {
     lam_pixel_format format = LAM_RGBA8;
-    if (!o->output)
+    if (output_is_stream(path))
         return true;
-    if (!output_is_named(o->output))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file",
-                        o->output);
-    if (output_is_stream(o->output))
-        return true;
-    return lam_image_format_for(o->output, &format, error) &&
+    return lam_image_format_for(path, &format, error) &&
            (format == LAM_RGBA8 ||
-            complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", o->output)) &&
-           output_check(o->output, shader, true, error);
+            complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", path)) &&
+           output_check(path, shader, !c->several, error);
 }
 
-static int tell(const struct options *o, const lam_check_report *report, const char *shader, double tolerance)
+static void tell(const struct class *c, const lam_check_report *report, const struct check_pair *pair,
+                 const char *sheet)
 {
-    FILE *file = o->output && strcmp(o->output, "-") == 0 ? stderr : stdout;
+    const struct options *o = c->options;
+    FILE *file = sheet && strcmp(sheet, "-") == 0 ? stderr : stdout;
     if (o->json)
-        check_tell_json(file, report, shader, o->vertex, tolerance, report->scene_count ? o->output : NULL);
+        check_tell_json(file, report, pair->fragment, pair->vertex, c->tolerance,
+                        report->scene_count ? sheet : NULL);
     else if (!o->quiet)
-        check_tell_text(file, report, shader, tolerance);
-    return report->verdict == LAM_CHECK_PASSES ? 0 : EXIT_DIFFERS;
+        check_tell_text(file, report, pair->fragment, c->tolerance);
+    fflush(file); // a class takes its time: each shader's word comes when it is known
+}
+
+// Checks one shader and tells what came of it; returns the exit code. What fails is in `error`.
+static int check_one(struct class *c, const struct check_pair *pair, lam_error *error)
+{
+    const struct options *o = c->options;
+    struct check_process process = {.time_limit_s = o->stop_after_s};
+    char *fragment = NULL, *vertex = NULL, *sheet = NULL;
+    bool ok = !o->output || (sheet = check_sheet_path(o->output, pair->fragment)) ||
+              complain(error, LAM_LIMIT, "out of memory");
+    ok = ok && (!sheet || check_output(c, sheet, pair->fragment, error)) &&
+         (fragment = read_text(pair->fragment, error)) &&
+         (!pair->vertex || (vertex = read_text(pair->vertex, error)));
+    lam_check_report report = {0};
+    if (ok) {
+        lam_check_params params = {
+            .fragment = fragment,
+            .fragment_name = pair->fragment,
+            .vertex = vertex,
+            .vertex_name = pair->vertex,
+            .contract = (lam_check_contract)o->contract,
+            .size = o->has_size ? o->width : 0,
+            .tolerance = c->tolerance / 255,
+            .light_frame = (lam_light_frame)o->light_frame,
+            .reflection = (lam_reflection)o->highlight,
+            .scenes = c->scene_count ? c->scenes : NULL,
+            .scene_count = c->scene_count,
+            .pictures = c->pictures,
+            .draw = check_process,
+            .user = &process,
+        };
+        ok = lam_check_run(&params, &report, error);
+    }
+    if (ok && sheet && report.scene_count)
+        ok = check_sheet(&report, pair->fragment, o, sheet, error);
+    if (ok)
+        tell(c, &report, pair, sheet);
+    int code = !ok ? (int)error->code : report.verdict == LAM_CHECK_PASSES ? 0 : EXIT_DIFFERS;
+    c->passed += code == 0;
+    lam_check_report_free(&report);
+    free(fragment);
+    free(vertex);
+    free(sheet);
+    return code;
+}
+
+static bool prepare(struct class *c, int pair_count, const struct check_pair *pairs, lam_error *error)
+{
+    const struct options *o = c->options;
+    if (!pair_count)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "check: no shader is given, expected a file with a fragment shader, or --list");
+    for (int i = 0; c->several && i < pair_count; i++)
+        if (strcmp(pairs[i].fragment, "-") == 0)
+            return complain(error, LAM_BAD_ARGUMENT, "'-' (standard input) goes only with a single shader");
+    if (o->has_size && o->width != o->height)
+        return complain(error, LAM_BAD_ARGUMENT, "check: pictures are square, found %dx%d", o->width,
+                        o->height);
+    if (o->output && c->several && output_is_named(o->output))
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--output' names one sheet, but there are %d shaders; name a folder: "
+                        "-o sheets/",
+                        pair_count);
+    if (o->output && !c->several && !output_is_named(o->output))
+        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file",
+                        o->output);
+    return !c->several || (c->pictures = lam_check_pictures_make(pictures_most, error));
+}
+
+// "all,gate" into its names; cuts `list`.
+static void split(struct class *c, char *list)
+{
+    for (char *word = list ? strtok(list, ",") : NULL; word && c->scene_count < SCENES_MOST;
+         word = strtok(NULL, ","))
+        c->scenes[c->scene_count++] = word;
+}
+
+// One that fails is told and the others are still checked; the highest exit code counts.
+static int check_all(struct class *c, int count, const struct check_pair *pairs)
+{
+    int code = 0;
+    for (int i = 0; i < count && !interrupted(); i++) {
+        lam_error error = {0};
+        int mine = check_one(c, &pairs[i], &error);
+        if (error.code && !interrupted()) {
+            say_error(error.text);
+            if (c->options->json)
+                check_tell_json_error(stdout, pairs[i].fragment, pairs[i].vertex, &error);
+        }
+        code = mine > code ? mine : code;
+    }
+    if (!c->options->json && !c->options->quiet && !interrupted())
+        printf("%d of %d pass\n", c->passed, count);
+    return code;
 }
 
 int run_check(int operand_count, char **operands, const struct options *o)
@@ -87,47 +183,20 @@ int run_check(int operand_count, char **operands, const struct options *o)
     }
     interrupt_start();
     lam_error error = {0};
-    const char *shader = operand_count ? operands[0] : NULL, *names[SCENES_MOST];
-    double tolerance = option_given(o, "tolerance") ? o->tolerance : 2;
-    struct check_process process = {.time_limit_s = o->stop_after_s};
-    char *fragment = NULL, *vertex = NULL, *scenes = o->scenes ? strdup(o->scenes) : NULL;
-    bool ok =
-        shader || complain(&error, LAM_BAD_ARGUMENT,
-                           "check: no shader is given, expected a file with a fragment shader, or --list");
-    ok = ok && check_output(o, shader, &error) && (fragment = read_text(shader, &error)) &&
-         (!o->vertex || (vertex = read_text(o->vertex, &error)));
-    lam_check_report report = {0};
-    if (ok) {
-        lam_check_params params = {
-            .fragment = fragment,
-            .fragment_name = shader,
-            .vertex = vertex,
-            .vertex_name = o->vertex,
-            .contract = (lam_check_contract)o->contract,
-            .size = o->has_size ? o->width : 0,
-            .tolerance = tolerance / 255,
-            .light_frame = (lam_light_frame)o->light_frame,
-            .reflection = (lam_reflection)o->highlight,
-            .scenes = scenes ? names : NULL,
-            .scene_count = scenes ? split(scenes, names) : 0,
-            .draw = check_process,
-            .user = &process,
-        };
-        ok = (!o->has_size || o->width == o->height ||
-              complain(&error, LAM_BAD_ARGUMENT, "check: pictures are square, found %dx%d", o->width,
-                       o->height)) &&
-             lam_check_run(&params, &report, &error);
-    }
-    int code = 0;
-    if (ok && o->output && report.scene_count)
-        ok = check_sheet(&report, shader, o, &error);
-    if (ok)
-        code = tell(o, &report, shader, tolerance);
-    lam_check_report_free(&report);
-    free(fragment);
-    free(vertex);
+    struct class c = {.options = o, .tolerance = option_given(o, "tolerance") ? o->tolerance : 2};
+    struct check_pair *pairs = calloc((size_t)operand_count + 1, sizeof *pairs);
+    char *scenes = o->scenes ? strdup(o->scenes) : NULL;
+    split(&c, scenes);
+    int count = pairs ? check_pair(operand_count, operands, o->vertex, pairs, &error) : -1, code = 0;
+    c.several = count > 1;
+    if (!pairs)
+        complain(&error, LAM_LIMIT, "out of memory");
+    else if (count >= 0 && prepare(&c, count, pairs, &error))
+        code = c.several ? check_all(&c, count, pairs) : check_one(&c, pairs, &error);
+    lam_check_pictures_free(c.pictures);
+    free(pairs);
     free(scenes);
     if (interrupted())
         interrupt_finish();
-    return ok ? code : tell_failure(&error, o);
+    return error.code ? tell_failure(&error, o) : code;
 }

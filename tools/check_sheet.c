@@ -92,7 +92,8 @@ static void put_head(struct drawing *d, const lam_check_report *r, const char *s
                   heads[i]);
 }
 
-bool check_sheet(const lam_check_report *r, const char *shader, const struct options *o, lam_error *error)
+bool check_sheet(const lam_check_report *r, const char *shader, const struct options *o, const char *path,
+                 lam_error *error)
 {
     int size = r->scenes[0].reference.width, row = (size > 124 ? size : 124) + GAP;
     struct drawing d;
@@ -108,7 +109,7 @@ bool check_sheet(const lam_check_report *r, const char *shader, const struct opt
              put(&d, &r->scenes[i].reference, SIDE + size + GAP, top, error) &&
              put_difference(&d, &r->scenes[i], o->gain, SIDE + 2 * (size + GAP), top, error);
     }
-    ok = ok && drawing_write(&d, o->output, error);
+    ok = ok && drawing_write(&d, path, error);
     drawing_free(&d);
     return ok;
 }

@@ -147,6 +147,18 @@ void check_tell_json(FILE *file, const lam_check_report *r, const char *shader, 
     putc('\n', file);
 }
 
+void check_tell_json_error(FILE *file, const char *shader, const char *vertex, const lam_error *error)
+{
+    struct json json = {.file = file};
+    json_open(&json, NULL, '{');
+    json_text(&json, "fragment", shader);
+    json_text(&json, "vertex", vertex);
+    json_text(&json, "error", error->text);
+    json_count(&json, "exit_code", (uint64_t)error->code);
+    json_close(&json, '}');
+    putc('\n', file);
+}
+
 void check_tell_lists(FILE *file)
 {
     lam_check_name row;

@@ -17,12 +17,12 @@ const struct command command_table[] = {
      "Tell every number of one pixel: what it shows, the vectors, angles and terms of each light, the sum, "
      "the byte. No picture or scene file is written: --output and --save-scene do nothing here.",
      ALL, 2, 2, run_explain},
-    {"check", "SHADER.frag",
-     "Run a GLSL shader over reference scenes, tell how far its pictures are off, and which known mistake "
+    {"check", "SHADER.frag...",
+     "Run GLSL shaders over reference scenes, tell how far their pictures are off, and which known mistake "
      "they look like.",
      ABOUT | 1u << GROUP_CHECK | 1u << GROUP_DIFF | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE |
          TAKES_JSON | TAKES_QUIET,
-     0, 1, run_check},
+     0, -1, run_check},
     {"shader", "[MODEL]",
      "Print the shaders that light a model, for a program of your own, and what they ask for.",
      ALL | 1u << GROUP_SHADER, 0, 1, run_shader},
@@ -147,9 +147,13 @@ const struct topic topics[] = {
                          "unless given) is for each channel "
                          "of a pixel: one pixel in 200 may be over it, and the mean must not be above a "
                          "quarter of it. The shaders run "
-                         "in a process of their own, which `--stop-after` stops. The exit code is 0 where "
-                         "every scene is the reference's, "
-                         "and else 6, also for shaders that do not compile, do not end, or write NaN. With "
+                         "in a process of their own, which `--stop-after` stops. Several shaders may be "
+                         "given: `lambent check */phong.frag */phong.vert` checks a class, a vertex shader "
+                         "with the fragment shader of the same folder and name, and `-o sheets/` writes a "
+                         "sheet for each. One that cannot be checked is told and the others still are. "
+                         "The exit code is 0 where every scene of every shader is the reference's, "
+                         "and else the highest of all, 6 also for shaders that do not compile, do "
+                         "not end, or write NaN. With "
                          "`--json` the report is one "
                          "line (`docs/check.schema.json`). More: `docs/check.md`."},
     {"Comparing pictures", "`lambent diff A B` reads two pictures of the same size (PNG or PPM with 8 bits, "

@@ -81,7 +81,7 @@ static int run(int count, char **words)
 int main(int count, char **words)
 {
     if (count == 2 && strcmp(words[1], CHECK_WORKER) == 0)
-        return check_worker();
+        check_worker();
     console_start();
     int code = run(count - (count > 0), words + (count > 0));
     lam_error error;

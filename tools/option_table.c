@@ -493,8 +493,11 @@ const struct option option_table[] = {
     {"scenes", 0, GROUP_CHECK, "NAMES", "all",
      "The scenes to check with, commas between them: all,gate,near.", NULL, .store = store_text,
      FIELD(scenes)},
-    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "The time that the shaders may take for all scenes.",
-     NULL, .store = store_number, FIELD(stop_after_s), .least = 0.1, .most = 1e6},
+    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10",
+     "The processor's time that a shader may take for all scenes.",
+     "It is the time of all threads together, so that a busy machine stops nobody; the clock may go 20 times "
+     "as far.",
+     .store = store_number, FIELD(stop_after_s), .least = 0.1, .most = 1e6},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(list)},
     {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The language of the shaders: 330, 120 or 300es.", NULL,

@@ -61,6 +61,15 @@ typedef enum lam_check_end {
 } lam_check_end;
 typedef lam_check_end lam_check_draw_fn(void *user, const lam_bytes *job, lam_bytes *drawn, lam_error *error);
 
+// Pictures of known mistakes, kept from one check to the next: the shaders of a class are judged by the same,
+// which saves nearly all of the time. Up to `bytes_most`; what does not fit is drawn again. For one thread at
+// a time, and for one OpenGL device. NULL: out of memory.
+typedef struct lam_check_pictures lam_check_pictures;
+LAM_API
+lam_check_pictures *lam_check_pictures_make(size_t bytes_most, lam_error *error);
+LAM_API
+void lam_check_pictures_free(lam_check_pictures *pictures); // NULL is fine
+
 typedef struct lam_check_params {
     const char *fragment, *fragment_name; // GLSL, and the file's name for messages
     const char *vertex,
@@ -77,9 +86,10 @@ typedef struct lam_check_params {
     lam_reflection reflection;
     const char *const *scenes; // names of those to use; NULL: all that the contract can say
     int scene_count;
-    const char *gl_device;   // as lam_gl_params.device; NULL: the first usable one
-    lam_check_draw_fn *draw; // NULL: in this process, for shaders that one trusts
-    void *user;              // handed to `draw`
+    const char *gl_device;        // as lam_gl_params.device; NULL: the first usable one
+    lam_check_pictures *pictures; // NULL: none are kept
+    lam_check_draw_fn *draw;      // NULL: in this process, for shaders that one trusts
+    void *user;                   // handed to `draw`
 } lam_check_params;
 
 typedef enum lam_check_verdict {

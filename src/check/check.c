@@ -149,7 +149,8 @@ static void find_inside(struct judged *scene, int size)
                 size_t at = (size_t)(y + k / 3 - 1) * (size_t)size + (size_t)(x + k % 3 - 1);
                 all = all && scene->reference[4 * at + 3] > 0;
             }
-            scene->inside[(size_t)y * (size_t)size + (size_t)x] = all;
+            if (all)
+                scene->inside[scene->inside_count++] = (uint32_t)(y * size + x);
         }
 }
 
@@ -205,8 +206,9 @@ static bool make_scenes(struct run *r, unsigned scenes, lam_error *error)
         scene->study = contract_study(r->reading.contract, r->reading.offers, &studies[i], lights);
         scene->theirs = r->drawn.pixels + at;
         scene->alpha = studies[i].needs & NEED_ALPHA;
-        scene->inside = arena_alloc_zeroed(r->arena, pixels);
-        ok = scene->inside && draw_reference(r, device, scene, error);
+        scene->inside = arena_array(r->arena, pixels, sizeof *scene->inside);
+        scene->gathered = arena_array(r->arena, pixels, 4 * sizeof *scene->gathered);
+        ok = scene->inside && scene->gathered && draw_reference(r, device, scene, error);
         lam_check_scene *out = &r->report->scenes[r->report->scene_count++];
         *out = (lam_check_scene){.name = scene->row->name,
                                  .shows = scene->row->shows,
@@ -260,12 +262,15 @@ static bool decode_all(struct run *r)
     return true;
 }
 
-static void measure(struct run *r)
+// `numbers`: room for the numbers of a picture.
+static void measure(struct run *r, float *numbers)
 {
     lam_check_report *report = r->report;
     for (int i = 0; i < r->scene_count; i++) {
         lam_check_scene *out = &report->scenes[i];
-        struct distance d = judge_distance(&r->scenes[i], r->scenes[i].reference, r->size, r->tolerance);
+        judge_gather(&r->scenes[i], r->scenes[i].theirs, r->scenes[i].gathered);
+        judge_gather(&r->scenes[i], r->scenes[i].reference, numbers);
+        struct distance d = judge_distance(&r->scenes[i], numbers, r->tolerance);
         r->scenes[i].apart = d.mean;
         r->scenes[i].passes = d.fits;
         out->maximum = d.maximum;
@@ -292,7 +297,7 @@ static bool has_differences(const struct run *r)
 {
     bool fits = true;
     for (int i = 0; i < r->scene_count; i++)
-        fits = fits && judge_distance(&r->scenes[i], r->scenes[i].reference, r->size, r->tolerance).fits;
+        fits = fits && r->scenes[i].passes;
     return !fits;
 }
 
@@ -302,6 +307,8 @@ static bool explain(struct run *r, lam_error *error)
     struct search s = {.reading = &r->reading,
                        .frame = r->frame,
                        .reflection = r->reflection,
+                       .gl_device = r->params->gl_device,
+                       .pictures = r->params->pictures,
                        .scenes = r->scenes,
                        .scene_count = r->scene_count,
                        .size = r->size,
@@ -315,10 +322,9 @@ static bool explain(struct run *r, lam_error *error)
             (r->scenes[i].study.ka > 0 ? NEED_AMBIENT : 0) |
             (r->reading.contract->has_attenuation && (r->reading.offers & NEED_POINT) ? NEED_ATTENUATION : 0);
     s.alone = arena_alloc_zeroed(r->arena, (size_t)r->scene_count * sizeof *s.alone + 1);
-    s.model = s.alone ? model_open(r->params->gl_device, r->size, error) : NULL;
-    bool ok = s.model && judge_search(&s, error);
-    model_close(s.model);
-    if (!ok)
+    if (!s.alone)
+        return fail_memory(error, 1);
+    if (!judge_search(&s, error))
         return false;
     report->findings = arena_alloc_zeroed(r->arena, FOUND_MOST * sizeof *report->findings);
     for (int i = 0; report->findings && i < s.count; i++) {
@@ -334,7 +340,9 @@ static bool explain(struct run *r, lam_error *error)
                                 .mean_after = s.after[i]};
     }
     for (int i = 0; i < r->scene_count; i++)
-        if (!report->scenes[i].passes && s.alone[i])
+        if (!report->scenes[i].passes && s.certain && s.count == 1) // of those that give the same, that one
+            report->scenes[i].looks_like = s.found[0]->id;
+        else if (!report->scenes[i].passes && s.alone[i])
             report->scenes[i].looks_like = s.alone[i]->id;
     return true;
 }
@@ -359,8 +367,11 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
         ok = make_scenes(&r, scenes, error);
         if (ok && is_encoded(&r))
             ok = decode_all(&r);
+        float *numbers =
+            ok ? arena_array(r.arena, (size_t)r.size * (size_t)r.size, 4 * sizeof *numbers) : NULL;
+        ok = ok && (numbers || fail_memory(error, 1));
         if (ok)
-            measure(&r);
+            measure(&r, numbers);
         if (ok && report->verdict != LAM_CHECK_PASSES && has_differences(&r))
             ok = explain(&r, error);
     }

@@ -12,34 +12,51 @@
 
 enum { BEAM = 5 };
 
-static double clamped(float x) { return x > 0 ? (x < 1 ? (double)x : 1) : 0; } // NaN: 0
+// What two mistakes leave of the difference for a search of three to be worth its time, and what may be left
+// unexplained at the end.
+static const double worth_a_third = 0.5, unexplained_most = 0.25;
+
+static float clamped(float x) { return x > 0 ? (x < 1 ? x : 1) : 0; } // NaN: 0
 
 // Alpha is blended with before anything clamps it, so what is above 1 counts.
-static double bounded(float x) { return x > 0 ? (x < 4 ? (double)x : 4) : 0; }
+static float bounded(float x) { return x > 0 ? (x < 4 ? x : 4) : 0; }
 
-struct distance judge_distance(const struct judged *scene, const float *other, int size, double tolerance)
+size_t judge_gathered_count(const struct judged *scene)
 {
-    struct distance d = {0};
+    return scene->inside_count * (scene->alpha ? 4 : 3);
+}
+
+void judge_gather(const struct judged *scene, const float *picture, float *out)
+{
+    for (size_t i = 0; i < scene->inside_count; i++) {
+        const float *p = picture + 4 * (size_t)scene->inside[i];
+        for (int c = 0; c < 3; c++)
+            *out++ = clamped(p[c]);
+        if (scene->alpha)
+            *out++ = bounded(p[3]);
+    }
+}
+
+struct distance judge_distance(const struct judged *scene, const float *other, double tolerance)
+{
+    struct distance d = {.pixels = scene->inside_count};
     double sum = 0;
     uint64_t over = 0;
-    int channels = scene->alpha ? 4 : 3;
-    for (size_t i = 0; i < (size_t)size * (size_t)size; i++) {
-        if (!scene->inside[i])
-            continue;
+    size_t channels = scene->alpha ? 4 : 3;
+    const float *theirs = scene->gathered;
+    for (size_t i = 0; i < scene->inside_count; i++, theirs += channels, other += channels) {
         double most = 0;
-        for (int c = 0; c < channels; c++) {
-            float a = scene->theirs[4 * i + (size_t)c], b = other[4 * i + (size_t)c];
-            double apart = c < 3 ? clamped(a) - clamped(b) : bounded(a) - bounded(b);
+        for (size_t c = 0; c < channels; c++) {
+            double apart = (double)theirs[c] - (double)other[c];
             apart = apart < 0 ? -apart : apart;
             sum += apart;
             most = apart > most ? apart : most;
         }
-        d.pixels++;
         over += most > tolerance;
         d.maximum = most > d.maximum ? most : d.maximum;
     }
     if (d.pixels) {
-        d.mean = sum / ((double)d.pixels * channels);
+        d.mean = sum / ((double)d.pixels * (double)channels);
         d.share_over = (double)over / (double)d.pixels;
     }
     d.fits = d.share_over <= 0.005 && d.mean <= tolerance / 4;
@@ -56,9 +73,43 @@ struct tried {
     bool fits;
 };
 
+// What draws, and room for a picture and its gathered numbers.
+struct desk {
+    struct model *model; // opened when a picture is first needed that is not kept
+    float *pixels, *gathered;
+};
+
+// The gathered numbers of a scene drawn with a set of mistakes; valid until the next call. NULL: `error`.
+static const float *picture_of(struct search *s, struct desk *desk, int index, mistake_set set,
+                               lam_error *error)
+{
+    const struct judged *scene = &s->scenes[index];
+    struct picture_key key = {.scene = (int)(scene->row - studies),
+                              .contract = s->reading->which,
+                              .light_frame = s->frame,
+                              .reflection = s->reflection,
+                              .vertex_lit = s->reading->vertex_lit,
+                              .size = s->size,
+                              .room = s->room,
+                              .offers = s->reading->offers,
+                              .set = set};
+    const float *kept = pictures_find(s->pictures, &key);
+    if (kept)
+        return kept;
+    if (!desk->model && !(desk->model = model_open(s->gl_device, s->size, error)))
+        return NULL;
+    if (!model_draw(desk->model, &scene->study, s->reading, s->room, s->frame, s->reflection, set,
+                    desk->pixels, error))
+        return NULL;
+    float *out = pictures_add(s->pictures, &key, judge_gathered_count(scene));
+    out = out ? out : desk->gathered;
+    judge_gather(scene, desk->pixels, out);
+    return out;
+}
+
 // Stops where the mean is above `most` already: then it is of no use. `each` (may be NULL) is filled for all
 // scenes that do not pass; those stand first.
-static bool try_set(struct search *s, struct tried *t, double most, float *pixels, struct distance *each,
+static bool try_set(struct search *s, struct tried *t, double most, struct desk *desk, struct distance *each,
                     lam_error *error)
 {
     t->mean = 0;
@@ -67,10 +118,10 @@ static bool try_set(struct search *s, struct tried *t, double most, float *pixel
         int i = s->order[k];
         if (t->mean > most && (!each || s->scenes[i].passes))
             break;
-        if (!model_draw(s->model, &s->scenes[i].study, s->reading, s->room, s->frame, s->reflection, t->set,
-                        pixels, error))
+        const float *mistaken = picture_of(s, desk, i, t->set, error);
+        if (!mistaken)
             return false;
-        struct distance d = judge_distance(&s->scenes[i], pixels, s->size, s->tolerance);
+        struct distance d = judge_distance(&s->scenes[i], mistaken, s->tolerance);
         if (each)
             each[i] = d;
         t->mean += d.mean / s->scene_count;
@@ -135,10 +186,10 @@ bool judge_search(struct search *s, lam_error *error)
 {
     put_in_order(s);
     size_t bytes = 4 * (size_t)s->size * (size_t)s->size * sizeof(float), scenes = (size_t)s->scene_count;
-    float *pixels = malloc(bytes);
+    struct desk desk = {.pixels = malloc(bytes), .gathered = malloc(bytes)};
     struct distance *each = malloc(scenes * sizeof *each);
     double *nearest = malloc(scenes * sizeof *nearest);
-    bool ok = pixels && each && nearest;
+    bool ok = desk.pixels && desk.gathered && each && nearest;
     if (!ok)
         fail_memory(error, bytes);
     struct tried beam[BEAM] = {{.mean = s->before}};
@@ -161,7 +212,7 @@ bool judge_search(struct search *s, lam_error *error)
                 t.set |= row->set;
                 t.rows[t.count++] = row;
                 double most = count == BEAM ? next[BEAM - 1].mean : 1e9;
-                ok = try_set(s, &t, most, pixels, depth == 1 ? each : NULL, error);
+                ok = try_set(s, &t, most, &desk, depth == 1 ? each : NULL, error);
                 if (ok && depth == 1)
                     note_alone(s, row, each, nearest);
                 if (ok && t.mean <= most)
@@ -171,15 +222,19 @@ bool judge_search(struct search *s, lam_error *error)
         if (count == 0 || (!next[0].fits && next[0].mean > 0.95 * best.mean))
             break;
         best = next[0];
+        if (depth >= 2 && best.mean > worth_a_third * s->before)
+            break;
         memcpy(beam, next, sizeof beam);
         held = count;
     }
-    free(pixels);
+    model_close(desk.model);
+    free(desk.pixels);
+    free(desk.gathered);
     free(each);
     free(nearest);
     s->certain = best.fits;
     // Short of an explanation, what leaves more than a quarter unexplained is none.
-    s->count = best.fits || best.mean < 0.25 * s->before ? best.count : 0;
+    s->count = best.fits || best.mean < unexplained_most * s->before ? best.count : 0;
     for (int i = 0; i < s->count; i++) {
         s->found[i] = best.rows[i];
         s->after[i] = best.after[i];

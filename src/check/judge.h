@@ -4,6 +4,7 @@
 #define JUDGE_H
 
 #include "model.h"
+#include "pictures.h"
 
 // One scene as it is judged.
 struct judged {
@@ -11,9 +12,13 @@ struct judged {
     struct study study;      // as the contract can say it
     const float *theirs;     // straight RGBA
     float *reference;        // the CPU device's, straight alpha
-    unsigned char *inside;   // of each pixel: its 3×3 neighbours are all covered in the reference
-    bool alpha;              // alpha counts
-    double apart;            // mean difference from the reference
+    // Compared are the pixels whose 3×3 neighbours are all covered in the reference: their indices, and what
+    // theirs has there (judge_gather).
+    uint32_t *inside;
+    size_t inside_count;
+    float *gathered;
+    bool alpha;   // alpha counts
+    double apart; // mean difference from the reference
     bool passes;
 };
 
@@ -23,13 +28,19 @@ struct distance {
     bool fits;
 };
 
-// Of the pixels inside, colours clamped to 0…1.
-struct distance judge_distance(const struct judged *scene, const float *other, int size, double tolerance);
+// The numbers of the pixels that are compared, one pixel after the other: red, green, blue (clamped to 0…1),
+// and alpha where it counts.
+size_t judge_gathered_count(const struct judged *scene);
+void judge_gather(const struct judged *scene, const float *picture, float *out);
+
+// Of scene->gathered from another picture's gathered numbers.
+struct distance judge_distance(const struct judged *scene, const float *other, double tolerance);
 
 enum { FOUND_MOST = 4, ORDER_MOST = 32 };
 
 struct search {
-    struct model *model;
+    const char *gl_device;
+    lam_check_pictures *pictures; // may be NULL
     const struct reading *reading;
     lam_light_frame frame;
     lam_reflection reflection;

@@ -12,7 +12,8 @@
 
 struct model {
     struct target target;
-    GLuint program;
+    GLuint programs[2]; // lighting in the fragment shader, in the vertex shader; made when first used
+    GLuint program;     // the one in use
 };
 
 static const char *const bit_names[] = {
@@ -21,7 +22,7 @@ static const char *const bit_names[] = {
 #undef BIT_NAME
 };
 
-static GLuint compile(struct model *m, GLenum kind, const char *body, lam_error *error)
+static GLuint compile(struct model *m, GLenum kind, bool in_vertex, const char *body, lam_error *error)
 {
     size_t room = strlen(text_model_light_glsl) + strlen(body) + 40 * MISTAKE_BIT_COUNT + 100;
     char *text = malloc(room), log[1024] = "";
@@ -29,8 +30,8 @@ static GLuint compile(struct model *m, GLenum kind, const char *body, lam_error 
         fail_memory(error, room);
         return 0;
     }
-    size_t at =
-        (size_t)snprintf(text, room, "#version 330 core\n#define MISTAKE_BITS %d\n", MISTAKE_BIT_COUNT);
+    size_t at = (size_t)snprintf(text, room, "#version 330 core\n%s#define MISTAKE_BITS %d\n",
+                                 in_vertex ? "#define IN_VERTEX\n" : "", MISTAKE_BIT_COUNT);
     for (int i = 0; i < MISTAKE_BIT_COUNT; i++)
         at += (size_t)snprintf(text + at, room - at, "#define %s %d\n", bit_names[i], i);
     snprintf(text + at, room - at, "%s%s", text_model_light_glsl, body);
@@ -53,11 +54,19 @@ struct model *model_open(const char *gl_device, int size, lam_error *error)
         free(m);
         return NULL;
     }
-    GLuint vertex = compile(m, GL_VERTEX_SHADER, text_model_vertex_glsl, error),
-           fragment = vertex ? compile(m, GL_FRAGMENT_SHADER, text_model_fragment_glsl, error) : 0;
+    return m;
+}
+
+static bool build(struct model *m, bool in_vertex, lam_error *error)
+{
+    m->program = m->programs[in_vertex];
+    if (m->program)
+        return true;
+    GLuint vertex = compile(m, GL_VERTEX_SHADER, in_vertex, text_model_vertex_glsl, error),
+           fragment = vertex ? compile(m, GL_FRAGMENT_SHADER, in_vertex, text_model_fragment_glsl, error) : 0;
     char log[1024] = "";
     if (fragment) {
-        m->program = target_link(&m->target, vertex, fragment, log, sizeof log);
+        m->program = m->programs[in_vertex] = target_link(&m->target, vertex, fragment, log, sizeof log);
         if (!m->program)
             fail(error, LAM_UNSUPPORTED, "%s does not link the check's own shaders: %.300s",
                  m->target.context.renderer, log);
@@ -65,18 +74,16 @@ struct model *model_open(const char *gl_device, int size, lam_error *error)
     const struct gl *gl = &m->target.context.gl;
     gl->DeleteShader(vertex);
     gl->DeleteShader(fragment);
-    if (m->program)
-        return m;
-    model_close(m);
-    return NULL;
+    return m->program != 0;
 }
 
 void model_close(struct model *m)
 {
     if (!m)
         return;
-    if (m->program)
-        m->target.context.gl.DeleteProgram(m->program);
+    for (int i = 0; i < 2; i++)
+        if (m->programs[i])
+            m->target.context.gl.DeleteProgram(m->programs[i]);
     target_close(&m->target);
     free(m);
 }
@@ -125,6 +132,9 @@ bool model_draw(struct model *m, const struct study *study, const struct reading
     const struct gl *gl = &m->target.context.gl;
     struct study_matrices matrices;
     study_matrices(study, &matrices);
+    bool smooth = set >> BIT_SMOOTH_FOR_FLAT & 1;
+    if (!build(m, reading->vertex_lit || (study->flat && !smooth), error))
+        return false;
     gl->UseProgram(m->program);
     GLint bits[MISTAKE_BIT_COUNT];
     for (int i = 0; i < MISTAKE_BIT_COUNT; i++)
@@ -158,8 +168,6 @@ bool model_draw(struct model *m, const struct study *study, const struct reading
     gl->Uniform1f(place(m, "opacity"), study->alpha);
     gl->Uniform1f(place(m, "shininess"), study->shininess);
     gl->Uniform1i(place(m, "phong_lobe"), reflection == LAM_REFLECTION_PHONG);
-    gl->Uniform1i(place(m, "in_vertex"), reading->vertex_lit || study->flat);
-    gl->Uniform1i(place(m, "interpolated"), reading->vertex_lit);
     gl->Uniform1i(place(m, "flat_shading"), study->flat);
     gl->Uniform1i(place(m, "two_sided"), (contract->offers & NEED_TWO_SIDES) != 0);
     return target_draw(&m->target, study->mesh, 0, 1, pixels, error);

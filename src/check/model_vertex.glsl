@@ -4,12 +4,15 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 
 uniform mat4 normal_matrix4; // inverse transpose of model_view
-uniform bool in_vertex;
 
-out vec4 point_light, point_eye, point_normal, early_eye, vertex_color, vertex_color_back;
+#ifdef IN_VERTEX
+out vec4 vertex_color, vertex_color_back;
+flat out vec4 flat_color;
+#else
+out vec4 point_light, point_eye, point_normal, early_eye;
 out vec4 early[LAMPS];
 out float distances[LAMPS];
-flat out vec4 flat_color;
+#endif
 
 vec4 normal_of()
 {
@@ -35,23 +38,31 @@ vec4 normal_of()
 void main()
 {
     vec4 at = vec4(position, 1.0), eye = model_view * at;
+#ifdef IN_VERTEX
+    vec4 point_light, point_eye, point_normal, early_eye, early[LAMPS];
+    float distances[LAMPS];
+#endif
     point_light = is(LIGHT_FROM_OBJECT) ? at : (is(POINT_CLIP) ? projection * eye : eye);
     point_eye = is(EYE_FROM_OBJECT) ? at : (is(EYE_CLIP) ? projection * eye : eye);
     point_normal = normal_of();
     early_eye = unit4(to_eye(point_eye));
     for (int i = 0; i < LAMPS; i++) {
-        early[i] = unit4(to_lamp(i, point_light));
-        distances[i] = length(to_lamp(i, point_light));
+        early[i] = vec4(0.0);
+        distances[i] = 0.0;
     }
-    vertex_color = vertex_color_back = vec4(0.0);
-    if (in_vertex) {
-        vertex_color = shade(point_normal, point_light, point_eye, early, early_eye, distances);
-        vertex_color_back = shade(-point_normal, point_light, point_eye, early, early_eye, distances);
-        if (is(VERTEX_CLAMPED)) {
-            vertex_color = clamp(vertex_color, 0.0, 1.0);
-        }
+    for (int i = 0; i < lamp_count; i++) {
+        vec4 way = to_lamp(i, point_light);
+        early[i] = unit4(way);
+        distances[i] = length(way);
+    }
+#ifdef IN_VERTEX
+    vertex_color = shade(point_normal, point_light, point_eye, early, early_eye, distances);
+    vertex_color_back = shade(-point_normal, point_light, point_eye, early, early_eye, distances);
+    if (is(VERTEX_CLAMPED)) {
+        vertex_color = clamp(vertex_color, 0.0, 1.0);
     }
     flat_color = vertex_color;
+#endif
     gl_Position = projection * eye;
     if (is(UPSIDE_DOWN)) {
         gl_Position.y = -gl_Position.y;

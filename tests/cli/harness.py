@@ -149,7 +149,7 @@ def check_report(case, report):
 
 def check_value(case, value, schema, place):
     """The part of JSON Schema that docs/report.schema.json uses; a word it does not know fails."""
-    known = {"type", "enum", "required", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
+    known = {"type", "enum", "required", "dependentRequired", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
              "$ref", "$defs", "$schema", "title", "description"}
     case.assertLessEqual(set(schema), known, place)
     if "$ref" in schema:
@@ -160,7 +160,8 @@ def check_value(case, value, schema, place):
         kinds = schema["type"] if isinstance(schema["type"], list) else [schema["type"]]
         case.assertTrue(any(is_kind(value, kind) for kind in kinds), f"{place}: {value!r} is not {kinds}")
     if isinstance(value, dict):
-        for key in schema.get("required", ()):
+        needed = [key for given, keys in schema.get("dependentRequired", {}).items() if given in value for key in keys]
+        for key in [*schema.get("required", ()), *needed]:
             case.assertIn(key, value, place)
         for key, inner in value.items():
             case.assertIn(key, schema["properties"], place)

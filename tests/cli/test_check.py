@@ -1,11 +1,17 @@
 # test_check.py: the command `check`: right shaders pass, each known mistake is told as that mistake, and shaders that do
 # not compile, end or give numbers are reported.
+import concurrent.futures
 import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
 import sys
+import tempfile
+import time
 
 from harness import ROOT, Case, PROGRAM, check_value, read_png
-
-import subprocess
 
 sys.path.insert(0, str(ROOT / "tests" / "check"))
 from mistakes import MISTAKES  # noqa: E402
@@ -21,6 +27,19 @@ def gl_missing():
     return "no OpenGL here: " + (devices["gl_reason"] or "; ".join(d["reason"] for d in devices["gl"]) or "no device")
 
 
+def edited(name, edits=()):
+    """The texts of a shader of tests/check, edited, by ending."""
+    texts = {}
+    for ending in ("frag", "vert"):
+        path = SHADERS / f"{name}.{ending}"
+        if path.exists():
+            texts[ending] = path.read_text()
+    for ending, old, new in edits:
+        assert texts[ending].count(old) == 1, f"{name}.{ending}: {old}"
+        texts[ending] = texts[ending].replace(old, new)
+    return texts
+
+
 class CheckTest(Case):
     MISSING = gl_missing()
 
@@ -31,20 +50,12 @@ class CheckTest(Case):
 
     def shader(self, name, edits=()):
         """Writes a shader of tests/check, edited, as s.frag and s.vert; the words of a command line that checks it."""
-        words = ["s.frag"]
-        for ending in ("frag", "vert"):
-            path = SHADERS / f"{name}.{ending}"
-            if not path.exists():
-                continue
-            text = path.read_text()
-            for which, old, new in edits:
-                if which == ending:
-                    self.assertEqual(text.count(old), 1, f"{name}.{ending}: {old}")
-                    text = text.replace(old, new)
+        for ending, text in edited(name, edits).items():
             (self.folder / f"s.{ending}").write_text(text)
-            if ending == "vert":
-                words += ["--vertex", "s.vert"]
-        return words
+        return ["s.frag", *(["--vertex", "s.vert"] if (SHADERS / f"{name}.vert").exists() else [])]
+
+    def run_program(self, *words, **more):
+        return super().run_program(*words, **{"timeout": None, **more})  # however slow the machine is
 
     def report_of(self, *words, code=0, size=64, **more):
         done = self.run_program("check", *words, "-s", size, "--json", **more)
@@ -120,12 +131,36 @@ class Right(CheckTest):
 
 
 class Mistakes(CheckTest):
-    """One method for each row of tests/check/mistakes.py, made below."""
+    """One method for each row of tests/check/mistakes.py, made below. The rows are checked together, as a class's would be."""
 
-    def tell(self, shader, expected, edits):
-        report = self.report_of(*self.shader(shader, edits), code=6)
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        if cls.MISSING:
+            return
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="lambent-cli-"))
+        cls.addClassCleanup(shutil.rmtree, folder, True)
+        files = ([], [])  # pictures are kept by contract, so a contract's shaders stay together
+        for number, (name, _, edits) in enumerate(MISTAKES):
+            for ending, text in edited(name, edits).items():
+                (folder / f"{number:03}.{ending}").write_text(text)
+                files[name != "pittsburgh"].append(f"{number:03}.{ending}")
+
+        def check(some):
+            return subprocess.run([PROGRAM, "check", *some, "-s", "64", "--json"], cwd=folder, stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE)
+
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            done = list(pool.map(check, files))
+        cls.said = b"".join(d.stderr for d in done).decode()
+        cls.reports = {r["fragment"]: r for d in done for r in map(json.loads, d.stdout.splitlines())}
+
+    def tell(self, number, expected):
+        report = self.reports.get(f"{number:03}.frag")
+        self.assertTrue(report, self.said)
+        check_value(self, report, SCHEMA, "check")
         told = report["mistakes"]
-        self.assertEqual(sorted(m["id"] for m in told), sorted(expected.split()), json.dumps(report["scenes"]))
+        self.assertEqual(sorted(m["id"] for m in told), sorted(expected.split()), json.dumps(report))
         for mistake in told:
             self.assertEqual(mistake["certain"], 1)
             self.assertTrue(mistake["says"] and mistake["write"])
@@ -133,8 +168,8 @@ class Mistakes(CheckTest):
 
 
 for number, row in enumerate(MISTAKES):
-    def method(self, row=row):
-        self.tell(*row)
+    def method(self, number=number, expected=row[1]):
+        self.tell(number, expected)
     setattr(Mistakes, "test_%03d_%s_%s" % (number, row[0], row[1].replace(" ", "_and_")), method)
 
 
@@ -180,39 +215,93 @@ class Refused(CheckTest):
 class Unruly(CheckTest):
     def test_unknown_names(self):
         report = self.report_of(*self.shader("pittsburgh", [("frag", "uniform float shininess;", "uniform float shinines;"),
-                                                            ("frag", "0.0), shininess)", "0.0), shinines)")]), code=6)
+                                                            ("frag", "0.0), shininess)", "0.0), shinines)")]),
+                                "--scenes", "highlight", code=6)
         self.assertIn("the nearest that it knows is 'shininess'", " ".join(self.notes(report, "unknown")))
 
     def test_none_known(self):
-        report = self.report_of(*self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")]), code=6)
+        report = self.report_of(*self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")]),
+                                "--scenes", "all,diffuse,gate", code=6)
         self.assertEqual((report["verdict"], report["mistakes"]), ("differs", []))
-        self.assertIn("none of the known", self.run_program("check", "s.frag", "-s", 32).stdout.decode())
+        self.assertIn("none of the known", self.run_program("check", "s.frag", "-s", 32, "--scenes", "all").stdout.decode())
 
     def test_two_together(self):
         report = self.report_of(*self.shader("nyu", [("frag", "normalize(varyingNormal)", "varyingNormal"), ("frag", "* s * attenuation", "* s")]),
-                                code=6)
+                                "--scenes", "all,diffuse,coarse,near", code=6)
         self.assertEqual({m["id"] for m in report["mistakes"]}, {"normal-not-unit", "specular-not-attenuated"})
 
     def test_not_numbers(self):
-        report = self.report_of(*self.shader("oregon", [("frag", "max(dot(r, e), 0.0)", "dot(r, e)"), ("frag", "dot(n, l) > 0.0 ?", "true ?")]), code=6)
+        report = self.report_of(*self.shader("oregon", [("frag", "max(dot(r, e), 0.0)", "dot(r, e)"), ("frag", "dot(n, l) > 0.0 ?", "true ?")]),
+                                "--scenes", "gate,diffuse", code=6)
         self.assertEqual(report["verdict"], "not a number")
         self.assertGreater(sum(scene["not_numbers"] for scene in report["scenes"]), 0)
         self.assertTrue(any("NaN" in text for text in self.notes(report, "hint")))
 
-    def test_endless(self):
-        loop = "float turn = 0.0;\n    for (int i = 0; i >= 0; i += 0) turn = sin(turn + shininess);\n    vec3 n = turn + normalize(N);"
-        report = self.report_of(*self.shader("pittsburgh", [("frag", "vec3 n = normalize(N);", loop)]), "--stop-after", 0.3, size=512, code=6)
-        self.assertEqual((report["verdict"], report["scenes"]), ("endless", []))
+    # A software driver ends a loop after some ten thousand turns; each of these takes long, and so many pixels wait for it.
+    LOOP = """float turn = 0.0;
+    while (turn < 2.0) {
+        turn = 0.5 * sin(turn + shininess) * pow(1.5 + cos(turn), 1.1);
+    }
+    vec3 n = 0.0001 * turn + normalize(N);"""
 
-    def test_driver_dies(self):
-        """A stand-in for the driver, whose first function ends the process."""
+    def endless(self):
+        return [*self.shader("pittsburgh", [("frag", "vec3 n = normalize(N);", self.LOOP)]), "-s", "512"]
+
+    def processes(self):
+        """Those with the mark of this test in their environment."""
+        mark, found = b"LAMBENT_TEST=" + str(self.folder).encode(), []
+        for entry in pathlib.Path("/proc").iterdir():
+            try:
+                if entry.name.isdigit() and mark in (entry / "environ").read_bytes().split(b"\0"):
+                    found.append((int(entry.name), (entry / "cmdline").read_bytes()))
+            except OSError:  # gone, or not ours
+                pass
+        return found
+
+    def wait_for(self, condition):
+        while not condition():  # the suite's own limit ends this where it is never met
+            time.sleep(0.05)
+
+    def test_endless(self):
+        report = self.report_of(*self.endless()[:-2], "--stop-after", 0.3, size=512, code=6, env={"LAMBENT_TEST": str(self.folder)})
+        self.assertEqual((report["verdict"], report["scenes"]), ("endless", []))
+        self.assertEqual(self.processes(), [])
+
+    def test_endless_and_asker_killed(self):
+        """Nothing stays behind, though who asked can no longer stop it."""
+        asker = subprocess.Popen([PROGRAM, "check", *self.endless(), "--stop-after", "1e5"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                 env={**os.environ, "LAMBENT_TEST": str(self.folder)})
+        self.wait_for(lambda: any(b"check-worker" in words for _, words in self.processes()))
+        asker.kill()
+        asker.wait()
+        self.wait_for(lambda: not self.processes())
+
+    def test_interrupted(self):
+        asker = subprocess.Popen([PROGRAM, "check", *self.endless(), "--stop-after", "1e5"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.DEVNULL, env={**os.environ, "LAMBENT_TEST": str(self.folder)})
+        self.wait_for(lambda: any(b"check-worker" in words for _, words in self.processes()))
+        asker.send_signal(signal.SIGINT)
+        self.assertEqual(asker.wait(), -signal.SIGINT)
+        self.assertEqual(self.processes(), [])
+
+    def test_driver_sleeps(self):
+        """One that waits for ever takes none of the processor's time: the clock stops it."""
+        self.driver("#include <unistd.h>\n#define STAND for (;;) pause()\n")
+        report = self.report_of(*self.shader("oregon"), "--stop-after", 0.1, code=6, env={"LD_LIBRARY_PATH": str(self.folder)})
+        self.assertEqual(report["verdict"], "endless")
+
+    def driver(self, start):
+        """A stand-in for the driver, each of whose functions does STAND."""
         source = self.folder / "egl.c"
-        source.write_text("#include <stdlib.h>\nvoid *eglGetProcAddress(const char *n) { (void)n; abort(); }\n" + "".join(
-            f"void *egl{name}(void) {{ abort(); }}\n" for name in
+        source.write_text(start + "void *eglGetProcAddress(const char *n) { (void)n; STAND; }\n" + "".join(
+            f"void *egl{name}(void) {{ STAND; }}\n" for name in
             ("BindAPI", "ChooseConfig", "CreateContext", "CreatePbufferSurface", "DestroyContext", "DestroySurface", "GetCurrentContext",
              "GetCurrentDisplay", "GetCurrentSurface", "GetDisplay", "GetError", "Initialize", "MakeCurrent", "QueryAPI", "QueryString")))
         if subprocess.run(["cc", "-shared", "-fPIC", "-o", self.folder / "libEGL.so.1", source]).returncode:
             self.skipTest("no C compiler")
+
+    def test_driver_dies(self):
+        self.driver("#include <stdlib.h>\n#define STAND abort()\n")
         report = self.report_of(*self.shader("oregon"), code=6, env={"LD_LIBRARY_PATH": str(self.folder)})
         self.assertEqual(report["verdict"], "crashes")
 
@@ -225,6 +314,54 @@ class Unruly(CheckTest):
         self.bad(1, "check", "s.frag", "-s", "64x32", says="square", leaves=("s.frag", "s.vert"))
         (self.folder / "s.frag").write_text("void main() { gl_FragColor = vec4(1.0); }\n")
         self.bad(1, "check", "s.frag", says=("--contract", "none"), leaves=("s.frag", "s.vert"))
+
+
+class Several(CheckTest):
+    """A class at once: files are paired by name, one that cannot be checked stops nobody."""
+
+    def write(self, name, shader, edits=()):
+        for ending, text in edited(shader, edits).items():
+            path = self.folder / f"{name}.{ending}"
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(text)
+
+    def test_class(self):
+        gate = [("frag", "dot(n, l) <= 0.0", "false")]
+        self.write("ann/phong", "pittsburgh")
+        self.write("bob/phong", "pittsburgh", gate)
+        self.write("cem/phong", "pittsburgh", gate)
+        (self.folder / "dee").mkdir()
+        (self.folder / "dee" / "phong.frag").write_text("void main() { gl_FragColor = vec4(1.0); }\n")
+        names = [f"{name}/phong" for name in ("ann", "bob", "cem", "dee")]
+        files = [n + ".frag" for n in names] + [n + ".vert" for n in names[:3]] + ["eve/phong.frag"]
+        (self.folder / "sheets").mkdir()
+        words = ("check", *files, "-s", "32", "--scenes", "gate,all")
+        done = self.run_program(*words, "--json", "-o", "sheets/", "--no-captions")
+        self.assertEqual(done.returncode, 6, done.stderr)
+        reports = [json.loads(line) for line in done.stdout.splitlines()]
+        for report in reports:
+            check_value(self, report, SCHEMA, "check")
+        self.assertEqual([r["fragment"] for r in reports], [n + ".frag" for n in names] + ["eve/phong.frag"])
+        self.assertEqual([r["vertex"] for r in reports], [n + ".vert" for n in names[:3]] + [None, None])
+        self.assertEqual([r.get("verdict") for r in reports], ["passes", "differs", "differs", None, None])
+        self.assertEqual([m["id"] for m in reports[1]["mistakes"]], ["no-gate"])
+        # The second of the kind is judged by pictures that were kept: the same to the last digit.
+        self.assertEqual(reports[1]["mistakes"], reports[2]["mistakes"])
+        self.assertEqual([r["exit_code"] for r in reports[3:]], [1, 2])
+        self.assertIn("--contract", reports[3]["error"])
+        self.assertIn("eve/phong.frag", reports[4]["error"])
+        self.assertEqual(sorted(p.name for p in (self.folder / "sheets").iterdir()), [f"{n}-phong.png" for n in ("ann", "bob", "cem")])
+        text = self.run_program(*words).stdout.decode()
+        self.assertIn("1 of 5 pass", text)
+        self.assertEqual(text.count("no-gate:"), 2)
+
+    def test_bad_use(self):
+        self.write("a", "pittsburgh")
+        self.write("b", "pittsburgh")
+        files = ("a.frag", "a.vert", "b.frag", "b.vert")
+        self.bad(1, "check", "a.frag", "b.vert", says=("b.vert", "same name"), leaves=files)
+        self.bad(1, "check", "a.frag", "b.frag", "-o", "x.png", says="folder", leaves=files)
+        self.bad(1, "check", "a.frag", "-", says="single", leaves=files)
 
 
 class Without(Case):

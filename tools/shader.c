@@ -164,7 +164,7 @@ int run_shader(int operand_count, char **operands, const struct options *given)
     bool ok = shader && (!to_files || write_files(given, shader, job.model, &error));
     if (ok && options.json)
         shader_json(stdout, shader, job.model);
-    else if (ok)
+    else if (ok && !(to_files && options.quiet))
         print(given, shader, job.model, !to_files);
     lam_shader_free(shader);
     lam_scene_free(job.scene);

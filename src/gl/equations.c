@@ -9,33 +9,33 @@
 
 // A piece of a file: a function, a struct, a #define, with the comment that leads it.
 struct piece {
-    const char *lead, *start, *end; // lead == start: no comment
+    char *lead, *start, *end; // lead == start: no comment
     const char *name;
     size_t name_length;
     int file;
     bool kept;
 };
 
-enum { PIECES_MAX = 256, FILES = 4 };
+enum { PIECES_MAX = 256 };
 
 static bool in_name(char c)
 {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-static const char *next_line(const char *at)
+static char *next_line(const char *at)
 {
     at += strcspn(at, "\n");
-    return *at ? at + 1 : at;
+    return (char *)(*at ? at + 1 : at);
 }
 
 static bool begins(const char *at, const char *with) { return strncmp(at, with, strlen(with)) == 0; }
 
 // The end of a definition: of its first line where that closes what it opens, else of the line that begins
 // with the closing bracket.
-static const char *definition_end(const char *at)
+static char *definition_end(char *at)
 {
-    const char *end = next_line(at), *last = end;
+    char *end = next_line(at), *last = end;
     while (last > at && (last[-1] == '\n' || last[-1] == ';'))
         last--;
     if (last > at && last[-1] == '}')
@@ -73,11 +73,11 @@ static bool is_scaffold(const char *at)
     return begins(at, "float num_of(");
 }
 
-static int take_apart(struct piece *pieces, int count, const char *source, int file)
+static int take_apart(struct piece *pieces, int count, char *source, int file)
 {
-    const char *lead = NULL;
-    for (const char *at = source; *at;) {
-        const char *next = next_line(at);
+    char *lead = NULL;
+    for (char *at = source; *at;) {
+        char *next = next_line(at);
         if (begins(at, "//")) {
             lead = lead ? lead : at;
         } else if (*at == '\n' || is_scaffold(at)) {
@@ -96,10 +96,11 @@ static int take_apart(struct piece *pieces, int count, const char *source, int f
     return count;
 }
 
-// Marks what the words of a text name. True where something was not marked before.
+// Marks what the words of a text name, members (".xyz") left out. True where something was not marked before.
 static bool mark(struct piece *pieces, int count, const char *at, const char *end)
 {
     bool changed = false;
+    const char *start = at;
     while (at < end) {
         if (at[0] == '/' && at[1] == '/') {
             at = next_line(at);
@@ -109,7 +110,7 @@ static bool mark(struct piece *pieces, int count, const char *at, const char *en
             size_t length = 1;
             while (at + length < end && in_name(at[length]))
                 length++;
-            for (int i = 0; i < count; i++) {
+            for (int i = 0; i < count && (at == start || at[-1] != '.'); i++) {
                 struct piece *p = &pieces[i];
                 if (!p->kept && p->name_length == length && memcmp(p->name, at, length) == 0)
                     p->kept = changed = true;
@@ -132,6 +133,10 @@ static void write_plain(struct text *text, const char *at, const char *end)
             comment = false;
         else if (at[0] == '/' && at[1] == '/')
             comment = true;
+        if (*at == SIMPLIFY_GONE) {
+            at++;
+            continue;
+        }
         if (comment || !in_name(*at)) {
             text_add_part(text, at++, 1);
             continue;
@@ -171,34 +176,81 @@ static void write_plain(struct text *text, const char *at, const char *end)
     }
 }
 
-void equations_add(struct text *text, const char *calls)
+// A definition with the comments of its members in one column: the words are not as long as they were.
+static void write_definition(struct text *text, const struct piece *p)
 {
-    static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h, text_sources_h, text_sum_h};
+    if (!begins(p->start, "STRUCT(")) {
+        write_plain(text, p->lead, p->end);
+        return;
+    }
+    struct text plain = {0};
+    write_plain(text, p->lead, p->start);
+    write_plain(&plain, p->start, p->end);
+    size_t width = 0;
+    for (const char *at = plain.bytes; at && *at; at = next_line(at)) {
+        size_t code = strcspn(at, ";\n");
+        if (*at == ' ' && at[code] == ';' && at[code + 1] == ' ' && code > width)
+            width = code;
+    }
+    for (const char *at = plain.bytes; at && *at; at = next_line(at)) {
+        size_t code = strcspn(at, ";\n");
+        const char *next = next_line(at), *comment = at[code] == ';' ? at + code + 1 : next;
+        comment += strspn(comment, " ");
+        if (*at == ' ' && begins(comment, "//")) {
+            text_add_part(text, at, code + 1);
+            text_print(text, "%*s", (int)(width - code + 1), "");
+            text_add_part(text, comment, (size_t)(next - comment));
+        } else {
+            text_add_part(text, at, (size_t)(next - at));
+        }
+    }
+    text->failed |= plain.failed;
+    free(plain.bytes);
+}
+
+// --- the whole
+
+enum { FILES = 4 };
+
+struct whole {
+    struct text sources[FILES];
+    struct piece pieces[PIECES_MAX];
+    struct stretch stretches[PIECES_MAX + 1];
+    int count;
+};
+
+// Marks what the calls need, and all that those need. Returns the number of stretches, the calls first.
+static int keep(struct whole *w, char *calls)
+{
+    char *calls_end = calls + strlen(calls);
+    for (int i = 0; i < w->count; i++)
+        w->pieces[i].kept = false;
+    mark(w->pieces, w->count, calls, calls_end);
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int i = 0; i < w->count; i++)
+            if (w->pieces[i].kept)
+                changed |= mark(w->pieces, w->count, w->pieces[i].start, w->pieces[i].end);
+    }
+    int count = 0;
+    w->stretches[count++] = (struct stretch){calls, calls_end};
+    for (int i = 0; i < w->count; i++)
+        if (w->pieces[i].kept)
+            w->stretches[count++] = (struct stretch){w->pieces[i].start, w->pieces[i].end};
+    return count;
+}
+
+static void write_kept(struct text *text, const struct whole *w)
+{
     static const char *const titles[FILES] = {
         "the words that the equations are written in",
         "how a point of a surface answers the light of one direction",
         "what of a light arrives at a point: its direction, distance, attenuation and cone",
         "the light that leaves a point, as terms and as their sum"};
-    struct piece *pieces = malloc(PIECES_MAX * sizeof *pieces);
-    if (!pieces) {
-        text->failed = true;
-        fail(&text->error, LAM_LIMIT, "out of memory");
-        return;
-    }
-    int count = 0;
-    for (int i = 0; i < FILES; i++)
-        count = take_apart(pieces, count, sources[i], i);
-    mark(pieces, count, calls, calls + strlen(calls));
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (int i = 0; i < count; i++)
-            if (pieces[i].kept)
-                changed |= mark(pieces, count, pieces[i].start, pieces[i].end);
-    }
     int file = -1;
     bool define = false;
-    for (int i = 0; i < count; i++) {
-        const struct piece *p = &pieces[i];
+    for (int i = 0; i < w->count; i++) {
+        const struct piece *p = &w->pieces[i];
         if (!p->kept)
             continue;
         if (p->file != file)
@@ -208,7 +260,35 @@ void equations_add(struct text *text, const char *calls)
             text_add(text, "\n");
         file = p->file;
         define = is_define;
-        write_plain(text, p->lead, p->end);
+        write_definition(text, p);
     }
-    free(pieces);
+}
+
+void equations_add(struct text *text, char *calls, const struct decided *decided)
+{
+    static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h, text_sources_h, text_sum_h};
+    struct whole *w = calloc(1, sizeof *w);
+    bool ok = w != NULL;
+    for (int i = 0; ok && i < FILES; i++) {
+        simplify_conditions(&w->sources[i], sources[i], decided);
+        ok = !w->sources[i].failed;
+        if (ok)
+            w->count = take_apart(w->pieces, w->count, w->sources[i].bytes, i);
+    }
+    if (ok) {
+        while (simplify_members(w->stretches, keep(w, calls)))
+            ;
+        write_kept(text, w);
+        char *to = calls; // what is gone from the calls is closed up
+        for (const char *from = calls; *from; from++)
+            if (*from != SIMPLIFY_GONE)
+                *to++ = *from;
+        *to = 0;
+    } else {
+        text->failed = true;
+        fail(&text->error, LAM_LIMIT, "out of memory");
+    }
+    for (int i = 0; w && i < FILES; i++)
+        free(w->sources[i].bytes);
+    free(w);
 }

@@ -31,20 +31,28 @@ static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_
 
 // --- pieces that depend on more than flags
 
-static const char *model_call(const struct glsl_choices *c)
+static const char *lobe_call(const struct glsl_choices *c)
 {
     switch (c->reflection) {
     case LAM_REFLECTION_LAMBERT:
-        return "reflected_of(lambert_lobe(s, t.l), 1.0)"; // whose base is 0: no highlight
+        return "lambert_lobe(s, t.l)";
     case LAM_REFLECTION_PHONG:
-        return "reflected_of(phong_lobe(s, t.l), shininess)";
+        return "phong_lobe(s, t.l)";
     case LAM_REFLECTION_KAJIYA_KAY:
-        return "reflected_of(kajiya_kay_lobe(s, t.l, 0, fibre), shininess)";
+        return "kajiya_kay_lobe(s, t.l, 0, thread)";
     case LAM_REFLECTION_KAJIYA_KAY_LECTURE:
-        return "reflected_of(kajiya_kay_lobe(s, t.l, 1, fibre), shininess)";
+        return "kajiya_kay_lobe(s, t.l, 1, thread)";
     default:
-        return "reflected_of(blinn_phong_lobe(s, t.l), shininess)";
+        return "blinn_phong_lobe(s, t.l)";
     }
+}
+
+static const char *exponent_of(const struct glsl_facts *f)
+{
+    return !f->highlights          ? "1.0" // Lambert's, whose base is 0: no highlight
+           : !f->choices->products ? "m.shininess"
+           : f->back               ? "exponent"
+                                   : "shininess";
 }
 
 static const char *const kind_words[GLSL_KINDS] = {"LIGHT_POINT", "LIGHT_DIRECTIONAL", "LIGHT_SPOT_CUTOFF",
@@ -66,7 +74,8 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
         text_print(text, "        source light = light_of(i%s);\n", list_argument(f));
         text_print(text, "        toward t = toward_light(s.p, light, %s, %s);\n", kind_words[group->kind],
                    falloff_words[group->falloff]);
-        text_print(text, "        sum = add_reflected(sum, light, t, %s);\n", model_call(c));
+        text_print(text, "        sum = add_reflected(sum, light, t, reflected_of(%s, %s));\n", lobe_call(c),
+                   exponent_of(f));
         if (c->gl1)
             text_print(text, "        sum = add_arriving_ambient(sum, ambient_of(i%s), t);\n",
                        list_argument(f));
@@ -152,6 +161,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {"shows_place", f->shows_place},
         {"shows_vector", f->shows_vector},
         {"paints", f->paints},
+        {"asks_surface", surface && (f->lights || f->skies || f->environment || f->shows_vector)},
         {"threads", f->threads},
         {"passes_tangent", passes_tangent},
         {"passes_normal", surface},
@@ -263,6 +273,46 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
 
 // --- the whole
 
+// What the choices decide of the equations' branches.
+enum { DECIDED_MAX = 10 };
+
+static void decide(struct decided out[DECIDED_MAX], const char *condition, bool holds)
+{
+    while (out->condition)
+        out++;
+    *out = (struct decided){condition, holds};
+}
+
+// `some` of the lights are so: if none is, or all are, that is decided.
+static void decide_lights(struct decided out[DECIDED_MAX], const char *condition, int some, int all)
+{
+    if (some == 0 || some == all)
+        decide(out, condition, some > 0);
+}
+
+static void decide_all(struct decided out[DECIDED_MAX], const struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    int kinds[GLSL_KINDS] = {0}, falloffs[GLSL_FALLOFFS] = {0}, all = c->light_count;
+    for (int i = 0; i < c->group_count; i++) {
+        kinds[c->groups[i].kind] += c->groups[i].count;
+        falloffs[c->groups[i].falloff] += c->groups[i].count;
+    }
+    if (c->distant_viewer)
+        decide(out, "viewer == VIEWER_LOCAL", false);
+    if (f->kajiya_kay)
+        decide(out, "lecture != 0", c->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE);
+    if (f->shows_vector) // asks for a light of its own kind
+        return;
+    decide_lights(out, "kind == LIGHT_DIRECTIONAL", kinds[1], all);
+    decide_lights(out, "kind >= LIGHT_SPOT_CUTOFF", kinds[2] + kinds[3] + kinds[4], all);
+    decide_lights(out, "kind == LIGHT_SPOT_CUTOFF", kinds[2], all);
+    decide_lights(out, "kind == LIGHT_SPOT_EXPONENT", kinds[3], all);
+    decide_lights(out, "kind == LIGHT_SPOT_CONES", kinds[4], all);
+    decide_lights(out, "falloff != FALLOFF_NONE", falloffs[1] + falloffs[2], all);
+    decide_lights(out, "falloff == FALLOFF_RANGE", falloffs[2], all);
+}
+
 static const char *const version_lines[] = {
     "#version 120\n", "#version 330 core\n",
     "#version 300 es\nprecision highp float;\nprecision highp int;\n"};
@@ -281,7 +331,9 @@ static char *make_one(const struct glsl_facts *f, bool fragment, lam_error *erro
         text_print(&whole, "precision highp %s;\n",
                    c->environment == GLSL_CUBE ? "samplerCube" : "sampler2DArray");
     if (own.bytes && !own.failed) {
-        equations_add(&whole, own.bytes);
+        struct decided decided[DECIDED_MAX + 1] = {{NULL, false}};
+        decide_all(decided, f);
+        equations_add(&whole, own.bytes, decided);
         glsl_declare(&whole, f, fragment);
         text_add(&whole, own.bytes);
     }

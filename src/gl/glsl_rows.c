@@ -34,6 +34,8 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
     for (int i = 0; i < c->group_count; i++) {
         f.falloff |= f.lights && !f.shows_vector && c->groups[i].falloff != 0;
         f.cones |= f.lights && !f.shows_vector && c->groups[i].kind >= 2;
+        f.positions |= c->groups[i].kind != 1;
+        f.directions |= c->groups[i].kind != 0;
     }
     return f;
 }
@@ -275,10 +277,15 @@ int glsl_members(const struct glsl_facts *f, const char *type, struct glsl_row r
     struct list list = {.rows = rows};
     bool all = c->storage == GLSL_BLOCK; // a block keeps its layout, whatever is looked at
     if (strcmp(type, "Light") == 0) {
-        add_member(&list, GLSL_LIGHTS, "vec4", 0, "position",
-                   "in eye space, w 1; a directional light's is not looked at");
-        add_member(&list, GLSL_LIGHTS, "vec4", 4, "direction",
-                   "in eye space, unit, w 0: the way a directional light travels, a spot's axis");
+        bool both = all || f->shows_vector;
+        if (both || f->positions) {
+            add_member(&list, GLSL_LIGHTS, "vec4", 0, "position",
+                       "in eye space, w 1; a directional light's is not looked at");
+        }
+        if (both || f->directions) {
+            add_member(&list, GLSL_LIGHTS, "vec4", 4, "direction",
+                       "in eye space, unit, w 0: the way a directional light travels, a spot's axis");
+        }
         if (all || f->falloff) {
             add_member(&list, GLSL_LIGHTS, "vec4", 8, "attenuation",
                        "constant, linear, quadratic, 1 / range (0: no range)");

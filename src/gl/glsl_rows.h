@@ -57,6 +57,8 @@ struct glsl_facts {
     bool lit;              // there is a light_point
     bool lights, skies;    // lists that are read
     bool falloff, cones;   // any light has some
+    bool positions;        // any light but a directional one
+    bool directions;       // any light but a point
     bool highlights;       // the model has
     bool threads;          // tangents are looked at
     bool environment;      // read

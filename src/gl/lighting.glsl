@@ -75,22 +75,12 @@ source light_of(int i@list_parameter@)
     light.linear = attenuation.y;
     light.quadratic = attenuation.z;
     light.inverse_range = attenuation.w;
-//@else
-    light.constant = 1.0;
-    light.linear = 0.0;
-    light.quadratic = 0.0;
-    light.inverse_range = 0.0;
 //@end
 //@if has_cone
     light.cos_cutoff = cone.x;
     light.exponent = cone.y;
     light.cos_outer = cone.z;
     light.inverse_width = cone.w;
-//@else
-    light.cos_cutoff = -1.0;
-    light.exponent = 0.0;
-    light.cos_outer = -1.0;
-    light.inverse_width = 1.0;
 //@end
 //@if products
 //@if texture
@@ -206,7 +196,7 @@ vec4 light_point(@lit_parameters@)
     terms sum = unlit_terms(m.diffuse.rgb);
 //@end
 //@end
-//@if !paints
+//@if asks_surface
     surface s;
     s.p = p;
     s.n = unit3(normal);
@@ -226,18 +216,18 @@ vec4 light_point(@lit_parameters@)
 //@else
     terms sum = start_terms(mul3(m.ambient.rgb, ambient_light.rgb), m.emission.rgb);
 //@end
-//@if highlights
-//@if products
-    float shininess = $(shininess);
-//@else
-    float shininess = m.shininess;
-//@end
-//@end
 //@if kajiya_kay
 //@if products
-    int fibre = $(fibre) > 0.5 ? 1 : 0;
+    int thread = $(fibre) > 0.5 ? 1 : 0;
 //@else
-    int fibre = m.fibre > 0.5 ? 1 : 0;
+    int thread = m.fibre > 0.5 ? 1 : 0;
+//@end
+//@end
+//@if back_material
+//@if highlights
+//@if products
+    float exponent = $(shininess);
+//@end
 //@end
 //@end
 //@if has_hemispheres

@@ -98,7 +98,9 @@ FN toward toward_light(vec3 p, source light, int kind, int falloff)
             t.attenuation = attenuation_at(t.distance, light, falloff);
         }
         t.attenuation = pick(square > 0.0f, t.attenuation, num_of(0.0f));
-        t.spot = spot_at(cosine(-dot3(t.l, light.direction)), light, kind);
+        if (kind >= LIGHT_SPOT_CUTOFF) {
+            t.spot = spot_at(cosine(-dot3(t.l, light.direction)), light, kind);
+        }
     }
     return t;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""contract.py PROGRAM: a program that knows only what `lambent shader` prints draws the picture that `lambent` draws.
+"""contract.py PROGRAM [--every N] [CASE...]: a program that knows only what `lambent shader` prints draws the picture that `lambent` draws.
 
 For each case the printed C code is compiled into contract_host.c, which links nothing of lambent, and its picture is compared
 with the CPU's at one sample a pixel: at least 99.9 % of the pixels within 1/255, and none off by more than 2/255 but where the
@@ -23,7 +23,7 @@ PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
 os.environ["LAMBENT"] = PROGRAM
 from harness import read_png  # noqa: E402
 
-SIZE = 160
+SIZE = 128
 
 
 # --- the model: a ring and a bowl, with normals; what an author would have in his own program
@@ -208,7 +208,7 @@ def draw(folder, name, model, words, shader_words, cube):
     (folder / (name + ".vertices")).write_bytes(vertices(model, contract, front))
     drawn = run([program, contract["glsl"], SIZE, SIZE, str(base) + ".vert", str(base) + ".frag", str(base) + ".vertices",
                  str(base) + ".raw", *(cube[1:] if cube else [])],
-                env={**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1"}, timeout=120)
+                env={**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1"}, timeout=600)
     if drawn.returncode == 77:
         raise Skip(drawn.stdout.decode().strip())
     assert drawn.returncode == 0, drawn.stdout.decode()
@@ -292,7 +292,9 @@ CASES = [
 
 
 def main():
-    chosen = [c for c in CASES if len(sys.argv) < 3 or c[0] in sys.argv[2:]]
+    words = sys.argv[2:]
+    step = int(words[1]) if words[:1] == ["--every"] else 1
+    chosen = CASES[::step] if step > 1 or not words else [c for c in CASES if c[0] in words]
     folder = pathlib.Path(tempfile.mkdtemp(prefix="lambent-contract-"))
     models = {"plain": Model(folder), "colors": Model(folder, True)}
     cube = make_cube(folder)

@@ -9,9 +9,9 @@
 #include <string.h>
 
 enum {
-    BLOCK_FIRST = 16 << 10, // the first block; each next one is twice as large, up to
-    BLOCK_LARGEST = 1 << 20,
-    OWN_PAGES = 1 << 20, // requests from here on get pages of their own
+    BLOCK_FIRST = 16 << 10,  // the first block; each next one is twice as large, up to
+    BLOCK_LARGEST = 2 << 20, // a huge page of its own
+    OWN_PAGES = 1 << 20,     // requests from here on get pages of their own
 };
 
 // A block's header. Small blocks are followed by their memory; large ones point at pages.
@@ -19,6 +19,7 @@ struct arena_block {
     struct arena_block *next;
     uint8_t *memory;
     size_t room, used;
+    bool whole;     // one request's own; nothing is cut from it
     size_t held;    // > 0: bytes of pages behind `memory`, given back by pages_free
     size_t charged; // what the watch was charged
 };
@@ -35,6 +36,11 @@ static bool fails_now(void)
 }
 
 void arena_start(struct arena *arena, struct watch *watch) { *arena = (struct arena){.watch = watch}; }
+
+void arena_start_large(struct arena *arena, struct watch *watch)
+{
+    *arena = (struct arena){.watch = watch, .large = true};
+}
 
 void arena_free(struct arena *arena)
 {
@@ -55,7 +61,7 @@ void arena_free(struct arena *arena)
 static void link_block(struct arena *arena, struct arena_block *block)
 {
     // The block that small requests are cut from stays first.
-    if (block->held && arena->blocks) {
+    if (block->whole && arena->blocks) {
         block->next = arena->blocks->next;
         arena->blocks->next = block;
     } else {
@@ -80,14 +86,15 @@ static void *own_pages(struct arena *arena, size_t bytes)
     }
     block->room = block->used = block->held;
     block->charged = bytes;
+    block->whole = true;
     link_block(arena, block);
     return block->memory;
 }
 
 static struct arena_block *new_block(struct arena *arena, size_t bytes)
 {
-    size_t room = BLOCK_FIRST;
-    if (arena->blocks && !arena->blocks->held)
+    size_t room = arena->large ? BLOCK_LARGEST : BLOCK_FIRST;
+    if (arena->blocks && !arena->blocks->whole)
         room = arena->blocks->room * 2;
     if (room > BLOCK_LARGEST)
         room = BLOCK_LARGEST;
@@ -95,13 +102,19 @@ static struct arena_block *new_block(struct arena *arena, size_t bytes)
         room = bytes + 64;
     if (arena->watch && !watch_charge(arena->watch, room))
         return NULL;
-    struct arena_block *block = malloc(sizeof *block + room);
-    if (!block) {
+    const bool pages = room >= BLOCK_LARGEST;
+    struct arena_block *block = malloc(sizeof *block + (pages ? 0 : room));
+    if (block) {
+        *block = (struct arena_block){.memory = (uint8_t *)(block + 1), .room = room, .charged = room};
+        if (pages)
+            block->memory = pages_get(room, &block->held);
+    }
+    if (!block || !block->memory) {
+        free(block);
         if (arena->watch)
             watch_refund(arena->watch, room);
         return NULL;
     }
-    *block = (struct arena_block){.memory = (uint8_t *)(block + 1), .room = room, .charged = room};
     link_block(arena, block);
     return block;
 }
@@ -115,7 +128,7 @@ void *arena_alloc(struct arena *arena, size_t bytes)
     size_t alignment = bytes >= 64 ? 64 : 16;
     struct arena_block *block = arena->blocks;
     for (int attempt = 0; attempt < 2; attempt++) {
-        if (block && !block->held) {
+        if (block && !block->whole) {
             uintptr_t at = (uintptr_t)block->memory + block->used;
             size_t gap = (alignment - at % alignment) % alignment;
             if (block->used + gap + bytes <= block->room) {
@@ -184,6 +197,7 @@ bool arena_adopt(struct arena *arena, struct file_bytes *bytes)
                                   .room = bytes->held,
                                   .used = bytes->held,
                                   .held = bytes->held,
+                                  .whole = true,
                                   .charged = bytes->watch == arena->watch ? bytes->size + FILE_PADDING : 0};
     link_block(arena, block);
     bytes->held = 0;

@@ -1,8 +1,8 @@
 // arena.h: memory that is given back all at once.
 //
-// Small requests are cut from blocks; requests of 1 MiB and more get pages of their own, advised to be huge
-// pages (first touch of fresh memory is three times as fast with them). Memory is not zeroed unless asked
-// for. One thread at a time.
+// Small requests are cut from blocks that grow to a huge page; requests of 1 MiB and more get pages of their
+// own, advised to be huge pages (first touch of fresh memory is three times as fast with them). Memory is not
+// zeroed unless asked for. One thread at a time.
 #ifndef ARENA_H
 #define ARENA_H
 
@@ -16,9 +16,11 @@ struct arena {
     struct arena_block *blocks;
     struct watch *watch; // charged for what is allocated; may be NULL
     size_t total;        // bytes held
+    bool large;          // the first block is one of the largest
 };
 
 void arena_start(struct arena *arena, struct watch *watch);
+void arena_start_large(struct arena *arena, struct watch *watch); // where some megabytes will be needed
 void arena_free(struct arena *arena); // frees everything; the arena is empty and usable again
 
 // Aligned to 64 bytes for 64 bytes and more, else to 16. NULL when memory or the watch's budget is out (the

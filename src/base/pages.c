@@ -12,6 +12,8 @@ void *pages_get(size_t bytes, size_t *held)
     return calloc(1, bytes ? bytes : 1);
 }
 
+void *pages_get_sparse(size_t bytes, size_t *held) { return pages_get(bytes, held); }
+
 void pages_free(void *pages, size_t held)
 {
     (void)held;
@@ -27,32 +29,45 @@ size_t pages_of_machine(void) { return SIZE_MAX; }
 
 enum { PAGE = 4096, HUGE_PAGE = 2 << 20 };
 
+static void *map(size_t size)
+{
+    void *pages = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return pages == MAP_FAILED ? NULL : pages;
+}
+
+static size_t whole_pages(size_t bytes) { return bytes ? (bytes + PAGE - 1) / PAGE * PAGE : PAGE; }
+
+void *pages_get_sparse(size_t bytes, size_t *held)
+{
+    if (bytes > SIZE_MAX / 2)
+        return NULL;
+    *held = whole_pages(bytes);
+    return map(*held);
+}
+
 // A block of at least one huge page is aligned to it: the kernel then backs it with huge pages from the first
 // touch, which costs a third of touching the same memory in small pages.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)
         return NULL;
-    size_t size = (bytes + PAGE - 1) / PAGE * PAGE;
-    if (size == 0)
-        size = PAGE;
-    size_t slack = size >= HUGE_PAGE ? HUGE_PAGE : 0;
-    uint8_t *map = mmap(NULL, size + slack, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (map == MAP_FAILED)
+    size_t size = whole_pages(bytes), slack = size >= HUGE_PAGE ? HUGE_PAGE : 0;
+    uint8_t *pages = map(size + slack);
+    if (!pages)
         return NULL;
     if (slack) {
-        size_t before = (HUGE_PAGE - (uintptr_t)map % HUGE_PAGE) % HUGE_PAGE;
+        size_t before = (HUGE_PAGE - (uintptr_t)pages % HUGE_PAGE) % HUGE_PAGE;
         if (before)
-            munmap(map, before);
+            munmap(pages, before);
         if (slack - before)
-            munmap(map + before + size, slack - before);
-        map += before;
+            munmap(pages + before + size, slack - before);
+        pages += before;
 #ifdef MADV_HUGEPAGE
-        madvise(map, size, MADV_HUGEPAGE);
+        madvise(pages, size, MADV_HUGEPAGE);
 #endif
     }
     *held = size;
-    return map;
+    return pages;
 }
 
 void pages_free(void *pages, size_t held)

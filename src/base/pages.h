@@ -6,6 +6,8 @@
 
 // Fresh zeroed memory, page-aligned. `held` gets the size to give back. NULL when there is none.
 void *pages_get(size_t bytes, size_t *held);
+// The same in small pages: where perhaps little will be touched.
+void *pages_get_sparse(size_t bytes, size_t *held);
 void pages_free(void *pages, size_t held);
 
 // Bytes of memory that the machine has; SIZE_MAX where it does not tell. The system lends more than there is

@@ -5,7 +5,10 @@
 
 #include <stdlib.h>
 
-enum { SLAB = 1 << 20 };
+enum {
+    SLAB = 2 << 20,   // a huge page
+    FILLED = 1 << 18, // triangles that fill the first one of each thread, or nearly
+};
 
 // The next `bytes` of a list of slabs; new slabs come from the system and stay for later frames.
 static void *slab_take(struct cpu_frame *cpu, struct slab_list *list, size_t bytes)
@@ -24,7 +27,8 @@ static void *slab_take(struct cpu_frame *cpu, struct slab_list *list, size_t byt
             if (!watch_charge(cpu->watch, SLAB))
                 goto out_of_memory;
             size_t held;
-            void *slab = pages_get(SLAB, &held);
+            bool filled = next > 0 || cpu->frame->triangle_count > FILLED; // rather than a part of it
+            void *slab = filled ? pages_get(SLAB, &held) : pages_get_sparse(SLAB, &held);
             if (!slab) {
                 watch_refund(cpu->watch, SLAB);
                 goto out_of_memory;
@@ -43,9 +47,11 @@ out_of_memory:
     return NULL;
 }
 
+size_t slabs_bytes(const struct slab_list *list) { return (size_t)list->count * SLAB; }
+
 size_t slabs_free(struct slab_list *list)
 {
-    size_t bytes = (size_t)list->count * SLAB;
+    size_t bytes = slabs_bytes(list);
     for (int i = 0; i < list->count; i++)
         pages_free(list->slabs[i], SLAB);
     free(list->slabs);

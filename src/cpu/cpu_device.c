@@ -160,7 +160,7 @@ static uint64_t cpu_memory(const struct lam_device *base)
                      seeing->stashes.room;
     for (int i = 0; i < device->thread_count; i++) {
         const struct thread_state *thread = &device->threads[i];
-        bytes += thread->scratch.room + ((uint64_t)(thread->blocks.count + thread->pieces.count) << 20);
+        bytes += thread->scratch.room + slabs_bytes(&thread->blocks) + slabs_bytes(&thread->pieces);
     }
     return bytes;
 }
@@ -404,7 +404,7 @@ static bool step_done(const struct cpu_frame *cpu, lam_error *error)
             "more than %d translucent triangles lie over one pixel: so many can be put in order, no more",
             LAYERS_MAX);
     if (failed)
-        return watch_memory_error(cpu->watch, 1 << 20, error);
+        return watch_memory_error(cpu->watch, 2 << 20, error);
     return watch_on(cpu->watch) || watch_error(cpu->watch, error);
 }
 

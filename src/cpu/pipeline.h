@@ -224,6 +224,7 @@ enum failure {
 struct bin_block *new_bin_block(struct cpu_frame *cpu, struct thread_state *thread);
 struct clipped_piece *new_clipped_piece(struct cpu_frame *cpu, struct thread_state *thread, uint32_t *number);
 const struct clipped_piece *clipped_piece(const struct thread_state *thread, uint32_t number);
+size_t slabs_bytes(const struct slab_list *list);
 size_t slabs_free(struct slab_list *list); // how many bytes that were
 
 // The block of a tile's bin that takes `room` numbers more; NULL: out of memory.

@@ -36,7 +36,10 @@ struct tile_search {
 };
 
 // A stash holds, for each fragment, its triangle, then its pixel, then weight and sample.
-enum { STASHED = sizeof(uint32_t) + sizeof(uint16_t) + 2 };
+enum {
+    STASHED = sizeof(uint32_t) + sizeof(uint16_t) + 2,
+    LARGE_PICTURE = 128, // tiles: half a million fragments, and 4 MB, where all is covered
+};
 
 static void keep_stash(struct cpu_frame *cpu, struct arena *arena, const struct thread_state *thread,
                        size_t tile)
@@ -109,7 +112,7 @@ static bool search_tiles(struct cpu_frame *cpu, struct seeing_room *room, lam_er
     memset(cpu->stashes, 0, tiles * sizeof(struct stash));
     room->arenas = (struct arena *)(cpu->stashes + tiles);
     for (size_t i = 0; i < threads; i++)
-        arena_start(&room->arenas[i], cpu->watch);
+        (tiles > LARGE_PICTURE ? arena_start_large : arena_start)(&room->arenas[i], cpu->watch);
     uint64_t start = now_ns();
     pool_run(cpu->pool, tiles, search_tile, &(struct tile_search){cpu, room->arenas});
     room->search_ms = (double)(now_ns() - start) * 1e-6;

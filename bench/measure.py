@@ -9,12 +9,19 @@ import time
 import paths
 
 
+LONGEST_S = 300  # a program that takes longer hangs
+ROW_S = 40  # a row that has taken so long gets no further round
+
+
 class Failed(Exception):
     """A program did not do what it was asked; the text says which and how."""
 
 
 def output(command, **more):
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **more)
+    try:
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=LONGEST_S, **more)
+    except subprocess.TimeoutExpired:
+        raise Failed("%s: did not end within %d s" % (" ".join(command[:3]), LONGEST_S)) from None
     if done.returncode:
         raise Failed("%s: exit %d: %s" % (" ".join(command[:3]), done.returncode, done.stderr.decode(errors="replace").strip()[-300:]))
     return done.stdout.decode()
@@ -58,7 +65,7 @@ def in_turn(contestants, seconds, least_rounds=3, most_rounds=15):
     taken = {name: [] for name in contestants}
     rounds = 0
     while rounds < most_rounds and (rounds < least_rounds or time.monotonic() - begun < seconds):
-        if rounds and time.monotonic() > hurry_from:
+        if rounds and (time.monotonic() > hurry_from or time.monotonic() - begun > ROW_S):
             break
         for name, run in contestants.items():
             taken[name].append(run())
@@ -95,6 +102,19 @@ def start_ms(command):
     if status:
         raise Failed("%s: status %d" % (" ".join(command), status))
     return taken
+
+
+def busy_s():
+    """Seconds that the processors have worked (or were taken by the host) since the start of the system, whoever made them."""
+    with open("/proc/stat") as file:
+        user, nice, system, _, _, irq, softirq, steal = (int(word) for word in file.readline().split()[1:9])
+    return (user + nice + system + irq + softirq + steal) / os.sysconf("SC_CLK_TCK")
+
+
+def own_s():
+    """Seconds of this process and of the children that have ended."""
+    used = os.times()
+    return used.user + used.system + used.children_user + used.children_system
 
 
 def machine():

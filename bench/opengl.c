@@ -1,9 +1,11 @@
 // opengl.c: a plain, competent OpenGL 3.3 program that draws the bench's scenes, to compare frames with:
-//     opengl SCENE.txt loop|written [--derivatives] [--frames N] [--seconds S] [--picture FILE.ppm]
+//     opengl SCENE.txt loop|written [--derivatives] [--depth-first] [--frames N] [--seconds S] [--picture
+//     FILE.ppm]
 //
 // No window: an EGL context without a surface, a framebuffer of its own (8 bits a channel, 24 bits of depth,
 // multisampled where asked for and resolved in each frame). Buffers are uploaded once; a frame is clear, one
-// draw call, glFinish, and reading pixels back is not counted. Frames are drawn until there are N or S
+// draw call (two with --depth-first: the first one writes depth alone, so that only what is seen is lit),
+// glFinish, and reading pixels back is not counted. Frames are drawn until there are N or S
 // seconds have gone by, after one to warm up; the report is a line of JSON. Exits with 3 where there is no
 // such OpenGL.
 #define GL_GLEXT_PROTOTYPES
@@ -117,13 +119,14 @@ static void clip_matrix(const struct gl_scene *scene, float *result)
     }
 }
 
-static void make_program(const struct gl_scene *scene, struct form form)
+// Links two shaders, uses the program and tells it the camera.
+static GLuint make_program(const struct gl_scene *scene, char *vertex, char *fragment)
 {
     GLuint program = glCreateProgram();
     GLint done = 0;
     char log[2000] = "";
-    glAttachShader(program, compile(GL_VERTEX_SHADER, vertex_shader(scene, form)));
-    glAttachShader(program, compile(GL_FRAGMENT_SHADER, fragment_shader(scene, form)));
+    glAttachShader(program, compile(GL_VERTEX_SHADER, vertex));
+    glAttachShader(program, compile(GL_FRAGMENT_SHADER, fragment));
     glLinkProgram(program);
     glGetProgramiv(program, GL_LINK_STATUS, &done);
     glGetProgramInfoLog(program, sizeof log, NULL, log);
@@ -133,12 +136,26 @@ static void make_program(const struct gl_scene *scene, struct form form)
     float matrix[16];
     clip_matrix(scene, matrix);
     glUniformMatrix4fv(glGetUniformLocation(program, "to_clip"), 1, GL_FALSE, matrix);
+    return program;
+}
+
+struct programs {
+    GLuint lit, depth; // depth: 0 without --depth-first
+};
+
+static struct programs make_programs(const struct gl_scene *scene, struct form form, int depth_first)
+{
+    struct programs programs = {0};
+    if (depth_first)
+        programs.depth = make_program(scene, depth_vertex_shader(), depth_fragment_shader());
+    GLuint program = programs.lit =
+        make_program(scene, vertex_shader(scene, form), fragment_shader(scene, form));
     glUniform3f(glGetUniformLocation(program, "eye"), (float)scene->eye[0], (float)scene->eye[1],
                 (float)scene->eye[2]);
     glUniform3fv(glGetUniformLocation(program, "ambient"), 1, scene->ambient);
     glUniform1f(glGetUniformLocation(program, "shininess"), (float)scene->shininess);
     if (form.written_out)
-        return;
+        return programs;
     float *block = calloc((size_t)scene->light_count, 16 * sizeof(float));
     GLuint buffer;
     for (int i = 0; block && i < scene->light_count; i++) {
@@ -152,6 +169,7 @@ static void make_program(const struct gl_scene *scene, struct form form)
     glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)(64 * (size_t)scene->light_count), block, GL_STATIC_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, buffer);
     free(block);
+    return programs;
 }
 
 static void put_vertex(float *to, const struct gl_scene *scene, size_t vertex, const float *normal)
@@ -225,14 +243,31 @@ static GLuint make_target(const struct gl_scene *scene, int samples)
     return target;
 }
 
-static void draw(const struct gl_scene *scene, int shared, GLuint target, GLuint resolved)
+static void draw_triangles(const struct gl_scene *scene, int shared)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, target);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     if (shared)
         glDrawElements(GL_TRIANGLES, (GLsizei)(3 * scene->triangles), GL_UNSIGNED_INT, NULL);
     else
         glDrawArrays(GL_TRIANGLES, 0, (GLsizei)(3 * scene->triangles));
+}
+
+static void draw(const struct gl_scene *scene, const struct programs *programs, int shared, GLuint target,
+                 GLuint resolved)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, target);
+    glDepthMask(GL_TRUE);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (programs->depth) {
+        glUseProgram(programs->depth);
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        glDepthFunc(GL_LESS);
+        draw_triangles(scene, shared);
+        glUseProgram(programs->lit);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        glDepthFunc(GL_EQUAL);
+        glDepthMask(GL_FALSE);
+    }
+    draw_triangles(scene, shared);
     if (resolved != target) {
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
         glBlitFramebuffer(0, 0, scene->width, scene->height, 0, 0, scene->width, scene->height,
@@ -266,16 +301,18 @@ static int by_size(const void *a, const void *b)
 int main(int count, char **arguments)
 {
     if (count < 3)
-        give_up(
-            1, "usage",
-            "opengl SCENE.txt loop|written [--derivatives] [--frames N] [--seconds S] [--picture FILE.ppm]");
+        give_up(1, "usage",
+                "opengl SCENE.txt loop|written [--derivatives] [--depth-first] [--frames N] [--seconds S] "
+                "[--picture FILE.ppm]");
     struct form form = {.written_out = strcmp(arguments[2], "written") == 0};
-    int frames = 10;
+    int frames = 10, depth_first = 0;
     double seconds = 5;
     const char *picture = NULL;
     for (int i = 3; i < count; i++) {
         if (strcmp(arguments[i], "--derivatives") == 0)
             form.derivatives = 1;
+        else if (strcmp(arguments[i], "--depth-first") == 0)
+            depth_first = 1;
         else if (i + 1 < count && strcmp(arguments[i], "--frames") == 0)
             frames = atoi(arguments[++i]);
         else if (i + 1 < count && strcmp(arguments[i], "--seconds") == 0)
@@ -291,14 +328,14 @@ int main(int count, char **arguments)
     make_context();
     double start = now_ms();
     int shared = scene.shading != FLAT || form.derivatives;
-    make_program(&scene, form);
+    struct programs programs = make_programs(&scene, form, depth_first);
     upload(&scene, shared);
     GLuint resolved = make_target(&scene, 1);
     GLuint target = scene.samples > 1 ? make_target(&scene, scene.samples) : resolved;
     glViewport(0, 0, scene.width, scene.height);
     glEnable(GL_DEPTH_TEST);
     glClearColor(0, 0, 0, 1);
-    draw(&scene, shared, target, resolved);
+    draw(&scene, &programs, shared, target, resolved);
     double setup_ms = now_ms() - start;
 
     static double times[FRAMES_MOST];
@@ -306,7 +343,7 @@ int main(int count, char **arguments)
     double begun = now_ms();
     while (drawn < frames && (drawn == 0 || now_ms() - begun < seconds * 1e3)) {
         double before = now_ms();
-        draw(&scene, shared, target, resolved);
+        draw(&scene, &programs, shared, target, resolved);
         times[drawn++] = now_ms() - before;
     }
     if (picture) {

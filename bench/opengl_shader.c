@@ -8,6 +8,10 @@
 static const char head[] = "#version 330 core\n"
                            "uniform vec3 eye, ambient;\n"
                            "uniform float shininess;\n";
+static const char vertex_head[] = "uniform mat4 to_clip;\n"
+                                  "layout(location = 0) in vec3 position;\n"
+                                  "layout(location = 1) in vec3 normal;\n"
+                                  "invariant gl_Position;\n";
 
 static void loop_of_lights(FILE *text, const struct gl_scene *scene)
 {
@@ -101,8 +105,7 @@ char *vertex_shader(const struct gl_scene *scene, struct form form)
 {
     struct text text;
     begin(&text);
-    fprintf(text.file, "uniform mat4 to_clip;\nlayout(location = 0) in vec3 position;\nlayout(location = 1) "
-                       "in vec3 normal;\n");
+    fputs(vertex_head, text.file);
     if (scene->shading == PHONG) {
         fprintf(text.file, "out vec3 at, n;\nvoid main() { at = position; n = normal; gl_Position = to_clip "
                            "* vec4(position, 1.0); }\n");
@@ -137,5 +140,22 @@ char *fragment_shader(const struct gl_scene *scene, struct form form)
         fprintf(text.file, "%sin vec3 color;\nvoid main() { pixel = vec4(color, 1.0); }\n",
                 scene->shading == FLAT ? "flat " : "");
     }
+    return end(&text);
+}
+
+char *depth_vertex_shader(void)
+{
+    struct text text;
+    begin(&text);
+    fputs(vertex_head, text.file);
+    fprintf(text.file, "void main() { gl_Position = to_clip * vec4(position, 1.0); }\n");
+    return end(&text);
+}
+
+char *depth_fragment_shader(void)
+{
+    struct text text;
+    begin(&text);
+    fprintf(text.file, "void main() {}\n");
     return end(&text);
 }

@@ -16,4 +16,8 @@ struct form {
 char *vertex_shader(const struct gl_scene *scene, struct form form);
 char *fragment_shader(const struct gl_scene *scene, struct form form);
 
+// Those that write depth alone, at the same depths.
+char *depth_vertex_shader(void);
+char *depth_fragment_shader(void);
+
 #endif

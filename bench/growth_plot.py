@@ -1,7 +1,7 @@
 """growth_plot.py: one series as an SVG: both axes logarithmic, lambent's line and the peer's, and the slope one as a guide."""
 import math
 
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 420, 70, 20, 24, 56
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 420, 70, 30, 24, 56
 OURS, PEER, GUIDE, TEXT = "#1a56a0", "#c05020", "#aaaaaa", "#222222"
 UNITS = {"triangles": "triangles", "pixels": "pixels of the picture", "lights": "point lights", "threads": "threads"}
 
@@ -13,10 +13,16 @@ def short(value):
     return "%g" % value
 
 
+def label(axis, value):
+    return "%d²" % round(math.sqrt(value)) if axis == "pixels" else short(value)
+
+
 def svg(series):
     x, ours, peer = series["x"], series["ours_ms"], series.get("peer_ms")
     low_x, high_x = min(x), max(max(x), 1.01 * min(x))
-    every = ours + (peer or [])
+    # In proportion (with threads: in inverse proportion), from lambent's last point (its first).
+    guide = [ours[0] * x[0] / v for v in x] if series["axis"] == "threads" else [ours[-1] * v / x[-1] for v in x]
+    every = ours + (peer or []) + (guide if series["axis"] == "threads" else [])
     low_y, high_y = 10 ** math.floor(math.log10(min(every))), 10 ** math.ceil(math.log10(max(every)))
 
     def across(value):
@@ -42,14 +48,13 @@ def svg(series):
         value *= 10
     for value in x:
         parts.append('<line x1="%.1f" x2="%.1f" y1="%d" y2="%d" stroke="#eeeeee"/>' % (across(value), across(value), TOP, HEIGHT - BOTTOM))
-        parts.append(text(across(value), HEIGHT - BOTTOM + 18, short(value)))
+        parts.append(text(across(value), HEIGHT - BOTTOM + 18, label(series["axis"], value)))
     parts.append('<rect x="%d" y="%d" width="%d" height="%d" fill="none" stroke="%s"/>' % (LEFT, TOP, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM,
                                                                                         GUIDE))
-    # In proportion (with threads: in inverse proportion), from lambent's last point (its first).
-    guide = [ours[0] * x[0] / v for v in x] if series["axis"] == "threads" else [ours[-1] * v / x[-1] for v in x]
-    kept = [(a, b) for a, b in zip(x, guide) if low_y <= b <= high_y]
-    parts.append('<polyline points="%s" fill="none" stroke="%s" stroke-dasharray="5 4"/>' % (
-        " ".join("%.1f,%.1f" % (across(a), up(b)) for a, b in kept), GUIDE))
+    parts.append('<clipPath id="frame"><rect x="%d" y="%d" width="%d" height="%d"/></clipPath>' % (
+        LEFT, TOP, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM))
+    parts.append('<polyline points="%s" fill="none" stroke="%s" stroke-dasharray="5 4" clip-path="url(#frame)"/>' % (
+        " ".join("%.1f,%.1f" % (across(a), up(b)) for a, b in zip(x, guide)), GUIDE))
     parts.append(path(ours, OURS))
     if peer:
         parts.append(path(peer, PEER))

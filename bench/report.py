@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """report.py: results in words: a line for each row, the tables of docs/speed.md between their markers, and the plots.
 
-`report.py [RESULT.json]` writes the page anew from that result, the newest one without an argument."""
+    report.py [RESULT.json]   writes page, plots and README anew from that result, the newest one without an argument
+    report.py --check         one check for each of those files: it is what the newest result gives (TAP; part of make test)"""
 import json
 import math
 import os
@@ -10,7 +11,7 @@ import sys
 import growth_plot
 import paths
 
-PAGE = os.path.join(paths.ROOT, "docs", "speed.md")
+PAGE, README = os.path.join(paths.ROOT, "docs", "speed.md"), os.path.join(paths.ROOT, "README.md")
 BEGIN, END = "<!-- %s: made by bench/report.py -->", "<!-- end of %s -->"
 ISA_NAMES = {"avx512": "AVX-512", "avx2": "AVX2", "neon": "NEON", "auto": "widest"}
 
@@ -94,17 +95,25 @@ def table(header, rows):
 
 def conditions(result):
     machine = result["machine"]
-    return ["Measured %s on %s, %d processors, Debian %s, load %.2f before and %.2f after; %s. %d of %d rows reached their target." % (
-        result["date"], machine["processor"], machine["processors"], machine["system"], machine["load_before"], machine["load_after"],
-        result["version"].splitlines()[0], sum(1 for r in result["rows"] if r["reached"]), len(result["rows"])), ""]
+    lines = ["Measured %s on %s, %d processors, Debian %s, in %.0f s; %s. Load %.2f before and %.2f after, others took %.0f %% of the "
+             "processors' time meanwhile. %d of %d rows reached their target." % (
+                 result["date"], machine["processor"], machine["processors"], machine["system"], result["took_s"],
+                 result["version"].splitlines()[0], machine["load_before"], machine["load_after"], 100 * machine["share_of_others"],
+                 sum(1 for r in result["rows"] if r["reached"]), len(result["rows"]))]
+    return lines + ["Not measured: %s." % problem for problem in result["problems"]] + [""]
+
+
+def verdict(reached):
+    return "reached" if reached else "**not reached**"
 
 
 def rows_section(result):
     return conditions(result) + table(("", "row", "target", "measured", "spread", "", "times, and beside"), (
-        (str(row["number"]), row["name"], row["target"], measured(row), spread_of(row), "reached" if row["reached"] else "**not reached**",
+        (str(row["number"]), row["name"], row["target"], measured(row), spread_of(row), verdict(row["reached"]),
          beside(row)) for row in result["rows"])) + [""] + [
-        "Frames against llvmpipe, %s: geometric mean **%s** (target ≥ 10 ×), least %s (target ≥ 3 ×), %d rows.  " % (
-            ISA_NAMES[isa], times(mean["mean"]), times(mean["least"]), mean["rows"]) for isa, mean in result["frames"].items()]
+        "- Frames against llvmpipe, %s: geometric mean of %d rows %s (target ≥ 10 ×: %s), least %s (target ≥ 3 ×: %s)." % (
+            ISA_NAMES[isa], mean["rows"], times(mean["mean"]), verdict(mean["mean"] >= 10), times(mean["least"]), verdict(mean["least"] >= 3))
+        for isa, mean in result["frames"].items()]
 
 
 def limits_section(result):
@@ -113,14 +122,16 @@ def limits_section(result):
         memory = result["limits"]["memory_gb_s"]
         lines += table(("memory, GB/s", "one thread", "two threads"), (
             (name, "%.1f" % memory[key + "_1"], "%.1f" % memory[key + "_2"]) for name, key in (
-                ("read", "read"), ("copy", "copy"), ("first touch, pages of 4 KiB", "first_touch_4k"), ("first touch, pages of 2 MiB", "first_touch_2m"))))
-    if result["limits"].get("arithmetic"):
+                ("read", "read"), ("copy", "copy"), ("first touch, pages of 4 KiB", "first_touch_4k"),
+                ("first touch, pages of 2 MiB", "first_touch_2m"))))
+    if (result.get("limits") or {}).get("arithmetic"):
         lines += [""] + table(("one core, 10⁹ operations a second", "multiply and add apart", "fused"), (
             (ISA_NAMES.get(isa, isa), "%.0f" % rates["unfused"], "%.0f" % rates["fused"] if rates.get("fused") else "")
             for isa, rates in result["limits"]["arithmetic"].items()))
     if result.get("distance"):
         lines += [""] + table(("step, 1 M PLY, 1024², 1 sample", "ms", "least, ms", "times the least", "the least is"), (
-            (name, ms(taken), "%.2f" % least, times(taken / least) if least else "", why) for name, taken, least, why in result["distance"]))
+            (name, ms(taken), "%.2f" % least if least else "", times(taken / least) if least else "", why)
+            for name, taken, least, why in result["distance"]))
     return lines
 
 
@@ -144,23 +155,84 @@ def growth_section(result):
     return lines + ["![Time against %s](pictures/speed-%s.svg)" % (axis, axis) for axis in result["growth"]]
 
 
-def write_page(result):
-    page = open(PAGE, encoding="utf-8").read()
-    for name, section in (("rows", rows_section), ("limits", limits_section), ("growth", growth_section)):
-        begin, end = BEGIN % name, END % name
-        before, rest = page.split(begin, 1)
-        page = before + begin + "\n" + "\n".join(section(result)).rstrip() + "\n" + end + rest.split(end, 1)[1]
-    with open(PAGE, "w", encoding="utf-8") as file:
-        file.write(page)
-    for axis, series in (result.get("growth") or {}).items():
-        with open(os.path.join(paths.ROOT, "docs", "pictures", "speed-%s.svg" % axis), "w", encoding="utf-8") as file:
-            file.write(growth_plot.svg(series))
+def readme_section(result):
+    """The README's claims of speed, each from a row; what was not measured is not claimed."""
+    rows = {row["name"]: row for row in result["rows"] if "not_measured" not in row}
+    isa, claims, numbers = result["isas"][0], [], []
+    found = [(rows["whole 1M " + kind], kind.upper()) for kind in ("ply", "stl", "obj") if "whole 1M " + kind in rows]
+    if found:
+        claims.append("a file of a million triangles becomes a 1024×1024 PNG in " + ", ".join(
+            "%s ms (%s; %s the speed of F3D)" % (ms(row["ms"][isa]["median"]), kind, times(row["ratio"][isa]["median"])) for row, kind in found))
+    if result["frames"].get(isa):
+        claims.append("a frame alone has %s the speed of OpenGL on the same processor (Mesa's llvmpipe; geometric mean)" % times(
+            result["frames"][isa]["mean"]))
+    if not claims:
+        return []
+    numbers = [str(row["number"]) for row, _ in found] + [str(r["number"]) for r in rows.values() if r["name"].startswith("frame ")]
+    return ["  On %d processors (%s, %s) %s:" % (result["machine"]["processors"], result["machine"]["processor"], ISA_NAMES[isa],
+                                                "; ".join(claims)),
+            "  [docs/speed.md](docs/speed.md#the-rows), rows %s." % ", ".join(numbers)]
+
+
+def files(result):
+    """{path: text} of all that is made from a result; None where nothing has been measured yet."""
+    made = {}
+    for path, sections in ((PAGE, (("rows", rows_section), ("limits", limits_section), ("growth", growth_section))),
+                           (README, (("speed", readme_section),))):
+        with open(path, encoding="utf-8") as file:
+            page = file.read()
+        for name, section in sections:
+            begin, end = BEGIN % name, END % name
+            before, rest = page.split(begin, 1)
+            lines = section(result) if result else ["Not measured yet."] if path == PAGE else []
+            text = "\n".join(lines).rstrip()
+            page = before + begin + "\n" + (text + "\n" if text else "") + ("  " if path == README else "") + end + rest.split(end, 1)[1]
+        made[path] = page
+    for axis, series in ((result or {}).get("growth") or {}).items():
+        made[os.path.join(paths.ROOT, "docs", "pictures", "speed-%s.svg" % axis)] = growth_plot.svg(series)
+    return made
+
+
+def write_files(result):
+    for path, text in files(result).items():
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
 
 
 def newest():
-    return os.path.join(paths.RESULTS, max(name for name in os.listdir(paths.RESULTS) if name.endswith(".json")))
+    """The newest result of the named rows (the whole product is no table to read), or None."""
+    names = [name for name in os.listdir(paths.RESULTS) if name.endswith(".json") and "full" not in name] if os.path.isdir(paths.RESULTS) else []
+    if not names:
+        return None
+    with open(os.path.join(paths.RESULTS, max(names)), encoding="utf-8") as source:
+        return json.load(source)
+
+
+def check():
+    made = files(newest())
+    print("1..%d" % len(made))
+    bad = 0
+    for number, (path, text) in enumerate(made.items(), 1):
+        good = False
+        if os.path.exists(path):
+            with open(path, encoding="utf-8") as file:
+                good = file.read() == text
+        bad += not good
+        print("%s %d - %s is what the newest of bench/results gives%s" % (
+            "ok" if good else "not ok", number, os.path.relpath(path, paths.ROOT), "" if good else "; python3 bench/report.py writes it anew"))
+    return 1 if bad else 0
+
+
+def main():
+    if sys.argv[1:] == ["--check"]:
+        return check()
+    if len(sys.argv) > 1:
+        with open(sys.argv[1], encoding="utf-8") as source:
+            write_files(json.load(source))
+    else:
+        write_files(newest())
+    return 0
 
 
 if __name__ == "__main__":
-    with open(sys.argv[1] if len(sys.argv) > 1 else newest(), encoding="utf-8") as source:
-        write_page(json.load(source))
+    sys.exit(main())

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """run.py: the whole bench: `make bench` (24 named rows, under ten minutes) or `BENCH=full make bench` (the whole product).
 
-Writes bench/results/DATE.json, the tables and plots of docs/speed.md (report.py), and pictures to build-bench/pictures.
-`run.py WORD…` measures only the rows whose names have one of the words, and writes build-bench/part.json instead."""
+Writes bench/results/DATE.json, the tables and plots of docs/speed.md (report.py), and pictures to build-bench/pictures; the whole
+product DATE-full.json, row after row, and no page. `run.py WORD…` measures only the rows whose names have one of the words
+(`limits` and `growth` too), and writes build-bench/part.json instead."""
 import datetime
 import json
 import math
@@ -17,6 +18,8 @@ import paths
 import report
 import steps
 import whole
+
+HURRY_S = 330  # from then on one round a row: on a busy machine too the named rows end
 
 
 def judged_ratio(result, target, isas, at_least=True):
@@ -108,6 +111,12 @@ def attempt(what, run, problems):
         return None
 
 
+def save(result, path):
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(result, file, indent=1, ensure_ascii=False)
+        file.write("\n")
+
+
 def main():
     full, words = os.environ.get("BENCH") == "full", sys.argv[1:]
     begun, busy = time.monotonic(), measure.busy_s() - measure.own_s()
@@ -115,40 +124,47 @@ def main():
     os.makedirs(paths.RESULTS, exist_ok=True)
     facts, problems = measure.machine(), []
     if not full:
-        measure.hurry_from = begun + 400
+        measure.hurry_from = begun + HURRY_S
     isas = measure.usable_isas()
     gl_device = frames.has_gl_device()
     print("%s, %d processors, load %.2f; %s%s" % (facts["processor"], facts["processors"], facts["load_before"], ", ".join(isas),
                                                 "" if gl_device else "; no OpenGL device of our own here"), flush=True)
     result = {"date": datetime.date.today().isoformat(), "version": measure.output([paths.LAMBENT, "--version"]).strip(), "machine": facts,
               "isas": isas, "our_opengl_device": gl_device, "full": full, "rows": []}
+    name = result["date"] + ("-full.json" if full else ".json")
+    path = os.path.join(paths.OUT, "part.json") if words else os.path.join(paths.RESULTS, name)
+
+    def asked(name):
+        return not words or any(word in name for word in words)
     display = whole.Display()
-    attempt("F3D", display.open, problems)
+    if asked("whole"):
+        attempt("F3D", display.open, problems)
     try:
         for number, (name, target, judge) in enumerate(row_list(isas, gl_device, display, full), 1):
-            if not words or any(word in name for word in words):
+            if asked(name):
                 result["rows"].append(run_row(number, name, target, judge))
+            if full:
+                save(result, path)  # hours: what is measured stays
     finally:
         display.close()
     result["frames"] = geometric_mean(result["rows"], isas)
-    if not words:
+    if asked("limits"):
         result["limits"] = attempt("limits", steps.limits, problems)
         if result["limits"]:
             result["distance"] = attempt("distance from the limits", lambda: steps.distance(
                 isas[0], result["limits"]["memory_gb_s"], result["limits"]["process_ms"]["median"]), problems)
+    if asked("growth"):
         result["growth"] = attempt("growth", lambda: frames.growth(isas), problems)
     took = time.monotonic() - begun
     facts["load_after"], result["took_s"], result["problems"] = os.getloadavg()[0], round(took, 1), problems
     # What was not this bench: the report tells it, for a number from a busy machine means little.
     facts["share_of_others"] = round(max(0.0, measure.busy_s() - measure.own_s() - busy) / (took * facts["processors"]), 3)
-    path = os.path.join(paths.OUT, "part.json") if words else os.path.join(paths.RESULTS, result["date"] + ".json")
-    with open(path, "w") as file:
-        json.dump(result, file, indent=1, ensure_ascii=False)
-        file.write("\n")
-    if not words:
-        report.write_page(result)
+    save(result, path)
+    if not words and not full:
+        report.write_files(result)
     reached = sum(1 for row in result["rows"] if row["reached"])
-    print("%d of %d rows reached, in %.0f s; written: %s" % (reached, len(result["rows"]), result["took_s"], os.path.relpath(path, paths.ROOT)))
+    print("%d of %d rows reached, in %.0f s, others took %.0f %% of the processors' time; written: %s" % (
+        reached, len(result["rows"]), took, 100 * facts["share_of_others"], os.path.relpath(path, paths.ROOT)))
     return 1 if problems or any("not_measured" in row for row in result["rows"]) else 0
 
 

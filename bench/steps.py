@@ -122,10 +122,13 @@ def distance(isa, memory, process_ms):
     return [
         ("start", process_ms, process_ms, "a process that does nothing"),
         ("read", times["read"], size / read + kept / touch, "the file read once, positions and indices written to fresh memory"),
-        ("normals", times["prepare"], kept / read + 12 * vertices / touch, "positions and indices read once, a normal for each vertex written"),
+        ("normals", times["prepare"] + steps["normals"], kept / read, "positions and indices read once"),
         ("camera", times["camera"], 12 * vertices / read, "positions read once"),
         ("vertices", steps["vertices"], 12 * vertices / read + 16 * vertices / touch, "positions read once, projected ones written once"),
+        ("flatten", steps["flatten"], 0, "lists of objects and lights; no triangle is looked at"),
         ("triangles", steps["triangles"], (12 * triangles + 16 * vertices) / read, "indices and projected vertices read once"),
+        ("coverage", steps["coverage"], 0, "arithmetic, in tiles that stay in the cache"),
+        ("lighting", steps["lighting"], 0, "arithmetic: the row of the lighting step"),
         ("resolve", steps["resolve"], 4 * pixels / touch, "the picture written once"),
         ("encode", times["encode"], 4 * pixels / read + report["image"]["bytes"] / copy, "the picture read once, the file written"),
     ]

@@ -116,9 +116,9 @@ def rows(isas, gl_device, full):
         yield name, 3, lambda name=name, what=what: frame(scene_of("product", *what), isas, gl_device, 2)
 
 
-def spread_lights(count, radius, ends):
+def spread_lights(count, radius, end=None):
     """Lights a little above the terrain (model.c has its height), evenly in both directions. They fall to 1/255 at `radius`;
-    with `ends` they have glTF's range there, and give nothing beyond. Without it each still gives something everywhere: the
+    with `end` they have glTF's range there, and give nothing beyond. Without it each still gives something everywhere: the
     many far ones add up."""
     lights = []
     for i in range(count):
@@ -127,7 +127,7 @@ def spread_lights(count, radius, ends):
         y = 0.02 * math.sin(11 * x + 3 * z) + 0.015 * math.cos(17 * z - 5 * x) + 0.12 * radius
         light = {"position": (x, y, z), "color": tuple(4 + 2 * ((i * step) % 7) / 6 for step in (1, 3, 5)),
                  "attenuation": (1.0, 0.0, 254 * 5 / radius ** 2)}
-        lights.append(dict(light, range=radius) if ends else light)
+        lights.append(dict(light, range=end) if end else light)
     return lights
 
 
@@ -152,9 +152,10 @@ def many_lights(count, wanted, isas):
     radius = lights_a_tile_radius(count, wanted, size[1] / (2 * half))
     view = {"size": size, "eye": (0.0, height, 0.0), "up": (0.0, 0.0, -1.0), "fovy": 2 * math.degrees(math.atan(half / height)),
             "planes": (3.0, 5.0)}
-    many = scenes.Scene("lights-%d" % count, terrain, spread_lights(count, radius, True), **view)
-    endless = scenes.Scene("lights-%d-endless" % count, terrain, spread_lights(count, radius, False), **view)
-    few = scenes.Scene("lights-16", terrain, spread_lights(16, radius, True), **view)
+    many = scenes.Scene("lights-%d" % count, terrain, spread_lights(count, radius, radius), **view)
+    endless = scenes.Scene("lights-%d-endless" % count, terrain, spread_lights(count, radius), **view)
+    # The same attenuation, and a range that ends nowhere in the picture: each of them matters to every point.
+    few = scenes.Scene("lights-16", terrain, spread_lights(16, radius, 1000.0), **view)
     try:
         ours_ms(few, "--light-cutoff", 0, frames=1)
         cutoff = ["--light-cutoff", 0]
@@ -167,10 +168,12 @@ def many_lights(count, wanted, isas):
     if ours_ms(many, frames=1) > 5000:
         raise measure.Failed("a frame with %d lights takes more than 5 s: this lambent has no light lists" % count)
     taken = measure.in_turn(contestants, 4, most_rounds=7)
-    taken["without an end"] = [ours_ms(endless, "--isa", isas[0], frames=1)]
+    if count <= 1000:
+        taken["without an end"] = [ours_ms(endless, "--isa", isas[0], frames=1)]
     result = {"ms": {key: measure.spread(t) for key, t in taken.items()}, "radius": radius, "lights_a_tile": wanted,
               "ratio": {isa: measure.ratio(taken[isa], taken[isa + ", 16 lights"]) for isa in isas}, "peer": "16 lights everywhere"}
-    result["ratio"]["without an end"] = measure.ratio(taken["without an end"], taken[isas[0] + ", 16 lights"])
+    if "without an end" in taken:
+        result["ratio"]["without an end"] = measure.ratio(taken["without an end"], taken[isas[0] + ", 16 lights"])
     if cutoff:
         measure.lambent(*cutoff, "-o", picture("lights-%d-all" % count, "ppm"), many.json)
         told = json.loads(measure.output([paths.LAMBENT, "diff", "--json", "--tolerance", "255", picture(many.name, "ppm"),

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""run.py: the whole test suite: builds with both compilers, in release and debug, with sanitizers, runs every test, counts.
+"""run.py [VARIANT …]: the whole test suite: builds with both compilers, in release and debug, with sanitizers, runs every test,
+counts. `run.py gl` runs only what needs OpenGL, and names the drivers that it ran on.
 
 The last line is `N passed, N failed` (and skipped), counted from the test programs' own output. Everything is built in
 build-test/; a variant's log is build-test/VARIANT/meson-logs/testlog.txt.
@@ -24,6 +25,10 @@ VARIANTS = [
     {"name": "clang-threads", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Db_sanitize=thread",
                                                         "-Db_lundef=false"], "only": ["device", "obj", "ply", "stl"]},
 ]
+
+# Not part of the whole: the same tests again, alone. Lines that match "tell" are told.
+GL = {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"], "tell": r"^gl .*OpenGL.*|.*farthest off.*|^the mask: .*",
+      "only": ["gl-context", "gl-classic", "gl-device", "gl-calls", "gl-state", "gl-parity", "glsl"]}
 
 ENVIRONMENT = {
     # A sanitizer's report is a failure of the test that it came from.
@@ -72,6 +77,7 @@ def test(variant):
     run(["meson", "test", "-C", folder, "--no-rebuild", "--num-processes", "2", "--timeout-multiplier", "4"] + variant.get("only", []),
         env={**os.environ, **ENVIRONMENT})
     totals = [0, 0, 0]
+    told = set()
     if not os.path.exists(log):
         print("  no test of this variant ran")
         return [0, 1, 0]
@@ -87,15 +93,21 @@ def test(variant):
         if failed:
             print("    " + "\n    ".join(failures[:20]))
             print("    " + "\n    ".join((entry.get("stdout", "") + entry.get("stderr", "")).splitlines()[-40:]))
+        for line in (entry.get("stdout", "") + entry.get("stderr", "")).splitlines():
+            if re.match(variant.get("tell", "$."), line) and line not in told:
+                told.add(line)
+                print("    " + line)
         sys.stdout.flush()
+    if "tell" in variant and not told:
+        print("  OpenGL was not found: `lambent devices` says why")
     return totals
 
 
 def main():
     names = sys.argv[1:]
     totals = [0, 0, 0]
-    for variant in VARIANTS:
-        if names and variant["name"] not in names:
+    for variant in [GL] if names == ["gl"] else VARIANTS:
+        if names and names != ["gl"] and variant["name"] not in names:
             continue
         start = time.time()
         print("%s: building" % variant["name"], flush=True)

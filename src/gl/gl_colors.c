@@ -10,6 +10,7 @@
 #include "cube_map.h"
 #include "lighting.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -221,6 +222,33 @@ static bool note(struct gl_frame *f, struct gl_colors *row, size_t *size, const 
     return true;
 }
 
+// Structs are noted without the bytes between their members, which may be anything.
+static bool note_light(struct gl_frame *f, struct gl_colors *row, size_t *size,
+                       const struct frame_light *light, lam_error *error)
+{
+    const int kind[] = {light->directional, (int)light->cone};
+    size_t first = offsetof(struct frame_light, position), end = offsetof(struct frame_light, light);
+    return note(f, row, size, kind, sizeof kind, error) &&
+           note(f, row, size, (const char *)light + first, end - first, error);
+}
+
+static bool note_material(struct gl_frame *f, struct gl_colors *row, size_t *size, const lam_material *m,
+                          lam_error *error)
+{
+    const int fibre = m->fibre;
+    return note(f, row, size, m, offsetof(lam_material, fibre), error) &&
+           note(f, row, size, &fibre, sizeof fibre, error);
+}
+
+static bool note_surface(struct gl_frame *f, struct gl_colors *row, size_t *size,
+                         const struct frame_surface *s, lam_error *error)
+{
+    const uint32_t run[] = {s->first_id, s->count, s->translucent};
+    return note(f, row, size, run, sizeof run, error) &&
+           note_material(f, row, size, f->frame->materials[s->front], error) &&
+           note_material(f, row, size, f->frame->materials[s->back], error);
+}
+
 // All that the colours of a draw depend on, as bytes in row->now.
 static bool note_all(struct gl_frame *f, struct gl_colors *row, const struct gl_mesh *mesh, int number,
                      size_t *size, lam_error *error)
@@ -238,17 +266,14 @@ static bool note_all(struct gl_frame *f, struct gl_colors *row, const struct gl_
               note(f, row, size, draw->normal, sizeof draw->normal, error) &&
               note(f, row, size, draw->tangent, sizeof draw->tangent, error) &&
               note(f, row, size, frame->ambient, sizeof frame->ambient, error) &&
-              note(f, row, size, frame->to_environment, sizeof frame->to_environment, error) &&
-              note(f, row, size, frame->lights, (size_t)frame->light_count * sizeof *frame->lights, error) &&
-              note(f, row, size, frame->hemispheres,
-                   (size_t)frame->hemisphere_count * sizeof *frame->hemispheres, error);
-    for (int i = 0; ok && i < frame->surface_count; i++) {
-        const struct frame_surface *s = &frame->surfaces[i];
-        ok = s->draw != number ||
-             (note(f, row, size, s, sizeof *s, error) &&
-              note(f, row, size, frame->materials[s->front], sizeof(lam_material), error) &&
-              note(f, row, size, frame->materials[s->back], sizeof(lam_material), error));
-    }
+              note(f, row, size, frame->to_environment, sizeof frame->to_environment, error);
+    for (int i = 0; ok && i < frame->light_count; i++)
+        ok = note_light(f, row, size, &frame->lights[i], error);
+    for (int i = 0; ok && i < frame->hemisphere_count; i++)
+        ok = note(f, row, size, &frame->hemispheres[i], offsetof(struct frame_hemisphere, light), error);
+    for (int i = 0; ok && i < frame->surface_count; i++)
+        if (frame->surfaces[i].draw == number)
+            ok = note_surface(f, row, size, &frame->surfaces[i], error);
     return ok;
 }
 
@@ -274,6 +299,7 @@ static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const stru
                 side.flip = back;
                 light_side(&side, from, whole, one);
                 f->device->base.report.points_lit += some;
+                f->device->base.report.lights_evaluated += (uint64_t)some * (uint64_t)f->frame->light_count;
             }
             for (uint32_t i = 0; i < some; i++)
                 memcpy(lit[first + i][back], one[i], sizeof one[i]);

@@ -88,7 +88,9 @@ struct rectangle {
 };
 
 // Points about to be lit, side by side, and in the end their colours.
-enum { POINTS_AT_ONCE = 512 };
+// Rows are a little longer than the points at once: the same places of several rows then lie in different
+// sets of the processor's cache.
+enum { POINTS_AT_ONCE = 512, POINT_ROW = POINTS_AT_ONCE + 16 };
 
 // Fragments beside each other that show the same triangle are a run: rows of what belongs to the triangle
 // (runs.inc).
@@ -102,11 +104,11 @@ struct runs {
 };
 
 struct lit_points {
-    float p[3][POINTS_AT_ONCE], n[3][POINTS_AT_ONCE], v[3][POINTS_AT_ONCE], t[3][POINTS_AT_ONCE];
-    float color[3][POINTS_AT_ONCE], alpha[POINTS_AT_ONCE]; // of the vertices, then as seen
-    uint32_t triangle[POINTS_AT_ONCE];                     // of the mesh
-    float x[POINTS_AT_ONCE], y[POINTS_AT_ONCE];            // the pixel's centre, in pixels of the window
-    float b1[POINTS_AT_ONCE], b2[POINTS_AT_ONCE];          // weights of its corners 1 and 2
+    float p[3][POINT_ROW], n[3][POINT_ROW], v[3][POINT_ROW], t[3][POINT_ROW];
+    float color[3][POINT_ROW], alpha[POINT_ROW]; // of the vertices, then as seen
+    uint32_t triangle[POINT_ROW];                // of the mesh
+    float x[POINT_ROW], y[POINT_ROW];            // the pixel's centre, in pixels of the window
+    float b1[POINT_ROW], b2[POINT_ROW];          // weights of its corners 1 and 2
     struct runs runs;
 };
 

@@ -69,7 +69,9 @@ static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
     if (!reading_make(&r->reading, p->vertex, p->fragment, p->contract, error))
         return false;
     r->frame = p->light_frame == LAM_FRAME_WORLD ? r->reading.contract->light_frame : p->light_frame;
-    r->reflection = p->reflection == LAM_REFLECTION_AUTO ? r->reading.contract->reflection : p->reflection;
+    r->reflection = p->reflection != LAM_REFLECTION_AUTO ? p->reflection
+                    : r->reading.phong                   ? LAM_REFLECTION_PHONG
+                                                         : r->reading.contract->reflection;
     if (r->reflection != LAM_REFLECTION_PHONG && r->reflection != LAM_REFLECTION_BLINN_PHONG)
         return fail(error, LAM_BAD_ARGUMENT, "check: the highlight can be phong or blinn-phong");
     if (!p->vertex) {
@@ -161,7 +163,7 @@ static bool draw_reference(struct run *r, lam_device *device, struct judged *sce
     opaque.alpha = 1;
     lam_scene *world = study_scene(&opaque, &camera, error);
     lam_image image = {0};
-    bool two_sides = (r->reading.contract->offers & NEED_TWO_SIDES) != 0;
+    bool two_sides = (r->reading.offers & NEED_TWO_SIDES) != 0;
     lam_draw_params draw = {
         .samples = 1,
         .rig = LAM_RIG_NONE,

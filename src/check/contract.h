@@ -46,12 +46,13 @@ enum role {
     ROLE_ATTENUATION_LINEAR,
     ROLE_ATTENUATION_QUADRATIC,
     ROLE_ATTENUATION, // constant, linear, quadratic, 0
-    ROLE_CONE,        // cos cutoff, exponent, 0, 0
+    ROLE_CONE,        // cos cutoff, exponent, cos outer, 1/width
     ROLE_LIGHT_COUNT,
     ROLE_FLAT,
     ROLE_EYE_POSITION,
     ROLE_LIGHT_IN_EYE, // for vertex shaders that the check makes: in eye space whatever the contract says
     ROLE_ZERO,
+    ROLE_ONE,
     ROLE_COUNT
 };
 
@@ -119,7 +120,7 @@ const char *contract_name_used(const struct contract *contract, enum role role,
                                const struct declarations *vertex, const struct declarations *fragment);
 
 // The study as the contract can say it: what it has no names for takes the contract's fixed values.
-// `offers`: of the contract's, what the shaders have names for (reading.h); `light_count`: the lights that
+// `offers`: of the contract's, what the shaders have names for, and study rules (reading.h); `light_count`: the lights that
 // they have room for.
 struct study contract_study(const struct contract *contract, unsigned offers, const struct study *study,
                             int light_count);

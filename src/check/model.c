@@ -169,6 +169,6 @@ bool model_draw(struct model *m, const struct study *study, const struct reading
     gl->Uniform1f(place(m, "shininess"), study->shininess);
     gl->Uniform1i(place(m, "phong_lobe"), reflection == LAM_REFLECTION_PHONG);
     gl->Uniform1i(place(m, "flat_shading"), study->flat);
-    gl->Uniform1i(place(m, "two_sided"), (contract->offers & NEED_TWO_SIDES) != 0);
+    gl->Uniform1i(place(m, "two_sided"), (reading->offers & NEED_TWO_SIDES) != 0);
     return target_draw(&m->target, study->mesh, 0, 1, pixels, error);
 }

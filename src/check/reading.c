@@ -51,6 +51,92 @@ static void count_lights(struct reading *r)
         }
 }
 
+// Whether words follow each other: `text` has them with blanks between, "?" for any.
+static bool says(const struct declarations *d, int at, const char *text)
+{
+    for (; *text; at++) {
+        size_t length = strcspn(text, " ");
+        if (at >= d->word_count ||
+            (!(length == 1 && *text == '?') &&
+             (strlen(d->words[at].text) != length || strncmp(d->words[at].text, text, length) != 0)))
+            return false;
+        text += length + (text[length] == ' ');
+    }
+    return true;
+}
+
+// A shader printed by `lambent shader` loops over the lights of each kind with the kind as a constant: what
+// that says of its lights (study rules); 0: no such shader.
+static unsigned printed_lights(const struct declarations *lit)
+{
+    unsigned rules = 0;
+    int from = 0, to = 0;
+    for (int i = 0; i < lit->word_count; i++) {
+        if (says(lit, i, "for ( int i = ? ; i < ? ;")) {
+            sscanf(lit->words[i + 5].text, "%d", &from);
+            sscanf(lit->words[i + 9].text, "%d", &to);
+        } else if (says(lit, i, "toward_light ( s . p , light , ? , ? )")) {
+            const char *kind = lit->words[i + 8].text;
+            unsigned rule = strcmp(kind, "LIGHT_DIRECTIONAL") == 0   ? RULE_DIRECTIONAL
+                            : strcmp(kind, "LIGHT_SPOT_CUTOFF") == 0 ? RULE_SPOT
+                                                                     : RULE_POINT;
+            if (strcmp(lit->words[i + 10].text, "FALLOFF_NONE") == 0)
+                rule |= RULE_UNATTENUATED;
+            for (int k = from; k < to && k < STUDY_LIGHTS_MOST; k++)
+                rules |= rule << (RULE_FIRST + RULE_BITS * k);
+        }
+    }
+    return rules;
+}
+
+// Printed shaders that ask for what the check has not got.
+static bool can_be_checked(const struct reading *r, lam_error *error)
+{
+    static const struct {
+        enum declared kind;
+        const char *name, *what;
+    } asked[] = {
+        {DECLARED_UNIFORM, "light_list",
+         "lights in a texture, which the check does not make; print it with --lights-in array or block"},
+        {DECLARED_INPUT, "provoking_position",
+         "vertices made for flat shading in GLSL 120, which the check does not make; print it with --glsl "
+         "330"},
+        {DECLARED_INPUT, "front_color",
+         "light that the application has worked out: there is no lighting in it to check"}};
+    for (int i = 0; r->which == LAM_CONTRACT_LAMBENT && i < 3; i++)
+        if (declarations_find(&r->vertex, asked[i].kind, asked[i].name) ||
+            declarations_find(&r->fragment, asked[i].kind, asked[i].name))
+            return fail(error, LAM_UNSUPPORTED, "the shader asks by '%s' for %s", asked[i].name,
+                        asked[i].what);
+    return true;
+}
+
+static bool is_flat(const struct declarations *fragment)
+{
+    for (int i = 0; i < fragment->count; i++)
+        if (fragment->items[i].kind == DECLARED_INPUT && fragment->items[i].flat)
+            return true;
+    return false;
+}
+
+static void read_printed(struct reading *r)
+{
+    const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
+    unsigned rules = printed_lights(lit), first = rules >> RULE_FIRST & RULE_KIND;
+    if (r->which != LAM_CONTRACT_LAMBENT || !rules)
+        return;
+    r->offers &= ~(unsigned)(NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT);
+    r->offers |= first == RULE_DIRECTIONAL ? NEED_DIRECTIONAL
+                 : first == RULE_SPOT      ? NEED_POINT | NEED_SPOT
+                                           : NEED_POINT;
+    if (!declarations_use(&r->fragment, "gl_FrontFacing"))
+        r->offers &= ~(unsigned)NEED_TWO_SIDES;
+    r->phong = declarations_use(lit, "phong_lobe");
+    r->offers |= rules;
+    r->offers |= declarations_use(lit, "blinn_phong_lobe") || r->phong ? 0 : RULE_MATT;
+    r->offers |= is_flat(&r->fragment) ? RULE_FLAT : 0;
+}
+
 // A contract that tells a light's kind by what the shader reads of it.
 static unsigned kinds_of(const struct reading *r)
 {
@@ -95,6 +181,10 @@ bool reading_make(struct reading *r, const char *vertex, const char *fragment, l
                     "--contract lambent, pittsburgh, oregon or nyu, and see `lambent check --list`",
                     found[0] ? found : "none");
     }
+    if (!can_be_checked(r, error)) {
+        reading_free(r);
+        return false;
+    }
     r->vertex_lit = vertex && vertex[0] && !lights_up(r->contract, &r->fragment);
     count_lights(r);
     r->offers = r->contract->offers;
@@ -105,6 +195,7 @@ bool reading_make(struct reading *r, const char *vertex, const char *fragment, l
     r->offers |= r->vertex_lit ? NEED_VERTEX_LIT : 0;
     if (!has_role(r, ROLE_FLAT))
         r->offers &= ~(unsigned)NEED_FLAT;
+    read_printed(r);
     return true;
 }
 

@@ -8,9 +8,10 @@ struct reading {
     struct declarations vertex, fragment;
     const struct contract *contract;
     lam_check_contract which;
-    unsigned offers; // of the contract's, what these shaders have names for
+    unsigned offers; // of the contract's, what these shaders have names for; and study rules
     int light_count; // declared room of the list of lights; 0: no list, one light
     bool vertex_lit; // the fragment shader names nothing of materials or lights
+    bool phong;      // printed by `lambent shader --reflection phong`
 };
 
 // `vertex` NULL or "": none. `which` AUTO: recognised. LAM_BAD_ARGUMENT: no contract's names are found.

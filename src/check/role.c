@@ -20,9 +20,14 @@ static void plain_material(struct study *s)
     s->kd = s->ks = 1;
 }
 
-static void limit_light(const struct contract *contract, unsigned offers, struct study_light *light)
+static void limit_light(const struct contract *contract, unsigned offers, int index,
+                        struct study_light *light)
 {
-    if (light->type == LAM_LIGHT_POINT && !(offers & NEED_POINT)) {
+    unsigned rule = offers >> (RULE_FIRST + RULE_BITS * index), kind = rule & RULE_KIND;
+    bool directional = kind ? kind == RULE_DIRECTIONAL : !(offers & NEED_POINT);
+    if (rule & RULE_UNATTENUATED)
+        memcpy(light->attenuation, (const float[]){1, 0, 0}, sizeof light->attenuation);
+    if (light->type == LAM_LIGHT_POINT && directional) {
         light->type = LAM_LIGHT_DIRECTIONAL;
         light->from = light->position;
     }
@@ -49,7 +54,10 @@ struct study contract_study(const struct contract *contract, unsigned offers, co
     if (s.light_count > light_count)
         s.light_count = light_count;
     for (int i = 0; i < s.light_count; i++)
-        limit_light(contract, offers, &s.lights[i]);
+        limit_light(contract, offers, i, &s.lights[i]);
+    if (offers & RULE_MATT)
+        s.ks = 0;
+    s.flat |= (offers & RULE_FLAT) != 0;
     if (!contract->material_strengths && !contract->own_ambient_color)
         plain_material(&s);
     if (contract->shininess > 0)
@@ -205,7 +213,11 @@ int role_value(enum role role, int index, const struct contract *contract, lam_l
     case ROLE_CONE:
         out[0] = light->cutoff_deg > 0 ? (float)math_cos(math_radians((double)light->cutoff_deg)) : -1.0f;
         out[1] = light->exponent;
+        out[2] = light->cutoff_deg > 0 ? out[0] : -2.0f; // an edge where the cutoff is, or nowhere
+        out[3] = light->cutoff_deg > 0 ? 1000.0f : 1.0f;
         return 4;
+    case ROLE_ONE:
+        return put_number(out, 1);
     case ROLE_LIGHT_COUNT:
         return put_number(out, (float)s->light_count);
     case ROLE_FLAT:

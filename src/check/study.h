@@ -25,6 +25,20 @@ enum study_need {
     NEED_VERTEX_LIT = 1024,
 };
 
+// What a shader says of itself besides, in the same bits: of each light, whether it has a kind of its own and
+// no attenuation; of the whole, that it has no highlight or is flat.
+enum study_rule {
+    RULE_POINT = 1,
+    RULE_DIRECTIONAL = 2,
+    RULE_SPOT = 3, // with a cutoff
+    RULE_KIND = 3,
+    RULE_UNATTENUATED = 4,
+    RULE_BITS = 3, // of a light; the first one's begin at RULE_FIRST
+    RULE_FIRST = 16,
+    RULE_MATT = 1 << 28,
+    RULE_FLAT = 1 << 29,
+};
+
 // A light, in the world's space.
 struct study_light {
     lam_light_type type; // point, directional, spot

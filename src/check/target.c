@@ -10,6 +10,7 @@ bool target_open(struct target *t, enum gl_profile profile, const char *gl_devic
 {
     memset(t, 0, sizeof *t);
     t->size = size;
+    t->built_ins = profile == GL_PROFILE_COMPATIBILITY;
     if (!gl_context_make(&t->context, NULL, gl_device, profile, false, error))
         return false;
     if (!gl_context_enter(&t->context, &t->previous, error)) {
@@ -115,7 +116,7 @@ bool target_draw(struct target *t, enum study_mesh mesh, int position, int norma
     const struct gl *gl = &t->context.gl;
     if (!target_mesh(t, mesh, error))
         return false;
-    bool built_in = gl->VertexPointer && gl->NormalPointer && gl->EnableClientState && !t->context.es;
+    bool built_in = t->built_ins && gl->VertexPointer && gl->NormalPointer && gl->EnableClientState;
     if (position >= 0 || built_in)
         point_at(gl, t->positions[mesh], position, 3, false);
     if (normal >= 0 || built_in)

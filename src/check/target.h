@@ -9,6 +9,7 @@ struct target {
     struct gl_context context; // current between open and close; a struct target must not move
     struct gl_previous previous;
     int size;
+    bool built_ins; // a compatibility context: gl_Vertex and gl_Normal
     GLuint framebuffer, color, depth, array;
     GLuint positions[STUDY_MESHES], normals[STUDY_MESHES]; // 3 floats, 4 floats (w 0)
     int counts[STUDY_MESHES];

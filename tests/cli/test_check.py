@@ -81,6 +81,39 @@ class Right(CheckTest):
                 self.assertLess(max(scene["maximum"] for scene in report["scenes"]), 1e-3)
                 self.assertGreater(min(scene["pixels"] for scene in report["scenes"]), 1000)
 
+    def test_printed_shaders(self):
+        """What `lambent shader` prints passes: its lights are what its loops say."""
+        light = {"point": "point:attenuation=1/0.1/0.02", "plain": "point:position=1/2/3", "sun": "directional",
+                 "spot": "spot:cutoff=30", "cones": "spot:inner=10,outer=20", "exponent": "spot:exponent=9", "sky": "hemisphere"}
+        for words, lights in (
+                ("", ""), ("--glsl 120 --products", ""), ("--glsl 300es --lights-in array", "plain"), ("--products", "point plain sun spot"),
+                ("--glsl 120", "cones"), ("--color raw --one-sided", "exponent sky"), ("--shading gouraud --back-material gold", "spot"),
+                ("--shading flat --glsl 300es", "sun"), ("--shading flat --stage fragment", "point"), ("--reflection phong", "point sun"),
+                ("--reflection lambert --exposure 1", "sun"), ("--show diffuse --reflection none", "")):
+            with self.subTest(words + " " + lights):
+                self.good("shader", *words.split(), *[w for name in lights.split() for w in ("--light", light[name])], "-q", "-o", "p")
+                if "none" in words:  # no lighting in it: it differs, and is drawn
+                    self.assertEqual(self.report_of("p.frag", "--vertex", "p.vert", code=6)["verdict"], "differs")
+                    continue
+                report = self.report_of("p.frag", "--vertex", "p.vert")
+                self.assertEqual((report["verdict"], report["contract"], report["notes"]), ("passes", "lambent", []))
+                self.assertIn("spot" if lights == "spot" else "directional" if not lights or lights == "sun" else "near",
+                              [scene["name"] for scene in report["scenes"]])
+
+    def test_printed_shaders_with_a_mistake(self):
+        self.good("shader", "--light", "directional", "--light", "point:attenuation=1/0.1/0.02", "-q", "-o", "p")
+        text = (self.folder / "p.frag").read_text()
+        self.assertEqual(text.count("b.n_dot_l > 0.0"), 1)
+        (self.folder / "p.frag").write_text(text.replace("both(b.n_dot_l > 0.0, present(s.v))", "present(s.v)"))
+        report = self.report_of("p.frag", "--vertex", "p.vert", code=6)
+        self.assertEqual([m["id"] for m in report["mistakes"]], ["no-gate"])
+
+    def test_printed_shaders_that_cannot_be_checked(self):
+        for words, says in ((["--lights-in", "texture"], "--lights-in array or block"), (["--stage", "application"], "no lighting in it"),
+                            (["--glsl", "120", "--shading", "flat"], "--glsl 330")):
+            self.good("shader", *words, "-q", "-o", "p")
+            self.bad(3, "check", "p.frag", "--vertex", "p.vert", says=says, leaves=("p.vert", "p.frag"))
+
     def test_alone(self):
         """A fragment shader alone gets a right vertex shader, in its own version of GLSL."""
         for name in ("pittsburgh", "oregon", "nyu", "lambent"):

@@ -328,13 +328,14 @@ static void fill_empty_tile(const struct cpu_frame *cpu, int tile_x, int tile_y)
     width = width < TILE ? width : TILE;
     height = height < TILE ? height : TILE;
     size_t size = image->format == LAM_RGBA8 ? 4 : 16;
-    for (int y = 0; y < height; y++) {
-        char *row =
-            (char *)image->pixels +
-            (((size_t)tile_y * TILE + (size_t)y) * (size_t)image->width + (size_t)tile_x * TILE) * size;
-        for (int x = 0; x < width; x++)
-            memcpy(row + (size_t)x * size, cpu->empty_pixel, size);
-    }
+    char row[TILE * 16];
+    for (int x = 0; x < width; x++)
+        memcpy(row + (size_t)x * size, cpu->empty_pixel, size);
+    for (int y = 0; y < height; y++)
+        memcpy((char *)image->pixels +
+                   (((size_t)tile_y * TILE + (size_t)y) * (size_t)image->width + (size_t)tile_x * TILE) *
+                       size,
+               row, (size_t)width * size);
 }
 
 static void tile_task(void *user, size_t index, int number)
@@ -361,7 +362,7 @@ static void tile_task(void *user, size_t index, int number)
                 blend_tile(cpu, thread, tile_x, tile_y, width, height);
                 start = now_ns();
             }
-            collect_fragments(cpu, thread, width, height);
+            cpu->kernels->collect(cpu, thread, width, height);
         }
         group_fragments(cpu->frame, thread);
         uint64_t covered = now_ns();

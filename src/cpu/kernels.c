@@ -10,6 +10,7 @@
 #include "cover.inc"
 #include "cover_packet.inc"
 #include "gather.inc"
+#include "collect.inc"
 #include "light.inc"
 #include "resolve.inc"
 #include "record_pixel.inc"
@@ -26,6 +27,7 @@ const struct kernels NAME(ISA) = {
     .bin = bin,
     .cover = cover,
     .gather_layers = gather_layers,
+    .collect = collect,
     .light = light,
     .resolve = resolve_and_record,
     .resolve_empty = resolve_empty,

@@ -19,6 +19,8 @@ struct kernels {
     // opaque ones. False: there are more than LAYERS_MAX.
     bool (*gather_layers)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y,
                           const struct rectangle *rectangle);
+    // Lists the opaque fragments of a tile: width × height pixels of it are in the picture.
+    void (*collect)(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height);
     // Colours the thread's fragments.
     void (*light)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
     // Sums the fragments of a tile into its pixels, under the blended layers where there are any, and writes

@@ -4,7 +4,7 @@
 //   triangles  index triples → tile bins                                      bin.inc, clip.c
 //   tiles      bins → depth key and triangle number of every sample           cover.inc
 //              translucent triangles → layers over the samples, blended       gather.inc, blend.c
-//              samples → fragments (a pixel and a triangle it shows)          fragments.c
+//              samples → fragments (a pixel and a triangle it shows)          collect.inc, fragments.c
 //              fragments → colours                                            light.inc
 //              colours → pixels of the picture                                resolve.inc
 #ifndef PIPELINE_H
@@ -264,9 +264,6 @@ void bin_large(struct cpu_frame *cpu, struct thread_state *thread, const struct 
 // Clips triangle t of a draw (id is its number) against the planes its corners violate, and bins the pieces.
 void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw,
                    uint32_t t, uint32_t id);
-
-// Lists the opaque fragments of a tile.
-void collect_fragments(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height);
 
 // For frames that make normals (frame.h): finds the triangles that the frame shows, and makes the normals of
 // those. Where the opaque ones are all there is, each tile's fragments are found on the way and kept; else

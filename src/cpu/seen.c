@@ -89,7 +89,7 @@ static void search_tile(void *user, size_t index, int number)
     int tile_x = (int)(index % (size_t)cpu->tiles_across), tile_y = (int)(index / (size_t)cpu->tiles_across);
     int width = cpu->image->width - tile_x * TILE, height = cpu->image->height - tile_y * TILE;
     cpu->kernels->cover(cpu, thread, tile_x, tile_y);
-    collect_fragments(cpu, thread, width < TILE ? width : TILE, height < TILE ? height : TILE);
+    cpu->kernels->collect(cpu, thread, width < TILE ? width : TILE, height < TILE ? height : TILE);
     uint32_t before = NOTHING;
     for (int i = 0; i < thread->fragment_count; i++) {
         uint32_t id = thread->fragment_id[i] & ~BACK_SIDE;

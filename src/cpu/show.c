@@ -6,7 +6,7 @@
 #include <string.h>
 
 // Each pixel's number is its first fragment's: the one with the covered sample nearest to the centre
-// (fragments.c).
+// (collect.inc).
 static void pick_fragments(struct thread_state *thread)
 {
     int before = -1;

@@ -55,21 +55,29 @@ LANE_FN inum opaque_to_rgba8(const struct frame *frame, struct pixel_lanes p)
     return r | shift_left(g, 8) | shift_left(b, 16) | inum_of((int32_t)0xff000000);
 }
 
+// Writes the first `count` of LANES pixels of 4 bytes.
+LANE_FN void write_packed(inum pixels, void *to, int count)
+{
+    if (count == LANES) {
+        inum_store(to, pixels);
+        return;
+    }
+    int32_t packed[LANES];
+    inum_store(packed, pixels);
+    memcpy(to, packed, (size_t)count * 4);
+}
+
 // Writes the first `count` pixels of a vector to the picture.
 LANE_FN void write_pixels(const struct frame *frame, struct pixel_lanes p, lam_pixel_format format, void *to,
                           int count)
 {
     if (format == LAM_RGBA8 && all_lanes(p.a == 1.0f)) {
-        int32_t packed[LANES];
-        inum_store(packed, opaque_to_rgba8(frame, p));
-        memcpy(to, packed, (size_t)count * 4);
+        write_packed(opaque_to_rgba8(frame, p), to, count);
         return;
     }
     p = over_background(frame, p);
     if (format == LAM_RGBA8) {
-        int32_t packed[LANES];
-        inum_store(packed, to_rgba8(frame, p));
-        memcpy(to, packed, (size_t)count * 4);
+        write_packed(to_rgba8(frame, p), to, count);
         return;
     }
     float r[LANES], g[LANES], b[LANES], a[LANES], *out = to;

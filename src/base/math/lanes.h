@@ -216,6 +216,31 @@ LANE_FN mask mask_of_bits(unsigned bits)
 #endif
 }
 
+// Writes the lowest 16 or 8 bits of each lane, side by side.
+LANE_FN void inum_store_16(uint16_t *at, inum x)
+{
+#if LANES == 1
+    *at = (uint16_t)x;
+#else
+    typedef uint16_t narrow __attribute__((vector_size(LANES * 2)));
+    narrow n = __builtin_convertvector((unsigned_lanes)x, narrow);
+    memcpy(at, &n, sizeof n);
+#endif
+}
+LANE_FN void inum_store_8(uint8_t *at, inum x)
+{
+#if LANES == 1
+    *at = (uint8_t)x;
+#elif LANES == 16 && defined(__AVX512F__)
+    _mm_storeu_si128((__m128i *)(void *)at, _mm512_cvtepi32_epi8((__m512i)x));
+#else
+    typedef uint16_t half __attribute__((vector_size(LANES * 2)));
+    typedef uint8_t narrow __attribute__((vector_size(LANES)));
+    narrow n = __builtin_convertvector(__builtin_convertvector((unsigned_lanes)x, half), narrow);
+    memcpy(at, &n, sizeof n);
+#endif
+}
+
 // The lanes that are below 0, as bits.
 LANE_FN unsigned negative_bits(inum x)
 {
@@ -236,20 +261,55 @@ LANE_FN inum bits_up_to_lane(unsigned bits)
     return (x + (x >> 8)) & 0x1f;
 }
 
-// Lane i is row[at[i]]; at: 0 to LANES − 1. All LANES floats of the row must be readable.
-LANE_FN num lanes_at(const float *row, inum at)
+// Lane i is lane at[i] of x; at: 0 to LANES − 1.
+LANE_FN num lanes_at(num x, inum at)
 {
 #if LANES == 16 && defined(__AVX512F__)
-    return (num)_mm512_permutexvar_ps((__m512i)at, _mm512_loadu_ps(row));
+    return (num)_mm512_permutexvar_ps((__m512i)at, (__m512)x);
 #elif LANES == 8 && defined(__AVX2__)
-    return (num)_mm256_permutevar8x32_ps(_mm256_loadu_ps(row), (__m256i)at);
+    return (num)_mm256_permutevar8x32_ps((__m256)x, (__m256i)at);
 #else
-    float lanes[LANES];
+    float from[LANES], to[LANES];
+    num_store(from, x);
     for (int i = 0; i < LANES; i++)
-        lanes[i] = row[ilane(at, i)];
-    return num_load(lanes);
+        to[i] = from[ilane(at, i)];
+    return num_load(to);
 #endif
 }
+
+// Half of the lanes from one place, half from another.
+LANE_FN num num_load_halves(const float *low, const float *high)
+{
+#if LANES == 1
+    return (void)high, *low;
+#elif LANES == 16 && defined(__AVX512DQ__)
+    return (num)_mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(low)), _mm256_loadu_ps(high), 1);
+#else
+    num x;
+    memcpy(&x, low, LANES * 2);
+    memcpy((char *)&x + LANES * 2, high, LANES * 2);
+    return x;
+#endif
+}
+
+#if LANES == 8 && defined(__AVX2__)
+// For each set of bits, their numbers from the lowest on, a byte each.
+#define BIT_NUMBER(b, i) ((b) >> (i)&1 ? (uint64_t)(i) << 8 * __builtin_popcount((b) & ((1u << (i)) - 1)) : 0)
+#define BIT_NUMBERS(b)                                                                                       \
+    (BIT_NUMBER(b, 0) | BIT_NUMBER(b, 1) | BIT_NUMBER(b, 2) | BIT_NUMBER(b, 3) | BIT_NUMBER(b, 4) |          \
+     BIT_NUMBER(b, 5) | BIT_NUMBER(b, 6) | BIT_NUMBER(b, 7))
+#define BIT_NUMBERS_4(b)  BIT_NUMBERS(b), BIT_NUMBERS(b + 1), BIT_NUMBERS(b + 2), BIT_NUMBERS(b + 3)
+#define BIT_NUMBERS_16(b) BIT_NUMBERS_4(b), BIT_NUMBERS_4(b + 4), BIT_NUMBERS_4(b + 8), BIT_NUMBERS_4(b + 12)
+#define BIT_NUMBERS_64(b)                                                                                    \
+    BIT_NUMBERS_16(b), BIT_NUMBERS_16(b + 16), BIT_NUMBERS_16(b + 32), BIT_NUMBERS_16(b + 48)
+static const uint64_t bit_numbers[256] __attribute__((unused)) = {BIT_NUMBERS_64(0u), BIT_NUMBERS_64(64u),
+                                                                  BIT_NUMBERS_64(128u), BIT_NUMBERS_64(192u)};
+#undef BIT_NUMBER
+#undef BIT_NUMBERS
+#undef BIT_NUMBERS_4
+#undef BIT_NUMBERS_16
+#undef BIT_NUMBERS_64
+#endif
 
 // Writes the lanes named by `bits` (bit i: lane i) side by side, in their order; room for LANES is needed.
 // How many they are.
@@ -257,6 +317,10 @@ LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
 {
 #if LANES == 16 && defined(__AVX512F__)
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, (__m512i)x));
+    return (uint32_t)__builtin_popcount(bits);
+#elif LANES == 8 && defined(__AVX2__)
+    __m256i from = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((int64_t)bit_numbers[bits]));
+    _mm256_storeu_si256((__m256i *)(void *)to, _mm256_permutevar8x32_epi32((__m256i)x, from));
     return (uint32_t)__builtin_popcount(bits);
 #else
     int32_t lanes[LANES];

@@ -22,7 +22,7 @@ static void list_uniforms(FILE *file, const lam_shader_uniform *list, int count)
             fprintf(file, "(block %s, byte %d) ", u->block, u->offset);
         if (u->count)
             fprintf(file, "= ");
-        shader_numbers(file, u->value, u->count);
+        shader_numbers(file, u->value, u->count, false);
         // What it means stands once: at the first of a list.
         const char *place = strchr(u->name, '[');
         bool first = !place || strncmp(place, "[0]", 3) == 0;

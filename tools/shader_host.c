@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void shader_numbers(FILE *file, const float *values, int count)
+void shader_numbers(FILE *file, const float *values, int count, bool code)
 {
     for (int i = 0; i < count; i++) {
         char text[32];
@@ -16,7 +16,7 @@ void shader_numbers(FILE *file, const float *values, int count)
             if (strtof(text, NULL) == values[i])
                 break;
         }
-        fprintf(file, "%s%s", i ? ", " : "", text);
+        fprintf(file, "%s%s%s", i ? ", " : "", text, code && strpbrk(text, ".e") ? "f" : "");
     }
 }
 
@@ -57,7 +57,7 @@ static void set_uniform(FILE *file, const lam_shader_uniform *u)
     fprintf(file, "    static const GLfloat ");
     identifier(file, u->name);
     fprintf(file, "[%d] = {", u->count);
-    shader_numbers(file, u->value, u->count);
+    shader_numbers(file, u->value, u->count, true);
     fprintf(file, "};\n");
     const struct setter *setter = setters;
     while (strcmp(setter->type, u->type) != 0)
@@ -84,15 +84,18 @@ static int block_numbers(FILE *file, const lam_shader_uniform *list, int count, 
         fprintf(file, "        ");
         for (; at < list[i].offset; at += 4)
             fprintf(file, "0, ");
-        shader_numbers(file, list[i].value, list[i].count);
+        shader_numbers(file, list[i].value, list[i].count, true);
         fprintf(file, ", // %s%s%s\n", list[i].name, is_first(&list[i]) ? ": " : "",
                 is_first(&list[i]) ? list[i].meaning : "");
         at += 4 * list[i].count;
     }
-    fprintf(file, "        ");
-    for (; at % 16; at += 4)
-        fprintf(file, "0, ");
-    fprintf(file, "};\n");
+    if (at % 16) {
+        fprintf(file, "        ");
+        for (; at % 16; at += 4)
+            fprintf(file, "0, ");
+        fprintf(file, "// up to a whole vec4\n");
+    }
+    fprintf(file, "    };\n");
     return i;
 }
 
@@ -169,7 +172,7 @@ static void tell_lists(FILE *file, const lam_shader *s)
                 list->texels, list->name);
         for (int k = 0; k < list->texels; k++) {
             fprintf(file, "    ");
-            shader_numbers(file, list->values + 4 * (size_t)k, 4);
+            shader_numbers(file, list->values + 4 * (size_t)k, 4, true);
             fprintf(file, ",\n");
         }
         fprintf(file, "};\n\n");

@@ -10,7 +10,7 @@
 
 #include "fail.h"
 
-enum { UNIFORMS_MOST = 256, BLOCKS_MOST = 8, BLOCK_BYTES_MOST = 65536 };
+enum { BLOCKS_MOST = 8, BLOCK_BYTES_MOST = 65536 };
 
 // An active uniform that the contract knows, one element of it.
 struct wire {
@@ -28,7 +28,7 @@ struct bench {
     struct check_drawn drawn;
     GLuint program;
     int position, normal; // attribute locations; −1: built in, or none
-    struct wire wires[UNIFORMS_MOST];
+    struct wire *wires;   // room for every element of every uniform
     int wire_count;
     GLuint blocks[BLOCKS_MOST];
     int block_bytes[BLOCKS_MOST];
@@ -119,7 +119,7 @@ static void add_wire(struct bench *b, GLuint number, const char *name, GLenum ty
         gl->GetActiveUniformsiv(b->program, 1, &number, GL_UNIFORM_MATRIX_STRIDE, &stride);
         gl->GetActiveUniformsiv(b->program, 1, &number, GL_UNIFORM_ARRAY_STRIDE, &array_stride);
     }
-    for (int i = 0; i < elements && b->wire_count < UNIFORMS_MOST; i++) {
+    for (int i = 0; i < elements; i++) {
         char element[128];
         snprintf(element, sizeof element, "%s", name);
         char *bracket = elements > 1 ? strrchr(element, '[') : NULL;
@@ -139,11 +139,22 @@ static void add_wire(struct bench *b, GLuint number, const char *name, GLenum ty
     }
 }
 
-static void find_uniforms(struct bench *b)
+static bool find_uniforms(struct bench *b, lam_error *error)
 {
     const struct gl *gl = &b->target.context.gl;
     GLint count = 0, blocks = 0;
+    size_t room = 1;
     gl->GetProgramiv(b->program, GL_ACTIVE_UNIFORMS, &count);
+    for (GLuint i = 0; i < (GLuint)count; i++) {
+        char name[8];
+        GLint elements = 0;
+        GLenum type = 0;
+        gl->GetActiveUniform(b->program, i, sizeof name, NULL, &elements, &type, name);
+        room += (size_t)elements;
+    }
+    b->wires = calloc(room, sizeof *b->wires);
+    if (!b->wires)
+        return fail_memory(error, room * sizeof *b->wires);
     for (GLuint i = 0; i < (GLuint)count; i++) {
         char name[128];
         GLint elements = 0;
@@ -160,6 +171,7 @@ static void find_uniforms(struct bench *b)
         gl->BindBufferBase(GL_UNIFORM_BUFFER, i, b->blocks[i]);
         gl->UniformBlockBinding(b->program, i, i);
     }
+    return true;
 }
 
 static void find_attributes(struct bench *b)
@@ -313,7 +325,8 @@ static void build(struct bench *b)
 static bool draw_scenes(struct bench *b, enum gl_profile profile, float *pixels, lam_error *error)
 {
     b->target.context.gl.UseProgram(b->program);
-    find_uniforms(b);
+    if (!find_uniforms(b, error))
+        return false;
     find_attributes(b);
     b->drawn.has_list = b->drawn.light_count > 0 || b->reading.light_count > 0;
     if (b->reading.light_count > b->drawn.light_count)
@@ -368,6 +381,7 @@ bool lam_check_draw(const void *job, size_t size, const char *gl_device, lam_byt
     }
     reading_free(&b->reading);
     free(pixels);
+    free(b->wires);
     free(b);
     return ok;
 }

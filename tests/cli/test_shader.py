@@ -40,7 +40,7 @@ class Shader(Case):
         (self.folder / "folder").mkdir()
         self.good("shader", "cube.obj", "-o", "folder/")
         self.assertTrue((self.folder / "folder" / "cube.frag").exists())
-        self.good("shader", "cube.obj", "-o", "again.frag")
+        self.assertEqual(self.good("shader", "cube.obj", "-q", "-o", "again.frag").stdout, b"")
         self.assertTrue((self.folder / "again.vert").exists())
 
     def test_every_uniform_of_the_text_is_in_the_contract_and_back(self):

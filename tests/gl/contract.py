@@ -193,7 +193,7 @@ def draw(folder, name, model, words, shader_words, cube):
     assert made.returncode == 0, made.stdout.decode()
     contract = json.loads(made.stdout[made.stdout.index(b"{"):])
     program = folder / (name + ".program")
-    built = run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-Wno-unused-function", '-DHOST="%s.c"' % base, "-Wno-strict-prototypes",
+    built = run(["cc", "-std=c11", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-Wno-unused-function", '-DHOST="%s.c"' % base, "-Wno-strict-prototypes",
                  HERE / "contract_host.c", "-o", program, "-lEGL", "-lGL"])
     if built.returncode and (b"EGL/egl.h" in built.stdout or b"cannot find -l" in built.stdout):
         raise Skip("the headers and libraries of OpenGL are not installed (packages libegl-dev, libgl-dev)")

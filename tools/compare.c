@@ -288,6 +288,7 @@ int run_compare(int operand_count, char **operands, const struct options *option
         progress_start(&c.progress, c.model, console_is_terminal() && !options->quiet);
         ok = c.device && draw_sheet(&c, &error);
         progress_end(&c.progress);
+        c.drawing.compress = (lam_compress)options->compress;
         ok = ok && drawing_write(&c.drawing, path, &error);
         if (ok && !options->quiet)
             say_plain("%s  %dx%d  %d pictures\n", strcmp(path, "-") == 0 ? "standard output" : path,

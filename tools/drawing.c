@@ -284,6 +284,7 @@ void draw_image(struct drawing *d, const lam_image *image, int left, int top)
 bool drawing_write(struct drawing *d, const char *path, lam_error *error)
 {
     lam_bytes bytes = {0};
+    lam_save_params params = {.compress = d->compress};
     bool stream = output_is_stream(path), ok;
     if (d->svg) {
         fprintf(d->svg, "</svg>\n");
@@ -293,8 +294,8 @@ bool drawing_write(struct drawing *d, const char *path, lam_error *error)
         return output_replace(path, &bytes, error);
     }
     if (!stream)
-        return lam_image_save(&d->image, path, NULL, error);
-    ok = lam_image_encode(&d->image, "png", NULL, &bytes, error) && output_write(path, &bytes, error);
+        return lam_image_save(&d->image, path, &params, error);
+    ok = lam_image_encode(&d->image, "png", &params, &bytes, error) && output_write(path, &bytes, error);
     lam_bytes_free(&bytes);
     return ok;
 }

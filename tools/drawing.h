@@ -15,7 +15,8 @@ struct drawing {
     FILE *svg;         // SVG: its text so far goes here; NULL: PNG
     char *svg_text;
     size_t svg_size;
-    bool words; // false: none are drawn
+    bool words;            // false: none are drawn
+    lam_compress compress; // of a PNG
 };
 
 struct point {

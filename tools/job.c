@@ -223,6 +223,7 @@ static bool write_output(struct job *job, lam_error *error)
     lam_save_params params = {.background = {job->background.r, job->background.g, job->background.b},
                               .threads = o->threads,
                               .control = &control,
+                              .compress = (lam_compress)o->compress,
                               .raw =
                                   o->color == LAM_COLOR_RAW || !lam_show_is_light(show_option_what(o->show))};
     lam_bytes bytes = {0};

@@ -129,7 +129,9 @@ static bool write_sheet(const struct options *o, const lam_image *image, lam_err
     lam_rgba under = {0, 0, 0, 0};
     if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &under, error))
         return false;
-    lam_save_params params = {.background = {under.r, under.g, under.b}, .raw = o->color == LAM_COLOR_RAW};
+    lam_save_params params = {.background = {under.r, under.g, under.b},
+                              .raw = o->color == LAM_COLOR_RAW,
+                              .compress = (lam_compress)o->compress};
     if (!output_is_stream(o->output))
         return lam_image_save(image, o->output, &params, error);
     lam_bytes bytes = {0};

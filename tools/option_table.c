@@ -41,6 +41,11 @@ static const struct word highlight_words[] = {{"phong", LAM_REFLECTION_PHONG, "r
                                               {"blinn-phong", LAM_REFLECTION_BLINN_PHONG, "n.h"},
                                               {NULL, 0, NULL}};
 
+static const struct word compress_words[] = {
+    {"fast", LAM_COMPRESS_FAST, "some milliseconds for a million pixels"},
+    {"best", LAM_COMPRESS_BEST, "the smallest file, in a second or two"},
+    {NULL, 0, NULL}};
+
 static const struct word color_words[] = {
     {"srgb", LAM_COLOR_SRGB, "colours of files are decoded, lighting is linear, the picture is encoded"},
     {"raw", LAM_COLOR_RAW, "no conversion either way: what the equations give is what the file holds"},
@@ -208,6 +213,11 @@ const struct option option_table[] = {
      .store = store_color, FIELD(background)},
     {"color", 0, GROUP_PICTURE, "MODE", "srgb", "How colours become numbers: srgb or raw (no conversion).",
      NULL, color_words, .store = store_word, FIELD(color)},
+    {"compress", 0, GROUP_PICTURE, "HOW", "fast", "How PNG files are compressed: fast or best.",
+     "`best` makes a file that is about a third smaller and takes a second or two for a million pixels, "
+     "`fast` takes some milliseconds. The picture is the same, pixel for pixel; other formats take no "
+     "notice.",
+     compress_words, .store = store_word, FIELD(compress)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0",
      "Make the picture brighter or darker: 1 doubles its light, -1 halves it.",
      "The light of the model is multiplied by 2 to the power of STOPS before anything is clamped or encoded, "

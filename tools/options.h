@@ -22,6 +22,7 @@ struct options {
     int samples;            // 0: the library's default
     const char *background; // as written; NULL: clear
     int color;              // lam_color_mode
+    int compress;           // lam_compress
     double exposure;        // stops
     const char *show;       // as written (show_option.h); NULL: the picture
 

@@ -29,6 +29,12 @@ bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format fo
 LAM_API
 void lam_image_free(lam_image *image);
 
+// How much work is put into making a PNG file small. Every reader reads either; the picture is the same.
+typedef enum lam_compress {
+    LAM_COMPRESS_FAST, // the default: some milliseconds for a million pixels
+    LAM_COMPRESS_BEST, // about a third smaller, a hundred times slower
+} lam_compress;
+
 // How a picture is written. All zero is the plain default.
 typedef struct lam_save_params {
     const lam_control *control; // cancel flag and time limit, checked while encoding; NULL: none
@@ -36,6 +42,7 @@ typedef struct lam_save_params {
     lam_rgb background;
     int threads; // threads to encode with; 0: one for each processor. The bytes do not depend on it.
     bool raw; // the numbers are not sRGB-encoded: PNG gets no sRGB chunk, PPM is composed without conversion
+    lam_compress compress; // of PNG; other formats take no notice
 } lam_save_params;
 
 // A block of bytes that the caller frees with lam_bytes_free.

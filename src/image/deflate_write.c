@@ -1,18 +1,5 @@
 // deflate_write.c: counted tokens become bits: the strip's own Huffman codes, or the bytes as they are.
-#include "deflate.h"
-
-#include "huffman.h"
-
-#include <string.h>
-
-enum {
-    LITERALS = 286, // bytes 0…255, end of block, lengths 257…285
-    END_OF_BLOCK = 256,
-    FIRST_LENGTH = 257,
-    DISTANCES = 30,
-    CODE_LIMIT = 14, // a token in one 64-bit step: four codes, 4·14 bits, and the 7 bits still waiting
-    STORED_MOST = 65535,
-};
+#include "deflate_codes.h"
 
 size_t deflate_room(int width, int rows, int bytes_per_pixel)
 {
@@ -20,97 +7,6 @@ size_t deflate_room(int width, int rows, int bytes_per_pixel)
     size_t bytes = (size_t)rows * ((size_t)width * (unsigned)bytes_per_pixel + 1);
     return bytes + 5 * (bytes / STORED_MOST + 2) + 8;
 }
-
-// The symbol and the number of extra bits of a match of 3 … 258 bytes. Lengths over 10 come in groups of four
-// symbols with as many extra bits as it takes; 258 has a symbol of its own.
-static unsigned length_symbol(unsigned length, unsigned *extra)
-{
-    unsigned beyond = length - DEFLATE_SHORTEST;
-    *extra = 0;
-    if (length == DEFLATE_LONGEST)
-        return FIRST_LENGTH + 28;
-    if (beyond < 8)
-        return FIRST_LENGTH + beyond;
-    unsigned top = 31 - (unsigned)__builtin_clz(beyond);
-    *extra = top - 2;
-    return FIRST_LENGTH + 4 * (top - 1) + (beyond >> (top - 2) & 3);
-}
-
-// Bits waiting to become bytes, the first lowest. After put() fewer than 8 wait.
-struct bits {
-    uint8_t *at;
-    uint64_t waiting;
-    unsigned count;
-};
-
-static inline __attribute__((always_inline)) void put(struct bits *bits, uint64_t value, unsigned count)
-{
-    bits->waiting |= value << bits->count;
-    bits->count += count;
-    memcpy(bits->at, &bits->waiting, 8);
-    bits->at += bits->count >> 3;
-    bits->waiting >>= bits->count & 56;
-    bits->count &= 7;
-}
-
-// Ends on a byte boundary with an empty stored block.
-static uint8_t *put_boundary(struct bits *bits)
-{
-    put(bits, 0, 3);
-    if (bits->count)
-        put(bits, 0, 8 - bits->count);
-    put(bits, 0xFFFF0000u, 32);
-    return bits->at;
-}
-
-// A block's two codes and how they are told.
-struct codes {
-    uint8_t length[LITERALS], distance_length[DISTANCES];
-    uint16_t code[LITERALS], distance_code[DISTANCES];
-    unsigned literals, distances;       // how many lengths are told
-    uint8_t told[LITERALS + DISTANCES]; // the lengths' own symbols 0…18, in order …
-    uint8_t more[LITERALS + DISTANCES]; // … and what follows each in extra bits
-    unsigned told_count;
-    uint8_t told_length[19];
-    uint16_t told_code[19];
-    unsigned told_lengths; // how many of told_length, in the format's order
-    uint64_t bits;         // of the whole block
-};
-
-static const uint8_t told_order[19] = {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};
-static const uint8_t told_extra[19] = {[16] = 2, [17] = 3, [18] = 7};
-
-static void tell(struct codes *codes, uint8_t symbol, unsigned more)
-{
-    codes->told[codes->told_count] = symbol;
-    codes->more[codes->told_count++] = (uint8_t)more;
-}
-
-// Run-length code of the code lengths (RFC 1951, 3.2.7): 16 repeats the last 3–6 times, 17 and 18 are 3–10
-// and 11–138 zeros.
-static void tell_lengths(struct codes *codes, const uint8_t *lengths, unsigned count)
-{
-    for (unsigned i = 0, end; i < count; i = end) {
-        for (end = i + 1; end < count && lengths[end] == lengths[i];)
-            end++;
-        unsigned left = end - i;
-        if (lengths[i]) {
-            tell(codes, lengths[i], 0);
-            left--;
-        }
-        while (left >= 3) {
-            unsigned most = lengths[i] ? 6 : left > 10 ? 138 : 10;
-            unsigned n = left < most ? left : most;
-            tell(codes, lengths[i] ? 16 : left > 10 ? 18 : 17, n - (!lengths[i] && left > 10 ? 11 : 3));
-            left -= n;
-        }
-        for (; left; left--)
-            tell(codes, lengths[i], 0);
-    }
-}
-
-// Further bits of a distance symbol.
-static unsigned distance_extra(int symbol) { return symbol < 4 ? 0 : (unsigned)symbol / 2 - 1; }
 
 static uint32_t count_of(const struct deflate *deflate, int kind)
 {
@@ -122,67 +18,20 @@ static uint32_t count_of(const struct deflate *deflate, int kind)
 
 static void make_codes(struct codes *codes, const struct deflate *deflate)
 {
-    uint32_t counts[LITERALS] = {[END_OF_BLOCK] = 1};
+    uint32_t counts[LITERALS] = {[END_OF_BLOCK] = 1}, distance_counts[DISTANCES];
+    uint64_t extra_bits = 0;
     for (int i = 0; i < 256; i++)
         counts[i] = count_of(deflate, i);
-    codes->bits = 0;
     for (unsigned length = DEFLATE_SHORTEST; length <= DEFLATE_LONGEST; length++) {
         unsigned extra, symbol = length_symbol(length, &extra);
         uint32_t count = deflate->counts[0][0][DEFLATE_MATCH + length - DEFLATE_SHORTEST] +
                          deflate->counts[1][0][DEFLATE_MATCH + length - DEFLATE_SHORTEST];
         counts[symbol] += count;
-        codes->bits += (uint64_t)count * extra;
+        extra_bits += (uint64_t)count * extra;
     }
-    huffman_lengths(counts, LITERALS, CODE_LIMIT, codes->length);
-    huffman_codes(codes->length, LITERALS, codes->code);
-
-    uint32_t distance_counts[DISTANCES];
     for (int i = 0; i < DISTANCES; i++)
         distance_counts[i] = count_of(deflate, DEFLATE_DISTANCE + i);
-    huffman_lengths(distance_counts, DISTANCES, CODE_LIMIT, codes->distance_length);
-    huffman_codes(codes->distance_length, DISTANCES, codes->distance_code);
-    for (int i = 0; i < LITERALS; i++)
-        codes->bits += (uint64_t)counts[i] * codes->length[i];
-    for (int i = 0; i < DISTANCES; i++)
-        codes->bits += (uint64_t)distance_counts[i] * (codes->distance_length[i] + distance_extra(i));
-    // Lengths of zero at the end are not told, but for the first: alone it says that there is no distance.
-    for (codes->literals = LITERALS; !codes->length[codes->literals - 1];)
-        codes->literals--;
-    for (codes->distances = DISTANCES; codes->distances > 1 && !codes->distance_length[codes->distances - 1];)
-        codes->distances--;
-
-    uint8_t all[LITERALS + DISTANCES];
-    memcpy(all, codes->length, codes->literals);
-    memcpy(all + codes->literals, codes->distance_length, codes->distances);
-    codes->told_count = 0;
-    tell_lengths(codes, all, codes->literals + codes->distances);
-
-    uint32_t told_counts[19] = {0};
-    for (unsigned i = 0; i < codes->told_count; i++)
-        told_counts[codes->told[i]]++;
-    huffman_lengths(told_counts, 19, 7, codes->told_length);
-    huffman_codes(codes->told_length, 19, codes->told_code);
-    codes->told_lengths = 19;
-    while (codes->told_lengths > 4 && !codes->told_length[told_order[codes->told_lengths - 1]])
-        codes->told_lengths--;
-    codes->bits += 3 + 5 + 5 + 4 + 3 * codes->told_lengths;
-    for (int i = 0; i < 19; i++)
-        codes->bits += (uint64_t)told_counts[i] * (codes->told_length[i] + told_extra[i]);
-}
-
-static void put_codes(struct bits *bits, const struct codes *codes)
-{
-    put(bits, 0 | 2 << 1, 3); // not the last block; codes of its own
-    put(bits, codes->literals - 257, 5);
-    put(bits, codes->distances - 1, 5);
-    put(bits, codes->told_lengths - 4, 4);
-    for (unsigned i = 0; i < codes->told_lengths; i++)
-        put(bits, codes->told_length[told_order[i]], 3);
-    for (unsigned i = 0; i < codes->told_count; i++) {
-        uint8_t symbol = codes->told[i];
-        put(bits, codes->told_code[symbol], codes->told_length[symbol]);
-        put(bits, codes->more[i], told_extra[symbol]);
-    }
+    codes_make(codes, counts, distance_counts, extra_bits);
 }
 
 // A kind as it is written.

@@ -3,10 +3,10 @@
 // Rows are cut into strips whose height depends on the width alone. A strip takes one row filter, is
 // compressed by itself (deflate.h) and becomes one IDAT chunk with its own CRC, so that any thread may take
 // any strip; only the Adler-32 of the whole is joined at the end. A filter looks at the row above, which is
-// there whichever strip it is in.
+// there whichever strip it is in. The small kind (png_best.c) is made likewise, of larger strips.
+#include "png_encoding.h"
+
 #include "arena.h"
-#include "checksum.h"
-#include "codec.h"
 #include "deflate.h"
 #include "fail.h"
 #include "png_filter.h"
@@ -19,30 +19,6 @@ enum {
         32768, // a strip's words stay in the second-level cache; its Huffman code costs about 80 bytes
     BATCH_STRIPS = 256, // strips between two joinings: bounds the room that waits for the worst case
     TRIAL_STEP = 8,     // each eighth row is tried with every filter
-    CHUNK = 12,         // a chunk's length, type and CRC
-};
-
-struct strip {
-    struct adler_part adler;
-    size_t size; // of its chunk
-};
-
-struct encoding {
-    const lam_image *image;
-    int bytes_per_pixel; // 4, or 3 where every pixel is opaque
-    uint32_t mask;       // of a pixel's bytes that are written
-    int rows;            // in a strip
-    int strips;
-    size_t room; // for one strip's chunk at worst
-    struct crc_tables crc;
-    const uint8_t *zeros;    // the row above the first
-    struct deflate *scratch; // one for each thread
-    int translucent;         // touched atomically: set once a pixel was found that is not opaque
-
-    struct watch watch; // over the whole call
-    int first;          // strip of this batch
-    uint8_t *out;       // of this batch, `room` bytes for each strip
-    struct strip *done; // one for each strip of a batch
 };
 
 static void put_u32(uint8_t *at, uint32_t value)
@@ -51,13 +27,12 @@ static void put_u32(uint8_t *at, uint32_t value)
         at[i] = (uint8_t)(value >> (24 - 8 * i));
 }
 
-// Completes a chunk whose `size` bytes of data already stand at out + 8. Returns the chunk's size.
-static size_t close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size)
+size_t png_close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size)
 {
     put_u32(out, (uint32_t)size);
     memcpy(out + 4, type, 4);
     put_u32(out + 8 + size, crc_of(crc, out + 4, size + 4));
-    return size + CHUNK;
+    return size + PNG_CHUNK;
 }
 
 static size_t put_chunk(const struct crc_tables *crc, const char *type, const void *data, size_t size,
@@ -65,17 +40,17 @@ static size_t put_chunk(const struct crc_tables *crc, const char *type, const vo
 {
     if (size)
         memcpy(out + 8, data, size);
-    return close_chunk(crc, type, out, size);
+    return png_close_chunk(crc, type, out, size);
 }
 
-static const uint8_t *pixel_row(const struct encoding *encoding, int y)
+const uint8_t *png_pixel_row(const struct png_encoding *encoding, int y)
 {
     if (y < 0)
         return encoding->zeros;
     return (const uint8_t *)encoding->image->pixels + (size_t)y * (size_t)encoding->image->width * 4;
 }
 
-static int strip_rows(const struct encoding *encoding, int strip)
+int png_strip_rows(const struct png_encoding *encoding, int strip)
 {
     int left = encoding->image->height - strip * encoding->rows;
     return left < encoding->rows ? left : encoding->rows;
@@ -84,11 +59,11 @@ static int strip_rows(const struct encoding *encoding, int strip)
 static void look_for_translucent(void *user, size_t index, int thread)
 {
     (void)thread;
-    struct encoding *encoding = user;
+    struct png_encoding *encoding = user;
     if (__atomic_load_n(&encoding->translucent, __ATOMIC_RELAXED))
         return;
-    const uint8_t *pixels = pixel_row(encoding, (int)index * encoding->rows);
-    size_t count = (size_t)strip_rows(encoding, (int)index) * (size_t)encoding->image->width;
+    const uint8_t *pixels = png_pixel_row(encoding, (int)index * encoding->rows);
+    size_t count = (size_t)png_strip_rows(encoding, (int)index) * (size_t)encoding->image->width;
     for (size_t i = 0; i < count;) {
         uint8_t all = 255;
         for (size_t end = count - i < 4096 ? count : i + 4096; i < end; i++)
@@ -103,7 +78,7 @@ static void look_for_translucent(void *user, size_t index, int thread)
 static int first_trial(int rows) { return rows < TRIAL_STEP ? 0 : TRIAL_STEP / 2; }
 
 // The filter that leaves the least on some of the strip's rows.
-static enum png_filter best_filter(const struct encoding *encoding, struct deflate *scratch, int top,
+static enum png_filter best_filter(const struct png_encoding *encoding, struct deflate *scratch, int top,
                                    int rows)
 {
     uint64_t least = UINT64_MAX;
@@ -111,7 +86,7 @@ static enum png_filter best_filter(const struct encoding *encoding, struct defla
     for (enum png_filter filter = PNG_FILTER_PAETH; filter >= PNG_FILTER_SUB; filter--) {
         uint64_t cost = 0;
         for (int y = first_trial(rows); y < rows; y += TRIAL_STEP) {
-            png_filter_row(filter, pixel_row(encoding, top + y), pixel_row(encoding, top + y - 1),
+            png_filter_row(filter, png_pixel_row(encoding, top + y), png_pixel_row(encoding, top + y - 1),
                            encoding->image->width, encoding->mask, scratch->words);
             cost += png_filter_cost(scratch->words, encoding->image->width);
         }
@@ -124,11 +99,11 @@ static enum png_filter best_filter(const struct encoding *encoding, struct defla
 }
 
 // Whether the rows that were tried hold grey alone: what is no picture of coloured light.
-static bool is_grey(const struct encoding *encoding, int top, int rows)
+static bool is_grey(const struct png_encoding *encoding, int top, int rows)
 {
     uint32_t differ = 0;
     for (int y = first_trial(rows); y < rows; y += TRIAL_STEP) {
-        const uint8_t *row = pixel_row(encoding, top + y);
+        const uint8_t *row = png_pixel_row(encoding, top + y);
         for (int x = 0; x < encoding->image->width; x++) {
             uint32_t pixel;
             memcpy(&pixel, row + 4 * (size_t)x, 4);
@@ -138,37 +113,46 @@ static bool is_grey(const struct encoding *encoding, int top, int rows)
     return (differ & 0xFFFF) == 0;
 }
 
-static void encode_strip(void *user, size_t index, int thread)
+static size_t quick_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler,
+                          uint8_t *out)
 {
-    struct encoding *encoding = user;
     struct deflate *scratch = &encoding->scratch[thread];
-    const int strip = encoding->first + (int)index, width = encoding->image->width;
-    const int top = strip * encoding->rows, rows = strip_rows(encoding, strip);
-    struct strip *done = &encoding->done[index];
-
+    const int width = encoding->image->width;
+    const int top = strip * encoding->rows, rows = png_strip_rows(encoding, strip);
     const enum png_filter filter = best_filter(encoding, scratch, top, rows);
-    done->adler = (struct adler_part){0};
     deflate_start(scratch, (uint8_t)filter, is_grey(encoding, top, rows));
     for (int y = 0; y < rows; y++) {
-        png_filter_row(filter, pixel_row(encoding, top + y), pixel_row(encoding, top + y - 1), width,
+        png_filter_row(filter, png_pixel_row(encoding, top + y), png_pixel_row(encoding, top + y - 1), width,
                        encoding->mask, scratch->row);
-        adler_byte(&done->adler, (uint8_t)filter);
-        adler_row(&done->adler, scratch->row, width, encoding->bytes_per_pixel);
+        adler_byte(adler, (uint8_t)filter);
+        adler_row(adler, scratch->row, width, encoding->bytes_per_pixel);
         deflate_row(scratch);
     }
-    uint8_t *out = encoding->out + index * encoding->room;
-    size_t size = 0;
-    if (strip == 0) {
-        // zlib's header (RFC 1950): deflate, a window of 32 KiB, the fastest level.
-        out[8] = 0x78;
-        out[9] = 0x01;
-        size = 2;
-    }
-    size += deflate_write(scratch, out + 8 + size);
-    done->size = close_chunk(&encoding->crc, "IDAT", out, size);
+    return deflate_write(scratch, out);
 }
 
-static size_t put_head(const struct encoding *encoding, bool raw, uint8_t *out)
+static void encode_strip(void *user, size_t index, int thread)
+{
+    struct png_encoding *encoding = user;
+    const int strip = encoding->first + (int)index;
+    struct png_strip *done = &encoding->done[index];
+    uint8_t *out = encoding->out + index * encoding->room;
+    done->adler = (struct adler_part){0};
+    done->size = 0;
+    if (!watch_on(&encoding->watch))
+        return;
+    size_t size = 0;
+    if (strip == 0) {
+        // zlib's header (RFC 1950): deflate, a window of 32 KiB, the fastest level or the slowest.
+        out[8] = 0x78;
+        out[9] = encoding->best ? 0xDA : 0x01;
+        size = 2;
+    }
+    size += encoding->best ? png_best_strip(encoding, strip, thread, &done->adler, out + 8 + size)
+                           : quick_strip(encoding, strip, thread, &done->adler, out + 8 + size);
+    done->size = png_close_chunk(&encoding->crc, "IDAT", out, size);
+}
+static size_t put_head(const struct png_encoding *encoding, bool raw, uint8_t *out)
 {
     static const uint8_t signature[8] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
     static const uint8_t intent = 0; // perceptual
@@ -188,7 +172,7 @@ static size_t put_head(const struct encoding *encoding, bool raw, uint8_t *out)
 }
 
 // The last block, empty with fixed codes, and the checksum.
-static size_t put_tail(const struct encoding *encoding, const struct adler_part *adler, uint8_t *out)
+static size_t put_tail(const struct png_encoding *encoding, const struct adler_part *adler, uint8_t *out)
 {
     uint8_t end[6] = {3, 0};
     put_u32(end + 2, adler_value(adler));
@@ -196,16 +180,20 @@ static size_t put_tail(const struct encoding *encoding, const struct adler_part 
     return size + put_chunk(&encoding->crc, "IEND", NULL, 0, out + size);
 }
 
-enum { HEAD_ROOM = 128, TAIL_ROOM = 6 + 2 * CHUNK };
+enum { HEAD_ROOM = 128, TAIL_ROOM = 6 + 2 * PNG_CHUNK };
 
 // Memory that lives while the file is made. Bounded: per thread about 12 bytes for each pixel of a strip.
-static bool get_scratch(struct encoding *encoding, int threads, struct arena *arena, lam_error *error)
+static bool get_scratch(struct png_encoding *encoding, bool best, struct pool *pool, struct arena *arena,
+                        lam_error *error)
 {
+    const int threads = pool_threads(pool);
     const int width = encoding->image->width;
     const int batch = encoding->strips < BATCH_STRIPS ? encoding->strips : BATCH_STRIPS;
-    encoding->scratch = arena_array(arena, (size_t)threads, sizeof *encoding->scratch);
     encoding->done = arena_array(arena, (size_t)batch, sizeof *encoding->done);
     encoding->zeros = arena_alloc_zeroed(arena, (size_t)width * 4);
+    if (encoding->done && encoding->zeros && best)
+        return png_best_start(encoding, pool, arena, error);
+    encoding->scratch = arena_array(arena, (size_t)threads, sizeof *encoding->scratch);
     bool ok = encoding->scratch && encoding->done && encoding->zeros;
     for (int i = 0; ok && i < threads; i++)
         ok = deflate_make(&encoding->scratch[i], arena, width, encoding->rows, encoding->bytes_per_pixel);
@@ -214,7 +202,7 @@ static bool get_scratch(struct encoding *encoding, int threads, struct arena *ar
 
 // Strips are made at a distance that fits the worst case, then moved together. Pages that were not reached
 // are never touched, so the room costs address space only.
-static bool encode_strips(struct encoding *encoding, bool raw, struct pool *pool, lam_bytes *out,
+static bool encode_strips(struct png_encoding *encoding, bool raw, struct pool *pool, lam_bytes *out,
                           lam_error *error)
 {
     uint8_t *bytes = NULL;
@@ -243,6 +231,10 @@ static bool encode_strips(struct encoding *encoding, bool raw, struct pool *pool
             adler_join(&adler, &encoding->done[i].adler);
         }
     }
+    if (!watch_on(&encoding->watch)) {
+        free(bytes);
+        return watch_error(&encoding->watch, error);
+    }
     size += put_tail(encoding, &adler, bytes + size);
     uint8_t *fitted = realloc(bytes, size);
     *out = (lam_bytes){fitted ? fitted : bytes, size};
@@ -252,9 +244,10 @@ static bool encode_strips(struct encoding *encoding, bool raw, struct pool *pool
 bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                lam_error *error)
 {
-    struct encoding encoding = {.image = image, .bytes_per_pixel = 4, .mask = 0xFFFFFFFFu};
+    struct png_encoding encoding = {.image = image, .bytes_per_pixel = 4, .mask = 0xFFFFFFFFu};
     watch_start(&encoding.watch, params->control);
-    encoding.rows = STRIP_PIXELS / image->width;
+    const bool best = params->compress == LAM_COMPRESS_BEST;
+    encoding.rows = (best ? PNG_BEST_PIXELS : STRIP_PIXELS) / image->width;
     if (encoding.rows < 1)
         encoding.rows = 1;
     if (encoding.rows > image->height)
@@ -267,12 +260,14 @@ bool png_write(const lam_image *image, const lam_save_params *params, struct poo
         encoding.bytes_per_pixel = 3;
         encoding.mask = 0x00FFFFFFu;
     }
-    encoding.room = CHUNK + 2 + deflate_room(image->width, encoding.rows, encoding.bytes_per_pixel);
+    encoding.room = PNG_CHUNK + 2 +
+                    (best ? png_best_room(&encoding)
+                          : deflate_room(image->width, encoding.rows, encoding.bytes_per_pixel));
     crc_tables_make(&encoding.crc);
 
     struct arena arena;
     arena_start(&arena, NULL);
-    bool ok = get_scratch(&encoding, pool_threads(pool), &arena, error) &&
+    bool ok = get_scratch(&encoding, best, pool, &arena, error) &&
               encode_strips(&encoding, params->raw, pool, out, error);
     arena_free(&arena);
     return ok;

@@ -45,6 +45,22 @@ class Picture(Case):
     def test_color(self):
         self.assertNotEqual(self.png("cube.obj", "-s", 32, "--color", "raw"), self.png("cube.obj", "-s", 32))
 
+    def test_compress(self):
+        self.bad(1, "cube.obj", "--compress", "bst", says=("--compress", "best"))
+        words = ("cube.obj", "-s", "90x70", "--background", "white", "-o")
+        self.good(*words, "fast.png", "--compress", "fast")
+        self.good(*words, "plain.png")
+        self.good(*words, "best.png", "--compress", "best")
+        self.good(*words, "one.png", "--compress", "best", "--threads", 1)
+        sizes = {name: (self.folder / (name + ".png")).stat().st_size for name in ("fast", "plain", "best")}
+        self.assertEqual(sizes["fast"], sizes["plain"])
+        self.assertLess(sizes["best"], 0.9 * sizes["fast"])
+        self.assertEqual((self.folder / "best.png").read_bytes(), (self.folder / "one.png").read_bytes())
+        self.assertIn(b"equal", self.good("diff", "best.png", "fast.png").stdout)
+        for how in ("fast", "best"):
+            self.good("compare", "cube.obj", "--across", "shading=flat,phong", "-s", "40", "--compress", how, "-o", how + "-sheet.png")
+        self.assertLess(*((self.folder / (how + "-sheet.png")).stat().st_size for how in ("best", "fast")))
+
     def test_formats(self):
         self.good("cube.obj", "-s", "20x10", "-o", "a.ppm", "-b", "white")
         data = (self.folder / "a.ppm").read_bytes()

@@ -87,13 +87,19 @@ static void make_picture(lam_image *image, int width, int height, enum content c
         }
 }
 
-static lam_bytes encode(const lam_image *image, int threads)
+static lam_bytes encode_as(const lam_image *image, int threads, lam_compress compress)
 {
     lam_error error;
     lam_bytes bytes;
-    if (!lam_image_encode(image, "png", &(lam_save_params){.threads = threads}, &bytes, &error))
+    lam_save_params params = {.threads = threads, .compress = compress};
+    if (!lam_image_encode(image, "png", &params, &bytes, &error))
         fail_msg("%s", error.text);
     return bytes;
+}
+
+static lam_bytes encode(const lam_image *image, int threads)
+{
+    return encode_as(image, threads, LAM_COMPRESS_FAST);
 }
 
 // libspng checks every CRC, zlib the Adler-32.
@@ -237,6 +243,85 @@ static void bytes_are_the_recorded_ones(void **state)
         lam_image_free(&image);
     }
     assert_int_equal(wrong, 0);
+}
+
+// Of the small kind: strips of several rows and of one, matches into the strip above and rows longer than
+// they reach; the same pixels, in fewer bytes, whatever the threads.
+static void small_files_decode(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1, 1},   {3, 3},    {5, 64},    {16, 15},  {87, 3},
+                                   {129, 9}, {200, 40}, {65535, 3}, {2000, 66}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        for (int content = 0; content < CONTENTS; content++) {
+            bool large = sizes[i][0] * sizes[i][1] > 100000;
+            if (large && content != (sizes[i][0] > 2000 ? LAST_PIXEL : RUNS)) // others take long
+                continue;
+            lam_image image;
+            make_picture(&image, sizes[i][0], sizes[i][1], content);
+            lam_bytes bytes = encode_as(&image, 1, LAM_COMPRESS_BEST), fast = encode(&image, 1);
+            decode_and_compare(&bytes, &image, content_names[content]);
+            if (bytes.size > fast.size + 16)
+                fail_msg("%s, %d×%d: %zu bytes, the quick kind %zu", content_names[content], sizes[i][0],
+                         sizes[i][1], bytes.size, fast.size);
+            if (large) {
+                lam_bytes three = encode_as(&image, 3, LAM_COMPRESS_BEST);
+                assert_int_equal(bytes.size, three.size);
+                assert_memory_equal(bytes.data, three.data, bytes.size);
+                lam_bytes_free(&three);
+            }
+            lam_bytes_free(&bytes);
+            lam_bytes_free(&fast);
+            lam_image_free(&image);
+        }
+}
+
+static void small_files_are_the_recorded_ones(void **state)
+{
+    (void)state;
+    static const struct {
+        enum content content;
+        size_t size;
+        uint64_t hash;
+    } recorded[] = {{CLEAR, 187, 0x900f3223303703cc},
+                    {GRADIENT, 1510, 0x01db834458d868f6},
+                    {OPAQUE_GREY, 3633, 0x21c3e103e0b3f27f},
+                    {RUNS, 3167, 0x3e49fd6fc25fc06a}};
+    int wrong = 0;
+    for (size_t i = 0; i < sizeof recorded / sizeof *recorded; i++) {
+        lam_image image;
+        make_picture(&image, 209, 61, recorded[i].content);
+        lam_bytes bytes = encode_as(&image, 2, LAM_COMPRESS_BEST);
+        uint64_t hash = hash_of(bytes.data, bytes.size);
+        if (hash != recorded[i].hash || bytes.size != recorded[i].size) {
+            print_message("%s: %zu bytes, 0x%016llx\n", content_names[recorded[i].content], bytes.size,
+                          (unsigned long long)hash);
+            wrong++;
+        }
+        lam_bytes_free(&bytes);
+        lam_image_free(&image);
+    }
+    assert_int_equal(wrong, 0);
+}
+
+// A cancelled call, of either kind, gives an error and no bytes.
+static void stops_when_told(void **state)
+{
+    (void)state;
+    lam_image image;
+    make_picture(&image, 400, 300, GRADIENT);
+    for (int compress = LAM_COMPRESS_FAST; compress <= LAM_COMPRESS_BEST; compress++) {
+        lam_cancel cancel = {0};
+        lam_cancel_raise(&cancel);
+        lam_control control = {.cancel = &cancel};
+        lam_save_params params = {.control = &control, .compress = (lam_compress)compress};
+        lam_bytes bytes;
+        lam_error error;
+        assert_false(lam_image_encode(&image, "png", &params, &bytes, &error));
+        assert_int_equal(error.code, LAM_CANCELLED);
+        assert_null(bytes.data);
+    }
+    lam_image_free(&image);
 }
 
 static const uint8_t *find_chunk(const lam_bytes *bytes, const char *type)
@@ -409,25 +494,28 @@ static void codes_are_complete(void **state)
 static void survives_without_memory(void **state)
 {
     (void)state;
-    lam_image image;
-    make_picture(&image, 1024, 300, GRADIENT);
-    int failures = 0;
-    for (long countdown = 0;; countdown++) {
-        arena_fail_after(countdown);
-        lam_bytes bytes;
-        lam_error error;
-        bool ok = lam_image_encode(&image, "png", &(lam_save_params){.threads = 1}, &bytes, &error);
-        arena_fail_after(-1);
-        if (ok) {
-            lam_bytes_free(&bytes);
-            break;
+    for (int compress = LAM_COMPRESS_FAST; compress <= LAM_COMPRESS_BEST; compress++) {
+        lam_image image;
+        make_picture(&image, compress ? 100 : 1024, 300, GRADIENT);
+        int failures = 0;
+        for (long countdown = 0;; countdown++) {
+            arena_fail_after(countdown);
+            lam_save_params params = {.threads = 1, .compress = (lam_compress)compress};
+            lam_bytes bytes;
+            lam_error error;
+            bool ok = lam_image_encode(&image, "png", &params, &bytes, &error);
+            arena_fail_after(-1);
+            if (ok) {
+                lam_bytes_free(&bytes);
+                break;
+            }
+            assert_int_equal(error.code, LAM_LIMIT);
+            assert_null(bytes.data);
+            failures++;
         }
-        assert_int_equal(error.code, LAM_LIMIT);
-        assert_null(bytes.data);
-        failures++;
+        assert_true(failures >= 4);
+        lam_image_free(&image);
     }
-    assert_true(failures >= 4);
-    lam_image_free(&image);
 }
 
 int main(void)
@@ -442,6 +530,9 @@ int main(void)
         cmocka_unit_test(holds_runs_of_every_length),
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(bytes_are_the_recorded_ones),
+        cmocka_unit_test(small_files_decode),
+        cmocka_unit_test(small_files_are_the_recorded_ones),
+        cmocka_unit_test(stops_when_told),
         cmocka_unit_test(chunks_say_what_is_in_it),
         cmocka_unit_test(survives_without_memory),
     };

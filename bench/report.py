@@ -80,11 +80,12 @@ def beside(row):
     extra = ["%s: %s" % (key, times(r["median"])) for key, r in row.get("ratio", {}).items() if key not in ISA_NAMES]
     if "peers_tried_ms" in row:
         extra.append("tried: " + ", ".join("%s %s" % (name, ms(t)) for name, t in row["peers_tried_ms"].items()))
+    extra += ["failed: " + problem for problem in row.get("peers_failed", [])]
     return "; ".join([text] + extra)
 
 
 def line(row):
-    return "%-34s %-7s %s (target %s)  [%.0f s]" % (row["name"], "reached" if row["reached"] else "NOT", measured(row), row["target"],
+    return "%-34s %-7s %s (target %s)  [%.0f s]" % (row["name"], "" if row["target"] == "none" else "reached" if row["reached"] else "NOT", measured(row), row["target"],
                                                   row["took_s"])
 
 

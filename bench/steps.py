@@ -26,7 +26,7 @@ def reading(kind, isas):
             prepare.append(made)
             return read
         contestants = {"lambent": ours}
-        for other in ("assimp", "copy", "touch"):
+        for other in ("touch", "copy", "assimp"):
             contestants[other] = lambda other=other: float(measure.output([paths.program("reading"), other, path]))
         taken = measure.in_turn(contestants, seconds, most_rounds=7)
         result["ms"].update({"%s, %s" % (word, key): measure.spread(t) for key, t in taken.items()})

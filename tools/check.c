@@ -111,6 +111,11 @@ static int check_one(struct class *c, const struct check_pair *pair, lam_error *
             .user = &process,
         };
         ok = lam_check_run(&params, &report, error);
+        if (!ok && error->code == LAM_BAD_ARGUMENT && !strstr(error->text, pair->fragment)) {
+            char text[sizeof error->text];
+            snprintf(text, sizeof text, "%s", error->text);
+            complain(error, error->code, "%s: %s", pair->fragment, text);
+        }
     }
     if (ok && sheet && report.scene_count)
         ok = check_sheet(&report, pair->fragment, o, sheet, error);

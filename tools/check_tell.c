@@ -15,7 +15,7 @@ static const char *what(lam_check_verdict verdict)
     case LAM_CHECK_REFUSED:
         return "is refused: it does not compile, or its two shaders do not link";
     case LAM_CHECK_ENDLESS:
-        return "does not end: it was stopped when its time was over (--stop-after)";
+        return "does not end: it was stopped";
     case LAM_CHECK_CRASHES:
         return "crashes: the graphics driver died of it";
     case LAM_CHECK_NOT_NUMBER:

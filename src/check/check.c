@@ -1,5 +1,6 @@
 // check.c: a check from beginning to end.
 #include "complete.h"
+#include "hints.h"
 #include "judge.h"
 #include "notes.h"
 
@@ -133,7 +134,14 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
     if (!drawn_read(&r->bytes, r->size, &r->drawn, error))
         return false;
     snprintf(r->report->driver, sizeof r->report->driver, "%s", r->drawn.driver);
-    if (r->drawn.state != DRAWN_PICTURES) {
+    if (r->drawn.state == DRAWN_SLOW) {
+        r->report->verdict = LAM_CHECK_ENDLESS;
+        notes_add(
+            &r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
+            "scene '%.30s' took %.2g s of the processor, where a right shader takes some milliseconds: a "
+            "loop without an end? Some drivers leave it after many turns, others stand still",
+            r->drawn.log, r->drawn.seconds);
+    } else if (r->drawn.state != DRAWN_PICTURES) {
         r->report->verdict = LAM_CHECK_REFUSED;
         notes_of_refusal(&r->notes, &r->drawn, &r->reading, p);
     }
@@ -265,7 +273,7 @@ static bool decode_all(struct run *r)
 }
 
 // `numbers`: room for the numbers of a picture.
-static void measure(struct run *r, float *numbers)
+static void measure(struct run *r, bool writes, float *numbers)
 {
     lam_check_report *report = r->report;
     for (int i = 0; i < r->scene_count; i++) {
@@ -287,11 +295,41 @@ static void measure(struct run *r, float *numbers)
         if (out->not_numbers)
             report->verdict = LAM_CHECK_NOT_NUMBER;
     }
-    if (report->verdict == LAM_CHECK_NOT_NUMBER)
+    if (report->verdict == LAM_CHECK_NOT_NUMBER && writes)
         notes_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
                   "NaN or infinity reaches the picture: pow() of a negative base, normalize() of a zero "
                   "vector and a division "
                   "by 0 give it; pow(max(x, 0.0), shininess) does not");
+}
+
+// The share of the pixels that are compared where the shader leaves nothing or no number.
+static double missing_share(const struct judged *scene, bool not_numbers)
+{
+    size_t missing = 0;
+    for (size_t i = 0; i < scene->inside_count; i++) {
+        const float *p = scene->theirs + 4 * (size_t)scene->inside[i];
+        bool clear = p[0] == 0 && p[1] == 0 && p[2] == 0 && p[3] == 0, number = true;
+        for (int c = 0; c < 4; c++)
+            number = number && p[c] - p[c] == 0;
+        missing += not_numbers ? !number : clear;
+    }
+    return scene->inside_count ? (double)missing / (double)scene->inside_count : 0;
+}
+
+// Whether a search for mistakes makes sense: not of pictures that hold hardly anything.
+static bool is_searchable(struct run *r, bool writes)
+{
+    double clear = 0, no_number = 0;
+    for (int i = 0; i < r->scene_count; i++) {
+        clear += missing_share(&r->scenes[i], false) / r->scene_count;
+        no_number += missing_share(&r->scenes[i], true) / r->scene_count;
+    }
+    if (writes && clear > 0.02)
+        notes_add(
+            &r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
+            "%.0f %% of the model is not drawn: the shader discards it, or gl_Position puts it elsewhere",
+            clear * 100);
+    return writes && clear < 0.9 && no_number < 0.5;
 }
 
 // More than pixels that are no numbers, which count as black.
@@ -316,7 +354,8 @@ static bool explain(struct run *r, lam_error *error)
                        .size = r->size,
                        .room = r->drawn.has_list ? r->drawn.light_count : 1,
                        .tolerance = r->tolerance,
-                       .before = report->mean};
+                       .before = report->mean,
+                       .unset = r->drawn.unknown_count > 0 || r->drawn.types_count > 0};
     for (int i = 0; i < r->scene_count; i++)
         s.needs |= r->scenes[i].row->needs;
     for (int i = 0; i < r->scene_count; i++) // plain scenes show more than they need
@@ -328,6 +367,10 @@ static bool explain(struct run *r, lam_error *error)
         return fail_memory(error, 1);
     if (!judge_search(&s, error))
         return false;
+    if (s.unset)
+        notes_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
+                  "a name that the contract does not know holds 0, which may be all that is wrong: put the "
+                  "names right first");
     report->findings = arena_alloc_zeroed(r->arena, FOUND_MOST * sizeof *report->findings);
     for (int i = 0; report->findings && i < s.count; i++) {
         char says[400], write[400];
@@ -342,9 +385,7 @@ static bool explain(struct run *r, lam_error *error)
                                 .mean_after = s.after[i]};
     }
     for (int i = 0; i < r->scene_count; i++)
-        if (!report->scenes[i].passes && s.certain && s.count == 1) // of those that give the same, that one
-            report->scenes[i].looks_like = s.found[0]->id;
-        else if (!report->scenes[i].passes && s.alone[i])
+        if (!report->scenes[i].passes && s.alone[i])
             report->scenes[i].looks_like = s.alone[i]->id;
     return true;
 }
@@ -372,9 +413,10 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
         float *numbers =
             ok ? arena_array(r.arena, (size_t)r.size * (size_t)r.size, 4 * sizeof *numbers) : NULL;
         ok = ok && (numbers || fail_memory(error, 1));
+        bool writes = !ok || hints_of_output(&r.notes, &r.reading.fragment, params->fragment_name);
         if (ok)
-            measure(&r, numbers);
-        if (ok && report->verdict != LAM_CHECK_PASSES && has_differences(&r))
+            measure(&r, writes, numbers);
+        if (ok && report->verdict != LAM_CHECK_PASSES && is_searchable(&r, writes) && has_differences(&r))
             ok = explain(&r, error);
     }
     if (ok && r.notes.failed)

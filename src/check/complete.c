@@ -36,6 +36,15 @@ static const char *source_of(enum carried carried, const char **w)
 char *complete_vertex(const struct reading *r, char unknown[256], lam_error *error)
 {
     const struct declarations *d = &r->fragment;
+    for (int i = 0; i < d->count; i++)
+        if (d->items[i].kind == DECLARED_INPUT && d->items[i].in_block) {
+            fail(error, LAM_BAD_ARGUMENT,
+                 "the fragment shader reads '%s' from a block, which only its own vertex shader can give: "
+                 "name "
+                 "it with --vertex",
+                 d->items[i].name);
+            return NULL;
+        }
     size_t room = 2048 + 400 * (size_t)d->count, at = 0;
     char *text = malloc(room);
     unknown[0] = 0;

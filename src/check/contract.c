@@ -28,7 +28,8 @@ static const struct contract_name lambent_names[] = {
     {"model_view", ROLE_MODEL_VIEW, false, "mat4", "model to eye space", NULL},
     {"model_view_projection", ROLE_MODEL_VIEW_PROJECTION, false, "mat4", "model to clip space", NULL},
     {"projection", ROLE_PROJECTION, false, "mat4", "eye to clip space", NULL},
-    {"normal_matrix", ROLE_NORMAL_MATRIX, false, "mat3", "inverse transpose of model_view's 3x3", NULL},
+    {"normal_matrix", ROLE_NORMAL_MATRIX, false, "mat3", "inverse transpose of model_view's 3x3",
+     "normalMatrix"},
     {"ambient_light", ROLE_AMBIENT_LIGHT, false, "vec4", "all light from everywhere", NULL},
     {"material.ambient", ROLE_AMBIENT, false, "vec4", "ka", NULL},
     {"material.diffuse", ROLE_DIFFUSE, false, "vec4", "kd; a: the opacity", NULL},
@@ -86,7 +87,8 @@ static const struct contract_name pittsburgh_names[] = {
     {"model_view", ROLE_MODEL_VIEW, false, "mat4", "model to eye space", "modelView model_view_matrix"},
     {"projection", ROLE_PROJECTION, false, "mat4", "eye to clip space", "projection_matrix"},
     {"normal_matrix", ROLE_NORMAL_MATRIX, false, "mat3", "inverse transpose of model_view's 3x3",
-     "normalMatrix"},
+     "normalMatrix NormalMatrix normal_mat model_view_inverse_transpose modelViewInverseTranspose "
+     "inverse_transpose"},
     {"ambient_product", ROLE_AMBIENT, false, "vec4", "ka times the light's ambient colour", "AmbientProduct"},
     {"diffuse_product", ROLE_DIFFUSE, false, "vec4", "kd times the light's diffuse colour", "DiffuseProduct"},
     {"specular_product", ROLE_SPECULAR, false, "vec4", "ks times the light's specular colour",
@@ -126,7 +128,8 @@ static const struct contract_name nyu_names[] = {
     {"texCoord", ROLE_TEXCOORD, true, "vec2", "texture coordinate; zero", NULL},
     {"modelViewMatrix", ROLE_MODEL_VIEW, false, "mat4", "model to eye space", NULL},
     {"projectionMatrix", ROLE_PROJECTION, false, "mat4", "eye to clip space", NULL},
-    {"normalMatrix", ROLE_NORMAL_MATRIX, false, "mat4", "inverse transpose of modelViewMatrix", NULL},
+    {"normalMatrix", ROLE_NORMAL_MATRIX, false, "mat4", "inverse transpose of modelViewMatrix",
+     "NormalMatrix normal_matrix"},
     {"uColor", ROLE_COLOR, false, "vec3", "colour of the surface", NULL},
     {"lights[].lightPosition", ROLE_LIGHT_POSITION, false, "vec3", "where the light is, in eye space", NULL},
     {"lights[].lightDirection", ROLE_LIGHT_DIRECTION, false, "vec3",
@@ -314,13 +317,13 @@ static int score(const struct contract *contract, const struct declarations *d)
     for (int i = 0; i < d->count; i++) {
         bool uniform = d->items[i].kind == DECLARED_UNIFORM;
         if (uniform || d->items[i].kind == DECLARED_INPUT)
-            points += contract_find(contract, d->items[i].name, !uniform, NULL) != NULL;
+            points += 4 * (contract_find(contract, d->items[i].name, !uniform, NULL) != NULL);
         if (d->items[i].kind == DECLARED_INPUT)
             for (const struct contract_varying *v = contract->varyings; v->names; v++)
-                points += strlen(d->items[i].name) > 1 && among(v->names, d->items[i].name);
+                points += (strlen(d->items[i].name) > 1 ? 4 : 1) * among(v->names, d->items[i].name);
     }
     for (const char *const *word = contract->built_ins; *word; word++)
-        points += declarations_use(d, *word);
+        points += 4 * declarations_use(d, *word);
     return points;
 }
 

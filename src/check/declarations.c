@@ -239,10 +239,10 @@ static void read_struct(struct reader *r) // behind `struct`
         r->shapes[r->shape_count++] = shape;
 }
 
-// uniform NAME { members } [instance];
-static bool read_block(struct reader *r)
+// uniform NAME { members } [instance]; and likewise in and out.
+static bool read_block(struct reader *r, enum declared kind)
 {
-    struct declaration member = {.kind = DECLARED_UNIFORM, .in_block = true};
+    struct declaration member = {.kind = kind, .in_block = true};
     while (r->at < r->d->word_count && !take(r, "}")) {
         while (is_qualifier(word_at(r, 0)))
             r->at++;
@@ -275,7 +275,7 @@ static bool read_statement(struct reader *r)
             item.kind = DECLARED_OUTPUT;
         } else if (next_is(r, "varying")) {
             item.kind = DECLARED_OUTPUT; // of a vertex shader; declarations_read() turns it for a fragment's
-            item.in_block = true;        // marks it until then
+            item.varying = true;
         } else if (!is_qualifier(word_at(r, 0))) {
             break;
         }
@@ -290,7 +290,7 @@ static bool read_statement(struct reader *r)
         }
     } else if ((int)item.kind >= 0 && strcmp(word_at(r, 1), "{") == 0) {
         r->at += 2;
-        if (!read_block(r))
+        if (!read_block(r, item.kind))
             return false;
     } else if ((int)item.kind >= 0) {
         snprintf(item.type, sizeof item.type, "%.31s", word_at(r, 0));
@@ -324,9 +324,9 @@ bool declarations_read(struct declarations *d, const char *text, lam_error *erro
     // A varying is written by the vertex shader and read by the fragment shader, told by gl_Position.
     bool vertex = declarations_use(d, "gl_Position");
     for (int i = 0; i < d->count; i++)
-        if (d->items[i].kind == DECLARED_OUTPUT && d->items[i].in_block) {
+        if (d->items[i].kind == DECLARED_OUTPUT && d->items[i].varying) {
             d->items[i].kind = vertex ? DECLARED_OUTPUT : DECLARED_INPUT;
-            d->items[i].in_block = false;
+            d->items[i].varying = false;
         }
     return true;
 }

@@ -19,7 +19,8 @@ struct declaration {
     int count; // of the outermost array; 0: none, −1: its size is not a number that the text tells
     int line;
     bool flat;     // interpolation qualifier
-    bool in_block; // of a uniform block
+    bool in_block; // of a block
+    bool varying;  // while it is read: of which kind is not known yet
 };
 
 struct word {

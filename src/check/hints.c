@@ -267,6 +267,31 @@ void hints_of_text(struct notes *notes, const struct declarations *d, const char
     hint_globals(notes, d, file);
 }
 
+bool hints_of_output(struct notes *notes, const struct declarations *d, const char *file)
+{
+    bool writes = declarations_use(d, "gl_FragColor") || declarations_use(d, "gl_FragData"), used = writes;
+    for (int i = 0; i < d->count; i++) {
+        const struct declaration *item = &d->items[i];
+        if (item->kind != DECLARED_OUTPUT || item->in_block)
+            continue;
+        bool whole = strchr("iub", item->type[0]) != NULL;
+        used |= declarations_use(d, item->name);
+        writes |= declarations_use(d, item->name) && !whole;
+        if (strcmp(item->type, "vec4") != 0)
+            notes_add(
+                notes, LAM_CHECK_NOTE_HINT, file, item->line,
+                whole ? "the output '%s' is of type %s, and a picture holds floats: write out vec4 %s"
+                      : "the output '%s' is of type %s, which leaves channels undefined: write out vec4 %s",
+                item->name, item->type, item->name);
+    }
+    if (!used)
+        notes_add(notes, LAM_CHECK_NOTE_HINT, file, 0,
+                  "it writes no colour, so that the pictures hold what there was: write %s",
+                  d->version >= 150 ? "out vec4 color; and give color its value in main()"
+                                    : "gl_FragColor = ...;");
+    return writes;
+}
+
 void hints_of_link(struct notes *notes, const struct reading *r, const lam_check_params *params)
 {
     for (int i = 0; i < r->fragment.count; i++) {

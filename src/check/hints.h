@@ -11,6 +11,10 @@ void hints_of_message(struct notes *notes, const struct declarations *d, const c
 // For the whole text of a shader that does not compile.
 void hints_of_text(struct notes *notes, const struct declarations *d, const char *file, bool vertex);
 
+// For a fragment shader that compiles: what it writes. False where it writes no colour that a picture can
+// hold.
+bool hints_of_output(struct notes *notes, const struct declarations *d, const char *file);
+
 // For two shaders that compile and do not link.
 void hints_of_link(struct notes *notes, const struct reading *reading, const lam_check_params *params);
 

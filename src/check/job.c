@@ -93,7 +93,7 @@ bool drawn_read(const lam_bytes *bytes, int size, struct check_drawn *drawn, lam
         pictures += drawn->scenes >> i & 1;
     size_t expected = drawn->state == DRAWN_PICTURES ? pictures * (size_t)size * (size_t)size * 4 : 0;
     if (head->floats != expected || bytes->size != sizeof *head + expected * sizeof(float) ||
-        drawn->state < 0 || drawn->state > DRAWN_REFUSED_LINK || drawn->unknown_count < 0 ||
+        drawn->state < 0 || drawn->state > DRAWN_SLOW || drawn->unknown_count < 0 ||
         drawn->unknown_count > DRAWN_UNKNOWN_MOST || drawn->types_count < 0 ||
         drawn->types_count > DRAWN_UNKNOWN_MOST)
         return fail(error, LAM_CANNOT_READ,

@@ -12,7 +12,13 @@ struct check_job {
     const char *vertex, *fragment;
 };
 
-enum drawn_state { DRAWN_PICTURES, DRAWN_REFUSED_VERTEX, DRAWN_REFUSED_FRAGMENT, DRAWN_REFUSED_LINK };
+enum drawn_state {
+    DRAWN_PICTURES,
+    DRAWN_REFUSED_VERTEX,
+    DRAWN_REFUSED_FRAGMENT,
+    DRAWN_REFUSED_LINK,
+    DRAWN_SLOW
+};
 
 enum { DRAWN_UNKNOWN_MOST = 16 };
 
@@ -21,7 +27,8 @@ struct check_drawn {
     int light_count; // room for lights in the shaders; 0: no list, one light
     bool has_list;
     char driver[128];
-    char log[4096];
+    char log[4096];                       // slow: the scene's name
+    double seconds;                       // slow: the processor's time for that scene
     char unknown[DRAWN_UNKNOWN_MOST][64]; // active uniforms and attributes that the contract does not know
     char types[DRAWN_UNKNOWN_MOST][96];   // uniforms of a type that does not fit, as a sentence's end
     int unknown_count, types_count;

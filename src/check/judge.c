@@ -153,14 +153,41 @@ static void keep(struct tried beam[BEAM], int *count, const struct tried *t)
     beam[at] = *t;
 }
 
-static void note_alone(struct search *s, const struct mistake *row, const struct distance *each,
-                       double *nearest)
+// The scenes that a mistake explains by itself, as bits.
+static uint32_t explained_by(const struct search *s, const struct distance *each)
 {
+    uint32_t scenes = 0;
     for (int i = 0; i < s->scene_count; i++)
-        if (!s->scenes[i].passes && each[i].fits && each[i].mean < nearest[i] - 1e-7) {
-            nearest[i] = each[i].mean;
-            s->alone[i] = row;
-        }
+        if (!s->scenes[i].passes && each[i].fits)
+            scenes |= (uint32_t)1 << i;
+    return scenes;
+}
+
+static int count_bits(uint32_t bits)
+{
+    int count = 0;
+    for (; bits; bits &= bits - 1)
+        count++;
+    return count;
+}
+
+static void tell_alone(struct search *s, const uint32_t *explained)
+{
+    int differ = 0, best = -1;
+    for (int i = 0; i < s->scene_count; i++)
+        differ += !s->scenes[i].passes;
+    for (int m = 0; m < mistake_count; m++)
+        if (2 * count_bits(explained[m]) >= differ &&
+            (best < 0 || count_bits(explained[m]) > count_bits(explained[best])))
+            best = m;
+    for (int i = 0; i < s->scene_count; i++) {
+        s->alone[i] = NULL;
+        for (int k = 0; s->certain && k < s->count && !s->alone[i]; k++)
+            if (explained[s->found[k] - mistakes] >> i & 1)
+                s->alone[i] = s->found[k];
+        if (!s->certain && best >= 0 && explained[best] >> i & 1)
+            s->alone[i] = &mistakes[best];
+    }
 }
 
 // Scenes that do not pass first, the farthest off before the others.
@@ -188,18 +215,14 @@ bool judge_search(struct search *s, lam_error *error)
     size_t bytes = 4 * (size_t)s->size * (size_t)s->size * sizeof(float), scenes = (size_t)s->scene_count;
     struct desk desk = {.pixels = malloc(bytes), .gathered = malloc(bytes)};
     struct distance *each = malloc(scenes * sizeof *each);
-    double *nearest = malloc(scenes * sizeof *nearest);
-    bool ok = desk.pixels && desk.gathered && each && nearest;
+    uint32_t *explained = calloc((size_t)mistake_count, sizeof *explained);
+    bool ok = desk.pixels && desk.gathered && each && explained;
     if (!ok)
         fail_memory(error, bytes);
     struct tried beam[BEAM] = {{.mean = s->before}};
     int held = 1;
-    for (size_t i = 0; ok && i < scenes; i++) {
-        nearest[i] = 1e9;
-        s->alone[i] = NULL;
-    }
-    struct tried best = {.mean = s->before};
-    for (int depth = 1; ok && depth <= FOUND_MOST && !best.fits; depth++) {
+    struct tried best = {.mean = s->before}, first = best;
+    for (int depth = 1; ok && depth <= (s->unset ? 1 : FOUND_MOST) && !best.fits; depth++) {
         struct tried next[BEAM];
         int count = 0;
         for (int b = 0; ok && b < held; b++)
@@ -214,7 +237,7 @@ bool judge_search(struct search *s, lam_error *error)
                 double most = count == BEAM ? next[BEAM - 1].mean : 1e9;
                 ok = try_set(s, &t, most, &desk, depth == 1 ? each : NULL, error);
                 if (ok && depth == 1)
-                    note_alone(s, row, each, nearest);
+                    explained[m] = explained_by(s, each);
                 if (ok && t.mean <= most)
                     keep(next, &count, &t);
             }
@@ -222,6 +245,7 @@ bool judge_search(struct search *s, lam_error *error)
         if (count == 0 || (!next[0].fits && next[0].mean > 0.95 * best.mean))
             break;
         best = next[0];
+        first = depth == 1 ? best : first;
         if (depth >= 2 && best.mean > worth_a_third * s->before)
             break;
         memcpy(beam, next, sizeof beam);
@@ -231,13 +255,17 @@ bool judge_search(struct search *s, lam_error *error)
     free(desk.pixels);
     free(desk.gathered);
     free(each);
-    free(nearest);
     s->certain = best.fits;
-    // Short of an explanation, what leaves more than a quarter unexplained is none.
-    s->count = best.fits || best.mean < unexplained_most * s->before ? best.count : 0;
+    // Short of an explanation, the one mistake that leaves less than a quarter unexplained is told.
+    if (!best.fits)
+        best = first;
+    s->count = best.fits || (!s->unset && best.mean < unexplained_most * s->before) ? best.count : 0;
     for (int i = 0; i < s->count; i++) {
         s->found[i] = best.rows[i];
         s->after[i] = best.after[i];
     }
+    if (ok)
+        tell_alone(s, explained);
+    free(explained);
     return ok;
 }

@@ -50,6 +50,7 @@ struct search {
     double tolerance;
     int order[ORDER_MOST];
     unsigned needs; // of the scenes together
+    bool unset;     // names without a value: only a mistake that explains all by itself counts
     // Results: mistakes in the order found, the mean distance after each, and whether they explain
     // everything.
     const struct mistake *found[FOUND_MOST];
@@ -57,7 +58,9 @@ struct search {
     int count;
     bool certain;
     double before;
-    const struct mistake **alone; // for each scene, the one mistake that explains it by itself; NULL: none
+    // For each scene the one of the found that explains it by itself; where no explanation is certain, the
+    // one mistake that explains it and half of the others that differ. NULL: none.
+    const struct mistake **alone;
 };
 
 // Looks for the fewest mistakes that explain the pictures. `alone` has room for scene_count.

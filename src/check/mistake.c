@@ -15,6 +15,11 @@ const struct mistake mistakes[] = {
      "the interpolated normal is not made unit again in the fragment shader: between vertices it is shorter "
      "than 1",
      "vec3 n = normalize(N); // in the fragment shader, before any dot product"},
+    {"normal-unit-late", B(LONG_NORMAL_VERTEX), WHERE_FRAGMENT, 0,
+     "the normal is made unit only in the fragment shader: the matrix changes the normals' lengths, and "
+     "longer "
+     "ones weigh more between vertices",
+     "N = normalize({normal_matrix} * {normal}); // in the vertex shader too"},
     {"normal-never-unit", B(LONG_NORMAL) | B(LONG_NORMAL_VERTEX), 0, 0,
      "the normal is never made unit, though the matrix changes its length",
      "N = normalize({normal_matrix} * {normal});"},

@@ -116,6 +116,24 @@ static void tell_types(struct notes *notes, const struct reading *r, const struc
                   d->name, known->type, d->name);
 }
 
+// Whether the driver keeps a declared name: "lights[].a" is "lights[0].a" to it, and a block's member
+// "Block.a".
+static bool is_active(const struct check_drawn *drawn, const char *declared)
+{
+    for (int i = 0; i < drawn->unknown_count; i++) {
+        const char *a = drawn->unknown[i], *b = declared, *dot = strchr(a, '.');
+        for (int k = 0; k < 2 && a; k++, a = dot ? dot + 1 : NULL) {
+            const char *x = a;
+            for (b = declared; *x && *x == *b; x++, b++)
+                if (*x == '[')
+                    x += strcspn(x, "]") - 1;
+            if ((!*x || *x == '[') && (!*b || *b == '['))
+                return true;
+        }
+    }
+    return false;
+}
+
 void notes_of_names(struct notes *notes, const struct check_drawn *drawn, const struct reading *r,
                     const lam_check_params *params)
 {
@@ -127,9 +145,11 @@ void notes_of_names(struct notes *notes, const struct check_drawn *drawn, const 
             bool attribute = s == 0 && d->kind == DECLARED_INPUT && params->vertex;
             if (d->kind != DECLARED_UNIFORM && !attribute)
                 continue;
-            if (!contract_find(r->contract, d->name, attribute, NULL))
-                tell_unknown(notes, r, d->name, attribute ? "attribute" : "uniform", file, d->line);
-            else if (!attribute)
+            if (!contract_find(r->contract, d->name, attribute, NULL)) {
+                // One that nothing of the picture depends on does no harm.
+                if (drawn->state != DRAWN_PICTURES || is_active(drawn, d->name))
+                    tell_unknown(notes, r, d->name, attribute ? "attribute" : "uniform", file, d->line);
+            } else if (!attribute)
                 tell_types(notes, r, d, file);
         }
     for (int i = 0; i < drawn->unknown_count; i++) { // active, and not seen in the text (made by macros)

@@ -39,6 +39,7 @@ P_MINUS = [
 MISTAKES = [
     # --- Pittsburgh's names, lit per fragment
     (P, "normal-not-unit", [frag("normalize(N)", "N")]),
+    (P, "normal-unit-late", [vert("normalize(normal_matrix * vNormal.xyz)", "normal_matrix * vNormal.xyz")]),
     (P, "normal-never-unit", [frag("normalize(N)", "N"), vert("normalize(normal_matrix * vNormal.xyz)", "normal_matrix * vNormal.xyz")]),
     (P, "normal-by-model-view", [vert("normal_matrix * vNormal.xyz", "(model_view * vNormal).xyz")]),
     (P, "normal-object-space", [vert("normal_matrix * vNormal.xyz", "vNormal.xyz")]),
@@ -112,6 +113,9 @@ MISTAKES = [
     (Q, "light-not-moved", [vert("vec4 light = model_view * light_position", "vec4 light = light_position")]),
     (Q, "direction-as-point", [vert("light.w == 0.0 ? light.xyz : light.xyz - point.xyz", "light.xyz - point.xyz")]),
     (Q, "half-of-raw-light", [vert("normalize(l + v)", "normalize(way + v)")]),
+    (Q, "ambient-attenuated specular-not-attenuated", [
+        vert("color = ambient_product + attenuation * (diffuse_product * max(dot(n, l), 0.0) + specular_product * s)",
+             "color = attenuation * (ambient_product + diffuse_product * max(dot(n, l), 0.0)) + specular_product * s")]),
     (Q, "no-attenuation", [vert("attenuation * (diffuse_product", "(diffuse_product")]),
     (Q, "clip-space-vertex", [vert("vec4 point = model_view * vPosition;", "vec4 point = projection * model_view * vPosition;"),
                               vert("gl_Position = projection * point", "gl_Position = point")]),
@@ -136,12 +140,17 @@ MISTAKES = [
     (O, "blinn-phong-lobe", [frag("dot(r, e)", "dot(normalize(l + e), n)")]),
     (O, "blinn-phong-times-4", [frag("max(dot(r, e), 0.0), uShininess", "max(dot(normalize(l + e), n), 0.0), 4.0 * uShininess")]),
     (O, "shininess-times-4", [frag("0.0), uShininess", "0.0), 4.0 * uShininess")]),
+    (O, "no-ambient no-gate", [frag("uKa * uColor + ", ""), frag("dot(n, l) > 0.0 ? pow(max(dot(r, e), 0.0), uShininess) : 0.0",
+                                                                  "pow(max(dot(r, e), 0.0), uShininess)")]),
     (O, "no-ambient", [frag("uKa * uColor + ", "")]),
     (O, "no-clamp", [frag("max(dot(n, l), 0.0)", "dot(n, l)")]),
     (O, "specular-in-diffuse-colour", [frag("uKs * s * uSpecularColor", "uKs * s * uColor")]),
     (O, "smooth-for-flat", [frag("uFlat ? vNf : vNs", "vNs"), frag("uFlat ? vLf : vLs", "vLs"), frag("uFlat ? vEf : vEs", "vEs")]),
     # --- NYU's names, two point lights
     (N, "normal-not-unit", [frag("normalize(varyingNormal)", "varyingNormal")]),
+    (N, "normal-by-model-view no-gate normal-unit-late", [
+        vert(N_NORMAL, "(modelViewMatrix * normal).xyz"),
+        frag("dot(n, l) > 0.0 ? pow(max(dot(n, h), 0.0), 64.0) : 0.0", "pow(max(dot(n, h), 0.0), 64.0)")]),
     (N, "normal-with-w", [vert(N_NORMAL, "normalize(normalMatrix * normal).xyz"), frag("normalize(varyingNormal)", "varyingNormal")]),
     (N, "normal-by-model-view", [vert("normalMatrix * normal", "modelViewMatrix * normal")]),
     (N, "no-attenuation", [frag("attenuate(length(way) / 5.0, 2.7, 5.0)", "1.0")]),

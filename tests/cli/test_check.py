@@ -72,7 +72,8 @@ class Right(CheckTest):
     def test_each_contract(self):
         for name, contract, lit in (("pittsburgh", "pittsburgh", "fragment"), ("pittsburgh-vertex", "pittsburgh", "vertex"),
                                     ("oregon", "oregon", "fragment"), ("nyu", "nyu", "fragment"),
-                                    ("nyu-direction", "nyu", "fragment"), ("lambent", "lambent", "fragment")):
+                                    ("nyu-direction", "nyu", "fragment"), ("lambent", "lambent", "fragment"),
+                                    ("pittsburgh-blocks", "pittsburgh", "fragment"), ("pittsburgh-helpers", "pittsburgh", "fragment")):
             with self.subTest(name):
                 report = self.report_of(*self.shader(name), size=128)
                 self.assertEqual((report["verdict"], report["contract"], report["lit_in"]), ("passes", contract, lit))
@@ -316,6 +317,43 @@ class Unruly(CheckTest):
         asker.send_signal(signal.SIGINT)
         self.assertEqual(asker.wait(), -signal.SIGINT)
         self.assertEqual(self.processes(), [])
+
+    def test_endless_and_left(self):
+        """A software driver leaves such a loop by itself; it is told by the time that it took."""
+        report = self.report_of(*self.shader("pittsburgh", [("frag", "vec3 n = normalize(N);", self.LOOP)]), "--scenes", "all",
+                                "--stop-after", 1000, code=6)
+        self.assertEqual(report["verdict"], "endless")
+        self.assertIn("a loop without an end", " ".join(self.notes(report, "hint")))
+
+    def test_draws_nothing(self):
+        report = self.report_of(*self.shader("pittsburgh", [("frag", "gl_FragColor =", "discard; gl_FragColor =")]), code=6)
+        self.assertEqual((report["verdict"], report["mistakes"]), ("differs", []))
+        self.assertIn("100 % of the model is not drawn", " ".join(self.notes(report, "hint")))
+        report = self.report_of(*self.shader("nyu", [("frag", "gl_FragColor =", "vec4 color =")]), code=6)
+        self.assertIn("it writes no colour", " ".join(self.notes(report, "hint")))
+        self.assertEqual(report["mistakes"], [])
+
+    def test_outputs(self):
+        """Shaders of the core profile that leave out the normal, or write no vec4."""
+        text = "#version 330 core\nuniform vec4 ambient_product;\nin vec3 fN;\nout %s o;\nvoid main() { o = %s(ambient_product); }\n"
+        for kind, said in (("vec4", None), ("ivec4", "a picture holds floats"), ("vec3", "leaves channels undefined")):
+            (self.folder / "s.frag").write_text(text % (kind, kind))
+            report = self.report_of("s.frag", "--scenes", "ambient", code=6 if kind == "ivec4" else 0)
+            if said:
+                self.assertIn(said, " ".join(self.notes(report, "hint")))
+            else:
+                self.assertEqual((report["verdict"], report["notes"]), ("passes", []))
+
+    def test_unused_and_unset(self):
+        """A name that nothing depends on does no harm; one that holds 0 is told before mistakes are."""
+        unused = ("frag", "uniform float shininess;", "uniform float shininess;\nuniform vec3 of_no_use;")
+        self.assertEqual(self.report_of(*self.shader("pittsburgh", [unused]), "--scenes", "all")["notes"], [])
+        words = self.shader("pittsburgh", [("vert", "uniform mat3 normal_matrix;", "uniform mat3 turn;"),
+                                           ("vert", "normal_matrix * vNormal", "turn * vNormal")])
+        report = self.report_of(*words, code=6)
+        self.assertEqual(report["mistakes"], [])
+        self.assertIn("'turn' is unknown", " ".join(self.notes(report, "unknown")))
+        self.assertIn("put the names right first", " ".join(self.notes(report, "hint")))
 
     def test_driver_sleeps(self):
         """One that waits for ever takes none of the processor's time: the clock stops it."""

@@ -38,6 +38,11 @@ def around(count):
     return lights
 
 
+def from_the_front(count):
+    """The same lights, drawn in around the eye: all of them reach all that is seen."""
+    return [dict(light, position=tuple(2.2 * e + 0.25 * p for e, p in zip(EYE, light["position"]))) for light in around(count)]
+
+
 class Scene:
     """One model under point lights: .json is Lambent's file, .text the OpenGL program's."""
 

@@ -228,6 +228,20 @@ class Refused(CheckTest):
         line = [note["line"] for note in report["notes"] if note["kind"] == "compiler"][0]
         self.assertEqual((SHADERS / "pittsburgh.frag").read_text().splitlines()[line - 1].strip(), "vec3 v = normalize(V);")
 
+    def test_undeclared(self):
+        self.told("oregon", [("frag", "    float s =", "    diffuse = uColor;\n    float s =")], "'diffuse' is declared nowhere")
+        self.told("nyu", [("frag", "float attenuation =", "float weakened =")], "'attenuation' is declared nowhere")
+
+    def test_global_from_uniform(self):
+        """GLSL ES starts globals with constants only."""
+        for ending, old, new in (("vert", "varying ", "out "), ("frag", "varying ", "in ")):
+            text = (SHADERS / f"nyu.{ending}").read_text().replace("#version 120\n", "").replace("attribute ", "in ").replace(old, new)
+            text = text.replace("gl_FragColor", "pixel").replace("void main()", "vec3 tint = uColor;\nvoid main()" if ending == "frag" else "void main()")
+            (self.folder / f"s.{ending}").write_text("#version 300 es\nprecision highp float;\n" + ("out vec4 pixel;\n" if ending == "frag" else "") + text)
+        report = self.report_of("s.frag", "--vertex", "s.vert", code=6)
+        self.assertEqual(report["verdict"], "refused")
+        self.assertIn("GLSL ES starts globals with constants only: give 'tint'", " ".join(self.notes(report, "hint")))
+
     def test_names_of_two(self):
         self.told("pittsburgh", [("frag", "uniform float shininess;", "uniform float shininess; uniform vec3 eye_point;"),
                                  ("frag", "normalize(V)", "normalize(eye_position)")], "'eye_point' is. Is it meant?")

@@ -37,7 +37,7 @@ def measured(row):
         return ", ".join("%s: %.1f GB/s" % (word, row["rates"][word + ", lambent"]["median"]) for word in ("1M", "10M"))
     if "over_ms" in row:
         return "%s ms" % ms(row["over_ms"]["median"])
-    cells = ["%s: %s" % (ISA_NAMES[isa], times(r["median"])) for isa, r in row["ratio"].items() if isa in ISA_NAMES]
+    cells = ["%s: %s" % (ISA_NAMES.get(isa, isa), times(r["median"])) for isa, r in row["ratio"].items() if isa in ISA_NAMES or "bytes" in row]
     if "besides_encoder_ms" in row and row["name"] in ("whole spot", "whole teapot"):
         cells.append("%s ms besides the encoder" % ms(row["besides_encoder_ms"]))
     return ", ".join(cells)
@@ -60,8 +60,7 @@ def beside(row):
     if "not_measured" in row:
         return ""
     if "bytes" in row:
-        return "%d MB of a file of %d MB; 4 samples %s" % (row["bytes"][next(iter(row["bytes"]))] // 10**6, row["file_bytes"] // 10**6,
-                                                         times(row["ratio"]["4 samples"]["median"]))
+        return "%d MB of a file of %d MB, with 1 sample" % (row["bytes"][next(iter(row["bytes"]))] // 10**6, row["file_bytes"] // 10**6)
     if "encoders" in row:
         other = row["encoders"]
         return "one thread %s ms; libpng 6 %s ms, %d kB; libdeflate 1 %s ms, %d kB" % (

@@ -1,4 +1,4 @@
-# test_devices.py: the command `devices`, on this machine and on one whose OpenGL is broken.
+# test_devices.py: the command `devices`, on this machine and on one whose OpenGL is broken; pictures by OpenGL.
 import json
 import os
 import subprocess
@@ -36,3 +36,60 @@ class Devices(Case):
         drawn = subprocess.run([PROGRAM, "cube", "-s", "32x32"], capture_output=True, cwd=self.folder, timeout=60,
                                env={**os.environ, "LD_LIBRARY_PATH": str(self.folder)})
         self.assertEqual(drawn.returncode, 0)
+        # Asked for OpenGL, none is drawn by something else.
+        for option in (["--device", "gl"], ["--device", "gles"], ["--gl-device", "0"]):
+            self.bad(3, "cube", "-s", "32x32", *option, says=("libEGL.so.1 cannot be opened", "apt install libegl1"),
+                     leaves=["cube.png"], env={"LD_LIBRARY_PATH": str(self.folder)})
+
+    def test_options(self):
+        self.bad(1, "cube", "--device", "vulkan", says=("vulkan", "auto, cpu, gl or gles"))
+        self.bad(1, "cube", "--device", "cpu", "--gl-device", "0", says=("--device cpu", "--gl-device"))
+        self.bad(1, "cube", "--device", "gl", "--isa", "plain", says="--isa")
+        self.bad(1, "cube", "--device", "gl", "--stage", "vertex", "--shading", "phong", says=("phong", "fragment"))
+
+
+class Drawing(Case):
+    def setUp(self):
+        super().setUp()
+        devices = json.loads(self.good("devices", "--json").stdout)["gl"]
+        self.usable = [d for d in devices if d["reason"] is None]
+        if not self.usable:
+            self.skipTest("no OpenGL here")
+
+    def apart(self, *words, device="gl"):
+        """Pixels that the two devices draw more than 1/255 apart, and the report of OpenGL's picture."""
+        self.good(*words, "-s", "64x48", "-o", "cpu.png")
+        report = self.report(*words, "-s", "64x48", "-o", "gl.png", "--device", device)
+        return json.loads(self.run_program("diff", "cpu.png", "gl.png", "--tolerance", 1, "--json").stdout)["differ"], report
+
+    def test_same_picture(self):
+        for device, version in (("gl", "OpenGL 3.3"), ("gles", "OpenGL ES 3.0")):
+            if not any(version in d["versions"] for d in self.usable):
+                continue
+            for more in ([], ["--opacity", "0.5"], ["--stage", "application"], ["--shading", "flat", "--background", "white"],
+                         ["--show", "ids"], ["--environment", "sky", "--reflectivity", "0.5"]):
+                differ, report = self.apart("cube", "--samples", 1, *more, device=device)
+                self.assertLessEqual(differ, 3, more)
+                self.assertTrue(report["device"]["name"].startswith("gl "))
+                self.assertEqual(report["device"]["isa"], None)
+                self.assertGreater(report["counts"]["bytes_uploaded"], 0)
+                self.assertGreater(report["counts"]["pixels_covered"], 0)
+                steps = report["times_ms"]["steps"]
+                self.assertTrue(steps["draw"] > 0 and steps["read"] > 0)
+                self.assertEqual(steps["lighting"] > 0, "application" in more)
+
+    def test_samples_and_repeated_frames(self):
+        differ, _ = self.apart("cube", "--samples", 8, "--show", "coverage")
+        self.assertLessEqual(differ, 3)
+        report = self.report("cube", "-s", "32x32", "--device", "gl", "--repeat", 3, "-o", "r.png")
+        self.assertEqual(report["counts"]["bytes_uploaded"], 0)  # of the median frame: all is there
+
+    def test_choosing(self):
+        name = self.usable[0]["name"]
+        for chosen in (str(self.usable[0]["number"]), name, name[:4].upper()):
+            self.assertIn(name[:40], self.report("cube", "-s", "16x16", "--gl-device", chosen, "-o", "c.png")["device"]["name"])
+        self.bad(3, "cube", "--gl-device", "voodoo", says=("'voodoo'", name), leaves=["c.png"])
+        self.bad(3, "cube", "--device", "gl", "--gl-device", "99", says=("no device 99", "expected 0 to"), leaves=["c.png"])
+
+    def test_what_it_cannot(self):
+        self.bad(3, "explain", "cube", "5,5", "--device", "gl", says=("cannot explain", "CPU device"))

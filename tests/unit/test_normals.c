@@ -435,15 +435,16 @@ static void test_random(void **state)
     }
 }
 
+// Of the processor's time, not of the clock on the wall: some hundred times what is needed.
 static void within_seconds(clock_t start, double seconds)
 {
     assert_true((double)(clock() - start) / CLOCKS_PER_SEC < seconds);
 }
 
-static void test_million_at_one_vertex(void **state)
+static void test_crowd_at_one_vertex(void **state)
 {
     (void)state;
-    enum { COUNT = 1000000 };
+    enum { COUNT = 200000 }; // squared, they would take minutes
     struct arena arena;
     arena_start(&arena, NULL);
     float *p = malloc((COUNT + 1) * 12);
@@ -482,14 +483,14 @@ static void test_million_at_one_vertex(void **state)
     smooth(&mesh, 40, &arena, NULL);
     within_seconds(start, 20);
 
-    // One triangle a million times, and a million times nothing.
+    // One triangle as many times, and as many times nothing.
     for (uint32_t i = 0; i < COUNT; i++)
-        memcpy(indices + 3 * (size_t)i, (uint32_t[]){0, 1, 250000}, 12);
+        memcpy(indices + 3 * (size_t)i, (uint32_t[]){0, 1, COUNT / 4}, 12);
     start = clock();
     smooth(&mesh, 40, &arena, NULL);
     memset(indices, 0, (size_t)COUNT * 12);
     smooth(&mesh, 40, &arena, NULL);
-    within_seconds(start, 40);
+    within_seconds(start, 20);
     assert_normal(&mesh, 5, 0, 0, 0);
     free(p);
     free(indices);
@@ -661,7 +662,7 @@ int main(void)
         cmocka_unit_test(test_inconsistent_winding),
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_random),
-        cmocka_unit_test(test_million_at_one_vertex),
+        cmocka_unit_test(test_crowd_at_one_vertex),
         cmocka_unit_test(test_colliding_positions),
         cmocka_unit_test(test_one_partition),
         cmocka_unit_test(test_controls),

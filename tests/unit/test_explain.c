@@ -327,6 +327,30 @@ static void test_ways(void **state)
     lam_device_free(device);
 }
 
+// A picture full of one surface: each pixel of a tile is one fragment, and stands in no sum while it is
+// drawn.
+static void test_filled(void **state)
+{
+    (void)state;
+    lam_device *device = make_device(LAM_ISA_AUTO);
+    struct demo demo = {.width = 130, .height = 130, .camera = lam_camera_default()};
+    demo.scene = lam_scene_make(NULL);
+    lam_object object = lam_object_default();
+    object.mesh =
+        lam_scene_add_shape(demo.scene, "sphere", &(lam_shape_params){.slices = 200, .stacks = 100}, NULL);
+    assert_true(lam_scene_add_object(demo.scene, &object, NULL) >= 0);
+    demo.camera.eye = (lam_vec3){0, 0.3, 1.2};
+    demo.camera.target = (lam_vec3){0, 0, 0};
+    for (int way = 0; way < 6; way++) {
+        demo.params.samples = way & 1 ? 4 : 1;
+        demo.params.shading = shadings[way / 2];
+        demo.format = way & 2 ? LAM_RGBA32F : LAM_RGBA8;
+        check_pixels(device, device, &demo, "filled");
+    }
+    lam_scene_free(demo.scene);
+    lam_device_free(device);
+}
+
 // A known place: the sphere's middle under the headlight, seen straight from the front.
 static void test_known(void **state)
 {
@@ -406,8 +430,8 @@ static void test_device_unchanged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_scenes), cmocka_unit_test(test_models),           cmocka_unit_test(test_ways),
-        cmocka_unit_test(test_known),  cmocka_unit_test(test_device_unchanged),
+        cmocka_unit_test(test_scenes), cmocka_unit_test(test_models), cmocka_unit_test(test_ways),
+        cmocka_unit_test(test_filled), cmocka_unit_test(test_known),  cmocka_unit_test(test_device_unchanged),
     };
     return cmocka_run_group_tests_name("explain", tests, NULL, NULL);
 }

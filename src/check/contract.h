@@ -120,8 +120,8 @@ const char *contract_name_used(const struct contract *contract, enum role role,
                                const struct declarations *vertex, const struct declarations *fragment);
 
 // The study as the contract can say it: what it has no names for takes the contract's fixed values.
-// `offers`: of the contract's, what the shaders have names for, and study rules (reading.h); `light_count`: the lights that
-// they have room for.
+// `offers`: of the contract's, what the shaders have names for, and study rules (reading.h); `light_count`:
+// the lights that they have room for.
 struct study contract_study(const struct contract *contract, unsigned offers, const struct study *study,
                             int light_count);
 

@@ -79,11 +79,13 @@ void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int til
             int at = y * TILE + x;
             float first = thread->sum[0][at];
             if (show == LAM_SHOW_CLIPPED)
-                shown_put_clipped(cpu->image->format, thread->shown + 4 * ((size_t)y * (size_t)width + (size_t)x), row);
+                shown_put_clipped(cpu->image->format,
+                                  thread->shown + 4 * ((size_t)y * (size_t)width + (size_t)x), row);
             else if (of_pixels)
                 shown_put(cpu->frame, cpu->image->format, (float[4]){first, first, first, 1}, row);
             else
-                shown_put(cpu->frame, cpu->image->format, (float[4]){first, thread->sum[1][at], thread->sum[2][at], thread->sum[3][at]}, row);
+                shown_put(cpu->frame, cpu->image->format,
+                          (float[4]){first, thread->sum[1][at], thread->sum[2][at], thread->sum[3][at]}, row);
         }
     }
 }
@@ -93,9 +95,11 @@ void show_empty(struct cpu_frame *cpu)
     lam_show show = cpu->frame->show;
     if (show == LAM_SHOW_CLIPPED) {
         const lam_rgba *b = &cpu->frame->background;
-        shown_put_clipped(cpu->image->format, (float[4]){b->r * b->a, b->g * b->a, b->b * b->a, b->a}, cpu->empty_pixel);
+        shown_put_clipped(cpu->image->format, (float[4]){b->r * b->a, b->g * b->a, b->b * b->a, b->a},
+                          cpu->empty_pixel);
         return;
     }
-    shown_put(cpu->frame, cpu->image->format, (float[4]){0, 0, 0, show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW ? 1.0f : 0.0f},
-        cpu->empty_pixel);
+    shown_put(cpu->frame, cpu->image->format,
+              (float[4]){0, 0, 0, show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW ? 1.0f : 0.0f},
+              cpu->empty_pixel);
 }

@@ -1,5 +1,5 @@
-// shown_pixels.c: pixels that hold numbers of the surfaces in place of colours: their code in 8 bits (lam_show in
-// lambent/device.h says it). Plain C, one code for all devices.
+// shown_pixels.c: pixels that hold numbers of the surfaces in place of colours: their code in 8 bits
+// (lam_show in lambent/device.h says it). Plain C, one code for all devices.
 #include "shown_pixels.h"
 
 #include <string.h>

@@ -49,8 +49,8 @@ struct scene_origin {
     int part_count;
 };
 
-// Stands for a scene in the caches of devices: whoever holds it knows that no other scene has the same one, though
-// another may come to lie at the same address, and sees when it is gone.
+// Stands for a scene in the caches of devices: whoever holds it knows that no other scene has the same one,
+// though another may come to lie at the same address, and sees when it is gone.
 struct scene_token {
     int references; // touched atomically
     int gone;       // likewise: the scene was freed

@@ -145,6 +145,30 @@ static bool make_set(struct cpu_frame *cpu, struct seeing_room *room, lam_error 
     return true;
 }
 
+// Finds memory for the elements and normals of so many corners: the elements take the spare one where they
+// fit, and so do the normals where both do. Of memory of their own few pages are touched: corners share
+// normals.
+static bool place_normals(struct seeing_room *room, struct seen_normals *seen, size_t corners,
+                          struct spare *spare, struct watch *watch, lam_error *error)
+{
+    size_t elements = (corners * sizeof *seen->elements + 63) / 64 * 64,
+           normals = (corners * sizeof *seen->normals + 63) / 64 * 64;
+    size_t lies_there = elements + normals <= spare->room ? elements + normals
+                        : elements <= spare->room         ? elements
+                                                          : 0;
+    size_t fresh = elements + normals - lies_there;
+    if (fresh && !buffer_reserve(&room->normals, fresh, watch, error))
+        return false;
+    char *own = room->normals.data, *spared = spare->memory;
+    seen->elements = (uint32_t *)(lies_there ? spared : own);
+    seen->normals = (float(*)[3])(lies_there == elements + normals ? spared + elements
+                                  : lies_there                     ? own
+                                                                   : own + elements);
+    seen->used = 0;
+    spare->used = lies_there;
+    return true;
+}
+
 bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
 {
     const struct frame *frame = cpu->frame;
@@ -171,13 +195,8 @@ bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *e
     size_t corners = 3 * (size_t)seen->triangles.count;
     if (corners == 0)
         return true; // no triangle is seen
-    size_t bytes = corners * (sizeof *seen->elements + sizeof *seen->normals);
-    bool lies_there = bytes <= spare.room;
-    if (!lies_there && !buffer_reserve(&room->normals, bytes, cpu->watch, error))
+    if (!place_normals(room, seen, corners, &spare, cpu->watch, error))
         return false;
-    seen->normals = lies_there ? spare.memory : room->normals.data;
-    spare.used = lies_there && bytes + 63 < spare.room ? (bytes + 63) / 64 * 64 : lies_there ? spare.room : 0;
-    seen->elements = (uint32_t *)(seen->normals + corners);
     for (int i = 0; i < frame->draw_count; i++)
         if (frame->draws[i].crease_rad > 0 &&
             !normals_seen(frame->draws[i].mesh, frame->draws[i].first_id, frame->draws[i].crease_rad, seen,

@@ -104,21 +104,21 @@ static void bin_chunk(void *user, size_t index, int thread)
 
 // --- fans
 
-// Gives a corner of a triangle that is seen its fan's normal. element_of[fan] is NONE until one has it.
-static inline void hand_out(struct seeing *s, uint32_t corner, uint32_t fan, const float normal[3],
-                            uint32_t *element_of)
+// Where the element of a corner stands; NONE: its triangle is not seen.
+static inline size_t place_of(const struct seeing *s, uint32_t corner)
 {
     const struct number_set *triangles = &s->seen->triangles;
     uint32_t triangle = corner / 3;
     size_t number = s->first + (size_t)triangle;
-    if (!number_set_holds(triangles, number))
-        return;
-    uint32_t element = 3 * number_set_place(triangles, number) + (corner - 3 * triangle);
-    if (element_of[fan] == NONE) {
-        element_of[fan] = element;
-        memcpy(s->seen->normals[element], normal, 3 * sizeof *normal);
-    }
-    s->seen->elements[element] = element_of[fan];
+    return number_set_holds(triangles, number)
+               ? 3 * (size_t)number_set_place(triangles, number) + (corner - 3 * triangle)
+               : NONE;
+}
+
+// The first of `count` elements that nobody has yet.
+static inline uint32_t new_elements(struct seeing *s, uint32_t count)
+{
+    return __atomic_fetch_add(&s->seen->used, count, __ATOMIC_RELAXED);
 }
 
 // The normals at one position.
@@ -130,30 +130,46 @@ static bool make_fans(struct seeing *s, struct fan_room *room, const uint32_t *c
     uint32_t fans = fan_normals(s->mesh, s->least_cosine, room, count);
     uint32_t *element_of = room->corners; // free again
     memset(element_of, 0xff, fans * sizeof *element_of);
-    for (uint32_t i = 0; i < count; i++)
-        hand_out(s, room->spokes[i].corner, room->spokes[i].fan, room->normals[room->spokes[i].fan],
-                 element_of);
+    for (uint32_t i = 0; i < count; i++) {
+        size_t place = place_of(s, room->spokes[i].corner);
+        uint32_t fan = room->spokes[i].fan;
+        if (place == NONE)
+            continue;
+        if (element_of[fan] == NONE) {
+            element_of[fan] = new_elements(s, 1);
+            memcpy(s->seen->normals[element_of[fan]], room->normals[fan], sizeof s->seen->normals[0]);
+        }
+        s->seen->elements[place] = element_of[fan];
+    }
     return true;
 }
 
-// The normals at the positions that were gathered.
+// The normals at the positions that were gathered; fans of which no corner is seen get no element.
 static bool make_batch(struct seeing *s, struct seen_worker *worker)
 {
     struct fan_batch *batch = worker->batch;
-    uint32_t element_of[FAN_CORNERS];
+    struct seen_normals *seen = s->seen;
+    uint32_t element_of[FAN_CORNERS], elements = 0;
+    size_t place_at[FAN_CORNERS];
     fan_batch_make(batch, s->mesh, s->least_cosine, s->lanes);
     memset(element_of, 0xff, batch->fans * sizeof *element_of);
     for (uint32_t p = 0; p < batch->places; p++) {
         const struct fan_place *place = &batch->place[p];
         if (!place->done && !make_fans(s, &worker->room, batch->corner + place->first, place->count))
             return false;
-        for (uint32_t i = place->first; place->done && i < (uint32_t)place->first + place->count; i++) {
-            uint32_t fan = batch->fan[i];
-            const struct fan_sums *sums = &batch->sums;
-            float normal[3] = {sums->unit[0][fan], sums->unit[1][fan], sums->unit[2][fan]};
-            hand_out(s, batch->corner[i], fan, normal, element_of);
+        for (uint32_t i = place->first; i < (uint32_t)place->first + place->count; i++) {
+            place_at[i] = place->done ? place_of(s, batch->corner[i]) : NONE;
+            if (place_at[i] != NONE && element_of[batch->fan[i]] == NONE)
+                element_of[batch->fan[i]] = elements++;
         }
     }
+    uint32_t first = new_elements(s, elements);
+    for (uint32_t fan = 0; fan < batch->fans; fan++)
+        for (uint32_t k = 0; k < 3 && element_of[fan] != NONE; k++)
+            seen->normals[first + element_of[fan]][k] = batch->sums.unit[k][fan];
+    for (uint32_t i = 0; i < batch->count; i++)
+        if (place_at[i] != NONE)
+            seen->elements[place_at[i]] = first + element_of[batch->fan[i]];
     fan_batch_empty(batch);
     return true;
 }

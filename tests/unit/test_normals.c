@@ -1,5 +1,6 @@
 // test_normals.c: smooth and facet normals.
-// Above 600 lines: one test for each rule, each shape of file that once broke it, and the reference that all are held to.
+// Above 600 lines: one test for each rule, each shape of file that once broke it, and the reference that all
+// are held to.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -88,6 +89,7 @@ static void seen_as_made(const lam_mesh *mesh, double crease_degrees, struct poo
             }
         }
         assert_true(members > 0 || !mesh->triangle_count);
+        assert_true(seen.used <= 3 * members);
         // What belongs to other meshes is left alone.
         for (uint32_t i = 1; i < firsts[k]; i += 2)
             assert_int_equal(seen_element(&seen, i, 0), UINT32_MAX);

@@ -117,7 +117,7 @@ const struct topic topics[] = {
                "shows it beneath, drawn three times as large. That sheet, `surfaces` and `terms` give the "
                "model's materials a specular "
                "colour of their own, so that there is a highlight to see; `terms` takes the other terms away "
-               "by black coefficients."},
+               "by black coefficients; `ambient` gives them the ambient coefficient that a plain model has."},
     {"Explaining a pixel", "`lambent explain MODEL X,Y` takes the options that the picture was made with and "
                            "tells how the pixel in column X and row Y "
                            "(from 0, from the top left corner) came about: each triangle that it shows with "

@@ -129,6 +129,10 @@ static void warn_unseen(const struct options *options, lam_scene *scene)
 bool environment_option_apply(const struct options *options, lam_scene *scene, const lam_control *control,
                               lam_error *error)
 {
+    if (options->has_reflectivity &&
+        (options->reflectivity.r > 1 || options->reflectivity.g > 1 || options->reflectivity.b > 1))
+        lam_scene_add_warning(
+            scene, "option '--reflectivity': a surface that returns more light than arrives (over 1)");
     if (options->has_reflectivity && !set_reflectivity(scene, options->reflectivity, error))
         return false;
     double rotation_rad = radians(options->environment_rotation_deg);

@@ -19,6 +19,7 @@
 #include "show_all.h"
 #include "show_option.h"
 #include "suggest.h"
+#include "material_option.h"
 
 static lam_view view_of(const struct options *o)
 {
@@ -145,6 +146,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     }
     if (!job->scene)
         return false;
+    materials_warn(job->scene);
     job->model_counts =
         (struct model_counts){lam_scene_triangle_count(job->scene), lam_scene_vertex_count(job->scene),
                               lam_scene_mesh_count(job->scene),     lam_scene_object_count(job->scene),
@@ -260,6 +262,9 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
     if (!control_of(job, progress, &control, error) || !job_dress(job, &control, &sphere, error) ||
         !environment_option_apply(job->options, job->scene, &control, error))
         return false;
+    if (job->options->save_scene && option_given(job->options, "show"))
+        lam_scene_add_warning(job->scene,
+                              "the scene file that is saved gives the picture: --show is no part of it");
     place_camera(job);
     return job_light(job, &sphere, error) && (!job->options->show_lights || light_markers_add(job, error));
 }

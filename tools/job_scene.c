@@ -78,6 +78,9 @@ static bool dress_rig(struct job *job, lam_error *error)
     for (int i = 0; i < o->lights.count; i++)
         replaces |= o->lights.items[i][0] != '+';
     job->rig = o->has_rig && o->rig != RIG_DARK ? (lam_rig)o->rig : LAM_RIG_AUTO;
+    if (o->has_rig && o->rig == (int)LAM_RIG_NONE && lam_scene_light_count(job->scene) == 0 &&
+        o->lights.count == 0)
+        lam_scene_add_warning(job->scene, "option '--rig file': the model has no lights");
     bool dark = o->rig == RIG_DARK || (replaces && !o->has_rig);
     bool named = o->has_rig && job->rig != LAM_RIG_AUTO && job->rig != LAM_RIG_NONE;
     if (dark || named)

@@ -276,6 +276,20 @@ static void set_colors(struct reading *reading)
         light->ambient = given[AMBIENT];
 }
 
+bool light_cone_check(const double *cutoff_deg, const double *inner_deg, const double *outer_deg,
+                      lam_error *error)
+{
+    if (outer_deg && !(*inner_deg < *outer_deg))
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "inner is %g and outer is %g degrees, expected inner < outer", *inner_deg,
+                        *outer_deg);
+    if (cutoff_deg && !((*cutoff_deg > 0 && *cutoff_deg <= 90) || *cutoff_deg == 180))
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "cutoff is %g degrees, expected a half angle above 0 and up to 90, or 180",
+                        *cutoff_deg);
+    return true;
+}
+
 static bool set_cone(struct reading *reading, lam_error *error)
 {
     lam_light *light = &reading->option->light;
@@ -285,14 +299,9 @@ static bool set_cone(struct reading *reading, lam_error *error)
                         "both kinds of cone are given, expected cutoff and exponent, or inner and outer");
     if (soft && !seen(reading, OUTER))
         return complain(error, LAM_BAD_ARGUMENT, "'inner' is given without 'outer', expected both");
-    if (soft && !(reading->inner < reading->outer))
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "inner is %g and outer is %g degrees, expected inner < outer", reading->inner,
-                        reading->outer);
-    if (seen(reading, CUTOFF) && !((reading->cutoff > 0 && reading->cutoff <= 90) || reading->cutoff == 180))
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "cutoff is %g degrees, expected a half angle above 0 and up to 90, or 180",
-                        reading->cutoff);
+    if (!light_cone_check(seen(reading, CUTOFF) ? &reading->cutoff : NULL, &reading->inner,
+                          soft ? &reading->outer : NULL, error))
+        return false;
     if (soft) {
         light->inner_rad = (float)radians(reading->inner);
         light->outer_rad = (float)radians(reading->outer);

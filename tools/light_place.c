@@ -15,12 +15,20 @@ static lam_vec3 about(const struct model_sphere *sphere, lam_vec3 v)
 static int find_object(const lam_scene *scene, const char *name, lam_error *error)
 {
     struct suggestion nearest = suggest_start(name);
+    int found = -1, named = 0;
     for (int i = 0; i < lam_scene_object_count(scene); i++) {
         const char *other = lam_scene_object(scene, i)->name;
-        if (other && strcmp(other, name) == 0)
-            return i;
+        if (other && strcmp(other, name) == 0 && named++ == 0)
+            found = i;
         if (other)
             suggest_try(&nearest, other);
+    }
+    if (named == 1)
+        return found;
+    if (named > 1) {
+        complain(error, LAM_BAD_ARGUMENT, "option '--light': %d objects are named '%.60s', expected one",
+                 named, name);
+        return -1;
     }
     complain(error, LAM_BAD_ARGUMENT, "option '--light': the model has no object '%.60s'%s%.60s%s", name,
              nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",

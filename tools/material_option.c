@@ -205,3 +205,39 @@ void material_option_warn(const struct material_option *option, const char *name
         lam_scene_add_warning(scene, text);
     }
 }
+
+static double largest(lam_rgb c)
+{
+    float most = c.r > c.g ? c.r : c.g;
+    return (double)(most > c.b ? most : c.b);
+}
+
+void materials_warn(lam_scene *scene)
+{
+    enum { TOLD = 3 };
+    int over = 0;
+    for (int i = 0; i < lam_scene_material_count(scene); i++) {
+        const lam_material *m = lam_scene_material(scene, i);
+        const struct {
+            const char *key;
+            lam_rgb color;
+        } terms[] = {{"ambient", m->ambient},
+                     {"diffuse", {m->diffuse.r, m->diffuse.g, m->diffuse.b}},
+                     {"specular", m->specular},
+                     {"reflectivity", m->reflectivity}};
+        for (size_t k = 0; k < sizeof terms / sizeof *terms; k++) {
+            if (!(largest(terms[k].color) > 1) || ++over > TOLD)
+                continue;
+            char text[200];
+            snprintf(text, sizeof text,
+                     "material '%.60s': %s is %g: a surface that returns more light than arrives (over 1)",
+                     m->name ? m->name : "unnamed", terms[k].key, largest(terms[k].color));
+            lam_scene_add_warning(scene, text);
+        }
+    }
+    if (over > TOLD) {
+        char text[100];
+        snprintf(text, sizeof text, "%d more coefficients of materials are over 1", over - TOLD);
+        lam_scene_add_warning(scene, text);
+    }
+}

@@ -28,6 +28,9 @@ bool material_option_set(const struct material_option *option, bool back, const 
 // A warning of the scene for each coefficient over 1.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene);
 
+// The same for the materials that the scene itself has: for the first few each, for the others together.
+void materials_warn(lam_scene *scene);
+
 // The changes of --shininess and --opacity; has_… tells which is given.
 void material_option_plain(struct material_option *option, bool has_shininess, double shininess,
                            bool has_opacity, double opacity);

@@ -206,6 +206,9 @@ static bool add_spot(struct plot *plot, const char *word, lam_error *error)
     }
     if ((given[0] || given[1]) == (given[2] || given[3]) || (given[2] && !given[3]))
         return wrong(error, "spot", word, "either cutoff and exponent or inner and outer");
+    lam_error reason;
+    if (!light_cone_check(given[0] ? &part[0] : NULL, &part[2], given[3] ? &part[3] : NULL, &reason))
+        return complain(error, LAM_BAD_ARGUMENT, "plot spot: '%.60s': %.300s", word, reason.text);
     struct curve *curve = add_curve(plot, spot_value, error);
     if (!curve)
         return false;
@@ -214,7 +217,6 @@ static bool add_spot(struct plot *plot, const char *word, lam_error *error)
     curve->light.exponent = (float)part[1];
     curve->light.inner_rad = (float)radians(part[2]);
     curve->light.outer_rad = (float)radians(part[3]);
-    lam_error reason;
     if (!lam_light_check(&curve->light, &reason))
         return complain(error, LAM_BAD_ARGUMENT, "plot spot: '%.60s': %.300s", word, reason.text);
     if (given[3])

@@ -320,16 +320,19 @@ static double missing_share(const struct judged *scene, bool not_numbers)
 static bool is_searchable(struct run *r, bool writes)
 {
     double clear = 0, no_number = 0;
+    bool spoilt = false; // a scene that is black where there are no numbers looks like mistakes that blacken
     for (int i = 0; i < r->scene_count; i++) {
+        double here = missing_share(&r->scenes[i], true);
         clear += missing_share(&r->scenes[i], false) / r->scene_count;
-        no_number += missing_share(&r->scenes[i], true) / r->scene_count;
+        no_number += here / r->scene_count;
+        spoilt = spoilt || here > 0.25;
     }
     if (writes && clear > 0.02)
         notes_add(
             &r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
             "%.0f %% of the model is not drawn: the shader discards it, or gl_Position puts it elsewhere",
             clear * 100);
-    return writes && clear < 0.9 && no_number < 0.5;
+    return writes && clear < 0.9 && no_number < 0.5 && !spoilt;
 }
 
 // More than pixels that are no numbers, which count as black.

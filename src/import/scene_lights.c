@@ -153,14 +153,14 @@ static bool read_cone(struct scene_reader *r, const struct place *place, const j
     return true;
 }
 
-static bool has_object(const struct lam_scene *scene, const char *name)
+static int objects_named(const struct lam_scene *scene, const char *name)
 {
+    int count = 0;
     for (int i = 0; i < scene->objects.count; i++) {
         const char *own = scene_object(scene, i)->name;
-        if (own && strcmp(own, name) == 0)
-            return true;
+        count += own && strcmp(own, name) == 0;
     }
-    return false;
+    return count;
 }
 
 static bool read_frame(struct scene_reader *r, const struct place *place, const json_t *value,
@@ -173,8 +173,12 @@ static bool read_frame(struct scene_reader *r, const struct place *place, const 
     light->frame = (lam_light_frame)frame;
     if (light->object && light->frame != LAM_FRAME_OBJECT)
         return fail_place(r, KEY_OF(place, "object"), "goes only with \"frame\": \"object\"");
-    if (light->object && !has_object(r->scene, light->object))
+    int named = light->object ? objects_named(r->scene, light->object) : 1;
+    if (named == 0)
         return fail_place(r, KEY_OF(place, "object"), "no object is named '%.60s'", light->object);
+    if (named > 1)
+        return fail_place(r, KEY_OF(place, "object"), "%d objects are named '%.60s', expected one", named,
+                          light->object);
     return true;
 }
 

@@ -288,6 +288,27 @@ class Environment(Case):
         head = data.split(b"\n", 3)
         return struct.unpack(f"<{24 * 24 * 3}f", head[3])
 
+    def test_warned_of(self):
+        """What is legal and hardly meant: coefficients over 1, the lights of a file that has none, a scene file without --show."""
+        (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "cube", "material": {"diffuse": [2, 0, 0], "ambient": [0, 0, 0]}}]}))
+        self.given.add("s.json")
+        self.assertIn(b"diffuse is 2: a surface that returns more light than arrives", self.good("s.json", "-s", 8).stderr)
+        self.assertIn(b"over 1", self.good("cube", "-s", 8, "--reflectivity", 1.5, "--environment", "sky").stderr)
+        self.assertIn(b"the model has no lights", self.good("cube", "-s", 8, "--rig", "file").stderr)
+        self.assertIn(b"--show is no part of it", self.good("cube", "-s", 8, "--show", "normals", "--save-scene", "t.json").stderr)
+        for words in (["cube", "-s", 8], ["cube", "-s", 8, "--rig", "file", "--light", "+point"], ["cube", "-s", 8, "--save-scene", "t.json"]):
+            self.assertNotIn(b"warning", self.good(*words).stderr)
+
+    def test_object_of_two(self):
+        scene = {"lambent": 1, "objects": [{"name": "a", "shape": "cube"}, {"name": "a", "shape": "sphere"}]}
+        (self.folder / "s.json").write_text(json.dumps(scene))
+        self.given.add("s.json")
+        self.good("s.json", "-s", 8, "-o", "ok.png")
+        self.bad(1, "s.json", "-o", "no.png", "--light", "point:position=0/0/2,frame=object:a", says="2 objects are named 'a'", leaves={"ok.png"})
+        scene["lights"] = [{"type": "point", "frame": "object", "object": "a"}]
+        (self.folder / "s.json").write_text(json.dumps(scene))
+        self.bad(2, "s.json", "-o", "no.png", says="2 objects are named 'a'", leaves={"ok.png"})
+
     def test_missing_face(self):
         (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "environment": {"faces": ["no.png"] * 6},
                                                          "objects": [{"shape": "cube"}]}))

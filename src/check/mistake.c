@@ -37,6 +37,11 @@ const struct mistake mistakes[] = {
     {"normal-with-w", B(NORMAL_WITH_W) | B(LONG_NORMAL), 0, 0,
      "the normal is made unit as four numbers: the translation lands in w and shortens it",
      "N = normalize(({normal_matrix4} * vec4({normal}, 0.0)).xyz); // .xyz first, then normalize"},
+    {"normal-with-w-vertex", B(NORMAL_WITH_W), WHERE_FRAGMENT, 0,
+     "the normal is made unit as four numbers in the vertex shader: the translation lands in w, each "
+     "vertex's "
+     "normal gets a length of its own, and longer ones weigh more between vertices",
+     "N = normalize(({normal_matrix4} * vec4({normal}, 0.0)).xyz); // .xyz first, then normalize"},
     {"normal-inward", B(INWARD), 0, 0, "the normal points to the wrong side",
      "N = normalize({normal_matrix} * {normal}); // no minus"},
     // --- spaces

@@ -152,6 +152,7 @@ MISTAKES = [
         vert(N_NORMAL, "(modelViewMatrix * normal).xyz"),
         frag("dot(n, l) > 0.0 ? pow(max(dot(n, h), 0.0), 64.0) : 0.0", "pow(max(dot(n, h), 0.0), 64.0)")]),
     (N, "normal-with-w", [vert(N_NORMAL, "normalize(normalMatrix * normal).xyz"), frag("normalize(varyingNormal)", "varyingNormal")]),
+    (N, "normal-with-w-vertex", [vert(N_NORMAL, "normalize(normalMatrix * normal).xyz")]),
     (N, "normal-by-model-view", [vert("normalMatrix * normal", "modelViewMatrix * normal")]),
     (N, "no-attenuation", [frag("attenuate(length(way) / 5.0, 2.7, 5.0)", "1.0")]),
     (N, "specular-not-attenuated", [frag("* s * attenuation", "* s")]),

@@ -1,6 +1,7 @@
 // scenes.c: demonstration scenes: shapes, materials, lights, cameras, and the corners of the pipeline.
 #include "scenes.h"
 
+#include <stdio.h>
 #include <string.h>
 
 // --- small words
@@ -571,5 +572,17 @@ bool demo_build(const struct demo_row *row, struct demo *demo, lam_error *error)
         return true;
     lam_scene_free(demo->scene);
     demo->scene = NULL;
+    return false;
+}
+
+bool demo_build_named(const char *name, struct demo *demo, lam_error *error)
+{
+    for (int i = 0; i < demo_count; i++)
+        if (strcmp(demos[i].name, name) == 0)
+            return demo_build(&demos[i], demo, error);
+    if (error) {
+        error->code = LAM_BAD_ARGUMENT;
+        snprintf(error->text, sizeof error->text, "there is no scene '%.60s'", name);
+    }
     return false;
 }

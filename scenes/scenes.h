@@ -27,4 +27,7 @@ extern const int demo_count;
 // Builds a scene of the table. False: the error tells why, and nothing is left to free.
 bool demo_build(const struct demo_row *row, struct demo *demo, lam_error *error);
 
+// The same by its name. LAM_BAD_ARGUMENT: there is none of that name.
+bool demo_build_named(const char *name, struct demo *demo, lam_error *error);
+
 #endif

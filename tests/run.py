@@ -28,7 +28,7 @@ VARIANTS = [
 
 # Not part of the whole: the same tests again, alone. Lines that match "tell" are told.
 GL = {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"], "tell": r"^gl .*OpenGL.*|.*farthest off.*|^the mask: .*",
-      "only": ["gl-context", "gl-classic", "gl-device", "gl-calls", "gl-state", "gl-parity", "glsl"]}
+      "only": ["gl-context", "gl-classic", "gl-device", "gl-caller", "gl-state", "gl-parity", "glsl"]}
 
 ENVIRONMENT = {
     # A sanitizer's report is a failure of the test that it came from. Following the storage that OpenGL's libraries have for each

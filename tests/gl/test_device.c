@@ -28,16 +28,11 @@ static lam_device *device_or_skip(lam_gl_api api)
     return device;
 }
 
-static void demo_named(const char *name, struct demo *demo)
+static void build(const char *name, struct demo *demo)
 {
     lam_error error = {0};
-    for (int i = 0; i < demo_count; i++)
-        if (strcmp(demos[i].name, name) == 0) {
-            if (!demo_build(&demos[i], demo, &error))
-                fail_msg("%s", error.text);
-            return;
-        }
-    fail_msg("there is no scene '%s'", name);
+    if (!demo_build_named(name, demo, &error))
+        fail_msg("%s", error.text);
 }
 
 static lam_image draw(lam_device *device, const struct demo *demo, const lam_draw_params *params,
@@ -96,7 +91,7 @@ static void test_stages(void **state)
     lam_device *gl = device_or_skip(LAM_GL_CORE);
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         struct demo demo;
-        demo_named(names[n], &demo);
+        build(names[n], &demo);
         lam_draw_params params = demo.params;
         params.samples = 1;
         double worst = 0;
@@ -130,7 +125,7 @@ static void test_shows(void **state)
     static const char *const names[] = {"lights", "translucent"};
     for (int n = 0; n < 2; n++) {
         struct demo demo;
-        demo_named(names[n], &demo);
+        build(names[n], &demo);
         lam_draw_params params = demo.params;
         params.samples = 1;
         for (int show = 0; show < LAM_SHOW_COUNT; show++)
@@ -153,7 +148,7 @@ static void test_sharp_highlights(void **state)
     (void)state;
     lam_device *gl = device_or_skip(LAM_GL_CORE);
     struct demo demo;
-    demo_named("inside", &demo); // no silhouette: every pixel counts
+    build("inside", &demo); // no silhouette: every pixel counts
     lam_error error = {0};
     for (int shininess = 1; shininess <= 1000; shininess *= 10)
         for (int model = LAM_REFLECTION_PHONG; model <= LAM_REFLECTION_KAJIYA_KAY; model++) {
@@ -179,7 +174,7 @@ static void test_many_lights(void **state)
     (void)state;
     lam_device *gl = device_or_skip(LAM_GL_CORE);
     struct demo demo;
-    demo_named("lights", &demo);
+    build("lights", &demo);
     demo.width = 96;
     demo.height = 72;
     lam_error error = {0};
@@ -211,7 +206,7 @@ static void test_parts_and_samples(void **state)
     (void)state;
     lam_device *gl = device_or_skip(LAM_GL_ES);
     struct demo demo;
-    demo_named("translucent", &demo);
+    build("translucent", &demo);
     demo.width = 2100;
     demo.height = 90;
     lam_draw_params params = demo.params;
@@ -240,7 +235,7 @@ static void test_scene_after_scene(void **state)
     static const char *const names[] = {"teapot", "cone", "cylinder", "sphere-flat", "teapot", "knot-phong"};
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         struct demo demo;
-        demo_named(names[n], &demo);
+        build(names[n], &demo);
         lam_draw_params params = demo.params;
         params.samples = 1;
         assert_true(compare(gl, &demo, &params).share <= 0.001);
@@ -254,7 +249,7 @@ static void test_limits(void **state)
     (void)state;
     lam_device *gl = device_or_skip(LAM_GL_CORE);
     struct demo demo;
-    demo_named("teapot", &demo);
+    build("teapot", &demo);
     lam_image image = {0};
     lam_error error = {0};
     assert_true(lam_image_make(&image, demo.width, demo.height, LAM_RGBA8, &error));

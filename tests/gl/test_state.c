@@ -216,13 +216,8 @@ static lam_device *start(lam_gl_api api)
 static void build(const char *name, struct demo *demo)
 {
     lam_error error = {0};
-    for (int i = 0; i < demo_count; i++)
-        if (strcmp(demos[i].name, name) == 0) {
-            if (!demo_build(&demos[i], demo, &error))
-                fail_msg("%s", error.text);
-            return;
-        }
-    fail_msg("there is no scene '%s'", name);
+    if (!demo_build_named(name, demo, &error))
+        fail_msg("%s", error.text);
 }
 
 static lam_frame_report frame(lam_device *device, const struct demo *demo, const lam_draw_params *params)

@@ -17,20 +17,11 @@
 #include <cmocka.h>
 #include <pthread.h>
 
-static const struct demo_row *demo_named(const char *name)
-{
-    for (int i = 0; i < demo_count; i++)
-        if (strcmp(demos[i].name, name) == 0)
-            return &demos[i];
-    fail_msg("no scene '%s'", name);
-    return NULL;
-}
-
 static struct demo make_demo(const char *name)
 {
     struct demo demo;
     lam_error error = {0};
-    if (!demo_build(demo_named(name), &demo, &error))
+    if (!demo_build_named(name, &demo, &error))
         fail_msg("%s", error.text);
     return demo;
 }
@@ -196,7 +187,7 @@ static void test_float_state(void **state)
     odd |= 0x4000; // flush to zero, denormals are zero, round up
     _mm_setcsr(odd);
     struct demo again;
-    bool built = demo_build(demo_named("lights"), &again, NULL);
+    bool built = demo_build_named("lights", &again, NULL);
     lam_device *made_here =
         lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL); // its threads inherit the state
     bool drawn =

@@ -162,6 +162,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {"shows_vector", f->shows_vector},
         {"paints", f->paints},
         {"asks_surface", surface && (f->lights || f->skies || f->environment || f->shows_vector)},
+        {"fragment", fragment},
         {"threads", f->threads},
         {"passes_tangent", passes_tangent},
         {"passes_normal", surface},
@@ -265,6 +266,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         }
     if (light_up)
         template_add(text, text_lighting_glsl, &words);
+    template_add(text, text_interface_glsl, &words);
     template_add(text, fragment ? text_fragment_glsl : text_vertex_glsl, &words);
     free(groups.bytes);
     free(vector.bytes);

@@ -99,6 +99,11 @@ const struct mistake mistakes[] = {
      "a point is subtracted from a directional light (w = 0), and the -1 that w becomes is counted in the "
      "length",
      "vec3 L = {light}.w == 0.0 ? {light_direction} : {light_eye} - P;"},
+    {"direction-minus-origin", B(DIRECTION_MINUS_ORIGIN), 0, NEED_DIRECTIONAL,
+     "0, 0, 0, 1 is subtracted from a directional light (w = 0) before it is made unit: the -1 that w "
+     "becomes "
+     "is counted in the length, and l is too short",
+     "vec3 L = {light_direction}; // .xyz alone, nothing subtracted"},
     {"direction-reversed", B(DIRECTION_REVERSED), 0, NEED_DIRECTIONAL,
      "the directional light comes from the wrong side",
      "vec3 L = {light_direction}; // it points to the light"},

@@ -8,22 +8,21 @@
 #include "reading.h"
 
 // The switches. In the GLSL of the model each is is(NAME).
-#define MISTAKE_BITS(X)                                                                                      \
-    X(LONG_NORMAL)                                                                                           \
-    X(LONG_NORMAL_VERTEX)                                                                                    \
-    X(LONG_EYE) X(LONG_LIGHT) X(RAW_HALF) X(HALF_LONG) X(HALF_MEAN) X(NORMAL_OBJECT) X(NORMAL_BY_MODEL)      \
-        X(NORMAL_WITH_W) X(NORMAL_CLIP) X(INWARD) X(LIGHT_AS_GIVEN) X(LIGHT_TWICE) X(LIGHT_CLIP)             \
-            X(LIGHT_FROM_OBJECT) X(POINT_CLIP) X(EYE_FROM_OBJECT) X(EYE_CLIP) X(FOUR) X(DIRECTION_AS_POINT)  \
-                X(DIRECTION_REVERSED) X(LIGHT_BACKWARDS) X(EYE_BACKWARDS) X(VIEWER_INFINITE) X(EARLY_LIGHT)  \
-                    X(EARLY_EYE) X(MEAN_DISTANCE) X(ATTENUATION_SWAPPED) X(ATTENUATION_INVERTED)             \
-                        X(BARE_DIFFUSE) X(BARE_SPECULAR) X(AMBIENT_ATTENUATED) X(AMBIENT_EACH_LIGHT)         \
-                            X(NO_AMBIENT) X(NO_DIFFUSE) X(NO_SPECULAR) X(NO_GATE) X(NO_CLAMP) X(ABSOLUTE)    \
-                                X(OTHER_LOBE) X(REFLECT_SIGN) X(SHININESS_4) X(SHININESS_QUARTER)            \
-                                    X(SPECULAR_TIMES_D) X(KD_KS_SWAPPED) X(KA_KD_SWAPPED) X(SPECULAR_TINTED) \
-                                        X(SPECULAR_AS_DIFFUSE) X(ENCODED) X(ALPHA_ONE) X(ALPHA_SUM)          \
-                                            X(FIRST_LIGHT_ONLY) X(LAST_LIGHT_ONLY) X(NO_CONE) X(NO_CUTOFF)   \
-                                                X(NO_EXPONENT) X(NO_FLIP) X(SMOOTH_FOR_FLAT)                 \
-                                                    X(VERTEX_CLAMPED) X(UPSIDE_DOWN)
+// clang-format off
+#define MISTAKE_BITS(X) \
+    X(LONG_NORMAL) X(LONG_NORMAL_VERTEX) X(LONG_EYE) X(LONG_LIGHT) X(RAW_HALF) X(HALF_LONG) \
+    X(HALF_MEAN) X(NORMAL_OBJECT) X(NORMAL_BY_MODEL) X(NORMAL_WITH_W) X(NORMAL_CLIP) X(INWARD) \
+    X(LIGHT_AS_GIVEN) X(LIGHT_TWICE) X(LIGHT_CLIP) X(LIGHT_FROM_OBJECT) X(POINT_CLIP) \
+    X(EYE_FROM_OBJECT) X(EYE_CLIP) X(FOUR) X(DIRECTION_AS_POINT) X(DIRECTION_MINUS_ORIGIN) \
+    X(DIRECTION_REVERSED) X(LIGHT_BACKWARDS) X(EYE_BACKWARDS) X(VIEWER_INFINITE) X(EARLY_LIGHT) X(EARLY_EYE) \
+    X(MEAN_DISTANCE) X(ATTENUATION_SWAPPED) X(ATTENUATION_INVERTED) X(BARE_DIFFUSE) X(BARE_SPECULAR) \
+    X(AMBIENT_ATTENUATED) X(AMBIENT_EACH_LIGHT) X(NO_AMBIENT) X(NO_DIFFUSE) X(NO_SPECULAR) \
+    X(NO_GATE) X(NO_CLAMP) X(ABSOLUTE) X(OTHER_LOBE) X(REFLECT_SIGN) X(SHININESS_4) \
+    X(SHININESS_QUARTER) X(SPECULAR_TIMES_D) X(KD_KS_SWAPPED) X(KA_KD_SWAPPED) X(SPECULAR_TINTED) \
+    X(SPECULAR_AS_DIFFUSE) X(ENCODED) X(ALPHA_ONE) X(ALPHA_SUM) X(FIRST_LIGHT_ONLY) \
+    X(LAST_LIGHT_ONLY) X(NO_CONE) X(NO_CUTOFF) X(NO_EXPONENT) X(NO_FLIP) X(SMOOTH_FOR_FLAT) \
+    X(VERTEX_CLAMPED) X(UPSIDE_DOWN)
+// clang-format on
 
 enum mistake_bit {
 #define MISTAKE_BIT(name) BIT_##name,

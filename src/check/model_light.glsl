@@ -119,6 +119,9 @@ vec4 shade(vec4 n, vec4 pl, vec4 pv, vec4 early[LAMPS], vec4 early_eye, float di
         vec4 exact = to_lamp(i, pl);
         vec4 way = is(EARLY_LIGHT) ? early[i] : exact;
         vec4 l = is(LONG_LIGHT) ? way : unit4(way);
+        if (is(DIRECTION_MINUS_ORIGIN) && is_far(i)) {
+            l = vec4(way.xyz * inversesqrt(dot(way.xyz, way.xyz) + 1.0), 0.0);
+        }
         float d = is(MEAN_DISTANCE) ? distances[i] : length(exact);
         float attenuation = attenuation_of(i, d), cone = cone_of(i, unit4(exact));
         arrived = attenuation * cone;

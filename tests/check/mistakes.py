@@ -112,6 +112,8 @@ MISTAKES = [
     (Q, "no-gate", [vert("dot(n, l) > 0.0 ? pow(max(dot(n, h), 0.0), shininess) : 0.0", "pow(max(dot(n, h), 0.0), shininess)")]),
     (Q, "light-not-moved", [vert("vec4 light = model_view * light_position", "vec4 light = light_position")]),
     (Q, "direction-as-point", [vert("light.w == 0.0 ? light.xyz : light.xyz - point.xyz", "light.xyz - point.xyz")]),
+    (Q, "direction-minus-origin", [vert("vec3 l = normalize(way);",
+                                        "vec3 l = light.w == 0.0 ? normalize(light - vec4(0.0, 0.0, 0.0, 1.0)).xyz : normalize(way);")]),
     (Q, "half-of-raw-light", [vert("normalize(l + v)", "normalize(way + v)")]),
     (Q, "ambient-attenuated specular-not-attenuated", [
         vert("color = ambient_product + attenuation * (diffuse_product * max(dot(n, l), 0.0) + specular_product * s)",

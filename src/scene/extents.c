@@ -60,34 +60,6 @@ static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scen
     return ok;
 }
 
-struct boxing {
-    const lam_mesh *mesh;
-    const struct scene_extent *extent;
-    float (*blocks)[6]; // minimum, maximum
-};
-
-static void box_piece(void *user, size_t index, int thread)
-{
-    (void)thread;
-    struct boxing *boxing = user;
-    const struct scene_extent *extent = boxing->extent;
-    size_t last = (index + 1) * (PIECE / EXTENT_BLOCK);
-    for (size_t block = index * (PIECE / EXTENT_BLOCK); block < last && block < extent_blocks(extent);
-         block++) {
-        float box[6] = {3e38f, 3e38f, 3e38f, -3e38f, -3e38f, -3e38f};
-        size_t end =
-            (block + 1) * EXTENT_BLOCK < extent->used_count ? (block + 1) * EXTENT_BLOCK : extent->used_count;
-        for (size_t i = block * EXTENT_BLOCK; i < end; i++) {
-            const float *p = boxing->mesh->positions + 3 * (size_t)(extent->used ? extent->used[i] : i);
-            for (int a = 0; a < 3; a++) {
-                box[a] = p[a] < box[a] ? p[a] : box[a];
-                box[a + 3] = p[a] > box[a + 3] ? p[a] : box[a + 3];
-            }
-        }
-        memcpy(boxing->blocks[block], box, sizeof box);
-    }
-}
-
 struct clearing {
     const lam_mesh *mesh;
     int found; // touched atomically
@@ -130,26 +102,15 @@ static bool measure(struct lam_scene *scene, const lam_mesh *mesh, struct scene_
     *extent = (struct scene_extent){.translucent = has_clear_colors(mesh, pool)};
     if (!find_used(scene, mesh, extent, pool, error))
         return false;
-    size_t blocks = extent_blocks(extent);
-    if (!blocks)
+    if (!box_tree_make(&extent->boxes, mesh, extent->used, extent->used_count, &scene->arena, pool, error))
+        return false;
+    if (!extent->used_count)
         return true;
-    struct boxing boxing = {mesh, extent, arena_array(&scene->arena, blocks, sizeof(float[6]))};
-    if (!boxing.blocks)
-        return watch_memory_error(scene->arena.watch, blocks * sizeof(float[6]), error);
-    pool_run(pool, ((size_t)extent->used_count + PIECE - 1) / PIECE, box_piece, &boxing);
-    extent->blocks = (const float(*)[6])boxing.blocks;
-    double low[3], high[3];
-    for (int a = 0; a < 3; a++) {
-        low[a] = (double)boxing.blocks[0][a];
-        high[a] = (double)boxing.blocks[0][a + 3];
-        for (size_t i = 1; i < blocks; i++) {
-            low[a] = (double)boxing.blocks[i][a] < low[a] ? (double)boxing.blocks[i][a] : low[a];
-            high[a] = (double)boxing.blocks[i][a + 3] > high[a] ? (double)boxing.blocks[i][a + 3] : high[a];
-        }
-    }
+    box_of_six box;
+    box_tree_whole(&extent->boxes, box);
     const double *o = mesh->origin;
-    extent->minimum = v3(low[0] + o[0], low[1] + o[1], low[2] + o[2]);
-    extent->maximum = v3(high[0] + o[0], high[1] + o[1], high[2] + o[2]);
+    extent->minimum = v3((double)box[0] + o[0], (double)box[1] + o[1], (double)box[2] + o[2]);
+    extent->maximum = v3((double)box[3] + o[0], (double)box[4] + o[1], (double)box[5] + o[2]);
     return true;
 }
 

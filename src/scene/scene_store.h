@@ -3,6 +3,7 @@
 #define SCENE_STORE_H
 
 #include "arena.h"
+#include "boxes.h"
 #include "pool.h"
 #include "watch.h"
 
@@ -20,16 +21,9 @@ struct scene_extent {
     lam_vec3 minimum, maximum; // mesh coordinates, origin included
     const uint32_t *used;
     uint32_t used_count;
-    // Boxes (minimum, maximum, without the origin) of each EXTENT_BLOCK used vertices in order: a search for
-    // the farthest vertex looks into few of them.
-    const float (*blocks)[6];
+    struct box_tree boxes; // of those vertices
     bool translucent;
 };
-enum { EXTENT_BLOCK = 256 };
-static inline size_t extent_blocks(const struct scene_extent *extent)
-{
-    return ((size_t)extent->used_count + EXTENT_BLOCK - 1) / EXTENT_BLOCK;
-}
 
 // Where meshes came from, for writing them as a scene file: a model file or a built-in shape, and how it was
 // read.

@@ -117,6 +117,6 @@ void bin_large(struct cpu_frame *cpu, struct thread_state *thread, const struct 
             for (int k = 0; k < 3; k++)
                 missed |= a[k] * (px - c->x[k]) + b[k] * (py - c->y[k]) + most[k] < 0;
             if (!missed)
-                bin_put(cpu, thread, ty * cpu->tiles_across + tx, id);
+                bin_put(cpu, thread, (ty * cpu->tiles_across + tx) * TILE_BINS, id, 0);
         }
 }

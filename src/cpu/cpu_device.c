@@ -128,8 +128,8 @@ static void carve_thread(struct carving *carving, struct thread_state *thread, c
 
 static bool make_threads_ready(struct cpu_device *device, struct cpu_frame *cpu, lam_error *error)
 {
-    size_t tiles = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down;
-    size_t bins = tiles * (size_t)device->thread_count * sizeof(struct bin_block *);
+    size_t of_thread = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down * TILE_BINS;
+    size_t bins = of_thread * (size_t)device->thread_count * sizeof(struct bin_block *);
     if (!buffer_reserve(&device->bins, bins, cpu->watch, error))
         return false;
     memset(device->bins.data, 0, bins);
@@ -141,7 +141,7 @@ static bool make_threads_ready(struct cpu_device *device, struct cpu_frame *cpu,
             return false;
         carving = (struct carving){.at = thread->scratch.data};
         carve_thread(&carving, thread, cpu->frame);
-        thread->bins = (struct bin_block **)device->bins.data + tiles * (size_t)i;
+        thread->bins = (struct bin_block **)device->bins.data + of_thread * (size_t)i;
         thread->blocks.current = thread->pieces.current = 0;
         thread->blocks.used = thread->pieces.used = 0;
         thread->piece_count = 0;
@@ -345,10 +345,7 @@ static void tile_task(void *user, size_t index, int number)
     if (!still_on(cpu))
         return;
     int tile_x = (int)(index % (size_t)cpu->tiles_across), tile_y = (int)(index / (size_t)cpu->tiles_across);
-    bool any = cpu->stashes && cpu->stashes[index].count;
-    for (int i = 0; i < pool_threads(cpu->pool); i++)
-        any |= cpu->threads[i].bins[index] != NULL;
-    if (any || cpu->recorder) {
+    if ((cpu->stashes ? cpu->stashes[index].count > 0 : tile_has_triangles(cpu, index)) || cpu->recorder) {
         int width = cpu->image->width - tile_x * TILE, height = cpu->image->height - tile_y * TILE;
         width = width < TILE ? width : TILE;
         height = height < TILE ? height : TILE;

@@ -6,9 +6,11 @@
 
 #include "project.inc"
 #include "corners.inc"
+#include "hidden.inc"
 #include "bin.inc"
 #include "cover.inc"
 #include "cover_packet.inc"
+#include "cover_tile.inc"
 #include "gather.inc"
 #include "collect.inc"
 #include "light.inc"

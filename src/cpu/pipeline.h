@@ -2,7 +2,7 @@
 //
 //   vertices   positions → pixel x, y and depth key of every vertex           project.inc
 //   triangles  index triples → tile bins                                      bin.inc, clip.c
-//   tiles      bins → depth key and triangle number of every sample           cover.inc
+//   tiles      bins → depth key and triangle number of every sample           cover*.inc, hidden.inc
 //              translucent triangles → layers over the samples, blended       gather.inc, blend.c
 //              samples → fragments (a pixel and a triangle it shows)          collect.inc, fragments.c
 //              fragments → colours                                            light.inc
@@ -59,13 +59,19 @@ struct piece {
     uint32_t draw, first, count;
 };
 
-// Bins: for each tile a chain of blocks with triangle numbers. Every thread has its own, so no locks are
-// taken; the picture does not depend on the order in which a tile's triangles come.
-enum { BIN_BLOCK_IDS = 240 }; // a multiple of LANES_MAX: whole packets can be read
+// Bins: for each tile two chains of blocks with triangle numbers, small ones that show their back and all
+// others. Every thread has its own, so no locks are taken; the picture does not depend on the order in which
+// a tile's triangles come. Backs are drawn last, since most are hidden by then, and carry a bound that tells
+// it (hidden.inc).
+enum {
+    TILE_BINS = 2,       // of tile t: 2·t, and 2·t + 1 with backs
+    BIN_BLOCK_IDS = 240, // multiples of LANES_MAX: whole packets can be read
+    BIN_BLOCK_BACKS = 112,
+};
 struct bin_block {
     struct bin_block *next;
     uint32_t count;
-    uint32_t ids[BIN_BLOCK_IDS];
+    uint32_t ids[BIN_BLOCK_IDS]; // of backs BIN_BLOCK_BACKS, then as many bounds
 };
 
 // Memory in slabs that never move: blocks and clipped pieces of one thread.
@@ -121,7 +127,7 @@ struct light_choice {
 };
 
 struct thread_state {
-    struct bin_block **bins; // first block of each tile, newest first
+    struct bin_block **bins; // first block of each bin, newest first
     struct slab_list blocks;
     struct slab_list pieces;
     uint32_t piece_count;
@@ -229,27 +235,41 @@ const struct clipped_piece *clipped_piece(const struct thread_state *thread, uin
 size_t slabs_bytes(const struct slab_list *list);
 size_t slabs_free(struct slab_list *list); // how many bytes that were
 
-// The block of a tile's bin that takes `room` numbers more; NULL: out of memory.
-static inline struct bin_block *bin_with_room(struct cpu_frame *cpu, struct thread_state *thread, int tile,
+// Whether any triangle is in a tile's bins.
+static inline bool tile_has_triangles(const struct cpu_frame *cpu, size_t tile)
+{
+    for (int i = 0; i < pool_threads(cpu->pool); i++)
+        for (int b = 0; b < TILE_BINS; b++)
+            if (cpu->threads[i].bins[tile * TILE_BINS + (size_t)b])
+                return true;
+    return false;
+}
+
+// The block of a bin that takes `room` numbers more; NULL: out of memory.
+static inline struct bin_block *bin_with_room(struct cpu_frame *cpu, struct thread_state *thread, int bin,
                                               uint32_t room)
 {
-    struct bin_block *block = thread->bins[tile];
-    if (block && block->count + room <= BIN_BLOCK_IDS)
+    struct bin_block *block = thread->bins[bin];
+    if (block && block->count + room <= (bin & 1 ? BIN_BLOCK_BACKS : BIN_BLOCK_IDS))
         return block;
     struct bin_block *fresh = new_bin_block(cpu, thread);
     if (!fresh)
         return NULL;
     fresh->next = block;
     fresh->count = 0;
-    return thread->bins[tile] = fresh;
+    return thread->bins[bin] = fresh;
 }
 
-// Appends a number to a tile's bin.
-static inline void bin_put(struct cpu_frame *cpu, struct thread_state *thread, int tile, uint32_t id)
+// Appends a number to a bin, and its bound if it is one of backs.
+static inline void bin_put(struct cpu_frame *cpu, struct thread_state *thread, int bin, uint32_t id,
+                           uint32_t bound)
 {
-    struct bin_block *block = bin_with_room(cpu, thread, tile, 1);
-    if (block)
-        block->ids[block->count++] = id;
+    struct bin_block *block = bin_with_room(cpu, thread, bin, 1);
+    if (!block)
+        return;
+    if (bin & 1)
+        block->ids[BIN_BLOCK_BACKS + block->count] = bound;
+    block->ids[block->count++] = id;
 }
 
 // Snapped coordinates of a triangle's corners, in the order that makes its area positive with y down.

@@ -18,14 +18,17 @@ static void mark_bins(void *user, size_t index, int number)
     struct cpu_frame *cpu = user;
     if (!goes_on(cpu))
         return;
-    for (int i = 0; i < pool_threads(cpu->pool); i++)
-        for (const struct bin_block *block = cpu->threads[i].bins[index]; block; block = block->next)
+    for (int i = 0; i < pool_threads(cpu->pool) * TILE_BINS; i++) {
+        const struct thread_state *thread = &cpu->threads[i / TILE_BINS];
+        const struct bin_block *block = thread->bins[index * TILE_BINS + (size_t)(i % TILE_BINS)];
+        for (; block; block = block->next)
             for (uint32_t k = 0; k < block->count; k++) {
                 uint32_t id = block->ids[k];
                 if (id & CLIPPED)
-                    id = clipped_piece(&cpu->threads[i], id & ~CLIPPED)->id;
+                    id = clipped_piece(thread, id & ~CLIPPED)->id;
                 number_set_add(&cpu->seen.triangles, id);
             }
+    }
 }
 
 // --- the triangles of the tiles' fragments
@@ -80,10 +83,7 @@ static void search_tile(void *user, size_t index, int number)
     struct thread_state *thread = &cpu->threads[number];
     if (!goes_on(cpu))
         return;
-    bool any = false;
-    for (int i = 0; i < pool_threads(cpu->pool); i++)
-        any |= cpu->threads[i].bins[index] != NULL;
-    if (!any)
+    if (!tile_has_triangles(cpu, index))
         return;
     uint64_t start = now_ns();
     int tile_x = (int)(index % (size_t)cpu->tiles_across), tile_y = (int)(index / (size_t)cpu->tiles_across);
@@ -125,7 +125,7 @@ static void release_bins(struct cpu_frame *cpu)
     size_t tiles = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down;
     for (int i = 0; i < pool_threads(cpu->pool); i++) {
         struct thread_state *thread = &cpu->threads[i];
-        memset(thread->bins, 0, tiles * sizeof(struct bin_block *));
+        memset(thread->bins, 0, tiles * TILE_BINS * sizeof(struct bin_block *));
         watch_refund(cpu->watch, slabs_free(&thread->blocks));
     }
 }

@@ -11,6 +11,7 @@ enum { SAMPLES_MAX = 16 };
 struct sample_pattern {
     int count;
     int8_t x[SAMPLES_MAX], y[SAMPLES_MAX];
+    int8_t least, most; // of x, and of y
     uint8_t by_distance[SAMPLES_MAX];
 };
 const struct sample_pattern *sample_pattern(int samples);

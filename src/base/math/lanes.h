@@ -277,6 +277,14 @@ LANE_FN num lanes_at(num x, inum at)
 #endif
 }
 
+// The least of all lanes, none of which is NaN.
+LANE_FN float least_lane(num x)
+{
+    for (int apart = 1; apart < LANES; apart *= 2)
+        x = lesser(x, lanes_at(x, lane_numbers() ^ apart));
+    return lane(x, 0);
+}
+
 // Half of the lanes from one place, half from another.
 LANE_FN num num_load_halves(const float *low, const float *high)
 {

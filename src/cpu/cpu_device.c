@@ -351,7 +351,7 @@ static void tile_task(void *user, size_t index, int number)
         height = height < TILE ? height : TILE;
         uint64_t start = now_ns();
         if (cpu->stashes) {
-            take_stash(cpu, thread, index);
+            cpu->kernels->take_stash(&cpu->stashes[index], thread, cpu->frame->samples);
         } else {
             cpu->kernels->cover(cpu, thread, tile_x, tile_y);
             if (thread->translucent_triangles) {

@@ -4,6 +4,8 @@
 
 #include "triples.h"
 
+#include <string.h>
+
 #include "project.inc"
 #include "corners.inc"
 #include "hidden.inc"
@@ -13,6 +15,7 @@
 #include "cover_tile.inc"
 #include "gather.inc"
 #include "collect.inc"
+#include "stash.inc"
 #include "light.inc"
 #include "resolve.inc"
 #include "record_pixel.inc"
@@ -30,6 +33,8 @@ const struct kernels NAME(ISA) = {
     .cover = cover,
     .gather_layers = gather_layers,
     .collect = collect,
+    .keep_stash = keep_stash,
+    .take_stash = take_stash,
     .light = light,
     .resolve = resolve_and_record,
     .resolve_empty = resolve_empty,

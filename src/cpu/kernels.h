@@ -21,6 +21,11 @@ struct kernels {
                           const struct rectangle *rectangle);
     // Lists the opaque fragments of a tile: width × height pixels of it are in the picture.
     void (*collect)(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height);
+    // Keeps a tile's fragments, of triangles from stash->lowest to `highest`, in memory of the arena (false:
+    // there is none), and takes them out again.
+    bool (*keep_stash)(struct stash *stash, const struct thread_state *thread, int samples, uint32_t highest,
+                       struct arena *arena);
+    void (*take_stash)(const struct stash *stash, struct thread_state *thread, int samples);
     // Colours the thread's fragments.
     void (*light)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
     // Sums the fragments of a tile into its pixels, under the blended layers where there are any, and writes

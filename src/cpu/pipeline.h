@@ -194,6 +194,8 @@ struct kernels;
 // What is kept of a tile's fragments while normals are made for all that is seen.
 struct stash {
     int count;
+    uint32_t lowest; // of their triangles' numbers
+    bool narrow;     // the others follow within 23 bits
     void *fragments;
 };
 
@@ -297,8 +299,6 @@ struct seeing_room {
 };
 bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error);
 void seeing_room_empty(struct seeing_room *room, int threads); // ends the stashes
-// Puts a tile's kept fragments back.
-void take_stash(const struct cpu_frame *cpu, struct thread_state *thread, size_t tile);
 
 // Finds the groups of the listed fragments, and their order by group.
 void group_fragments(const struct frame *frame, struct thread_state *thread);

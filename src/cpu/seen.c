@@ -38,43 +38,8 @@ struct tile_search {
     struct arena *arenas;
 };
 
-// A stash holds, for each fragment, its triangle, then its pixel, then weight and sample.
-enum {
-    STASHED = sizeof(uint32_t) + sizeof(uint16_t) + 2,
-    LARGE_PICTURE = 128, // tiles: half a million fragments, and 4 MB, where all is covered
-};
-
-static void keep_stash(struct cpu_frame *cpu, struct arena *arena, const struct thread_state *thread,
-                       size_t tile)
-{
-    struct stash *stash = &cpu->stashes[tile];
-    size_t count = (size_t)thread->fragment_count;
-    char *to = arena_array(arena, count, STASHED);
-    if (!to) {
-        __atomic_store_n(&cpu->failed, FAILED_MEMORY, __ATOMIC_RELAXED);
-        return;
-    }
-    *stash = (struct stash){thread->fragment_count, to};
-    memcpy(to, thread->fragment_id, count * sizeof(uint32_t));
-    memcpy(to + count * 4, thread->fragment_pixel, count * sizeof(uint16_t));
-    memcpy(to + count * 6, thread->fragment_weight, count);
-    memcpy(to + count * 7, thread->fragment_sample, count);
-}
-
-void take_stash(const struct cpu_frame *cpu, struct thread_state *thread, size_t tile)
-{
-    const struct stash *stash = &cpu->stashes[tile];
-    size_t count = (size_t)stash->count;
-    const char *from = stash->fragments;
-    thread->fragment_count = stash->count;
-    thread->translucent_triangles = 0;
-    if (!count)
-        return;
-    memcpy(thread->fragment_id, from, count * sizeof(uint32_t));
-    memcpy(thread->fragment_pixel, from + count * 4, count * sizeof(uint16_t));
-    memcpy(thread->fragment_weight, from + count * 6, count);
-    memcpy(thread->fragment_sample, from + count * 7, count);
-}
+// Tiles: half a million fragments, and some megabytes, where all is covered.
+enum { LARGE_PICTURE = 128 };
 
 static void search_tile(void *user, size_t index, int number)
 {
@@ -90,14 +55,20 @@ static void search_tile(void *user, size_t index, int number)
     int width = cpu->image->width - tile_x * TILE, height = cpu->image->height - tile_y * TILE;
     cpu->kernels->cover(cpu, thread, tile_x, tile_y);
     cpu->kernels->collect(cpu, thread, width < TILE ? width : TILE, height < TILE ? height : TILE);
-    uint32_t before = NOTHING;
+    uint32_t before = NOTHING, lowest = UINT32_MAX, highest = 0;
     for (int i = 0; i < thread->fragment_count; i++) {
         uint32_t id = thread->fragment_id[i] & ~BACK_SIDE;
-        if (id != before)
+        if (id != before) {
             number_set_add(&cpu->seen.triangles, id);
+            lowest = id < lowest ? id : lowest;
+            highest = id > highest ? id : highest;
+        }
         before = id;
     }
-    keep_stash(cpu, &search->arenas[number], thread, index);
+    cpu->stashes[index].lowest = lowest;
+    if (!cpu->kernels->keep_stash(&cpu->stashes[index], thread, cpu->frame->samples, highest,
+                                  &search->arenas[number]))
+        __atomic_store_n(&cpu->failed, FAILED_MEMORY, __ATOMIC_RELAXED);
     thread->coverage_ns += now_ns() - start;
 }
 

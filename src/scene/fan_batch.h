@@ -1,46 +1,37 @@
-// fan_batch.h: the normals at many positions at a time.
-//
-// Positions where few corners of ordinary triangles meet, as nearly all do, are gathered until there are
-// enough of them, and worked out side by side (fan_lanes.h). The others are left to normals_fan.h, one by
-// one. The bits are the same either way.
+// fan_batch.h: positions that wait until enough of them have equally many corners to be worked out side by
+// side (fan_lanes.h). Those where more corners meet than FAN_FEW, or a triangle without area, are left to
+// normals_fan.h, one by one. The bits are the same either way.
 #ifndef FAN_BATCH_H
 #define FAN_BATCH_H
 
 #include "fan_lanes.h"
 
-#include <lambent/mesh.h>
-
-#include <stdbool.h>
-
-enum { FAN_FEW = 24 }; // corners at a position, at most
-
-struct fan_place {
-    uint16_t first, count; // of its corners
-    bool done;             // false: normals_fan.h is needed
-};
+enum { FAN_ROWS = FAN_FEW * (FAN_FEW + 1) / 2 };
 
 struct fan_batch {
-    uint32_t count, places, fans;
-    struct fan_place place[FAN_CORNERS];
-    uint32_t corner[FAN_CORNERS];
-    uint16_t fan[FAN_CORNERS]; // of each corner, numbered through the batch
-    uint32_t group[FAN_CORNERS];
-    uint32_t vertex[3][FAN_CORNERS]; // of the corner, the triangle's next one and the one before
-    struct fan_corners corners;
-    struct fan_sums sums; // of the fans
+    uint32_t waiting[FAN_FEW + 1]; // positions, of each count of corners
+    fan_numbers rows[FAN_ROWS];    // their corners: one row for count 1, two for count 2 …
+    struct fan_block block;
 };
 
-void fan_batch_start(struct fan_batch *batch);
+static inline void fan_batch_start(struct fan_batch *batch)
+{
+    for (uint32_t count = 0; count <= FAN_FEW; count++)
+        batch->waiting[count] = 0;
+}
 
-// Adds a position with its corners, ascending. False, and nothing is done: there is no room; make and empty
-// the batch first. 0 < count ≤ FAN_FEW.
-bool fan_batch_add(struct fan_batch *batch, const uint32_t *corners, uint32_t count);
+// Adds a position with its corners, in any order; 0 < count ≤ FAN_FEW. True: as many wait as can; take them.
+static inline bool fan_batch_add(struct fan_batch *batch, const uint32_t *corners, uint32_t count)
+{
+    fan_numbers *rows = batch->rows + count * (count - 1) / 2;
+    uint32_t place = batch->waiting[count]++;
+    for (uint32_t i = 0; i < count; i++)
+        rows[i][place] = corners[i];
+    return place + 1 == FAN_PLACES;
+}
 
-// Works out what was added. Of a place that is done, corner i has the fan batch->fan[i], whose normal is
-// batch->sums.unit[0…2][fan].
-void fan_batch_make(struct fan_batch *batch, const lam_mesh *mesh, double least_cosine,
-                    const struct fan_lanes *lanes);
-
-void fan_batch_empty(struct fan_batch *batch);
+// Those with that many corners into batch->block, which has its count and corners then. Returns how many they
+// are, none perhaps; the last one fills the places behind them.
+uint32_t fan_batch_take(struct fan_batch *batch, uint32_t count);
 
 #endif

@@ -1,29 +1,42 @@
-// fan_lanes.h: the arithmetic of fans (normals_fan.h) for many corners side by side, compiled once for each
-// width of registers. Every width gives the bits of normals_fan.c.
+// fan_lanes.h: fans (normals_fan.h) at many positions side by side, compiled once for each width of
+// registers. Every width gives the bits of normals_fan.c.
 #ifndef FAN_LANES_H
 #define FAN_LANES_H
+
+#include "seen_normals.h"
+
+#include <lambent/mesh.h>
 
 #include <stddef.h>
 #include <stdint.h>
 
 enum {
-    FAN_CORNERS = 256, // looked at together: what they take stays in the first-level cache
-    FAN_STEP = 16,     // counts are rounded up to this, and what lies behind them is computed too
-};
-_Static_assert(FAN_CORNERS % FAN_STEP == 0, "whole steps");
-
-struct fan_corners {
-    float here[3][FAN_CORNERS], next[3][FAN_CORNERS], before[3][FAN_CORNERS]; // a triangle's corners
-    double normal[3][FAN_CORNERS];                           // of the triangle, unit; zero without area
-    double weighted[3][FAN_CORNERS];                         // the normal times the angle at the corner
-    uint32_t spans[FAN_CORNERS];                             // 0: the triangle has no area
-    uint32_t next_key[FAN_CORNERS], before_key[FAN_CORNERS]; // equal positions have equal keys
+    FAN_PLACES = 16, // positions side by side
+    FAN_FEW = 16,    // corners at one of them, at most
 };
 
-struct fan_sums {
-    double sum[3][FAN_CORNERS];
-    float unit[3][FAN_CORNERS];
-    uint32_t plain[FAN_CORNERS]; // 0: too large, too small or nothing; `unit` means nothing
+typedef uint32_t fan_numbers[FAN_PLACES];
+
+// Positions where equally many corners meet, one in each lane: row i has their corners i.
+struct fan_block {
+    uint32_t count;               // of corners at each
+    fan_numbers corners[FAN_FEW]; // ascending at each position once they are looked at
+    fan_numbers flat;             // not 0: a triangle there has no area
+    uint32_t fans;                // at the position with most
+    // Of the fans, numbered at each position by their first corners: the corners as bits, 0: there is no such
+    // fan; and the normals.
+    fan_numbers members[FAN_FEW];
+    float unit[FAN_FEW][3][FAN_PLACES];
+    fan_numbers seen;                       // the corners of triangles that are, as bits
+    uint64_t elements[FAN_FEW][FAN_PLACES]; // where those corners' elements stand in seen_normals
+
+    // On the way there.
+    fan_numbers triangles[FAN_FEW], groups[FAN_FEW];
+    fan_numbers next_vertex[FAN_FEW], before_vertex[FAN_FEW]; // the triangle's next corner, the one before
+    float here[3][FAN_PLACES], next[FAN_FEW][3][FAN_PLACES], before[FAN_FEW][3][FAN_PLACES];
+    double normal[FAN_FEW][3][FAN_PLACES];   // of the triangle, unit; zero without area
+    double weighted[FAN_FEW][3][FAN_PLACES]; // the normal times the angle at the corner
+    fan_numbers links[FAN_FEW];              // bit j: the corner is joined to corner j
 };
 
 // Bits that tell most positions that are in a set from those that are not: bit number hash >> shift.
@@ -34,10 +47,10 @@ struct fan_filter {
 
 struct fan_lanes {
     int lanes; // floats in a register
-    // Fills what follows from the corners.
-    void (*look)(struct fan_corners *corners, size_t count);
-    // Makes sums unit.
-    void (*unit)(struct fan_sums *sums, size_t count);
+    // Fills what follows from count and corners, but for the elements.
+    void (*make)(struct fan_block *block, const lam_mesh *mesh, double least_cosine);
+    // Fills `seen` and `elements`. Triangle 0 has the number `first`.
+    void (*find)(struct fan_block *block, const struct number_set *triangles, uint32_t first);
     // Of `count` points, 3 floats each: the hashes of their positions (weld.h), and whether the filter has
     // them.
     void (*ask)(const float *points, size_t count, const struct fan_filter *filter, uint64_t *hashes,

@@ -32,9 +32,12 @@ struct seen_worker {
     size_t slab_left;
     struct fan_room room;
     struct fan_batch *batch;
-    uint32_t *sorted; // the corners of a range
-    size_t sorted_room;
-    uint32_t *starts; // of each position of a range, in `sorted`
+    uint32_t *sorted;                     // the corners of a range, by position
+    uint32_t *where;                      // as they come from the bins: their positions in the range
+    size_t room_for;                      // of both
+    uint32_t *starts;                     // of each position of a range, in `sorted`
+    uint32_t next_element, elements_left; // that only this thread may give
+    uint32_t coming; // positions whose normals are not yet begun: each needs an element at least
 };
 
 // --- bins
@@ -104,90 +107,149 @@ static void bin_chunk(void *user, size_t index, int thread)
 
 // --- fans
 
-// Where the element of a corner stands; NONE: its triangle is not seen.
-static inline size_t place_of(const struct seeing *s, uint32_t corner)
+// An element with that normal. `needed`: how many are in any case, this one among them. The counter that all
+// threads share is rarely touched.
+static uint32_t new_element(struct seeing *s, struct seen_worker *worker, uint32_t needed, float x, float y,
+                            float z)
 {
-    const struct number_set *triangles = &s->seen->triangles;
-    uint32_t triangle = corner / 3;
-    size_t number = s->first + (size_t)triangle;
-    return number_set_holds(triangles, number)
-               ? 3 * (size_t)number_set_place(triangles, number) + (corner - 3 * triangle)
-               : NONE;
-}
-
-// The first of `count` elements that nobody has yet.
-static inline uint32_t new_elements(struct seeing *s, uint32_t count)
-{
-    return __atomic_fetch_add(&s->seen->used, count, __ATOMIC_RELAXED);
+    if (!worker->elements_left) {
+        worker->elements_left = needed + worker->coming;
+        worker->next_element = __atomic_fetch_add(&s->seen->used, worker->elements_left, __ATOMIC_RELAXED);
+    }
+    uint32_t element = worker->next_element++;
+    worker->elements_left--;
+    s->seen->normals[element][0] = x;
+    s->seen->normals[element][1] = y;
+    s->seen->normals[element][2] = z;
+    return element;
 }
 
 // The normals at one position.
-static bool make_fans(struct seeing *s, struct fan_room *room, const uint32_t *corners, uint32_t count)
+static bool make_fans(struct seeing *s, struct seen_worker *worker, const uint32_t *corners, uint32_t count)
 {
+    const struct number_set *triangles = &s->seen->triangles;
+    struct fan_room *room = &worker->room;
+    worker->coming--;
     if (!fan_room_reserve(room, count))
         return false;
     memcpy(room->corners, corners, count * sizeof *corners);
+    fan_sort(room->corners, count);
     uint32_t fans = fan_normals(s->mesh, s->least_cosine, room, count);
     uint32_t *element_of = room->corners; // free again
     memset(element_of, 0xff, fans * sizeof *element_of);
     for (uint32_t i = 0; i < count; i++) {
-        size_t place = place_of(s, room->spokes[i].corner);
-        uint32_t fan = room->spokes[i].fan;
-        if (place == NONE)
+        uint32_t corner = room->spokes[i].corner, fan = room->spokes[i].fan;
+        size_t number = s->first + (size_t)corner / 3;
+        const float *n = room->normals[fan];
+        if (!number_set_holds(triangles, number))
             continue;
-        if (element_of[fan] == NONE) {
-            element_of[fan] = new_elements(s, 1);
-            memcpy(s->seen->normals[element_of[fan]], room->normals[fan], sizeof s->seen->normals[0]);
-        }
-        s->seen->elements[place] = element_of[fan];
+        if (element_of[fan] == NONE)
+            element_of[fan] = new_element(s, worker, 1, n[0], n[1], n[2]);
+        s->seen->elements[3 * (size_t)number_set_place(triangles, number) + corner % 3] = element_of[fan];
     }
     return true;
 }
 
-// The normals at the positions that were gathered; fans of which no corner is seen get no element.
-static bool make_batch(struct seeing *s, struct seen_worker *worker)
+// The normals at the positions that wait with that many corners; fans of which no corner is seen get no
+// element.
+static bool make_block(struct seeing *s, struct seen_worker *worker, uint32_t count)
 {
-    struct fan_batch *batch = worker->batch;
-    struct seen_normals *seen = s->seen;
-    uint32_t element_of[FAN_CORNERS], elements = 0;
-    size_t place_at[FAN_CORNERS];
-    fan_batch_make(batch, s->mesh, s->least_cosine, s->lanes);
-    memset(element_of, 0xff, batch->fans * sizeof *element_of);
-    for (uint32_t p = 0; p < batch->places; p++) {
-        const struct fan_place *place = &batch->place[p];
-        if (!place->done && !make_fans(s, &worker->room, batch->corner + place->first, place->count))
-            return false;
-        for (uint32_t i = place->first; i < (uint32_t)place->first + place->count; i++) {
-            place_at[i] = place->done ? place_of(s, batch->corner[i]) : NONE;
-            if (place_at[i] != NONE && element_of[batch->fan[i]] == NONE)
-                element_of[batch->fan[i]] = elements++;
+    uint32_t places = fan_batch_take(worker->batch, count), needed = 0;
+    struct fan_block *block = &worker->batch->block;
+    if (!places)
+        return true;
+    worker->coming -= places;
+    s->lanes->make(block, s->mesh, s->least_cosine);
+    s->lanes->find(block, &s->seen->triangles, s->first);
+    for (uint32_t f = 0; f < block->fans; f++)
+        for (uint32_t p = 0; p < places; p++)
+            needed += !block->flat[p] && block->members[f][p] & block->seen[p];
+    for (uint32_t f = 0; f < block->fans; f++)
+        for (uint32_t p = 0; p < places; p++) {
+            uint32_t members = block->flat[p] ? 0 : block->members[f][p] & block->seen[p];
+            if (!members)
+                continue;
+            float(*unit)[FAN_PLACES] = block->unit[f];
+            uint32_t element = new_element(s, worker, needed--, unit[0][p], unit[1][p], unit[2][p]), unseen;
+            for (uint32_t i = 0; i < count; i++)
+                *(members >> i & 1 ? &s->seen->elements[block->elements[i][p]] : &unseen) = element;
         }
-    }
-    uint32_t first = new_elements(s, elements);
-    for (uint32_t fan = 0; fan < batch->fans; fan++)
-        for (uint32_t k = 0; k < 3 && element_of[fan] != NONE; k++)
-            seen->normals[first + element_of[fan]][k] = batch->sums.unit[k][fan];
-    for (uint32_t i = 0; i < batch->count; i++)
-        if (place_at[i] != NONE)
-            seen->elements[place_at[i]] = first + element_of[batch->fan[i]];
-    fan_batch_empty(batch);
-    return true;
+    bool ok = true;
+    for (uint32_t p = 0; ok && p < places; p++)
+        if (block->flat[p]) {
+            worker->coming++;
+            uint32_t corners[FAN_FEW];
+            for (uint32_t i = 0; i < count; i++)
+                corners[i] = block->corners[i][p];
+            ok = make_fans(s, worker, corners, count);
+        }
+    return ok;
 }
 
 // The normals at one position, now or with others.
-static bool add_position(struct seeing *s, struct seen_worker *worker, uint32_t *corners, uint32_t count)
+static bool add_position(struct seeing *s, struct seen_worker *worker, const uint32_t *corners,
+                         uint32_t count)
 {
-    fan_sort(corners, count);
     if (count > FAN_FEW)
-        return make_fans(s, &worker->room, corners, count);
-    return fan_batch_add(worker->batch, corners, count) ||
-           (make_batch(s, worker) && fan_batch_add(worker->batch, corners, count));
+        return make_fans(s, worker, corners, count);
+    return !fan_batch_add(worker->batch, corners, count) || make_block(s, worker, count);
 }
 
-// The position of value i of a block, a corner.
-static inline uint32_t position_at(const struct seeing *s, const struct corner_block *block, uint32_t i)
+// Room for the corners of a range.
+static bool make_room(struct seeing *s, struct seen_worker *worker, size_t index)
 {
-    return s->position_of ? s->position_of[corner_vertex(s->mesh, block->values[i])] : block->values[i - 1];
+    size_t count = 0;
+    for (int t = 0; t < pool_threads(s->pool); t++)
+        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before)
+            count += s->position_of ? b->count : b->count / 2;
+    if (count <= worker->room_for)
+        return true;
+    worker->room_for = count + count / 2;
+    worker->sorted = seeing_take(s, &worker->arena, worker->room_for, sizeof *worker->sorted);
+    worker->where = seeing_take(s, &worker->arena, worker->room_for, sizeof *worker->where);
+    return worker->sorted && worker->where;
+}
+
+// The positions of a block's corners, counted from `first`. Returns how many there are.
+static uint32_t positions_in(const struct seeing *s, const struct corner_block *block, uint32_t first,
+                             uint32_t *restrict positions)
+{
+    const uint32_t *values = block->values, *position_of = s->position_of, *indices = s->mesh->indices;
+    uint32_t count = position_of ? block->count : block->count / 2;
+    if (!position_of)
+        for (uint32_t i = 0; i < count; i++)
+            positions[i] = values[2 * i] - first;
+    else
+        for (uint32_t i = 0; i < count; i++)
+            positions[i] = position_of[indices ? indices[values[i]] : values[i]] - first;
+    return count;
+}
+
+// Puts the corners of a range in order by position: worker->starts tells where a position's begin.
+static void sort_range(struct seeing *s, struct seen_worker *worker, size_t index)
+{
+    size_t size = (size_t)1 << s->range_shift;
+    uint32_t *restrict starts = worker->starts, *restrict sorted = worker->sorted, *where = worker->where;
+    uint32_t end = 0, step = s->position_of ? 1 : 2;
+    memset(starts, 0, (size + 1) * sizeof *starts);
+    for (int t = 0; t < pool_threads(s->pool); t++)
+        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before) {
+            uint32_t count = positions_in(s, b, (uint32_t)(index << s->range_shift), where);
+            for (uint32_t i = 0; i < count; i++)
+                starts[where[i]]++;
+            where += count;
+        }
+    for (size_t i = 0; i <= size; i++)
+        starts[i] = end += starts[i];
+    // From the back, and from the newest block to the oldest: a thread's corners then come in order.
+    where = worker->where;
+    for (int t = 0; t < pool_threads(s->pool); t++)
+        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before) {
+            uint32_t count = b->count / step;
+            for (uint32_t i = count; i-- > 0;)
+                sorted[--starts[where[i]]] = b->values[i * step + step - 1];
+            where += count;
+        }
 }
 
 static void fan_range(void *user, size_t index, int thread)
@@ -196,35 +258,27 @@ static void fan_range(void *user, size_t index, int thread)
     if (!goes_on(&s->halt))
         return;
     struct seen_worker *worker = &s->workers[thread];
-    size_t first = index << s->range_shift, size = (size_t)1 << s->range_shift;
-    uint32_t *starts = worker->starts, end = 0, step = s->position_of ? 1 : 2;
-    memset(starts, 0, (size + 1) * sizeof *starts);
-    for (int t = 0; t < pool_threads(s->pool); t++)
-        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before)
-            for (uint32_t i = step - 1; i < b->count; i += step)
-                starts[position_at(s, b, i) - first]++;
-    for (size_t i = 0; i <= size; i++)
-        starts[i] = end += starts[i];
-    if (end > worker->sorted_room) {
-        worker->sorted_room = end + end / 2;
-        worker->sorted = seeing_take(s, &worker->arena, worker->sorted_room, sizeof *worker->sorted);
-        if (!worker->sorted) {
-            worker->sorted_room = 0;
-            no_memory(&s->halt);
-            return;
-        }
-    }
-    // From the back, and from the newest block to the oldest: a thread's corners then come in order.
-    for (int t = 0; t < pool_threads(s->pool); t++)
-        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before)
-            for (uint32_t i = b->count; i > 0; i -= step)
-                worker->sorted[--starts[position_at(s, b, i - 1) - first]] = b->values[i - 1];
-    bool ok = true;
-    for (size_t i = 0; ok && i < size; i++)
+    bool ok = make_room(s, worker, index);
+    if (ok)
+        sort_range(s, worker, index);
+    const uint32_t *starts = worker->starts, size = (uint32_t)1 << s->range_shift;
+    for (uint32_t i = 0; ok && i < size; i++)
+        worker->coming += starts[i + 1] > starts[i];
+    for (uint32_t i = 0; ok && i < size; i++)
         if (starts[i + 1] > starts[i])
             ok = add_position(s, worker, worker->sorted + starts[i], starts[i + 1] - starts[i]);
-    if (!ok || !make_batch(s, worker))
+    if (!ok)
         no_memory(&s->halt);
+}
+
+// What waits still with a worker.
+static void fan_rest(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct seeing *s = user;
+    for (uint32_t count = 1; count <= FAN_FEW && goes_on(&s->halt); count++)
+        if (!make_block(s, &s->workers[index], count))
+            no_memory(&s->halt);
 }
 
 static bool start_workers(struct seeing *s)
@@ -299,6 +353,8 @@ bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad,
         }
         if (binned)
             pool_run(pool, s.ranges, fan_range, &s);
+        if (binned)
+            pool_run(pool, (size_t)pool_threads(pool), fan_rest, &s);
         if (ok)
             ok = goes_on(&s.halt) || halt_error(&s.halt, corners * 8, error);
     }

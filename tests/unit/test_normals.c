@@ -75,6 +75,7 @@ static void seen_as_made(const lam_mesh *mesh, double crease_degrees, struct poo
         if (!see(&bare, firsts[k], takes[k], lanes[k], RADIANS(crease_degrees), &seen, &arena, pool, &error))
             fail_msg("%s", error.text);
         uint32_t *same = arena_array(&arena, mesh->normal_count, sizeof *same), members = 0;
+        uint8_t *wanted = arena_alloc_zeroed(&arena, (size_t)seen.used + 1);
         memset(same, 0xff, mesh->normal_count * sizeof *same);
         for (uint32_t t = 0; t < mesh->triangle_count; t++) {
             if (!number_set_holds(&seen.triangles, firsts[k] + t))
@@ -86,8 +87,12 @@ static void seen_as_made(const lam_mesh *mesh, double crease_degrees, struct poo
                 assert_memory_equal(seen.normals[element], mesh->normals + 3 * (size_t)made, 12);
                 assert_true(same[made] == UINT32_MAX || same[made] == element);
                 same[made] = element;
+                assert_true(element < seen.used);
+                wanted[element] = 1;
             }
         }
+        for (uint32_t i = 0; i < seen.used; i++)
+            assert_true(wanted[i]);
         assert_true(members > 0 || !mesh->triangle_count);
         assert_true(seen.used <= 3 * members);
         // What belongs to other meshes is left alone.

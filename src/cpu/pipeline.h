@@ -65,8 +65,8 @@ struct piece {
 // it (hidden.inc).
 enum {
     TILE_BINS = 2,       // of tile t: 2·t, and 2·t + 1 with backs
-    BIN_BLOCK_IDS = 240, // multiples of LANES_MAX: whole packets can be read
-    BIN_BLOCK_BACKS = 112,
+    BIN_BLOCK_IDS = 128, // multiples of LANES_MAX: whole packets can be read
+    BIN_BLOCK_BACKS = 64,
 };
 struct bin_block {
     struct bin_block *next;

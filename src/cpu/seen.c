@@ -41,6 +41,29 @@ struct tile_search {
 // Tiles: half a million fragments, and some megabytes, where all is covered.
 enum { LARGE_PICTURE = 128 };
 
+// Adds the triangles of the fragments, and tells the lowest and the highest of them. Which of them differ
+// from the one before is a coin's toss: that is asked without a branch.
+static void add_shown(struct number_set *set, const struct thread_state *thread, uint32_t *lowest,
+                      uint32_t *highest)
+{
+    uint32_t *shown = thread->order; // not in use yet
+    uint32_t before = NOTHING;
+    int count = 0;
+    for (int i = 0; i < thread->fragment_count; i++) {
+        uint32_t id = thread->fragment_id[i] & ~BACK_SIDE;
+        shown[count] = id;
+        count += id != before;
+        before = id;
+    }
+    *lowest = UINT32_MAX;
+    *highest = 0;
+    for (int i = 0; i < count; i++) {
+        number_set_add(set, shown[i]);
+        *lowest = shown[i] < *lowest ? shown[i] : *lowest;
+        *highest = shown[i] > *highest ? shown[i] : *highest;
+    }
+}
+
 static void search_tile(void *user, size_t index, int number)
 {
     struct tile_search *search = user;
@@ -55,19 +78,10 @@ static void search_tile(void *user, size_t index, int number)
     int width = cpu->image->width - tile_x * TILE, height = cpu->image->height - tile_y * TILE;
     cpu->kernels->cover(cpu, thread, tile_x, tile_y);
     cpu->kernels->collect(cpu, thread, width < TILE ? width : TILE, height < TILE ? height : TILE);
-    uint32_t before = NOTHING, lowest = UINT32_MAX, highest = 0;
-    for (int i = 0; i < thread->fragment_count; i++) {
-        uint32_t id = thread->fragment_id[i] & ~BACK_SIDE;
-        if (id != before) {
-            number_set_add(&cpu->seen.triangles, id);
-            lowest = id < lowest ? id : lowest;
-            highest = id > highest ? id : highest;
-        }
-        before = id;
-    }
-    cpu->stashes[index].lowest = lowest;
-    if (!cpu->kernels->keep_stash(&cpu->stashes[index], thread, cpu->frame->samples, highest,
-                                  &search->arenas[number]))
+    struct stash *stash = &cpu->stashes[index];
+    uint32_t highest;
+    add_shown(&cpu->seen.triangles, thread, &stash->lowest, &highest);
+    if (!cpu->kernels->keep_stash(stash, thread, cpu->frame->samples, highest, &search->arenas[number]))
         __atomic_store_n(&cpu->failed, FAILED_MEMORY, __ATOMIC_RELAXED);
     thread->coverage_ns += now_ns() - start;
 }

@@ -48,6 +48,12 @@ void adler_byte(struct adler_part *part, uint8_t byte)
     adler_join(part, &next);
 }
 
+void adler_zeros(struct adler_part *part, uint64_t count)
+{
+    struct adler_part next = {0, 0, count};
+    adler_join(part, &next);
+}
+
 void adler_join(struct adler_part *part, const struct adler_part *next)
 {
     // Every byte of `part` is followed by next->size more.

@@ -132,7 +132,8 @@ static inline void look_at(struct chunk *chunk, const uint32_t *at, uint64_t fou
 // pixel writes the next token, but only a pixel told as it is or a run's last one keeps it: no branch, but
 // for whole chunks of one colour. A run that is pending at a chunk's start is shorter than a chunk, so that
 // it always fits a match.
-static inline __attribute__((always_inline)) void find_runs(struct deflate *deflate, unsigned bytes_per_pixel)
+static inline __attribute__((always_inline)) void find_runs(struct deflate *deflate, unsigned bytes_per_pixel,
+                                                            int first, int end)
 {
     const int width = deflate->width;
     const uint32_t *row = deflate->row;
@@ -144,9 +145,10 @@ static inline __attribute__((always_inline)) void find_runs(struct deflate *defl
     for (int x = 0; x < width;) {
         if (x + CHUNK <= width && chunk_repeats(row, x)) {
             int start = x;
-            do
+            if (x < first || x >= end)
+                x = x < first ? first : width;
+            while (x + CHUNK <= width && chunk_repeats(row, x))
                 x += CHUNK;
-            while (x + CHUNK <= width && chunk_repeats(row, x));
             while (row[x] == row[x - 1])
                 x++;
             token = tell_match(token, pending + (size_t)(x - start) * bytes_per_pixel, distance);
@@ -174,19 +176,29 @@ static inline uint64_t spread(uint32_t pixel)
     return (x | x << 8) & 0x00FF00FF00FF00FFu;
 }
 
-// How many pixels are the same from here and from there on.
+static inline uint64_t two_pixels(const uint32_t *at)
+{
+    uint64_t pair;
+    memcpy(&pair, at, sizeof pair);
+    return pair;
+}
+
+// How many pixels are the same from here and from there on, of which two are known to be, and `most` count.
+// One more is looked at: there is room behind a row.
 static inline int equal_pixels(const uint32_t *here, const uint32_t *there, int most)
 {
-    int count = 0;
-    while (count < most && here[count] == there[count])
-        count++;
-    return count;
+    int count = 2;
+    uint64_t differ = 0;
+    while (count < most && (differ = two_pixels(here + count) ^ two_pixels(there + count)) == 0)
+        count += 2;
+    count += count < most && (uint32_t)differ == 0;
+    return count < most ? count : most;
 }
 
 // Takes a run of two and more; else the last place of these two pixels, if the match is longer than a run of
 // one would be; else a run of one; else the pixel. Matches stay within a row on both sides, so that no
 // filter's byte is in them.
-static void find_pairs(struct deflate *deflate)
+static void find_pairs(struct deflate *deflate, int first, int end)
 {
     struct token *token = deflate->end;
     const int width = deflate->width, bytes_per_pixel = deflate->bytes_per_pixel;
@@ -198,25 +210,26 @@ static void find_pairs(struct deflate *deflate)
     for (int x = 0; x < width;) {
         int run = 0;
         if (row[x] == row[x - 1]) {
-            run = 1;
+            run = x < first ? first - x : x >= end ? width - x : 1;
             while (x + run + CHUNK <= width && chunk_repeats(row, x + run))
                 run += CHUNK;
             while (row[x + run] == row[x - 1])
                 run++;
         }
         if (run < 2 && x + 1 < width) {
-            uint64_t pair = row[x] | (uint64_t)row[x + 1] << 32;
+            const uint64_t pair = two_pixels(row + x);
             uint32_t *last = &deflate->last_places[pair * 0x9E3779B97F4A7C15u >> (64 - DEFLATE_HASH_BITS)];
             const uint32_t place = *last, there_y = place >> 16;
             const int there_x = (int)(place & 0xFFFF);
             *last = deflate->y << 16 | (uint32_t)x;
-            const int64_t back =
-                (int64_t)(deflate->y - there_y) * row_bytes + (int64_t)(x - there_x) * bytes_per_pixel;
-            if (place != UINT32_MAX && back <= DEFLATE_FARTHEST) {
-                int most = width - (x > there_x ? x : there_x);
-                int count = equal_pixels(row + x, deflate->words + there_y * deflate->stride + there_x,
-                                         most < longest ? most : longest);
-                if (count >= 2) {
+            if (place != UINT32_MAX) {
+                const int64_t back =
+                    (int64_t)(deflate->y - there_y) * row_bytes + (int64_t)(x - there_x) * bytes_per_pixel;
+                // Its row goes on by two pixels at least: else it would not have been noted.
+                const uint32_t *there = deflate->words + there_y * deflate->stride + there_x;
+                if ((back <= DEFLATE_FARTHEST) & (two_pixels(there) == pair)) {
+                    int most = width - (x > there_x ? x : there_x);
+                    int count = equal_pixels(row + x, there, most < longest ? most : longest);
                     put_token(token++,
                               match_of((size_t)(count * bytes_per_pixel), distance_of((uint32_t)back)));
                     x += count;
@@ -241,7 +254,7 @@ static inline void count(uint32_t counts[4][DEFLATE_KINDS], const struct token *
         counts[i][token->kind[i]]++;
 }
 
-void deflate_row(struct deflate *deflate)
+void deflate_row(struct deflate *deflate, int first, int end)
 {
     struct token *token = deflate->end;
     put_token(deflate->end++, ONE(deflate->filter));
@@ -251,11 +264,11 @@ void deflate_row(struct deflate *deflate)
     row[-1] = ~row[0];
     row[deflate->width] = ~row[deflate->width - 1];
     if (deflate->pairs)
-        find_pairs(deflate);
+        find_pairs(deflate, first, end);
     else if (deflate->bytes_per_pixel == 4)
-        find_runs(deflate, 4);
+        find_runs(deflate, 4, first, end);
     else
-        find_runs(deflate, 3);
+        find_runs(deflate, 3, first, end);
     deflate->row += deflate->stride;
     deflate->y++;
     // Two sets of counts: neighbours are often equal, and adding to what was just stored takes some cycles.

@@ -61,10 +61,11 @@ bool deflate_make(struct deflate *deflate, struct arena *arena, int width, int r
 size_t deflate_scratch(int width, int rows);
 
 // Starts a strip whose rows have one filter. Then, for each row in order, the caller puts its pixels at
-// deflate->row and calls deflate_row, which moves deflate->row on. With bytes_per_pixel 3 each word's highest
+// deflate->row, those before `first` and from `end` on being zero, and calls deflate_row, which moves
+// deflate->row on. With bytes_per_pixel 3 each word's highest
 // byte must be zero and does not enter the stream. The words beside the row are overwritten.
 void deflate_start(struct deflate *deflate, uint8_t filter, bool pairs);
-void deflate_row(struct deflate *deflate);
+void deflate_row(struct deflate *deflate, int first, int end);
 
 // Writes the rows taken, each with its filter's byte in front, as one or more blocks that are not the last,
 // then an empty stored block, which ends on a byte boundary (what zlib calls a sync flush). Returns the bytes

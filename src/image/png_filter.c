@@ -53,16 +53,7 @@ INLINE u8x16 filtered(enum png_filter filter, u8x16 here, u8x16 left, u8x16 abov
     }
 }
 
-enum { VECTOR = 16, BLOCK = 4 * VECTOR };
-
-// Whether a block and the pixel to its left are zero: the transparent background, most of many a picture.
-INLINE bool is_blank(const uint8_t *row)
-{
-    typedef uint64_t u64x2 __attribute__((vector_size(16)));
-    u64x2 any = (u64x2)(load(row - 4) | load(row) | load(row + VECTOR) | load(row + 2 * VECTOR) |
-                        load(row + 3 * VECTOR));
-    return (any[0] | any[1]) == 0;
-}
+enum { VECTOR = 16, BLOCK = 4 * VECTOR, BLOCK_PIXELS = BLOCK / 4 };
 
 INLINE void put(uint32_t *out, int at, u8x16 result) { *(u8x16_memory *)(out + at / 4) = result; }
 
@@ -72,14 +63,10 @@ INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t
                        uint32_t mask, uint32_t *out)
 {
     const int bytes = 4 * width;
-    const u8x16 masks = (u8x16)((u32x4){0} + mask), zero = {0};
+    const u8x16 masks = (u8x16)((u32x4){0} + mask);
     for (int at = 0; at < bytes;) {
-        if (at > 0 && at + BLOCK <= bytes && is_blank(row + at) && is_blank(above + at)) {
-            for (int end = at + BLOCK; at < end; at += VECTOR)
-                put(out, at, zero);
-        } else if (at > 0 && at + VECTOR <= bytes) {
-            int end = at + BLOCK <= bytes ? at + BLOCK : at + VECTOR;
-            for (; at < end; at += VECTOR)
+        if (at > 0 && at + VECTOR <= bytes) {
+            for (; at + VECTOR <= bytes; at += VECTOR)
                 put(out, at,
                     masks & filtered(filter, load(row + at), load(row + at - 4), load(above + at),
                                      load(above + at - 4)));
@@ -119,6 +106,37 @@ void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *a
         filter_row(PNG_FILTER_NONE, row, above, width, mask, out);
         break;
     }
+}
+
+static bool is_blank(const uint8_t *block)
+{
+    typedef uint64_t u64x2 __attribute__((vector_size(16)));
+    u64x2 any =
+        (u64x2)(load(block) | load(block + VECTOR) | load(block + 2 * VECTOR) | load(block + 3 * VECTOR));
+    return (any[0] | any[1]) == 0;
+}
+
+struct png_span png_span_of(const uint8_t *row, int width)
+{
+    struct png_span span = {0, width};
+    while (span.first + BLOCK_PIXELS <= width && is_blank(row + 4 * (size_t)span.first))
+        span.first += BLOCK_PIXELS;
+    while (span.end - BLOCK_PIXELS >= span.first && is_blank(row + 4 * (size_t)(span.end - BLOCK_PIXELS)))
+        span.end -= BLOCK_PIXELS;
+    return span;
+}
+
+struct png_span png_span_filtered(struct png_span row, struct png_span above, int width)
+{
+    enum { FURTHER = VECTOR / 4 }; // one pixel, and whole vectors
+    struct png_span both = row.first == row.end ? above : row;
+    if (above.first < above.end) {
+        both.first = above.first < both.first ? above.first : both.first;
+        both.end = above.end > both.end ? above.end : both.end;
+    }
+    if (both.first < both.end)
+        both.end = width - both.end < FURTHER ? width : both.end + FURTHER;
+    return both;
 }
 
 uint64_t png_filter_cost(const uint32_t *filtered_row, int width)

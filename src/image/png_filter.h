@@ -20,6 +20,19 @@ enum png_filter {
 void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width,
                     uint32_t mask, uint32_t *out);
 
+// The pixels of a row from `first` to before `end`; those on both sides are zero: the transparent background,
+// most of many a picture. Equal numbers: all are.
+struct png_span {
+    int first, end;
+};
+
+// Of a row of `width` pixels; pixels are looked at by blocks, so that some at its ends may be zero too.
+struct png_span png_span_of(const uint8_t *row, int width);
+
+// What a filter can leave of such a row below such another one: it puts the difference to a pixel at the next
+// one, too.
+struct png_span png_span_filtered(struct png_span row, struct png_span above, int width);
+
 // How hard a filtered row looks to compress: Σ |byte| with bytes as −128…127.
 uint64_t png_filter_cost(const uint32_t *filtered, int width);
 

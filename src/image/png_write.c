@@ -77,24 +77,37 @@ static void look_for_translucent(void *user, size_t index, int thread)
 
 static int first_trial(int rows) { return rows < TRIAL_STEP ? 0 : TRIAL_STEP / 2; }
 
-// The filter that leaves the least on some of the strip's rows.
+static struct png_span span_at(const struct png_encoding *encoding, int y)
+{
+    const int width = encoding->image->width;
+    return png_span_filtered(png_span_of(png_pixel_row(encoding, y), width),
+                             png_span_of(png_pixel_row(encoding, y - 1), width), width);
+}
+
+static void filter_span(const struct png_encoding *encoding, enum png_filter filter, int y,
+                        struct png_span span, uint32_t *out)
+{
+    const size_t offset = 4 * (size_t)span.first;
+    png_filter_row(filter, png_pixel_row(encoding, y) + offset, png_pixel_row(encoding, y - 1) + offset,
+                   span.end - span.first, encoding->mask, out);
+}
+
+// The filter that leaves the least on some of the strip's rows; of equals the highest number.
 static enum png_filter best_filter(const struct png_encoding *encoding, struct deflate *scratch, int top,
                                    int rows)
 {
-    uint64_t least = UINT64_MAX;
+    uint64_t cost[PNG_FILTER_PAETH + 1] = {0};
     enum png_filter best = PNG_FILTER_PAETH;
-    for (enum png_filter filter = PNG_FILTER_PAETH; filter >= PNG_FILTER_SUB; filter--) {
-        uint64_t cost = 0;
-        for (int y = first_trial(rows); y < rows; y += TRIAL_STEP) {
-            png_filter_row(filter, png_pixel_row(encoding, top + y), png_pixel_row(encoding, top + y - 1),
-                           encoding->image->width, encoding->mask, scratch->words);
-            cost += png_filter_cost(scratch->words, encoding->image->width);
-        }
-        if (cost < least) {
-            least = cost;
-            best = filter;
+    for (int y = first_trial(rows); y < rows; y += TRIAL_STEP) {
+        const struct png_span span = span_at(encoding, top + y);
+        for (enum png_filter filter = PNG_FILTER_SUB; filter <= PNG_FILTER_PAETH; filter++) {
+            filter_span(encoding, filter, top + y, span, scratch->words);
+            cost[filter] += png_filter_cost(scratch->words, span.end - span.first);
         }
     }
+    for (enum png_filter filter = PNG_FILTER_PAETH; filter >= PNG_FILTER_SUB; filter--)
+        if (cost[filter] < cost[best])
+            best = filter;
     return best;
 }
 
@@ -118,15 +131,23 @@ static size_t quick_strip(struct png_encoding *encoding, int strip, int thread, 
 {
     struct deflate *scratch = &encoding->scratch[thread];
     const int width = encoding->image->width;
+    const size_t pixel = (size_t)encoding->bytes_per_pixel;
     const int top = strip * encoding->rows, rows = png_strip_rows(encoding, strip);
     const enum png_filter filter = best_filter(encoding, scratch, top, rows);
     deflate_start(scratch, (uint8_t)filter, is_grey(encoding, top, rows));
+    struct png_span above = png_span_of(png_pixel_row(encoding, top - 1), width);
     for (int y = 0; y < rows; y++) {
-        png_filter_row(filter, png_pixel_row(encoding, top + y), png_pixel_row(encoding, top + y - 1), width,
-                       encoding->mask, scratch->row);
+        const struct png_span here = png_span_of(png_pixel_row(encoding, top + y), width);
+        const struct png_span span = png_span_filtered(here, above, width);
+        memset(scratch->row, 0, (size_t)span.first * 4);
+        filter_span(encoding, filter, top + y, span, scratch->row + span.first);
+        memset(scratch->row + span.end, 0, (size_t)(width - span.end) * 4);
         adler_byte(adler, (uint8_t)filter);
-        adler_row(adler, scratch->row, width, encoding->bytes_per_pixel);
-        deflate_row(scratch);
+        adler_zeros(adler, (size_t)span.first * pixel);
+        adler_row(adler, scratch->row + span.first, span.end - span.first, encoding->bytes_per_pixel);
+        adler_zeros(adler, (size_t)(width - span.end) * pixel);
+        deflate_row(scratch, span.first, span.end);
+        above = here;
     }
     return deflate_write(scratch, out);
 }
@@ -255,7 +276,9 @@ bool png_write(const lam_image *image, const lam_save_params *params, struct poo
     encoding.strips = (image->height + encoding.rows - 1) / encoding.rows;
     if (encoding.strips == 1)
         pool = NULL;
-    pool_run(pool, (size_t)encoding.strips, look_for_translucent, &encoding);
+    look_for_translucent(&encoding, 0, 0); // mostly the first pixel is, and then nobody needs to be woken
+    if (!encoding.translucent)
+        pool_run(pool, (size_t)encoding.strips, look_for_translucent, &encoding);
     if (!encoding.translucent) {
         encoding.bytes_per_pixel = 3;
         encoding.mask = 0x00FFFFFFu;

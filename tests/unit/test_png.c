@@ -450,6 +450,67 @@ static void filters_as_specified(void **state)
     }
 }
 
+// Zeros at a row's ends are passed over: what is left is filtered, summed and compressed as the whole row is.
+static void ends_of_zeros_change_nothing(void **state)
+{
+    (void)state;
+    enum { WIDTH = 150, ROWS = 6, WORDS = WIDTH + 4 };
+    static uint32_t rows[ROWS + 1][WIDTH], whole[WORDS], part[WORDS];
+    struct arena arena;
+    struct deflate deflates[2];
+    arena_start(&arena, NULL);
+    for (int i = 0; i < 2; i++)
+        assert_true(deflate_make(&deflates[i], &arena, WIDTH, ROWS, 4));
+    uint8_t *out[2] = {malloc(deflate_room(WIDTH, ROWS, 4)), malloc(deflate_room(WIDTH, ROWS, 4))};
+    random_state = 11;
+    int passed = 0;
+    for (int round = 0; round < 400; round++) {
+        int width = WIDTH - (int)(random_bits() % 20) * (round % 3 == 0);
+        memset(rows, 0, sizeof rows);
+        for (int y = 1; y <= ROWS; y++) {
+            int first = (int)(random_bits() % (unsigned)width), end = (int)(random_bits() % (unsigned)width);
+            uint32_t few = round % 2 ? 0x01010101u : 0xFFFFFFFFu;
+            for (int x = first; x < end; x++)
+                rows[y][x] = x % 7 < 3 && x > first ? rows[y][x - 1] : random_bits() * 3 & few;
+        }
+        enum png_filter filter = (enum png_filter)(round % 5);
+        struct adler_part sums[2] = {{0}, {0}};
+        for (int i = 0; i < 2; i++) {
+            deflates[i].width = width;
+            deflate_start(&deflates[i], (uint8_t)filter, round / 5 % 2);
+        }
+        for (int y = 1; y <= ROWS; y++) {
+            const uint8_t *row = (const uint8_t *)rows[y], *above = (const uint8_t *)rows[y - 1];
+            struct png_span span =
+                png_span_filtered(png_span_of(row, width), png_span_of(above, width), width);
+            assert_in_range(span.first, 0, span.end);
+            assert_in_range(span.end, 0, width);
+            passed += width - (span.end - span.first);
+            png_filter_row(filter, row, above, width, 0xFFFFFFFFu, whole);
+            memset(part, 0, sizeof part);
+            png_filter_row(filter, row + 4 * span.first, above + 4 * span.first, span.end - span.first,
+                           0xFFFFFFFFu, part + span.first);
+            assert_memory_equal(whole, part, (size_t)width * 4);
+            adler_row(&sums[0], whole, width, 4);
+            adler_zeros(&sums[1], (uint64_t)span.first * 4);
+            adler_row(&sums[1], part + span.first, span.end - span.first, 4);
+            adler_zeros(&sums[1], (uint64_t)(width - span.end) * 4);
+            assert_int_equal(adler_value(&sums[0]), adler_value(&sums[1]));
+            for (int i = 0; i < 2; i++)
+                memcpy(deflates[i].row, whole, (size_t)width * 4);
+            deflate_row(&deflates[0], 0, width);
+            deflate_row(&deflates[1], span.first, span.end);
+        }
+        size_t size = deflate_write(&deflates[0], out[0]);
+        assert_int_equal(deflate_write(&deflates[1], out[1]), size);
+        assert_memory_equal(out[0], out[1], size);
+    }
+    assert_true(passed > 400 * ROWS * WIDTH / 4);
+    free(out[0]);
+    free(out[1]);
+    arena_free(&arena);
+}
+
 // Codes of limited length: complete (Kraft's sum is 1), within the limit, the more frequent never longer.
 static void codes_are_complete(void **state)
 {
@@ -524,6 +585,7 @@ int main(void)
         cmocka_unit_test(checksums_are_the_published_ones),
         cmocka_unit_test(adler_of_rows),
         cmocka_unit_test(filters_as_specified),
+        cmocka_unit_test(ends_of_zeros_change_nothing),
         cmocka_unit_test(codes_are_complete),
         cmocka_unit_test(decodes_to_the_source),
         cmocka_unit_test(decodes_at_the_limits_of_size),

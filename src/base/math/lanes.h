@@ -241,6 +241,21 @@ LANE_FN void inum_store_8(uint8_t *at, inum x)
 #endif
 }
 
+// The greatest integer not above; |x| < 2³¹, never NaN: clamp first.
+LANE_FN inum floor_of(num x)
+{
+#if LANES == 16 && defined(__AVX512F__)
+    return (inum)_mm512_cvt_roundps_epi32((__m512)x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+#elif LANES == 8 && defined(__AVX__)
+    return (inum)_mm256_cvttps_epi32(_mm256_floor_ps((__m256)x));
+#elif LANES == 4 && defined(__SSE4_1__)
+    return (inum)_mm_cvttps_epi32(_mm_floor_ps((__m128)x));
+#else
+    inum i = int_of(x);
+    return i - ipick(num_of_int(i) > x, inum_of(1), inum_of(0));
+#endif
+}
+
 // The lanes that are below 0, as bits.
 LANE_FN unsigned negative_bits(inum x)
 {

@@ -206,18 +206,21 @@ static void find_pairs(struct deflate *deflate, int first, int end)
     const uint32_t *row = deflate->row;
     const int64_t row_bytes = (int64_t)width * bytes_per_pixel + 1;
     const uint64_t fourth = bytes_per_pixel == 3 ? (uint64_t)DEFLATE_NOTHING << 48 : 0;
-    const uint64_t near = distance_of((uint32_t)bytes_per_pixel);
+    const uint64_t near = distance_of((uint32_t)bytes_per_pixel),
+                   one_more = match_of((size_t)bytes_per_pixel, near);
     for (int x = 0; x < width;) {
-        int run = 0;
-        if (row[x] == row[x - 1]) {
-            run = x < first ? first - x : x >= end ? width - x : 1;
+        const uint64_t pair = two_pixels(row + x);
+        if (pair == two_pixels(row + x - 1)) {
+            int run = x < first ? first - x : x >= end ? width - x : 2;
             while (x + run + CHUNK <= width && chunk_repeats(row, x + run))
                 run += CHUNK;
             while (row[x + run] == row[x - 1])
                 run++;
+            token = tell_match(token, (size_t)run * (unsigned)bytes_per_pixel, near);
+            x += run;
+            continue;
         }
-        if (run < 2 && x + 1 < width) {
-            const uint64_t pair = two_pixels(row + x);
+        if (x + 1 < width) {
             uint32_t *last = &deflate->last_places[pair * 0x9E3779B97F4A7C15u >> (64 - DEFLATE_HASH_BITS)];
             const uint32_t place = *last, there_y = place >> 16;
             const int there_x = (int)(place & 0xFFFF);
@@ -237,13 +240,9 @@ static void find_pairs(struct deflate *deflate, int first, int end)
                 }
             }
         }
-        if (run) {
-            token = tell_match(token, (size_t)run * (unsigned)bytes_per_pixel, near);
-            x += run;
-        } else {
-            put_token(token++, spread(row[x]) | fourth);
-            x++;
-        }
+        const uint64_t told = spread(row[x]) | fourth, run = 0 - (uint64_t)(row[x] == row[x - 1]);
+        put_token(token++, told ^ ((told ^ one_more) & run)); // a choice without a branch
+        x++;
     }
     deflate->end = token;
 }

@@ -1,6 +1,9 @@
 // boxes.c: boxes around blocks of vertices, and boxes around those.
 #include "boxes.h"
 
+#define LANES 4
+#include "lanes.h"
+
 #include <string.h>
 
 enum {
@@ -30,20 +33,24 @@ static void widen(box_of_six box, const float low[3], const float high[3])
 // Vertices in a row, four at a time: their twelve numbers are x, y and z in turn.
 static void box_of_row(const float *p, size_t count, box_of_six box)
 {
-    float low[12], high[12];
-    for (int k = 0; k < 12; k++) {
-        low[k] = nothing[0];
-        high[k] = nothing[3];
+    num low[3], high[3];
+    for (int k = 0; k < 3; k++) {
+        low[k] = num_of(nothing[0]);
+        high[k] = num_of(nothing[3]);
     }
     size_t fours = count / 4;
     for (size_t i = 0; i < fours; i++, p += 12)
-        for (int k = 0; k < 12; k++) {
-            low[k] = p[k] < low[k] ? p[k] : low[k];
-            high[k] = p[k] > high[k] ? p[k] : high[k];
+        for (int k = 0; k < 3; k++) {
+            num four = num_load(p + 4 * k);
+            low[k] = lesser(four, low[k]);
+            high[k] = greater(four, high[k]);
         }
+    float lows[12], highs[12];
+    memcpy(lows, low, sizeof lows);
+    memcpy(highs, high, sizeof highs);
     memcpy(box, nothing, sizeof nothing);
     for (int k = 0; k < 12; k += 3)
-        widen(box, low + k, high + k);
+        widen(box, lows + k, highs + k);
     for (size_t i = 4 * fours; i < count; i++, p += 3)
         widen(box, p, p);
 }

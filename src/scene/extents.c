@@ -18,13 +18,15 @@ struct marking {
 static void mark_piece(void *user, size_t index, int thread)
 {
     (void)thread;
-    struct marking *marking = user;
-    size_t end = (index + 1) * (size_t)PIECE;
+    const struct marking *marking = user;
+    const uint32_t *indices = marking->indices;
+    uint8_t *used = marking->used;
+    size_t first = index * (size_t)PIECE, end = first + PIECE;
     if (end > marking->corners)
         end = marking->corners;
     // Several threads may mark the same vertex, with the same value.
-    for (size_t i = index * (size_t)PIECE; i < end; i++)
-        __atomic_store_n(&marking->used[marking->indices[i]], 1, __ATOMIC_RELAXED);
+    for (size_t i = first; i < end; i++)
+        __atomic_store_n(&used[indices[i]], 1, __ATOMIC_RELAXED);
 }
 
 // The list of used vertices where some are not used. False when memory is out.

@@ -23,7 +23,7 @@ VARIANTS = [
     {"name": "gcc-debug", "cc": "gcc", "options": ["--buildtype=debug"], "only": ["images", "lighting-widths", "shapes"]},
     {"name": "clang-release", "cc": "clang", "options": ["--buildtype=release"], "only": ["images", "lighting-widths", "shapes"]},
     {"name": "clang-threads", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Db_sanitize=thread",
-                                                        "-Db_lundef=false"], "only": ["device", "obj", "ply", "stl"]},
+                                                        "-Db_lundef=false"], "only": ["device", "obj", "obj-large", "ply", "stl"]},
 ]
 
 # Not part of the whole: the same tests again, alone. Lines that match "tell" are told.

@@ -71,12 +71,14 @@ static inline bool number_rounds_surely(double x)
     return ((bits & 0x1fffffff) - 0x0ffffffc) > 8;
 }
 
+// Each is rounded once.
+static const double number_tenths[16] = {1e0,  1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
+                                         1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
+
 // As number_float, quick for [-]ddd.ddd with up to 7 + 15 digits. At least 24 bytes must be readable at `at`,
 // and a byte that is no part of a number must follow the number before `end`.
 static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t *end, float *out)
 {
-    static const double tenths[16] = {1e0,  1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
-                                      1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
     bool negative = *at == '-';
     const uint8_t *digits = at + negative;
     uint64_t eight = number_load8(digits);
@@ -103,7 +105,7 @@ static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t
     if (__builtin_expect(whole + fraction - 1 < 18 && whole < 8 && fraction < 16 && (*stop | 0x20) != 'e',
                          1)) {
         // Three roundings (`value` above 2^53, the power, the product): off by at most 3 units.
-        double x = (double)(int64_t)value * tenths[fraction];
+        double x = (double)(int64_t)value * number_tenths[fraction];
         if (__builtin_expect(number_rounds_surely(x), 1)) {
             *out = (float)(negative ? -x : x);
             return stop;

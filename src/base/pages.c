@@ -20,6 +20,13 @@ void pages_free(void *pages, size_t held)
     free(pages);
 }
 
+void pages_trim(void *pages, size_t *held, size_t bytes)
+{
+    (void)pages;
+    (void)held;
+    (void)bytes;
+}
+
 size_t pages_of_machine(void) { return SIZE_MAX; }
 
 #else
@@ -74,6 +81,15 @@ void pages_free(void *pages, size_t held)
 {
     if (pages)
         munmap(pages, held);
+}
+
+void pages_trim(void *pages, size_t *held, size_t bytes)
+{
+    size_t kept = whole_pages(bytes);
+    if (kept >= *held)
+        return;
+    munmap((uint8_t *)pages + kept, *held - kept);
+    *held = kept;
 }
 
 size_t pages_of_machine(void)

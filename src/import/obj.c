@@ -54,8 +54,12 @@ static int obj_probe(const uint8_t *bytes, size_t size)
 
 // --- reading
 
-size_t obj_line(const struct obj *obj, const uint8_t *at)
+size_t obj_line(struct obj *obj, const uint8_t *at)
 {
+    if (obj->in_pieces) {
+        obj->line_missed = true;
+        return 0;
+    }
     size_t lines = 1;
     for (const uint8_t *c = obj->begin; c < at; c++)
         lines += *c == '\n';
@@ -166,6 +170,16 @@ static bool modern_line_ends(struct obj *obj, lam_error *error)
     return true;
 }
 
+bool obj_complete(struct obj *obj, lam_error *error)
+{
+    watch_progress(obj->source->watch, 0.7, "read");
+    if (!obj_cut_polygons(obj, error) || !obj_read_statements(obj, error) ||
+        !obj_complete_texcoords(obj, error) || !obj_complete_normals(obj, error))
+        return false;
+    warn_faces(obj);
+    return finish(obj, error);
+}
+
 static bool load(struct obj *obj, size_t chunk_bytes, lam_error *error)
 {
     struct watch *watch = obj->source->watch;
@@ -175,12 +189,7 @@ static bool load(struct obj *obj, size_t chunk_bytes, lam_error *error)
     watch_progress(watch, 0.2, "read");
     if (!obj_parse(obj, error) || !obj_find_origin(obj, error) || !obj_convert_colors(obj, error))
         return false;
-    watch_progress(watch, 0.7, "read");
-    if (!obj_cut_polygons(obj, error) || !obj_read_statements(obj, error) ||
-        !obj_complete_texcoords(obj, error) || !obj_complete_normals(obj, error))
-        return false;
-    warn_faces(obj);
-    return finish(obj, error);
+    return obj_complete(obj, error);
 }
 
 bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes,
@@ -212,4 +221,5 @@ const struct importer importer_obj = {
     .up = LAM_UP_Y,
     .probe = obj_probe,
     .load = obj_load,
+    .load_parts = obj_load_large,
 };

@@ -1,10 +1,11 @@
-// obj.h: the inside of the OBJ importer: obj.c leads, obj_scan.c counts, obj_parse.c reads numbers,
-// obj_faces.c cuts polygons and completes normals, obj_parts.c makes named parts of the statements in
-// between.
+// obj.h: the inside of the OBJ importer: obj.c leads, obj_scan.c counts, obj_parse.c and obj_lines.c read
+// numbers, obj_faces.c cuts polygons and completes normals, obj_parts.c makes named parts of the statements
+// in between.
 //
 // The file is cut at line ends into chunks of a fixed size, and each pass goes over all chunks in parallel.
 // Pass one counts what each chunk holds; sums over the chunks then say where its vertices and triangles go,
 // so that pass two writes every number straight into its place. Nothing depends on the number of threads.
+// Large files that are on disk take one pass over pieces of them (obj_large.c).
 #ifndef OBJ_H
 #define OBJ_H
 
@@ -34,9 +35,9 @@ struct obj_counts {
 };
 
 struct obj_chunk {
-    const uint8_t *begin, *end; // whole lines
-    struct obj_counts holds, before;
-    bool colors, slashes; // pass one: some vertex has a colour; some '/' is there
+    const uint8_t *begin, *end;      // whole lines
+    struct obj_counts holds, before; // read in pieces: room for what it holds; what it did hold, when parsed
+    bool colors, slashes;            // pass one: some vertex has a colour; some '/' is there
     // Pass two:
     float low[3], high[3];              // box of the positions; low > high where there are none
     double low_exact[3], high_exact[3]; // the same in double, where an origin is needed
@@ -69,6 +70,8 @@ struct obj {
     size_t chunk_count;
     struct obj_counts total;
     bool colors_present;
+    bool in_pieces;   // of the text only the chunk at hand is there: nothing is known of what stands above it
+    bool line_missed; // then: somebody wanted to know a line's number
 
     float *positions, *texcoords, *normals, *colors; // colors: 4 a vertex
     uint32_t *indices, *texcoord_indices, *normal_indices;
@@ -95,8 +98,28 @@ const uint8_t *obj_next_slowly(const uint8_t *at, const uint8_t *end);
 bool obj_cut(struct obj *obj, size_t chunk_bytes, lam_error *error);
 bool obj_scan(struct obj *obj, lam_error *error); // pass one, and the sums
 
-// obj_parse.c
-bool obj_parse(struct obj *obj, lam_error *error);       // pass two
+// One chunk while it is read.
+struct obj_reader {
+    struct obj *obj;
+    struct obj_chunk *chunk;
+    const uint8_t *end;      // of the file
+    struct obj_counts at;    // where the next of each kind goes
+    struct obj_counts limit; // where this chunk's places end
+    float low[4], high[4];   // box of the positions; the fourth is spare
+    lam_error *error;
+};
+
+// obj_lines.c, compiled for several instruction sets: reads lines up to the first that is continued. Returns
+// the place behind them, at most `end`, where a line begins; NULL: something is wrong.
+typedef const uint8_t *obj_lines_reader(struct obj_reader *reader, const uint8_t *line, const uint8_t *end);
+obj_lines_reader obj_read_lines_plain, obj_read_lines_avx512;
+
+// obj_parse.c Any line: returns the place behind it, which is behind a later line's end where it is
+// continued; NULL: wrong.
+const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at);
+bool obj_parse(struct obj *obj, lam_error *error); // pass two
+// One chunk: from before on, at most what it holds. `error` may be NULL.
+bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error);
 bool obj_find_origin(struct obj *obj, lam_error *error); // reads positions again where they lie far from zero
 bool obj_convert_colors(struct obj *obj, lam_error *error);
 
@@ -108,12 +131,19 @@ bool obj_complete_normals(struct obj *obj, lam_error *error);
 // obj_parts.c
 bool obj_read_statements(struct obj *obj, lam_error *error);
 
+// obj_large.c: the importer's load_parts.
+bool obj_load_large(const struct import_source *source, const struct file_parts *file,
+                    struct lam_scene *scene);
+
+// obj.c: what follows once positions and faces are read.
+bool obj_complete(struct obj *obj, lam_error *error);
+
 // For tests: loads with chunks of that many bytes.
 bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes,
                       lam_error *error);
 
-// Line number of a place in the file.
-size_t obj_line(const struct obj *obj, const uint8_t *at);
+// Line number of a place in the file; 0, and noted, where the file is read in pieces.
+size_t obj_line(struct obj *obj, const uint8_t *at);
 
 static inline bool obj_white(uint8_t c) { return c <= ' ' && c != '\n' && c != 0; }
 

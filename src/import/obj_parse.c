@@ -2,6 +2,7 @@
 #include "obj.h"
 
 #include "chunks.h"
+#include "cpu_features.h"
 #include "srgb.h"
 #include "number_scan.h"
 #include "origin.h"
@@ -9,21 +10,13 @@
 
 #include <string.h>
 
-// One chunk while it is read.
-struct reader {
-    struct obj *obj;
-    struct obj_chunk *chunk;
-    const uint8_t *end;      // of the file
-    struct obj_counts at;    // where the next of each kind goes
-    struct obj_counts limit; // where this chunk's places end
-    lam_error *error;
-};
-
 // What went wrong at `at`: "found 'x', expected WHAT".
-static const uint8_t *wrong(struct reader *reader, const uint8_t *at, const char *expected)
+static const uint8_t *wrong(struct obj_reader *reader, const uint8_t *at, const char *expected)
 {
+    if (!reader->error) // the line's number takes a pass
+        return NULL;
     char found[TEXT_FOUND_SIZE];
-    const struct obj *obj = reader->obj;
+    struct obj *obj = reader->obj;
     const char *what =
         at < reader->end && *at == '\n' ? "the end of the line" : text_found(at, reader->end, found);
     fail_line(reader->error, obj->source, obj_line(obj, at), "found %s, expected %s", what, expected);
@@ -32,7 +25,7 @@ static const uint8_t *wrong(struct reader *reader, const uint8_t *at, const char
 
 // Reads `count` numbers; a missing one is 0 where `least` are there. Returns the place of the word behind
 // them; NULL: wrong. `expected` names them.
-static inline const uint8_t *read_numbers(struct reader *reader, const uint8_t *at, float *to, int least,
+static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8_t *at, float *to, int least,
                                           int count, const char *expected)
 {
     const uint8_t *end = reader->end;
@@ -65,7 +58,7 @@ static inline const uint8_t *finish(const uint8_t *at, const uint8_t *end)
 static float clean(float x) { return x > 0 ? x : 0; } // NaN too
 
 // What may follow x y z: nothing; w, which only rational curves use; r g b, perhaps with more behind.
-static const uint8_t *read_color(struct reader *reader, const uint8_t *at, float *color)
+static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, float *color)
 {
     const uint8_t *end = reader->end;
     float extra[4];
@@ -77,6 +70,7 @@ static const uint8_t *read_color(struct reader *reader, const uint8_t *at, float
         count++;
         at = obj_next(behind, end);
     }
+    reader->chunk->colors |= count >= 3;
     if (color && count >= 3) {
         for (int i = 0; i < 3; i++) {
             color[i] = clean(extra[i]);
@@ -87,7 +81,7 @@ static const uint8_t *read_color(struct reader *reader, const uint8_t *at, float
     return at;
 }
 
-static const uint8_t *read_position(struct reader *reader, const uint8_t *at)
+static const uint8_t *read_position(struct obj_reader *reader, const uint8_t *at)
 {
     struct obj *obj = reader->obj;
     if (reader->at.positions >= reader->limit.positions)
@@ -97,11 +91,10 @@ static const uint8_t *read_position(struct reader *reader, const uint8_t *at)
     at = read_numbers(reader, at + 1, to, 3, 3, "a coordinate (v x y z)");
     if (!at)
         return NULL;
-    struct obj_chunk *chunk = reader->chunk;
     float sum = 0;
     for (int i = 0; i < 3; i++) {
-        chunk->low[i] = to[i] < chunk->low[i] ? to[i] : chunk->low[i];
-        chunk->high[i] = to[i] > chunk->high[i] ? to[i] : chunk->high[i];
+        reader->low[i] = to[i] < reader->low[i] ? to[i] : reader->low[i];
+        reader->high[i] = to[i] > reader->high[i] ? to[i] : reader->high[i];
         sum += to[i] - to[i];
     }
     if (__builtin_expect(sum != 0, 0)) { // inf − inf and nan are not 0
@@ -134,7 +127,7 @@ static const uint8_t *read_position(struct reader *reader, const uint8_t *at)
 
 // Texture coordinates and normals: what is not finite becomes 0 and is told once, since exporters do write
 // "nan" here.
-static const uint8_t *read_attribute(struct reader *reader, const uint8_t *at, bool normal)
+static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *at, bool normal)
 {
     struct obj *obj = reader->obj;
     float *array = normal ? obj->normals : obj->texcoords;
@@ -166,7 +159,7 @@ static const uint8_t *read_attribute(struct reader *reader, const uint8_t *at, b
 
 // Reads a number of a corner: 1 is the first, −1 the last above. NULL: wrong. `what` names it, `so_far` are
 // above it.
-static inline const uint8_t *read_index(struct reader *reader, const uint8_t *at, uint64_t total,
+static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t *at, uint64_t total,
                                         uint64_t so_far, const char *what, uint32_t *out)
 {
     uint64_t eight = number_load8(at);
@@ -178,9 +171,12 @@ static inline const uint8_t *read_index(struct reader *reader, const uint8_t *at
         behind = number_int(at, reader->end, &value);
         if (!behind)
             return wrong(reader, at, what);
-        index = value > 0 ? (uint64_t)value - 1 : value < 0 ? so_far + (uint64_t)value : UINT64_MAX;
+        bool relative = value < 0 && !reader->obj->in_pieces;
+        index = value > 0 ? (uint64_t)value - 1 : relative ? so_far + (uint64_t)value : UINT64_MAX;
     }
     if (__builtin_expect(index >= total, 0)) {
+        if (!reader->error)
+            return NULL;
         char found[TEXT_FOUND_SIZE];
         int64_t value = 0;
         number_int(at, reader->end, &value);
@@ -206,7 +202,7 @@ static const char what_position[] = "a vertex", what_texcoord[] = "a texture coo
                   what_normal[] = "a normal";
 
 // One face: v, v/t, v//n or v/t/n for each corner, each corner by itself.
-static const uint8_t *read_face(struct reader *reader, const uint8_t *at)
+static const uint8_t *read_face(struct obj_reader *reader, const uint8_t *at)
 {
     struct obj *obj = reader->obj;
     struct obj_chunk *chunk = reader->chunk;
@@ -289,43 +285,57 @@ static const uint8_t *read_face(struct reader *reader, const uint8_t *at)
     return at < end ? at + 1 : end;
 }
 
-// The commonest line, "f a b c" with numbers of up to seven digits, all in range: the place behind it. NULL:
-// it is something else, and nothing was done.
-static inline const uint8_t *read_plain_triangle(struct reader *reader, const uint8_t *at)
+const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at)
 {
-    struct obj *obj = reader->obj;
-    uint32_t *to = obj->indices + 3 * reader->at.triangles;
-    uint64_t total = obj->total.positions;
-    if (obj->texcoord_indices || obj->normal_indices || reader->at.triangles >= reader->limit.triangles)
-        return NULL;
-    at++;
-    for (int i = 0; i < 3; i++) {
-        if (*at != ' ')
-            return NULL;
-        uint64_t eight = number_load8(++at);
-        unsigned digits = number_digit_count(eight);
-        uint64_t index = number_digits_value(eight, digits) - 1;
-        if (digits > 7 || index >= total)
-            return NULL;
-        to[i] = (uint32_t)index;
-        at += digits;
+    const uint8_t *end = reader->end;
+    while (obj_white(*at))
+        at++;
+    switch (obj_kind_of(at)) {
+    case OBJ_POSITION:
+        return read_position(reader, at);
+    case OBJ_FACE:
+        return read_face(reader, at);
+    case OBJ_TEXCOORD:
+        return read_attribute(reader, at, false);
+    case OBJ_NORMAL:
+        return read_attribute(reader, at, true);
+    case OBJ_OTHER:
+        if (reader->at.others >= reader->limit.others)
+            return wrong(reader, at, "what was there a moment ago");
+        reader->obj->statements[reader->at.others++] =
+            (struct obj_statement){at, (uint32_t)reader->at.triangles};
+        return obj_line_behind(at, end);
+    case OBJ_EMPTY:
+        if (*at == 0 && at < end)
+            return wrong(reader, at, "text (this is a zero byte)");
+        at = memchr(at, '\n', (size_t)(end - at));
+        return at ? at + 1 : end;
     }
-    at += *at == '\r';
-    if (*at != '\n')
-        return NULL;
-    reader->at.triangles++;
-    return at + 1;
+    return NULL;
 }
 
-static bool parse_chunk(void *user, size_t index, lam_error *error)
+static obj_lines_reader *lines_reader(void)
 {
-    struct obj *obj = user;
-    struct obj_chunk *chunk = &obj->chunks[index];
-    struct reader reader = {.obj = obj, .chunk = chunk, .end = obj->end, .at = chunk->before, .error = error};
-    for (int i = 0; i < 3; i++) {
-        chunk->low[i] = __FLT_MAX__;
-        chunk->high[i] = -__FLT_MAX__;
-    }
+#if defined(OBJ_LINES_AVX512)
+    if (cpu_features() & CPU_AVX512 && __builtin_cpu_supports("avx512vbmi2") &&
+        __builtin_cpu_supports("bmi2"))
+        return obj_read_lines_avx512;
+#endif
+    return obj_read_lines_plain;
+}
+
+bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error)
+{
+    struct obj_reader reader = {
+        .obj = obj,
+        .chunk = chunk,
+        .end = obj->end,
+        .at = chunk->before,
+        .low = {__FLT_MAX__, __FLT_MAX__, __FLT_MAX__},
+        .high = {-__FLT_MAX__, -__FLT_MAX__, -__FLT_MAX__},
+        .error = error,
+    };
+    obj_lines_reader *read_lines = lines_reader();
     chunk->short_faces = chunk->odd_numbers = 0;
     chunk->brightest = 0;
     reader.limit = (struct obj_counts){
@@ -336,44 +346,20 @@ static bool parse_chunk(void *user, size_t index, lam_error *error)
         .polygons = chunk->before.polygons + chunk->holds.polygons,
         .others = chunk->before.others + chunk->holds.others,
     };
-    const uint8_t *at = chunk->begin, *end = obj->end;
-    while (at && at < chunk->end) {
-        while (obj_white(*at))
-            at++;
-        switch (obj_kind_of(at)) {
-        case OBJ_POSITION:
-            at = read_position(&reader, at);
-            break;
-        case OBJ_FACE: {
-            const uint8_t *behind = read_plain_triangle(&reader, at);
-            at = behind ? behind : read_face(&reader, at);
-            break;
-        }
-        case OBJ_TEXCOORD:
-            at = read_attribute(&reader, at, false);
-            break;
-        case OBJ_NORMAL:
-            at = read_attribute(&reader, at, true);
-            break;
-        case OBJ_OTHER:
-            if (reader.at.others >= reader.limit.others) {
-                at = wrong(&reader, at, "what was there a moment ago");
-                break;
-            }
-            obj->statements[reader.at.others++] = (struct obj_statement){at, (uint32_t)reader.at.triangles};
-            at = obj_line_behind(at, end);
-            break;
-        case OBJ_EMPTY:
-            if (*at == 0 && at < end) {
-                at = wrong(&reader, at, "text (this is a zero byte)");
-                break;
-            }
-            at = memchr(at, '\n', (size_t)(end - at));
-            at = at ? at + 1 : end;
-            break;
-        }
-    }
+    const uint8_t *at = chunk->begin;
+    while (at && at < chunk->end)
+        at = read_lines(&reader, at, chunk->end);
+    memcpy(chunk->low, reader.low, sizeof chunk->low);
+    memcpy(chunk->high, reader.high, sizeof chunk->high);
+    if (obj->in_pieces)
+        chunk->holds = reader.at; // before it stood nothing
     return at != NULL;
+}
+
+static bool parse_chunk(void *user, size_t index, lam_error *error)
+{
+    struct obj *obj = user;
+    return obj_parse_chunk(obj, &obj->chunks[index], error);
 }
 
 bool obj_parse(struct obj *obj, lam_error *error)

@@ -1,0 +1,386 @@
+// test_obj_large.c: large OBJ files are read piece by piece; what comes of it is what comes of reading them
+// whole.
+#include "loading.h"
+
+#include "obj.h"
+
+#include <unistd.h>
+
+enum { SIDE = 210, VERTICES = SIDE * SIDE, SQUARES = (SIDE - 1) * (SIDE - 1), ROOM = 16 << 20 };
+
+static char path[] = "/tmp/lambent-large-XXXXXX";
+static char *text;
+static size_t size, faces_begin;
+
+// What a file is made with.
+struct style {
+    const char *first;    // stands before all
+    const char *corner;   // of a face, by printf: its number, up to three times
+    const char *line_end; // NULL: "\n"
+    const char *number;   // NULL: "%.6f"
+    bool texcoords, normals, quads, parts, mixed, last_line_open;
+    double far; // added to x
+};
+
+__attribute__((format(printf, 1, 2))) static void add(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    size += (size_t)vsnprintf(text + size, ROOM - size, format, arguments);
+    va_end(arguments);
+    assert_true(size < ROOM - 4096);
+}
+
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+
+static void number(const struct style *style, double x)
+{
+    text[size++] = ' ';
+    size += (size_t)snprintf(text + size, ROOM - size, style->number ? style->number : "%.6f", x);
+}
+
+static void corner(const struct style *style, int v)
+{
+    text[size++] = ' ';
+    size += (size_t)snprintf(text + size, ROOM - size, style->corner ? style->corner : "%d", v, v, v);
+}
+
+static void make(struct style style)
+{
+    const char *line_end = style.line_end ? style.line_end : "\n";
+    size = 0;
+    add("%s", style.first ? style.first : "# a comment\n");
+    for (int i = 0; i < VERTICES; i++) {
+        double u = i % SIDE / (double)SIDE, v = i / SIDE / (double)SIDE;
+        add("v");
+        number(&style, style.far + 3 * u - 1);
+        number(&style, v - 0.5);
+        number(&style, i * 37 % 101 * 0.003);
+        add("%s", line_end);
+        if (style.texcoords)
+            add("vt %.4f %.4f%s", u, v, line_end);
+        if (style.normals)
+            add("vn %.4f %.4f 1.0000%s", u - 0.5, v - 0.5, line_end);
+    }
+    faces_begin = size;
+    for (int i = 0; i < SQUARES; i++) {
+        int a = i / (SIDE - 1) * SIDE + i % (SIDE - 1) + 1, b = a + 1, c = a + SIDE + 1, d = a + SIDE;
+        if (style.parts && i % 5000 == 0)
+            add("g group %d%susemtl none%ss %d%s", i / 10000, line_end, line_end, i % 3, line_end);
+        add("f");
+        corner(&style, a);
+        corner(&style, b);
+        corner(&style, c);
+        if (style.quads && i % 3 != 0) {
+            corner(&style, d);
+        } else {
+            add("%sf", line_end);
+            corner(&style, a);
+            corner(&style, c);
+            corner(&style, d);
+        }
+        add("%s", line_end);
+        if (style.mixed && i == SQUARES / 2)
+            style.corner = NULL;
+    }
+    if (style.last_line_open)
+        size -= strlen(line_end);
+    assert_true(size > 1 << 20);
+}
+
+static void write_file(void)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+// Whether obj_large.c serves the file.
+static bool served(int threads)
+{
+    lam_load_params params = {0};
+    struct watch watch;
+    struct pool *pool = pool_make(threads);
+    uint8_t *head = calloc(1, FILE_HEAD + FILE_PADDING);
+    struct file_parts file;
+    watch_start(&watch, NULL);
+    assert_true(head && pool && file_open_parts(path, head, &file));
+    struct import_source source = {.name = path,
+                                   .path = path,
+                                   .bytes = head,
+                                   .size = FILE_HEAD,
+                                   .params = &params,
+                                   .pool = pool,
+                                   .watch = &watch};
+    struct lam_scene *scene = scene_make(&watch, NULL);
+    assert_non_null(scene);
+    bool done = importer_obj.load_parts(&source, &file, scene);
+    lam_scene_free(scene);
+    assert_int_equal(watch.memory_used, 0); // all that was charged came back
+    file_close_parts(&file);
+    pool_free(pool);
+    free(head);
+    return done;
+}
+
+static void assert_same_text(const char *a, const char *b)
+{
+    assert_int_equal(a != NULL, b != NULL);
+    if (a)
+        assert_string_equal(a, b);
+}
+
+static void assert_same_scene(const lam_scene *a, const lam_scene *b)
+{
+    const lam_mesh *m = lam_scene_mesh(a, 0), *n = lam_scene_mesh(b, 0);
+    assert_same_mesh(m, n);
+    size_t corners = 12 * (size_t)m->triangle_count;
+    assert_int_equal(m->texcoord_count, n->texcoord_count);
+    assert_true(same_array(m->texcoord_indices, n->texcoord_indices, corners));
+    assert_true(same_array(m->smoothing_groups, n->smoothing_groups, corners / 3));
+    for (uint32_t p = 0; p < m->part_count; p++) {
+        assert_same_text(m->parts[p].name, n->parts[p].name);
+        assert_int_equal(m->parts[p].first_triangle, n->parts[p].first_triangle);
+        assert_int_equal(m->parts[p].triangle_count, n->parts[p].triangle_count);
+        assert_int_equal(m->parts[p].material, n->parts[p].material);
+    }
+    for (int w = 0; w == 0 || lam_scene_warning(a, w - 1); w++)
+        assert_same_text(lam_scene_warning(a, w), lam_scene_warning(b, w));
+}
+
+// Loads the file, and its bytes by the same name: both scenes, or both errors, are equal. Whether it loaded.
+static bool load_both(void)
+{
+    bool loaded = false;
+    write_file();
+    for (int threads = 1; threads <= 3; threads += 2) {
+        lam_error errors[2] = {0};
+        lam_load_params params = {.threads = threads};
+        lam_scene *scenes[2] = {lam_scene_load(path, &params, NULL, &errors[0]),
+                                lam_scene_load_memory(text, size, path, &params, NULL, &errors[1])};
+        assert_int_equal(scenes[0] != NULL, scenes[1] != NULL);
+        loaded = scenes[0] != NULL;
+        if (loaded) {
+            assert_same_scene(scenes[0], scenes[1]);
+        } else {
+            assert_int_equal(errors[0].code, errors[1].code);
+            assert_string_equal(errors[0].text, errors[1].text);
+        }
+        for (int k = 0; k < 2; k++)
+            lam_scene_free(scenes[k]);
+    }
+    return loaded;
+}
+
+// Files of usual kinds are served.
+static void usual_files(void **state)
+{
+    (void)state;
+    const struct style styles[] = {
+        {0},
+        {.line_end = "\r\n"},
+        {.line_end = " \r\n"},
+        {.first = "\xef\xbb\xbf# with a mark\n"},
+        {.last_line_open = true},
+        {.number = "%.9g"},
+        {.number = "%.4f"},
+        {.number = "%.8f"},
+        {.number = "%.3e"},
+        {.number = "%12.6f", .corner = "%7d"},
+        {.quads = true},
+        {.texcoords = true, .corner = "%d/%d"},
+        {.normals = true, .corner = "%d//%d"},
+        {.texcoords = true, .normals = true, .corner = "%d/%d/%d", .quads = true},
+        {.texcoords = true, .normals = true},
+        {.texcoords = true, .normals = true, .corner = "%d//%d", .quads = true},
+        {.first = "o the only one\n\ns off\n"},
+        {.first = "l 1 2\n", .number = "%.7f"},
+    };
+    for (size_t i = 0; i < sizeof styles / sizeof *styles; i++) {
+        make(styles[i]);
+        assert_true(load_both());
+        bool lines = styles[i].first && styles[i].first[0] == 'l'; // are told of, with their place
+        for (int threads = 1; threads <= 3; threads++)
+            assert_int_equal(served(threads), !lines);
+    }
+}
+
+// Groups, materials and smoothing groups between the faces. A material that is not there is told with its
+// line, and takes reading it whole.
+static void statements(void **state)
+{
+    (void)state;
+    make((struct style){.parts = true, .quads = true});
+    assert_true(load_both());
+    assert_false(served(2));
+    for (char *at = strstr(text, "usemtl"); at; at = strstr(at, "usemtl"))
+        memcpy(at, "bevel ", 6);
+    assert_true(load_both());
+    assert_true(served(1));
+    assert_true(served(3));
+}
+
+// Right, but unusual: read whole.
+static void unusual_files(void **state)
+{
+    (void)state;
+    const struct style styles[] = {
+        {.far = 1e6},
+        {.number = "%.6f 0.5 0.5", .first = "# colours\n"},
+        {.normals = true, .corner = "%d//%d", .mixed = true},
+        {.normals = false, .corner = "%d//%d"},
+        {.corner = "%d/%d"},
+    };
+    for (size_t i = 0; i < sizeof styles / sizeof *styles; i++) {
+        make(styles[i]);
+        assert_true(load_both());
+        assert_false(served(2));
+    }
+    make((struct style){0});
+    add("f -1 -2 -3\n");
+    assert_true(load_both());
+    assert_false(served(1));
+    make((struct style){0});
+    add("v 1 2 3 0.5 0.25 0.125\n");
+    assert_true(load_both());
+    assert_false(served(2));
+    make((struct style){0});
+    add("# %0*d\nf 1 2 3\n", 40000, 1); // a line longer than is looked ahead
+    assert_true(load_both());
+    make((struct style){0});
+    for (int i = 0; i < 6000; i++)
+        add("g %d\n", i);
+    add("f 1 2 3\n");
+    assert_true(load_both());
+}
+
+// At every place around the edge of two pieces: a line's end, a continued line, a comment.
+static void edges(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {"f 1 2 \\\n3\n", "# a comment \\\nf 4 5 6\n", "v 1 \\\r\n2 3\n",
+                                        "\n\n\n", "f 123 4567 89\r\n"};
+    make((struct style){0});
+    size_t whole = size;
+    char *copy = malloc(whole);
+    assert_non_null(copy);
+    memcpy(copy, text, whole);
+    for (size_t l = 0; l < sizeof lines / sizeof *lines; l++) {
+        for (size_t shift = 0; shift < 14; shift++) {
+            // A comment fills up, so that the line begins somewhat before the edge.
+            size_t edge = 256 << 10, at = edge - 400;
+            memcpy(text, copy, whole);
+            size = whole;
+            while (text[at - 1] != '\n')
+                at--;
+            size_t next = at + 450;
+            while (text[next - 1] != '\n')
+                next++;
+            size_t comment = edge - shift - at;
+            memset(text + at, 'x', comment);
+            text[at] = '#';
+            text[at + comment - 1] = '\n';
+            size_t length = strlen(lines[l]);
+            memmove(text + at + comment + length, copy + next, whole - next);
+            memcpy(text + at + comment, lines[l], length);
+            size = at + comment + length + (whole - next);
+            // Vertices are missing now; what names the last ones goes.
+            size = (size_t)(strstr(text, "f 41") - text);
+            assert_true(load_both());
+        }
+    }
+    free(copy);
+}
+
+static void what_is_wrong_is_told_as_ever(void **state)
+{
+    (void)state;
+    static const char *const wrong[] = {
+        "f 1 2 44101\n", "f 0 1 2\n", "f 1 2\n", "v 1 2\n",        "v 1 nan 2\n",      "f 1 2 x\n",
+        "v 1 2 3 x\n",   "vn 1 2\n",  "hello\n", "f 1 2 -44101\n", "f 1 2 99999999\n", "f 1 2 4294967297\n"};
+    for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
+        for (int place = 0; place < 3; place++) { // first, at a piece's edge, last
+            make((struct style){.first = place == 0 ? wrong[w] : NULL});
+            if (place == 1) {
+                char *at = memchr(text + (512 << 10) - 5, '\n', 100), *behind = at + 1 + strlen(wrong[w]);
+                behind = memchr(behind, '\n', 100);
+                assert_true(at && behind);
+                memset(at + 1, ' ', (size_t)(behind - at - 1));
+                memcpy(at + 1, wrong[w], strlen(wrong[w]) - 1);
+            } else if (place == 2) {
+                add("%s", wrong[w]);
+            }
+            load_both();
+            if (served(2))
+                fail_msg("%s at place %d is served", wrong[w], place);
+        }
+    }
+    make((struct style){0});
+    text[faces_begin + 100000] = 0;
+    assert_false(load_both());
+    make((struct style){0});
+    size = faces_begin; // no faces
+    assert_false(load_both());
+    make((struct style){.first = "# a comment\r", .line_end = "\r"}); // of old Macintosh programs
+    assert_true(load_both());
+    assert_false(served(2));
+}
+
+static void can_be_stopped(void **state)
+{
+    (void)state;
+    make((struct style){0});
+    write_file();
+    lam_cancel cancel = {0};
+    lam_cancel_raise(&cancel);
+    lam_error error;
+    assert_null(lam_scene_load(path, NULL, &(lam_control){.cancel = &cancel}, &error));
+    assert_int_equal(error.code, LAM_CANCELLED);
+    assert_null(lam_scene_load(path, NULL, &(lam_control){.memory_limit_bytes = 2 << 20}, &error));
+    assert_int_equal(error.code, LAM_LIMIT);
+}
+
+// Each allocation fails in turn: the file is then not served, or read whole; nothing leaks.
+static void memory(void **state)
+{
+    (void)state;
+    make((struct style){.normals = true, .corner = "%d//%d", .quads = true, .first = "o name\ng group\n"});
+    write_file();
+    int refused = 0;
+    for (long countdown = 0; countdown < 30; countdown++) {
+        arena_fail_after(countdown);
+        refused += !served(1);
+        arena_fail_after(-1);
+    }
+    assert_in_range(refused, 5, 29);
+}
+
+static int start(void **state)
+{
+    (void)state;
+    text = calloc(1, ROOM);
+    int file = mkstemp(path);
+    return text && file >= 0 && close(file) == 0 ? 0 : -1;
+}
+
+static int stop(void **state)
+{
+    (void)state;
+    free(text);
+    return unlink(path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(usual_files),
+        cmocka_unit_test(statements),
+        cmocka_unit_test(unusual_files),
+        cmocka_unit_test(edges),
+        cmocka_unit_test(what_is_wrong_is_told_as_ever),
+        cmocka_unit_test(can_be_stopped),
+        cmocka_unit_test(memory),
+    };
+    return cmocka_run_group_tests_name("large OBJ files", tests, start, stop);
+}

@@ -71,11 +71,16 @@ FN answer lambert_lobe(surface s, vec3 l)
 // Phong (1975): the highlight is round the mirror image of the light.  S = [n.l > 0] max(r.v, 0)^shininess
 // r.v is taken as 1 - |r - v|^2 / 2, the same for unit vectors: an error in the length of n would count
 // fourfold in the product where the highlight is brightest, and here it does not count at all.
+FN num phong_base(vec3 n, vec3 l, vec3 v)
+{
+    vec3 apart = sub3(mirror3(l, n), v);
+    return 1.0f - 0.5f * dot3(apart, apart);
+}
+
 FN answer phong_lobe(surface s, vec3 l)
 {
     answer b = lambert_lobe(s, l);
-    vec3 apart = sub3(mirror3(l, s.n), s.v);
-    b.base = 1.0f - 0.5f * dot3(apart, apart);
+    b.base = phong_base(s.n, l, s.v);
     return b;
 }
 
@@ -83,11 +88,26 @@ FN answer phong_lobe(surface s, vec3 l)
 // and eye. S = [n.l > 0] max(n.h, 0)^shininess  with  h = (l + v) / |l + v| The length is divided by after
 // the product with n, which saves three products; n.l + n.v in place of n.(l + v) would save more and lose
 // digits where l and v are nearly opposite.
+STRUCT(halfway)
+{
+    num product; // n.(l + v)
+    num square;  // |l + v|^2
+};
+
+FN halfway halfway_of(vec3 n, vec3 l, vec3 v)
+{
+    halfway h;
+    vec3 sum = add3(l, v);
+    h.product = dot3(n, sum);
+    h.square = dot3(sum, sum);
+    return h;
+}
+
 FN answer blinn_phong_lobe(surface s, vec3 l)
 {
     answer b = lambert_lobe(s, l);
-    vec3 sum = add3(l, s.v);
-    b.base = dot3(s.n, sum) * inverse_root(dot3(sum, sum));
+    halfway h = halfway_of(s.n, l, s.v);
+    b.base = h.product * inverse_root(h.square);
     return b;
 }
 

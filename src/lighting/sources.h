@@ -79,28 +79,45 @@ FN num spot_at(num c, source light, int kind)
     return spot;
 }
 
-// The light as seen from the point p. At the light itself nothing arrives: there is no direction to it.
+// The light at the end of the way from a point; `square` is the way's length squared, `inverse` 1 by the
+// length.
+FN toward toward_along(vec3 way, num square, num inverse)
+{
+    toward t;
+    t.l = scale3(way, inverse);
+    t.distance = square * inverse;
+    t.attenuation = num_of(1.0f);
+    t.spot = num_of(1.0f);
+    return t;
+}
+
+// What distance and cone leave of it. At the light itself nothing arrives: there is no direction to it.
+FN toward weaken_light(toward t, num square, source light, int kind, int falloff)
+{
+    if (falloff != FALLOFF_NONE) {
+        t.attenuation = attenuation_at(t.distance, light, falloff);
+    }
+    t.attenuation = pick(square > 0.0f, t.attenuation, num_of(0.0f));
+    if (kind >= LIGHT_SPOT_CUTOFF) {
+        t.spot = spot_at(cosine(-dot3(t.l, light.direction)), light, kind);
+    }
+    return t;
+}
+
+// The light as seen from the point p.
 FN toward toward_light(vec3 p, source light, int kind, int falloff)
 {
     toward t;
-    t.spot = num_of(1.0f);
-    t.attenuation = num_of(1.0f);
     if (kind == LIGHT_DIRECTIONAL) {
         t.l = negate3(light.direction);
         t.distance = num_of(0.0f);
+        t.attenuation = num_of(1.0f);
+        t.spot = num_of(1.0f);
     } else {
         vec3 way = sub3(light.position, p);
         num square = dot3(way, way);
-        num inverse = inverse_root(square);
-        t.l = scale3(way, inverse);
-        t.distance = square * inverse;
-        if (falloff != FALLOFF_NONE) {
-            t.attenuation = attenuation_at(t.distance, light, falloff);
-        }
-        t.attenuation = pick(square > 0.0f, t.attenuation, num_of(0.0f));
-        if (kind >= LIGHT_SPOT_CUTOFF) {
-            t.spot = spot_at(cosine(-dot3(t.l, light.direction)), light, kind);
-        }
+        t = toward_along(way, square, inverse_root(square));
+        t = weaken_light(t, square, light, kind, falloff);
     }
     return t;
 }

@@ -69,17 +69,17 @@ LANE_FN num exp2_of(num y)
     return pick(y >= -126.0f, exp2_fraction(x - w.whole) * w.power, num_of(0.0f));
 }
 
-// y = exponent · log₂ base for normal base > 0, as head + tail. Powers want y to 2e-6 where it may be 126,
-// two bits more than a float has. So the logarithm is taken in two parts, the first of 12 bits (any value
-// near it will do: here a short guess), and the exponent likewise. Head · head is then exact, and only small
-// things are rounded. The work on the exponent is the same for every pixel and leaves the loop.
+// y = exponent · log₂ base for normal base > 0, of which the parts are given, as head + tail. Powers want y
+// to 2e-6 where it may be 126, two bits more than a float has. So the logarithm is taken in two parts, the
+// first of 12 bits (any value near it will do: here a short guess), and the exponent likewise. Head · head is
+// then exact, and only small things are rounded. The work on the exponent is the same for every pixel and
+// leaves the loop.
 struct two_parts {
     num head, tail;
 };
 
-LANE_FN struct two_parts scaled_log2(num base, num exponent)
+LANE_FN struct two_parts scaled_log2(struct binary_parts b, num exponent)
 {
-    struct binary_parts b = binary_parts_of(base);
     num line = 1.5f * b.rest;
     num curve = log2_remainder(b.rest);
     num guess = b.exponent + (line - 0.7f * (b.rest * b.rest));
@@ -101,11 +101,13 @@ LANE_FN num least_base(num exponent)
 // normal number are 0: denormals cost two to three times the rest. Relative error at most 2e-6 for exponents
 // up to 128, and 3e-6 for all.
 //
-// In two steps, so that a loop over many powers need not wait for each one's end: the logarithm, with a head
-// of −∞ where the result is 0, and the power of two.
-LANE_FN struct two_parts unit_power_logarithm(num base, num exponent)
+// In three steps, so that loops over many powers need not wait for each one's end: the base's parts, its
+// logarithm, with a head of −∞ where the result is 0, and the power of two.
+LANE_FN struct binary_parts unit_parts_of(num base) { return binary_parts_of(lesser(base, num_of(1.0f))); }
+
+LANE_FN struct two_parts unit_power_logarithm(num base, struct binary_parts parts, num exponent)
 {
-    struct two_parts y = scaled_log2(lesser(base, num_of(1.0f)), exponent);
+    struct two_parts y = scaled_log2(parts, exponent);
     y.head = pick(base >= least_base(exponent), y.head, num_of(-__builtin_inff()));
     return y;
 }
@@ -118,12 +120,15 @@ LANE_FN num unit_power_of(struct two_parts y)
     return pick(sum >= -126.0f, exp2_fraction(fraction) * w.power, num_of(0.0f));
 }
 
-LANE_FN num unit_power(num base, num exponent) { return unit_power_of(unit_power_logarithm(base, exponent)); }
+LANE_FN num unit_power(num base, num exponent)
+{
+    return unit_power_of(unit_power_logarithm(base, unit_parts_of(base), exponent));
+}
 
 // As unit_power, for any base ≥ 0. Results above 2^127.5 become about that.
 LANE_FN num power(num base, num exponent)
 {
-    struct two_parts y = scaled_log2(base, lesser(exponent, num_of(1.0e30f)));
+    struct two_parts y = scaled_log2(binary_parts_of(base), lesser(exponent, num_of(1.0e30f)));
     num sum = y.head + y.tail;
     struct whole_power w = whole_power_of(lesser(sum, num_of(127.0f)));
     num fraction = lesser((y.head - w.whole) + y.tail, num_of(0.51f)); // a little over ½: sum was rounded
@@ -135,12 +140,20 @@ LANE_FN num power(num base, num exponent)
 // from the bits (the halved, negated exponent), a first step whose constants were fitted to come out a little
 // low, which makes the rounding of x·y² finer, and one step of third order: with e = 1 − x·y², 1/√x = y/√(1 −
 // e) = y·(1 + e/2 + 3e²/8 + …).
-LANE_FN num inverse_root(num x)
+//
+// In two steps for loops over many, as above: what is near it, and the rest of the way.
+LANE_FN num inverse_root_near(num x)
 {
     num y = num_of_bits(wrap_sub(inum_of(0x5f1ffff9), shift_right(bits_of(x), 1)));
-    y = y * (1.6808f - 0.7035f * ((x * y) * y));
+    return y * (1.6808f - 0.7035f * ((x * y) * y));
+}
+
+LANE_FN num inverse_root_from(num x, num y)
+{
     num e = 1.0f - (x * y) * y;
     return y + (y * e) * (0.5f + 0.375f * e);
 }
+
+LANE_FN num inverse_root(num x) { return inverse_root_from(x, inverse_root_near(x)); }
 
 #endif

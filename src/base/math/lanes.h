@@ -216,6 +216,19 @@ LANE_FN mask mask_of_bits(unsigned bits)
 #endif
 }
 
+// LANES numbers of 16 bits, side by side.
+LANE_FN inum inum_load_16(const uint16_t *at)
+{
+#if LANES == 1
+    return *at;
+#else
+    typedef uint16_t narrow __attribute__((vector_size(LANES * 2)));
+    narrow n;
+    memcpy(&n, at, sizeof n);
+    return __builtin_convertvector(n, inum);
+#endif
+}
+
 // Writes the lowest 16 or 8 bits of each lane, side by side.
 LANE_FN void inum_store_16(uint16_t *at, inum x)
 {

@@ -23,16 +23,15 @@ const struct fan_lanes *fan_lanes_of(int lanes)
     return &fan_lanes_plain;
 }
 
-uint32_t fan_batch_take(struct fan_batch *batch, uint32_t count)
+bool fan_batch_take(struct fan_batch *batch, uint32_t count)
 {
-    uint32_t places = batch->waiting[count];
-    if (!places)
-        return 0;
+    struct fan_block *block = &batch->block;
+    block->count = count;
+    block->places = batch->waiting[count];
     batch->waiting[count] = 0;
-    batch->block.count = count;
-    memcpy(batch->block.corners, batch->rows + count * (count - 1) / 2, count * sizeof *batch->rows);
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t p = places; p < FAN_PLACES; p++)
-            batch->block.corners[i][p] = batch->block.corners[i][places - 1];
-    return places;
+    memcpy(block->corners, batch->rows + count * (count - 1) / 2, count * sizeof *batch->rows);
+    for (uint32_t i = 0; block->places && i < count; i++)
+        for (uint32_t p = block->places; p < FAN_PLACES; p++)
+            block->corners[i][p] = block->corners[i][p - 1];
+    return block->places > 0;
 }

@@ -30,8 +30,7 @@ static inline bool fan_batch_add(struct fan_batch *batch, const uint32_t *corner
     return place + 1 == FAN_PLACES;
 }
 
-// Those with that many corners into batch->block, which has its count and corners then. Returns how many they
-// are, none perhaps; the last one fills the places behind them.
-uint32_t fan_batch_take(struct fan_batch *batch, uint32_t count);
+// Those with that many corners into batch->block, ready to be made. False: there are none.
+bool fan_batch_take(struct fan_batch *batch, uint32_t count);
 
 #endif

@@ -228,19 +228,30 @@ static void make(struct fan_block *b, const lam_mesh *mesh, double least_cosine)
     }
 }
 
-static void find(struct fan_block *b, const struct number_set *triangles, uint32_t first)
+static uint32_t find(struct fan_block *b, const struct number_set *triangles, uint32_t first)
 {
     const uint64_t *bits = triangles->bits;
     const uint32_t *before = triangles->before;
-    memset(b->seen, 0, sizeof b->seen);
+    fan_numbers seen = {0}, with_some = {0};
+    uint32_t fans = 0;
     for (uint32_t i = 0; i < b->count; i++)
         for (uint32_t p = 0; p < FAN_PLACES; p++) {
             uint64_t number = (uint64_t)first + b->triangles[i][p];
-            uint64_t up_to = bits[number / 64] << (63 - number % 64), seen = up_to >> 63;
-            uint64_t place = before[number / 64] + (uint64_t)count_bits(up_to) - seen;
-            b->seen[p] |= (uint32_t)seen << i;
+            uint64_t up_to = bits[number / 64] << (63 - number % 64), is_seen = up_to >> 63;
+            uint64_t place = before[number / 64] + (uint64_t)count_bits(up_to) - is_seen;
+            seen[p] |= (uint32_t)is_seen << i;
             b->elements[i][p] = 3 * place + b->corners[i][p] - 3 * (uint64_t)b->triangles[i][p];
         }
+    for (uint32_t p = 0; p < FAN_PLACES; p++)
+        seen[p] = p < b->places && !b->flat[p] ? seen[p] : 0;
+    for (uint32_t f = 0; f < b->fans; f++)
+        for (uint32_t p = 0; p < FAN_PLACES; p++) {
+            b->members[f][p] &= seen[p];
+            with_some[p] += b->members[f][p] != 0;
+        }
+    for (uint32_t p = 0; p < FAN_PLACES; p++)
+        fans += with_some[p];
+    return fans;
 }
 
 static inline uint32_t bits_without_sign(float x)

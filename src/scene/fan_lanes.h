@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 enum {
-    FAN_PLACES = 16, // positions side by side
+    FAN_PLACES = 32, // positions side by side; gcc unrolls loops of 16 before it could make them wide
     FAN_FEW = 16,    // corners at one of them, at most
 };
 
@@ -19,16 +19,15 @@ typedef uint32_t fan_numbers[FAN_PLACES];
 
 // Positions where equally many corners meet, one in each lane: row i has their corners i.
 struct fan_block {
-    uint32_t count;               // of corners at each
+    uint32_t count, places;       // corners at each, and how many there are; the lanes behind them repeat one
     fan_numbers corners[FAN_FEW]; // ascending at each position once they are looked at
-    fan_numbers flat;             // not 0: a triangle there has no area
-    uint32_t fans;                // at the position with most
+    fan_numbers flat;             // not 0: a triangle there has no area, and nothing else is told of it
     // Of the fans, numbered at each position by their first corners: the corners as bits, 0: there is no such
     // fan; and the normals.
+    uint32_t fans; // at the position with most
     fan_numbers members[FAN_FEW];
     float unit[FAN_FEW][3][FAN_PLACES];
-    fan_numbers seen;                       // the corners of triangles that are, as bits
-    uint64_t elements[FAN_FEW][FAN_PLACES]; // where those corners' elements stand in seen_normals
+    uint64_t elements[FAN_FEW][FAN_PLACES]; // where the corners' elements stand in seen_normals
 
     // On the way there.
     fan_numbers triangles[FAN_FEW], groups[FAN_FEW];
@@ -47,10 +46,11 @@ struct fan_filter {
 
 struct fan_lanes {
     int lanes; // floats in a register
-    // Fills what follows from count and corners, but for the elements.
+    // Fills what follows from count, places and corners, but for the elements.
     void (*make)(struct fan_block *block, const lam_mesh *mesh, double least_cosine);
-    // Fills `seen` and `elements`. Triangle 0 has the number `first`.
-    void (*find)(struct fan_block *block, const struct number_set *triangles, uint32_t first);
+    // Then: fills the elements, and leaves as members only corners of triangles in the set, where triangle 0
+    // has the number `first`. Returns how many fans have any.
+    uint32_t (*find)(struct fan_block *block, const struct number_set *triangles, uint32_t first);
     // Of `count` points, 3 floats each: the hashes of their positions (weld.h), and whether the filter has
     // them.
     void (*ask)(const float *points, size_t count, const struct fan_filter *filter, uint64_t *hashes,

@@ -154,28 +154,24 @@ static bool make_fans(struct seeing *s, struct seen_worker *worker, const uint32
 // element.
 static bool make_block(struct seeing *s, struct seen_worker *worker, uint32_t count)
 {
-    uint32_t places = fan_batch_take(worker->batch, count), needed = 0;
     struct fan_block *block = &worker->batch->block;
-    if (!places)
+    if (!fan_batch_take(worker->batch, count))
         return true;
-    worker->coming -= places;
+    worker->coming -= block->places;
     s->lanes->make(block, s->mesh, s->least_cosine);
-    s->lanes->find(block, &s->seen->triangles, s->first);
+    uint32_t needed = s->lanes->find(block, &s->seen->triangles, s->first);
     for (uint32_t f = 0; f < block->fans; f++)
-        for (uint32_t p = 0; p < places; p++)
-            needed += !block->flat[p] && block->members[f][p] & block->seen[p];
-    for (uint32_t f = 0; f < block->fans; f++)
-        for (uint32_t p = 0; p < places; p++) {
-            uint32_t members = block->flat[p] ? 0 : block->members[f][p] & block->seen[p];
+        for (uint32_t p = 0; p < block->places; p++) {
+            uint32_t members = block->members[f][p];
+            float(*unit)[FAN_PLACES] = block->unit[f];
             if (!members)
                 continue;
-            float(*unit)[FAN_PLACES] = block->unit[f];
             uint32_t element = new_element(s, worker, needed--, unit[0][p], unit[1][p], unit[2][p]), unseen;
             for (uint32_t i = 0; i < count; i++)
                 *(members >> i & 1 ? &s->seen->elements[block->elements[i][p]] : &unseen) = element;
         }
     bool ok = true;
-    for (uint32_t p = 0; ok && p < places; p++)
+    for (uint32_t p = 0; ok && p < block->places; p++)
         if (block->flat[p]) {
             worker->coming++;
             uint32_t corners[FAN_FEW];
@@ -210,18 +206,19 @@ static bool make_room(struct seeing *s, struct seen_worker *worker, size_t index
     return worker->sorted && worker->where;
 }
 
-// The positions of a block's corners, counted from `first`. Returns how many there are.
+// The positions of a block's corners, numbered from `first`, each counted. Returns how many corners there
+// are.
 static uint32_t positions_in(const struct seeing *s, const struct corner_block *block, uint32_t first,
-                             uint32_t *restrict positions)
+                             uint32_t *restrict positions, uint32_t *restrict counts)
 {
     const uint32_t *values = block->values, *position_of = s->position_of, *indices = s->mesh->indices;
     uint32_t count = position_of ? block->count : block->count / 2;
     if (!position_of)
         for (uint32_t i = 0; i < count; i++)
-            positions[i] = values[2 * i] - first;
+            counts[positions[i] = values[2 * i] - first]++;
     else
         for (uint32_t i = 0; i < count; i++)
-            positions[i] = position_of[indices ? indices[values[i]] : values[i]] - first;
+            counts[positions[i] = position_of[indices ? indices[values[i]] : values[i]] - first]++;
     return count;
 }
 
@@ -233,12 +230,8 @@ static void sort_range(struct seeing *s, struct seen_worker *worker, size_t inde
     uint32_t end = 0, step = s->position_of ? 1 : 2;
     memset(starts, 0, (size + 1) * sizeof *starts);
     for (int t = 0; t < pool_threads(s->pool); t++)
-        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before) {
-            uint32_t count = positions_in(s, b, (uint32_t)(index << s->range_shift), where);
-            for (uint32_t i = 0; i < count; i++)
-                starts[where[i]]++;
-            where += count;
-        }
+        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before)
+            where += positions_in(s, b, (uint32_t)(index << s->range_shift), where, starts);
     for (size_t i = 0; i <= size; i++)
         starts[i] = end += starts[i];
     // From the back, and from the newest block to the oldest: a thread's corners then come in order.

@@ -5,7 +5,6 @@
 
 #include "lanes.h"
 #include "linear.h"
-#include "weld.h"
 
 #include <string.h>
 
@@ -254,30 +253,7 @@ static uint32_t find(struct fan_block *b, const struct number_set *triangles, ui
     return fans;
 }
 
-static inline uint32_t bits_without_sign(float x)
-{
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits == 0x80000000u ? 0 : bits;
-}
-
-static void ask(const float *points, size_t count, const struct fan_filter *filter, uint64_t *hashes,
-                uint32_t *has)
-{
-    const uint32_t *words = filter->bits;
-    const unsigned shift = filter->shift;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t bits[3] = {bits_without_sign(points[3 * i]), bits_without_sign(points[3 * i + 1]),
-                            bits_without_sign(points[3 * i + 2])};
-        hashes[i] = position_hash(bits);
-    }
-    for (size_t i = 0; i < count; i++) {
-        uint32_t bit = (uint32_t)(hashes[i] >> shift);
-        has[i] = words[bit / 32] >> bit % 32 & 1;
-    }
-}
-
 #define JOIN(a, b) a##b
 #define NAME(isa)  JOIN(fan_lanes_, isa)
 extern const struct fan_lanes NAME(ISA);
-const struct fan_lanes NAME(ISA) = {.lanes = LANES, .make = make, .find = find, .ask = ask};
+const struct fan_lanes NAME(ISA) = {.lanes = LANES, .make = make, .find = find};

@@ -38,12 +38,6 @@ struct fan_block {
     fan_numbers links[FAN_FEW];              // bit j: the corner is joined to corner j
 };
 
-// Bits that tell most positions that are in a set from those that are not: bit number hash >> shift.
-struct fan_filter {
-    const uint32_t *bits;
-    unsigned shift; // of the hash, 64 − log2 of the bits
-};
-
 struct fan_lanes {
     int lanes; // floats in a register
     // Fills what follows from count, places and corners, but for the elements.
@@ -51,10 +45,6 @@ struct fan_lanes {
     // Then: fills the elements, and leaves as members only corners of triangles in the set, where triangle 0
     // has the number `first`. Returns how many fans have any.
     uint32_t (*find)(struct fan_block *block, const struct number_set *triangles, uint32_t first);
-    // Of `count` points, 3 floats each: the hashes of their positions (weld.h), and whether the filter has
-    // them.
-    void (*ask)(const float *points, size_t count, const struct fan_filter *filter, uint64_t *hashes,
-                uint32_t *has);
 };
 
 // The widest that the processor has, and not wider than `lanes`.

@@ -1,111 +1,26 @@
 // seen_normals.c: smooth normals for the triangles that a picture shows, and for no others.
 //
 // Every vertex of the mesh is looked up in a table of the positions that are seen (seen_positions.c), which
-// tells the corners that count: each goes into the bin of its position's range of numbers, and the fans
-// (normals_fan.c) are made range by range.
-#include "seen_positions.h"
+// tells the corners that count: each goes into the bin of its position's range of numbers (seen_bins.c), and
+// the fans (normals_fan.c) are made range by range.
+#include "seen_bins.h"
 
 #include "fan_batch.h"
 #include "linear.h"
 
 #include <string.h>
 
-enum {
-    RANGE_SHIFT = 11, // positions of a range, at least 2^
-    RANGES_MAX = 1 << 10,
-    BLOCK_VALUES = 508, // in a block of a bin; even
-    SLAB = 2 << 20,
-};
-
-// Corners, each behind the number of its position where that cannot be asked for again.
-struct corner_block {
-    struct corner_block *before;
-    uint32_t count; // of values
-    uint32_t values[BLOCK_VALUES];
-};
-
 // What a thread holds.
 struct seen_worker {
     struct arena arena;
-    struct corner_block **bins; // of each range, the newest block
-    char *slab;
-    size_t slab_left;
     struct fan_room room;
     struct fan_batch *batch;
     uint32_t *sorted;                     // the corners of a range, by position
-    uint32_t *where;                      // as they come from the bins: their positions in the range
-    size_t room_for;                      // of both
+    size_t room_for;                      // corners
     uint32_t *starts;                     // of each position of a range, in `sorted`
     uint32_t next_element, elements_left; // that only this thread may give
     uint32_t coming; // positions whose normals are not yet begun: each needs an element at least
 };
-
-// --- bins
-
-static struct corner_block *new_block(struct seeing *s, struct seen_worker *worker,
-                                      struct corner_block *before)
-{
-    if (worker->slab_left < sizeof(struct corner_block)) {
-        worker->slab = seeing_take(s, &worker->arena, 1, s->slab);
-        worker->slab_left = worker->slab ? s->slab : 0;
-        if (!worker->slab) {
-            no_memory(&s->halt);
-            return NULL;
-        }
-    }
-    struct corner_block *block = (struct corner_block *)worker->slab;
-    worker->slab += sizeof *block;
-    worker->slab_left -= sizeof *block;
-    block->before = before;
-    block->count = 0;
-    return block;
-}
-
-static inline bool put(struct seeing *s, struct seen_worker *worker, uint32_t position, uint32_t corner)
-{
-    struct corner_block **bin = &worker->bins[position >> s->range_shift], *block = *bin;
-    if (!block || block->count == BLOCK_VALUES) {
-        block = new_block(s, worker, block);
-        if (!block)
-            return false;
-        *bin = block;
-    }
-    if (!s->position_of)
-        block->values[block->count++] = position;
-    block->values[block->count++] = corner;
-    return true;
-}
-
-static void bin_chunk(void *user, size_t index, int thread)
-{
-    struct seeing *s = user;
-    if (!goes_on(&s->halt))
-        return;
-    struct seen_worker *worker = &s->workers[thread];
-    const uint32_t *indices = s->mesh->indices;
-    size_t end = piece_end(index, s->corners, CHUNK), steps = 0;
-    for (size_t c = index * CHUNK; c < end; c += BATCH) {
-        size_t count = end - c < BATCH ? end - c : BATCH;
-        uint32_t found[BATCH];
-        if (!s->position_of) {
-            steps += look_up(s, c, count, found);
-            if (!few_steps(s, steps, CHUNK))
-                return;
-        } else
-            for (size_t i = 0; i < count; i++)
-                found[i] = s->position_of[indices ? indices[c + i] : c + i];
-        uint32_t kept[BATCH], keeping = 0;
-        for (uint32_t i = 0; i < count; i++) {
-            kept[keeping] = i;
-            keeping += found[i] != NONE;
-        }
-        for (uint32_t k = 0; k < keeping; k++)
-            if (!put(s, worker, found[kept[k]], (uint32_t)(c + kept[k])))
-                return;
-    }
-}
-
-// --- fans
 
 // An element with that normal. `needed`: how many are in any case, this one among them. The counter that all
 // threads share is rarely touched.
@@ -192,57 +107,14 @@ static bool add_position(struct seeing *s, struct seen_worker *worker, const uin
 }
 
 // Room for the corners of a range.
-static bool make_room(struct seeing *s, struct seen_worker *worker, size_t index)
+static bool make_room(struct seeing *s, struct seen_worker *worker, size_t range)
 {
-    size_t count = 0;
-    for (int t = 0; t < pool_threads(s->pool); t++)
-        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before)
-            count += s->position_of ? b->count : b->count / 2;
+    size_t count = corners_in_range(s, range);
     if (count <= worker->room_for)
         return true;
     worker->room_for = count + count / 2;
     worker->sorted = seeing_take(s, &worker->arena, worker->room_for, sizeof *worker->sorted);
-    worker->where = seeing_take(s, &worker->arena, worker->room_for, sizeof *worker->where);
-    return worker->sorted && worker->where;
-}
-
-// The positions of a block's corners, numbered from `first`, each counted. Returns how many corners there
-// are.
-static uint32_t positions_in(const struct seeing *s, const struct corner_block *block, uint32_t first,
-                             uint32_t *restrict positions, uint32_t *restrict counts)
-{
-    const uint32_t *values = block->values, *position_of = s->position_of, *indices = s->mesh->indices;
-    uint32_t count = position_of ? block->count : block->count / 2;
-    if (!position_of)
-        for (uint32_t i = 0; i < count; i++)
-            counts[positions[i] = values[2 * i] - first]++;
-    else
-        for (uint32_t i = 0; i < count; i++)
-            counts[positions[i] = position_of[indices ? indices[values[i]] : values[i]] - first]++;
-    return count;
-}
-
-// Puts the corners of a range in order by position: worker->starts tells where a position's begin.
-static void sort_range(struct seeing *s, struct seen_worker *worker, size_t index)
-{
-    size_t size = (size_t)1 << s->range_shift;
-    uint32_t *restrict starts = worker->starts, *restrict sorted = worker->sorted, *where = worker->where;
-    uint32_t end = 0, step = s->position_of ? 1 : 2;
-    memset(starts, 0, (size + 1) * sizeof *starts);
-    for (int t = 0; t < pool_threads(s->pool); t++)
-        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before)
-            where += positions_in(s, b, (uint32_t)(index << s->range_shift), where, starts);
-    for (size_t i = 0; i <= size; i++)
-        starts[i] = end += starts[i];
-    // From the back, and from the newest block to the oldest: a thread's corners then come in order.
-    where = worker->where;
-    for (int t = 0; t < pool_threads(s->pool); t++)
-        for (const struct corner_block *b = s->workers[t].bins[index]; b; b = b->before) {
-            uint32_t count = b->count / step;
-            for (uint32_t i = count; i-- > 0;)
-                sorted[--starts[where[i]]] = b->values[i * step + step - 1];
-            where += count;
-        }
+    return worker->sorted != NULL;
 }
 
 static void fan_range(void *user, size_t index, int thread)
@@ -253,7 +125,7 @@ static void fan_range(void *user, size_t index, int thread)
     struct seen_worker *worker = &s->workers[thread];
     bool ok = make_room(s, worker, index);
     if (ok)
-        sort_range(s, worker, index);
+        sort_range(s, index, worker->sorted, worker->starts);
     const uint32_t *starts = worker->starts, size = (uint32_t)1 << s->range_shift;
     for (uint32_t i = 0; ok && i < size; i++)
         worker->coming += starts[i + 1] > starts[i];
@@ -276,14 +148,6 @@ static void fan_rest(void *user, size_t index, int thread)
 
 static bool start_workers(struct seeing *s)
 {
-    s->range_shift = RANGE_SHIFT;
-    while (s->positions >> s->range_shift >= RANGES_MAX)
-        s->range_shift++;
-    s->ranges = (s->positions >> s->range_shift) + 1;
-    // Blocks for a small model come in small slabs.
-    s->slab = SLAB;
-    while (s->slab > 16 * sizeof(struct corner_block) && s->slab / 2 > s->corners * 8)
-        s->slab /= 2;
     size_t threads = (size_t)pool_threads(s->pool);
     s->workers = seeing_take_zeroed(s, threads * sizeof *s->workers);
     if (!s->workers)
@@ -292,11 +156,10 @@ static bool start_workers(struct seeing *s)
         struct seen_worker *worker = &s->workers[i];
         arena_start(&worker->arena, s->halt.watch);
         fan_room_start(&worker->room, s->halt.watch);
-        worker->bins = seeing_take_zeroed(s, s->ranges * sizeof(struct corner_block *));
         worker->starts =
             seeing_take(s, &s->scratch, ((size_t)1 << s->range_shift) + 1, sizeof *worker->starts);
         worker->batch = seeing_take(s, &s->scratch, 1, sizeof *worker->batch);
-        if (!worker->bins || !worker->starts || !worker->batch)
+        if (!worker->starts || !worker->batch)
             return false;
         fan_batch_start(worker->batch);
     }
@@ -312,15 +175,6 @@ static void stop_workers(struct seeing *s)
     s->workers = NULL;
 }
 
-static bool bin_corners(struct seeing *s)
-{
-    if (!start_workers(s))
-        no_memory(&s->halt);
-    if (goes_on(&s->halt))
-        pool_run(s->pool, pieces_of(s->corners, CHUNK), bin_chunk, s);
-    return goes_on(&s->halt);
-}
-
 bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad, struct seen_normals *seen,
                   struct spare spare, int lanes, struct pool *pool, struct watch *watch, lam_error *error)
 {
@@ -329,6 +183,7 @@ bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad,
                        .first = first,
                        .least_cosine = fan_least_cosine(crease_angle_rad),
                        .lanes = fan_lanes_of(lanes),
+                       .search = seen_lanes_of(lanes),
                        .seen = seen,
                        .spare = spare,
                        .pool = pool,
@@ -337,21 +192,21 @@ bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad,
                        .corners = corners};
     arena_start(&s.scratch, watch);
     bool ok = find_positions(&s, error);
-    if (ok) {
-        bool binned = bin_corners(&s);
-        if (binned && s.crowded && !s.position_of) {
-            stop_workers(&s);
-            ok = weld_all(&s, error);
-            binned = ok && bin_corners(&s);
-        }
-        if (binned)
-            pool_run(pool, s.ranges, fan_range, &s);
-        if (binned)
-            pool_run(pool, (size_t)pool_threads(pool), fan_rest, &s);
+    if (ok && !bin_corners(&s) && goes_on(&s.halt)) {
+        ok = weld_all(&s, error);
         if (ok)
-            ok = goes_on(&s.halt) || halt_error(&s.halt, corners * 8, error);
+            bin_corners(&s);
     }
+    if (ok && goes_on(&s.halt)) {
+        if (!start_workers(&s))
+            no_memory(&s.halt);
+        pool_run(pool, s.ranges, fan_range, &s);
+        pool_run(pool, (size_t)pool_threads(pool), fan_rest, &s);
+    }
+    if (ok)
+        ok = goes_on(&s.halt) || halt_error(&s.halt, corners * 8, error);
     stop_workers(&s);
+    stop_lists(&s);
     arena_free(&s.scratch);
     return ok;
 }

@@ -1,16 +1,21 @@
 // seen_positions.c: which vertices of a mesh lie where triangles lie that a picture shows.
 //
-// The vertices of those triangles go into a table by position. Then every vertex of the mesh is looked up in
-// it. Vertices that are not seen are turned away by a small table of single bits before the large one is
-// asked. Threads share both tables; that they insert in any order shows only in where things lie, never in a
-// normal.
+// The vertices of those triangles go into a table by position. Then every other vertex of the mesh is looked
+// up in it; most are turned away by a small table of bits before the large one is asked. In what order
+// threads come shows only in where things lie, never in a normal.
 #include "seen_positions.h"
 
 #include "weld.h"
 
 #include <string.h>
 
-enum { WORDS = 1 << 10 }; // of a set, in one piece of work
+enum {
+    WORDS = 1 << 8,        // of a set, in one piece of work
+    AHEAD = 16,            // words whose triangles' positions memory is asked for early
+    TOGETHER = 8,          // words whose vertices wait for the table together
+    SLAB = 2 << 20,        // of blocks
+    ANSWERS_MAX = 1 << 13, // that a thread keeps: they fit the second-level cache
+};
 
 void number_set_count(struct number_set *set)
 {
@@ -22,19 +27,6 @@ void number_set_count(struct number_set *set)
     set->count = count;
 }
 
-void *seeing_take(struct seeing *s, struct arena *arena, size_t count, size_t size)
-{
-    size_t bytes, used = __atomic_load_n(&s->spare.used, __ATOMIC_RELAXED);
-    if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX / 4)
-        return NULL;
-    size_t whole = (bytes + 63) / 64 * 64;
-    while (whole <= s->spare.room - used)
-        if (__atomic_compare_exchange_n(&s->spare.used, &used, used + whole, false, __ATOMIC_RELAXED,
-                                        __ATOMIC_RELAXED))
-            return (char *)s->spare.memory + used;
-    return arena_alloc(arena, bytes);
-}
-
 void *seeing_take_zeroed(struct seeing *s, size_t bytes)
 {
     void *memory = seeing_take(s, &s->scratch, bytes, 1);
@@ -43,7 +35,33 @@ void *seeing_take_zeroed(struct seeing *s, size_t bytes)
     return memory;
 }
 
-// --- shown vertices
+bool few_steps(struct seeing *s, size_t steps, size_t total)
+{
+    if (steps > 16 * total + 4096)
+        __atomic_store_n(&s->crowded, 1, __ATOMIC_RELAXED);
+    return !__atomic_load_n(&s->crowded, __ATOMIC_RELAXED);
+}
+
+// --- the triangles that are seen
+
+static size_t first_word(const struct seeing *s) { return s->first / 64; }
+
+static size_t triangle_words(const struct seeing *s)
+{
+    return number_set_words(s->first + (size_t)s->mesh->triangle_count) - first_word(s);
+}
+
+// Those of the mesh in a word of the set.
+static uint64_t seen_word(const struct seeing *s, size_t word)
+{
+    size_t from = 64 * word, last = s->first + (size_t)s->mesh->triangle_count;
+    uint64_t bits = s->seen->triangles.bits[word];
+    if (from < s->first)
+        bits &= ~UINT64_C(0) << (s->first - from);
+    if (from + 64 > last)
+        bits &= ~UINT64_C(0) >> (from + 64 - last);
+    return bits;
+}
 
 static void show_words(void *user, size_t index, int thread)
 {
@@ -51,18 +69,12 @@ static void show_words(void *user, size_t index, int thread)
     struct seeing *s = user;
     if (!goes_on(&s->halt))
         return;
-    size_t last = s->first + (size_t)s->mesh->triangle_count; // not among them
-    size_t first_word = s->first / 64, words = number_set_words(last) - first_word;
-    for (size_t w = index * WORDS; w < piece_end(index, words, WORDS); w++) {
-        size_t from = 64 * (first_word + w);
-        for (uint64_t bits = s->seen->triangles.bits[first_word + w]; bits; bits &= bits - 1) {
-            size_t number = from + (size_t)__builtin_ctzll(bits);
-            if (number < s->first || number >= last)
-                continue;
+    for (size_t w = index * WORDS; w < piece_end(index, triangle_words(s), WORDS); w++)
+        for (uint64_t bits = seen_word(s, first_word(s) + w); bits; bits &= bits - 1) {
+            size_t triangle = 64 * (first_word(s) + w) + (size_t)__builtin_ctzll(bits) - s->first;
             for (size_t k = 0; k < 3; k++)
-                number_set_add(&s->shown, corner_vertex(s->mesh, 3 * (number - s->first) + k));
+                number_set_add(&s->shown, s->mesh->indices[3 * triangle + k]);
         }
-    }
 }
 
 static bool find_shown(struct seeing *s)
@@ -73,179 +85,229 @@ static bool find_shown(struct seeing *s)
     s->shown.before = seeing_take(s, &s->scratch, words, sizeof *s->shown.before);
     if (!s->shown.bits || !s->shown.before)
         return false;
-    size_t last = s->first + (size_t)s->mesh->triangle_count;
-    pool_run(s->pool, pieces_of(number_set_words(last) - s->first / 64, WORDS), show_words, s);
+    pool_run(s->pool, pieces_of(triangle_words(s), WORDS), show_words, s);
     number_set_count(&s->shown);
     return true;
 }
 
 // --- the table
 
-static const float *point_of(const struct seeing *s, size_t vertex)
+// Puts a vertex into its part's bin, unless a vertex at its position was lately.
+static inline bool spread(struct seeing *s, int thread, size_t vertex)
 {
-    return s->mesh->positions + 3 * vertex;
-}
-
-static bool same_position(const struct seeing *s, uint32_t a, uint32_t b)
-{
-    // Floats compare as the bits do once −0 is 0, since none is NaN.
-    const float *p = point_of(s, a), *q = point_of(s, b);
-    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
-}
-
-static uint64_t vertex_hash(const struct seeing *s, size_t vertex)
-{
+    struct seen_lists *lists = &s->lists[thread];
     uint32_t bits[3];
     position_bits(point_of(s, vertex), bits);
-    return position_hash(bits);
-}
-
-// Asks memory for what a slot's vertex will be compared by.
-static inline void prefetch_held(const struct seeing *s, uint32_t held)
-{
-    if (held != NONE)
-        __builtin_prefetch(point_of(s, held));
-}
-
-// Inserts a vertex, or lowers the one at its position. Returns the steps beyond the first slot.
-static size_t insert(struct seeing *s, uint32_t vertex, uint64_t hash)
-{
-    size_t steps = 0, bit = hash >> s->filter.shift;
-    uint32_t *word = &s->filter_bits[bit / 32];
-    if (!(__atomic_load_n(word, __ATOMIC_RELAXED) >> bit % 32 & 1))
-        __atomic_fetch_or(word, (uint32_t)1 << bit % 32, __ATOMIC_RELAXED);
-    for (size_t i = hash & s->slot_mask;; i = (i + 1) & s->slot_mask, steps++) {
-        uint32_t held = __atomic_load_n(&s->slots[i], __ATOMIC_RELAXED);
-        if (held == NONE && __atomic_compare_exchange_n(&s->slots[i], &held, vertex, false, __ATOMIC_RELAXED,
-                                                        __ATOMIC_RELAXED))
-            return steps;
-        if (!same_position(s, held, vertex))
-            continue;
-        while (vertex < held && !__atomic_compare_exchange_n(&s->slots[i], &held, vertex, false,
-                                                             __ATOMIC_RELAXED, __ATOMIC_RELAXED))
-            ;
-        return steps;
+    uint32_t hash = seen_hash(bits);
+    if (s->answers) {
+        struct seen_answer *lately = &s->answers[thread][hash & s->answers_mask];
+        if (same_bits(lately->bits, bits))
+            return true;
+        copy_bits(lately->bits, bits);
     }
+    struct seen_block *block =
+        seen_block_for_one(lists, &lists->bins[seen_table_part(&s->table, hash)], BLOCK_KEYS);
+    if (!block)
+        return false;
+    struct seen_key *key = &block->key[block->count++];
+    copy_bits(key->bits, bits);
+    key->vertex = (uint32_t)vertex;
+    return true;
 }
 
-// The next BATCH or fewer shown vertices from word *w, bit by bit, on.
-static uint32_t next_shown(const struct seeing *s, size_t *w, size_t end, uint64_t *left, uint32_t out[BATCH])
+static void spread_vertices(void *user, size_t index, int thread)
 {
-    uint32_t count = 0;
-    while (count < BATCH) {
-        if (!*left) {
-            if (++*w >= end)
-                break;
-            *left = s->shown.bits[*w];
-            continue;
-        }
-        out[count++] = (uint32_t)(64 * *w + (size_t)__builtin_ctzll(*left));
-        *left &= *left - 1;
-    }
-    return count;
-}
-
-bool few_steps(struct seeing *s, size_t steps, size_t total)
-{
-    if (steps > 16 * total + 4096)
-        __atomic_store_n(&s->crowded, 1, __ATOMIC_RELAXED);
-    return !__atomic_load_n(&s->crowded, __ATOMIC_RELAXED);
-}
-
-static void insert_words(void *user, size_t index, int thread)
-{
-    (void)thread;
     struct seeing *s = user;
     if (!goes_on(&s->halt))
         return;
-    size_t w = index * WORDS, end = piece_end(index, number_set_words(s->vertices), WORDS), steps = 0,
-           total = 0;
-    uint64_t left = s->shown.bits[w];
-    uint32_t vertices[BATCH], count;
-    while ((count = next_shown(s, &w, end, &left, vertices)) > 0) {
-        uint64_t hashes[BATCH];
-        for (uint32_t i = 0; i < count; i++) {
-            hashes[i] = vertex_hash(s, vertices[i]);
-            __builtin_prefetch(&s->slots[hashes[i] & s->slot_mask]);
+    for (size_t w = index * WORDS; w < piece_end(index, number_set_words(s->vertices), WORDS); w++)
+        for (uint64_t bits = s->shown.bits[w]; bits; bits &= bits - 1)
+            if (!spread(s, thread, 64 * w + (size_t)__builtin_ctzll(bits)))
+                return;
+}
+
+static void spread_corners(void *user, size_t index, int thread)
+{
+    struct seeing *s = user;
+    if (!goes_on(&s->halt))
+        return;
+    size_t end = piece_end(index, triangle_words(s), WORDS);
+    for (size_t w = index * WORDS, ahead = w; w < end; w++) {
+        for (; ahead < end && ahead < w + AHEAD; ahead++)
+            for (uint64_t bits = seen_word(s, first_word(s) + ahead); bits; bits &= bits - 1) {
+                size_t triangle = 64 * (first_word(s) + ahead) + (size_t)__builtin_ctzll(bits) - s->first;
+                __builtin_prefetch(point_of(s, 3 * triangle));
+                __builtin_prefetch(point_of(s, 3 * triangle + 2) + 2);
+            }
+        for (uint64_t bits = seen_word(s, first_word(s) + w); bits; bits &= bits - 1) {
+            size_t triangle = 64 * (first_word(s) + w) + (size_t)__builtin_ctzll(bits) - s->first;
+            for (size_t k = 0; k < 3; k++)
+                if (!spread(s, thread, 3 * triangle + k))
+                    return;
         }
-        for (uint32_t i = 0; i < count; i++)
-            prefetch_held(s, __atomic_load_n(&s->slots[hashes[i] & s->slot_mask], __ATOMIC_RELAXED));
-        for (uint32_t i = 0; i < count; i++)
-            steps += insert(s, vertices[i], hashes[i]);
-        total += count;
-        if (!few_steps(s, steps, total))
-            return;
     }
+}
+
+static void fill_part(void *user, size_t index, int thread)
+{
+    struct seeing *s = user;
+    if (goes_on(&s->halt) && !seen_table_fill(&s->table, (uint32_t)index, s->lists, pool_threads(s->pool),
+                                              &s->lists[thread], s->mesh->indices != NULL))
+        __atomic_store_n(&s->crowded, 1, __ATOMIC_RELAXED);
+}
+
+static bool start_lists(struct seeing *s)
+{
+    size_t threads = (size_t)pool_threads(s->pool);
+    // Blocks for a small model come in small slabs.
+    size_t slab = SLAB;
+    while (slab > 16 * BLOCK_BYTES && slab / 2 > s->corners * 8)
+        slab /= 2;
+    s->lists = seeing_take_zeroed(s, threads * sizeof *s->lists);
+    for (size_t i = 0; s->lists && i < threads; i++) {
+        struct seen_lists *lists = &s->lists[i];
+        *lists = (struct seen_lists){.spare = &s->spare, .halt = &s->halt, .slab_bytes = slab};
+        arena_start(&lists->arena, s->halt.watch);
+        lists->bins = seeing_take_zeroed(s, (size_t)seen_table_parts(&s->table) * sizeof *lists->bins);
+        if (!lists->bins)
+            return false;
+    }
+    return s->lists != NULL;
+}
+
+void stop_lists(struct seeing *s)
+{
+    for (int i = 0; s->lists && i < pool_threads(s->pool); i++)
+        arena_free(&s->lists[i].arena);
+    s->lists = NULL;
+}
+
+// No position's bits are all ones.
+static void forget_answers(struct seeing *s)
+{
+    for (int i = 0; i < pool_threads(s->pool); i++)
+        memset(s->answers[i], 0xff, (s->answers_mask + (size_t)1) * sizeof **s->answers);
+}
+
+// Without indices the same positions come again and again, mostly soon.
+static bool start_answers(struct seeing *s)
+{
+    size_t threads = (size_t)pool_threads(s->pool), room = 64;
+    while (room < ANSWERS_MAX && room < s->corners / 4)
+        room *= 2;
+    s->answers_mask = (uint32_t)room - 1;
+    s->answers = seeing_take(s, &s->scratch, threads, sizeof *s->answers);
+    if (!s->answers)
+        return false;
+    for (size_t i = 0; i < threads; i++) {
+        s->answers[i] = seeing_take(s, &s->scratch, room, sizeof **s->answers);
+        if (!s->answers[i])
+            return false;
+    }
+    forget_answers(s);
+    return true;
+}
+
+static size_t keys_of(const struct seeing *s)
+{
+    size_t keys = 0;
+    for (int t = 0; t < pool_threads(s->pool); t++)
+        for (uint32_t p = 0; p < seen_table_parts(&s->table); p++)
+            for (const struct seen_block *block = s->lists[t].bins[p]; block; block = block->before)
+                keys += block->count;
+    return keys;
 }
 
 static bool fill_table(struct seeing *s)
 {
-    size_t slots = 1 << 10, bits = 1 << 12;
-    s->filter.shift = 64 - 12;
-    while (slots < 2 * (size_t)s->shown.count)
-        slots *= 2;
-    while (bits < 8 * (size_t)s->shown.count) {
-        bits *= 2;
-        s->filter.shift--;
-    }
-    s->slot_mask = slots - 1;
-    s->slots = seeing_take(s, &s->scratch, slots, sizeof *s->slots);
-    s->filter.bits = s->filter_bits = seeing_take_zeroed(s, bits / 8);
-    if (!s->slots || !s->filter_bits)
+    const bool indexed = s->mesh->indices != NULL;
+    size_t shown = indexed ? s->shown.count : 3 * (size_t)seen_triangles_before(s, s->mesh->triangle_count);
+    s->positions = shown;
+    seen_table_plan(&s->table, shown);
+    if (!start_lists(s) || (!indexed && !start_answers(s)))
         return false;
-    memset(s->slots, 0xff, slots * sizeof *s->slots);
-    pool_run(s->pool, pieces_of(number_set_words(s->vertices), WORDS), insert_words, s);
+    if (indexed)
+        pool_run(s->pool, pieces_of(number_set_words(s->vertices), WORDS), spread_vertices, s);
+    else
+        pool_run(s->pool, pieces_of(triangle_words(s), WORDS), spread_corners, s);
+    if (!seen_table_make(&s->table, keys_of(s), indexed, &s->spare, &s->scratch))
+        return false;
+    pool_run(s->pool, seen_table_parts(&s->table), fill_part, s);
     return true;
 }
 
-size_t look_up(const struct seeing *s, size_t first, size_t count, uint32_t out[BATCH])
+// --- the other vertices of a mesh with indices
+
+// Numbers the shown vertices of some words of the set, and asks the table for those of the others that pass
+// the filter, which are few.
+static size_t place_some(const struct seeing *s, size_t word, size_t end)
 {
-    uint64_t hashes[BATCH];
-    uint32_t has[BATCH], passed[BATCH], passing = 0;
-    size_t steps = 0;
-    s->lanes->ask(point_of(s, first), count, &s->filter, hashes, has);
-    for (uint32_t i = 0; i < count; i++) {
-        out[i] = NONE;
-        passed[passing] = i;
-        passing += has[i];
-    }
-    for (uint32_t k = 0; k < passing; k++)
-        __builtin_prefetch(&s->slots[hashes[passed[k]] & s->slot_mask]);
-    for (uint32_t k = 0; k < passing; k++)
-        prefetch_held(s, s->slots[hashes[passed[k]] & s->slot_mask]);
-    for (uint32_t k = 0; k < passing; k++) {
-        uint32_t i = passed[k], vertex = (uint32_t)(first + i), held;
-        for (size_t at = hashes[i] & s->slot_mask;; at = (at + 1) & s->slot_mask) {
-            held = s->slots[at];
-            if (held == NONE || held == vertex || same_position(s, held, vertex))
-                break;
-            steps++;
+    uint32_t asked[WORD * TOGETHER], hash[WORD * TOGETHER], asking = 0;
+    for (; word < end; word++) {
+        size_t first = WORD * word, count = s->vertices - first < WORD ? s->vertices - first : WORD;
+        uint64_t shown = s->shown.bits[word];
+        uint32_t hashes[WORD];
+        s->search->number(shown, s->shown.before[word], s->position_of + first);
+        uint64_t passed =
+            s->search->ask(point_of(s, first), (uint32_t)count, &s->table.filter, hashes) & ~shown;
+        for (; passed; passed &= passed - 1) {
+            uint32_t i = (uint32_t)__builtin_ctzll(passed);
+            __builtin_prefetch(&s->table.lines[seen_table_start(&s->table, hashes[i])]);
+            asked[asking] = (uint32_t)first + i;
+            hash[asking++] = hashes[i];
         }
-        if (held != NONE)
-            out[i] = number_set_place(&s->shown, held);
+    }
+    size_t steps = 0;
+    for (uint32_t k = 0; k < asking; k++) {
+        uint32_t bits[3];
+        position_bits(point_of(s, asked[k]), bits);
+        uint32_t vertex = seen_table_find(&s->table, bits, hash[k], &steps);
+        if (vertex != NONE)
+            s->position_of[asked[k]] = number_set_place(&s->shown, vertex);
     }
     return steps;
 }
 
-static void place_chunk(void *user, size_t index, int thread)
+static void place_words(void *user, size_t index, int thread)
 {
     (void)thread;
     struct seeing *s = user;
     if (!goes_on(&s->halt))
         return;
-    size_t end = piece_end(index, s->vertices, CHUNK), steps = 0;
-    for (size_t v = index * CHUNK; v < end && few_steps(s, steps, CHUNK); v += BATCH) {
-        size_t count = end - v < BATCH ? end - v : BATCH;
-        uint32_t found[BATCH];
-        steps += look_up(s, v, count, found);
-        memcpy(s->position_of + v, found, count * sizeof *found);
-    }
+    size_t steps = 0, end = piece_end(index, number_set_words(s->vertices), WORDS);
+    for (size_t w = index * WORDS; w < end && few_steps(s, steps, WORD * WORDS); w += TOGETHER)
+        steps += place_some(s, w, w + TOGETHER < end ? w + TOGETHER : end);
 }
+
+// Those shown vertices where another one stands for the position.
+static void place_doubles(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct seeing *s = user;
+    for (const struct seen_block *block = s->lists[index].doubles; block; block = block->before)
+        for (uint32_t i = 0; i < block->count; i++)
+            s->position_of[block->doubles[i][0]] = number_set_place(&s->shown, block->doubles[i][1]);
+    seen_blocks_reuse(&s->lists[index], &s->lists[index].doubles);
+}
+
+static bool place_vertices(struct seeing *s)
+{
+    s->position_of =
+        seeing_take(s, &s->scratch, WORD * number_set_words(s->vertices), sizeof *s->position_of);
+    if (!s->position_of)
+        return false;
+    pool_run(s->pool, pieces_of(number_set_words(s->vertices), WORDS), place_words, s);
+    pool_run(s->pool, (size_t)pool_threads(s->pool), place_doubles, s);
+    return true;
+}
+
+// --- all
 
 bool weld_all(struct seeing *s, lam_error *error)
 {
     uint32_t positions;
-    s->position_of = seeing_take(s, &s->scratch, s->vertices, sizeof *s->position_of);
+    if (!s->position_of)
+        s->position_of = seeing_take(s, &s->scratch, s->vertices, sizeof *s->position_of);
     if (!s->position_of)
         return watch_memory_error(s->halt.watch, s->vertices * 4, error);
     if (!weld_positions(s->mesh->positions, s->vertices, s->position_of, &positions, s->pool, s->halt.watch,
@@ -254,8 +316,12 @@ bool weld_all(struct seeing *s, lam_error *error)
     uint8_t *shown = seeing_take_zeroed(s, positions);
     if (!shown)
         return watch_memory_error(s->halt.watch, positions, error);
-    for (size_t v = 0; v < s->vertices; v++)
-        shown[s->position_of[v]] |= number_set_holds(&s->shown, v);
+    for (size_t w = 0; w < triangle_words(s); w++)
+        for (uint64_t bits = seen_word(s, first_word(s) + w); bits; bits &= bits - 1) {
+            size_t triangle = 64 * (first_word(s) + w) + (size_t)__builtin_ctzll(bits) - s->first;
+            for (size_t k = 0; k < 3; k++)
+                shown[s->position_of[corner_vertex(s->mesh, 3 * triangle + k)]] = 1;
+        }
     for (size_t v = 0; v < s->vertices; v++)
         if (!shown[s->position_of[v]])
             s->position_of[v] = NONE;
@@ -265,14 +331,16 @@ bool weld_all(struct seeing *s, lam_error *error)
 
 bool find_positions(struct seeing *s, lam_error *error)
 {
-    if (!find_shown(s) || !fill_table(s))
-        return watch_memory_error(s->halt.watch, s->vertices / 4, error);
-    s->positions = s->shown.count;
-    if (s->mesh->indices && !s->crowded) {
-        s->position_of = seeing_take(s, &s->scratch, s->vertices, sizeof *s->position_of);
-        if (!s->position_of)
-            return watch_memory_error(s->halt.watch, s->vertices * 4, error);
-        pool_run(s->pool, pieces_of(s->vertices, CHUNK), place_chunk, s);
+    const bool indexed = s->mesh->indices != NULL;
+    s->seen_before = 0;
+    s->seen_before = seen_triangles_before(s, 0);
+    bool ok = (!indexed || find_shown(s)) && fill_table(s);
+    if (ok && indexed && !s->crowded) {
+        ok = place_vertices(s);
+    } else if (ok && !indexed) {
+        forget_answers(s);
     }
+    if (!ok)
+        return watch_memory_error(s->halt.watch, s->vertices / 4, error);
     return !s->crowded || weld_all(s, error);
 }

@@ -14,9 +14,11 @@ bool weld_positions(const float *points, size_t count, uint32_t *position_of, ui
 // The bits of a position, with −0 as 0, so that equal positions have equal bits.
 static inline void position_bits(const float *position, uint32_t bits[3])
 {
-    __builtin_memcpy(bits, position, 12);
-    for (int a = 0; a < 3; a++)
-        bits[a] = bits[a] == 0x80000000u ? 0 : bits[a];
+    for (int a = 0; a < 3; a++) {
+        uint32_t of;
+        __builtin_memcpy(&of, position + a, 4);
+        bits[a] = of == 0x80000000u ? 0 : of;
+    }
 }
 
 // A hash of those bits: the upper ones and the lower ones will do by themselves.

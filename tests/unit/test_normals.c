@@ -16,6 +16,7 @@
 #include "arena.h"
 #include "normals.h"
 #include "pool.h"
+#include "seen_lanes.h"
 #include "seen_normals.h"
 
 #include <lambent/scene.h>
@@ -368,11 +369,14 @@ static void test_threads(void **state)
     int index = lam_scene_add_shape(scene, "teapot", &(lam_shape_params){.slices = 200, .stacks = 40}, NULL);
     const lam_mesh *teapot = lam_scene_mesh(scene, index);
     size_t corners = 3 * (size_t)teapot->triangle_count;
-    // As it is, and as a soup of triangles as STL files are.
+    // As it is, and as a soup of triangles as STL files are, without indices and with them.
     float *soup = malloc(corners * 12);
-    for (size_t c = 0; c < corners; c++)
+    uint32_t *counted = malloc(corners * sizeof *counted);
+    for (size_t c = 0; c < corners; c++) {
         memcpy(soup + 3 * c, teapot->positions + 3 * (size_t)teapot->indices[c], 12);
-    for (int k = 0; k < 2; k++) {
+        counted[c] = (uint32_t)c;
+    }
+    for (int k = 0; k < 3; k++) {
         lam_mesh mesh = {.positions = teapot->positions,
                          .vertex_count = teapot->vertex_count,
                          .indices = teapot->indices,
@@ -380,6 +384,7 @@ static void test_threads(void **state)
         if (k)
             mesh = (lam_mesh){.positions = soup,
                               .vertex_count = (uint32_t)corners,
+                              .indices = k == 2 ? counted : NULL,
                               .triangle_count = teapot->triangle_count};
         lam_mesh first = mesh;
         smooth(&first, 20, &arena, NULL);
@@ -394,6 +399,7 @@ static void test_threads(void **state)
             pool_free(pool);
         }
     }
+    free(counted);
     free(soup);
     arena_free(&arena);
     lam_scene_free(scene);
@@ -564,6 +570,46 @@ static void test_colliding_positions(void **state)
 }
 
 // Positions whose hashes begin alike, so that one partition gets them all: its table must grow.
+static uint32_t inverse_32(uint32_t odd) { return (uint32_t)inverse(odd); }
+
+// The same for the hash of the triangles that are seen, whose table fills one slot after the other then.
+static void test_seen_collisions(void **state)
+{
+    (void)state;
+    enum { COUNT = 60000 };
+    struct arena arena;
+    arena_start(&arena, NULL);
+    float *p = malloc(COUNT * 12);
+    uint32_t *counted = malloc(COUNT * sizeof *counted), back = inverse_32(0xc2b2ae3du);
+    size_t count = 0;
+    for (uint32_t x = 0x3f000000; count < COUNT; x++) {
+        uint32_t bits[3] = {x, 0x3f800000, 0}, h = (x ^ x >> 16) * 0x9e3779b1u;
+        h = (h ^ h >> 15 ^ bits[1] ^ bits[1] >> 16) * 0x85ebca77u;
+        uint32_t z = 0x12345678u * back ^ h ^ h >> 15;
+        bits[2] = z ^ z >> 16;
+        float f[3];
+        memcpy(f, bits, 12);
+        if (!isfinite(f[2]))
+            continue;
+        assert_int_equal(seen_hash(bits), 0x12345678u ^ 0x12345678u >> 16);
+        counted[count] = (uint32_t)count;
+        memcpy(p + 3 * count++, f, 12);
+    }
+    for (int indexed = 0; indexed < 2; indexed++) {
+        lam_mesh mesh = {.positions = p,
+                         .vertex_count = COUNT,
+                         .indices = indexed ? counted : NULL,
+                         .triangle_count = COUNT / 3};
+        clock_t start = clock();
+        smooth(&mesh, 40, &arena, NULL);
+        within_seconds(start, 10);
+        assert_int_equal(mesh.normal_count, COUNT);
+    }
+    free(counted);
+    free(p);
+    arena_free(&arena);
+}
+
 static void test_one_partition(void **state)
 {
     (void)state;
@@ -672,6 +718,7 @@ int main(void)
         cmocka_unit_test(test_random),
         cmocka_unit_test(test_crowd_at_one_vertex),
         cmocka_unit_test(test_colliding_positions),
+        cmocka_unit_test(test_seen_collisions),
         cmocka_unit_test(test_one_partition),
         cmocka_unit_test(test_controls),
     };

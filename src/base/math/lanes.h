@@ -368,6 +368,23 @@ LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
 #endif
 }
 
+// Lane i is from[at[i]]; at < 2³¹.
+LANE_FN inum igather(const int32_t *from, inum at)
+{
+#if LANES == 1
+    return from[at];
+#elif LANES == 16 && defined(__AVX512F__)
+    return (inum)_mm512_i32gather_epi32((__m512i)at, from, 4);
+#elif LANES == 8 && defined(__AVX2__)
+    return (inum)_mm256_i32gather_epi32(from, (__m256i)at, 4);
+#else
+    inum x = at;
+    for (int i = 0; i < LANES; i++)
+        x[i] = from[at[i]];
+    return x;
+#endif
+}
+
 // Three neighbours from each of LANES places in memory: lane i of out[k] is the 32 bits at from[stride ·
 // at[i] + k]. Nothing else is read: the last of them may end the array. x86 takes the three at once and turns
 // rows into columns; its own gather takes four times as long.

@@ -111,10 +111,11 @@ struct runs {
 
 struct lit_points {
     float p[3][POINT_ROW], n[3][POINT_ROW], v[3][POINT_ROW], t[3][POINT_ROW];
-    float color[3][POINT_ROW], alpha[POINT_ROW]; // of the vertices, then as seen
-    uint32_t triangle[POINT_ROW];                // of the mesh
-    float x[POINT_ROW], y[POINT_ROW];            // the pixel's centre, in pixels of the window
-    float b1[POINT_ROW], b2[POINT_ROW];          // weights of its corners 1 and 2
+    float color[3][POINT_ROW], alpha[POINT_ROW];    // of the vertices, then as seen
+    uint32_t triangle[POINT_ROW];                   // of the mesh
+    float x[POINT_ROW], y[POINT_ROW];               // the pixel's centre, in pixels of the window
+    float sample_x[POINT_ROW], sample_y[POINT_ROW]; // the sample nearest to it, where a pixel has several
+    float b1[POINT_ROW], b2[POINT_ROW];             // weights of its corners 1 and 2
     struct runs runs;
 };
 

@@ -216,13 +216,32 @@ LANE_FN mask mask_of_bits(unsigned bits)
 #endif
 }
 
-// LANES numbers of 16 bits, side by side.
+// LANES numbers of 16 or 8 bits, side by side.
 LANE_FN inum inum_load_16(const uint16_t *at)
 {
 #if LANES == 1
     return *at;
+#elif LANES == 16 && defined(__AVX512F__)
+    return (inum)_mm512_cvtepu16_epi32(_mm256_loadu_si256((const __m256i *)(const void *)at));
+#elif LANES == 8 && defined(__AVX2__)
+    return (inum)_mm256_cvtepu16_epi32(_mm_loadu_si128((const __m128i *)(const void *)at));
 #else
     typedef uint16_t narrow __attribute__((vector_size(LANES * 2)));
+    narrow n;
+    memcpy(&n, at, sizeof n);
+    return __builtin_convertvector(n, inum);
+#endif
+}
+LANE_FN inum inum_load_8(const uint8_t *at)
+{
+#if LANES == 1
+    return *at;
+#elif LANES == 16 && defined(__AVX512F__)
+    return (inum)_mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)(const void *)at));
+#elif LANES == 8 && defined(__AVX2__)
+    return (inum)_mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)at));
+#else
+    typedef uint8_t narrow __attribute__((vector_size(LANES)));
     narrow n;
     memcpy(&n, at, sizeof n);
     return __builtin_convertvector(n, inum);

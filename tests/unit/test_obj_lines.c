@@ -24,7 +24,7 @@ static int readers(obj_lines_reader *out[2])
 {
     out[0] = obj_read_lines_plain;
 #if defined(__x86_64__)
-    if (cpu_features() & CPU_AVX512 && __builtin_cpu_supports("avx512vbmi2") &&
+    if (cpu_features() & CPU_AVX512 && __builtin_cpu_supports("avx512vbmi") &&
         __builtin_cpu_supports("bmi2")) {
         out[1] = obj_read_lines_avx512;
         return 2;

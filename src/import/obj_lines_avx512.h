@@ -1,0 +1,172 @@
+// obj_lines_avx512.h: the readers of obj_lines.c for AVX-512 with VBMI, which moves bytes within a register.
+//
+// A line's bytes are one register: sets of bits say what is a digit, a space or a point. Where the numbers
+// begin and end is packed into bytes; from there each byte of each number's lane knows its place in the line:
+// digits stand at the lane's end, behind zeros.
+#ifndef OBJ_LINES_AVX512_H
+#define OBJ_LINES_AVX512_H
+
+#include "number_scan.h"
+
+#include <immintrin.h>
+#include <stdbool.h>
+
+static inline unsigned first_of(uint64_t set) { return (unsigned)__builtin_ctzll(set); }
+static inline uint64_t but_first(uint64_t set) { return set & (set - 1); }
+// Kept from the compiler, which would reckon with sets where they are made, in registers that are slow to do
+// so.
+static inline uint64_t set_of(__mmask64 bytes)
+{
+    uint64_t set = bytes;
+    __asm__("" : "+r"(set));
+    return set;
+}
+static inline uint32_t pack(unsigned a, unsigned b, unsigned c) { return a | b << 8 | c << 16; }
+
+// What stays in registers from line to line. The compiler would make each anew where it is used.
+struct constants {
+    __m512i newline, zero, nine, space, point, minus, one;
+    __m512i lanes_of_8, lanes_of_16;       // to each byte of lane k the byte k of a packed number
+    __m512i back_8, back_16;               // of each byte of a lane: how far it is before the lane's end
+    __m512i tens, hundreds, ten_thousands; // pairs of weights
+    __m512d tenths_to_6, tenths_to_14;     // 10 to the power of 1 − i
+    __m256i cut, middle, doubt;            // of number_rounds_surely
+    __m256i hundred_millions;
+    __m128 sign;
+    __m128i one_32, most; // most: of a face's number
+};
+static inline struct constants constants_of(uint32_t most)
+{
+    const double *t = number_tenths;
+    struct constants c = {
+        .newline = _mm512_set1_epi8('\n'),
+        .zero = _mm512_set1_epi8('0'),
+        .nine = _mm512_set1_epi8(9),
+        .space = _mm512_set1_epi8(' '),
+        .point = _mm512_set1_epi8('.'),
+        .minus = _mm512_set1_epi8('-'),
+        .one = _mm512_set1_epi8(1),
+        .lanes_of_8 =
+            _mm512_setr_epi64(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303, 0, 0, 0, 0),
+        .lanes_of_16 = _mm512_setr_epi64(0, 0, 0x0101010101010101, 0x0101010101010101, 0x0202020202020202,
+                                         0x0202020202020202, 0x0303030303030303, 0x0303030303030303),
+        .back_8 = _mm512_set1_epi64((long long)0xfffefdfcfbfaf9f8u),
+        .back_16 = _mm512_broadcast_i32x4(
+            _mm_setr_epi8(-16, -15, -14, -13, -12, -11, -10, -9, -8, -7, -6, -5, -4, -3, -2, -1)),
+        .tens = _mm512_set1_epi16(1 << 8 | 10),
+        .hundreds = _mm512_set1_epi32(1 << 16 | 100),
+        .ten_thousands = _mm512_set1_epi32(1 << 16 | 10000),
+        .tenths_to_6 = _mm512_setr_pd(0, t[0], t[1], t[2], t[3], t[4], t[5], t[6]),
+        .tenths_to_14 = _mm512_setr_pd(t[7], t[8], t[9], t[10], t[11], t[12], t[13], t[14]),
+        .cut = _mm256_set1_epi64x(0x1fffffff),
+        .middle = _mm256_set1_epi64x(0x0ffffffc),
+        .doubt = _mm256_set1_epi64x(8),
+        .hundred_millions = _mm256_set1_epi64x(100000000),
+        .sign = _mm_set1_ps(-0.0f),
+        .one_32 = _mm_set1_epi32(1),
+        .most = _mm_set1_epi32((int)most),
+    };
+    // Opaque to the compiler from here on.
+    __asm__("" : "+v"(c.newline), "+v"(c.zero), "+v"(c.nine), "+v"(c.space), "+v"(c.point), "+v"(c.minus));
+    __asm__("" : "+v"(c.lanes_of_8), "+v"(c.lanes_of_16), "+v"(c.back_8), "+v"(c.back_16));
+    __asm__(""
+            : "+v"(c.tens), "+v"(c.hundreds), "+v"(c.ten_thousands), "+v"(c.tenths_to_6),
+              "+v"(c.tenths_to_14));
+    __asm__("" : "+v"(c.cut), "+v"(c.middle), "+v"(c.doubt), "+v"(c.hundred_millions), "+v"(c.sign));
+    __asm__("" : "+v"(c.one), "+v"(c.one_32), "+v"(c.most));
+    return c;
+}
+
+static inline uint64_t newlines_of(const struct constants *c, const uint8_t *block)
+{
+    return set_of(_mm512_cmpeq_epi8_mask(_mm512_loadu_epi8(block), c->newline));
+}
+
+// Three numbers of one to eight digits, one space between them, each from 1 to `most`. Whether that is the
+// line, which ends at `stop`.
+static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *stop,
+                                 uint32_t to[3])
+{
+    const uint8_t *at = line + 2;
+    unsigned length = (unsigned)(stop - at) - (stop[-1] == '\r');
+    if (line[1] != ' ' || length > 31)
+        return false;
+    __m256i bytes = _mm256_loadu_epi8(at), values = _mm256_sub_epi8(bytes, _mm512_castsi512_si256(c->zero));
+    uint32_t inside = _bzhi_u32(UINT32_MAX, length);
+    uint32_t digits = _mm256_cmple_epu8_mask(values, _mm512_castsi512_si256(c->nine)) & inside;
+    uint32_t spaces = _mm256_cmpeq_epi8_mask(bytes, _mm512_castsi512_si256(c->space)) & inside;
+    uint32_t second = (uint32_t)but_first(spaces);
+    if ((digits | spaces) != inside || !second || but_first(second))
+        return false;
+    uint32_t ends = pack(first_of(spaces), first_of(second), length), begins = (ends << 8) + 0x010100;
+    if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf8f8f8) // not 1 to 8 digits each
+        return false;
+    const __m256i lanes = _mm512_castsi512_si256(c->lanes_of_8);
+    __m256i from = _mm256_add_epi8(_mm256_shuffle_epi8(_mm256_set1_epi32((int)ends), lanes),
+                                   _mm512_castsi512_si256(c->back_8));
+    __mmask32 is = _mm256_cmpge_epi8_mask(from, _mm256_shuffle_epi8(_mm256_set1_epi32((int)begins), lanes));
+    // Neighbours are joined: digits to pairs, pairs to fours, fours to numbers.
+    __m256i pairs = _mm256_maddubs_epi16(_mm256_maskz_permutexvar_epi8(is, from, values),
+                                         _mm512_castsi512_si256(c->tens));
+    __m256i fours = _mm256_madd_epi16(pairs, _mm512_castsi512_si256(c->hundreds));
+    __m128i numbers = _mm_madd_epi16(_mm256_cvtepi32_epi16(fours), _mm512_castsi512_si128(c->ten_thousands));
+    __m128i indices = _mm_sub_epi32(numbers, c->one_32);
+    if (_mm_mask_cmpge_epu32_mask(7, indices, c->most))
+        return false;
+    _mm_storel_epi64((__m128i *)(void *)to, indices);
+    to[2] = (uint32_t)_mm_extract_epi32(indices, 2);
+    return true;
+}
+
+// Three numbers like -12.3456, of 2 to 15 digits with some on both sides of the point, one space between
+// them.
+static inline bool read_coordinates(const struct constants *c, const uint8_t *line, const uint8_t *stop,
+                                    __m128 *out)
+{
+    const uint8_t *at = line + 2;
+    unsigned length = (unsigned)(stop - at) - (stop[-1] == '\r');
+    if (line[1] != ' ' || length > 63)
+        return false;
+    __m512i bytes = _mm512_loadu_epi8(at), values = _mm512_sub_epi8(bytes, c->zero);
+    uint64_t inside = _bzhi_u64(UINT64_MAX, length);
+    uint64_t digits = set_of(_mm512_cmple_epu8_mask(values, c->nine)) & inside;
+    uint64_t spaces = set_of(_mm512_cmpeq_epi8_mask(bytes, c->space)) & inside;
+    uint64_t points = set_of(_mm512_cmpeq_epi8_mask(bytes, c->point)) & inside;
+    uint64_t starts = spaces << 1 | 1,
+             signs = set_of(_mm512_cmpeq_epi8_mask(bytes, c->minus)) & starts & inside;
+    // Nothing else; digits begin where a number does, and behind each sign and point, and nowhere else;
+    // point, space, point, space, point.
+    uint64_t between = spaces | points, strange = (digits | signs | between) ^ inside;
+    strange |= (digits & ~(digits << 1)) ^ ((starts & ~signs) | (signs | points) << 1);
+    if (strange | (_pext_u64(points, between) ^ 21) | (_pext_u64(spaces, between) ^ 10))
+        return false;
+    uint64_t points_2 = but_first(points), negative = _pext_u64(signs, starts);
+    uint32_t ends = pack(first_of(spaces), first_of(but_first(spaces)), length);
+    uint32_t middles = pack(first_of(points), first_of(points_2), first_of(but_first(points_2)));
+    uint32_t begins = (ends << 8) + 0x010100 + (uint32_t)_pdep_u64(negative, 0x010101);
+    if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf0f0f0) // more than 15 digits, and the point
+        return false;
+    __m512i from =
+        _mm512_add_epi8(_mm512_shuffle_epi8(_mm512_set1_epi32((int)ends), c->lanes_of_16), c->back_16);
+    __m512i point_at = _mm512_shuffle_epi8(_mm512_set1_epi32((int)middles), c->lanes_of_16);
+    __m512i begin_at = _mm512_shuffle_epi8(_mm512_set1_epi32((int)begins), c->lanes_of_16);
+    from = _mm512_mask_sub_epi8(from, _mm512_cmple_epi8_mask(from, point_at), from, c->one);
+    __m512i lanes = _mm512_maskz_permutexvar_epi8(_mm512_cmpge_epi8_mask(from, begin_at), from, values);
+    __m512i fours = _mm512_madd_epi16(_mm512_maddubs_epi16(lanes, c->tens), c->hundreds);
+    __m256i eights =
+        _mm256_madd_epi16(_mm512_cvtepi32_epi16(fours), _mm512_castsi512_si256(c->ten_thousands));
+    // Of each two the first counts 10⁸.
+    __m256i whole =
+        _mm256_add_epi64(_mm256_mul_epu32(eights, c->hundred_millions), _mm256_srli_epi64(eights, 32));
+    __m512i behind = _mm512_cvtepu8_epi64(_mm_cvtsi32_si128((int)(ends - middles))); // digits there, and one
+    __m256d tenths = _mm512_castpd512_pd256(_mm512_permutex2var_pd(c->tenths_to_6, behind, c->tenths_to_14));
+    __m256d product = _mm256_mul_pd(_mm256_cvtepi64_pd(whole), tenths); // as number_float_quick has it
+    __m256i off = _mm256_sub_epi64(_mm256_and_si256(_mm256_castpd_si256(product), c->cut), c->middle);
+    if (_mm256_cmple_epu64_mask(off, c->doubt)) // number_rounds_surely; the fourth is 0, and sure
+        return false;
+    __m128 result = _mm256_cvtpd_ps(product);
+    *out = _mm_mask_xor_ps(result, (__mmask8)negative, result, c->sign);
+    return true;
+}
+
+#endif

@@ -99,13 +99,13 @@ static void carve_thread(struct carving *carving, struct thread_state *thread, c
     thread->fragment_point = carve(carving, 3 * fragments * sizeof(uint32_t));
     for (int c = 0; c < 4; c++) {
         thread->fragment_color[c] = carve(carving, fragments * sizeof(float));
-        thread->point_color[c] = carve(carving, points * sizeof(float));
         thread->sum[c] = carve(carving, (TILE * TILE + LANES_MAX) * sizeof(float));
     }
     size_t slots = 64;
     while (slots < 2 * points)
         slots *= 2;
     thread->point_table = carve(carving, slots * sizeof(uint32_t));
+    thread->point_color = carve(carving, points * sizeof *thread->point_color);
     thread->point_key = carve(carving, points * sizeof *thread->point_key);
     thread->points = carve(carving, sizeof *thread->points);
     if (light_lists_wanted(frame)) {

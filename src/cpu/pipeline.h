@@ -149,7 +149,8 @@ struct thread_state {
     uint32_t *point_table;    // slot → point + 1; a power of two of them, fitted to the group
     uint32_t (*point_key)[4]; // what makes a point: position, normal, colour, tangent element
     uint32_t *fragment_point; // 3 per run of fragments
-    float *point_color[4];
+    float (*point_color)[4];  // r, g, b, a of each
+    uint32_t point_count;
     struct lit_points *points;
     struct light_choice choice;
     int32_t *counts; // triangles that cover each sample; NULL: nobody asks (show.c)

@@ -130,27 +130,21 @@ static bool make_set(struct cpu_frame *cpu, struct seeing_room *room, lam_error 
     return true;
 }
 
-// Finds memory for the elements and normals of so many corners: the elements take the spare one where they
-// fit, and so do the normals where both do. Of memory of their own few pages are touched: corners share
-// normals.
+// Finds memory for the elements and normals of so many corners: in the spare one where that is large, else of
+// their own, of which fewer pages are touched: corners share normals.
 static bool place_normals(struct seeing_room *room, struct seen_normals *seen, size_t corners,
                           struct spare *spare, struct watch *watch, lam_error *error)
 {
     size_t elements = (corners * sizeof *seen->elements + 63) / 64 * 64,
            normals = (corners * sizeof *seen->normals + 63) / 64 * 64;
-    size_t lies_there = elements + normals <= spare->room ? elements + normals
-                        : elements <= spare->room         ? elements
-                                                          : 0;
-    size_t fresh = elements + normals - lies_there;
-    if (fresh && !buffer_reserve(&room->normals, fresh, watch, error))
+    bool lies_there = elements + normals <= spare->room / 4;
+    if (!lies_there && !buffer_reserve(&room->normals, elements + normals, watch, error))
         return false;
-    char *own = room->normals.data, *spared = spare->memory;
-    seen->elements = (uint32_t *)(lies_there ? spared : own);
-    seen->normals = (float(*)[3])(lies_there == elements + normals ? spared + elements
-                                  : lies_there                     ? own
-                                                                   : own + elements);
+    char *memory = lies_there ? spare->memory : room->normals.data;
+    seen->elements = (uint32_t *)memory;
+    seen->normals = (float(*)[3])(memory + elements);
     seen->used = 0;
-    spare->used = lies_there;
+    spare->used = lies_there ? elements + normals : 0;
     return true;
 }
 

@@ -14,6 +14,22 @@ void *spare_take(struct spare *spare, struct arena *arena, size_t count, size_t 
     return arena_alloc(arena, bytes);
 }
 
+void *spare_lend(struct spare *spare, size_t bytes)
+{
+    size_t whole = (bytes + 63) / 64 * 64;
+    if (whole > (spare->room - spare->used) / 64 * 64)
+        return NULL;
+    spare->lent += whole + spare->room % 64;
+    spare->room -= whole + spare->room % 64;
+    return (char *)spare->memory + spare->room;
+}
+
+void spare_give_back(struct spare *spare)
+{
+    spare->room += spare->lent;
+    spare->lent = 0;
+}
+
 struct seen_block *seen_block_new(struct seen_lists *lists, struct seen_block *before)
 {
     struct seen_block *block = lists->unused;

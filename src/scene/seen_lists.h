@@ -52,6 +52,10 @@ struct seen_lists {
 // Memory from the spare one while there is some, else from the arena; NULL: out of memory. Any thread.
 void *spare_take(struct spare *spare, struct arena *arena, size_t count, size_t size);
 
+// Lends the end of the spare memory until it is given back; NULL: it is smaller. While no thread takes any.
+void *spare_lend(struct spare *spare, size_t bytes);
+void spare_give_back(struct spare *spare);
+
 // An empty block in front of `before`; NULL: out of memory.
 struct seen_block *seen_block_new(struct seen_lists *lists, struct seen_block *before);
 

@@ -175,6 +175,24 @@ static void stop_workers(struct seeing *s)
     s->workers = NULL;
 }
 
+// Whole lines of 64 bytes from one place to another.
+static struct spare lines_between(void *from, void *to)
+{
+    uintptr_t first = ((uintptr_t)from + 63) / 64 * 64, end = (uintptr_t)to / 64 * 64;
+    return first < end ? (struct spare){.memory = (void *)first, .room = end - first} : (struct spare){0};
+}
+
+// Until fans are made, the mesh's elements and all normals that nobody has yet are memory like any other.
+static void lend_normals(struct seeing *s)
+{
+    struct seen_normals *seen = s->seen;
+    uint32_t *elements = seen->elements + 3 * (size_t)s->seen_before;
+    size_t own = 3 * (size_t)seen_triangles_before(s, s->mesh->triangle_count);
+    s->until_fans[0] = lines_between(elements, elements + own);
+    s->until_fans[1] =
+        lines_between(seen->normals + seen->used, seen->normals + 3 * (size_t)seen->triangles.count);
+}
+
 bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad, struct seen_normals *seen,
                   struct spare spare, int lanes, struct pool *pool, struct watch *watch, lam_error *error)
 {
@@ -191,12 +209,15 @@ bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad,
                        .vertices = mesh->indices ? mesh->vertex_count : corners,
                        .corners = corners};
     arena_start(&s.scratch, watch);
+    s.seen_before = seen_triangles_before(&s, 0);
+    lend_normals(&s);
     bool ok = find_positions(&s, error);
     if (ok && !bin_corners(&s) && goes_on(&s.halt)) {
         ok = weld_all(&s, error);
         if (ok)
             bin_corners(&s);
     }
+    spare_give_back(&s.spare);
     if (ok && goes_on(&s.halt)) {
         if (!start_workers(&s))
             no_memory(&s.halt);

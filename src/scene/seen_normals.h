@@ -72,11 +72,13 @@ static inline uint32_t seen_element(const struct seen_normals *seen, size_t tria
 struct spare {
     void *memory;
     size_t room, used;
+    size_t lent; // behind its room (seen_lists.h)
 };
 
 // Makes the normals of one mesh, whose triangle t has the number first + t in the set. The set is counted.
-// `spare` saves fresh memory, whose first touch costs more than its use; all zero: there is none. Works on no
-// more than `lanes` floats at a time. Errors: LAM_LIMIT, LAM_CANCELLED.
+// `spare` saves fresh memory, whose first touch costs more than its use; all zero: there is none. So does the
+// memory of the mesh's elements and of the normals from `used` on, before they are there. Works on no more
+// than `lanes` floats at a time. Errors: LAM_LIMIT, LAM_CANCELLED.
 bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad, struct seen_normals *seen,
                   struct spare spare, int lanes, struct pool *pool, struct watch *watch, lam_error *error);
 

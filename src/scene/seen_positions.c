@@ -27,6 +27,17 @@ void number_set_count(struct number_set *set)
     set->count = count;
 }
 
+// What is done with before any fan is made may lie where normals will.
+static void *take_until_fans(struct seeing *s, size_t count, size_t size)
+{
+    for (int i = 0; i < 2; i++) {
+        struct spare *there = &s->until_fans[i];
+        if (count <= (there->room - there->used) / size / 64 * 64)
+            return spare_take(there, &s->scratch, count, size);
+    }
+    return seeing_take(s, &s->scratch, count, size);
+}
+
 void *seeing_take_zeroed(struct seeing *s, size_t bytes)
 {
     void *memory = seeing_take(s, &s->scratch, bytes, 1);
@@ -230,8 +241,13 @@ static bool fill_table(struct seeing *s)
         pool_run(s->pool, pieces_of(number_set_words(s->vertices), WORDS), spread_vertices, s);
     else
         pool_run(s->pool, pieces_of(triangle_words(s), WORDS), spread_corners, s);
-    if (!seen_table_make(&s->table, keys_of(s), indexed, &s->spare, &s->scratch))
+    size_t bytes = seen_table_size(&s->table, keys_of(s), indexed);
+    void *memory = spare_lend(&s->spare, bytes);
+    if (!memory)
+        memory = take_until_fans(s, bytes, 1);
+    if (!memory)
         return false;
+    seen_table_place(&s->table, memory);
     pool_run(s->pool, seen_table_parts(&s->table), fill_part, s);
     return true;
 }
@@ -292,8 +308,7 @@ static void place_doubles(void *user, size_t index, int thread)
 
 static bool place_vertices(struct seeing *s)
 {
-    s->position_of =
-        seeing_take(s, &s->scratch, WORD * number_set_words(s->vertices), sizeof *s->position_of);
+    s->position_of = take_until_fans(s, WORD * number_set_words(s->vertices), sizeof *s->position_of);
     if (!s->position_of)
         return false;
     pool_run(s->pool, pieces_of(number_set_words(s->vertices), WORDS), place_words, s);
@@ -332,11 +347,10 @@ bool weld_all(struct seeing *s, lam_error *error)
 bool find_positions(struct seeing *s, lam_error *error)
 {
     const bool indexed = s->mesh->indices != NULL;
-    s->seen_before = 0;
-    s->seen_before = seen_triangles_before(s, 0);
     bool ok = (!indexed || find_shown(s)) && fill_table(s);
     if (ok && indexed && !s->crowded) {
         ok = place_vertices(s);
+        spare_give_back(&s->spare); // the table is done with
     } else if (ok && !indexed) {
         forget_answers(s);
     }

@@ -31,6 +31,7 @@ struct seeing {
     struct halt halt;
     struct arena scratch;
     struct spare spare;
+    struct spare until_fans[2]; // where the mesh's elements and further normals will lie
     size_t vertices, corners;
     struct seen_table table;
     struct seen_lists *lists; // each thread's

@@ -38,8 +38,7 @@ void seen_table_plan(struct seen_table *table, size_t vertices)
         table->part_bits++;
 }
 
-bool seen_table_make(struct seen_table *table, size_t vertices, bool strict, struct spare *spare,
-                     struct arena *arena)
+size_t seen_table_size(struct seen_table *table, size_t vertices, bool strict)
 {
     size_t usual = vertices >> table->part_bits;
     table->part_lines = (uint32_t)(usual / 8 * 3 + 16);
@@ -48,10 +47,14 @@ bool seen_table_make(struct seen_table *table, size_t vertices, bool strict, str
         word_bits++;
     table->part_words = (uint32_t)1 << word_bits;
     table->filter.shift = 32 - word_bits - table->part_bits;
-    size_t parts = seen_table_parts(table);
-    table->lines = spare_take(spare, arena, parts * table->part_lines, sizeof *table->lines);
-    table->filter.words = spare_take(spare, arena, parts * table->part_words, sizeof *table->filter.words);
-    return table->lines && table->filter.words;
+    return seen_table_parts(table) *
+           (table->part_lines * sizeof *table->lines + table->part_words * sizeof *table->filter.words);
+}
+
+void seen_table_place(struct seen_table *table, void *memory)
+{
+    table->lines = memory;
+    table->filter.words = (uint32_t *)(table->lines + seen_table_parts(table) * (size_t)table->part_lines);
 }
 
 // Looks for a position from the line where its search starts: the line that holds it or has a free slot for

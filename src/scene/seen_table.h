@@ -24,10 +24,10 @@ struct seen_table {
 // Plans as many parts as suit so many vertices.
 void seen_table_plan(struct seen_table *table, size_t vertices);
 
-// Makes room for so many vertices in all parts together. The filter takes few bits for each, or twice as
-// many, so that few others pass. False: out of memory.
-bool seen_table_make(struct seen_table *table, size_t vertices, bool strict, struct spare *spare,
-                     struct arena *arena);
+// How many bytes the table takes for so many vertices in all parts together, and where it is. The filter
+// takes few bits for each, or twice as many, so that few others pass.
+size_t seen_table_size(struct seen_table *table, size_t vertices, bool strict);
+void seen_table_place(struct seen_table *table, void *memory);
 
 static inline uint32_t seen_table_parts(const struct seen_table *table)
 {

@@ -510,8 +510,9 @@ const struct option option_table[] = {
      .store = store_number, FIELD(stop_after_s), .least = 0.1, .most = 1e6},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(list)},
-    {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The language of the shaders: 330, 120 or 300es.", NULL,
-     glsl_words, .store = store_word, FIELD(glsl)},
+    {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The language of the shaders: 330, 120 or 300es.",
+     "300es may be written as in a shader's first line, \"300 es\".", glsl_words, .store = store_glsl,
+     FIELD(glsl)},
     {"host", 0, GROUP_SHADER, "LANGUAGE", NULL,
      "Also print code that sets everything the shaders ask for: c.",
      "Functions that compile the sources, tell OpenGL what a vertex is, and set every uniform to the value "

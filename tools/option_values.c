@@ -58,6 +58,11 @@ bool store_word(const struct option *option, const char *value, struct options *
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s", value, known, guess);
 }
 
+bool store_glsl(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    return store_word(option, strcmp(value, "300 es") == 0 ? "300es" : value, options, error);
+}
+
 const char *read_number(const char *text, double *value)
 {
     // strtod also takes spaces, hexadecimal, "inf" and "nan": only the plain forms get through to it. Its

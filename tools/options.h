@@ -215,6 +215,7 @@ int options_parse(int count, char **words, unsigned groups, struct options *opti
 bool store_switch(const struct option *, const char *, struct options *, lam_error *);   // bool
 bool store_text(const struct option *, const char *, struct options *, lam_error *);     // const char *
 bool store_word(const struct option *, const char *, struct options *, lam_error *);     // int
+bool store_glsl(const struct option *, const char *, struct options *, lam_error *);     // likewise
 bool store_integer(const struct option *, const char *, struct options *, lam_error *);  // int
 bool store_number(const struct option *, const char *, struct options *, lam_error *);   // double
 bool store_size(const struct option *, const char *, struct options *, lam_error *);     // width, height

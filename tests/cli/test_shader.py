@@ -24,6 +24,7 @@ class Shader(Case):
     def test_without_a_model_the_switches_decide(self):
         text = self.good("shader", "--reflection", "phong", "--glsl", "300es").stdout.decode()
         self.assertIn("#version 300 es", text)
+        self.assertEqual(self.good("shader", "--reflection", "phong", "--glsl", "300 es").stdout.decode(), text)
         self.assertIn("Phong (1975)", text)
         self.assertNotIn("Blinn", text)
 

@@ -40,7 +40,7 @@ const struct command command_table[] = {
     {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.",
      ABOUT, 0, 0, run_formats},
     {"materials", NULL, "List the named materials with their numbers; -o FILE also draws a sheet of them.",
-     ABOUT | 1u << GROUP_PICTURE | 1u << GROUP_CAPTIONS, 0, 0, run_materials},
+     ABOUT | 1u << GROUP_PICTURE | 1u << GROUP_CAPTIONS | TAKES_JSON, 0, 0, run_materials},
     {"devices", NULL,
      "List what pictures can be drawn with on this machine, and why what cannot be used cannot.",
      ABOUT | TAKES_JSON, 0, 0, run_devices},

@@ -6,6 +6,7 @@
 
 #include "console.h"
 #include "interrupt.h"
+#include "json.h"
 #include "output.h"
 #include "report.h"
 
@@ -33,6 +34,56 @@ static void print_list(void)
     printf("\nSource: teapots.c, a demonstration program of OpenGL (Silicon Graphics, 1993 and 1997); the "
            "shininess there is\n"
            "a share of 128. The numbers are taken as linear. --material NAME gives one to a model.\n");
+}
+
+// The fewest digits that read back as the same float: as the table has it.
+static double decimal(float x)
+{
+    char text[32];
+    for (int digits = 6; digits <= 9; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, (double)x);
+        if (strtof(text, NULL) == x)
+            break;
+    }
+    return strtod(text, NULL);
+}
+
+static void tell_color(struct json *json, const char *key, float r, float g, float b)
+{
+    json_open(json, key, '[');
+    json_number(json, NULL, decimal(r));
+    json_number(json, NULL, decimal(g));
+    json_number(json, NULL, decimal(b));
+    json_close(json, ']');
+}
+
+// In the keys of a scene file's materials.
+static void tell_json(void)
+{
+    struct json json = {.file = stdout};
+    json_open(&json, NULL, '{');
+    json_open(&json, "materials", '[');
+    for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
+        lam_material m = lam_material_named((lam_material_id)i);
+        json_open(&json, NULL, '{');
+        json_text(&json, "name", m.name);
+        tell_color(&json, "ambient", m.ambient.r, m.ambient.g, m.ambient.b);
+        tell_color(&json, "diffuse", m.diffuse.r, m.diffuse.g, m.diffuse.b);
+        tell_color(&json, "specular", m.specular.r, m.specular.g, m.specular.b);
+        json_number(&json, "shininess", decimal(m.shininess));
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_close(&json, '}');
+    putchar('\n');
+}
+
+static void tell_list(const struct options *options)
+{
+    if (options->json)
+        tell_json();
+    else
+        print_list();
 }
 
 // One mesh, an object for each material: rows of COLUMNS, the list's order from the top left. The light is
@@ -167,13 +218,13 @@ int run_materials(int operand_count, char **operands, const struct options *opti
     (void)operand_count, (void)operands;
     lam_error error = {0};
     if (!options->output) {
-        print_list();
+        tell_list(options);
         return 0;
     }
     interrupt_start();
     if (!make_sheet(options, &error))
         return tell_failure(&error, options);
     if (!output_is_stream(options->output))
-        print_list();
+        tell_list(options);
     return 0;
 }

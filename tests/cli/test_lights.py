@@ -217,6 +217,11 @@ class Materials(Pictures):
         self.assertEqual(lines["brass"][6:], ["0.992157", "0.941176", "0.807843", "27.8974"])
         self.assertEqual(len([line for line in text.splitlines() if len(line.split()) == 11]), 24)
         self.assertIn("teapots.c", text)
+        told = json.loads(self.good("materials", "--json").stdout)["materials"]
+        self.assertEqual([material["name"] for material in told], list(lines)[1:25])
+        self.assertEqual(told[[material["name"] for material in told].index("brass")],
+                         {"name": "brass", "ambient": [0.329412, 0.223529, 0.027451], "diffuse": [0.780392, 0.568627, 0.113725],
+                          "specular": [0.992157, 0.941176, 0.807843], "shininess": 27.897436})
         self.good("materials", "-o", "sheet.png", "-s", "300")
         self.assertEqual(self.new_files(), {"sheet.png"})
         width, height, data = sheet = self.png("materials", "-s", "300x200")

@@ -1,6 +1,7 @@
 // scene_lights.c: the lights of a scene file.
 #include "scene_file.h"
 
+#include "fail.h"
 #include "linear.h"
 
 #include <string.h>
@@ -213,6 +214,29 @@ static bool read_light(struct scene_reader *r, const struct place *place, const 
     return scene_take_light(r->scene, &light, r->error) >= 0;
 }
 
+// The names are to tell lights apart in reports and tables. The first two of one name are told.
+static bool warn_of_names(struct scene_reader *r, const json_t *list)
+{
+    json_t *met = json_object();
+    bool ok = met != NULL;
+    size_t i;
+    const json_t *light;
+    json_array_foreach(list, i, light)
+    {
+        const json_t *name = json_object_get(light, "name");
+        const json_t *earlier = name && ok ? json_object_get(met, json_string_value(name)) : NULL;
+        if (earlier) {
+            scene_warn(r->scene, "%s: lights[%zu] and lights[%zu] are both named '%.60s'", r->source->name,
+                       (size_t)json_integer_value(earlier), i, json_string_value(name));
+            break;
+        }
+        ok = ok &&
+             (!name || json_object_set_new(met, json_string_value(name), json_integer((json_int_t)i)) == 0);
+    }
+    json_decref(met);
+    return ok || fail_memory(r->error, json_array_size(list) * 64);
+}
+
 bool read_lights(struct scene_reader *r, const json_t *root)
 {
     const json_t *list = json_object_get(root, "lights");
@@ -228,5 +252,5 @@ bool read_lights(struct scene_reader *r, const json_t *root)
     for (size_t i = 0; i < json_array_size(list); i++)
         if (!read_light(r, ELEMENT_OF(place, i), json_array_get(list, i)))
             return false;
-    return true;
+    return warn_of_names(r, list);
 }

@@ -107,8 +107,7 @@ static bool check_place(const lam_device *device, const lam_draw_params *params,
         return fail(error, LAM_BAD_ARGUMENT,
                     "explain: show is not the picture; all terms of the picture's pixel are told");
     if (lam_device_isa(device) == LAM_ISA_AUTO)
-        return fail(error, LAM_UNSUPPORTED,
-                    "lam_explain: the device '%s' cannot explain its pixels, the CPU device can",
+        return fail(error, LAM_UNSUPPORTED, "the device '%s' cannot explain its pixels, the CPU device can",
                     lam_device_name(device));
     if (x < 0 || y < 0 || x >= width || y >= height)
         return fail(error, LAM_BAD_ARGUMENT,

@@ -92,4 +92,4 @@ class Drawing(Case):
         self.bad(3, "cube", "--device", "gl", "--gl-device", "99", says=("no device 99", "expected 0 to"), leaves=["c.png"])
 
     def test_what_it_cannot(self):
-        self.bad(3, "explain", "cube", "5,5", "--device", "gl", says=("cannot explain", "CPU device"))
+        self.bad(3, "explain", "cube", "5,5", "--device", "gl", says=("lambent: cube: the device 'gl", "cannot explain", "CPU device"))

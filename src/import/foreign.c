@@ -61,7 +61,7 @@ static const struct text_kind {
     const char *within;
 } text_kinds[] = {
     {{"a glTF file", true}, '{', "\"asset\""},
-    {{"a JSON file", false}, '{', "\":"},
+    {{"a JSON file without the key \"lambent\" of scene files (\"lambent\": 1)", false}, '{', "\":"},
     {{"a COLLADA file", true}, '<', "<COLLADA"},
     {{"an X3D file", true}, '<', "<X3D"},
     {{"an AMF file", true}, '<', "<amf"},

@@ -26,14 +26,14 @@ class Display:
         self.start()
         measure.output(["f3d", scenes.model(1000), "--dry-run", "--quiet", "--output=" + picture("try-f3d")])
 
-    def f3d_ms(self, command):
+    def f3d_ms(self, command, written):
         """F3D's time; where it crashes on a display that has served before, once more on a new one."""
         try:
-            return measure.wall_ms(command)
+            return measure.wall_ms(command, written)
         except measure.Failed:
             self.close()
             self.open()
-            return measure.wall_ms(command)
+            return measure.wall_ms(command, written)
 
     def start(self):
         read, write = os.pipe()
@@ -78,9 +78,10 @@ def whole(name, path, samples, isas, display, seconds, size=SIZE):
     report = measure.lambent(path, "-s", size, "--samples", samples, "-o", picture(file_name + "-lambent"))
     commands = {isa: ours(isa, samples) for isa in isas}
     commands["%d samples" % other] = ours(isas[0], other)
-    contestants = {key: (lambda c=command: measure.wall_ms(c)) for key, command in commands.items()}
-    peer = f3d_command(path, report, picture(file_name + "-f3d"), size)
-    contestants["f3d"] = lambda: display.f3d_ms(peer)
+    contestants = {key: (lambda c=command: measure.wall_ms(c, picture(file_name + "-lambent"))) for key, command in commands.items()}
+    theirs = picture(file_name + "-f3d")
+    peer = f3d_command(path, report, theirs, size)
+    contestants["f3d"] = lambda: display.f3d_ms(peer, theirs)
     taken = measure.in_turn(contestants, seconds)
     # What is not the encoder: of runs of its own, since a report costs time.
     besides = [r["times_ms"]["total"] - r["times_ms"]["encode"] for r in

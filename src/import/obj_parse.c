@@ -317,8 +317,7 @@ const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at)
 static obj_lines_reader *lines_reader(void)
 {
 #if defined(OBJ_LINES_AVX512)
-    if (cpu_features() & CPU_AVX512 && __builtin_cpu_supports("avx512vbmi") &&
-        __builtin_cpu_supports("bmi2"))
+    if (cpu_features() & CPU_AVX512 && __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("bmi2"))
         return obj_read_lines_avx512;
 #endif
     return obj_read_lines_plain;

@@ -54,13 +54,13 @@ void *pages_get_sparse(size_t bytes, size_t *held)
 
 // A block of at least one huge page is aligned to it: the kernel then backs it with huge pages from the first
 // touch, which costs a third of touching the same memory in small pages. What such a block has behind its last
-// huge page gets one too, unless that is little: it is quicker than hundreds of small ones.
+// huge page gets one too, quicker than hundreds of small ones, where the block becomes little larger by it.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)
         return NULL;
     size_t size = whole_pages(bytes), slack = size >= HUGE_PAGE ? HUGE_PAGE : 0, rest = size % HUGE_PAGE;
-    if (slack && rest >= HUGE_PAGE / 4)
+    if (slack && rest && HUGE_PAGE - rest <= size / 16)
         size += HUGE_PAGE - rest;
     uint8_t *pages = map(size + slack);
     if (!pages)

@@ -18,35 +18,33 @@ static double now_s(void)
 }
 
 // A function that measures one instruction set with a number of chains; `FUSED` is 0 or 1.
-#define MEASURE(NAME, TARGET, TYPE, LANES, CHAINS, FUSED, SET, MULTIPLY, ADD, FMA)                           \
-    __attribute__((target(TARGET))) static double NAME(void)                                                 \
-    {                                                                                                        \
-        double best = 1e9;                                                                                   \
-        for (int round = 0; round < ROUNDS; round++) {                                                       \
-            TYPE chain[CHAINS], factor = SET(0.9999999f), term = SET(1e-9f);                                 \
-            for (int i = 0; i < CHAINS; i++)                                                                 \
-                chain[i] = SET(1.0f + (float)i * 0.01f);                                                     \
-            double start = now_s();                                                                          \
-            for (int turn = 0; turn < TURNS; turn++) {                                                       \
-                _Pragma("GCC unroll 32") for (int i = 0; i < CHAINS; i++) chain[i] =                         \
-                    FUSED ? FMA(chain[i], factor, term) : MULTIPLY(chain[i], factor);                        \
-                _Pragma("GCC unroll 32") for (int i = 0; i < CHAINS; i++) chain[i] =                         \
-                    FUSED ? FMA(chain[i], factor, term) : ADD(chain[i], term);                               \
-            }                                                                                                \
-            double taken = now_s() - start;                                                                  \
-            for (int i = 0; i < CHAINS; i++)                                                                 \
-                __asm__ volatile("" ::"x"(chain[i]));                                                        \
-            best = taken < best ? taken : best;                                                              \
-        }                                                                                                    \
-        return (FUSED ? 4.0 : 2.0) * CHAINS * LANES * TURNS / best / 1e9;                                    \
+#define MEASURE(NAME, TARGET, TYPE, LANES, CHAINS, FUSED, SET, MULTIPLY, ADD, FMA)                                     \
+    __attribute__((target(TARGET))) static double NAME(void)                                                           \
+    {                                                                                                                  \
+        double best = 1e9;                                                                                             \
+        for (int round = 0; round < ROUNDS; round++) {                                                                 \
+            TYPE chain[CHAINS], factor = SET(0.9999999f), term = SET(1e-9f);                                           \
+            for (int i = 0; i < CHAINS; i++)                                                                           \
+                chain[i] = SET(1.0f + (float)i * 0.01f);                                                               \
+            double start = now_s();                                                                                    \
+            for (int turn = 0; turn < TURNS; turn++) {                                                                 \
+                _Pragma("GCC unroll 32") for (int i = 0; i < CHAINS; i++) chain[i] =                                   \
+                    FUSED ? FMA(chain[i], factor, term) : MULTIPLY(chain[i], factor);                                  \
+                _Pragma("GCC unroll 32") for (int i = 0; i < CHAINS; i++) chain[i] =                                   \
+                    FUSED ? FMA(chain[i], factor, term) : ADD(chain[i], term);                                         \
+            }                                                                                                          \
+            double taken = now_s() - start;                                                                            \
+            for (int i = 0; i < CHAINS; i++)                                                                           \
+                __asm__ volatile("" ::"x"(chain[i]));                                                                  \
+            best = taken < best ? taken : best;                                                                        \
+        }                                                                                                              \
+        return (FUSED ? 4.0 : 2.0) * CHAINS * LANES * TURNS / best / 1e9;                                              \
     }
 
-#define AVX512(NAME, CHAINS, FUSED)                                                                          \
-    MEASURE(NAME, "avx512f", __m512, 16, CHAINS, FUSED, _mm512_set1_ps, _mm512_mul_ps, _mm512_add_ps,        \
-            _mm512_fmadd_ps)
-#define AVX2(NAME, CHAINS, FUSED)                                                                            \
-    MEASURE(NAME, "avx2,fma", __m256, 8, CHAINS, FUSED, _mm256_set1_ps, _mm256_mul_ps, _mm256_add_ps,        \
-            _mm256_fmadd_ps)
+#define AVX512(NAME, CHAINS, FUSED)                                                                                    \
+    MEASURE(NAME, "avx512f", __m512, 16, CHAINS, FUSED, _mm512_set1_ps, _mm512_mul_ps, _mm512_add_ps, _mm512_fmadd_ps)
+#define AVX2(NAME, CHAINS, FUSED)                                                                                      \
+    MEASURE(NAME, "avx2,fma", __m256, 8, CHAINS, FUSED, _mm256_set1_ps, _mm256_mul_ps, _mm256_add_ps, _mm256_fmadd_ps)
 
 AVX512(avx512_apart_12, 12, 0)
 AVX512(avx512_apart_20, 20, 0)

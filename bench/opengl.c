@@ -46,13 +46,9 @@ static void make_context(void)
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, NULL, NULL))
         give_up(NO_OPENGL, "no EGL display without a window", "install libegl-mesa0 and libgl1-mesa-dri");
     const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
-    const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION,
-                              3,
-                              EGL_CONTEXT_MINOR_VERSION,
-                              3,
-                              EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                              EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                              EGL_NONE};
+    const EGLint version[] = {
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     EGLConfig config = NULL;
     EGLint count = 0;
     eglBindAPI(EGL_OPENGL_API);
@@ -148,10 +144,8 @@ static struct programs make_programs(const struct gl_scene *scene, struct form f
     struct programs programs = {0};
     if (depth_first)
         programs.depth = make_program(scene, depth_vertex_shader(), depth_fragment_shader());
-    GLuint program = programs.lit =
-        make_program(scene, vertex_shader(scene, form), fragment_shader(scene, form));
-    glUniform3f(glGetUniformLocation(program, "eye"), (float)scene->eye[0], (float)scene->eye[1],
-                (float)scene->eye[2]);
+    GLuint program = programs.lit = make_program(scene, vertex_shader(scene, form), fragment_shader(scene, form));
+    glUniform3f(glGetUniformLocation(program, "eye"), (float)scene->eye[0], (float)scene->eye[1], (float)scene->eye[2]);
     glUniform3fv(glGetUniformLocation(program, "ambient"), 1, scene->ambient);
     glUniform1f(glGetUniformLocation(program, "shininess"), (float)scene->shininess);
     if (form.written_out)
@@ -216,8 +210,7 @@ static void upload(const struct gl_scene *scene, int shared)
     glEnableVertexAttribArray(1);
     if (shared) {
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
-        glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(12 * scene->triangles), scene->indices,
-                     GL_STATIC_DRAW);
+        glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(12 * scene->triangles), scene->indices, GL_STATIC_DRAW);
     }
     free(data);
 }
@@ -232,13 +225,12 @@ static GLuint make_target(const struct gl_scene *scene, int samples)
         glBindRenderbuffer(GL_RENDERBUFFER, planes[i]);
         glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? samples : 0,
                                          i ? GL_DEPTH_COMPONENT24 : GL_RGBA8, scene->width, scene->height);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, i ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0,
-                                  GL_RENDERBUFFER, planes[i]);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, i ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                  planes[i]);
     }
     GLint got = 0;
     glGetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_SAMPLES, &got);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE ||
-        (samples > 1 && got != samples))
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || (samples > 1 && got != samples))
         give_up(NO_OPENGL, "no framebuffer of that size and number of samples", "");
     return target;
 }
@@ -270,8 +262,8 @@ static void draw(const struct gl_scene *scene, const struct programs *programs, 
     draw_triangles(scene, shared);
     if (resolved != target) {
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
-        glBlitFramebuffer(0, 0, scene->width, scene->height, 0, 0, scene->width, scene->height,
-                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        glBlitFramebuffer(0, 0, scene->width, scene->height, 0, 0, scene->width, scene->height, GL_COLOR_BUFFER_BIT,
+                          GL_NEAREST);
     }
     glFinish();
 }

@@ -1,5 +1,4 @@
-// opengl_scene.c: reads the OpenGL program's scene: lines of a keyword and its numbers, and the PLY that they
-// name.
+// opengl_scene.c: reads the OpenGL program's scene: lines of a keyword and its numbers, and the PLY that they name.
 #include "opengl_scene.h"
 
 #include <math.h>
@@ -71,11 +70,10 @@ static void make_normals(struct gl_scene *scene)
         const uint32_t *corner = scene->indices + 3 * t;
         double edge[3][3]; // edge k leaves corner k
         for (int k = 0; k < 3; k++)
-            subtract(scene->positions + 3 * (size_t)corner[(k + 1) % 3],
-                     scene->positions + 3 * (size_t)corner[k], edge[k]);
+            subtract(scene->positions + 3 * (size_t)corner[(k + 1) % 3], scene->positions + 3 * (size_t)corner[k],
+                     edge[k]);
         double back[3] = {-edge[2][0], -edge[2][1], -edge[2][2]};
-        double normal[3] = {edge[0][1] * back[2] - edge[0][2] * back[1],
-                            edge[0][2] * back[0] - edge[0][0] * back[2],
+        double normal[3] = {edge[0][1] * back[2] - edge[0][2] * back[1], edge[0][2] * back[0] - edge[0][0] * back[2],
                             edge[0][0] * back[1] - edge[0][1] * back[0]};
         double length = sqrt(dot(normal, normal));
         if (!(length > 0))
@@ -106,8 +104,8 @@ static void read_light(struct gl_scene *scene, const char *path, const char *num
     }
     struct point_light *light = &scene->lights[scene->light_count++];
     float *p = light->position, *d = light->diffuse, *s = light->specular, *a = light->attenuation;
-    if (sscanf(numbers, "%f %f %f %f %f %f %f %f %f %f %f %f", p, p + 1, p + 2, d, d + 1, d + 2, s, s + 1,
-               s + 2, a, a + 1, a + 2) != 12)
+    if (sscanf(numbers, "%f %f %f %f %f %f %f %f %f %f %f %f", p, p + 1, p + 2, d, d + 1, d + 2, s, s + 1, s + 2, a,
+               a + 1, a + 2) != 12)
         give_up(path, "a light needs twelve numbers: position, diffuse, specular, attenuation");
 }
 
@@ -119,8 +117,7 @@ static void read_vector(const char *path, const char *numbers, double *vector)
 
 struct gl_scene gl_scene_read(const char *path)
 {
-    struct gl_scene scene = {
-        .width = 1024, .height = 1024, .samples = 1, .fovy_degrees = 30, .up = {0, 1, 0}};
+    struct gl_scene scene = {.width = 1024, .height = 1024, .samples = 1, .fovy_degrees = 30, .up = {0, 1, 0}};
     char line[4096], model[4096] = "";
     FILE *file = fopen(path, "r");
     if (!file)

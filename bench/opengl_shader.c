@@ -65,8 +65,8 @@ static void written_lights(FILE *text, const struct gl_scene *scene)
                 "    highlight = nl > 0.0 ? highlight_of(max(dot(n, normalize(l + v)), 0.0)) : 0.0;\n"
                 "    sum += fade * (vec3(%.9e, %.9e, %.9e) * max(nl, 0.0) + vec3(%.9e, %.9e, %.9e) * "
                 "highlight);\n",
-                (double)p[0], (double)p[1], (double)p[2], (double)a[0], (double)a[1], (double)a[2],
-                (double)d[0], (double)d[1], (double)d[2], (double)s[0], (double)s[1], (double)s[2]);
+                (double)p[0], (double)p[1], (double)p[2], (double)a[0], (double)a[1], (double)a[2], (double)d[0],
+                (double)d[1], (double)d[2], (double)s[0], (double)s[1], (double)s[2]);
     }
     fprintf(text, "    return sum;\n}\n");
 }
@@ -110,9 +110,8 @@ char *vertex_shader(const struct gl_scene *scene, struct form form)
         fprintf(text.file, "out vec3 at, n;\nvoid main() { at = position; n = normal; gl_Position = to_clip "
                            "* vec4(position, 1.0); }\n");
     } else if (scene->shading == FLAT && form.derivatives) {
-        fprintf(text.file,
-                "out vec3 at;\nflat out vec3 last;\n"
-                "void main() { at = last = position; gl_Position = to_clip * vec4(position, 1.0); }\n");
+        fprintf(text.file, "out vec3 at;\nflat out vec3 last;\n"
+                           "void main() { at = last = position; gl_Position = to_clip * vec4(position, 1.0); }\n");
     } else {
         lighting(text.file, scene, form);
         fprintf(text.file,
@@ -133,9 +132,8 @@ char *fragment_shader(const struct gl_scene *scene, struct form form)
         fprintf(text.file, "in vec3 at, n;\nvoid main() { pixel = vec4(lit(at, normalize(n)), 1.0); }\n");
     } else if (scene->shading == FLAT && form.derivatives) {
         lighting(text.file, scene, form);
-        fprintf(text.file,
-                "in vec3 at;\nflat in vec3 last;\n"
-                "void main() { pixel = vec4(lit(last, normalize(cross(dFdx(at), dFdy(at)))), 1.0); }\n");
+        fprintf(text.file, "in vec3 at;\nflat in vec3 last;\n"
+                           "void main() { pixel = vec4(lit(last, normalize(cross(dFdx(at), dFdy(at)))), 1.0); }\n");
     } else {
         fprintf(text.file, "%sin vec3 color;\nvoid main() { pixel = vec4(color, 1.0); }\n",
                 scene->shading == FLAT ? "flat " : "");

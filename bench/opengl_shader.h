@@ -6,10 +6,12 @@
 
 // How the same lighting is put to the driver. The bench takes the faster one of each scene.
 struct form {
-    int written_out; // 1: every light in the shader's text, its numbers as literals, and squarings for pow;
-                     // 0: a loop over a uniform block, and pow
-    int derivatives; // flat shading: 1: the face normal from derivatives, lit in the fragment shader, shared
-                     // vertices; 0: three vertices for each triangle, lit in the vertex shader
+    // 1: every light in the shader's text, its numbers as literals, and squarings for pow; 0: a loop over a uniform
+    // block, and pow
+    int written_out;
+    // flat shading: 1: the face normal from derivatives, lit in the fragment shader, shared vertices; 0: three vertices
+    // for each triangle, lit in the vertex shader
+    int derivatives;
 };
 
 // The text of a shader; the caller frees it.

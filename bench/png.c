@@ -16,8 +16,7 @@
 #include <time.h>
 
 enum { LAMBENT, LAMBENT_ONE_THREAD, LIBPNG_1, LIBPNG_6, LIBDEFLATE_1, ENCODERS, ROUNDS_MOST = 1000 };
-static const char *const names[ENCODERS] = {"lambent", "lambent_one_thread", "libpng_1", "libpng_6",
-                                            "libdeflate_1"};
+static const char *const names[ENCODERS] = {"lambent", "lambent_one_thread", "libpng_1", "libpng_6", "libdeflate_1"};
 
 struct growing {
     unsigned char *bytes;
@@ -74,8 +73,8 @@ static void encode_libpng(const lam_image *image, int level, struct growing *out
 
 static void put_chunk(struct growing *out, const char *type, const unsigned char *bytes, size_t size)
 {
-    unsigned char number[4] = {(unsigned char)(size >> 24), (unsigned char)(size >> 16),
-                               (unsigned char)(size >> 8), (unsigned char)size};
+    unsigned char number[4] = {(unsigned char)(size >> 24), (unsigned char)(size >> 16), (unsigned char)(size >> 8),
+                               (unsigned char)size};
     append(out, number, 4);
     size_t start = out->size;
     append(out, type, 4);

@@ -61,8 +61,7 @@ static int copy(const char *path, int file, size_t size)
         return fail(path, "no memory");
     madvise(to, size, MADV_HUGEPAGE);
     size_t middle = size / 2 >> 21 << 21; // each huge page belongs to one thread
-    struct half lower = {file, to, 0, middle, 0},
-                upper = {file, to + middle, (off_t)middle, size - middle, 0};
+    struct half lower = {file, to, 0, middle, 0}, upper = {file, to + middle, (off_t)middle, size - middle, 0};
     pthread_t thread;
     if (pthread_create(&thread, NULL, copy_half, &upper) != 0)
         return fail(path, "no thread");

@@ -21,8 +21,7 @@ int main(int argc, char **argv)
         object.transform.m[1][3] = -2.2 * (i / COLUMNS); // downwards
         ok = object.material >= 0 && lam_scene_add_object(scene, &object, &error) >= 0;
     }
-    // The classic picture's light: one point light, up to the right of the viewer, and a little light from
-    // everywhere.
+    // The classic picture's light: one point light, up to the right of the viewer, and a little light from everywhere.
     lam_light light = lam_light_default(LAM_LIGHT_POINT);
     light.position = (lam_vec3){20, 20, 30};
     light.ambient = (lam_rgb){0.2f, 0.2f, 0.2f};
@@ -33,8 +32,7 @@ int main(int argc, char **argv)
     lam_device *device = ok ? lam_device_cpu(NULL, &error) : NULL;
     lam_image image = {0};
     ok = device && lam_image_make(&image, 960, 640, LAM_RGBA8, &error) &&
-         lam_draw(device, scene, &camera, NULL, &image, NULL, &error) &&
-         lam_image_save(&image, argv[1], NULL, &error);
+         lam_draw(device, scene, &camera, NULL, &image, NULL, &error) && lam_image_save(&image, argv[1], NULL, &error);
     if (!ok)
         fprintf(stderr, "materials: %s\n", error.text);
     lam_image_free(&image);

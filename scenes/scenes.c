@@ -62,8 +62,7 @@ static void fit(struct demo *d)
     d->camera = lam_camera_fit(d->scene, &view);
 }
 
-static bool point_light(struct demo *d, lam_vec3 position, lam_rgb color, lam_attenuation attenuation,
-                        lam_error *error)
+static bool point_light(struct demo *d, lam_vec3 position, lam_rgb color, lam_attenuation attenuation, lam_error *error)
 {
     lam_light l = lam_light_default(LAM_LIGHT_POINT);
     l.position = position;
@@ -105,24 +104,14 @@ static bool reflected_knot(struct demo *d, lam_reflection reflection, lam_error 
     bool ok = put(d, shape(d, "torus-knot", 160, 24, error),
                   material(d, (lam_rgba){0.5f, 0.15f, 0.1f, 1}, 0.6f, 24, error), error);
     fit(d);
-    return ok && point_light(d, (lam_vec3){3, 4, 5}, (lam_rgb){1, 1, 0.9f},
-                             (lam_attenuation){1, 0.02f, 0.005f}, error);
+    return ok && point_light(d, (lam_vec3){3, 4, 5}, (lam_rgb){1, 1, 0.9f}, (lam_attenuation){1, 0.02f, 0.005f}, error);
 }
 
 static bool knot_unlit(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_NONE, e); }
-static bool knot_lambert(struct demo *d, lam_error *e)
-{
-    return reflected_knot(d, LAM_REFLECTION_LAMBERT, e);
-}
+static bool knot_lambert(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_LAMBERT, e); }
 static bool knot_phong(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_PHONG, e); }
-static bool knot_blinn(struct demo *d, lam_error *e)
-{
-    return reflected_knot(d, LAM_REFLECTION_BLINN_PHONG, e);
-}
-static bool knot_kajiya(struct demo *d, lam_error *e)
-{
-    return reflected_knot(d, LAM_REFLECTION_KAJIYA_KAY, e);
-}
+static bool knot_blinn(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_BLINN_PHONG, e); }
+static bool knot_kajiya(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_KAJIYA_KAY, e); }
 static bool knot_lecture(struct demo *d, lam_error *e)
 {
     return reflected_knot(d, LAM_REFLECTION_KAJIYA_KAY_LECTURE, e);
@@ -133,11 +122,9 @@ static bool knot_lecture(struct demo *d, lam_error *e)
 static bool lights(struct demo *d, lam_error *error)
 {
     int white = material(d, (lam_rgba){0.8f, 0.8f, 0.8f, 1}, 0.3f, 60, error);
-    bool ok =
-        place(d, shape(d, "plane", 8, 8, error), white, (lam_vec3){4, 1, 4}, (lam_vec3){0, -1, 0}, error) &&
-        put(d, shape(d, "sphere", 64, 32, error), white, error) &&
-        point_light(d, (lam_vec3){-2, 1, 1}, (lam_rgb){1, 0.3f, 0.2f}, (lam_attenuation){1, 0.54f, 0.2f},
-                    error);
+    bool ok = place(d, shape(d, "plane", 8, 8, error), white, (lam_vec3){4, 1, 4}, (lam_vec3){0, -1, 0}, error) &&
+              put(d, shape(d, "sphere", 64, 32, error), white, error) &&
+              point_light(d, (lam_vec3){-2, 1, 1}, (lam_rgb){1, 0.3f, 0.2f}, (lam_attenuation){1, 0.54f, 0.2f}, error);
     lam_light sharp = lam_light_default(LAM_LIGHT_SPOT);
     sharp.position = (lam_vec3){2, 3, 0};
     sharp.direction = (lam_vec3){-0.2, -1, 0.3};
@@ -202,8 +189,8 @@ static bool frames(struct demo *d, lam_error *error)
 static void bowl_surface(void *user, double u, double v, lam_surface_point *out)
 {
     (void)user;
-    // A paraboloid over a square: y = (u² + v²)/2, so that everything is a polynomial. ∂v × ∂u points up;
-    // outward is down.
+    // A paraboloid over a square: y = (u² + v²)/2, so that everything is a polynomial. ∂v × ∂u points up; outward is
+    // down.
     out->p = (lam_vec3){u, 0.5 * (u * u + v * v), v};
     out->dp_du = (lam_vec3){1, u, 0};
     out->dp_dv = (lam_vec3){0, v, 1};
@@ -211,13 +198,8 @@ static void bowl_surface(void *user, double u, double v, lam_surface_point *out)
 
 static int bowl(struct demo *d, lam_error *error)
 {
-    lam_parametric p = {.surface = bowl_surface,
-                        .u_min = -1,
-                        .u_max = 1,
-                        .v_min = -1,
-                        .v_max = 1,
-                        .u_segments = 24,
-                        .v_segments = 24};
+    lam_parametric p = {
+        .surface = bowl_surface, .u_min = -1, .u_max = 1, .v_min = -1, .v_max = 1, .u_segments = 24, .v_segments = 24};
     return lam_scene_add_parametric(d->scene, &p, NULL, error);
 }
 
@@ -236,16 +218,10 @@ static bool bowl_with(struct demo *d, bool one_sided, lam_cull cull, bool mirror
 }
 
 static bool two_sides(struct demo *d, lam_error *e) { return bowl_with(d, false, LAM_CULL_NONE, false, e); }
-static bool two_sides_mirrored(struct demo *d, lam_error *e)
-{
-    return bowl_with(d, false, LAM_CULL_NONE, true, e);
-}
+static bool two_sides_mirrored(struct demo *d, lam_error *e) { return bowl_with(d, false, LAM_CULL_NONE, true, e); }
 static bool one_side(struct demo *d, lam_error *e) { return bowl_with(d, true, LAM_CULL_NONE, false, e); }
 static bool culled_back(struct demo *d, lam_error *e) { return bowl_with(d, false, LAM_CULL_BACK, false, e); }
-static bool culled_front(struct demo *d, lam_error *e)
-{
-    return bowl_with(d, false, LAM_CULL_FRONT, true, e);
-}
+static bool culled_front(struct demo *d, lam_error *e) { return bowl_with(d, false, LAM_CULL_FRONT, true, e); }
 
 static bool stretched(struct demo *d, lam_error *error)
 {
@@ -259,10 +235,9 @@ static bool stretched(struct demo *d, lam_error *error)
 static bool orthographic(struct demo *d, lam_error *error)
 {
     int mesh = shape(d, "cube", 0, 0, error);
-    bool ok = place(d, mesh, named(d, LAM_MATERIAL_JADE, error), (lam_vec3){1, 1, 1}, (lam_vec3){-0.7, 0, 0},
-                    error) &&
-              place(d, mesh, named(d, LAM_MATERIAL_RUBY, error), (lam_vec3){0.8, 0.8, 0.8},
-                    (lam_vec3){0.3, 0.35, 0.4}, error);
+    bool ok = place(d, mesh, named(d, LAM_MATERIAL_JADE, error), (lam_vec3){1, 1, 1}, (lam_vec3){-0.7, 0, 0}, error) &&
+              place(d, mesh, named(d, LAM_MATERIAL_RUBY, error), (lam_vec3){0.8, 0.8, 0.8}, (lam_vec3){0.3, 0.35, 0.4},
+                    error);
     lam_view view = {.orthographic = true, .aspect = (double)d->width / d->height};
     d->camera = lam_camera_fit(d->scene, &view);
     return ok;
@@ -282,10 +257,9 @@ static bool ground(struct demo *d, lam_error *error)
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
     lam_mesh square = {.positions = corners, .vertex_count = 4, .indices = indices, .triangle_count = 2};
     bool ok = put(d, lam_scene_add_mesh(d->scene, &square, error), -1, error) &&
-              place(d, shape(d, "sphere", 32, 16, error), named(d, LAM_MATERIAL_COPPER, error),
-                    (lam_vec3){1, 1, 1}, (lam_vec3){0, 1, -6}, error) &&
-              point_light(d, (lam_vec3){2, 4, -3}, (lam_rgb){1, 1, 1}, (lam_attenuation){0.2f, 0.05f, 0.02f},
-                          error);
+              place(d, shape(d, "sphere", 32, 16, error), named(d, LAM_MATERIAL_COPPER, error), (lam_vec3){1, 1, 1},
+                    (lam_vec3){0, 1, -6}, error) &&
+              point_light(d, (lam_vec3){2, 4, -3}, (lam_rgb){1, 1, 1}, (lam_attenuation){0.2f, 0.05f, 0.02f}, error);
     look(d, (lam_vec3){0, 1.5, 2}, (lam_vec3){0, 0.9, -6}, 50);
     d->camera.near_plane = 0.01;
     d->camera.far_plane = 1000;
@@ -353,14 +327,13 @@ static bool clear_bowl(struct demo *d, lam_error *error)
     return o.mesh >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
 }
 
-// Four bars, each over the next one and under the one before: no order of the bars is right. They fade by
-// their colours' alpha.
+// Four bars, each over the next one and under the one before: no order of the bars is right. They fade by their
+// colours' alpha.
 static bool over_and_under(struct demo *d, lam_error *error)
 {
     static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     static const uint8_t tints[4][3] = {{255, 60, 40}, {60, 220, 60}, {50, 90, 255}, {250, 210, 40}};
-    static const float bar[4][3] = {
-        {-1, -0.75f, 0.2f}, {1, -0.75f, -0.2f}, {1, -0.35f, -0.2f}, {-1, -0.35f, 0.2f}};
+    static const float bar[4][3] = {{-1, -0.75f, 0.2f}, {1, -0.75f, -0.2f}, {1, -0.35f, -0.2f}, {-1, -0.35f, 0.2f}};
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
     d->params.reflection = LAM_REFLECTION_NONE;
     bool ok = true;
@@ -416,11 +389,8 @@ static bool far_away(struct demo *d, lam_error *error)
 {
     static const float p[12] = {0, 0, 0, 0.01f, 0, 0, 0, 0.01f, 0, 0, 0, 0.01f};
     static const uint32_t indices[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
-    lam_mesh mesh = {.origin = {5e5, 2e5, -3e5},
-                     .positions = p,
-                     .vertex_count = 4,
-                     .indices = indices,
-                     .triangle_count = 4};
+    lam_mesh mesh = {
+        .origin = {5e5, 2e5, -3e5}, .positions = p, .vertex_count = 4, .indices = indices, .triangle_count = 4};
     bool ok = put(d, lam_scene_add_mesh(d->scene, &mesh, error), -1, error);
     fit(d);
     return ok;
@@ -445,9 +415,8 @@ static bool surround(struct demo *d, const char *name, double rotation_rad, lam_
 
 static bool mirror_sky(struct demo *d, lam_error *error)
 {
-    bool ok =
-        put(d, shape(d, "sphere", 48, 24, error), mirror(d, (lam_rgb){0.9f, 0.9f, 0.9f}, error), error) &&
-        surround(d, "sky", 0, error);
+    bool ok = put(d, shape(d, "sphere", 48, 24, error), mirror(d, (lam_rgb){0.9f, 0.9f, 0.9f}, error), error) &&
+              surround(d, "sky", 0, error);
     look(d, (lam_vec3){0.5, 0.6, 3.5}, (lam_vec3){0, 0, 0}, 38);
     return ok;
 }
@@ -456,9 +425,8 @@ static bool mirror_studio(struct demo *d, lam_error *error)
 {
     lam_material gold = lam_material_named(LAM_MATERIAL_GOLD);
     gold.reflectivity = (lam_rgb){0.9f, 0.65f, 0.25f};
-    bool ok =
-        put(d, shape(d, "teapot", 0, 0, error), lam_scene_add_material(d->scene, &gold, error), error) &&
-        surround(d, "studio", 0.6, error);
+    bool ok = put(d, shape(d, "teapot", 0, 0, error), lam_scene_add_material(d->scene, &gold, error), error) &&
+              surround(d, "studio", 0.6, error);
     fit(d);
     return ok;
 }
@@ -543,13 +511,11 @@ const struct demo_row demos[] = {
     {"slivers", "triangles thinner than a pixel and longer than the picture", slivers},
     {"translucent", "glass balls through a glass box, a solid one within: all seen in their depth", glass},
     {"translucent-sides", "a bowl whose sides let different shares of light through", clear_bowl},
-    {"translucent-cycle", "four fading bars, each over the next: no order of drawing them is right",
-     over_and_under},
+    {"translucent-cycle", "four fading bars, each over the next: no order of drawing them is right", over_and_under},
     {"vertex-colours", "colours interpolated over a square", vertex_colours},
     {"triangle-colours", "a colour for each triangle", triangle_colours},
     {"far-away", "a centimetre of model 500 km from zero", far_away},
-    {"mirror-sky", "a ball that mirrors a sky: the sun to the right in front, the horizon bent downwards",
-     mirror_sky},
+    {"mirror-sky", "a ball that mirrors a sky: the sun to the right in front, the horizon bent downwards", mirror_sky},
     {"mirror-studio", "a gold teapot among turned soft boxes", mirror_studio},
     {"mirror-gouraud", "a mirror lit at its vertices, Z up, without perspective", mirror_gouraud},
     {"samples-1", "no antialiasing", samples_1},

@@ -1,5 +1,4 @@
-// scenes.h: demonstration scenes, one table, shared by the image tests, the benchmarks, the viewer and the
-// web page.
+// scenes.h: demonstration scenes, one table, shared by the image tests, the benchmarks, the viewer and the web page.
 #ifndef SCENES_H
 #define SCENES_H
 

@@ -44,8 +44,8 @@ static bool unknown_key(const char *name, lam_error *error)
     struct suggestion nearest = suggest_start(name);
     for (int i = 0; keys[i]; i++)
         suggest_try(&nearest, keys[i]);
-    return complain(error, LAM_BAD_ARGUMENT, "unknown key '%.60s'%s%s%s", name,
-                    nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+    return complain(error, LAM_BAD_ARGUMENT, "unknown key '%.60s'%s%s%s", name, nearest.best ? "; did you mean '" : "",
+                    nearest.best ? nearest.best : "",
                     nearest.best ? "'?" : "; expected eye, target, up, fovy, ortho, near or far");
 }
 
@@ -53,8 +53,7 @@ static bool read_pair(char *pair, struct camera_option *option, bool seen[KEY_CO
 {
     char *value = strchr(pair, '=');
     if (!value)
-        return complain(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as eye=2/1/4",
-                        pair);
+        return complain(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as eye=2/1/4", pair);
     *value++ = 0;
     enum key key = find_key(pair);
     if (key == KEY_COUNT)
@@ -69,8 +68,7 @@ static bool read_pair(char *pair, struct camera_option *option, bool seen[KEY_CO
                                [FAR] = &camera->far_plane};
     lam_vec3 *vector[KEY_COUNT] = {[EYE] = &camera->eye, [TARGET] = &camera->target, [UP] = &camera->up};
     if (vector[key] && !read_vector(value, vector[key]))
-        return complain(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected three numbers x/y/z", pair,
-                        value);
+        return complain(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected three numbers x/y/z", pair, value);
     if (real[key] && !read_real(value, real[key]))
         return complain(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected a number", pair, value);
     return true;
@@ -87,12 +85,10 @@ static bool check(struct camera_option *option, const bool seen[KEY_COUNT], lam_
         return complain(error, LAM_BAD_ARGUMENT, "fovy is %.10g, expected degrees above 0 and below 180",
                         camera->fovy_rad);
     if (seen[ORTHO] && !(camera->ortho_half_height > 0))
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "ortho is %.10g, expected half the height of the view, above 0",
+        return complain(error, LAM_BAD_ARGUMENT, "ortho is %.10g, expected half the height of the view, above 0",
                         camera->ortho_half_height);
     if (seen[NEAR] != seen[FAR])
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "only '%s' is given, expected both of near and far, or neither",
+        return complain(error, LAM_BAD_ARGUMENT, "only '%s' is given, expected both of near and far, or neither",
                         seen[NEAR] ? "near" : "far");
     if (seen[NEAR] && !(camera->near_plane < camera->far_plane && (seen[ORTHO] || camera->near_plane > 0)))
         return complain(error, LAM_BAD_ARGUMENT, "near is %.10g and far is %.10g, expected %snear < far",
@@ -111,8 +107,8 @@ bool camera_option_parse(const char *text, struct camera_option *option, lam_err
     bool seen[KEY_COUNT] = {false};
     char copy[1024];
     if (strlen(text) >= sizeof copy)
-        return complain(error, LAM_BAD_ARGUMENT, "it is %zu letters long, expected less than %zu",
-                        strlen(text), sizeof copy);
+        return complain(error, LAM_BAD_ARGUMENT, "it is %zu letters long, expected less than %zu", strlen(text),
+                        sizeof copy);
     strcpy(copy, text);
     for (char *rest = copy, *pair; (pair = strsep(&rest, ",")) != NULL;)
         if (!read_pair(pair, option, seen, error))

@@ -63,8 +63,7 @@ static bool check_output(const struct class *c, const char *path, const char *sh
     if (output_is_stream(path))
         return true;
     return lam_image_format_for(path, &format, error) &&
-           (format == LAM_RGBA8 ||
-            complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", path)) &&
+           (format == LAM_RGBA8 || complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", path)) &&
            output_check(path, shader, !c->several, error);
 }
 
@@ -74,8 +73,7 @@ static void tell(const struct class *c, const lam_check_report *report, const st
     const struct options *o = c->options;
     FILE *file = sheet && strcmp(sheet, "-") == 0 ? stderr : stdout;
     if (o->json)
-        check_tell_json(file, report, pair->fragment, pair->vertex, c->tolerance,
-                        report->scene_count ? sheet : NULL);
+        check_tell_json(file, report, pair->fragment, pair->vertex, c->tolerance, report->scene_count ? sheet : NULL);
     else if (!o->quiet)
         check_tell_text(file, report, pair->fragment, c->tolerance);
     fflush(file); // a class takes its time: each shader's word comes when it is known
@@ -90,8 +88,7 @@ static int check_one(struct class *c, const struct check_pair *pair, lam_error *
     bool ok = !o->output || (sheet = check_sheet_path(o->output, pair->fragment)) ||
               complain(error, LAM_LIMIT, "out of memory");
     ok = ok && (!sheet || check_output(c, sheet, pair->fragment, error)) &&
-         (fragment = read_text(pair->fragment, error)) &&
-         (!pair->vertex || (vertex = read_text(pair->vertex, error)));
+         (fragment = read_text(pair->fragment, error)) && (!pair->vertex || (vertex = read_text(pair->vertex, error)));
     lam_check_report report = {0};
     if (ok) {
         lam_check_params params = {
@@ -140,24 +137,21 @@ static bool prepare(struct class *c, int pair_count, const struct check_pair *pa
         if (strcmp(pairs[i].fragment, "-") == 0)
             return complain(error, LAM_BAD_ARGUMENT, "'-' (standard input) goes only with a single shader");
     if (o->has_size && o->width != o->height)
-        return complain(error, LAM_BAD_ARGUMENT, "check: pictures are square, found %dx%d", o->width,
-                        o->height);
+        return complain(error, LAM_BAD_ARGUMENT, "check: pictures are square, found %dx%d", o->width, o->height);
     if (o->output && c->several && output_is_named(o->output))
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--output' names one sheet, but there are %d shaders; name a folder: "
                         "-o sheets/",
                         pair_count);
     if (o->output && !c->several && !output_is_named(o->output))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file",
-                        o->output);
+        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file", o->output);
     return !c->several || (c->pictures = lam_check_pictures_make(pictures_most, error));
 }
 
 // "all,gate" into its names; cuts `list`.
 static void split(struct class *c, char *list)
 {
-    for (char *word = list ? strtok(list, ",") : NULL; word && c->scene_count < SCENES_MOST;
-         word = strtok(NULL, ","))
+    for (char *word = list ? strtok(list, ",") : NULL; word && c->scene_count < SCENES_MOST; word = strtok(NULL, ","))
         c->scenes[c->scene_count++] = word;
 }
 

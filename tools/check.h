@@ -42,7 +42,7 @@ void check_tell_json_error(FILE *file, const char *shader, const char *vertex, c
 void check_tell_lists(FILE *file); // contracts, scenes, mistakes
 
 // Theirs, the reference and the difference of each scene, on one labelled page, written to `path`.
-bool check_sheet(const lam_check_report *report, const char *shader, const struct options *options,
-                 const char *path, lam_error *error);
+bool check_sheet(const lam_check_report *report, const char *shader, const struct options *options, const char *path,
+                 lam_error *error);
 
 #endif

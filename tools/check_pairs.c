@@ -50,11 +50,10 @@ int check_pair(int count, char **files, const char *vertex, struct check_pair *p
         if (mine)
             mine->vertex = files[i];
         else if (is_vertex(files[i]) && count > 1) {
-            complain(
-                error, LAM_BAD_ARGUMENT,
-                "check: '%s' is a vertex shader, and no fragment shader of the same name is given beside "
-                "it; --vertex names one of another name",
-                files[i]);
+            complain(error, LAM_BAD_ARGUMENT,
+                     "check: '%s' is a vertex shader, and no fragment shader of the same name is given beside "
+                     "it; --vertex names one of another name",
+                     files[i]);
             return -1;
         }
     }
@@ -73,8 +72,7 @@ char *check_sheet_path(const char *output, const char *fragment)
     char *path = malloc(folder + stem + sizeof "/.png");
     if (!path)
         return NULL;
-    sprintf(path, "%s%s%.*s.png", output, folder && output[folder - 1] == '/' ? "" : "/", (int)stem,
-            fragment);
+    sprintf(path, "%s%s%.*s.png", output, folder && output[folder - 1] == '/' ? "" : "/", (int)stem, fragment);
     for (char *c = path + folder + (output[folder - 1] != '/'); *c; c++)
         *c = *c == '/' ? '-' : *c;
     return path;

@@ -59,8 +59,7 @@ static void put_words(struct drawing *d, const lam_check_scene *s, int top)
 {
     char line[96];
     draw_text(d, (struct point){GAP, top + 20}, 18, ALIGN_LEFT, INK, s->name);
-    draw_text(d, (struct point){GAP, top + 42}, 14, ALIGN_LEFT, s->passes ? GOOD : BAD,
-              s->passes ? "same" : "differs");
+    draw_text(d, (struct point){GAP, top + 42}, 14, ALIGN_LEFT, s->passes ? GOOD : BAD, s->passes ? "same" : "differs");
     snprintf(line, sizeof line, "largest %.3f", s->maximum);
     draw_text(d, (struct point){GAP, top + 62}, 13, ALIGN_LEFT, GREY, line);
     snprintf(line, sizeof line, "mean %.4f", s->mean);
@@ -75,12 +74,10 @@ static void put_head(struct drawing *d, const lam_check_report *r, const char *s
 {
     char line[256] = "", title[256];
     const char *slash = strrchr(shader, '/');
-    snprintf(title, sizeof title, "%.100s: %s", slash ? slash + 1 : shader,
-             lam_check_verdict_name(r->verdict));
+    snprintf(title, sizeof title, "%.100s: %s", slash ? slash + 1 : shader, lam_check_verdict_name(r->verdict));
     draw_text(d, (struct point){GAP, 32}, 22, ALIGN_LEFT, r->verdict == LAM_CHECK_PASSES ? GOOD : BAD, title);
     for (int i = 0; i < r->finding_count; i++)
-        snprintf(line + strlen(line), sizeof line - strlen(line), "%s%.50s", i ? ", " : "",
-                 r->findings[i].mistake);
+        snprintf(line + strlen(line), sizeof line - strlen(line), "%s%.50s", i ? ", " : "", r->findings[i].mistake);
     if (r->verdict == LAM_CHECK_DIFFERS && !r->finding_count)
         snprintf(line, sizeof line, "none of the known mistakes");
     double fits = text_width(d, 15, line) > d->width - 2 * GAP ? 11 : 15;
@@ -88,8 +85,7 @@ static void put_head(struct drawing *d, const lam_check_report *r, const char *s
     snprintf(title, sizeof title, "difference × %g", gain);
     const char *heads[] = {"theirs", "reference", title};
     for (int i = 0; i < 3; i++)
-        draw_text(d, (struct point){SIDE + i * (size + GAP) + size / 2.0, HEAD - 10}, 14, ALIGN_MIDDLE, GREY,
-                  heads[i]);
+        draw_text(d, (struct point){SIDE + i * (size + GAP) + size / 2.0, HEAD - 10}, 14, ALIGN_MIDDLE, GREY, heads[i]);
 }
 
 bool check_sheet(const lam_check_report *r, const char *shader, const struct options *o, const char *path,
@@ -97,8 +93,7 @@ bool check_sheet(const lam_check_report *r, const char *shader, const struct opt
 {
     int size = r->scenes[0].reference.width, row = (size > 124 ? size : 124) + GAP;
     struct drawing d;
-    if (!drawing_open(&d, SIDE + 3 * (size + GAP), HEAD + r->scene_count * row, false, !o->no_captions,
-                      o->font, error))
+    if (!drawing_open(&d, SIDE + 3 * (size + GAP), HEAD + r->scene_count * row, false, !o->no_captions, o->font, error))
         return false;
     put_head(&d, r, shader, o->gain, size);
     bool ok = true;

@@ -38,8 +38,8 @@ static void tell_notes(FILE *file, const lam_check_report *r)
             fprintf(file, "%s:", n->file);
         if (n->line)
             fprintf(file, "%d:", n->line);
-        fprintf(file, "%s%s%s\n", n->file || n->line ? " " : "",
-                n->kind == LAM_CHECK_NOTE_HINT ? "hint: " : "", n->text);
+        fprintf(file, "%s%s%s\n", n->file || n->line ? " " : "", n->kind == LAM_CHECK_NOTE_HINT ? "hint: " : "",
+                n->text);
     }
 }
 
@@ -50,8 +50,8 @@ static void tell_scenes(FILE *file, const lam_check_report *r, double tolerance)
     fprintf(file, "  scene         largest     mean  over %g/255\n", tolerance);
     for (int i = 0; i < r->scene_count; i++) {
         const lam_check_scene *s = &r->scenes[i];
-        fprintf(file, "  %-12s %8.4f %8.5f %8.2f %%   %s%s%s", s->name, s->maximum, s->mean,
-                s->share_over * 100, s->passes ? "same" : "differs", s->looks_like ? ", looks like " : "",
+        fprintf(file, "  %-12s %8.4f %8.5f %8.2f %%   %s%s%s", s->name, s->maximum, s->mean, s->share_over * 100,
+                s->passes ? "same" : "differs", s->looks_like ? ", looks like " : "",
                 s->looks_like ? s->looks_like : "");
         if (s->not_numbers)
             fprintf(file, ", %llu pixels are no numbers", (unsigned long long)s->not_numbers);
@@ -67,13 +67,12 @@ static void tell_findings(FILE *file, const lam_check_report *r)
         return;
     }
     bool certain = r->findings[0].certain;
-    fprintf(file,
-            certain ? "It looks like%s:\n" : "It looks most like%s, which does not explain all of it:\n",
+    fprintf(file, certain ? "It looks like%s:\n" : "It looks most like%s, which does not explain all of it:\n",
             r->finding_count > 1 ? " these together" : " this");
     for (int i = 0; i < r->finding_count; i++) {
         const lam_check_finding *f = &r->findings[i];
-        fprintf(file, "  %s: %s\n    mean difference %.5f without it, %.5f with it\n    write  %s\n",
-                f->mistake, f->says, f->mean_before, f->mean_after, f->write);
+        fprintf(file, "  %s: %s\n    mean difference %.5f without it, %.5f with it\n    write  %s\n", f->mistake,
+                f->says, f->mean_before, f->mean_after, f->write);
     }
 }
 
@@ -81,16 +80,15 @@ void check_tell_text(FILE *file, const lam_check_report *r, const char *shader, 
 {
     fprintf(file, "%s %s\n", shader, what(r->verdict));
     fprintf(file, "  contract %s; lit in the %s shader%s%s%s\n", lam_check_contract_name(r->contract),
-            r->vertex_lit ? "vertex" : "fragment",
-            r->made_vertex ? "; the vertex shader is the check's own" : "", r->driver[0] ? "; " : "",
-            r->driver);
+            r->vertex_lit ? "vertex" : "fragment", r->made_vertex ? "; the vertex shader is the check's own" : "",
+            r->driver[0] ? "; " : "", r->driver);
     tell_notes(file, r);
     tell_scenes(file, r, tolerance);
     tell_findings(file, r);
 }
 
-void check_tell_json(FILE *file, const lam_check_report *r, const char *shader, const char *vertex,
-                     double tolerance, const char *picture)
+void check_tell_json(FILE *file, const lam_check_report *r, const char *shader, const char *vertex, double tolerance,
+                     const char *picture)
 {
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
@@ -165,8 +163,8 @@ void check_tell_lists(FILE *file)
     for (int c = LAM_CONTRACT_LAMBENT; c < LAM_CONTRACT_COUNT; c++) {
         fprintf(file, "contract %s\n", lam_check_contract_name((lam_check_contract)c));
         for (int i = 0; lam_check_contract_row((lam_check_contract)c, i, &row); i++)
-            fprintf(file, "  %-9s %-5s %-28s %s%s%s\n", row.attribute ? "attribute" : "uniform", row.type,
-                    row.name, row.meaning, row.synonyms ? "; also " : "", row.synonyms ? row.synonyms : "");
+            fprintf(file, "  %-9s %-5s %-28s %s%s%s\n", row.attribute ? "attribute" : "uniform", row.type, row.name,
+                    row.meaning, row.synonyms ? "; also " : "", row.synonyms ? row.synonyms : "");
     }
     fputs("scenes\n", file);
     for (int i = 0; lam_check_scene_name(i); i++)

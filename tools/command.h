@@ -18,11 +18,10 @@ struct command {
 
 unsigned find_groups(const char *name); // of a command; 0: no such command (help.c)
 
-extern const struct command
-    command_table[]; // the first one is what runs when no command is named; ends with NULL
+extern const struct command command_table[]; // the first one is what runs when no command is named; ends with NULL
 
-command_fn run_render, run_shapes, run_lights, run_formats, run_help, run_generate, run_diff, run_plot,
-    run_compare, run_explain, run_shader;
+command_fn run_render, run_shapes, run_lights, run_formats, run_help, run_generate, run_diff, run_plot, run_compare,
+    run_explain, run_shader;
 command_fn run_check, run_materials, run_devices;
 
 // The exit codes, for the help, the man page and the docs. Ends with a NULL meaning.

@@ -3,16 +3,15 @@
 
 #define ABOUT (1u << GROUP_ABOUT)
 // All that a picture of a model takes.
-#define ALL                                                                                                  \
-    (((1u << GROUP_COUNT) - 1) & ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS |              \
-                                   1u << GROUP_SHEET | 1u << GROUP_CHECK | 1u << GROUP_SHADER))
+#define ALL                                                                                                            \
+    (((1u << GROUP_COUNT) - 1) & ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET |    \
+                                   1u << GROUP_CHECK | 1u << GROUP_SHADER))
 
 const struct command command_table[] = {
-    {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL,
-     1, -1, run_render},
+    {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL, 1, -1,
+     run_render},
     {"compare", "MODEL", "Draw one labelled sheet of pictures: methods, lights, terms side by side.",
-     (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET, 1, 1,
-     run_compare},
+     (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET, 1, 1, run_compare},
     {"explain", "MODEL X,Y",
      "Tell every number of one pixel: what it shows, the vectors, angles and terms of each light, the sum, "
      "the byte. No picture or scene file is written: --output and --save-scene do nothing here.",
@@ -20,33 +19,29 @@ const struct command command_table[] = {
     {"check", "SHADER.frag...",
      "Run GLSL shaders over reference scenes, tell how far their pictures are off, and which known mistake "
      "they look like.",
-     ABOUT | 1u << GROUP_CHECK | 1u << GROUP_DIFF | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE |
-         TAKES_JSON | TAKES_QUIET,
+     ABOUT | 1u << GROUP_CHECK | 1u << GROUP_DIFF | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
+         TAKES_QUIET,
      0, -1, run_check},
-    {"shader", "[MODEL]",
-     "Print the shaders that light a model, for a program of your own, and what they ask for.",
+    {"shader", "[MODEL]", "Print the shaders that light a model, for a program of your own, and what they ask for.",
      ALL | 1u << GROUP_SHADER, 0, 1, run_shader},
     {"diff", "A B", "Tell how far two pictures are apart, and draw where.",
      ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET, 2, 2, run_diff},
     {"plot", "attenuation|spot|highlight [CURVE...]",
      "Draw a law of light as curves (PNG or SVG), and tell its numbers.",
-     ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON | TAKES_QUIET,
-     1, -1, run_plot},
-    {"lights", "MODEL",
-     "Print a model's lights, or the rig's where it has none, as the keys of a scene file.",
-     ABOUT | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING | 1u << GROUP_WORK, 1, 1,
-     run_lights},
+     ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON | TAKES_QUIET, 1, -1,
+     run_plot},
+    {"lights", "MODEL", "Print a model's lights, or the rig's where it has none, as the keys of a scene file.",
+     ABOUT | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING | 1u << GROUP_WORK, 1, 1, run_lights},
     {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0, run_shapes},
-    {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.",
-     ABOUT, 0, 0, run_formats},
+    {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.", ABOUT, 0, 0,
+     run_formats},
     {"materials", NULL, "List the named materials with their numbers; -o FILE also draws a sheet of them.",
      ABOUT | 1u << GROUP_PICTURE | 1u << GROUP_CAPTIONS | TAKES_JSON, 0, 0, run_materials},
-    {"devices", NULL,
-     "List what pictures can be drawn with on this machine, and why what cannot be used cannot.",
+    {"devices", NULL, "List what pictures can be drawn with on this machine, and why what cannot be used cannot.",
      ABOUT | TAKES_JSON, 0, 0, run_devices},
     {"help", "[COMMAND]", "Print the help, of a command where one is named.", ABOUT, 0, 1, run_help},
-    {"generate", "man|markdown|bash|zsh|fish",
-     "Print the man page, its Markdown form, or a shell's completions.", ABOUT, 1, 1, run_generate},
+    {"generate", "man|markdown|bash|zsh|fish", "Print the man page, its Markdown form, or a shell's completions.",
+     ABOUT, 1, 1, run_generate},
     {.name = NULL},
 };
 
@@ -64,12 +59,10 @@ const struct example examples[] = {
     {"lambent plot attenuation 1/0.54/0.2 1/0/1", "how two lights fade with the distance"},
     {"lambent plot spot cutoff=30,exponent=8 inner=20,outer=35 -o spot.svg", "the cones of two spot lights"},
     {"lambent plot highlight 10 50 1000", "how wide highlights are"},
-    {"lambent koala.obj --rig headlight --save-scene koala.json",
-     "also a scene file, to edit and to draw again"},
+    {"lambent koala.obj --rig headlight --save-scene koala.json", "also a scene file, to edit and to draw again"},
     {"lambent koala.json", "a scene file: objects, materials, lights and camera"},
     {"lambent explain teapot 512,400", "how that pixel of the picture came about, number by number"},
-    {"lambent check phong.frag --vertex phong.vert -o check.png",
-     "what a shader's lighting gets wrong, and why"},
+    {"lambent check phong.frag --vertex phong.vert -o check.png", "what a shader's lighting gets wrong, and why"},
     {"lambent shader teapot --glsl 120 --host c -o teapot", "its shaders, and C code that sets them"},
     {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
     {NULL, NULL},
@@ -88,13 +81,12 @@ const struct exit_code exit_codes[] = {
 };
 
 const struct topic topics[] = {
-    {"Models",
-     "MODEL is a file, the name of a built-in shape, or `-` for standard input. The format is told by the "
-     "content; the ending only helps. A built-in shape's name stands for the shape even where a file has "
-     "that name: write `./teapot` for the file, and `./shapes` for a file that is called like a command.\n"
-     "Several models may be given: each becomes its own picture, in the current folder or that of `-o "
-     "pictures/`. One that fails is told and the others are still drawn; the exit code is then the highest "
-     "one. `-o FILE` and `-` go with a single model."},
+    {"Models", "MODEL is a file, the name of a built-in shape, or `-` for standard input. The format is told by the "
+               "content; the ending only helps. A built-in shape's name stands for the shape even where a file has "
+               "that name: write `./teapot` for the file, and `./shapes` for a file that is called like a command.\n"
+               "Several models may be given: each becomes its own picture, in the current folder or that of `-o "
+               "pictures/`. One that fails is told and the others are still drawn; the exit code is then the highest "
+               "one. `-o FILE` and `-` go with a single model."},
     {"Output", "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An "
                "older picture that lambent wrote (told by the `Software` text in the PNG) is replaced; any "
                "other file of that name stays, and the exit code is 5. With `-o` the file that you name is "
@@ -173,31 +165,29 @@ const struct topic topics[] = {
                            "1: beyond the tolerance) and `picture`. The exit code is 6 where the largest "
                            "difference is over the tolerance, 1 where size or "
                            "kind are not the same."},
-    {"Plots",
-     "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d, of such numbers, of "
-     "lights as `--light` takes them (`spot:attenuation=0/0/1,range=9`) and of the lights of a model or "
-     "scene file, as many "
-     "curves as are named, and marks "
-     "where each falls below 1/255, the last step of a picture with 8 bits; a fourth number "
-     "(`a/b/c/range`) is a range as glTF has it. "
-     "`lambent plot spot cutoff=30,exponent=8 inner=20,outer=35` draws the cone of spot lights over "
-     "the angle from "
-     "the axis, by OpenGL's law or glTF's. `lambent plot highlight 10 50 1000` draws the highlight "
-     "over the angle "
-     "between the mirrored light and the eye: for each shininess Phong's and Blinn-Phong's at it, "
-     "and Blinn-Phong's at four times that, which looks like Phong's. "
-     "Without curves each draws a set of its own. The values are those that pixels are lit with.\n"
-     "The picture is `attenuation.png`, `spot.png` or `highlight.png`, 1600x1000 pixels, or what "
-     "`-o` and `-s` say; a name that "
-     "ends in `.svg` makes an SVG. The table on standard output tells where each curve falls below "
-     "1/255; with "
-     "`--json` it is one line: `plot`, `x`, `y`, `curves` (each with `label`, `below_1_255_from`, "
-     "null for never, and `points`, "
-     "101 pairs) and `picture`."},
+    {"Plots", "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d, of such numbers, of "
+              "lights as `--light` takes them (`spot:attenuation=0/0/1,range=9`) and of the lights of a model or "
+              "scene file, as many "
+              "curves as are named, and marks "
+              "where each falls below 1/255, the last step of a picture with 8 bits; a fourth number "
+              "(`a/b/c/range`) is a range as glTF has it. "
+              "`lambent plot spot cutoff=30,exponent=8 inner=20,outer=35` draws the cone of spot lights over "
+              "the angle from "
+              "the axis, by OpenGL's law or glTF's. `lambent plot highlight 10 50 1000` draws the highlight "
+              "over the angle "
+              "between the mirrored light and the eye: for each shininess Phong's and Blinn-Phong's at it, "
+              "and Blinn-Phong's at four times that, which looks like Phong's. "
+              "Without curves each draws a set of its own. The values are those that pixels are lit with.\n"
+              "The picture is `attenuation.png`, `spot.png` or `highlight.png`, 1600x1000 pixels, or what "
+              "`-o` and `-s` say; a name that "
+              "ends in `.svg` makes an SVG. The table on standard output tells where each curve falls below "
+              "1/255; with "
+              "`--json` it is one line: `plot`, `x`, `y`, `curves` (each with `label`, `below_1_255_from`, "
+              "null for never, and `points`, "
+              "101 pairs) and `picture`."},
     {"Same picture everywhere", "The same model and options give the same bytes, whatever the instruction "
                                 "set, the count of threads, the compiler and the machine."},
-    {"Environment",
-     "`NO_COLOR`: when set and not empty, messages have no colours. `TERM=dumb` also switches off the "
-     "progress bar. The locale changes nothing: numbers always have a point."},
+    {"Environment", "`NO_COLOR`: when set and not empty, messages have no colours. `TERM=dumb` also switches off the "
+                    "progress bar. The locale changes nothing: numbers always have a point."},
     {NULL, NULL},
 };

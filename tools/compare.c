@@ -39,8 +39,8 @@ struct compare {
 // --- one picture
 
 // Draws a cell's picture, `enlarge` times as large, with two further words (NULL: none).
-static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, const char *more,
-                      const char *value, lam_image *image, lam_error *error)
+static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, const char *more, const char *value,
+                      lam_image *image, lam_error *error)
 {
     struct options options;
     if (!options_copy(&options, c->options))
@@ -103,15 +103,13 @@ static struct box find_highlight(const lam_image *whole, const lam_image *matt)
                 best_y = y + span / 2;
             }
         }
-    struct box box = {best_x - width / 2, best_y - height / 2, width > 0 ? width : 1,
-                      height > 0 ? height : 1};
+    struct box box = {best_x - width / 2, best_y - height / 2, width > 0 ? width : 1, height > 0 ? height : 1};
     box.left = box.left < 0 ? 0 : box.left > w - box.width ? w - box.width : box.left;
     box.top = box.top < 0 ? 0 : box.top > h - box.height ? h - box.height : box.top;
     return box;
 }
 
-static bool draw_frame(struct compare *c, double left, double top, double width, double height,
-                       lam_error *error)
+static bool draw_frame(struct compare *c, double left, double top, double width, double height, lam_error *error)
 {
     struct point round[5] = {
         {left, top}, {left + width, top}, {left + width, top + height}, {left, top + height}, {left, top}};
@@ -119,8 +117,7 @@ static bool draw_frame(struct compare *c, double left, double top, double width,
 }
 
 // The framed part of a cell's picture and, beneath, the same part drawn larger.
-static bool draw_inset(struct compare *c, const struct cell *cell, struct box box, int left, int top,
-                       lam_error *error)
+static bool draw_inset(struct compare *c, const struct cell *cell, struct box box, int left, int top, lam_error *error)
 {
     lam_image large, part;
     if (!draw_cell(c, cell, ENLARGED, NULL, NULL, &large, error))
@@ -128,8 +125,8 @@ static bool draw_inset(struct compare *c, const struct cell *cell, struct box bo
     bool ok = lam_image_make(&part, box.width * ENLARGED, box.height * ENLARGED, LAM_RGBA8, error);
     for (int y = 0; ok && y < part.height; y++)
         memcpy((uint8_t *)part.pixels + 4 * (size_t)y * (size_t)part.width,
-               (uint8_t *)large.pixels + 4 * ((size_t)(box.top * ENLARGED + y) * (size_t)large.width +
-                                              (size_t)(box.left * ENLARGED)),
+               (uint8_t *)large.pixels +
+                   4 * ((size_t)(box.top * ENLARGED + y) * (size_t)large.width + (size_t)(box.left * ENLARGED)),
                4 * (size_t)part.width);
     lam_image_free(&large);
     if (!ok)
@@ -169,8 +166,7 @@ static void draw_caption(struct compare *c, const struct cell *cell, int left, i
     size_t length = strlen(line), cut = 0;
     for (size_t i = 1; i < length; i++) {
         bool place = line[i - 1] == ',' || line[i - 1] == ' ';
-        size_t half = length / 2, off = i > half ? i - half : half - i,
-               best = cut > half ? cut - half : half - cut;
+        size_t half = length / 2, off = i > half ? i - half : half - i, best = cut > half ? cut - half : half - cut;
         if (place && off < best)
             cut = i;
     }
@@ -194,13 +190,12 @@ static bool lay_out(struct compare *c, lam_error *error)
     p->inset = c->sheet.inset ? p->cell_height / (2 * ENLARGED) * ENLARGED + p->gap / 2 : 0;
     int64_t width = (int64_t)c->sheet.columns * (p->cell_width + p->gap) + p->gap;
     int64_t height = (int64_t)p->rows * (p->cell_height + p->inset + p->foot + p->gap) + p->head + p->gap;
-    int64_t enlarged = (int64_t)(p->inset ? ENLARGED : 1) *
-                       (p->cell_width > p->cell_height ? p->cell_width : p->cell_height);
+    int64_t enlarged =
+        (int64_t)(p->inset ? ENLARGED : 1) * (p->cell_width > p->cell_height ? p->cell_width : p->cell_height);
     if (width > 65535 || height > 65535 || enlarged > 65535)
-        return complain(
-            error, LAM_LIMIT,
-            "the sheet would have %lldx%lld pixels, more than 65535; choose smaller pictures with -s",
-            (long long)width, (long long)height);
+        return complain(error, LAM_LIMIT,
+                        "the sheet would have %lldx%lld pixels, more than 65535; choose smaller pictures with -s",
+                        (long long)width, (long long)height);
     return drawing_open(&c->drawing, (int)width, (int)height, false, !o->no_captions, o->font, error);
 }
 
@@ -224,8 +219,7 @@ static bool draw_sheet(struct compare *c, lam_error *error)
     }
     const char *slash = strrchr(c->model, '/');
     char title[256];
-    snprintf(title, sizeof title, "%.120s — %.100s", c->sheet.title,
-             slash && slash[1] ? slash + 1 : c->model);
+    snprintf(title, sizeof title, "%.120s — %.100s", c->sheet.title, slash && slash[1] ? slash + 1 : c->model);
     draw_fitting(&c->drawing, (struct point){c->drawing.width / 2.0, p->head * 0.75}, 30 * p->unit,
                  c->drawing.width - 2.0 * p->gap, INK, title);
     for (int i = 0; i < c->sheet.count; i++) {
@@ -265,8 +259,7 @@ static bool check(const struct options *o, const char *model, const char *path, 
                         "compare reads the model for each picture anew: '-' (standard input) cannot be");
     if (strcmp(path, "-") == 0)
         return !isatty(STDOUT_FILENO) ||
-               complain(error, LAM_BAD_ARGUMENT,
-                        "standard output is a terminal, and the picture is not text");
+               complain(error, LAM_BAD_ARGUMENT, "standard output is a terminal, and the picture is not text");
     if (!output_is_stream(path) && (!lam_image_format_for(path, &format, error) || format != LAM_RGBA8))
         return complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", path);
     return output_check(path, model, output_is_named(o->output), error);
@@ -291,8 +284,8 @@ int run_compare(int operand_count, char **operands, const struct options *option
         c.drawing.compress = (lam_compress)options->compress;
         ok = ok && drawing_write(&c.drawing, path, &error);
         if (ok && !options->quiet)
-            say_plain("%s  %dx%d  %d pictures\n", strcmp(path, "-") == 0 ? "standard output" : path,
-                      c.drawing.width, c.drawing.height, c.sheet.count);
+            say_plain("%s  %dx%d  %d pictures\n", strcmp(path, "-") == 0 ? "standard output" : path, c.drawing.width,
+                      c.drawing.height, c.sheet.count);
         lam_device_free(c.device);
         drawing_free(&c.drawing);
     }

@@ -147,6 +147,5 @@ void generate_fish(void)
         fish_text(lam_shape_summary(i));
         printf("'\n");
     }
-    printf(
-        "complete -c lambent -n '__fish_seen_subcommand_from generate' -x -a 'man markdown bash zsh fish'\n");
+    printf("complete -c lambent -n '__fish_seen_subcommand_from generate' -x -a 'man markdown bash zsh fish'\n");
 }

@@ -6,8 +6,7 @@
 
 #include <lambent/base.h>
 
-// Decides once whether standard error is a terminal that shows colours (NO_COLOR and TERM=dumb switch them
-// off).
+// Decides once whether standard error is a terminal that shows colours (NO_COLOR and TERM=dumb switch them off).
 void console_start(void);
 bool console_is_terminal(void); // standard error is one, and can move its cursor
 bool console_has_colors(void);

@@ -26,13 +26,11 @@ static bool load_pair(struct pair *pair, lam_error *error)
             return false;
     const lam_image *a = &pair->image[0], *b = &pair->image[1];
     if (a->width != b->width || a->height != b->height)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "%.180s has %dx%d pixels and %.180s %dx%d, expected the same size", pair->name[0],
-                        a->width, a->height, pair->name[1], b->width, b->height);
+        return complain(error, LAM_BAD_ARGUMENT, "%.180s has %dx%d pixels and %.180s %dx%d, expected the same size",
+                        pair->name[0], a->width, a->height, pair->name[1], b->width, b->height);
     if (a->format != b->format)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "%.180s holds %s and %.180s %s, expected two pictures of one kind", pair->name[0],
-                        a->format == LAM_RGBA8 ? "bytes" : "floats", pair->name[1],
+        return complain(error, LAM_BAD_ARGUMENT, "%.180s holds %s and %.180s %s, expected two pictures of one kind",
+                        pair->name[0], a->format == LAM_RGBA8 ? "bytes" : "floats", pair->name[1],
                         b->format == LAM_RGBA8 ? "bytes" : "floats");
     return lam_image_compare(a, b, &pair->difference, error);
 }
@@ -59,8 +57,8 @@ static bool write_picture(struct pair *pair, const struct options *o, lam_error 
     if (!stream && !lam_image_format_for(o->output, &format, error))
         return false;
     if (format == LAM_RGBA32F && pair->image[0].format == LAM_RGBA8)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "%s holds floats, and the pictures hold bytes; write .png or .ppm", o->output);
+        return complain(error, LAM_BAD_ARGUMENT, "%s holds floats, and the pictures hold bytes; write .png or .ppm",
+                        o->output);
     if (!lam_image_difference(&pair->image[0], &pair->image[1], (float)o->gain, &pair->where, error) ||
         (pair->where.format != format && !to_bytes(&pair->where, error)))
         return false;
@@ -68,8 +66,7 @@ static bool write_picture(struct pair *pair, const struct options *o, lam_error 
     if (!stream)
         return lam_image_save(&pair->where, o->output, &params, error);
     lam_bytes bytes = {0};
-    bool ok = lam_image_encode(&pair->where, "png", &params, &bytes, error) &&
-              output_write(o->output, &bytes, error);
+    bool ok = lam_image_encode(&pair->where, "png", &params, &bytes, error) && output_write(o->output, &bytes, error);
     lam_bytes_free(&bytes);
     return ok;
 }

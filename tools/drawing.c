@@ -7,8 +7,7 @@
 #include "console.h"
 #include "output.h"
 
-bool drawing_open(struct drawing *d, int width, int height, bool svg, bool words, const char *font,
-                  lam_error *error)
+bool drawing_open(struct drawing *d, int width, int height, bool svg, bool words, const char *font, lam_error *error)
 {
     *d = (struct drawing){.width = width, .height = height, .words = words};
     if (svg) {
@@ -121,8 +120,8 @@ static bool paint_line(struct drawing *d, const struct point *p, int count, doub
 }
 
 // Cuts a line into dashes along its length.
-static bool paint_dashes(struct drawing *d, const struct point *p, int count, double width, uint32_t color,
-                         double dash, lam_error *error)
+static bool paint_dashes(struct drawing *d, const struct point *p, int count, double width, uint32_t color, double dash,
+                         lam_error *error)
 {
     struct point *part = calloc((size_t)count + 2, sizeof *part);
     if (!part)
@@ -163,8 +162,8 @@ static bool paint_dashes(struct drawing *d, const struct point *p, int count, do
 void draw_box(struct drawing *d, struct point corner, double width, double height, uint32_t color)
 {
     if (d->svg) {
-        fprintf(d->svg, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#%06x\"/>\n",
-                corner.x, corner.y, width, height, color);
+        fprintf(d->svg, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#%06x\"/>\n", corner.x,
+                corner.y, width, height, color);
         return;
     }
     int right = within(corner.x + width + 0.5, d->width), bottom = within(corner.y + height + 0.5, d->height);
@@ -173,16 +172,15 @@ void draw_box(struct drawing *d, struct point corner, double width, double heigh
             blend(pixel_at(d, x, y), color, 1);
 }
 
-bool draw_line(struct drawing *d, const struct point *points, int count, double width, uint32_t color,
-               double dash, lam_error *error)
+bool draw_line(struct drawing *d, const struct point *points, int count, double width, uint32_t color, double dash,
+               lam_error *error)
 {
     if (count < 2)
         return true;
     if (!d->svg)
         return dash > 0 ? paint_dashes(d, points, count, width, color, dash, error)
                         : paint_line(d, points, count, width, color, error);
-    fprintf(d->svg,
-            "<polyline fill=\"none\" stroke=\"#%06x\" stroke-width=\"%.2f\" stroke-linejoin=\"round\"", color,
+    fprintf(d->svg, "<polyline fill=\"none\" stroke=\"#%06x\" stroke-width=\"%.2f\" stroke-linejoin=\"round\"", color,
             width);
     if (dash > 0)
         fprintf(d->svg, " stroke-dasharray=\"%.2f\"", dash);
@@ -197,8 +195,7 @@ bool draw_dot(struct drawing *d, struct point middle, double radius, uint32_t co
 {
     if (!d->svg)
         return paint_line(d, &middle, 1, 2 * radius, color, error);
-    fprintf(d->svg, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"#%06x\"/>\n", middle.x, middle.y,
-            radius, color);
+    fprintf(d->svg, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"#%06x\"/>\n", middle.x, middle.y, radius, color);
     return true;
 }
 
@@ -219,19 +216,18 @@ void draw_text(struct drawing *d, struct point baseline, double size, enum align
         return;
     if (d->svg) {
         static const char *const anchors[] = {"start", "middle", "end"};
-        fprintf(d->svg, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%.2f\" text-anchor=\"%s\" fill=\"#%06x\">",
-                baseline.x, baseline.y, size, anchors[align], color);
+        fprintf(d->svg, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%.2f\" text-anchor=\"%s\" fill=\"#%06x\">", baseline.x,
+                baseline.y, size, anchors[align], color);
         svg_letters(d->svg, text);
         return;
     }
     double back = align == ALIGN_LEFT ? 0 : text_width(d, size, text) * (align == ALIGN_RIGHT ? 1 : 0.5);
-    lam_rgba ink = {(float)(color >> 16) / 255, (float)(color >> 8 & 255) / 255, (float)(color & 255) / 255,
-                    1};
+    lam_rgba ink = {(float)(color >> 16) / 255, (float)(color >> 8 & 255) / 255, (float)(color & 255) / 255, 1};
     lam_text_draw(&d->image, d->font, baseline.x - back, baseline.y, size, ink, text, NULL);
 }
 
-bool draw_text_upwards(struct drawing *d, struct point baseline, double size, uint32_t color,
-                       const char *text, lam_error *error)
+bool draw_text_upwards(struct drawing *d, struct point baseline, double size, uint32_t color, const char *text,
+                       lam_error *error)
 {
     if (!d->words)
         return true;
@@ -275,8 +271,8 @@ void draw_image(struct drawing *d, const lam_image *image, int left, int top)
 {
     int columns = image->width < d->width - left ? image->width : d->width - left;
     for (int y = 0; y < image->height && top + y < d->height && columns > 0; y++)
-        memcpy(pixel_at(d, left, top + y),
-               (const uint8_t *)image->pixels + 4 * (size_t)y * (size_t)image->width, 4 * (size_t)columns);
+        memcpy(pixel_at(d, left, top + y), (const uint8_t *)image->pixels + 4 * (size_t)y * (size_t)image->width,
+               4 * (size_t)columns);
 }
 
 // --- writing

@@ -1,5 +1,4 @@
-// drawing.h: lines, boxes and words on a white page, which becomes a PNG or an SVG. Sheets and plots are
-// drawn with it.
+// drawing.h: lines, boxes and words on a white page, which becomes a PNG or an SVG. Sheets and plots are drawn with it.
 #ifndef DRAWING_H
 #define DRAWING_H
 
@@ -25,8 +24,8 @@ struct point {
 
 enum align { ALIGN_LEFT, ALIGN_MIDDLE, ALIGN_RIGHT };
 
-// A white page. `font` NULL: the system's (lam_font_open); an SVG needs none. False: the reason in error;
-// then there is nothing to free.
+// A white page. `font` NULL: the system's (lam_font_open); an SVG needs none. False: the reason in error; then there is
+// nothing to free.
 bool drawing_open(struct drawing *drawing, int width, int height, bool svg, bool words, const char *font,
                   lam_error *error);
 void drawing_free(struct drawing *drawing);
@@ -40,8 +39,8 @@ bool draw_dot(struct drawing *drawing, struct point middle, double radius, uint3
 void draw_text(struct drawing *drawing, struct point baseline, double size, enum align align, uint32_t color,
                const char *text);
 // Turned a quarter to the left, reading upwards, its middle at the point. Its baseline is the column.
-bool draw_text_upwards(struct drawing *drawing, struct point baseline, double size, uint32_t color,
-                       const char *text, lam_error *error);
+bool draw_text_upwards(struct drawing *drawing, struct point baseline, double size, uint32_t color, const char *text,
+                       lam_error *error);
 
 // How wide a text will be: exact for PNG, an estimate for SVG, whose reader chooses the font.
 double text_width(const struct drawing *drawing, double size, const char *text);

@@ -23,10 +23,9 @@ char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUN
     }
     if (count == LAM_FACE_COUNT && !empty)
         return copy;
-    complain(
-        error, LAM_BAD_ARGUMENT,
-        "option '--environment': found %d names in '%.200s'%s, expected one file or six, px,nx,py,ny,pz,nz",
-        count, text, empty ? ", one of them empty" : "");
+    complain(error, LAM_BAD_ARGUMENT,
+             "option '--environment': found %d names in '%.200s'%s, expected one file or six, px,nx,py,ny,pz,nz", count,
+             text, empty ? ", one of them empty" : "");
     free(copy);
     return NULL;
 }
@@ -39,8 +38,7 @@ const char *environment_option_built_in(const char *name)
     return NULL;
 }
 
-static lam_environment *load(const char *text, lam_color_mode color, const lam_control *control,
-                             lam_error *error)
+static lam_environment *load(const char *text, lam_color_mode color, const lam_control *control, lam_error *error)
 {
     if (environment_option_built_in(text))
         return lam_environment_built_in(text, error);
@@ -114,16 +112,14 @@ static void warn_unseen(const struct options *options, lam_scene *scene)
 {
     if (!lam_scene_environment(scene)) {
         if (option_given(options, "environment-rotation"))
-            lam_scene_add_warning(scene,
-                                  "option '--environment-rotation' turns nothing: there is no environment");
+            lam_scene_add_warning(scene, "option '--environment-rotation' turns nothing: there is no environment");
         return;
     }
     for (int i = 0; i < lam_scene_object_count(scene); i++)
         if (object_mirrors(scene, lam_scene_object(scene, i)))
             return;
     lam_scene_add_warning(
-        scene,
-        "the environment is not seen: no material has a reflectivity (--reflectivity 0.5 gives them one)");
+        scene, "the environment is not seen: no material has a reflectivity (--reflectivity 0.5 gives them one)");
 }
 
 bool environment_option_apply(const struct options *options, lam_scene *scene, const lam_control *control,
@@ -131,15 +127,14 @@ bool environment_option_apply(const struct options *options, lam_scene *scene, c
 {
     if (options->has_reflectivity &&
         (options->reflectivity.r > 1 || options->reflectivity.g > 1 || options->reflectivity.b > 1))
-        lam_scene_add_warning(
-            scene, "option '--reflectivity': a surface that returns more light than arrives (over 1)");
+        lam_scene_add_warning(scene,
+                              "option '--reflectivity': a surface that returns more light than arrives (over 1)");
     if (options->has_reflectivity && !set_reflectivity(scene, options->reflectivity, error))
         return false;
     double rotation_rad = radians(options->environment_rotation_deg);
     bool ok = true;
     if (options->environment) {
-        lam_environment *environment =
-            load(options->environment, (lam_color_mode)options->color, control, error);
+        lam_environment *environment = load(options->environment, (lam_color_mode)options->color, control, error);
         ok = environment && lam_scene_set_environment(scene, environment, rotation_rad, error);
         lam_environment_free(environment); // the scene has it
     } else if (option_given(options, "environment-rotation") && lam_scene_environment(scene)) {

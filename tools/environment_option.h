@@ -4,8 +4,8 @@
 
 #include "options.h"
 
-// Six file names with commas between them, cut apart: `paths` point into the copy that is returned, which the
-// caller frees. NULL: there are not six.
+// Six file names with commas between them, cut apart: `paths` point into the copy that is returned, which the caller
+// frees. NULL: there are not six.
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error);
 
 // The built-in environment of that name; NULL: it is none.

@@ -49,16 +49,14 @@ static bool read_place(const char *text, const struct options *o, int *x, int *y
 {
     const char *rest = read_pixel_number(text, ',', x);
     if (!rest || !read_pixel_number(rest, 0, y))
-        return complain(
-            error, LAM_BAD_ARGUMENT,
-            "explain: found '%.60s', expected a pixel X,Y, counted from the picture's top left corner, "
-            "such as %d,%d",
-            text, o->width / 2, o->height / 2);
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "explain: found '%.60s', expected a pixel X,Y, counted from the picture's top left corner, "
+                        "such as %d,%d",
+                        text, o->width / 2, o->height / 2);
     if (*x >= o->width || *y >= o->height)
-        return complain(
-            error, LAM_BAD_ARGUMENT,
-            "explain: pixel %d,%d lies outside of the picture of %dx%d pixels, expected 0,0 to %d,%d", *x, *y,
-            o->width, o->height, o->width - 1, o->height - 1);
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "explain: pixel %d,%d lies outside of the picture of %dx%d pixels, expected 0,0 to %d,%d", *x,
+                        *y, o->width, o->height, o->width - 1, o->height - 1);
     return true;
 }
 

@@ -78,8 +78,8 @@ static void tell_light(struct json *json, const lam_explained_light *l)
         json_none(json, "distance");
     else
         real(json, "distance", l->distance);
-    triple(json, "attenuation_terms", (double)l->attenuation_terms.constant,
-           (double)l->attenuation_terms.linear, (double)l->attenuation_terms.quadratic);
+    triple(json, "attenuation_terms", (double)l->attenuation_terms.constant, (double)l->attenuation_terms.linear,
+           (double)l->attenuation_terms.quadratic);
     if (l->range > 0)
         real(json, "range", l->range);
     else

@@ -1,5 +1,5 @@
-// explain_text.c: an explained pixel as text for people: aligned, with units, each term with the formula that
-// it came from (docs/lighting.md has them all).
+// explain_text.c: an explained pixel as text for people: aligned, with units, each term with the formula that it came
+// from (docs/lighting.md has them all).
 #include "explain.h"
 
 #include <stdio.h>
@@ -82,17 +82,15 @@ static void tell_attenuation(const lam_explained_light *l)
     }
     number(4, "distance d", (double)l->distance, "model units");
     char remark[200];
-    int used = snprintf(remark, sizeof remark, "1 / (%.7g + %.7g d + %.7g d²)",
-                        (double)l->attenuation_terms.constant, (double)l->attenuation_terms.linear,
-                        (double)l->attenuation_terms.quadratic);
+    int used = snprintf(remark, sizeof remark, "1 / (%.7g + %.7g d + %.7g d²)", (double)l->attenuation_terms.constant,
+                        (double)l->attenuation_terms.linear, (double)l->attenuation_terms.quadratic);
     if (l->range > 0)
-        snprintf(remark + used, sizeof remark - (size_t)used, " · max(min(1 − (d/%.7g)⁴, 1), 0)",
-                 (double)l->range);
+        snprintf(remark + used, sizeof remark - (size_t)used, " · max(min(1 − (d/%.7g)⁴, 1), 0)", (double)l->range);
     number(4, "attenuation", (double)l->attenuation, remark);
 }
 
-static void tell_highlight(const lam_explanation *e, const lam_explained_fragment *f,
-                           const lam_explained_point *p, const lam_explained_light *l)
+static void tell_highlight(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
+                           const lam_explained_light *l)
 {
     bool gated = !f->surface.fibre && e->reflection != LAM_REFLECTION_KAJIYA_KAY_LECTURE;
     const char *gate = gated ? "[n·l > 0] " : "";
@@ -109,8 +107,7 @@ static void tell_highlight(const lam_explanation *e, const lam_explained_fragmen
         number(4, "D", (double)l->D, "max(n·l, 0)");
         if (e->reflection == LAM_REFLECTION_LAMBERT)
             return;
-        number(4, "base", (double)l->base,
-               e->reflection == LAM_REFLECTION_PHONG ? "max(r·v, 0)" : "max(n·h, 0)");
+        number(4, "base", (double)l->base, e->reflection == LAM_REFLECTION_PHONG ? "max(r·v, 0)" : "max(n·h, 0)");
     }
     number(4, "power α", (double)l->power, "the shininess");
     snprintf(remark, sizeof remark, "%sbase^α = %s%.7g^%.7g", gate, gated && !(l->n_dot_l > 0) ? "0 · " : "",
@@ -120,12 +117,12 @@ static void tell_highlight(const lam_explanation *e, const lam_explained_fragmen
 
 static void product(char text[200], const lam_explained_light *l, const char *what, lam_rgb c, float answer)
 {
-    snprintf(text, 200, "spot · attenuation · %s = %.7g · %.7g · (%.7g %.7g %.7g) · %.7g", what,
-             (double)l->spot, (double)l->attenuation, (double)c.r, (double)c.g, (double)c.b, (double)answer);
+    snprintf(text, 200, "spot · attenuation · %s = %.7g · %.7g · (%.7g %.7g %.7g) · %.7g", what, (double)l->spot,
+             (double)l->attenuation, (double)c.r, (double)c.g, (double)c.b, (double)answer);
 }
 
-static void tell_light(const lam_explanation *e, const lam_explained_fragment *f,
-                       const lam_explained_point *p, const lam_explained_light *l, int number_in_list)
+static void tell_light(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
+                       const lam_explained_light *l, int number_in_list)
 {
     if (l->light >= 0)
         printf("\n  light %d", l->light);
@@ -179,8 +176,7 @@ static void tell_hemisphere(const lam_explained_hemisphere *h, int number_in_lis
 }
 
 // All lights; of many, only those that add something here.
-static void tell_lights(const lam_explanation *e, const lam_explained_fragment *f,
-                        const lam_explained_point *p)
+static void tell_lights(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
 {
     int nothing = 0, left_out = 0;
     for (int i = 0; i < p->light_count; i++) {
@@ -201,8 +197,7 @@ static void tell_lights(const lam_explanation *e, const lam_explained_fragment *
 
 // --- a point and a triangle
 
-static void tell_point(const lam_explanation *e, const lam_explained_fragment *f,
-                       const lam_explained_point *p)
+static void tell_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
 {
     if (p->corner >= 0)
         printf("\n  corner %d of the triangle is lit\n", p->corner);
@@ -244,8 +239,8 @@ static void tell_point(const lam_explanation *e, const lam_explained_fragment *f
         color(4, "specular", p->specular, "Σ of those of the lights");
         snprintf(text, sizeof text, "kr ⊙ environment = (%.7g %.7g %.7g) ⊙ (%.7g %.7g %.7g)",
                  (double)f->surface.reflectivity.r, (double)f->surface.reflectivity.g,
-                 (double)f->surface.reflectivity.b, (double)p->environment_light.r,
-                 (double)p->environment_light.g, (double)p->environment_light.b);
+                 (double)f->surface.reflectivity.b, (double)p->environment_light.r, (double)p->environment_light.g,
+                 (double)p->environment_light.b);
         color(4, "reflection", p->reflection, e->has_environment ? text : "");
     }
     color(4, "sum", p->sum, "emission + ambient + diffuse + specular + reflection");
@@ -269,8 +264,7 @@ static void tell_material(const lam_explanation *e, const lam_explained_fragment
     color(4, "emission", m->emission, "");
     if (e->has_environment)
         color(4, "reflectivity kr", m->reflectivity, "");
-    number(4, "shininess α", (double)f->shininess,
-           f->shininess == m->shininess ? "" : "as changed by the options");
+    number(4, "shininess α", (double)f->shininess, f->shininess == m->shininess ? "" : "as changed by the options");
     if (m->diffuse.a != 1)
         number(4, "opacity", (double)m->diffuse.a, "");
     printf("\n");
@@ -294,8 +288,7 @@ static void tell_fragment(const lam_explanation *e, const lam_explained_fragment
     if (f->lit_sample < 0)
         printf("pixels from the top left: the pixel's centre\n");
     else
-        printf("pixels from the top left: sample %d, since the centre is outside of the triangle\n",
-               f->lit_sample);
+        printf("pixels from the top left: sample %d, since the centre is outside of the triangle\n", f->lit_sample);
     three(2, "weights of the corners", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2],
           "barycentric, perspective-correct");
     tell_material(e, f);
@@ -305,7 +298,7 @@ static void tell_fragment(const lam_explanation *e, const lam_explained_fragment
         printf("\n");
     lam_rgb c = {f->color.r, f->color.g, f->color.b};
     color(2, "colour", c,
-          f->point_count == 3 ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
+          f->point_count == 3              ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
           : e->shading == LAM_SHADING_FLAT ? "the sum, the same all over the triangle"
                                            : "the sum");
     if (f->color.a != 1)
@@ -342,23 +335,21 @@ static void tell_pixel(const lam_explanation *e)
     snprintf(stops, sizeof stops, "2^%.7g stops, multiplies the sum's colour", e->stops);
     number(2, "exposure", (double)e->exposure, e->exposure == 1 ? "none is applied" : stops);
     label(2, "background");
-    printf("%13.7g %13.7g %13.7g %13.7g\n", (double)e->background.r, (double)e->background.g,
-           (double)e->background.b, (double)e->background.a);
+    printf("%13.7g %13.7g %13.7g %13.7g\n", (double)e->background.r, (double)e->background.g, (double)e->background.b,
+           (double)e->background.a);
     label(2, "over it");
-    printf("%13.7g %13.7g %13.7g %13.7g   %ssum + (1 − alpha) · background; .pfm holds this\n",
-           (double)e->result.r, (double)e->result.g, (double)e->result.b, (double)e->result.a,
-           e->exposure == 1 ? "" : "exposure · ");
+    printf("%13.7g %13.7g %13.7g %13.7g   %ssum + (1 − alpha) · background; .pfm holds this\n", (double)e->result.r,
+           (double)e->result.g, (double)e->result.b, (double)e->result.a, e->exposure == 1 ? "" : "exposure · ");
     color(2, "colour ÷ alpha", e->straight, "");
-    color(2, "encoded", e->encoded,
-          e->color == LAM_COLOR_RAW ? "clamped to 0…1 (--color raw)" : "by the sRGB curve");
+    color(2, "encoded", e->encoded, e->color == LAM_COLOR_RAW ? "clamped to 0…1 (--color raw)" : "by the sRGB curve");
     label(2, "bytes");
     printf("%13u %13u %13u %13u   floor(255 x + ½)\n", e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]);
 }
 
 void explain_text(const lam_explanation *e, const char *model)
 {
-    printf("%s: pixel %d,%d of %dx%d, %s shading, %s reflection, %d sample%s a pixel\n", model, e->x, e->y,
-           e->width, e->height, explain_shading(e->shading), explain_reflection(e->reflection), e->samples,
+    printf("%s: pixel %d,%d of %dx%d, %s shading, %s reflection, %d sample%s a pixel\n", model, e->x, e->y, e->width,
+           e->height, explain_shading(e->shading), explain_reflection(e->reflection), e->samples,
            e->samples == 1 ? "" : "s");
     if (!e->fragment_count)
         printf("\nNothing is seen here but the background.\n");

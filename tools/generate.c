@@ -29,9 +29,8 @@ int run_generate(int operand_count, char **operands, const struct options *optio
         suggest_try(&nearest, kinds[i].name);
     }
     lam_error error;
-    complain(&error, LAM_BAD_ARGUMENT,
-             "generate: found '%.100s', expected man, markdown, bash, zsh or fish%s%s%s", operands[0],
-             nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+    complain(&error, LAM_BAD_ARGUMENT, "generate: found '%.100s', expected man, markdown, bash, zsh or fish%s%s%s",
+             operands[0], nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
              nearest.best ? "'?" : "");
     say_error(error.text);
     return error.code;

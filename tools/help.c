@@ -9,8 +9,7 @@
 
 enum { WIDTH = 100, COLUMN = 29, EXAMPLE_COLUMN = 41 };
 
-// Prints words up to WIDTH columns, from column `at`; further lines begin at `indent`. Back quotes are left
-// out.
+// Prints words up to WIDTH columns, from column `at`; further lines begin at `indent`. Back quotes are left out.
 static void print_wrapped(const char *text, int at, int indent)
 {
     while (*text) {
@@ -115,8 +114,7 @@ void print_help(const struct command *command)
     printf("\nCommands:\n");
     for (const struct command *c = command_table + 1; c->name; c++) {
         char left[96];
-        snprintf(left, sizeof left, "  %s%s%s", c->name, c->operands ? " " : "",
-                 c->operands ? c->operands : "");
+        snprintf(left, sizeof left, "  %s%s%s", c->name, c->operands ? " " : "", c->operands ? c->operands : "");
         print_row(left, COLUMN, c->summary);
     }
     printf("\nExit codes:\n");
@@ -153,16 +151,11 @@ int run_help(int operand_count, char **operands, const struct options *options)
             suggest_try(&nearest, c->name);
         char known[256] = "";
         for (const struct command *c = command_table; c->name; c++) {
-            strncat(known,
-                    c == command_table ? ""
-                    : c[1].name        ? ", "
-                                       : " or ",
-                    sizeof known - strlen(known) - 1);
+            strncat(known, c == command_table ? "" : c[1].name ? ", " : " or ", sizeof known - strlen(known) - 1);
             strncat(known, c->name, sizeof known - strlen(known) - 1);
         }
-        complain(&error, LAM_BAD_ARGUMENT, "help: unknown command '%.60s', expected %s%s%s%s", operands[0],
-                 known, nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
-                 nearest.best ? "'?" : "");
+        complain(&error, LAM_BAD_ARGUMENT, "help: unknown command '%.60s', expected %s%s%s%s", operands[0], known,
+                 nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
         say_error(error.text);
         return error.code;
     }

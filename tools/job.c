@@ -39,10 +39,8 @@ static lam_view view_of(const struct options *o)
     };
 }
 
-// The control of the next call: what is left of the model's time, the memory, the interrupt, the progress
-// bar.
-static bool control_of(const struct job *job, struct progress *progress, lam_control *control,
-                       lam_error *error)
+// The control of the next call: what is left of the model's time, the memory, the interrupt, the progress bar.
+static bool control_of(const struct job *job, struct progress *progress, lam_control *control, lam_error *error)
 {
     const struct options *o = job->options;
     *control = (lam_control){.cancel = interrupt_flag(),
@@ -54,8 +52,7 @@ static bool control_of(const struct job *job, struct progress *progress, lam_con
     if (o->time_limit_s > 0) {
         control->time_limit_s = o->time_limit_s - (clock_ms() - job->times.start) / 1e3;
         if (!(control->time_limit_s > 0))
-            return complain(error, LAM_LIMIT, "%s: the time limit of %.10g s is over", job->model,
-                            o->time_limit_s);
+            return complain(error, LAM_LIMIT, "%s: the time limit of %.10g s is over", job->model, o->time_limit_s);
     }
     return true;
 }
@@ -67,8 +64,7 @@ static double crease_of(const struct options *o)
     return o->crease_angle_deg < 0 ? 0 : o->crease_angle_deg > 0 ? radians(o->crease_angle_deg) : 1e-6;
 }
 
-static lam_scene *make_shape(const char *name, const struct options *o, const lam_control *control,
-                             lam_error *error)
+static lam_scene *make_shape(const char *name, const struct options *o, const lam_control *control, lam_error *error)
 {
     lam_scene *scene = lam_scene_make(error);
     if (!scene)
@@ -95,8 +91,7 @@ static void add_guess(const struct job *job, lam_error *error)
         return;
     size_t length = strlen(error->text);
     if (find_command(job->model)) {
-        snprintf(error->text + length, sizeof error->text - length, "; a command comes first: lambent %s",
-                 job->model);
+        snprintf(error->text + length, sizeof error->text - length, "; a command comes first: lambent %s", job->model);
         return;
     }
     struct suggestion nearest = suggest_start(job->model);
@@ -114,8 +109,7 @@ static bool draws_once(const struct job *job)
     const struct options *o = job->options;
     if (job->device && lam_device_isa(job->device) == LAM_ISA_AUTO) // not the CPU's
         return false;
-    bool tangents =
-        o->reflection == LAM_REFLECTION_KAJIYA_KAY || o->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    bool tangents = o->reflection == LAM_REFLECTION_KAJIYA_KAY || o->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
     return o->repeat == 1 && !show_is_all(o) && !tangents;
 }
 
@@ -147,13 +141,11 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     if (!job->scene)
         return false;
     materials_warn(job->scene);
-    job->model_counts =
-        (struct model_counts){lam_scene_triangle_count(job->scene), lam_scene_vertex_count(job->scene),
-                              lam_scene_mesh_count(job->scene),     lam_scene_object_count(job->scene),
-                              lam_scene_material_count(job->scene), lam_scene_light_count(job->scene)};
+    job->model_counts = (struct model_counts){lam_scene_triangle_count(job->scene), lam_scene_vertex_count(job->scene),
+                                              lam_scene_mesh_count(job->scene),     lam_scene_object_count(job->scene),
+                                              lam_scene_material_count(job->scene), lam_scene_light_count(job->scene)};
     if (lam_scene_triangle_count(job->scene) == 0)
-        return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw",
-                        job->model);
+        return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw", job->model);
     scene_settings_apply(job);
     if (o->slices && lam_shape_find(job->model) < 0)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
@@ -226,8 +218,7 @@ static bool write_output(struct job *job, lam_error *error)
                               .threads = o->threads,
                               .control = &control,
                               .compress = (lam_compress)o->compress,
-                              .raw =
-                                  o->color == LAM_COLOR_RAW || !lam_show_is_light(show_option_what(o->show))};
+                              .raw = o->color == LAM_COLOR_RAW || !lam_show_is_light(show_option_what(o->show))};
     lam_bytes bytes = {0};
     bool ok;
     if (output_is_stream(job->output)) {
@@ -263,8 +254,7 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
         !environment_option_apply(job->options, job->scene, &control, error))
         return false;
     if (job->options->save_scene && option_given(job->options, "show"))
-        lam_scene_add_warning(job->scene,
-                              "the scene file that is saved gives the picture: --show is no part of it");
+        lam_scene_add_warning(job->scene, "the scene file that is saved gives the picture: --show is no part of it");
     place_camera(job);
     return job_light(job, &sphere, error) && (!job->options->show_lights || light_markers_add(job, error));
 }
@@ -276,11 +266,10 @@ bool job_draw(struct job *job, lam_pixel_format format, struct progress *progres
     const struct options *o = job->options; // now with what the scene file says
     uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
     if (o->memory_limit_bytes && bytes > o->memory_limit_bytes)
-        return complain(error, LAM_LIMIT,
-                        "the picture of %dx%d pixels needs %.1f MB, more than the memory limit", o->width,
-                        o->height, (double)bytes / 1e6);
-    return lam_image_make(&job->image, o->width, o->height, format, error) &&
-           job_arrange(job, progress, error) && draw(job, progress, error);
+        return complain(error, LAM_LIMIT, "the picture of %dx%d pixels needs %.1f MB, more than the memory limit",
+                        o->width, o->height, (double)bytes / 1e6);
+    return lam_image_make(&job->image, o->width, o->height, format, error) && job_arrange(job, progress, error) &&
+           draw(job, progress, error);
 }
 
 bool job_run(struct job *job, struct progress *progress, lam_error *error)
@@ -310,8 +299,8 @@ lam_explanation *job_explain(struct job *job, int x, int y, struct progress *pro
     const struct options *o = job->options; // now with what the scene file says
     lam_draw_params params = draw_params_of(o, job->rig);
     params.background = job->background;
-    return lam_explain(job->device, job->scene, &job->camera, &params, o->width, o->height, LAM_RGBA8, x, y,
-                       &control, error);
+    return lam_explain(job->device, job->scene, &job->camera, &params, o->width, o->height, LAM_RGBA8, x, y, &control,
+                       error);
 }
 
 lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *error)
@@ -324,6 +313,6 @@ lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *er
         .glsl = (lam_glsl)o->glsl, .lights = (lam_shader_lights)o->lights_in, .products = o->products};
     if (!show_option_apply(o->show, job->scene, &draw, error))
         return NULL;
-    return lam_shader_make(job->scene, &job->camera, &draw, o->width, o->height,
-                           o->has_object ? o->object : -1, &params, error);
+    return lam_shader_make(job->scene, &job->camera, &draw, o->width, o->height, o->has_object ? o->object : -1,
+                           &params, error);
 }

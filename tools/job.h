@@ -47,8 +47,8 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error);
 // The same up to the drawn picture, which stays in `image`: output and format are not looked at.
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);
 
-// Reads the model or makes the shape, and takes over what a scene file says: the first step of job_run, for
-// commands that draw nothing.
+// Reads the model or makes the shape, and takes over what a scene file says: the first step of job_run, for commands
+// that draw nothing.
 bool job_load(struct job *job, struct progress *progress, lam_error *error);
 
 // The second step: materials, turns, the camera and the lights, as the options ask.

@@ -69,8 +69,8 @@ static bool add_rig(lam_scene *scene, lam_rig rig, lam_error *error)
     return true;
 }
 
-// Decides whose lights stay. The rig is left to drawing where no option changes what it gives; else its
-// lights go into the scene here, in their places about the model as it is.
+// Decides whose lights stay. The rig is left to drawing where no option changes what it gives; else its lights go into
+// the scene here, in their places about the model as it is.
 static bool dress_rig(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
@@ -78,8 +78,7 @@ static bool dress_rig(struct job *job, lam_error *error)
     for (int i = 0; i < o->lights.count; i++)
         replaces |= o->lights.items[i][0] != '+';
     job->rig = o->has_rig && o->rig != RIG_DARK ? (lam_rig)o->rig : LAM_RIG_AUTO;
-    if (o->has_rig && o->rig == (int)LAM_RIG_NONE && lam_scene_light_count(job->scene) == 0 &&
-        o->lights.count == 0)
+    if (o->has_rig && o->rig == (int)LAM_RIG_NONE && lam_scene_light_count(job->scene) == 0 && o->lights.count == 0)
         lam_scene_add_warning(job->scene, "option '--rig file': the model has no lights");
     bool dark = o->rig == RIG_DARK || (replaces && !o->has_rig);
     bool named = o->has_rig && job->rig != LAM_RIG_AUTO && job->rig != LAM_RIG_NONE;
@@ -116,8 +115,7 @@ bool job_dress(struct job *job, const lam_control *control, struct model_sphere 
         lam_scene_sphere(scene, -1, &sphere->centre, &sphere->radius);
     if (!(sphere->radius > 0))
         sphere->radius = 1;
-    bool threads =
-        o->reflection == LAM_REFLECTION_KAJIYA_KAY || o->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    bool threads = o->reflection == LAM_REFLECTION_KAJIYA_KAY || o->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
     return dress_materials(o, scene, error) && dress_sides(o, scene, error) && dress_rig(job, error) &&
            dress_rotations(o, sphere->centre, scene, error) &&
            (!threads || lam_scene_make_tangents(scene, control, error));

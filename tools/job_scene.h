@@ -8,8 +8,8 @@
 // "x:30".
 bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg);
 
-// Everything that the camera depends on, and what needs no camera. `sphere` is the model's as it was before
-// it was turned.
+// Everything that the camera depends on, and what needs no camera. `sphere` is the model's as it was before it was
+// turned.
 bool job_dress(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error);
 
 // The lights; the camera stands.

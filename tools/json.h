@@ -19,7 +19,7 @@ struct json {
 void json_open(struct json *json, const char *key, char bracket); // '{' or '['
 void json_close(struct json *json, char bracket);                 // '}' or ']'
 void json_text(struct json *json, const char *key,
-               const char *text); // NULL: null; bytes that are not UTF-8: U+FFFD
+               const char *text);                                   // NULL: null; bytes that are not UTF-8: U+FFFD
 void json_number(struct json *json, const char *key, double value); // not finite: null
 void json_count(struct json *json, const char *key, uint64_t value);
 void json_none(struct json *json, const char *key);

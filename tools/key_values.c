@@ -17,11 +17,7 @@ int key_find(const char *name, const char *const *names, lam_error *error)
             return i;
         suggest_try(&nearest, names[i]);
         size_t length = strlen(known);
-        snprintf(known + length, sizeof known - length, "%s%s",
-                 i == 0         ? ""
-                 : names[i + 1] ? ", "
-                                : " or ",
-                 names[i]);
+        snprintf(known + length, sizeof known - length, "%s%s", i == 0 ? "" : names[i + 1] ? ", " : " or ", names[i]);
     }
     if (nearest.best)
         complain(error, LAM_BAD_ARGUMENT, "unknown key '%.60s'; did you mean '%s'?", name, nearest.best);
@@ -55,15 +51,13 @@ bool read_one(const char *text, double *number)
     return text && !*text;
 }
 
-bool read_color(const char *what, const char *text, lam_color_mode mode, bool opaque, lam_rgba *color,
-                lam_error *error)
+bool read_color(const char *what, const char *text, lam_color_mode mode, bool opaque, lam_rgba *color, lam_error *error)
 {
     double grey;
     lam_error unused;
     if (read_one(text, &grey)) {
         if (!(grey >= 0 && grey <= 1e30))
-            return complain(error, LAM_BAD_ARGUMENT, "%s is %.40s, expected a number of at least 0", what,
-                            text);
+            return complain(error, LAM_BAD_ARGUMENT, "%s is %.40s, expected a number of at least 0", what, text);
         *color = (lam_rgba){(float)grey, (float)grey, (float)grey, 1};
         return true;
     }
@@ -72,13 +66,11 @@ bool read_color(const char *what, const char *text, lam_color_mode mode, bool op
     if (read_numbers(text, 3, 4, parts, &count, NULL))
         for (int i = 0; i < count; i++)
             if (parts[i] < 0)
-                return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected numbers of at least 0", what,
-                                text);
+                return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected numbers of at least 0", what, text);
     if (!lam_color_parse(text, mode, color, &unused))
-        return complain(
-            error, LAM_BAD_ARGUMENT,
-            "found '%s=%.60s', expected a colour: #rrggbb, r/g/b, a name such as white, or one number", what,
-            text);
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "found '%s=%.60s', expected a colour: #rrggbb, r/g/b, a name such as white, or one number",
+                        what, text);
     if (opaque && color->a != 1)
         return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected a colour without alpha", what, text);
     return true;

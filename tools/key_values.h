@@ -7,15 +7,15 @@
 // The number of `name` in a list that ends with NULL; −1 with the nearest one, or all of them, in the error.
 int key_find(const char *name, const char *const *names, lam_error *error);
 
-// Numbers with '/' between them, `least` to `most` of them. Where `radii` is not NULL, each may end in 'r';
-// then radii[i] tells.
+// Numbers with '/' between them, `least` to `most` of them. Where `radii` is not NULL, each may end in 'r'; then
+// radii[i] tells.
 bool read_numbers(const char *text, int least, int most, double *numbers, int *count, bool *radii);
 
 // One number.
 bool read_one(const char *text, double *number);
 
-// A colour as lam_color_parse takes it, or one number for all three channels. `what` names it in the error.
-// `opaque`: an alpha is refused.
+// A colour as lam_color_parse takes it, or one number for all three channels. `what` names it in the error. `opaque`:
+// an alpha is refused.
 bool read_color(const char *what, const char *text, lam_color_mode mode, bool opaque, lam_rgba *color,
                 lam_error *error);
 

@@ -17,8 +17,7 @@ static lam_vec3 apply(const lam_mat4 *m, lam_vec3 v, double w)
 static lam_mat4 to_world(const struct job *job, const lam_light *light)
 {
     lam_mat4 m = lam_mat4_identity();
-    if (light->frame ==
-        LAM_FRAME_CAMERA) { // a rigid view: its inverse is the transposed rotation about the eye
+    if (light->frame == LAM_FRAME_CAMERA) { // a rigid view: its inverse is the transposed rotation about the eye
         lam_mat4 view = lam_camera_view(&job->camera);
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
@@ -49,8 +48,8 @@ static lam_vec3 unit(lam_vec3 v)
 static lam_mat4 place(lam_vec3 p, lam_vec3 d, double size, double along)
 {
     lam_vec3 other = __builtin_fabs(d.y) < 0.9 ? (lam_vec3){0, 1, 0} : (lam_vec3){1, 0, 0};
-    lam_vec3 x = unit((lam_vec3){d.y * other.z - d.z * other.y, d.z * other.x - d.x * other.z,
-                                 d.x * other.y - d.y * other.x});
+    lam_vec3 x =
+        unit((lam_vec3){d.y * other.z - d.z * other.y, d.z * other.x - d.x * other.z, d.x * other.y - d.y * other.x});
     lam_vec3 z = {x.y * d.z - x.z * d.y, x.z * d.x - x.x * d.z, x.x * d.y - x.y * d.x};
     return (lam_mat4){{{x.x * size, d.x * along, z.x * size, p.x},
                        {x.y * size, d.y * along, z.y * size, p.y},
@@ -63,8 +62,7 @@ static int glowing(lam_scene *scene, lam_rgb color, lam_error *error)
     float most = color.r > color.g ? color.r : color.g;
     most = most > color.b ? most : color.b;
     lam_material m = {.diffuse = {0, 0, 0, 1}, .illum = -1, .name = "light marker"};
-    m.emission =
-        most > 0 ? (lam_rgb){color.r / most, color.g / most, color.b / most} : (lam_rgb){0.2f, 0.2f, 0.2f};
+    m.emission = most > 0 ? (lam_rgb){color.r / most, color.g / most, color.b / most} : (lam_rgb){0.2f, 0.2f, 0.2f};
     return lam_scene_add_material(scene, &m, error);
 }
 
@@ -106,8 +104,7 @@ bool light_markers_add(struct job *job, lam_error *error)
         lam_mat4 world = to_world(job, l);
         lam_vec3 d = unit(apply(&world, l->direction, 0)), p = apply(&world, l->position, 1);
         if (l->type == LAM_LIGHT_DIRECTIONAL)
-            p = (lam_vec3){centre.x - 1.5 * radius * d.x, centre.y - 1.5 * radius * d.y,
-                           centre.z - 1.5 * radius * d.z};
+            p = (lam_vec3){centre.x - 1.5 * radius * d.x, centre.y - 1.5 * radius * d.y, centre.z - 1.5 * radius * d.z};
         int material = glowing(scene, l->diffuse, error);
         ok = put(scene, ball, material, place(p, d, 0.03 * radius, 0.03 * radius), error);
         lam_vec3 tip = {p.x + 0.09 * radius * d.x, p.y + 0.09 * radius * d.y, p.z + 0.09 * radius * d.z};

@@ -11,10 +11,9 @@
 
 static const char *const type_names[] = {"ambient", "hemisphere", "point", "directional", "spot", NULL};
 
-static const char *const keys[] = {"position", "direction", "target",   "color",       "intensity",
-                                   "ambient",  "diffuse",   "specular", "attenuation", "range",
-                                   "cutoff",   "exponent",  "inner",    "outer",       "sky",
-                                   "ground",   "up",        "frame",    "name",        NULL};
+static const char *const keys[] = {"position", "direction",   "target", "color",  "intensity", "ambient", "diffuse",
+                                   "specular", "attenuation", "range",  "cutoff", "exponent",  "inner",   "outer",
+                                   "sky",      "ground",      "up",     "frame",  "name",      NULL};
 enum key {
     POSITION,
     DIRECTION,
@@ -39,18 +38,15 @@ enum key {
 };
 
 #define BIT(key) (1u << (key))
-#define COLORS                                                                                               \
-    (BIT(COLOR) | BIT(INTENSITY) | BIT(AMBIENT) | BIT(DIFFUSE) | BIT(SPECULAR) | BIT(FRAME) | BIT(NAME))
-#define PLACED (COLORS | BIT(POSITION) | BIT(ATTENUATION) | BIT(RANGE))
+#define COLORS   (BIT(COLOR) | BIT(INTENSITY) | BIT(AMBIENT) | BIT(DIFFUSE) | BIT(SPECULAR) | BIT(FRAME) | BIT(NAME))
+#define PLACED   (COLORS | BIT(POSITION) | BIT(ATTENUATION) | BIT(RANGE))
 
 static const unsigned keys_of_type[] = {
     [LAM_LIGHT_AMBIENT] = BIT(COLOR) | BIT(INTENSITY) | BIT(AMBIENT) | BIT(NAME),
-    [LAM_LIGHT_HEMISPHERE] =
-        BIT(COLOR) | BIT(INTENSITY) | BIT(SKY) | BIT(GROUND) | BIT(UP) | BIT(FRAME) | BIT(NAME),
+    [LAM_LIGHT_HEMISPHERE] = BIT(COLOR) | BIT(INTENSITY) | BIT(SKY) | BIT(GROUND) | BIT(UP) | BIT(FRAME) | BIT(NAME),
     [LAM_LIGHT_POINT] = PLACED,
     [LAM_LIGHT_DIRECTIONAL] = COLORS | BIT(POSITION) | BIT(DIRECTION) | BIT(TARGET),
-    [LAM_LIGHT_SPOT] =
-        PLACED | BIT(DIRECTION) | BIT(TARGET) | BIT(CUTOFF) | BIT(EXPONENT) | BIT(INNER) | BIT(OUTER),
+    [LAM_LIGHT_SPOT] = PLACED | BIT(DIRECTION) | BIT(TARGET) | BIT(CUTOFF) | BIT(EXPONENT) | BIT(INNER) | BIT(OUTER),
 };
 
 // What was read on the way.
@@ -67,8 +63,7 @@ static bool seen(const struct reading *reading, enum key key) { return (reading-
 
 // --- single values
 
-static bool number_for(enum key key, const char *value, double least, double most, double *out,
-                       lam_error *error)
+static bool number_for(enum key key, const char *value, double least, double most, double *out, lam_error *error)
 {
     if (!read_one(value, out))
         return complain(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected a number", keys[key], value);
@@ -76,8 +71,7 @@ static bool number_for(enum key key, const char *value, double least, double mos
         char range[64] = "of at least 0";
         if (most < 1e29)
             snprintf(range, sizeof range, "from %g to %g", least, most);
-        return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected a number %s", keys[key], value,
-                        range);
+        return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected a number %s", keys[key], value, range);
     }
     return true;
 }
@@ -87,38 +81,33 @@ static bool vector_for(enum key key, const char *value, lam_vec3 *out, lam_error
     double numbers[3];
     int count;
     if (!read_numbers(value, 3, 3, numbers, &count, NULL))
-        return complain(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected three numbers x/y/z", keys[key],
-                        value);
+        return complain(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected three numbers x/y/z", keys[key], value);
     *out = (lam_vec3){numbers[0], numbers[1], numbers[2]};
     if (out->x == 0 && out->y == 0 && out->z == 0)
         return complain(error, LAM_BAD_ARGUMENT, "%s is 0/0/0, expected a direction", keys[key]);
     return true;
 }
 
-// A point: in the model's units, or in radii of its sphere (a 0 may go without its r). `w` NULL: three
-// numbers only.
-static bool point_for(enum key key, const char *value, lam_vec3 *out, bool *in_radii, double *w,
-                      lam_error *error)
+// A point: in the model's units, or in radii of its sphere (a 0 may go without its r). `w` NULL: three numbers only.
+static bool point_for(enum key key, const char *value, lam_vec3 *out, bool *in_radii, double *w, lam_error *error)
 {
     double numbers[4];
     bool radii[4];
     int count;
     if (!read_numbers(value, 3, w ? 4 : 3, numbers, &count, radii) || (count == 4 && radii[3]))
         return complain(error, LAM_BAD_ARGUMENT,
-                        "found '%s=%.60s', expected three numbers x/y/z%s, each with r for radii", keys[key],
-                        value, w ? " (or four, x/y/z/w)" : "");
+                        "found '%s=%.60s', expected three numbers x/y/z%s, each with r for radii", keys[key], value,
+                        w ? " (or four, x/y/z/w)" : "");
     *in_radii = radii[0] || radii[1] || radii[2];
     for (int i = 0; i < 3; i++)
         if (*in_radii && !radii[i] && numbers[i] != 0)
-            return complain(error, LAM_BAD_ARGUMENT,
-                            "%s is %.60s, expected r behind all of its numbers or behind none", keys[key],
-                            value);
+            return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected r behind all of its numbers or behind none",
+                            keys[key], value);
     double divisor = 1;
     if (count == 4) {
         *w = numbers[3];
         if (*w < 0)
-            return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected w of at least 0", keys[key],
-                            value);
+            return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected w of at least 0", keys[key], value);
         divisor = *w > 0 ? *w : 1;
     }
     *out = (lam_vec3){numbers[0] / divisor, numbers[1] / divisor, numbers[2] / divisor};
@@ -133,14 +122,11 @@ static bool read_attenuation(const char *value, struct light_option *option, lam
     if (!read_numbers(value, 3, 3, numbers, &count, radii) || radii[0])
         return complain(
             error, LAM_BAD_ARGUMENT,
-            "found 'attenuation=%.60s', expected three numbers a/b/c, b and c with r for distances in radii",
-            value);
+            "found 'attenuation=%.60s', expected three numbers a/b/c, b and c with r for distances in radii", value);
     if (numbers[0] < 0 || numbers[1] < 0 || numbers[2] < 0)
-        return complain(error, LAM_BAD_ARGUMENT, "attenuation is %.60s, expected numbers of at least 0",
-                        value);
+        return complain(error, LAM_BAD_ARGUMENT, "attenuation is %.60s, expected numbers of at least 0", value);
     if (numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0)
-        return complain(error, LAM_BAD_ARGUMENT, "attenuation is %.60s, expected a + b d + c d2 above 0",
-                        value);
+        return complain(error, LAM_BAD_ARGUMENT, "attenuation is %.60s, expected a + b d + c d2 above 0", value);
     option->light.attenuation = (lam_attenuation){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
     option->linear_in_radii = radii[1];
     option->quadratic_in_radii = radii[2];
@@ -152,8 +138,7 @@ static bool read_range(const char *value, struct light_option *option, lam_error
     double number;
     int count;
     if (!read_numbers(value, 1, 1, &number, &count, &option->range_in_radii))
-        return complain(error, LAM_BAD_ARGUMENT, "found 'range=%.60s', expected a distance, with r for radii",
-                        value);
+        return complain(error, LAM_BAD_ARGUMENT, "found 'range=%.60s', expected a distance, with r for radii", value);
     if (!(number > 0))
         return complain(error, LAM_BAD_ARGUMENT, "range is %.60s, expected a distance above 0", value);
     option->light.range = (float)number;
@@ -174,8 +159,8 @@ static bool read_frame(char *value, struct light_option *option, lam_error *erro
     }
     bool camera = strcmp(value, "camera") == 0;
     if (name || (!camera && strcmp(value, "world") != 0))
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "found 'frame=%.60s', expected world, camera, object or object:NAME", value);
+        return complain(error, LAM_BAD_ARGUMENT, "found 'frame=%.60s', expected world, camera, object or object:NAME",
+                        value);
     light->frame = camera ? LAM_FRAME_CAMERA : LAM_FRAME_WORLD;
     return true;
 }
@@ -228,8 +213,7 @@ static bool read_pair(struct reading *reading, char *pair, lam_error *error)
 {
     char *value = strchr(pair, '=');
     if (!value)
-        return complain(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as position=1/2/3",
-                        pair);
+        return complain(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as position=1/2/3", pair);
     *value++ = 0;
     int key = key_find(pair, keys, error);
     if (key < 0)
@@ -276,17 +260,14 @@ static void set_colors(struct reading *reading)
         light->ambient = given[AMBIENT];
 }
 
-bool light_cone_check(const double *cutoff_deg, const double *inner_deg, const double *outer_deg,
-                      lam_error *error)
+bool light_cone_check(const double *cutoff_deg, const double *inner_deg, const double *outer_deg, lam_error *error)
 {
     if (outer_deg && !(*inner_deg < *outer_deg))
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "inner is %g and outer is %g degrees, expected inner < outer", *inner_deg,
-                        *outer_deg);
+        return complain(error, LAM_BAD_ARGUMENT, "inner is %g and outer is %g degrees, expected inner < outer",
+                        *inner_deg, *outer_deg);
     if (cutoff_deg && !((*cutoff_deg > 0 && *cutoff_deg <= 90) || *cutoff_deg == 180))
         return complain(error, LAM_BAD_ARGUMENT,
-                        "cutoff is %g degrees, expected a half angle above 0 and up to 90, or 180",
-                        *cutoff_deg);
+                        "cutoff is %g degrees, expected a half angle above 0 and up to 90, or 180", *cutoff_deg);
     return true;
 }
 
@@ -328,8 +309,7 @@ static bool set_place(struct reading *reading, lam_error *error)
         if (light->type == LAM_LIGHT_SPOT)
             return complain(error, LAM_BAD_ARGUMENT, "a spot light has a place, expected w above 0");
         if (option->has_direction || option->has_target)
-            return complain(error, LAM_BAD_ARGUMENT,
-                            "position with w = 0 is a direction already, found another");
+            return complain(error, LAM_BAD_ARGUMENT, "position with w = 0 is a direction already, found another");
         if (p->x == 0 && p->y == 0 && p->z == 0)
             return complain(error, LAM_BAD_ARGUMENT, "position is 0/0/0/0, expected a direction");
         light->type = LAM_LIGHT_DIRECTIONAL;
@@ -337,9 +317,8 @@ static bool set_place(struct reading *reading, lam_error *error)
         option->has_position = false;
         option->has_direction = true;
     } else if (light->type == LAM_LIGHT_DIRECTIONAL && option->has_position != option->has_target) {
-        return complain(
-            error, LAM_BAD_ARGUMENT,
-            "a directional light takes direction=x/y/z, position=x/y/z/0, or both position and target");
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "a directional light takes direction=x/y/z, position=x/y/z/0, or both position and target");
     }
     return true;
 }
@@ -349,8 +328,8 @@ static bool check_keys(const struct reading *reading, lam_error *error)
     lam_light_type type = reading->option->light.type;
     for (int key = 0; key < KEY_COUNT; key++)
         if (reading->seen & ~keys_of_type[type] & BIT(key))
-            return complain(error, LAM_BAD_ARGUMENT, "%s%s light has no '%s'",
-                            type == LAM_LIGHT_AMBIENT ? "an " : "a ", type_names[type], keys[key]);
+            return complain(error, LAM_BAD_ARGUMENT, "%s%s light has no '%s'", type == LAM_LIGHT_AMBIENT ? "an " : "a ",
+                            type_names[type], keys[key]);
     return true;
 }
 
@@ -376,8 +355,8 @@ bool light_option_parse(const char *text, lam_color_mode mode, struct light_opti
     if (option->none)
         return true;
     if (strlen(text) >= sizeof option->text)
-        return complain(error, LAM_BAD_ARGUMENT, "it is %zu letters long, expected less than %zu",
-                        strlen(text), sizeof option->text);
+        return complain(error, LAM_BAD_ARGUMENT, "it is %zu letters long, expected less than %zu", strlen(text),
+                        sizeof option->text);
     strcpy(option->text, text);
     char *rest = strchr(option->text, ':');
     if (rest)

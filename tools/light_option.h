@@ -25,11 +25,10 @@ struct model_sphere {
 };
 
 // Adds the light to the scene.
-bool light_option_add(const struct light_option *option, const struct model_sphere *sphere,
-                      const lam_camera *camera, lam_scene *scene, lam_error *error);
+bool light_option_add(const struct light_option *option, const struct model_sphere *sphere, const lam_camera *camera,
+                      lam_scene *scene, lam_error *error);
 
 // Whether angles make a cone; NULL: that kind is not asked for. Errors tell degrees.
-bool light_cone_check(const double *cutoff_deg, const double *inner_deg, const double *outer_deg,
-                      lam_error *error);
+bool light_cone_check(const double *cutoff_deg, const double *inner_deg, const double *outer_deg, lam_error *error);
 
 #endif

@@ -26,20 +26,17 @@ static int find_object(const lam_scene *scene, const char *name, lam_error *erro
     if (named == 1)
         return found;
     if (named > 1) {
-        complain(error, LAM_BAD_ARGUMENT, "option '--light': %d objects are named '%.60s', expected one",
-                 named, name);
+        complain(error, LAM_BAD_ARGUMENT, "option '--light': %d objects are named '%.60s', expected one", named, name);
         return -1;
     }
     complain(error, LAM_BAD_ARGUMENT, "option '--light': the model has no object '%.60s'%s%.60s%s", name,
-             nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
-             nearest.best ? "'?" : "");
+             nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
     return -1;
 }
 
 // The sphere as the light's frame sees it.
-static bool sphere_in_frame(const lam_light *light, const struct model_sphere *sphere,
-                            const lam_camera *camera, const lam_scene *scene, struct model_sphere *out,
-                            lam_error *error)
+static bool sphere_in_frame(const lam_light *light, const struct model_sphere *sphere, const lam_camera *camera,
+                            const lam_scene *scene, struct model_sphere *out, lam_error *error)
 {
     *out = *sphere;
     if (light->frame == LAM_FRAME_CAMERA) {
@@ -59,8 +56,8 @@ static bool sphere_in_frame(const lam_light *light, const struct model_sphere *s
     return true;
 }
 
-bool light_option_add(const struct light_option *option, const struct model_sphere *sphere,
-                      const lam_camera *camera, lam_scene *scene, lam_error *error)
+bool light_option_add(const struct light_option *option, const struct model_sphere *sphere, const lam_camera *camera,
+                      lam_scene *scene, lam_error *error)
 {
     lam_light light = option->light;
     struct model_sphere here;
@@ -75,13 +72,11 @@ bool light_option_add(const struct light_option *option, const struct model_sphe
     if (!option->has_target)
         target = here.centre;
     if (option->has_target || (light.type == LAM_LIGHT_SPOT && !option->has_direction)) {
-        lam_vec3 way = {target.x - light.position.x, target.y - light.position.y,
-                        target.z - light.position.z};
+        lam_vec3 way = {target.x - light.position.x, target.y - light.position.y, target.z - light.position.z};
         if (way.x != 0 || way.y != 0 || way.z != 0)
             light.direction = way;
         else if (option->has_target)
-            return complain(error, LAM_BAD_ARGUMENT,
-                            "option '--light': position and target are the same point");
+            return complain(error, LAM_BAD_ARGUMENT, "option '--light': position and target are the same point");
     }
     double r = sphere->radius;
     if (option->linear_in_radii)

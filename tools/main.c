@@ -30,7 +30,7 @@ static const struct command *take_command(int *count, char **words)
     const struct command *command = *count ? find_command(words[0]) : NULL;
     if (!command)
         return command_table;
-    memmove(words, words + 1, (size_t)-- * count * sizeof *words);
+    memmove(words, words + 1, (size_t)--*count * sizeof *words);
     return command;
 }
 
@@ -39,8 +39,7 @@ static bool check_operands(const struct command *command, int count, char **oper
     if (count < command->least && command == command_table)
         return complain(error, LAM_BAD_ARGUMENT, "no model is given, expected a file, a shape's name or -");
     if (count < command->least)
-        return complain(error, LAM_BAD_ARGUMENT, "%s: an argument is missing: %s", command->name,
-                        command->operands);
+        return complain(error, LAM_BAD_ARGUMENT, "%s: an argument is missing: %s", command->name, command->operands);
     if (command->most >= 0 && count > command->most)
         return complain(error, LAM_BAD_ARGUMENT, "%s: unexpected argument '%s'", command->name,
                         operands[command->most]);
@@ -72,8 +71,7 @@ static int run(int count, char **words)
     struct options foreseen = foresee(count, words);
     const struct command *command = take_command(&count, words);
     int operands = options_parse(count, words, command->groups, &options, &error);
-    int code =
-        operands < 0 ? tell_failure(&error, &foreseen) : run_command(command, operands, words, &options);
+    int code = operands < 0 ? tell_failure(&error, &foreseen) : run_command(command, operands, words, &options);
     options_free(&options);
     return code;
 }

@@ -150,12 +150,11 @@ static void markdown_option(const struct option *o)
 
 void generate_markdown(void)
 {
-    printf(
-        "<!-- Made by `lambent generate markdown` from tools/option_table.c and tools/command_table.c. -->\n"
-        "# The command line\n\n"
-        "    lambent [OPTIONS] MODEL...\n"
-        "    lambent COMMAND [ARGUMENTS]\n\n"
-        "## Examples\n\n| command | what it does |\n|---|---|\n");
+    printf("<!-- Made by `lambent generate markdown` from tools/option_table.c and tools/command_table.c. -->\n"
+           "# The command line\n\n"
+           "    lambent [OPTIONS] MODEL...\n"
+           "    lambent COMMAND [ARGUMENTS]\n\n"
+           "## Examples\n\n| command | what it does |\n|---|---|\n");
     for (const struct example *e = examples; e->line; e++) {
         printf("| `");
         cell(e->line);

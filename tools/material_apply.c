@@ -88,11 +88,10 @@ static bool set_back(const struct material_option *option, const char *name, int
     lam_object object = *lam_scene_object(scene, index);
     int front = front_of(scene, &object);
     if (front == -2 && option->id == LAM_MATERIAL_COUNT)
-        return complain(
-            error, LAM_BAD_ARGUMENT,
-            "option '--%s': the front of '%.100s' has several materials, so what is left out cannot be the "
-            "front's; begin with a material's name: %s gold,…",
-            name, object.name ? object.name : "the model", name);
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--%s': the front of '%.100s' has several materials, so what is left out cannot be the "
+                        "front's; begin with a material's name: %s gold,…",
+                        name, object.name ? object.name : "the model", name);
     object.back_material = add_changed(option, front == -2 ? -1 : front, scene, error);
     return object.back_material >= 0 && lam_scene_set_object(scene, index, &object, error);
 }
@@ -146,8 +145,8 @@ static int set_materials(const struct material_option *option, lam_scene *scene,
     return found;
 }
 
-static bool not_found(const struct material_option *option, bool back, const char *name,
-                      const lam_scene *scene, lam_error *error)
+static bool not_found(const struct material_option *option, bool back, const char *name, const lam_scene *scene,
+                      lam_error *error)
 {
     struct suggestion nearest = suggest_start(option->target);
     for (int i = 0; i < lam_scene_object_count(scene); i++)
@@ -162,8 +161,7 @@ static bool not_found(const struct material_option *option, bool back, const cha
             suggest_try(&nearest, lam_scene_material(scene, i)->name);
     return complain(error, LAM_BAD_ARGUMENT, "option '--%s': the model has no %s '%.60s'%s%.60s%s", name,
                     back ? "object" : "object, part or material", option->target,
-                    nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
-                    nearest.best ? "'?" : "");
+                    nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
 }
 
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,

@@ -31,10 +31,7 @@ enum key {
 
 #define BIT(key) (1u << (key))
 
-static bool given(const struct material_option *option, enum key key)
-{
-    return (option->seen & BIT(key)) != 0;
-}
+static bool given(const struct material_option *option, enum key key) { return (option->seen & BIT(key)) != 0; }
 
 static double *number_of(struct material_option *option, enum key key) { return &option->numbers[key - KA]; }
 
@@ -60,8 +57,7 @@ static bool read_value(enum key key, const char *value, lam_color_mode mode, str
     if (!read_one(value, number))
         return complain(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected a number", keys[key], value);
     if (!(*number >= 0 && *number <= 1e30))
-        return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected a number of at least 0", keys[key],
-                        value);
+        return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected a number of at least 0", keys[key], value);
     if (key == OPACITY && *number > 1)
         return complain(error, LAM_BAD_ARGUMENT, "opacity is %.60s, expected a number from 0 to 1", value);
     return true;
@@ -71,8 +67,7 @@ static bool read_pair(char *pair, lam_color_mode mode, struct material_option *o
 {
     char *value = strchr(pair, '=');
     if (!value && strcmp(pair, "fibre") != 0)
-        return complain(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as shininess=50",
-                        pair);
+        return complain(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as shininess=50", pair);
     if (value)
         *value++ = 0;
     int key = key_find(pair, keys, error);
@@ -94,13 +89,12 @@ static bool unknown_material(const char *name, lam_error *error)
                     nearest.best ? "'?" : "; `lambent materials` lists them");
 }
 
-bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option,
-                           lam_error *error)
+bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error)
 {
     *option = (struct material_option){.id = LAM_MATERIAL_COUNT};
     if (strlen(text) >= sizeof option->text)
-        return complain(error, LAM_BAD_ARGUMENT, "it is %zu letters long, expected less than %zu",
-                        strlen(text), sizeof option->text);
+        return complain(error, LAM_BAD_ARGUMENT, "it is %zu letters long, expected less than %zu", strlen(text),
+                        sizeof option->text);
     strcpy(option->text, text);
     char *rest = option->text, *at = strchr(rest, '@');
     if (at) {
@@ -111,8 +105,7 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
                             "nothing follows '@', expected the name of an object, part or material");
     }
     if (!*rest)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "its value is empty, expected a material's name or key=value");
+        return complain(error, LAM_BAD_ARGUMENT, "its value is empty, expected a material's name or key=value");
     size_t first = strcspn(rest, ",");
     if (!memchr(rest, '=', first) && !(first == 5 && memcmp(rest, "fibre", 5) == 0)) {
         char *name = strsep(&rest, ",");
@@ -126,8 +119,8 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
     return true;
 }
 
-void material_option_plain(struct material_option *option, bool has_shininess, double shininess,
-                           bool has_opacity, double opacity)
+void material_option_plain(struct material_option *option, bool has_shininess, double shininess, bool has_opacity,
+                           double opacity)
 {
     *option = (struct material_option){.id = LAM_MATERIAL_COUNT};
     option->seen = (has_shininess ? BIT(SHININESS) : 0) | (has_opacity ? BIT(OPACITY) : 0);
@@ -199,9 +192,8 @@ void material_option_warn(const struct material_option *option, const char *name
         if (!(most > 1))
             continue;
         char text[200];
-        snprintf(text, sizeof text,
-                 "option '--%s': %s is %g: a surface that returns more light than arrives (over 1)", name,
-                 keys[key], most);
+        snprintf(text, sizeof text, "option '--%s': %s is %g: a surface that returns more light than arrives (over 1)",
+                 name, keys[key], most);
         lam_scene_add_warning(scene, text);
     }
 }

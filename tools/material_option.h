@@ -14,14 +14,12 @@ struct material_option {
 };
 
 // "NAME", "key=value,…" or "NAME,key=value,…", with "@WHERE" behind; docs in the table of options.
-bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option,
-                           lam_error *error);
+bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error);
 
 // The material that the option makes of one.
 lam_material material_option_apply(const struct material_option *option, lam_material material);
 
-// Gives a scene's objects their new material, or (`back`) their back sides. `name` is the option's, for
-// errors.
+// Gives a scene's objects their new material, or (`back`) their back sides. `name` is the option's, for errors.
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                          lam_error *error);
 
@@ -32,7 +30,7 @@ void material_option_warn(const struct material_option *option, const char *name
 void materials_warn(lam_scene *scene);
 
 // The changes of --shininess and --opacity; has_… tells which is given.
-void material_option_plain(struct material_option *option, bool has_shininess, double shininess,
-                           bool has_opacity, double opacity);
+void material_option_plain(struct material_option *option, bool has_shininess, double shininess, bool has_opacity,
+                           double opacity);
 
 #endif

@@ -15,10 +15,7 @@
 
 enum { COLUMNS = 6, ROWS = (LAM_MATERIAL_COUNT + COLUMNS - 1) / COLUMNS };
 
-static void print_triple(float r, float g, float b)
-{
-    printf("  %8g %8g %8g", (double)r, (double)g, (double)b);
-}
+static void print_triple(float r, float g, float b) { printf("  %8g %8g %8g", (double)r, (double)g, (double)b); }
 
 static void print_list(void)
 {
@@ -86,9 +83,8 @@ static void tell_list(const struct options *options)
         print_list();
 }
 
-// One mesh, an object for each material: rows of COLUMNS, the list's order from the top left. The light is
-// that of the program the table comes from: directional, from (0, 3, 3), global ambient 0.2, the viewer
-// infinitely far.
+// One mesh, an object for each material: rows of COLUMNS, the list's order from the top left. The light is that of the
+// program the table comes from: directional, from (0, 3, 3), global ambient 0.2, the viewer infinitely far.
 static bool build_scene(lam_scene *scene, lam_error *error)
 {
     int mesh = lam_scene_add_shape(scene, "teapot", NULL, error);
@@ -116,8 +112,8 @@ static bool build_scene(lam_scene *scene, lam_error *error)
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 // The name of each material beneath its teapot: in grey, which is read on any background.
-static bool draw_captions(const lam_scene *scene, const struct options *o, const lam_camera *camera,
-                          lam_image *image, lam_error *error)
+static bool draw_captions(const lam_scene *scene, const struct options *o, const lam_camera *camera, lam_image *image,
+                          lam_error *error)
 {
     lam_font *font = lam_font_open(o->font, error);
     if (!font) {
@@ -132,13 +128,11 @@ static bool draw_captions(const lam_scene *scene, const struct options *o, const
     double unit = image->height / (2 * camera->ortho_half_height); // pixels
     lam_vec3 centre;
     double radius;
-    for (int i = 0; ok && i < lam_scene_object_count(scene) && lam_scene_sphere(scene, i, &centre, &radius);
-         i++) {
+    for (int i = 0; ok && i < lam_scene_object_count(scene) && lam_scene_sphere(scene, i, &centre, &radius); i++) {
         const lam_object *object = lam_scene_object(scene, i);
         // Seen level from the front but for a little from above: x is the picture's, y and z make its height.
         lam_vec3 from_target = {centre.x + object->transform.m[0][3] - camera->target.x,
-                                centre.y + object->transform.m[1][3] - camera->target.y,
-                                centre.z - camera->target.z};
+                                centre.y + object->transform.m[1][3] - camera->target.y, centre.z - camera->target.z};
         double size = 0.21 * unit, most = 2.1 * unit, width = lam_text_width(font, size, object->name);
         if (width > most) {
             size *= most / width;
@@ -146,8 +140,7 @@ static bool draw_captions(const lam_scene *scene, const struct options *o, const
         }
         double x = image->width / 2.0 + from_target.x * unit - width / 2;
         double y = image->height / 2.0 - (dot(from_target, camera->up) - CAPTION_BELOW) * unit;
-        ok = size < 1 ||
-             lam_text_draw(image, font, x, y, size, (lam_rgba){grey, grey, grey, 1}, object->name, error);
+        ok = size < 1 || lam_text_draw(image, font, x, y, size, (lam_rgba){grey, grey, grey, 1}, object->name, error);
     }
     lam_font_free(font);
     return ok;
@@ -186,8 +179,7 @@ static bool write_sheet(const struct options *o, const lam_image *image, lam_err
     if (!output_is_stream(o->output))
         return lam_image_save(image, o->output, &params, error);
     lam_bytes bytes = {0};
-    bool ok =
-        lam_image_encode(image, "png", &params, &bytes, error) && output_write(o->output, &bytes, error);
+    bool ok = lam_image_encode(image, "png", &params, &bytes, error) && output_write(o->output, &bytes, error);
     lam_bytes_free(&bytes);
     return ok;
 }

@@ -37,14 +37,12 @@ static const struct word light_frame_words[] = {
     {"camera", LAM_FRAME_CAMERA, "in eye space: used as given"},
     {NULL, 0, NULL}};
 
-static const struct word highlight_words[] = {{"phong", LAM_REFLECTION_PHONG, "r.v"},
-                                              {"blinn-phong", LAM_REFLECTION_BLINN_PHONG, "n.h"},
-                                              {NULL, 0, NULL}};
+static const struct word highlight_words[] = {
+    {"phong", LAM_REFLECTION_PHONG, "r.v"}, {"blinn-phong", LAM_REFLECTION_BLINN_PHONG, "n.h"}, {NULL, 0, NULL}};
 
-static const struct word compress_words[] = {
-    {"fast", LAM_COMPRESS_FAST, "some milliseconds for a million pixels"},
-    {"best", LAM_COMPRESS_BEST, "the smallest file, in a second or two"},
-    {NULL, 0, NULL}};
+static const struct word compress_words[] = {{"fast", LAM_COMPRESS_FAST, "some milliseconds for a million pixels"},
+                                             {"best", LAM_COMPRESS_BEST, "the smallest file, in a second or two"},
+                                             {NULL, 0, NULL}};
 
 static const struct word color_words[] = {
     {"srgb", LAM_COLOR_SRGB, "colours of files are decoded, lighting is linear, the picture is encoded"},
@@ -71,11 +69,10 @@ static const struct word show_words[] = {
     {"all", LAM_SHOW_PICTURE, "the picture, every term and every light, as layers of a .exr"},
     {NULL, 0, NULL}};
 
-static const struct word glsl_words[] = {
-    {"330", LAM_GLSL_330, "OpenGL 3.3"},
-    {"120", LAM_GLSL_120, "OpenGL 2.1: attribute and varying, no blocks, no flat"},
-    {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
-    {NULL, 0, NULL}};
+static const struct word glsl_words[] = {{"330", LAM_GLSL_330, "OpenGL 3.3"},
+                                         {"120", LAM_GLSL_120, "OpenGL 2.1: attribute and varying, no blocks, no flat"},
+                                         {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
+                                         {NULL, 0, NULL}};
 
 static const struct word lights_in_words[] = {
     {"auto", LAM_SHADER_LIGHTS_AUTO, "an array in GLSL 120, else a block"},
@@ -130,8 +127,7 @@ static const struct word rig_words[] = {
     {"studio", LAM_RIG_STUDIO, "key, fill and rim light fixed to the camera, sky and ground"},
     {"headlight", LAM_RIG_HEADLIGHT, "one light from the eye"},
     {"three-point", LAM_RIG_THREE_POINT, "a portrait's key, fill and back light, fixed to the camera"},
-    {"lecture", LAM_RIG_LECTURE,
-     "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
+    {"lecture", LAM_RIG_LECTURE, "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
     {NULL, 0, NULL}};
 
 static const struct word stage_words[] = {
@@ -140,44 +136,39 @@ static const struct word stage_words[] = {
     {"fragment", LAM_STAGE_FRAGMENT, "for each fragment (flat, phong)"},
     {NULL, 0, NULL}};
 
-static const struct word device_words[] = {
-    {"auto", DEVICE_AUTO, "the CPU; OpenGL where `--gl-device` asks for one"},
-    {"cpu", DEVICE_CPU, "the processor: the same bytes everywhere"},
-    {"gl", DEVICE_GL, "OpenGL 3.3"},
-    {"gles", DEVICE_GLES, "OpenGL ES 3.0, which is what WebGL 2 has"},
-    {NULL, 0, NULL}};
+static const struct word device_words[] = {{"auto", DEVICE_AUTO, "the CPU; OpenGL where `--gl-device` asks for one"},
+                                           {"cpu", DEVICE_CPU, "the processor: the same bytes everywhere"},
+                                           {"gl", DEVICE_GL, "OpenGL 3.3"},
+                                           {"gles", DEVICE_GLES, "OpenGL ES 3.0, which is what WebGL 2 has"},
+                                           {NULL, 0, NULL}};
 
 static const struct word viewer_words[] = {
     {"local", LAM_VIEWER_LOCAL, "the eye is where the camera is"},
     {"infinite", LAM_VIEWER_INFINITE, "it is infinitely far: the same direction for every point"},
     {NULL, 0, NULL}};
 
-static const struct word flat_normal_words[] = {
-    {"face", LAM_FLAT_NORMAL_FACE, "the triangle's own"},
-    {"vertex", LAM_FLAT_NORMAL_VERTEX, "its last vertex's, as OpenGL does"},
-    {NULL, 0, NULL}};
+static const struct word flat_normal_words[] = {{"face", LAM_FLAT_NORMAL_FACE, "the triangle's own"},
+                                                {"vertex", LAM_FLAT_NORMAL_VERTEX, "its last vertex's, as OpenGL does"},
+                                                {NULL, 0, NULL}};
 
 static const struct word cull_words[] = {{"none", LAM_CULL_NONE, "both sides are drawn"},
                                          {"back", LAM_CULL_BACK, NULL},
                                          {"front", LAM_CULL_FRONT, NULL},
                                          {NULL, 0, NULL}};
 
-static const struct word normals_words[] = {
-    {"file", LAM_NORMALS_FILE, "the file's; smooth ones where it has none"},
-    {"smooth", LAM_NORMALS_SMOOTH, "made smooth whatever the file says"},
-    {"facet", LAM_NORMALS_FACET, "each triangle's own"},
-    {NULL, 0, NULL}};
+static const struct word normals_words[] = {{"file", LAM_NORMALS_FILE, "the file's; smooth ones where it has none"},
+                                            {"smooth", LAM_NORMALS_SMOOTH, "made smooth whatever the file says"},
+                                            {"facet", LAM_NORMALS_FACET, "each triangle's own"},
+                                            {NULL, 0, NULL}};
 
 static const struct word sheet_words[] = {
     {"summary", SHEET_SUMMARY,
      "flat, smooth, normal interpolation, reflection (of --environment, else of the sky) and anisotropic"},
-    {"terms", SHEET_TERMS,
-     "ambient, diffuse and specular alone; all at shininess 50, at 1000, and at 1000 flat"},
+    {"terms", SHEET_TERMS, "ambient, diffuse and specular alone; all at shininess 50, at 1000, and at 1000 flat"},
     {"stages", SHEET_STAGES, "lit per vertex and per fragment, the brightest highlight enlarged"},
     {"light", SHEET_LIGHT, "the model in white and in green light, with its own colours and in orange"},
     {"ambient", SHEET_AMBIENT, "ambient and diffuse light white and white, red and white, red and red"},
-    {"frames", SHEET_FRAMES,
-     "one light in the world's, the camera's and the model's frame, before and after a turn"},
+    {"frames", SHEET_FRAMES, "one light in the world's, the camera's and the model's frame, before and after a turn"},
     {"surfaces", SHEET_SURFACES, "specular, diffuse and translucent"},
     {NULL, 0, NULL}};
 
@@ -203,16 +194,16 @@ const struct option option_table[] = {
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "Size in pixels: 800 is 800x800; 1920x1080.", NULL,
      .store = store_size, .most = 65535, .single = TAKES_SIZE},
     {"samples", 0, GROUP_PICTURE, "N", "4", "Samples per pixel: 1, 2, 4, 8 or 16.",
-     "More samples give smoother edges. Each pixel is lit once for each triangle that it shows.",
-     sample_words, .store = store_word, FIELD(samples)},
+     "More samples give smoother edges. Each pixel is lit once for each triangle that it shows.", sample_words,
+     .store = store_word, FIELD(samples)},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "Behind the model: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
      "A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), one of the basic names (`black`, `white`, "
      "`gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour "
      "names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",
      .store = store_color, FIELD(background)},
-    {"color", 0, GROUP_PICTURE, "MODE", "srgb", "How colours become numbers: srgb or raw (no conversion).",
-     NULL, color_words, .store = store_word, FIELD(color)},
+    {"color", 0, GROUP_PICTURE, "MODE", "srgb", "How colours become numbers: srgb or raw (no conversion).", NULL,
+     color_words, .store = store_word, FIELD(color)},
     {"compress", 0, GROUP_PICTURE, "HOW", "fast", "How PNG files are compressed: fast or best.",
      "`best` makes a file that is about a third smaller and takes a second or two for a million pixels, "
      "`fast` takes some milliseconds. The picture is the same, pixel for pixel; other formats take no "
@@ -237,8 +228,7 @@ const struct option option_table[] = {
      "`docs/show.md` has the table of all of them.",
      show_words, .store = store_show, FIELD(show)},
 
-    {"save-scene", 0, GROUP_PICTURE, "FILE", NULL,
-     "Also write a scene file (JSON) that gives this picture again.",
+    {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that gives this picture again.",
      "The file holds what the command line amounts to: the model's name relative to FILE, the camera that "
      "was used, all "
      "lights (those of the rig spelled out), materials, transforms and the options of the picture. `lambent "
@@ -246,28 +236,26 @@ const struct option option_table[] = {
      "the same bytes. An older FILE is replaced. `docs/scene-file.md` has the format.",
      .takes_file = true, .store = store_text, FIELD(save_scene)},
 
-    {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
-     "Seen from the front, back, left, right, top, bottom or iso.",
+    {"view", 0, GROUP_VIEW, "SIDE", "three-quarter", "Seen from the front, back, left, right, top, bottom or iso.",
      "Without it the camera stands 30 degrees to the right of the front and 20 degrees above. The model "
      "always fills 92 % of the picture's tighter side. `--azimuth` and `--elevation` change the angles of "
      "a named side.",
      view_words, .store = store_word, FIELD(view)},
-    {"azimuth", 0, GROUP_VIEW, "DEGREES", "30",
-     "Camera's turn around the model; 0 is the front, 90 the right.", NULL, .store = store_number,
-     FIELD(azimuth_deg), .has_field = offsetof(struct options, has_azimuth), .least = -3600, .most = 3600},
+    {"azimuth", 0, GROUP_VIEW, "DEGREES", "30", "Camera's turn around the model; 0 is the front, 90 the right.", NULL,
+     .store = store_number, FIELD(azimuth_deg), .has_field = offsetof(struct options, has_azimuth), .least = -3600,
+     .most = 3600},
     {"elevation", 0, GROUP_VIEW, "DEGREES", "20", "Camera's height; 0 is level, 90 straight above.", NULL,
-     .store = store_number, FIELD(elevation_deg), .has_field = offsetof(struct options, has_elevation),
-     .least = -90, .most = 90},
+     .store = store_number, FIELD(elevation_deg), .has_field = offsetof(struct options, has_elevation), .least = -90,
+     .most = 90},
     {"zoom", 0, GROUP_VIEW, "FACTOR", "1", "2 shows the model twice as large.", NULL, .store = store_number,
      FIELD(zoom), .least = 0.001, .most = 1000},
-    {"projection", 0, GROUP_VIEW, "KIND", "perspective", "How depth is shown: perspective or orthographic.",
-     NULL, projection_words, .store = store_word, FIELD(projection)},
+    {"projection", 0, GROUP_VIEW, "KIND", "perspective", "How depth is shown: perspective or orthographic.", NULL,
+     projection_words, .store = store_word, FIELD(projection)},
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z or auto.",
      "It turns the camera and the lights that go with it; the model's coordinates stay as they are. STL "
      "files are taken as Z up, the habit of printing and CAD; the others as Y up.",
      up_words, .store = store_word, FIELD(up)},
-    {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL,
-     "Turn the model itself about its centre, such as y:30; repeatable.",
+    {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Turn the model itself about its centre, such as y:30; repeatable.",
      "About x, y or z of the scene, in the order given. The lights stay where they are (but those of the "
      "model's own frame), and "
      "radii are counted by the model as it was; the camera is fitted to what results.",
@@ -311,10 +299,10 @@ const struct option option_table[] = {
      .store = store_light, FIELD(lights)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A ready-made set of lights: studio, headlight, three-point, lecture, file (the model's), none or auto.",
-     "A named rig takes the place of the model's own lights. docs/lighting/lights.md has the numbers.",
-     rig_words, .store = store_word, FIELD(rig), .has_field = offsetof(struct options, has_rig)},
-    {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Light from everywhere: #rrggbb, r/g/b, a name or one number.",
-     NULL, .store = store_light_color, FIELD(ambient)},
+     "A named rig takes the place of the model's own lights. docs/lighting/lights.md has the numbers.", rig_words,
+     .store = store_word, FIELD(rig), .has_field = offsetof(struct options, has_rig)},
+    {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Light from everywhere: #rrggbb, r/g/b, a name or one number.", NULL,
+     .store = store_light_color, FIELD(ambient)},
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
      "Draw where the lights are: balls, and cones that point the way they shine.",
      "A directional light's marker stands one and a half radii from the model's centre. The markers glow in "
@@ -331,11 +319,11 @@ const struct option option_table[] = {
      "half a step of an 8-bit channel (0.5/255): no byte is off by more than 1. Lights that add exactly "
      "nothing "
      "(behind the surface, beyond their range, outside of their cone) are always left out.",
-     .store = store_number, FIELD(light_cutoff), .has_field = offsetof(struct options, has_light_cutoff),
-     .least = 0, .most = 1},
+     .store = store_number, FIELD(light_cutoff), .has_field = offsetof(struct options, has_light_cutoff), .least = 0,
+     .most = 1},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "All lights this much brighter (not `--ambient`).", NULL,
-     .store = store_number, FIELD(light_scale), .has_field = offsetof(struct options, has_light_scale),
-     .least = 0, .most = 1e6},
+     .store = store_number, FIELD(light_scale), .has_field = offsetof(struct options, has_light_scale), .least = 0,
+     .most = 1e6},
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@WHERE]", "the model's",
      "Another material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
      "A name of the classic table, or keys with commas between them, or a name and then keys "
@@ -355,39 +343,33 @@ const struct option option_table[] = {
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
      "The material of back faces, as in `--material`; what it leaves out is the front's.", NULL,
      .store = store_material, FIELD(back_materials)},
-    {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL,
-     "The exponent of all highlights: 10 is wide, 1000 sharp.",
-     "It takes the place of the materials' own, also of `--material`.", .store = store_number,
-     FIELD(shininess), .has_field = offsetof(struct options, has_shininess), .least = 0, .most = 1e30},
+    {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 sharp.",
+     "It takes the place of the materials' own, also of `--material`.", .store = store_number, FIELD(shininess),
+     .has_field = offsetof(struct options, has_shininess), .least = 0, .most = 1e30},
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "Alpha of all materials: 1 is opaque, 0 clear.",
      "It takes the place of the materials' own, also of `--material`; vertex colours may have an alpha "
      "besides.",
-     .store = store_number, FIELD(opacity), .has_field = offsetof(struct options, has_opacity), .least = 0,
-     .most = 1},
+     .store = store_number, FIELD(opacity), .has_field = offsetof(struct options, has_opacity), .least = 0, .most = 1},
 
-    {"shading", 0, GROUP_SHADING, "METHOD", "phong",
-     "Where light is worked out: flat, gouraud or phong (each pixel).", NULL, shading_words,
-     .store = store_word, FIELD(shading), .has_field = offsetof(struct options, has_shading)},
+    {"shading", 0, GROUP_SHADING, "METHOD", "phong", "Where light is worked out: flat, gouraud or phong (each pixel).",
+     NULL, shading_words, .store = store_word, FIELD(shading), .has_field = offsetof(struct options, has_shading)},
     {"reflection", 0, GROUP_SHADING, "MODEL", "auto",
-     "How surfaces answer light: none, lambert, phong, blinn-phong, kajiya-kay, kajiya-kay-lecture or auto.",
-     NULL, reflection_words, .store = store_word, FIELD(reflection)},
-    {"stage", 0, GROUP_SHADING, "WHERE", "fragment",
-     "Where lighting is worked out: application, vertex or fragment.",
+     "How surfaces answer light: none, lambert, phong, blinn-phong, kajiya-kay, kajiya-kay-lecture or auto.", NULL,
+     reflection_words, .store = store_word, FIELD(reflection)},
+    {"stage", 0, GROUP_SHADING, "WHERE", "fragment", "Where lighting is worked out: application, vertex or fragment.",
      "Without `--shading`, application and vertex take gouraud and fragment takes phong. flat goes with all "
      "three, gouraud with "
      "application and vertex, phong with fragment. On this device all stages of a shading method give the "
      "same bytes.",
      stage_words, .store = store_word, FIELD(stage)},
-    {"flat-normal", 0, GROUP_SHADING, "SOURCE", "face",
-     "The normal of flat shading: face or vertex (the last one's).", NULL, flat_normal_words,
-     .store = store_word, FIELD(flat_normal)},
+    {"flat-normal", 0, GROUP_SHADING, "SOURCE", "face", "The normal of flat shading: face or vertex (the last one's).",
+     NULL, flat_normal_words, .store = store_word, FIELD(flat_normal)},
     {"viewer", 0, GROUP_SHADING, "KIND", "local", "Where the eye is for highlights: local or infinite.", NULL,
      viewer_words, .store = store_word, FIELD(viewer)},
     {"match-highlights", 0, GROUP_SHADING, NULL, NULL,
      "Blinn-Phong takes 4 times the shininess, so that it looks like Phong.", NULL, .store = store_switch,
      FIELD(match_highlights)},
-    {"gl1", 0, GROUP_SHADING, NULL, NULL,
-     "As OpenGL 1: vertex colours clamped, shininess to 128, ambient attenuated.",
+    {"gl1", 0, GROUP_SHADING, NULL, NULL, "As OpenGL 1: vertex colours clamped, shininess to 128, ambient attenuated.",
      "For comparison with old programs: vertex colours are clamped to 0...1 before they are interpolated, "
      "the shininess is at "
      "most 128, and the ambient light of a light fades with it and is narrowed by its cone.",
@@ -395,16 +377,15 @@ const struct option option_table[] = {
     {"two-sided", 0, GROUP_SHADING, NULL, NULL,
      "Light back faces with the normal turned round, whatever the model says.", NULL, .store = store_switch,
      FIELD(two_sided)},
-    {"one-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces as front faces, with the normal as it is.",
-     NULL, .store = store_switch, FIELD(one_sided)},
+    {"one-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces as front faces, with the normal as it is.", NULL,
+     .store = store_switch, FIELD(one_sided)},
     {"cull", 0, GROUP_SHADING, "SIDE", "the model's",
-     "Leave out the back or front faces of all objects: none, back or front.", NULL, cull_words,
-     .store = store_word, FIELD(cull), .has_field = offsetof(struct options, has_cull)},
-    {"normals", 0, GROUP_SHADING, "SOURCE", "file",
-     "Whose normals: the file's (file), smooth or facet ones made anew.", NULL, normals_words,
-     .store = store_word, FIELD(normals)},
-    {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Made normals are split at sharper edges than this.",
-     NULL, .store = store_number, FIELD(crease_angle_deg), .least = 0, .most = 180},
+     "Leave out the back or front faces of all objects: none, back or front.", NULL, cull_words, .store = store_word,
+     FIELD(cull), .has_field = offsetof(struct options, has_cull)},
+    {"normals", 0, GROUP_SHADING, "SOURCE", "file", "Whose normals: the file's (file), smooth or facet ones made anew.",
+     NULL, normals_words, .store = store_word, FIELD(normals)},
+    {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Made normals are split at sharper edges than this.", NULL,
+     .store = store_number, FIELD(crease_angle_deg), .least = 0, .most = 180},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "Segments of a built-in shape: slices around, and stacks along, such as 64x32.",
      "N is 3 to 16384; `lambent shapes` says what the segments are of each shape. M left out is the shape's "
@@ -438,12 +419,11 @@ const struct option option_table[] = {
      "is told "
      "(exit 3), and nothing else is drawn in its place. `lambent devices` lists what there is.",
      device_words, .store = store_word, FIELD(device)},
-    {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable",
-     "Which OpenGL device, by number or part of its name.",
+    {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable", "Which OpenGL device, by number or part of its name.",
      "The number is that of `lambent devices`, where hardware stands before software.", .store = store_text,
      FIELD(gl_device)},
-    {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median one's time.", NULL,
-     .store = store_integer, FIELD(repeat), .least = 1, .most = 100000},
+    {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median one's time.", NULL, .store = store_integer,
+     FIELD(repeat), .least = 1, .most = 100000},
     {"time-limit", 0, GROUP_WORK, "SECONDS", "none", "Give up on a model after this time (exit 4).", NULL,
      .store = store_number, FIELD(time_limit_s), .least = 0.001, .most = 1e9},
     {"memory-limit", 0, GROUP_WORK, "BYTES", "none",
@@ -457,18 +437,16 @@ const struct option option_table[] = {
      "nothing else is written there). It comes in place of the line that tells the file's name, and also "
      "when something fails. Its schema is `docs/report.schema.json`.",
      .store = store_switch, FIELD(json), .single = TAKES_JSON},
-    {"verbose", 'v', GROUP_REPORT, NULL, NULL,
-     "Tell on standard error what was read and what each step took.", NULL, .store = store_switch,
-     FIELD(verbose)},
-    {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Say nothing but errors.", NULL, .store = store_switch,
-     FIELD(quiet), .single = TAKES_QUIET},
+    {"verbose", 'v', GROUP_REPORT, NULL, NULL, "Tell on standard error what was read and what each step took.", NULL,
+     .store = store_switch, FIELD(verbose)},
+    {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Say nothing but errors.", NULL, .store = store_switch, FIELD(quiet),
+     .single = TAKES_QUIET},
 
     {"tolerance", 0, GROUP_DIFF, "STEPS", "0",
      "How far a channel may be off, in steps of 1/255 of the full range; beyond it the exit code is 6.", NULL,
      .store = store_number, FIELD(tolerance), .least = 0, .most = 1e9},
-    {"gain", 0, GROUP_DIFF, "FACTOR", "16",
-     "The picture of the difference shows it this many times as large.", NULL, .store = store_number,
-     FIELD(gain), .least = 0.001, .most = 1e6},
+    {"gain", 0, GROUP_DIFF, "FACTOR", "16", "The picture of the difference shows it this many times as large.", NULL,
+     .store = store_number, FIELD(gain), .least = 0.001, .most = 1e6},
 
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "What is compared: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words,
@@ -485,8 +463,8 @@ const struct option option_table[] = {
      "Given twice, the first makes the lines of a grid and the second its columns.",
      .store = store_across, FIELD(across)},
 
-    {"to", 0, GROUP_PLOT, "X", "fitted", "The horizontal axis goes from 0 to X: a distance, or degrees.",
-     NULL, .store = store_number, FIELD(to), .least = 1e-6, .most = 1e9},
+    {"to", 0, GROUP_PLOT, "X", "fitted", "The horizontal axis goes from 0 to X: a distance, or degrees.", NULL,
+     .store = store_number, FIELD(to), .least = 1e-6, .most = 1e9},
 
     {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader that belongs to the fragment shader.",
      "Without it a correct one is supplied, whose varyings are told by name and type (`docs/check.md`).",
@@ -497,24 +475,19 @@ const struct option option_table[] = {
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's",
      "What the light's position is given in: object or camera.", NULL, light_frame_words, .store = store_word,
      FIELD(light_frame)},
-    {"highlight", 0, GROUP_CHECK, "NAME", "the contract's",
-     "The highlight that is asked for: phong or blinn-phong.", NULL, highlight_words, .store = store_word,
-     FIELD(highlight)},
-    {"scenes", 0, GROUP_CHECK, "NAMES", "all",
-     "The scenes to check with, commas between them: all,gate,near.", NULL, .store = store_text,
-     FIELD(scenes)},
-    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10",
-     "The processor's time that a shader may take for all scenes.",
+    {"highlight", 0, GROUP_CHECK, "NAME", "the contract's", "The highlight that is asked for: phong or blinn-phong.",
+     NULL, highlight_words, .store = store_word, FIELD(highlight)},
+    {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to check with, commas between them: all,gate,near.", NULL,
+     .store = store_text, FIELD(scenes)},
+    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "The processor's time that a shader may take for all scenes.",
      "It is the time of all threads together, so that a busy machine stops nobody; the clock may go 20 times "
      "as far.",
      .store = store_number, FIELD(stop_after_s), .least = 0.1, .most = 1e6},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(list)},
     {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The language of the shaders: 330, 120 or 300es.",
-     "300es may be written as in a shader's first line, \"300 es\".", glsl_words, .store = store_glsl,
-     FIELD(glsl)},
-    {"host", 0, GROUP_SHADER, "LANGUAGE", NULL,
-     "Also print code that sets everything the shaders ask for: c.",
+     "300es may be written as in a shader's first line, \"300 es\".", glsl_words, .store = store_glsl, FIELD(glsl)},
+    {"host", 0, GROUP_SHADER, "LANGUAGE", NULL, "Also print code that sets everything the shaders ask for: c.",
      "Functions that compile the sources, tell OpenGL what a vertex is, and set every uniform to the value "
      "that it has in "
      "this picture, with nothing but OpenGL's own calls. With `-o NAME` it is `NAME.c`.",
@@ -530,8 +503,7 @@ const struct option option_table[] = {
      "One pair of shaders serves a whole scene, unless some objects have two sides and others one, or some "
      "have tangents for "
      "Kajiya-Kay and others have not.",
-     .store = store_integer, FIELD(object), .has_field = offsetof(struct options, has_object), .least = 0,
-     .most = 1e9},
+     .store = store_integer, FIELD(object), .has_field = offsetof(struct options, has_object), .least = 0, .most = 1e9},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
      "Without it the environment's `LAMBENT_FONT` names one; else the first there is of DejaVu Sans, "

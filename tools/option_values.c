@@ -94,16 +94,15 @@ const char *read_number(const char *text, double *value)
     return *value - *value == 0 ? s : NULL;
 }
 
-static bool number_between(const struct option *option, const char *value, bool whole, double *number,
-                           lam_error *error)
+static bool number_between(const struct option *option, const char *value, bool whole, double *number, lam_error *error)
 {
     const char *end = read_number(value, number);
     if (end && !*end && *number >= option->least && *number <= option->most &&
         (!whole || *number == (double)(long)*number))
         return true;
     char expected[96];
-    snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "",
-             option->least, option->most);
+    snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "", option->least,
+             option->most);
     return wrong(error, value, expected);
 }
 
@@ -151,8 +150,7 @@ bool store_segments(const struct option *option, const char *value, struct optio
     bool both = end > value && *end == 'x' && end[1] >= '0' && end[1] <= '9';
     if (both)
         stacks = strtol(end + 1, &end, 10);
-    if (*end || slices < 3 || slices > (long)option->most ||
-        (both && (stacks < 1 || stacks > (long)option->most)))
+    if (*end || slices < 3 || slices > (long)option->most || (both && (stacks < 1 || stacks > (long)option->most)))
         return wrong(error, value, "N or NxM, slices from 3 and stacks from 1 to 16384, such as 64x32");
     options->slices = (int)slices;
     options->stacks = (int)stacks;
@@ -164,8 +162,7 @@ bool store_bytes(const struct option *option, const char *value, struct options 
 {
     double number;
     const char *rest = read_number(value, &number);
-    const char *letters = "kMGT",
-               *letter = rest && *rest ? strchr(letters, *rest == 'K' ? 'k' : *rest) : NULL;
+    const char *letters = "kMGT", *letter = rest && *rest ? strchr(letters, *rest == 'K' ? 'k' : *rest) : NULL;
     if (letter) {
         bool binary = rest[1] == 'i';
         for (int i = 0; i <= letter - letters; i++)
@@ -190,8 +187,7 @@ bool store_color(const struct option *option, const char *value, struct options 
 }
 
 // "0.5", the same for all three, or "r/g/b".
-bool store_reflectivity(const struct option *option, const char *value, struct options *options,
-                        lam_error *error)
+bool store_reflectivity(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     double numbers[3];
     const char *at = value;
@@ -207,8 +203,7 @@ bool store_reflectivity(const struct option *option, const char *value, struct o
         return wrong(error, value, "a number or r/g/b, from 0 to 1000");
     for (int i = count; i < 3; i++)
         numbers[i] = numbers[0];
-    *(lam_rgb *)field_of(options, option->field) =
-        (lam_rgb){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
+    *(lam_rgb *)field_of(options, option->field) = (lam_rgb){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
     *(bool *)field_of(options, option->has_field) = true;
     return true;
 }
@@ -242,8 +237,7 @@ bool store_light(const struct option *option, const char *value, struct options 
 bool store_material(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     struct material_option material;
-    return material_option_parse(value, LAM_COLOR_SRGB, &material, error) &&
-           append(option, value, options, error);
+    return material_option_parse(value, LAM_COLOR_SRGB, &material, error) && append(option, value, options, error);
 }
 
 bool store_rotation(const struct option *option, const char *value, struct options *options, lam_error *error)
@@ -262,8 +256,7 @@ bool store_across(const struct option *option, const char *value, struct options
     return append(option, value, options, error);
 }
 
-bool store_light_color(const struct option *option, const char *value, struct options *options,
-                       lam_error *error)
+bool store_light_color(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_rgba color;
     if (!read_color(option->name, value, LAM_COLOR_SRGB, true, &color, error))

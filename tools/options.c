@@ -86,8 +86,7 @@ static bool unknown_long(const char *name, size_t length, unsigned groups, lam_e
         if (option_is_taken(o, groups))
             suggest_try(&nearest, o->name);
     if (nearest.best)
-        return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; did you mean '--%s'?", typed,
-                        nearest.best);
+        return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; did you mean '--%s'?", typed, nearest.best);
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'", typed);
 }
 
@@ -100,8 +99,7 @@ static bool apply(const struct option *option, const char *value, unsigned group
                   lam_error *error)
 {
     if (!option_is_taken(option, groups))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' has no meaning for this command",
-                        option->name);
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' has no meaning for this command", option->name);
     lam_error reason = {0};
     if (option->store(option, value, options, &reason)) {
         options->given[option - option_table] = true;
@@ -120,8 +118,7 @@ static const char *next_value(const struct option *option, int count, char **wor
 }
 
 // "--name", "--name=value" or "--name value".
-static bool read_long(int count, char **words, int *at, unsigned groups, struct options *options,
-                      lam_error *error)
+static bool read_long(int count, char **words, int *at, unsigned groups, struct options *options, lam_error *error)
 {
     const char *name = words[*at] + 2;
     size_t length = strcspn(name, "=");
@@ -130,21 +127,18 @@ static bool read_long(int count, char **words, int *at, unsigned groups, struct 
         return unknown_long(name, length, groups, error);
     const char *value = name[length] ? name + length + 1 : NULL;
     if (!option->value && value)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' takes no value; found '%s'", option->name,
-                        value);
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' takes no value; found '%s'", option->name, value);
     if (option->value && !value && !(value = next_value(option, count, words, at, error)))
         return false;
     return apply(option, value, groups, options, error);
 }
 
 // "-q", "-qv", "-ofile" or "-o file".
-static bool read_letters(int count, char **words, int *at, unsigned groups, struct options *options,
-                         lam_error *error)
+static bool read_letters(int count, char **words, int *at, unsigned groups, struct options *options, lam_error *error)
 {
     const struct option *whole = find_long(words[*at] + 1, strcspn(words[*at] + 1, "="));
     if (whole)
-        return complain(error, LAM_BAD_ARGUMENT, "unknown option '%s'; did you mean '--%s'?", words[*at],
-                        whole->name);
+        return complain(error, LAM_BAD_ARGUMENT, "unknown option '%s'; did you mean '--%s'?", words[*at], whole->name);
     for (const char *letter = words[*at] + 1; *letter; letter++) {
         const struct option *option = find_letter(*letter);
         if (!option)

@@ -120,16 +120,7 @@ enum {
     TAKES_SIZE = 1u << 27,
 };
 
-enum view_name {
-    VIEW_DEFAULT,
-    VIEW_FRONT,
-    VIEW_BACK,
-    VIEW_LEFT,
-    VIEW_RIGHT,
-    VIEW_TOP,
-    VIEW_BOTTOM,
-    VIEW_ISO
-};
+enum view_name { VIEW_DEFAULT, VIEW_FRONT, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
 
 // --rig none: no light but the ambient; beside the values of lam_rig.
 enum { RIG_DARK = 100 };
@@ -175,11 +166,10 @@ struct option {
     const char *name; // without the dashes
     char letter;      // the short form; 0: none
     enum option_group group;
-    const char *value;    // what follows it, as the help shows it; NULL: nothing follows
-    const char *standard; // the default, as people read it; NULL: none to tell
-    const char *summary;  // one sentence for --help
-    const char
-        *details; // more for the man page and the docs; NULL: the summary says all. `code` in back quotes
+    const char *value;        // what follows it, as the help shows it; NULL: nothing follows
+    const char *standard;     // the default, as people read it; NULL: none to tell
+    const char *summary;      // one sentence for --help
+    const char *details;      // more for the man page and the docs; NULL: the summary says all. `code` in back quotes
     const struct word *words; // the only values it takes; NULL: free
     bool takes_file;          // for the completions
 
@@ -203,26 +193,26 @@ bool options_copy(struct options *to, const struct options *from);
 // True where the command line has the option (by its long name).
 bool option_given(const struct options *options, const char *name);
 
-// Whether a command takes an option: `groups` has bit g set for each group that it takes whole, and TAKES_…
-// bits.
+// Whether a command takes an option: `groups` has bit g set for each group that it takes whole, and TAKES_… bits.
 bool option_is_taken(const struct option *option, unsigned groups);
 
-// Reads a command line's words (without the program's and the command's name). `groups` as above. Operands
-// are moved to the front of `words`; returns their number, or −1 with the reason: LAM_BAD_ARGUMENT.
+// Reads a command line's words (without the program's and the command's name). `groups` as above. Operands are
+// moved to the front of `words`; returns their number, or −1
+// with the reason: LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error);
 
 // The kinds of values, for the table's `store`.
-bool store_switch(const struct option *, const char *, struct options *, lam_error *);   // bool
-bool store_text(const struct option *, const char *, struct options *, lam_error *);     // const char *
-bool store_word(const struct option *, const char *, struct options *, lam_error *);     // int
-bool store_glsl(const struct option *, const char *, struct options *, lam_error *);     // likewise
-bool store_integer(const struct option *, const char *, struct options *, lam_error *);  // int
-bool store_number(const struct option *, const char *, struct options *, lam_error *);   // double
-bool store_size(const struct option *, const char *, struct options *, lam_error *);     // width, height
-bool store_segments(const struct option *, const char *, struct options *, lam_error *); // slices, stacks
-bool store_bytes(const struct option *, const char *, struct options *, lam_error *);    // uint64_t
-bool store_color(const struct option *, const char *, struct options *, lam_error *); // const char *, checked
-bool store_show(const struct option *, const char *, struct options *, lam_error *);  // const char *, checked
+bool store_switch(const struct option *, const char *, struct options *, lam_error *);       // bool
+bool store_text(const struct option *, const char *, struct options *, lam_error *);         // const char *
+bool store_word(const struct option *, const char *, struct options *, lam_error *);         // int
+bool store_glsl(const struct option *, const char *, struct options *, lam_error *);         // likewise
+bool store_integer(const struct option *, const char *, struct options *, lam_error *);      // int
+bool store_number(const struct option *, const char *, struct options *, lam_error *);       // double
+bool store_size(const struct option *, const char *, struct options *, lam_error *);         // width, height
+bool store_segments(const struct option *, const char *, struct options *, lam_error *);     // slices, stacks
+bool store_bytes(const struct option *, const char *, struct options *, lam_error *);        // uint64_t
+bool store_color(const struct option *, const char *, struct options *, lam_error *);        // const char *, checked
+bool store_show(const struct option *, const char *, struct options *, lam_error *);         // const char *, checked
 bool store_reflectivity(const struct option *, const char *, struct options *, lam_error *); // lam_rgb
 bool store_camera(const struct option *, const char *, struct options *,
                   lam_error *);                                                       // const char *, checked

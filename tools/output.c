@@ -16,10 +16,7 @@ static bool is_folder(const char *path)
     return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
 }
 
-bool output_is_named(const char *output)
-{
-    return output && output[strlen(output) - 1] != '/' && !is_folder(output);
-}
+bool output_is_named(const char *output) { return output && output[strlen(output) - 1] != '/' && !is_folder(output); }
 
 char *output_path(const char *output, const char *model)
 {
@@ -52,13 +49,11 @@ static bool check_folder(const char *path, lam_error *error)
     struct stat found;
     bool ok = true;
     if (stat(folder, &found) != 0)
-        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder,
-                      strerror(errno));
+        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder, strerror(errno));
     else if (!S_ISDIR(found.st_mode))
         ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: '%s' is not a folder", path, folder);
     else if (access(folder, W_OK | X_OK) != 0)
-        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder,
-                      strerror(errno));
+        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder, strerror(errno));
     free(folder);
     return ok;
 }
@@ -69,8 +64,7 @@ bool output_check(const char *path, const char *model, bool named, lam_error *er
     if (stat(path, &there) != 0)
         return check_folder(path, error);
     // A picture given as the model: reading it will say what is wrong, which is not that it exists.
-    if (!named && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev &&
-        there.st_ino == of_model.st_ino)
+    if (!named && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev && there.st_ino == of_model.st_ino)
         return true;
     if (S_ISDIR(there.st_mode))
         return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: it is a folder%s", path,
@@ -81,10 +75,9 @@ bool output_check(const char *path, const char *model, bool named, lam_error *er
         return true;
     }
     if (!named && !lam_image_is_ours(path))
-        return complain(
-            error, LAM_CANNOT_WRITE,
-            "%s: already exists, and lambent did not write it; -o %s replaces it, -o FILE writes another",
-            path, path);
+        return complain(error, LAM_CANNOT_WRITE,
+                        "%s: already exists, and lambent did not write it; -o %s replaces it, -o FILE writes another",
+                        path, path);
     return check_folder(path, error);
 }
 
@@ -98,8 +91,8 @@ bool output_is_stream(const char *path)
 {
     struct stat found;
     lam_pixel_format format;
-    return strcmp(path, "-") == 0 || (stat(path, &found) == 0 && !S_ISREG(found.st_mode) &&
-                                      !S_ISDIR(found.st_mode) && !lam_image_format_for(path, &format, NULL));
+    return strcmp(path, "-") == 0 || (stat(path, &found) == 0 && !S_ISREG(found.st_mode) && !S_ISDIR(found.st_mode) &&
+                                      !lam_image_format_for(path, &format, NULL));
 }
 
 bool output_write(const char *path, const lam_bytes *bytes, lam_error *error)

@@ -12,9 +12,8 @@ bool output_is_named(const char *output);
 // memory is out.
 char *output_path(const char *output, const char *model);
 
-// Whether `path` can be written, as far as can be told before the work is done: its folder is there and may
-// be written, it is no folder itself, and, where the user did not name it (`named` false), it is not somebody
-// else's.
+// Whether `path` can be written, as far as can be told before the work is done: its folder is there and may be written,
+// it is no folder itself, and, where the user did not name it (`named` false), it is not somebody else's.
 bool output_check(const char *path, const char *model, bool named, lam_error *error);
 
 // Whether a picture is written straight to `path` as a PNG: "-", or a pipe or device whose name has no

@@ -25,10 +25,7 @@ static double attenuation_value(const struct curve *c, double x)
     return (double)lam_attenuation_at(&c->light, (float)x);
 }
 
-static double spot_value(const struct curve *c, double x)
-{
-    return (double)lam_spot_at(&c->light, radians(x));
-}
+static double spot_value(const struct curve *c, double x) { return (double)lam_spot_at(&c->light, radians(x)); }
 
 static double highlight_value(const struct curve *c, double x)
 {
@@ -63,8 +60,7 @@ static double find_below(const struct curve *curve, double farthest)
 
 // --- what the words after the command mean
 
-static struct curve *add_curve(struct plot *plot, double (*value)(const struct curve *, double),
-                               lam_error *error)
+static struct curve *add_curve(struct plot *plot, double (*value)(const struct curve *, double), lam_error *error)
 {
     if (plot->count == CURVES_MOST) {
         complain(error, LAM_LIMIT, "plot: more than %d curves, which nobody could tell apart", CURVES_MOST);
@@ -96,15 +92,11 @@ static bool add_faded(struct plot *plot, const lam_light *light, const char *nam
     int used = snprintf(curve->label, sizeof curve->label, "%.40s%sa/b/c = %.5g/%.5g/%.5g", name ? name : "",
                         name ? ": " : "", (double)a.constant, (double)a.linear, (double)a.quadratic);
     if (light->range > 0)
-        snprintf(curve->label + used, sizeof curve->label - (size_t)used, ", range %.5g",
-                 (double)light->range);
+        snprintf(curve->label + used, sizeof curve->label - (size_t)used, ", range %.5g", (double)light->range);
     return true;
 }
 
-static bool fades(const lam_light *light)
-{
-    return light->type == LAM_LIGHT_POINT || light->type == LAM_LIGHT_SPOT;
-}
+static bool fades(const lam_light *light) { return light->type == LAM_LIGHT_POINT || light->type == LAM_LIGHT_SPOT; }
 
 // A light as --light takes it: "point:attenuation=1/0.5/0.2,name=lamp".
 static bool add_light(struct plot *plot, const char *word, lam_error *error)
@@ -116,8 +108,7 @@ static bool add_light(struct plot *plot, const char *word, lam_error *error)
     if (option.none || !fades(&option.light))
         return wrong(error, "attenuation", word, "a point or spot light: the others do not fade");
     if (option.linear_in_radii || option.quadratic_in_radii || option.range_in_radii)
-        return wrong(error, "attenuation", word,
-                     "numbers without r: there is no model whose radius it could be");
+        return wrong(error, "attenuation", word, "numbers without r: there is no model whose radius it could be");
     if (!lam_light_check(&option.light, &reason))
         return complain(error, LAM_BAD_ARGUMENT, "plot attenuation: '%.60s': %.300s", word, reason.text);
     return add_faded(plot, &option.light, option.light.name, error);
@@ -142,9 +133,8 @@ static bool add_lights_of(struct plot *plot, const char *path, lam_error *error)
     }
     lam_scene_free(scene);
     return ok &&
-           (found ||
-            complain(error, LAM_BAD_ARGUMENT,
-                     "plot attenuation: '%.200s' has no point or spot light, whose light would fade", path));
+           (found || complain(error, LAM_BAD_ARGUMENT,
+                              "plot attenuation: '%.200s' has no point or spot light, whose light would fade", path));
 }
 
 static bool is_light(const char *word)
@@ -172,10 +162,9 @@ static bool add_attenuation(struct plot *plot, const char *word, lam_error *erro
         count++;
     } while (rest && *rest == '/');
     if (!rest || *rest || count < 3)
-        return wrong(
-            error, "attenuation", word,
-            "a/b/c or a/b/c/range, such as 1/0.54/0.2, a light such as point:attenuation=1/0.54/0.2, or a "
-            "file with lights");
+        return wrong(error, "attenuation", word,
+                     "a/b/c or a/b/c/range, such as 1/0.54/0.2, a light such as point:attenuation=1/0.54/0.2, or a "
+                     "file with lights");
     lam_light light = lam_light_default(LAM_LIGHT_POINT);
     light.attenuation = (lam_attenuation){(float)part[0], (float)part[1], (float)part[2]};
     light.range = (float)part[3];
@@ -294,14 +283,12 @@ static const struct kind *find_kind(const char *name, lam_error *error)
             return &kinds[i];
         suggest_try(&nearest, kinds[i].name);
     }
-    complain(error, LAM_BAD_ARGUMENT, "plot: found '%.100s', expected attenuation, spot or highlight%s%s%s",
-             name, nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
-             nearest.best ? "'?" : "");
+    complain(error, LAM_BAD_ARGUMENT, "plot: found '%.100s', expected attenuation, spot or highlight%s%s%s", name,
+             nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
     return NULL;
 }
 
-// How far the axis goes: to a little beyond the last curve's fading, which for lights that never fade is
-// nowhere.
+// How far the axis goes: to a little beyond the last curve's fading, which for lights that never fade is nowhere.
 static double length_of(const struct plot *plot)
 {
     double most = 0;
@@ -396,20 +383,17 @@ static bool draw_to(const struct plot *plot, const char *path, const struct opti
     bool svg = dot && strcmp(dot, ".svg") == 0, to_stdout = strcmp(path, "-") == 0;
     lam_pixel_format format = LAM_RGBA8;
     if (to_stdout && isatty(STDOUT_FILENO))
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "standard output is a terminal, and the picture is not text");
+        return complain(error, LAM_BAD_ARGUMENT, "standard output is a terminal, and the picture is not text");
     if (!output_is_named(path))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file",
-                        path);
-    if (!svg && !output_is_stream(path) &&
-        (!lam_image_format_for(path, &format, error) || format != LAM_RGBA8))
+        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file", path);
+    if (!svg && !output_is_stream(path) && (!lam_image_format_for(path, &format, error) || format != LAM_RGBA8))
         return complain(error, LAM_UNSUPPORTED, "%s: a plot is written as .svg, .png or .ppm", path);
     if (!to_stdout && !output_check(path, "", o->output != NULL, error))
         return false;
     struct drawing drawing;
     bool sized = o->has_size;
-    if (!drawing_open(&drawing, sized ? o->width : 1600, sized ? o->height : 1000, svg, !o->no_captions,
-                      o->font, error))
+    if (!drawing_open(&drawing, sized ? o->width : 1600, sized ? o->height : 1000, svg, !o->no_captions, o->font,
+                      error))
         return false;
     bool ok = plot_draw(plot, &drawing, error) && drawing_write(&drawing, path, error);
     drawing_free(&drawing);

@@ -1,5 +1,4 @@
-// plot.h: curves over one axis, labelled: what the command `plot` computes (plot.c) and how it looks
-// (plot_draw.c).
+// plot.h: curves over one axis, labelled: what the command `plot` computes (plot.c) and how it looks (plot_draw.c).
 #ifndef PLOT_H
 #define PLOT_H
 

@@ -59,8 +59,7 @@ static bool draw_axes(const struct plot *plot, const struct layout *at, struct d
     struct point middle = {(at->left + at->right) / 2, at->bottom + 46 * u};
     draw_text(d, middle, 15 * u, ALIGN_MIDDLE, INK, plot->x_label);
     draw_text(d, (struct point){d->width / 2.0, 32 * u}, 18 * u, ALIGN_MIDDLE, INK, plot->title);
-    return draw_text_upwards(d, (struct point){24 * u, (at->top + at->bottom) / 2}, 15 * u, INK,
-                             plot->y_label, error);
+    return draw_text_upwards(d, (struct point){24 * u, (at->top + at->bottom) / 2}, 15 * u, INK, plot->y_label, error);
 }
 
 static double style_dash(const struct curve *curve, double unit)
@@ -88,8 +87,8 @@ static bool path_add(struct path *path, double x, double y, lam_error *error)
     return true;
 }
 
-static bool path_refine(struct path *path, const struct plot *plot, const struct curve *curve, double x0,
-                        double y0, double x1, double y1, lam_error *error)
+static bool path_refine(struct path *path, const struct plot *plot, const struct curve *curve, double x0, double y0,
+                        double x1, double y1, lam_error *error)
 {
     double rise = y1 > y0 ? y1 - y0 : y0 - y1;
     if (rise > plot->y_most * 0.01 && x1 - x0 > plot->x_most * 1e-5) {
@@ -127,8 +126,8 @@ static bool draw_path(const struct plot *plot, const struct layout *at, const st
     return ok;
 }
 
-static bool draw_curve(const struct plot *plot, const struct layout *at, const struct curve *curve,
-                       struct drawing *d, lam_error *error)
+static bool draw_curve(const struct plot *plot, const struct layout *at, const struct curve *curve, struct drawing *d,
+                       lam_error *error)
 {
     enum { STEPS = 400 };
     struct path path = {0};
@@ -181,8 +180,7 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
         taken[row] = dot.x + half;
         double base = dot.y - (26 + 17 * row) * u;
         struct point stem[2] = {{dot.x, base + 3 * u}, dot};
-        if (!draw_line(d, stem, 2, u, curve->color, 0, error) ||
-            !draw_dot(d, dot, 4 * u, curve->color, error))
+        if (!draw_line(d, stem, 2, u, curve->color, 0, error) || !draw_dot(d, dot, 4 * u, curve->color, error))
             return false;
         draw_text(d, (struct point){dot.x, base}, 13 * u, ALIGN_MIDDLE, curve->color, text);
     }
@@ -202,8 +200,7 @@ static struct names place_names(const struct plot *plot, struct layout *at, cons
         double width = text_width(d, 14 * u, plot->curves[i].label);
         widest = width > widest ? width : widest;
     }
-    struct names box = {
-        .top = at->top + 6 * u, .width = widest + 50 * u, .height = plot->count * 21 * u + 10 * u};
+    struct names box = {.top = at->top + 6 * u, .width = widest + 50 * u, .height = plot->count * 21 * u + 10 * u};
     box.left = at->right - 6 * u - box.width;
     double scale = plot->y_most / (at->bottom - at->top);
     double low = (at->bottom - box.top - box.height) * scale, high = (at->bottom - box.top) * scale;
@@ -221,8 +218,7 @@ static struct names place_names(const struct plot *plot, struct layout *at, cons
     return box;
 }
 
-static bool draw_names(const struct plot *plot, const struct names *box, double u, struct drawing *d,
-                       lam_error *error)
+static bool draw_names(const struct plot *plot, const struct names *box, double u, struct drawing *d, lam_error *error)
 {
     double left = box->left, top = box->top, row = 21 * u, swatch = 34 * u;
     draw_box(d, (struct point){left, top}, box->width, box->height, 0xffffff);
@@ -246,8 +242,7 @@ bool plot_draw(const struct plot *plot, struct drawing *d, lam_error *error)
     if (!draw_axes(plot, &at, d, error))
         return false;
     if (plot->level > 0) {
-        struct point across[2] = {place(plot, &at, 0, plot->level),
-                                  place(plot, &at, plot->x_most, plot->level)};
+        struct point across[2] = {place(plot, &at, 0, plot->level), place(plot, &at, plot->x_most, plot->level)};
         if (!draw_line(d, across, 2, u, GREY, 4 * u, error))
             return false;
         draw_text(d, (struct point){across[1].x - 4 * u, across[1].y - 6 * u}, 12 * u, ALIGN_RIGHT, GREY,

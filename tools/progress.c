@@ -45,8 +45,7 @@ void progress_tell(void *user, double share, const char *step)
     memset(bar, '#', (size_t)filled);
     bar[BAR] = 0;
     size_t length = strlen(progress->model);
-    const char *color = console_has_colors() ? "\033[36m" : "",
-               *plain = console_has_colors() ? "\033[0m" : "";
+    const char *color = console_has_colors() ? "\033[36m" : "", *plain = console_has_colors() ? "\033[0m" : "";
     fprintf(stderr, "\r\033[K%s%s  %s[%s]%s %3d %%  %s", length > NAME ? "..." : "",
             progress->model + (length > NAME ? length - NAME : 0), color, bar, plain,
             filled == BAR ? 100 : (int)(share * 100), step ? step : "");

@@ -44,11 +44,9 @@ static bool check_together(int count, char **models, const struct options *o, la
                        : o->projection    ? "projection"
                                           : NULL;
     if (o->camera && view)
-        return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--%s' cannot be used together",
-                        view);
+        return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--%s' cannot be used together", view);
     if (o->two_sided && o->one_sided)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "options '--two-sided' and '--one-sided' cannot be used together");
+        return complain(error, LAM_BAD_ARGUMENT, "options '--two-sided' and '--one-sided' cannot be used together");
     if (!check_stage(o, error))
         return false;
     if (o->quiet && o->verbose)
@@ -151,8 +149,7 @@ static void name_model(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
     const char *name = strcmp(job->model, "-") == 0 ? "standard input" : job->model;
-    if (error->code == LAM_LIMIT && o->time_limit_s > 0 &&
-        clock_ms() - job->times.start >= o->time_limit_s * 1e3) {
+    if (error->code == LAM_LIMIT && o->time_limit_s > 0 && clock_ms() - job->times.start >= o->time_limit_s * 1e3) {
         complain(error, LAM_LIMIT, "%s: the time limit of %.10g s is over", name, o->time_limit_s);
     } else if (error->code == LAM_CANCELLED) {
         complain(error, LAM_CANCELLED, "%s: interrupted", name);

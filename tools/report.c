@@ -36,9 +36,8 @@ void report_line(const struct job *job)
 {
     uint64_t triangles = job->model_counts.triangles;
     say_plain("%s  %dx%d  %" PRIu64 " triangle%s  %.*f ms\n",
-              strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width,
-              job->image.height, triangles, triangles == 1 ? "" : "s", job->times.total < 10 ? 1 : 0,
-              job->times.total);
+              strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width, job->image.height,
+              triangles, triangles == 1 ? "" : "s", job->times.total < 10 ? 1 : 0, job->times.total);
 }
 
 static void time_row(const char *name, double ms) { say_plain("  %-12s %10.2f ms\n", name, ms); }
@@ -52,20 +51,19 @@ void report_table(const struct job *job)
     say_plain("model    %s (%s), %" PRIu64 " triangles, %" PRIu64 " vertices\n", job->model, format_of(scene),
               job->model_counts.triangles, job->model_counts.vertices);
     say_plain("         meshes %d, objects %d, materials %d, lights %d, up %c\n", job->model_counts.meshes,
-              job->model_counts.objects, job->model_counts.materials, job->model_counts.lights,
-              up_letter(scene));
+              job->model_counts.objects, job->model_counts.materials, job->model_counts.lights, up_letter(scene));
     say_plain("box      %.7g %.7g %.7g to %.7g %.7g %.7g\n", low.x, low.y, low.z, high.x, high.y, high.z);
     const lam_camera *camera = &job->camera;
-    say_plain("camera   eye %.7g %.7g %.7g, target %.7g %.7g %.7g, ", camera->eye.x, camera->eye.y,
-              camera->eye.z, camera->target.x, camera->target.y, camera->target.z);
+    say_plain("camera   eye %.7g %.7g %.7g, target %.7g %.7g %.7g, ", camera->eye.x, camera->eye.y, camera->eye.z,
+              camera->target.x, camera->target.y, camera->target.z);
     if (camera->ortho_half_height > 0)
         say_plain("orthographic, half height %.7g\n", camera->ortho_half_height);
     else
         say_plain("%.7g degrees high\n", degrees(camera->fovy_rad));
     say_plain("device   %s\n", lam_device_name(job->device));
     say_plain("picture  %s, %dx%d, %" PRIu64 " bytes\n",
-              strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width,
-              job->image.height, job->bytes);
+              strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width, job->image.height,
+              job->bytes);
     if (lam_device_isa(job->device) == LAM_ISA_AUTO)
         say_plain("drawn    %" PRIu64 " triangles, %" PRIu64 " pixels covered, %.1f MB sent, %.1f MB\n",
                   frame->triangles, frame->pixels_covered, (double)frame->bytes_uploaded / 1e6,
@@ -96,8 +94,8 @@ void report_table(const struct job *job)
         time_row("    resolve", frame->resolve_ms);
     }
     if (job->times.frames > 1)
-        say_plain("  %d frames, the median one above; %.2f to %.2f ms\n", job->times.frames,
-                  job->times.frame_least, job->times.frame_most);
+        say_plain("  %d frames, the median one above; %.2f to %.2f ms\n", job->times.frames, job->times.frame_least,
+                  job->times.frame_most);
     time_row("encode", job->times.encode);
     time_row("total", job->times.total);
 }

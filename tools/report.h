@@ -20,8 +20,7 @@ FILE *report_stream(const struct options *options);
 // exit code.
 int tell_failure(const lam_error *error, const struct options *options);
 
-// One line as docs/report.schema.json describes it. `job` NULL: the command line itself was wrong, as `error`
-// says.
+// One line as docs/report.schema.json describes it. `job` NULL: the command line itself was wrong, as `error` says.
 void report_json(FILE *file, const struct job *job, const lam_error *error);
 
 #endif

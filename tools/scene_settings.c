@@ -1,5 +1,4 @@
-// scene_settings.c: what a scene file says about its picture, below what the command line says; and
-// --save-scene.
+// scene_settings.c: what a scene file says about its picture, below what the command line says; and --save-scene.
 #include "scene_settings.h"
 
 #include <stdlib.h>
@@ -60,8 +59,7 @@ void scene_settings_apply(struct job *job)
 
 bool scene_settings_has_camera(const struct job *job)
 {
-    static const char *const others[] = {"camera", "view",       "azimuth", "elevation",
-                                         "zoom",   "projection", NULL};
+    static const char *const others[] = {"camera", "view", "azimuth", "elevation", "zoom", "projection", NULL};
     for (int i = 0; others[i]; i++)
         if (option_given(&job->own, others[i]))
             return false;
@@ -81,8 +79,7 @@ static bool take_environment(const struct options *o, lam_settings *s, char **na
     s->built_in = environment_option_built_in(text);
     s->equirectangular = s->built_in || strchr(text, ',') ? NULL : text;
     s->given |= LAM_GIVEN_ENVIRONMENT;
-    return s->built_in || s->equirectangular ||
-           (*names = environment_option_faces(text, s->faces, error)) != NULL;
+    return s->built_in || s->equirectangular || (*names = environment_option_faces(text, s->faces, error)) != NULL;
 }
 
 bool scene_settings_save(const struct job *job, lam_error *error)
@@ -91,9 +88,8 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     lam_settings s = job->settings;
     s.given &= LAM_GIVEN_ENVIRONMENT;
     s.given |= draw->exposure != 0 ? LAM_GIVEN_EXPOSURE : 0;
-    s.given |= LAM_GIVEN_SIZE | LAM_GIVEN_SAMPLES | LAM_GIVEN_BACKGROUND | LAM_GIVEN_COLOR |
-               LAM_GIVEN_CAMERA | LAM_GIVEN_SHADING | LAM_GIVEN_REFLECTION | LAM_GIVEN_MATCH_HIGHLIGHTS |
-               LAM_GIVEN_GL1;
+    s.given |= LAM_GIVEN_SIZE | LAM_GIVEN_SAMPLES | LAM_GIVEN_BACKGROUND | LAM_GIVEN_COLOR | LAM_GIVEN_CAMERA |
+               LAM_GIVEN_SHADING | LAM_GIVEN_REFLECTION | LAM_GIVEN_MATCH_HIGHLIGHTS | LAM_GIVEN_GL1;
     s.given |= draw->light_cutoff != 0 ? LAM_GIVEN_LIGHT_CUTOFF : 0;
     s.given |= draw->stage != LAM_STAGE_AUTO ? LAM_GIVEN_STAGE : 0;
     s.given |= draw->viewer != LAM_VIEWER_LOCAL ? LAM_GIVEN_VIEWER : 0;

@@ -1,12 +1,10 @@
-// scene_settings.h: what a scene file says about its picture, below what the command line says; and
-// --save-scene.
+// scene_settings.h: what a scene file says about its picture, below what the command line says; and --save-scene.
 #ifndef SCENE_SETTINGS_H
 #define SCENE_SETTINGS_H
 
 #include "job.h"
 
-// Takes over what the job's scene says where the command line says nothing: into job->own, which job->options
-// then is.
+// Takes over what the job's scene says where the command line says nothing: into job->own, which job->options then is.
 void scene_settings_apply(struct job *job);
 
 // True where the scene file's camera counts: nothing on the command line places another one.

@@ -33,8 +33,7 @@ static void list_uniforms(FILE *file, const lam_shader_uniform *list, int count)
 void shader_contract(FILE *file, const lam_shader *s)
 {
     fprintf(file, "// Attributes%s:\n",
-            s->glsl == LAM_GLSL_120 ? ", bound to these locations before linking"
-                                    : ", at the locations in the text");
+            s->glsl == LAM_GLSL_120 ? ", bound to these locations before linking" : ", at the locations in the text");
     for (int i = 0; i < s->attribute_count; i++)
         fprintf(file, "//   %d  %-5s %-20s // %s\n", s->attributes[i].location, s->attributes[i].type,
                 s->attributes[i].name, s->attributes[i].meaning);
@@ -42,8 +41,7 @@ void shader_contract(FILE *file, const lam_shader *s)
         fprintf(file, "//   Flat shading: GLSL 120 has no `flat`, so the three vertices of a triangle carry "
                       "the same values.\n");
     else if (s->flat)
-        fprintf(file,
-                "//   Flat shading: each triangle has three vertices of its own, with its face normal.\n");
+        fprintf(file, "//   Flat shading: each triangle has three vertices of its own, with its face normal.\n");
     if (s->uniform_count) {
         fprintf(file, "// Uniforms of the frame (matrices column by column):\n");
         list_uniforms(file, s->uniforms, s->uniform_count);
@@ -53,9 +51,9 @@ void shader_contract(FILE *file, const lam_shader *s)
                 s->lists[i].texels);
     for (int i = 0; i < s->draw_count; i++) {
         const lam_shader_draw *d = &s->draws[i];
-        fprintf(file, "// Uniforms of draw %d, object %d%s%s%s, triangles %u to %u, front %s%s%s:\n", i,
-                d->object, d->object_name ? " '" : "", d->object_name ? d->object_name : "",
-                d->object_name ? "'" : "", d->first_triangle, d->first_triangle + d->triangle_count - 1,
+        fprintf(file, "// Uniforms of draw %d, object %d%s%s%s, triangles %u to %u, front %s%s%s:\n", i, d->object,
+                d->object_name ? " '" : "", d->object_name ? d->object_name : "", d->object_name ? "'" : "",
+                d->first_triangle, d->first_triangle + d->triangle_count - 1,
                 d->clockwise ? "clockwise" : "counter-clockwise",
                 d->cull == LAM_CULL_BACK    ? ", backs culled"
                 : d->cull == LAM_CULL_FRONT ? ", fronts culled"
@@ -86,8 +84,7 @@ static char *base_of(const char *output, const char *model)
         char *point = strrchr(base + length, '.');
         if (point && point > base + length)
             *point = 0;
-    } else if (length > 5 &&
-               (strcmp(base + length - 5, ".vert") == 0 || strcmp(base + length - 5, ".frag") == 0)) {
+    } else if (length > 5 && (strcmp(base + length - 5, ".vert") == 0 || strcmp(base + length - 5, ".frag") == 0)) {
         base[length - 5] = 0;
     }
     return base;
@@ -106,8 +103,7 @@ static bool write_file(const char *base, const char *ending, const char *text, s
     return ok;
 }
 
-static bool write_files(const struct options *o, const lam_shader *shader, const char *model,
-                        lam_error *error)
+static bool write_files(const struct options *o, const lam_shader *shader, const char *model, lam_error *error)
 {
     char *base = base_of(o->output, model), *host = NULL;
     size_t host_size = 0;

@@ -1,5 +1,4 @@
-// shader_host.c: the C code of `lambent shader --host c`: OpenGL calls that set every uniform to the scene's
-// value.
+// shader_host.c: the C code of `lambent shader --host c`: OpenGL calls that set every uniform to the scene's value.
 #include "shader.h"
 
 #include <ctype.h>
@@ -50,8 +49,7 @@ static void set_uniform(FILE *file, const lam_shader_uniform *u)
                    {"mat3", "glUniformMatrix3fv", "GL_FALSE, "},
                    {"mat4", "glUniformMatrix4fv", "GL_FALSE, "}};
     if (strcmp(u->type, "int") == 0) {
-        fprintf(file, "    glUniform1i(glGetUniformLocation(program, \"%s\"), %d);\n", u->name,
-                (int)u->value[0]);
+        fprintf(file, "    glUniform1i(glGetUniformLocation(program, \"%s\"), %d);\n", u->name, (int)u->value[0]);
         return;
     }
     fprintf(file, "    static const GLfloat ");
@@ -62,8 +60,7 @@ static void set_uniform(FILE *file, const lam_shader_uniform *u)
     const struct setter *setter = setters;
     while (strcmp(setter->type, u->type) != 0)
         setter++;
-    fprintf(file, "    %s(glGetUniformLocation(program, \"%s\"), 1, %s", setter->call, u->name,
-            setter->transposed);
+    fprintf(file, "    %s(glGetUniformLocation(program, \"%s\"), 1, %s", setter->call, u->name, setter->transposed);
     identifier(file, u->name);
     fprintf(file, ");\n");
 }
@@ -116,14 +113,13 @@ static void set_all(FILE *file, const lam_shader_uniform *list, int count)
         const lam_shader_uniform *u = &list[i];
         if (u->block) {
             i = block_numbers(file, list, count, i);
-            fprintf(file, "    set_block(program, \"%s\", %d, %s, sizeof %s);\n", u->block,
-                    binding_of(u->block), u->block, u->block);
+            fprintf(file, "    set_block(program, \"%s\", %d, %s, sizeof %s);\n", u->block, binding_of(u->block),
+                    u->block, u->block);
             continue;
         }
         if (!u->count && strcmp(u->type, "sampler2D") == 0) {
             bool lights = strcmp(u->name, "light_list") == 0;
-            fprintf(file, "    set_list(program, \"%s\", %d, %s, %s_texels);\n", u->name, !lights, u->name,
-                    u->name);
+            fprintf(file, "    set_list(program, \"%s\", %d, %s, %s_texels);\n", u->name, !lights, u->name, u->name);
         } else if (!u->count) {
             fprintf(file,
                     "    // %s\n    glUniform1i(glGetUniformLocation(program, \"%s\"), %d); // your texture: "
@@ -168,8 +164,8 @@ static void tell_lists(FILE *file, const lam_shader *s)
 {
     for (int i = 0; i < s->list_count; i++) {
         const lam_shader_list *list = &s->lists[i];
-        fprintf(file, "static const GLsizei %s_texels = %d;\nstatic const GLfloat %s[] = {\n", list->name,
-                list->texels, list->name);
+        fprintf(file, "static const GLsizei %s_texels = %d;\nstatic const GLfloat %s[] = {\n", list->name, list->texels,
+                list->name);
         for (int k = 0; k < list->texels; k++) {
             fprintf(file, "    ");
             shader_numbers(file, list->values + 4 * (size_t)k, 4, true);
@@ -235,25 +231,24 @@ static void tell_vertices(FILE *file, const lam_shader *s)
 
 static void tell_program(FILE *file, const lam_shader *s)
 {
-    fputs(
-        "// Compiles and links the two sources. 0: what is wrong stands in `log`.\n"
-        "static GLuint make_program(const char *vertex, const char *fragment, char *log, GLsizei log_size)\n"
-        "{\n"
-        "    const char *const sources[2] = {vertex, fragment};\n"
-        "    GLuint program = glCreateProgram();\n"
-        "    GLint ok = 1;\n"
-        "    int i;\n"
-        "    for (i = 0; ok && i < 2; i++) {\n"
-        "        GLuint shader = glCreateShader(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);\n"
-        "        glShaderSource(shader, 1, &sources[i], NULL);\n"
-        "        glCompileShader(shader);\n"
-        "        glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);\n"
-        "        if (!ok)\n"
-        "            glGetShaderInfoLog(shader, log_size, NULL, log);\n"
-        "        glAttachShader(program, shader);\n"
-        "        glDeleteShader(shader);\n"
-        "    }\n",
-        file);
+    fputs("// Compiles and links the two sources. 0: what is wrong stands in `log`.\n"
+          "static GLuint make_program(const char *vertex, const char *fragment, char *log, GLsizei log_size)\n"
+          "{\n"
+          "    const char *const sources[2] = {vertex, fragment};\n"
+          "    GLuint program = glCreateProgram();\n"
+          "    GLint ok = 1;\n"
+          "    int i;\n"
+          "    for (i = 0; ok && i < 2; i++) {\n"
+          "        GLuint shader = glCreateShader(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);\n"
+          "        glShaderSource(shader, 1, &sources[i], NULL);\n"
+          "        glCompileShader(shader);\n"
+          "        glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);\n"
+          "        if (!ok)\n"
+          "            glGetShaderInfoLog(shader, log_size, NULL, log);\n"
+          "        glAttachShader(program, shader);\n"
+          "        glDeleteShader(shader);\n"
+          "    }\n",
+          file);
     for (int i = 0; s->glsl == LAM_GLSL_120 && i < s->attribute_count; i++)
         fprintf(file, "    glBindAttribLocation(program, %d, \"%s\");\n", s->attributes[i].location,
                 s->attributes[i].name);
@@ -284,14 +279,13 @@ static void tell_draw(FILE *file, const lam_shader *s, const lam_shader_draw *d,
     fprintf(file, "// Object %d", d->object);
     if (d->object_name)
         fprintf(file, ", '%s'", d->object_name);
-    fprintf(file, ": triangles %u to %u of its mesh", d->first_triangle,
-            d->first_triangle + d->triangle_count - 1);
+    fprintf(file, ": triangles %u to %u of its mesh", d->first_triangle, d->first_triangle + d->triangle_count - 1);
     if (d->material_name)
         fprintf(file, ", material '%s'", d->material_name);
     fprintf(file, ".\n");
     if (d->origin[0] != 0 || d->origin[1] != 0 || d->origin[2] != 0)
-        fprintf(file, "// Give `position` relative to (%.17g, %.17g, %.17g), subtracted in double.\n",
-                d->origin[0], d->origin[1], d->origin[2]);
+        fprintf(file, "// Give `position` relative to (%.17g, %.17g, %.17g), subtracted in double.\n", d->origin[0],
+                d->origin[1], d->origin[2]);
     if (d->translucent)
         fprintf(file, "// Translucent: draw it after the opaque ones, with blending, the farthest first.\n");
     fprintf(file, "static void set_draw_%d(GLuint program)\n{\n", number);
@@ -325,9 +319,7 @@ void shader_host(FILE *file, const lam_shader *s, const char *name, const char *
     if (has_blocks(s))
         tell_block_setter(file);
     tell_lists(file, s);
-    fprintf(
-        file,
-        "// What the whole picture has. The program is in use.\nstatic void set_frame(GLuint program)\n{\n");
+    fprintf(file, "// What the whole picture has. The program is in use.\nstatic void set_frame(GLuint program)\n{\n");
     if (s->uniform_count)
         set_all(file, s->uniforms, s->uniform_count);
     else

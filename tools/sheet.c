@@ -30,32 +30,29 @@ static const struct sheet sheets[] = {
                         {"Normal interpolation (Phong)", {"--shading", "phong"}},
                         {"Reflection (environment)",
                          {"--environment", "sky", "--reflectivity", "0.7", "--light-scale", "0.4"}},
-                        {"Anisotropic (Kajiya–Kay)",
-                         {"--reflection", "kajiya-kay", "--light-scale", "0.6"}}}},
-    [SHEET_TERMS] =
-        {"terms",
-         "The terms of the sum",
-         3,
-         false,
-         6,
-         {{"Ambient only", {"--light", KEY "," BRIGHT, "--material", "diffuse=0,specular=0"}},
-          {"Diffuse only", {"--light", KEY "," BRIGHT, "--material", "ambient=0,specular=0"}},
-          {"Specular only, shininess 50",
-           {"--light", KEY "," BRIGHT, "--material", "ambient=0,diffuse=0," SPECULAR ",shininess=50"}},
-          {"All, shininess 50", {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=50"}},
-          {"All, shininess 1000", {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=1000"}},
-          {"All, shininess 1000, flat",
-           {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=1000", "--shading", "flat"}}}},
-    [SHEET_STAGES] =
-        {"stages",
-         "Where light is worked out",
-         2,
-         true,
-         2,
-         {{"Per vertex",
-           {"--stage", "vertex", "--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=200"}},
-          {"Per fragment",
-           {"--stage", "fragment", "--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=200"}}}},
+                        {"Anisotropic (Kajiya–Kay)", {"--reflection", "kajiya-kay", "--light-scale", "0.6"}}}},
+    [SHEET_TERMS] = {"terms",
+                     "The terms of the sum",
+                     3,
+                     false,
+                     6,
+                     {{"Ambient only", {"--light", KEY "," BRIGHT, "--material", "diffuse=0,specular=0"}},
+                      {"Diffuse only", {"--light", KEY "," BRIGHT, "--material", "ambient=0,specular=0"}},
+                      {"Specular only, shininess 50",
+                       {"--light", KEY "," BRIGHT, "--material", "ambient=0,diffuse=0," SPECULAR ",shininess=50"}},
+                      {"All, shininess 50", {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=50"}},
+                      {"All, shininess 1000", {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=1000"}},
+                      {"All, shininess 1000, flat",
+                       {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=1000", "--shading", "flat"}}}},
+    [SHEET_STAGES] = {"stages",
+                      "Where light is worked out",
+                      2,
+                      true,
+                      2,
+                      {{"Per vertex",
+                        {"--stage", "vertex", "--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=200"}},
+                       {"Per fragment",
+                        {"--stage", "fragment", "--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=200"}}}},
     [SHEET_LIGHT] = {"light",
                      "The colour of light",
                      2,
@@ -65,18 +62,16 @@ static const struct sheet sheets[] = {
                       {"Green light", {"--light", GREEN}},
                       {"Orange surface, white light", {"--light", WHITE, "--material", ORANGE}},
                       {"Orange surface, green light", {"--light", GREEN, "--material", ORANGE}}}},
-    [SHEET_AMBIENT] = {"ambient",
-                       "Ambient and diffuse light",
-                       3,
-                       false,
-                       3,
-                       {{"Ambient white, diffuse white",
-                         {"--light", KEY ",ambient=0.25,diffuse=1", "--material", "ambient=0.72"}},
-                        {"Ambient red, diffuse white",
-                         {"--light", KEY ",ambient=0.25/0/0,diffuse=1", "--material", "ambient=0.72"}},
-                        {"Ambient red, diffuse red",
-                         {"--light", KEY ",ambient=0.25/0/0,diffuse=1/0/0,specular=1/0/0", "--material",
-                          "ambient=0.72"}}}},
+    [SHEET_AMBIENT] =
+        {"ambient",
+         "Ambient and diffuse light",
+         3,
+         false,
+         3,
+         {{"Ambient white, diffuse white", {"--light", KEY ",ambient=0.25,diffuse=1", "--material", "ambient=0.72"}},
+          {"Ambient red, diffuse white", {"--light", KEY ",ambient=0.25/0/0,diffuse=1", "--material", "ambient=0.72"}},
+          {"Ambient red, diffuse red",
+           {"--light", KEY ",ambient=0.25/0/0,diffuse=1/0/0,specular=1/0/0", "--material", "ambient=0.72"}}}},
     [SHEET_FRAMES] = {"frames",
                       "One light in three frames",
                       3,
@@ -107,8 +102,8 @@ static const struct option *find_option(const char *name, size_t length, lam_err
     struct suggestion nearest = suggest_start(typed);
     unsigned groups = find_groups("render");
     for (const struct option *o = option_table; o->name; o++) {
-        bool fits = o->value && groups & 1u << o->group && o->group != GROUP_PICTURE &&
-                    o->group != GROUP_REPORT && o->group != GROUP_ABOUT && o->group != GROUP_WORK;
+        bool fits = o->value && groups & 1u << o->group && o->group != GROUP_PICTURE && o->group != GROUP_REPORT &&
+                    o->group != GROUP_ABOUT && o->group != GROUP_WORK;
         fits = fits || strcmp(o->name, "samples") == 0 || strcmp(o->name, "color") == 0 ||
                strcmp(o->name, "background") == 0 || strcmp(o->name, "show") == 0;
         if (fits && strcmp(o->name, typed) == 0)
@@ -118,13 +113,11 @@ static const struct option *find_option(const char *name, size_t length, lam_err
     }
     complain(error, LAM_BAD_ARGUMENT,
              "option '--across': found '%s', expected an option of the picture such as shading%s%s%s", typed,
-             nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
-             nearest.best ? "'?" : "");
+             nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
     return NULL;
 }
 
-static bool add_variant(struct sheet *sheet, const char *dashed, const char *name, const char *value,
-                        lam_error *error)
+static bool add_variant(struct sheet *sheet, const char *dashed, const char *name, const char *value, lam_error *error)
 {
     if (sheet->count == CELLS_MOST)
         return complain(error, LAM_LIMIT, "option '--across': more than %d pictures", CELLS_MOST);
@@ -159,12 +152,10 @@ static bool lacks_semicolons(const struct option *option, const char *values)
     return false;
 }
 
-static bool choose_across(const char *across, bool own_material, struct sheet *sheet, char **store,
-                          lam_error *error)
+static bool choose_across(const char *across, bool own_material, struct sheet *sheet, char **store, lam_error *error)
 {
     size_t length = strcspn(across, "=");
-    bool term =
-        length == 4 && memcmp(across, "term", 4) == 0; // what --show calls ambient, diffuse and the others
+    bool term = length == 4 && memcmp(across, "term", 4) == 0; // what --show calls ambient, diffuse and the others
     const struct option *option = term ? find_option("show", 4, error) : find_option(across, length, error);
     if (!option)
         return false;
@@ -177,12 +168,12 @@ static bool choose_across(const char *across, bool own_material, struct sheet *s
     if (!values && strcmp(option->name, "light") == 0)
         values = "ambient;hemisphere;point;directional:direction=-1/-2/-3;spot:position=1r/2r/3r,cutoff=12";
     if (!values && !option->words)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--across': '%s' needs values: %s=A,B,C",
-                        option->name, option->name);
+        return complain(error, LAM_BAD_ARGUMENT, "option '--across': '%s' needs values: %s=A,B,C", option->name,
+                        option->name);
     if (values && lacks_semicolons(option, values))
-        return complain(
-            error, LAM_BAD_ARGUMENT,
-            "option '--across': found a comma between two lights in '%.200s', expected a semicolon", across);
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--across': found a comma between two lights in '%.200s', expected a semicolon",
+                        across);
     // One block: "--name", a zero, the values, each ended by a zero.
     size_t dashed = strlen(option->name) + 3;
     *store = malloc(dashed + (values ? strlen(values) : 0) + 1);
@@ -203,8 +194,7 @@ static bool choose_across(const char *across, bool own_material, struct sheet *s
             if (end)
                 *end++ = 0;
             ok = *value ? add_variant(sheet, *store, option->name, value, error)
-                        : complain(error, LAM_BAD_ARGUMENT, "option '--across': an empty value in '%.200s'",
-                                   across);
+                        : complain(error, LAM_BAD_ARGUMENT, "option '--across': an empty value in '%.200s'", across);
             value = end;
         }
     }
@@ -219,14 +209,13 @@ static bool choose_across(const char *across, bool own_material, struct sheet *s
 }
 
 // Two rows crossed: one line for each picture of the first, one column for each of the second.
-static bool cross(const struct sheet *lines, const struct sheet *columns, struct sheet *sheet,
-                  lam_error *error)
+static bool cross(const struct sheet *lines, const struct sheet *columns, struct sheet *sheet, lam_error *error)
 {
     *sheet = (struct sheet){.name = "across", .columns = columns->count};
     snprintf(sheet->title, sizeof sheet->title, "By %.24s and %.24s", lines->name, columns->name);
     if (lines->count * columns->count > CELLS_MOST)
-        return complain(error, LAM_LIMIT, "options '--across': %d times %d pictures, at most %d",
-                        lines->count, columns->count, CELLS_MOST);
+        return complain(error, LAM_LIMIT, "options '--across': %d times %d pictures, at most %d", lines->count,
+                        columns->count, CELLS_MOST);
     for (int i = 0; i < lines->count * columns->count; i++) {
         const struct cell *a = &lines->cells[i / columns->count], *b = &columns->cells[i % columns->count];
         struct cell *cell = &sheet->cells[sheet->count++];
@@ -241,8 +230,7 @@ static bool cross(const struct sheet *lines, const struct sheet *columns, struct
     return true;
 }
 
-bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MOST],
-                  lam_error *error)
+bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MOST], lam_error *error)
 {
     for (int i = 0; i < ACROSS_MOST; i++)
         store[i] = NULL;
@@ -263,6 +251,5 @@ bool sheet_choose(const struct options *options, struct sheet *sheet, char *stor
         return choose_across(across->items[0], own, sheet, &store[0], error);
     struct sheet lines, columns;
     return choose_across(across->items[0], own, &lines, &store[0], error) &&
-           choose_across(across->items[1], own, &columns, &store[1], error) &&
-           cross(&lines, &columns, sheet, error);
+           choose_across(across->items[1], own, &columns, &store[1], error) && cross(&lines, &columns, sheet, error);
 }

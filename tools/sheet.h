@@ -21,7 +21,6 @@ struct sheet {
 };
 
 // The sheet that the options ask for. `store` keeps the words of each --across; free() them after the sheet.
-bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MOST],
-                  lam_error *error);
+bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MOST], lam_error *error);
 
 #endif

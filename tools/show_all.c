@@ -52,8 +52,7 @@ static bool draw_all(struct layers *layers, struct job *job, const lam_light *li
         ok = add(layers, job, terms[i], 0, control, error);
     }
     for (int i = 0; ok && i < light_count; i++) {
-        // A dot in a name would be a layer of a layer; two lights of one name are told apart by their
-        // numbers.
+        // A dot in a name would be a layer of a layer; two lights of one name are told apart by their numbers.
         char *name = layers->names[layers->count];
         snprintf(name, NAME_ROOM, "light.%d%s%.60s", i + 1, lights[i].name ? "-" : "",
                  lights[i].name ? lights[i].name : "");

@@ -14,8 +14,7 @@ static bool takes_light(lam_show show)
     return show == LAM_SHOW_LIGHT || show == LAM_SHOW_N_L || show == LAM_SHOW_N_H;
 }
 
-// The show with this name; LAM_SHOW_COUNT: none. `light` becomes what stands behind the colon, NULL without
-// one.
+// The show with this name; LAM_SHOW_COUNT: none. `light` becomes what stands behind the colon, NULL without one.
 static lam_show split(const char *text, const char **light)
 {
     *light = NULL;
@@ -36,8 +35,7 @@ bool store_show(const struct option *option, const char *value, struct options *
     const char *light;
     lam_show show = split(value, &light);
     if (show == LAM_SHOW_LIGHT && !light)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "found 'light', expected light:NAME, the light's name or its number");
+        return complain(error, LAM_BAD_ARGUMENT, "found 'light', expected light:NAME, the light's name or its number");
     if (light && !*light)
         return complain(error, LAM_BAD_ARGUMENT,
                         "found '%.100s', expected a light's name or its number behind the colon", value);
@@ -53,8 +51,7 @@ bool store_show(const struct option *option, const char *value, struct options *
         suggest_try(&nearest, w->name);
     }
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s%s%s", value, known,
-                    nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
-                    nearest.best ? "'?" : "");
+                    nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
 }
 
 lam_show show_option_what(const char *text)
@@ -68,8 +65,8 @@ static bool has_direction(const lam_light *light)
     return light->type != LAM_LIGHT_AMBIENT && light->type != LAM_LIGHT_HEMISPHERE;
 }
 
-// The number of the light that is meant; −1: none. By name first, then by number from 1; without either the
-// first with a direction.
+// The number of the light that is meant; −1: none. By name first, then by number from 1; without either the first with
+// a direction.
 static int find(const char *wanted, const lam_light *lights, int count)
 {
     for (int i = 0; i < count; i++)
@@ -77,9 +74,7 @@ static int find(const char *wanted, const lam_light *lights, int count)
             return i;
     char *end = NULL;
     long number = wanted ? strtol(wanted, &end, 10) : 0;
-    return wanted && *wanted >= '0' && *wanted <= '9' && !*end && number >= 1 && number <= count
-               ? (int)number - 1
-               : -1;
+    return wanted && *wanted >= '0' && *wanted <= '9' && !*end && number >= 1 && number <= count ? (int)number - 1 : -1;
 }
 
 // "'key', 'fill', 3": unnamed lights by their numbers. Ends with "…" where there are too many to tell.
@@ -123,11 +118,10 @@ bool show_option_apply(const char *text, const lam_scene *scene, lam_draw_params
         list(lights, count, directed, known, sizeof known);
         const char *kind = directed ? " with a direction" : "";
         if (!*known)
-            complain(error, LAM_BAD_ARGUMENT, "option '--show': %.100s needs a light%s, and there is none",
-                     text, kind);
+            complain(error, LAM_BAD_ARGUMENT, "option '--show': %.100s needs a light%s, and there is none", text, kind);
         else
-            complain(error, LAM_BAD_ARGUMENT, "option '--show': no light%s is '%.100s'; there %s %s", kind,
-                     wanted, strchr(known, ',') ? "are" : "is", known);
+            complain(error, LAM_BAD_ARGUMENT, "option '--show': no light%s is '%.100s'; there %s %s", kind, wanted,
+                     strchr(known, ',') ? "are" : "is", known);
     }
     free(lights);
     return ok;

@@ -1,12 +1,10 @@
-// mistakes.c: draws docs/mistakes.md's pictures: each known mistake of lectures and tutorials beside the
-// correct form.
+// mistakes.c: draws docs/mistakes.md's pictures: each known mistake of lectures and tutorials beside the correct form.
 //
-//   mistakes FOLDER     writes FOLDER/mistake-NAME.png: the mistake on the left, the correct picture on the
-//   right
+//   mistakes FOLDER     writes FOLDER/mistake-NAME.png: the mistake on the left, the correct picture on the right
 //
-// A renderer that can be wrong on purpose, apart from the library that must not be: it casts a ray for each
-// pixel at a coarse mesh, interpolates what a vertex shader would hand on, and lights with the formulas of
-// docs/lighting.md in double.
+// A renderer that can be wrong on purpose, apart from the library that must not be: it casts a ray for each pixel at a
+// coarse mesh, interpolates what a vertex shader would hand on, and lights with the formulas of docs/lighting.md in
+// double.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -20,10 +18,7 @@ static vec add(vec a, vec b) { return (vec){a.x + b.x, a.y + b.y, a.z + b.z}; }
 static vec sub(vec a, vec b) { return (vec){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static vec mul(vec a, double s) { return (vec){a.x * s, a.y * s, a.z * s}; }
 static double dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static vec cross(vec a, vec b)
-{
-    return (vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+static vec cross(vec a, vec b) { return (vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 static vec unit(vec a)
 {
     double length = sqrt(dot(a, a));
@@ -79,14 +74,12 @@ struct corner {
     vec p, n; // mesh space
 };
 static struct corner corners[CORNERS_MAX];
-static float bounds[CORNERS_MAX / 3]
-                   [4]; // of each triangle on the screen: least x, y, largest x, y of direction / −z
+static float bounds[CORNERS_MAX / 3][4]; // of each triangle on the screen: least x, y, largest x, y of direction / −z
 static int corner_count;
 
 static void put_corner(vec p, vec n) { corners[corner_count++] = (struct corner){p, n}; }
 
-// Where triangles lie on the screen, so that a ray asks few of them. What reaches behind the eye is asked by
-// all.
+// Where triangles lie on the screen, so that a ray asks few of them. What reaches behind the eye is asked by all.
 static void find_bounds(const struct study *s)
 {
     for (int t = 0; t < corner_count / 3; t++) {
@@ -126,9 +119,9 @@ static void build(const struct study *s)
     }
     for (int j = 0; j < s->stacks; j++)
         for (int i = 0; i < s->slices; i++) {
-            if (s->bowl && on_sphere(2 * i + 1, 2 * j + 1,
-                                     &(struct study){.slices = 2 * s->slices, .stacks = 2 * s->stacks})
-                                   .z > 0)
+            if (s->bowl &&
+                on_sphere(2 * i + 1, 2 * j + 1, &(struct study){.slices = 2 * s->slices, .stacks = 2 * s->stacks}).z >
+                    0)
                 continue;
             vec a = on_sphere(i, j, s), b = on_sphere(i, j + 1, s), c = on_sphere(i + 1, j + 1, s),
                 d = on_sphere(i + 1, j, s);
@@ -144,8 +137,7 @@ static vec vertex_normal(const struct study *s, enum mistake m, vec n)
     if (m == NORMAL_BY_MODEL)
         return unit(times(n, s->scale));
     vec right = unit((vec){n.x / s->scale.x, n.y / s->scale.y, n.z / s->scale.z});
-    if (m ==
-        NORMAL_WITH_W) // normalize(matrix4 * vec4(n, 0)).xyz where the transpose put the translation into w
+    if (m == NORMAL_WITH_W) // normalize(matrix4 * vec4(n, 0)).xyz where the transpose put the translation into w
         return mul(right, 1 / sqrt(1 + pow(dot(right, (vec){0, 0, 1.5}), 2)));
     return m == INWARD ? mul(right, -1) : right;
 }
@@ -164,8 +156,8 @@ static vec sky(vec r)
     return add(c, (vec){sun, sun, 0.8 * sun});
 }
 
-// A fragment: interpolated position, normal, distance to the light as the vertices had it, and the triangle's
-// own values.
+// A fragment: interpolated position, normal, distance to the light as the vertices had it, and the triangle's own
+// values.
 struct fragment {
     vec p, n, face, last_normal;
     double mean_distance;
@@ -207,14 +199,12 @@ static vec light_fragment(const struct study *s, enum mistake m, struct fragment
     if (m == MEAN_DISTANCE)
         distance = f.mean_distance;
     double attenuation =
-        s->directional
-            ? 1
-            : 1 / (s->attenuation.x + s->attenuation.y * distance + s->attenuation.z * distance * distance);
+        s->directional ? 1
+                       : 1 / (s->attenuation.x + s->attenuation.y * distance + s->attenuation.z * distance * distance);
     double nl = dot(n, l), D = fmax(nl, 0), S;
     if (s->look == THREADS) {
         vec t = unit(cross((vec){0, 1, 0}, n));
-        double tl = dot(t, l), tv = dot(t, v), sl = sqrt(fmax(1 - tl * tl, 0)),
-               sv = sqrt(fmax(1 - tv * tv, 0));
+        double tl = dot(t, l), tv = dot(t, v), sl = sqrt(fmax(1 - tl * tl, 0)), sv = sqrt(fmax(1 - tv * tv, 0));
         bool lit = nl > 0 || m == THREAD_GATE;
         D = lit ? sl : 0;
         S = lit ? pow(fmax(m == THREAD_SIGN ? sl * sv + tl * tv : sl * sv - tl * tv, 0), s->shininess) : 0;
@@ -232,10 +222,7 @@ static vec light_fragment(const struct study *s, enum mistake m, struct fragment
     return add(ambient, add(mul(kd, attenuation * D), mul(ks, (m == BARE_SPECULAR ? 1 : attenuation) * S)));
 }
 
-static double light_distance(const struct study *s, vec p)
-{
-    return sqrt(dot(sub(s->light, p), sub(s->light, p)));
-}
+static double light_distance(const struct study *s, vec p) { return sqrt(dot(sub(s->light, p), sub(s->light, p))); }
 
 // The nearest triangle that a ray hits (Möller and Trumbore, 1997), as a fragment.
 static bool cast(const struct study *s, enum mistake m, vec direction, struct fragment *out)
@@ -257,8 +244,7 @@ static bool cast(const struct study *s, enum mistake m, vec direction, struct fr
             continue;
         nearest = at;
         double b[3] = {1 - b1 - b2, b1, b2}, screen[3], sum = 0;
-        *out = (struct fragment){.face = unit(cross(e1, e2)),
-                                 .last_normal = vertex_normal(s, m, corners[c + 2].n)};
+        *out = (struct fragment){.face = unit(cross(e1, e2)), .last_normal = vertex_normal(s, m, corners[c + 2].n)};
         for (int k = 0; k < 3; k++)
             sum += screen[k] = b[k] * (eye.z - p[k].z); // weights on the screen: perspective taken out
         for (int k = 0; k < 3; k++) {
@@ -293,11 +279,10 @@ static void draw_half(const struct study *s, enum mistake m, lam_image *image, i
                 vec colour = {1, 1, 1};
                 if (cast(s, m, direction, &f))
                     colour = light_fragment(s, m, f);
-                sum = add(sum, (vec){fmin(fmax(colour.x, 0), 1), fmin(fmax(colour.y, 0), 1),
-                                     fmin(fmax(colour.z, 0), 1)});
+                sum =
+                    add(sum, (vec){fmin(fmax(colour.x, 0), 1), fmin(fmax(colour.y, 0), 1), fmin(fmax(colour.z, 0), 1)});
             }
-            uint8_t *to =
-                (uint8_t *)image->pixels + 4 * ((size_t)y * (size_t)image->width + (size_t)(left + x));
+            uint8_t *to = (uint8_t *)image->pixels + 4 * ((size_t)y * (size_t)image->width + (size_t)(left + x));
             to[0] = encode(sum.x / 9);
             to[1] = encode(sum.y / 9);
             to[2] = encode(sum.z / 9);
@@ -314,8 +299,7 @@ static const struct study studies[] = {
     {"raw-half", RAW_HALF, PHONG, BALL, .light = {-4, 3, 5}},
     {"no-gate", NO_GATE, PHONG, BALL, .shininess = 4, .light = {-4, 1, -3}},
     {"bare-specular", BARE_SPECULAR, PHONG, BALL, .light = {-2, 3, 4}, .attenuation = {1, 0, 0.12}},
-    {"mean-distance", MEAN_DISTANCE, DIFFUSE, .scale = {1, 1, 1}, .light = {0, -0.4, -1},
-     .attenuation = {0.2, 0, 0.6}},
+    {"mean-distance", MEAN_DISTANCE, DIFFUSE, .scale = {1, 1, 1}, .light = {0, -0.4, -1}, .attenuation = {0.2, 0, 0.6}},
     {"long-normal", LONG_NORMAL, PHONG, BALL, .slices = 8, .stacks = 5, .light = {-2, 3, 4}},
     {"no-global-ambient", NO_GLOBAL_AMBIENT, PHONG, BALL, .light = {-4, 3, 1}},
     {"normal-with-w", NORMAL_WITH_W, PHONG, BALL, .light = {-2, 3, 4}},

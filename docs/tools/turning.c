@@ -46,9 +46,8 @@ static bool turn(lam_scene *scene, const lam_object *first, double angle, lam_er
 }
 
 // The first frame is apart; those after it turn, or stand still.
-static bool measure(lam_device *device, lam_scene *scene, const lam_camera *camera,
-                    const lam_draw_params *params, lam_image *image, int frames, double step,
-                    struct measured *out, lam_error *error)
+static bool measure(lam_device *device, lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
+                    lam_image *image, int frames, double step, struct measured *out, lam_error *error)
 {
     int objects = lam_scene_object_count(scene);
     lam_object *first = calloc((size_t)objects + 1, sizeof *first);
@@ -107,10 +106,9 @@ int main(int argc, char **argv)
              measure(device, scene, &camera, &params, &image, frames, 0, &still, &error);
         if (ok)
             printf("| %s | %.2f MB | %" PRIu64
-                   " bytes | %.2f ms | %.2f ms | %.2f ms | %.2f ms | %.2f ms | %.2f ms, %" PRIu64
-                   " bytes |\n",
-                   ways[i].name, (double)turning.first_bytes / 1e6, turning.bytes, turning.lighting,
-                   turning.upload, turning.draw, turning.read, turning.total, still.total, still.bytes);
+                   " bytes | %.2f ms | %.2f ms | %.2f ms | %.2f ms | %.2f ms | %.2f ms, %" PRIu64 " bytes |\n",
+                   ways[i].name, (double)turning.first_bytes / 1e6, turning.bytes, turning.lighting, turning.upload,
+                   turning.draw, turning.read, turning.total, still.total, still.bytes);
         lam_device_free(device);
     }
     if (!ok)

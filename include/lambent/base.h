@@ -50,18 +50,15 @@ typedef struct lam_cancel {
     int raised;
 } lam_cancel;
 
-LAM_API
-void lam_cancel_raise(lam_cancel *cancel); // safe from any thread and from a signal handler
-LAM_API
-void lam_cancel_clear(lam_cancel *cancel);
+LAM_API void lam_cancel_raise(lam_cancel *cancel); // safe from any thread and from a signal handler
+LAM_API void lam_cancel_clear(lam_cancel *cancel);
 
 // Control over one long call (load or draw). All zero means: no bound, no progress. Checked in every long
 // loop, so a call ends within some milliseconds of the flag or the deadline, with nothing half done.
 typedef struct lam_control {
-    const lam_cancel *cancel; // NULL: cannot be cancelled; a raised flag gives LAM_CANCELLED
-    double time_limit_s;      // seconds from the start of the call; 0 or less: none; over it gives LAM_LIMIT
-    uint64_t
-        memory_limit_bytes; // bytes the call may hold allocated at once; 0: none; over it gives LAM_LIMIT
+    const lam_cancel *cancel;    // NULL: cannot be cancelled; a raised flag gives LAM_CANCELLED
+    double time_limit_s;         // seconds from the start of the call; 0 or less: none; over it gives LAM_LIMIT
+    uint64_t memory_limit_bytes; // bytes the call may hold allocated at once; 0: none; over it gives LAM_LIMIT
     // Called now and then from the calling thread with the share done, 0..1, and the step's name
     // ("read", "normals", "frame", …). NULL: none. It must not call back into the same device or scene.
     void (*progress)(void *user, double share, const char *step);
@@ -93,14 +90,11 @@ typedef struct lam_mat4 {
 } lam_mat4;
 
 // The matrix that changes nothing.
-LAM_API
-lam_mat4 lam_mat4_identity(void);
+LAM_API lam_mat4 lam_mat4_identity(void);
 
 // The library's version, "major.minor.patch", and one line on what it was built with. Static strings.
-LAM_API
-const char *lam_version(void);
-LAM_API
-const char *lam_build_info(void);
+LAM_API const char *lam_version(void);
+LAM_API const char *lam_build_info(void);
 
 #ifdef __cplusplus
 }

@@ -10,25 +10,22 @@ extern "C" {
 
 // A camera. Right-handed: unrotated it looks along −Z with +Y up.
 typedef struct lam_camera {
-    lam_vec3 eye, target, up; // eye ≠ target; up not along the view (another axis is taken if it is)
-    double fovy_rad;          // full vertical field of view, in (0, π); used where ortho_half_height is 0
-    double ortho_half_height; // > 0: orthographic, this many model units from the middle to the top
+    lam_vec3 eye, target, up;     // eye ≠ target; up not along the view (another axis is taken if it is)
+    double fovy_rad;              // full vertical field of view, in (0, π); used where ortho_half_height is 0
+    double ortho_half_height;     // > 0: orthographic, this many model units from the middle to the top
     double near_plane, far_plane; // distances along the view, near < far; both 0: fitted to the scene
 } lam_camera;
 
 // A perspective camera at (0, 0, 4) looking at the origin, 30° high.
-LAM_API
-lam_camera lam_camera_default(void);
+LAM_API lam_camera lam_camera_default(void);
 
 // World to eye space: the eye at the origin, x to the right, y up, looking along −z.
-LAM_API
-lam_mat4 lam_camera_view(const lam_camera *camera);
+LAM_API lam_mat4 lam_camera_view(const lam_camera *camera);
 
 // How lam_camera_fit places the camera. All zero: the three-quarter view of a catalogue.
 typedef struct lam_view {
-    bool from_angles; // true: azimuth and elevation below; false: 30° to the right of front, 20° above
-    double
-        azimuth_rad; // 0: from the front (+Z with Y up), positive: the camera goes to the right (towards +X)
+    bool from_angles;     // true: azimuth and elevation below; false: 30° to the right of front, 20° above
+    double azimuth_rad;   // 0: from the front (+Z with Y up), positive: the camera goes to the right (towards +X)
     double elevation_rad; // 0: level, π/2: from above; −π/2..π/2
     double fovy_rad;      // 0: 30°
     bool orthographic;
@@ -37,11 +34,9 @@ typedef struct lam_view {
     double fill;   // share of the tighter side that the projected vertices take, 0..1; 0: 0.92
 } lam_view;
 
-// Places a camera so that the scene's projected vertices fill the picture (not their bounding box: the
-// vertices themselves) and are centred in it. The scene's up axis turns the view. An empty scene gives the
-// default camera.
-LAM_API
-lam_camera lam_camera_fit(const lam_scene *scene, const lam_view *view);
+// Places a camera so that the scene's projected vertices fill the picture (not their bounding box: the vertices
+// themselves) and are centred in it. The scene's up axis turns the view. An empty scene gives the default camera.
+LAM_API lam_camera lam_camera_fit(const lam_scene *scene, const lam_view *view);
 
 #ifdef __cplusplus
 }

@@ -19,8 +19,7 @@ typedef enum lam_check_contract {
     LAM_CONTRACT_COUNT
 } lam_check_contract;
 
-LAM_API
-const char *lam_check_contract_name(lam_check_contract contract); // "auto", "lambent", …; NULL out of range
+LAM_API const char *lam_check_contract_name(lam_check_contract contract); // "auto", "lambent", …; NULL out of range
 
 // One name of a contract; `row` counts from 0. False past the last one. Strings are static.
 typedef struct lam_check_name {
@@ -30,27 +29,21 @@ typedef struct lam_check_name {
     const char *synonyms; // other names taken for it, separated by blanks; NULL: none
     bool attribute;
 } lam_check_name;
-LAM_API
-bool lam_check_contract_row(lam_check_contract contract, int row, lam_check_name *name);
+LAM_API bool lam_check_contract_row(lam_check_contract contract, int row, lam_check_name *name);
 
 // The mistakes that are known, by their ids ("no-gate"), and what each is, in a sentence. NULL past the last.
-LAM_API
-const char *lam_check_mistake(int index);
-LAM_API
-const char *lam_check_mistake_says(int index);
+LAM_API const char *lam_check_mistake(int index);
+LAM_API const char *lam_check_mistake_says(int index);
 
 // The reference scenes, and what each shows. NULL past the last.
-LAM_API
-const char *lam_check_scene_name(int index);
-LAM_API
-const char *lam_check_scene_shows(int index);
+LAM_API const char *lam_check_scene_name(int index);
+LAM_API const char *lam_check_scene_shows(int index);
 
 // Draws a job that lam_check_run hands out. It compiles and runs the shaders under test, which may crash the
 // driver or never end: call it in a process of its own and stop that when its time is over. `drawn` is freed
 // by the caller. `gl_device`: as lam_gl_params.device; NULL: the first usable one. LAM_UNSUPPORTED: no
 // OpenGL; shaders that are refused are no error here.
-LAM_API
-bool lam_check_draw(const void *job, size_t size, const char *gl_device, lam_bytes *drawn, lam_error *error);
+LAM_API bool lam_check_draw(const void *job, size_t size, const char *gl_device, lam_bytes *drawn, lam_error *error);
 
 // What came of a process that drew.
 typedef enum lam_check_end {
@@ -65,10 +58,8 @@ typedef lam_check_end lam_check_draw_fn(void *user, const lam_bytes *job, lam_by
 // which saves nearly all of the time. Up to `bytes_most`; what does not fit is drawn again. For one thread at
 // a time, and for one OpenGL device. NULL: out of memory.
 typedef struct lam_check_pictures lam_check_pictures;
-LAM_API
-lam_check_pictures *lam_check_pictures_make(size_t bytes_most, lam_error *error);
-LAM_API
-void lam_check_pictures_free(lam_check_pictures *pictures); // NULL is fine
+LAM_API lam_check_pictures *lam_check_pictures_make(size_t bytes_most, lam_error *error);
+LAM_API void lam_check_pictures_free(lam_check_pictures *pictures); // NULL is fine
 
 typedef struct lam_check_params {
     const char *fragment, *fragment_name; // GLSL, and the file's name for messages
@@ -79,8 +70,7 @@ typedef struct lam_check_params {
     // Largest difference of a channel, 1 = full range, that pixels may have; 0: 2/255. A scene passes when at
     // most one pixel in 200 has more, and the mean is not above a quarter of it.
     double tolerance;
-    // LAM_FRAME_OBJECT, LAM_FRAME_CAMERA: what light positions are given in; LAM_FRAME_WORLD: the contract's
-    // own
+    // LAM_FRAME_OBJECT, LAM_FRAME_CAMERA: what light positions are given in; LAM_FRAME_WORLD: the contract's own
     lam_light_frame light_frame;
     // LAM_REFLECTION_PHONG, LAM_REFLECTION_BLINN_PHONG: the highlight asked for; AUTO: the contract's own
     lam_reflection reflection;
@@ -115,10 +105,10 @@ typedef struct lam_check_scene {
 
 // A mistake that explains the pictures.
 typedef struct lam_check_finding {
-    const char *mistake; // id
-    const char *says;    // a sentence
-    char *write;         // what to write instead, in the names of the shader
-    bool certain;        // with it (and those before it) every picture is explained within the tolerance
+    const char *mistake;            // id
+    const char *says;               // a sentence
+    char *write;                    // what to write instead, in the names of the shader
+    bool certain;                   // with it (and those before it) every picture is explained within the tolerance
     double mean_before, mean_after; // mean difference over all scenes without and with it
 } lam_check_finding;
 
@@ -152,13 +142,10 @@ typedef struct lam_check_report {
 
 // Checks. False only where no verdict can be had: LAM_BAD_ARGUMENT (no contract fits, an unknown scene),
 // LAM_UNSUPPORTED (no OpenGL), LAM_LIMIT. The report is freed by the caller.
-LAM_API
-bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error);
-LAM_API
-void lam_check_report_free(lam_check_report *report); // zeroed is fine
+LAM_API bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error);
+LAM_API void lam_check_report_free(lam_check_report *report); // zeroed is fine
 
-LAM_API
-const char *lam_check_verdict_name(lam_check_verdict verdict); // "passes", …; NULL out of range
+LAM_API const char *lam_check_verdict_name(lam_check_verdict verdict); // "passes", …; NULL out of range
 
 #ifdef __cplusplus
 }

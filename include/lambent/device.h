@@ -10,9 +10,9 @@
 extern "C" {
 #endif
 
-// Opaque. One device draws one picture at a time; different threads use different devices, and may share a
-// scene that nobody changes. A device keeps its memory from frame to frame: drawing the same kind of frame
-// again allocates nothing.
+// Opaque. One device draws one picture at a time; different threads use different devices, and may share a scene
+// that nobody changes. A device keeps its memory from frame to frame: drawing the same kind of frame again
+// allocates nothing.
 typedef struct lam_device lam_device;
 
 // Instruction sets of the CPU device. Every one gives the same bytes.
@@ -26,35 +26,27 @@ typedef enum lam_isa {
     LAM_ISA_COUNT
 } lam_isa;
 
-LAM_API
-const char *lam_isa_name(lam_isa isa); // "plain", "sse4", …; NULL out of range
-LAM_API
-bool lam_isa_usable(lam_isa isa); // in this build and on this processor
+LAM_API const char *lam_isa_name(lam_isa isa); // "plain", "sse4", …; NULL out of range
+LAM_API bool lam_isa_usable(lam_isa isa);      // in this build and on this processor
 
 typedef struct lam_cpu_params {
     int threads; // threads to draw with, the calling one included, 1..1024; 0: one for each processor
     lam_isa isa;
 } lam_cpu_params;
 
-// The software device. NULL and the reason when the instruction set is not to be had (LAM_UNSUPPORTED) or
-// memory is out (LAM_LIMIT). `params` may be NULL. lam_cpu_params can be written in the call in C:
+// The software device. NULL and the reason when the instruction set is not to be had (LAM_UNSUPPORTED) or memory is
+// out (LAM_LIMIT). `params` may be NULL. lam_cpu_params can be written in the call in C:
 //     lam_device_cpu(&(lam_cpu_params){ .threads = 4 }, &error)
-LAM_API
-lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error);
+LAM_API lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error);
 
-// A device that checks its arguments, builds the frame and draws nothing: for tests and for timing what is
-// above devices.
-LAM_API
-lam_device *lam_device_null(lam_error *error);
+// A device that checks its arguments, builds the frame and draws nothing: for tests and for timing what is above
+// devices.
+LAM_API lam_device *lam_device_null(lam_error *error);
 
-LAM_API
-void lam_device_free(lam_device *device); // NULL is fine
-LAM_API
-const char *lam_device_name(const lam_device *device); // "cpu avx2, 2 threads"; lives as long as the device
-LAM_API
-lam_isa lam_device_isa(const lam_device *device); // the one in use; LAM_ISA_AUTO: no CPU device
-LAM_API
-int lam_device_threads(const lam_device *device); // threads it draws with; 0: none of its own
+LAM_API void lam_device_free(lam_device *device);              // NULL is fine
+LAM_API const char *lam_device_name(const lam_device *device); // "cpu avx2, 2 threads"; lives as long as the device
+LAM_API lam_isa lam_device_isa(const lam_device *device);      // the one in use; LAM_ISA_AUTO: no CPU device
+LAM_API int lam_device_threads(const lam_device *device);      // threads it draws with; 0: none of its own
 
 typedef enum lam_shading {
     LAM_SHADING_PHONG = 0, // normals interpolated, every pixel lit
@@ -72,8 +64,7 @@ typedef enum lam_reflection {
     LAM_REFLECTION_KAJIYA_KAY_LECTURE,
 } lam_reflection;
 
-// Where lighting is worked out. The CPU device gives the same bytes for every stage that a shading method can
-// run in.
+// Where lighting is worked out. The CPU device gives the same bytes for every stage that a shading method can run in.
 typedef enum lam_stage {
     LAM_STAGE_AUTO = 0,    // fragment
     LAM_STAGE_APPLICATION, // before drawing: flat, Gouraud
@@ -93,48 +84,46 @@ typedef enum lam_flat_normal {
     LAM_FLAT_NORMAL_VERTEX,   // its last vertex's, as OpenGL does with smooth normals
 } lam_flat_normal;
 
-// What a frame shows: the picture, one part of its light, or a number of its surfaces. Light is drawn as the
-// picture is: over the background, and sRGB-encoded in 8 bits (lam_show_is_light). The numbers are neither: a
-// float picture holds the number itself, an 8-bit one the code that stands behind it here, and what no
-// triangle covers is 0 with alpha 0, however the background. A number is not averaged: it is that of the
-// triangle at the covered sample nearest to the pixel's centre.
+// What a frame shows: the picture, one part of its light, or a number of its surfaces. Light is drawn as the picture
+// is: over the background, and sRGB-encoded in 8 bits (lam_show_is_light). The numbers are neither: a float picture
+// holds the number itself, an 8-bit one the code that stands behind it here, and what no triangle covers is 0 with
+// alpha 0, however the background. A number is not averaged: it is that of the triangle at the covered sample nearest
+// to the pixel's centre.
 typedef enum lam_show {
     LAM_SHOW_PICTURE = 0,
-    // Terms of the sum: the five add up to the picture (unlit, the colour is the diffuse term). A background
-    // would count five times. With gl1, terms are not clamped.
+    // Terms of the sum: the five add up to the picture (unlit, the colour is the diffuse term). A background would
+    // count five times. With gl1, terms are not clamped.
     LAM_SHOW_AMBIENT,
     LAM_SHOW_DIFFUSE,
     LAM_SHOW_SPECULAR,
     LAM_SHOW_EMISSION,
     LAM_SHOW_REFLECTION, // of the environment
-    // All that one light gives: ambient, diffuse and specular. Those of all lights, the scene's ambient
-    // light, emission and reflection add up to the picture. Black for a frame that is not lit.
+    // All that one light gives: ambient, diffuse and specular. Those of all lights, the scene's ambient light, emission
+    // and reflection add up to the picture. Black for a frame that is not lit.
     LAM_SHOW_LIGHT,
-    // As the lighting sees them, in eye space: x right, y up, z to the viewer; seen from behind, turned. 8
-    // bits: (x + 1)/2.
+    // As the lighting sees them, in eye space: x right, y up, z to the viewer; seen from behind, turned. 8 bits: (x +
+    // 1)/2.
     LAM_SHOW_NORMALS,
     LAM_SHOW_TANGENTS, // the file's, or the direction field, perpendicular to the normal
-    LAM_SHOW_DEPTH, // distance in front of the eye along the view, model units; 8 bits: near white, far black
-    LAM_SHOW_N_L,   // cosine between normal and light; 8 bits: max(n·l, 0)
-    LAM_SHOW_N_H,   // cosine between normal and half vector; 8 bits: max(n·h, 0)
-    LAM_SHOW_FACING, // 1: front, −1: back; 8 bits: front blue (0, 102, 255), back red (255, 51, 0)
-    // Triangle number in its mesh modulo 2²⁴, object number, the rest of the triangle number; 8 bits: a
-    // colour for each triangle of each object, no channel below 48.
+    LAM_SHOW_DEPTH,    // distance in front of the eye along the view, model units; 8 bits: near white, far black
+    LAM_SHOW_N_L,      // cosine between normal and light; 8 bits: max(n·l, 0)
+    LAM_SHOW_N_H,      // cosine between normal and half vector; 8 bits: max(n·h, 0)
+    LAM_SHOW_FACING,   // 1: front, −1: back; 8 bits: front blue (0, 102, 255), back red (255, 51, 0)
+    // Triangle number in its mesh modulo 2²⁴, object number, the rest of the triangle number; 8 bits: a colour for each
+    // triangle of each object, no channel below 48.
     LAM_SHOW_IDS,
     LAM_SHOW_COVERAGE, // share of the pixel's samples that are covered; alpha 1 everywhere
-    // Triangles that cover a sample before the depth test, mean over the pixel's samples, culled ones not
-    // counted; alpha 1 everywhere; 8 bits: c/(c + 3).
+    // Triangles that cover a sample before the depth test, mean over the pixel's samples, culled ones not counted;
+    // alpha 1 everywhere; 8 bits: c/(c + 3).
     LAM_SHOW_OVERDRAW,
-    // By how much each channel of the picture leaves 0…1 (negative: below); 8 bits: red where one is above,
-    // blue where one is below, else the picture in dark grey.
+    // By how much each channel of the picture leaves 0…1 (negative: below); 8 bits: red where one is above, blue where
+    // one is below, else the picture in dark grey.
     LAM_SHOW_CLIPPED,
     LAM_SHOW_COUNT,
 } lam_show;
 
-LAM_API
-const char *lam_show_name(lam_show show); // "picture", "ambient", … "n.l", …; NULL out of range
-LAM_API
-bool lam_show_is_light(lam_show show); // the picture, the terms and a light
+LAM_API const char *lam_show_name(lam_show show); // "picture", "ambient", … "n.l", …; NULL out of range
+LAM_API bool lam_show_is_light(lam_show show);    // the picture, the terms and a light
 
 // How a frame is drawn. All zero is the plain default.
 typedef struct lam_draw_params {
@@ -152,8 +141,9 @@ typedef struct lam_draw_params {
     lam_viewer viewer;
     lam_flat_normal flat_normal;
     bool match_highlights; // shininess is Phong's α: Blinn–Phong takes 4α, so that both highlights look alike
-    bool gl1; // as OpenGL 1 did: vertex colours clamped to 0…1 before they are interpolated, shininess at
-              // most 128, and each light's ambient attenuated and narrowed by its cone
+    // as OpenGL 1 did: vertex colours clamped to 0…1 before they are interpolated, shininess at most 128, and each
+    // light's ambient attenuated and narrowed by its cone
+    bool gl1;
     // Many lights: in frames of more than 16, each part of the picture leaves out the weakest lights, as long
     // as all that they could add to a channel, together, stays below this share of the whole range of the
     // picture's encoded channels. 0: ½/255, so that no byte is off by more than 1; less than 0: every light
@@ -177,33 +167,28 @@ typedef struct lam_frame_report {
     // the stage `application`); drawing, waited for; reading back and encoding. The times above tiles_ms are
     // 0 there.
     double upload_ms, draw_ms, read_ms;
-    uint64_t
-        bytes_uploaded; // vertices, colours, lights, materials, environment sent to the device in this frame
-    uint64_t triangles; // given
+    uint64_t bytes_uploaded;   // vertices, colours, lights, materials, environment sent to the device in this frame
+    uint64_t triangles;        // given
     uint64_t triangles_binned; // that reached a tile
     uint64_t pixels_covered;
-    uint64_t points_lit; // evaluations of the lighting: pixels, vertices or triangles; OpenGL tells only the
-                         // processor's own
+    // evaluations of the lighting: pixels, vertices or triangles; OpenGL tells only the processor's own
+    uint64_t points_lit;
     uint64_t lights_evaluated; // summed over those points
     uint64_t memory_bytes;     // held by the device after the frame
 } lam_frame_report;
 
-// Draws the scene as the camera sees it into `image` (made by the caller, whose size and pixel format
-// decide). `params`, `control` may be NULL. On failure the image's contents are undefined. Errors:
-// LAM_BAD_ARGUMENT, LAM_LIMIT (memory, time, more than 65536 translucent triangles over one pixel),
-// LAM_CANCELLED.
-LAM_API
-bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *camera,
-              const lam_draw_params *params, lam_image *image, const lam_control *control, lam_error *error);
+// Draws the scene as the camera sees it into `image` (made by the caller, whose size and pixel format decide).
+// `params`, `control` may be NULL. On failure the image's contents are undefined. Errors: LAM_BAD_ARGUMENT, LAM_LIMIT
+// (memory, time, more than 65536 translucent triangles over one pixel), LAM_CANCELLED.
+LAM_API bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *camera,
+                      const lam_draw_params *params, lam_image *image, const lam_control *control, lam_error *error);
 
-// The lights of a frame: the scene's, then the rig's. Returns their number, and copies as many as fit into
-// `lights` (NULL: none). Names live as long as the scene is unchanged.
-LAM_API
-int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int room);
+// The lights of a frame: the scene's, then the rig's. Returns their number, and copies as many as fit into `lights`
+// (NULL: none). Names live as long as the scene is unchanged.
+LAM_API int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int room);
 
 // The report of the device's last frame, zeroed before the first.
-LAM_API
-void lam_device_report(const lam_device *device, lam_frame_report *report);
+LAM_API void lam_device_report(const lam_device *device, lam_frame_report *report);
 
 #ifdef __cplusplus
 }

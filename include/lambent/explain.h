@@ -1,5 +1,4 @@
-// lambent/explain.h: how one pixel of a picture came about: every number on the way from the triangles to the
-// bytes.
+// lambent/explain.h: how one pixel of a picture came about: every number on the way from the triangles to the bytes.
 #ifndef LAMBENT_EXPLAIN_H
 #define LAMBENT_EXPLAIN_H
 
@@ -9,8 +8,8 @@
 extern "C" {
 #endif
 
-// All vectors are in eye space unless a name says otherwise (docs/lighting.md, "Vectors"). Vectors and
-// numbers are the floats that the picture was made with; the angles are worked out from them.
+// All vectors are in eye space unless a name says otherwise (docs/lighting.md, "Vectors"). Vectors and numbers are the
+// floats that the picture was made with; the angles are worked out from them.
 
 // A point, directional or spot light at a lit point.
 typedef struct lam_explained_light {
@@ -39,10 +38,10 @@ typedef struct lam_explained_light {
     lam_rgb kd_Ld, ks_Ls;  // products with the material
     lam_rgb diffuse_term;  // spot · attenuation · D · kd ⊙ Ld
     lam_rgb specular_term; // spot · attenuation · S · ks ⊙ Ls
-    lam_rgb ambient_term; // gl1: spot · attenuation · ka ⊙ La; else 0 here, and La is in the point's ambient
-                          // light
-    bool left_out; // its terms are not in the sum: too weak in this part of the picture
-                   // (lam_draw_params.light_cutoff)
+    // gl1: spot · attenuation · ka ⊙ La; else 0 here, and La is in the point's ambient light
+    lam_rgb ambient_term;
+    // its terms are not in the sum: too weak in this part of the picture (lam_draw_params.light_cutoff)
+    bool left_out;
 } lam_explained_light;
 
 typedef struct lam_explained_hemisphere {
@@ -70,8 +69,8 @@ typedef struct lam_explained_point {
     lam_vec3 reflected;             // R = 2 (n·v) n − v, the eye vector's mirror image
     lam_vec3 environment_direction; // R in the environment's own axes, which it is looked up with
     lam_rgb environment_light;      // what comes from there; the reflection term is kr ⊙ it
-    // The terms, ambient and diffuse times the vertex colour, and their sum: emission + ambient + diffuse +
-    // specular + reflection.
+    // The terms, ambient and diffuse times the vertex colour, and their sum: emission + ambient + diffuse + specular +
+    // reflection.
     lam_rgb emission, ambient, diffuse, specular, reflection;
     lam_rgb sum;
     lam_rgb result; // the sum; with gl1 and one of the vertex methods clamped to 0…1
@@ -94,8 +93,8 @@ typedef struct lam_explained_fragment {
     const lam_explained_point *points; // 1, or the 3 corners with Gouraud shading
     int point_count;
     lam_rgba color; // not premultiplied
-    // Bit s: sample s shows it. It counts there with the share of light that translucent triangles before it
-    // let through: 1 where there are none.
+    // Bit s: sample s shows it. It counts there with the share of light that translucent triangles before it let
+    // through: 1 where there are none.
     uint16_t sample_mask;
     float through[16]; // of each sample that shows it
     float weight;      // Σ through ÷ samples: its share of the pixel
@@ -112,7 +111,7 @@ typedef struct lam_explanation {
     bool gl1;
     bool has_environment;
     const lam_explained_fragment
-        *fragments; // in the order of the nearest sample that shows them; translucent ones first, by depth
+        *fragments;     // in the order of the nearest sample that shows them; translucent ones first, by depth
     int fragment_count; // 0: the pixel shows the background alone
 
     lam_rgba sum;        // Σ weight · alpha · color, and Σ weight · alpha
@@ -125,18 +124,16 @@ typedef struct lam_explanation {
     uint8_t bytes[4];    // what LAM_RGBA8 holds: floor(255·encoded + ½), and alpha
 } lam_explanation;
 
-// Draws the part of the picture that pixel (x, y) lies in, x from the left, y from the top, and keeps every
-// number of that pixel. It runs the code that draws pictures; the arguments are those of lam_draw, with the
-// picture's size and format in place of the picture. The device's next picture is not affected. Only the CPU
-// device can do it. NULL on failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (another device), LAM_LIMIT,
-// LAM_CANCELLED. Names in it belong to the scene.
-LAM_API
-lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const lam_camera *camera,
-                             const lam_draw_params *params, int width, int height, lam_pixel_format format,
-                             int x, int y, const lam_control *control, lam_error *error);
+// Draws the part of the picture that pixel (x, y) lies in, x from the left, y from the top, and keeps every number of
+// that pixel. It runs the code that draws pictures; the arguments are those of lam_draw, with the picture's size and
+// format in place of the picture. The device's next picture is not affected. Only the CPU device can do it. NULL on
+// failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (another device), LAM_LIMIT, LAM_CANCELLED. Names in it belong to the
+// scene.
+LAM_API lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const lam_camera *camera,
+                                     const lam_draw_params *params, int width, int height, lam_pixel_format format,
+                                     int x, int y, const lam_control *control, lam_error *error);
 
-LAM_API
-void lam_explanation_free(lam_explanation *explanation); // NULL is fine
+LAM_API void lam_explanation_free(lam_explanation *explanation); // NULL is fine
 
 #ifdef __cplusplus
 }

@@ -41,14 +41,13 @@ typedef struct lam_gl_params {
 
 // The OpenGL device. NULL and the reason, LAM_UNSUPPORTED, when a library, a driver or a version is missing:
 // the sentence says which, and what to install. `params` may be NULL.
-LAM_API
-lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error);
+LAM_API lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error);
 
 // One device of this machine that OpenGL can be had from, without a window.
 typedef struct lam_gl_device {
-    int number;     // as in lam_gl_params.device
-    char name[128]; // the driver's own name of it: "llvmpipe (LLVM 15.0.6, 256 bits)"; "" where it cannot be
-                    // started
+    int number; // as in lam_gl_params.device
+    // the driver's own name of it: "llvmpipe (LLVM 15.0.6, 256 bits)"; "" where it cannot be started
+    char name[128];
     char driver[128];  // the driver's maker and version: "Mesa, 4.5 (Core Profile) Mesa 22.3.6"
     char place[64];    // what EGL calls it: "/dev/dri/card0", "software"
     char versions[64]; // what it can do: "OpenGL 3.3, OpenGL ES 3.0"
@@ -60,8 +59,7 @@ typedef struct lam_gl_device {
 // Looks for devices: each is started and let go again, which takes some milliseconds to some hundreds. Writes
 // at most `room` of them and returns how many there are, hardware first; −1 and the reason (LAM_UNSUPPORTED)
 // when OpenGL cannot be had at all. `params` may be NULL; only `library` is looked at.
-LAM_API
-int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int room, lam_error *error);
+LAM_API int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int room, lam_error *error);
 
 #ifdef __cplusplus
 }

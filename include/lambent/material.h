@@ -23,10 +23,9 @@ typedef enum lam_map {
     LAM_MAP_COUNT
 } lam_map;
 
-// A material of the classic models. All colours are linear reflectances, 0..1 for surfaces that do not make
-// light; more is allowed. The light that leaves a point is (docs/lighting.md has the terms in full)
-//   emission + ambient ⊙ (ambient light) + Σ over lights of (diffuse ⊙ Ld · D + specular ⊙ Ls · S) +
-//   reflectivity ⊙ environment.
+// A material of the classic models. All colours are linear reflectances, 0..1 for surfaces that do not make light;
+// more is allowed. The light that leaves a point is (docs/lighting.md has the terms in full)
+//   emission + ambient ⊙ (ambient light) + Σ over lights of (diffuse ⊙ Ld · D + specular ⊙ Ls · S) + reflectivity ⊙ environment.
 // lam_material_default() gives the neutral grey; a zeroed struct is black and clear.
 typedef struct lam_material {
     lam_rgb ambient;  // ka: share of ambient and hemisphere light returned
@@ -45,8 +44,7 @@ typedef struct lam_material {
 } lam_material;
 
 // The material of a model that names none: neutral light grey with a soft highlight.
-LAM_API
-lam_material lam_material_default(void);
+LAM_API lam_material lam_material_default(void);
 
 // The classic named materials, as published in OpenGL's `teapots.c` demonstration (SGI, 1993/1997).
 typedef enum lam_material_id {
@@ -78,17 +76,13 @@ typedef enum lam_material_id {
 } lam_material_id;
 
 // The named material with the published numbers, opaque. Out of range: the default material.
-LAM_API
-lam_material lam_material_named(lam_material_id id);
+LAM_API lam_material lam_material_named(lam_material_id id);
 
 // Its name in lower case with hyphens ("black-plastic"). Out of range: NULL.
-LAM_API
-const char *lam_material_name(lam_material_id id);
+LAM_API const char *lam_material_name(lam_material_id id);
 
-// The material of a name; LAM_MATERIAL_COUNT: no such name. Case does not matter; space and '_' stand for
-// '-'.
-LAM_API
-lam_material_id lam_material_find(const char *name);
+// The material of a name; LAM_MATERIAL_COUNT: no such name. Case does not matter; space and '_' stand for '-'.
+LAM_API lam_material_id lam_material_find(const char *name);
 
 #ifdef __cplusplus
 }

@@ -30,9 +30,9 @@ typedef struct lam_part {
 } lam_part;
 
 // A mesh of triangles: plain data, borrowed arrays (the scene that holds it owns them).
-// A corner c of triangle t is number i = 3t + c. Its position is positions[3·indices[i] …]; each other
-// attribute has an optional index array of its own (3 per triangle), for files whose corners share positions
-// but not normals; where that array is NULL, `indices` serves. `indices` NULL means corner i uses element i.
+// A corner c of triangle t is number i = 3t + c. Its position is positions[3·indices[i] …]; each other attribute
+// has an optional index array of its own (3 per triangle), for files whose corners share positions but not
+// normals; where that array is NULL, `indices` serves. `indices` NULL means corner i uses element i.
 // Positions are relative to `origin`, kept in double, so that detail far from zero survives:
 // the true position is origin + position.
 typedef struct lam_mesh {
@@ -62,8 +62,8 @@ typedef struct lam_mesh {
     lam_rate colors_rate; // LAM_PER_TRIANGLE: element t for triangle t, color_indices unused
     const uint32_t *color_indices;
 
-    // Smoothing group of each triangle, for made normals only: triangles of different groups, and those of
-    // group 0, do not share normals. NULL: none given, the crease angle alone decides.
+    // Smoothing group of each triangle, for made normals only: triangles of different groups, and those of group
+    // 0, do not share normals. NULL: none given, the crease angle alone decides.
     const uint32_t *smoothing_groups;
 
     const lam_part *parts; // NULL: one unnamed part, default material
@@ -73,30 +73,24 @@ typedef struct lam_mesh {
 // A built-in shape's options. All zero is the shape's plain default.
 typedef struct lam_shape_params {
     double radius; // of the whole, model units; 0: 1
-    // Segments around, 3..16384; 0: the shape's own (smooth at 1024 pixels). For gyroid and metaballs the
-    // cells along a side, at most 1024.
+    // Segments around, 3..16384; 0: the shape's own (smooth at 1024 pixels). For gyroid and metaballs the cells along a
+    // side, at most 1024.
     int slices;
-    // Segments along, 1..16384; 0: the shape's own. sphere needs 2, torus and torus-knot 3; teapot takes at
-    // most 4096 along each patch; gyroid and metaballs have no use for it.
+    // Segments along, 1..16384; 0: the shape's own. sphere needs 2, torus and torus-knot 3; teapot takes at most 4096
+    // along each patch; gyroid and metaballs have no use for it.
     int stacks;
     const lam_control *control; // over the making; NULL: none
 } lam_shape_params;
 
 // The built-in shapes, one constant table: sphere, torus, plane, cube, cylinder, cone, teapot, torus-knot,
-// gyroid, metaballs. Y up, centred on the origin; with a radius of 1 each touches the cube from −1 to 1 from
-// inside.
-LAM_API
-int lam_shape_count(void);
-LAM_API
-const char *lam_shape_name(int shape); // static; NULL out of range
-LAM_API
-const char *lam_shape_summary(int shape); // one line for people; static
-LAM_API
-int lam_shape_find(const char *name); // −1: no such shape
+// gyroid, metaballs. Y up, centred on the origin; with a radius of 1 each touches the cube from −1 to 1 from inside.
+LAM_API int lam_shape_count(void);
+LAM_API const char *lam_shape_name(int shape);    // static; NULL out of range
+LAM_API const char *lam_shape_summary(int shape); // one line for people; static
+LAM_API int lam_shape_find(const char *name);     // −1: no such shape
 
-// A point of a parametric surface: p(u, v) and its partial derivatives, whose cross product ∂p/∂u × ∂p/∂v
-// points outward. Where a derivative vanishes (a pole) give the limit's direction, or zero: then the
-// neighbours decide.
+// A point of a parametric surface: p(u, v) and its partial derivatives, whose cross product ∂p/∂u × ∂p/∂v points
+// outward. Where a derivative vanishes (a pole) give the limit's direction, or zero: then the neighbours decide.
 typedef struct lam_surface_point {
     lam_vec3 p, dp_du, dp_dv;
 } lam_surface_point;
@@ -107,7 +101,7 @@ typedef struct lam_parametric {
     void *user;                        // handed to `surface`
     double u_min, u_max, v_min, v_max; // domain; min < max
     int u_segments, v_segments;        // 1..16384
-    bool u_closed, v_closed; // the surface meets itself at the ends of u, of v: one seam, equal normals
+    bool u_closed, v_closed;           // the surface meets itself at the ends of u, of v: one seam, equal normals
 } lam_parametric;
 
 // An implicit surface f(p) = 0, negative inside; `gradient` gives ∇f, which points outward.

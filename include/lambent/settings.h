@@ -1,5 +1,5 @@
-// lambent/settings.h: scene files: what they say about their picture, and writing them. docs/scene-file.md
-// has the format.
+// lambent/settings.h: scene files: what they say about their picture, and writing them. docs/scene-file.md has the
+// format.
 #ifndef LAMBENT_SETTINGS_H
 #define LAMBENT_SETTINGS_H
 
@@ -47,21 +47,18 @@ typedef struct lam_settings {
 } lam_settings;
 
 // The settings of a scene that came from a scene file. False (and all zero) for any other scene.
-LAM_API
-bool lam_scene_settings(const lam_scene *scene, lam_settings *settings);
+LAM_API bool lam_scene_settings(const lam_scene *scene, lam_settings *settings);
 
-// Writes a scene file from which lam_scene_load and `settings` make the same picture again: models by their
-// names relative to the folder of `path`, shapes, materials, transforms, all lights (those of
-// settings->draw.rig spelled out), and every given field of `settings` (NULL: none). Only objects that came
-// from files or are built-in shapes can be written: a mesh that a program added is LAM_UNSUPPORTED. The file
-// appears whole or not at all. Errors: LAM_CANNOT_WRITE, LAM_LIMIT.
-LAM_API
-bool lam_scene_save(const lam_scene *scene, const lam_settings *settings, const char *path, lam_error *error);
+// Writes a scene file from which lam_scene_load and `settings` make the same picture again: models by their names
+// relative to the folder of `path`, shapes, materials, transforms, all lights (those of settings->draw.rig spelled
+// out), and every given field of `settings` (NULL: none). Only objects that came from files or are built-in shapes can
+// be written: a mesh that a program added is LAM_UNSUPPORTED. The file appears whole or not at all. Errors:
+// LAM_CANNOT_WRITE, LAM_LIMIT.
+LAM_API bool lam_scene_save(const lam_scene *scene, const lam_settings *settings, const char *path, lam_error *error);
 
-// The lights of a scene and a rig (LAM_RIG_AUTO: the studio where the scene has none) as the keys "ambient"
-// and "lights" of a scene file. The caller frees `out` with lam_bytes_free.
-LAM_API
-bool lam_lights_encode(const lam_scene *scene, lam_rig rig, lam_bytes *out, lam_error *error);
+// The lights of a scene and a rig (LAM_RIG_AUTO: the studio where the scene has none) as the keys "ambient" and
+// "lights" of a scene file. The caller frees `out` with lam_bytes_free.
+LAM_API bool lam_lights_encode(const lam_scene *scene, lam_rig rig, lam_bytes *out, lam_error *error);
 
 #ifdef __cplusplus
 }

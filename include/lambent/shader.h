@@ -16,12 +16,10 @@ typedef enum lam_glsl {
     LAM_GLSL_COUNT
 } lam_glsl;
 
-LAM_API
-const char *lam_glsl_name(lam_glsl version); // "330", "120", "300es"; NULL out of range
+LAM_API const char *lam_glsl_name(lam_glsl version); // "330", "120", "300es"; NULL out of range
 
-// Where the lists of lights stand. None has a fixed greatest number of lights; what the implementation allows
-// an array (GL_MAX_*_UNIFORM_COMPONENTS) is the least, a block (GL_MAX_UNIFORM_BLOCK_SIZE) more, a texture
-// most.
+// Where the lists of lights stand. None has a fixed greatest number of lights; what the implementation allows an array
+// (GL_MAX_*_UNIFORM_COMPONENTS) is the least, a block (GL_MAX_UNIFORM_BLOCK_SIZE) more, a texture most.
 typedef enum lam_shader_lights {
     LAM_SHADER_LIGHTS_AUTO = 0, // an array in GLSL 120, else a block
     LAM_SHADER_LIGHTS_ARRAY,    // plain uniforms, set one by one: lights[0].position
@@ -39,8 +37,8 @@ typedef struct lam_shader_params {
 // A vertex attribute.
 typedef struct lam_shader_attribute {
     const char *name, *type; // "position", "vec3"
-    int location;        // stands in the text; in GLSL 120 to be bound before linking (glBindAttribLocation)
-    const char *meaning; // one line
+    int location;            // stands in the text; in GLSL 120 to be bound before linking (glBindAttribLocation)
+    const char *meaning;     // one line
 } lam_shader_attribute;
 
 // A uniform with its value. Matrices are column-major, as glUniformMatrix takes them. Samplers have none.
@@ -94,19 +92,16 @@ typedef struct lam_shader {
     bool flat; // three vertices of its own for each triangle: with the face normal, or its last vertex's
 } lam_shader;
 
-// Writes the shaders of a scene as lam_draw would draw it at that size, and finds the value of each uniform.
-// One pair of sources serves the whole scene. What the fragments hold is sRGB-encoded, for a plain 8-bit
-// window, or with LAM_COLOR_RAW as it is. `draw` and `params` may be NULL. Not followed are antialiasing and
-// the background, which are the window's. Errors: LAM_BAD_ARGUMENT (as lam_draw; blocks or textures in GLSL
-// 120; objects with one and with two sides, or with and without tangents, of which only one can be in one
-// pair: `object` ≥ 0 chooses one), LAM_UNSUPPORTED (`show` is no light), LAM_LIMIT. Names belong to the
-// scene.
-LAM_API
-lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *draw,
-                            int width, int height, int object, const lam_shader_params *params,
-                            lam_error *error);
-LAM_API
-void lam_shader_free(lam_shader *shader); // NULL is fine
+// Writes the shaders of a scene as lam_draw would draw it at that size, and finds the value of each uniform. One pair
+// of sources serves the whole scene. What the fragments hold is sRGB-encoded, for a plain 8-bit window, or with
+// LAM_COLOR_RAW as it is. `draw` and `params` may be NULL. Not followed are antialiasing and the background, which are
+// the window's. Errors: LAM_BAD_ARGUMENT (as lam_draw; blocks or textures in GLSL 120; objects with one and with two
+// sides, or with and without tangents, of which only one can be in one pair: `object` ≥ 0 chooses one), LAM_UNSUPPORTED
+// (`show` is no light), LAM_LIMIT. Names belong to the scene.
+LAM_API lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *draw,
+                                    int width, int height, int object, const lam_shader_params *params,
+                                    lam_error *error);
+LAM_API void lam_shader_free(lam_shader *shader); // NULL is fine
 
 #ifdef __cplusplus
 }

@@ -23,8 +23,8 @@ void arena_start(struct arena *arena, struct watch *watch);
 void arena_start_large(struct arena *arena, struct watch *watch); // where some megabytes will be needed
 void arena_free(struct arena *arena); // frees everything; the arena is empty and usable again
 
-// Aligned to 64 bytes for 64 bytes and more, else to 16. NULL when memory or the watch's budget is out (the
-// reason is found by watch_memory_error). Size 0 gives a valid pointer.
+// Aligned to 64 bytes for 64 bytes and more, else to 16. NULL when memory or the watch's budget is out (the reason is
+// found by watch_memory_error). Size 0 gives a valid pointer.
 void *arena_alloc(struct arena *arena, size_t bytes);
 void *arena_alloc_zeroed(struct arena *arena, size_t bytes);
 
@@ -40,8 +40,7 @@ char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
 struct file_bytes;
 bool arena_adopt(struct arena *arena, struct file_bytes *bytes);
 
-// For tests: from now on the allocation number `countdown` (0: the next) of this thread fails, once. −1:
-// none.
+// For tests: from now on the allocation number `countdown` (0: the next) of this thread fails, once. −1: none.
 void arena_fail_after(long countdown);
 
 #endif

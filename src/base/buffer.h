@@ -9,8 +9,8 @@ struct buffer {
     size_t room;
 };
 
-// Makes sure of `bytes`; the old contents are lost when it grows. Charges the watch for the growth. False:
-// fills the error.
+// Makes sure of `bytes`; the old contents are lost when it grows. Charges the watch for the growth. False: fills the
+// error.
 bool buffer_reserve(struct buffer *buffer, size_t bytes, struct watch *watch, lam_error *error);
 void buffer_free(struct buffer *buffer);
 

@@ -4,17 +4,15 @@
 
 #include <lambent/base.h>
 
-// Writes the code and the formatted sentence into `error` (NULL is fine) and returns false, so that a failing
-// function ends in `return fail(error, …)`. Control characters in the text become '?', so a file name or a
-// token from a hostile file cannot play with a terminal. A sentence that is too long is cut at a character's
-// boundary, ending in "…".
+// Writes the code and the formatted sentence into `error` (NULL is fine) and returns false, so that a failing function
+// ends in `return fail(error, …)`. Control characters in the text become '?', so a file name or a token from a hostile
+// file cannot play with a terminal. A sentence that is too long is cut at a character's boundary, ending in "…".
 bool fail(lam_error *error, lam_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 // The sentence for memory that could not be had.
 bool fail_memory(lam_error *error, size_t bytes);
 
-// Of `count` words the one nearest to `word` (edit distance, at most a third of its length); NULL: none is
-// near.
+// Of `count` words the one nearest to `word` (edit distance, at most a third of its length); NULL: none is near.
 const char *nearest_word(const char *word, const char *const *words, int count);
 
 #endif

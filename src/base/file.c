@@ -96,8 +96,7 @@ static void read_piece(void *user, size_t index, int thread)
         } else if (got == 0 || errno != EINTR) {
             // Of several pieces that fail the first to say so is told.
             int none = 0, reason = got == 0 ? -1 : errno;
-            if (__atomic_compare_exchange_n(&reading->failed, &none, reason, false, __ATOMIC_RELAXED,
-                                            __ATOMIC_RELAXED))
+            if (__atomic_compare_exchange_n(&reading->failed, &none, reason, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
                 reading->reached = at;
         }
     }
@@ -108,15 +107,14 @@ static bool read_sized(int file, const char *path, size_t size, struct pool *poo
 {
     if (!hold(size, watch, out, error))
         return false;
-    struct reading reading = {
-        .file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .watch = watch};
+    struct reading reading = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .watch = watch};
     pool_run(pool, (size + PIECE - 1) / PIECE, read_piece, &reading);
     bool ok = true;
     if (!watch_on(watch)) {
         ok = watch_error(watch, error);
     } else if (reading.failed == -1) {
-        ok = fail(error, LAM_CANNOT_READ, "%s: became shorter while it was read: ended at byte %zu of %zu",
-                  path, reading.reached, size);
+        ok = fail(error, LAM_CANNOT_READ, "%s: became shorter while it was read: ended at byte %zu of %zu", path,
+                  reading.reached, size);
     } else if (reading.failed) {
         errno = reading.failed;
         ok = fail_system(error, LAM_CANNOT_READ, path, "read");
@@ -126,8 +124,8 @@ static bool read_sized(int file, const char *path, size_t size, struct pool *poo
     return ok;
 }
 
-// Waits until a stream can be read; false once the watch says stop. A pipe whose writer has not come yet is
-// waited for too.
+// Waits until a stream can be read; false once the watch says stop. A pipe whose writer has not come yet is waited for
+// too.
 static bool wait_readable(int file, struct watch *watch)
 {
     while (watch_on(watch)) {
@@ -152,17 +150,16 @@ static bool grow(struct file_bytes *bytes, size_t used, struct watch *watch, lam
 }
 
 // A pipe, a terminal, a device: read until it ends. It may have no end (/dev/zero).
-static bool read_stream(int file, const char *path, struct watch *watch, struct file_bytes *out,
-                        lam_error *error)
+static bool read_stream(int file, const char *path, struct watch *watch, struct file_bytes *out, lam_error *error)
 {
     size_t used = 0, most = pages_of_machine() / 4;
     bool ok = hold(1 << 20, watch, out, error), ended = false;
     while (ok && !ended) {
         if (used == out->size)
-            ok = used >= most ? fail(error, LAM_LIMIT,
-                                     "%s: has no end within %.1f GB, a quarter of this machine's memory",
-                                     path, (double)most / 1e9)
-                              : grow(out, used, watch, error);
+            ok = used >= most
+                     ? fail(error, LAM_LIMIT, "%s: has no end within %.1f GB, a quarter of this machine's memory", path,
+                            (double)most / 1e9)
+                     : grow(out, used, watch, error);
         if (ok && !wait_readable(file, watch))
             ok = watch_error(watch, error);
         if (!ok)
@@ -185,8 +182,7 @@ static bool read_stream(int file, const char *path, struct watch *watch, struct 
     return true;
 }
 
-bool file_read(const char *path, struct pool *pool, struct watch *watch, struct file_bytes *out,
-               lam_error *error)
+bool file_read(const char *path, struct pool *pool, struct watch *watch, struct file_bytes *out, lam_error *error)
 {
     *out = (struct file_bytes){0};
     if (strcmp(path, "-") == 0)
@@ -211,8 +207,7 @@ bool file_read(const char *path, struct pool *pool, struct watch *watch, struct 
 bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out)
 {
     struct stat about;
-    if (strcmp(path, "-") == 0 || stat(path, &about) != 0 || !S_ISREG(about.st_mode) ||
-        about.st_size < FILE_LARGE)
+    if (strcmp(path, "-") == 0 || stat(path, &about) != 0 || !S_ISREG(about.st_mode) || about.st_size < FILE_LARGE)
         return false;
     out->file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     out->size = (size_t)about.st_size;
@@ -272,8 +267,7 @@ static bool write_direct(const char *path, const void *data, size_t size, lam_er
     return ok || fail_system(error, LAM_CANNOT_WRITE, path, "write");
 }
 
-// A new file beside `target` under a name that nothing has. Created like any file, so the umask decides its
-// mode.
+// A new file beside `target` under a name that nothing has. Created like any file, so the umask decides its mode.
 static int open_temporary(const char *target, char **name)
 {
     for (int attempt = 0; attempt < 100; attempt++) {
@@ -330,8 +324,7 @@ bool file_write(const char *path, const void *data, size_t size, lam_error *erro
 
     // A link keeps pointing where it points: the file behind it is replaced.
     char *target = exists ? realpath(path, NULL) : strdup(path);
-    bool ok = target && (!exists || access(target, W_OK) == 0) &&
-              replace(target, exists ? &about : NULL, data, size);
+    bool ok = target && (!exists || access(target, W_OK) == 0) && replace(target, exists ? &about : NULL, data, size);
     if (!ok)
         fail_system(error, LAM_CANNOT_WRITE, path, "write");
     free(target);

@@ -5,10 +5,9 @@
 #include "pool.h"
 #include "watch.h"
 
-// Files are read into memory of their own, in parallel pieces, rather than mapped: a mapped file that another
-// program shrinks kills the reader with SIGBUS, and copying from the page cache into huge pages costs no more
-// than the page faults of a mapping. At least FILE_PADDING zero bytes follow the last byte, so a parser may
-// read past the end.
+// Files are read into memory of their own, in parallel pieces, rather than mapped: a mapped file that another program
+// shrinks kills the reader with SIGBUS, and copying from the page cache into huge pages costs no more than the page
+// faults of a mapping. At least FILE_PADDING zero bytes follow the last byte, so a parser may read past the end.
 enum { FILE_PADDING = 64 };
 
 struct file_bytes {
@@ -18,10 +17,9 @@ struct file_bytes {
     struct watch *watch; // was charged for them, and is refunded; may be NULL
 };
 
-// Reads a file, or standard input for "-". `pool` and `watch` may be NULL. Errors: LAM_CANNOT_READ (no such
-// file, a directory, a read error, it became shorter meanwhile), LAM_LIMIT, LAM_CANCELLED.
-bool file_read(const char *path, struct pool *pool, struct watch *watch, struct file_bytes *out,
-               lam_error *error);
+// Reads a file, or standard input for "-". `pool` and `watch` may be NULL. Errors: LAM_CANNOT_READ (no such file, a
+// directory, a read error, it became shorter meanwhile), LAM_LIMIT, LAM_CANCELLED.
+bool file_read(const char *path, struct pool *pool, struct watch *watch, struct file_bytes *out, lam_error *error);
 
 // A large file that is read in parts, by any thread.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
@@ -29,8 +27,7 @@ struct file_parts {
     int file;
     size_t size;
 };
-// Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD. False: it is none, or cannot be
-// read.
+// Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD. False: it is none, or cannot be read.
 bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out);
 bool file_read_part(const struct file_parts *parts, size_t offset, void *to, size_t bytes);
 void file_close_parts(struct file_parts *parts);
@@ -40,9 +37,8 @@ bool file_copy(const void *bytes, size_t size, struct watch *watch, struct file_
 
 void file_release(struct file_bytes *bytes);
 
-// Writes a file whole or not at all: to a temporary name in the same folder, then renamed over `path`. Keeps
-// the mode of an existing file. A path that is not a regular file (/dev/stdout, a pipe) is written directly.
-// LAM_CANNOT_WRITE.
+// Writes a file whole or not at all: to a temporary name in the same folder, then renamed over `path`. Keeps the mode
+// of an existing file. A path that is not a regular file (/dev/stdout, a pipe) is written directly. LAM_CANNOT_WRITE.
 bool file_write(const char *path, const void *data, size_t size, lam_error *error);
 
 // The part of a path behind the last '/', and that part's ending behind the last '.' ("" if none).

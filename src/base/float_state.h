@@ -1,7 +1,7 @@
 // float_state.h: the floating-point state that every result depends on.
 //
-// A host built with -ffast-math turns denormals off for its threads, and threads inherit it; a host may also
-// have set another rounding. Every public call that computes, and every worker, runs between enter and leave.
+// A host built with -ffast-math turns denormals off for its threads, and threads inherit it; a host may also have set
+// another rounding. Every public call that computes, and every worker, runs between enter and leave.
 #ifndef FLOAT_STATE_H
 #define FLOAT_STATE_H
 

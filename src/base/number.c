@@ -173,16 +173,15 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
         return true;
     }
     // In the middle exactly: round to even, not up.
-    if (product.low <= 1 && power >= format->even_first && power <= format->even_last &&
-        (mantissa & 3) == 1 && mantissa << shift == product.high)
+    if (product.low <= 1 && power >= format->even_first && power <= format->even_last && (mantissa & 3) == 1 &&
+        mantissa << shift == product.high)
         mantissa &= ~UINT64_C(1);
     mantissa = (mantissa + (mantissa & 1)) >> 1;
     if (mantissa >= 2 * hidden) {
         mantissa = hidden;
         field++;
     }
-    *bits = field >= format->infinite ? infinity
-                                      : ((uint64_t)field << format->mantissa_bits | (mantissa & ~hidden));
+    *bits = field >= format->infinite ? infinity : ((uint64_t)field << format->mantissa_bits | (mantissa & ~hidden));
     return true;
 }
 
@@ -229,10 +228,7 @@ static void big_shift_left(struct big *a, int bits)
         big_multiply_add(a, UINT32_C(1) << rest, 0);
 }
 
-static int big_bits(const struct big *a)
-{
-    return a->count ? a->count * 32 - __builtin_clz(a->limb[a->count - 1]) : 0;
-}
+static int big_bits(const struct big *a) { return a->count ? a->count * 32 - __builtin_clz(a->limb[a->count - 1]) : 0; }
 
 static int big_compare(const struct big *a, const struct big *b)
 {
@@ -363,8 +359,7 @@ static uint64_t round_decimal(const struct decimal *d, const struct format *form
 
 // --- what the header promises
 
-// "inf", "infinity", "nan", "nan(…)", in any case. `*bits` is the mantissa's top bit for a NaN, 0 for
-// infinity.
+// "inf", "infinity", "nan", "nan(…)", in any case. `*bits` is the mantissa's top bit for a NaN, 0 for infinity.
 static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, bool *negative, bool *nan)
 {
     *negative = false;
@@ -383,8 +378,8 @@ static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, bool *
         *nan = w == 2;
         if (*nan && c < end && *c == '(') {
             const uint8_t *inside = c + 1;
-            while (inside < end && ((unsigned)(*inside - '0') < 10 ||
-                                    (unsigned)((*inside | 0x20) - 'a') < 26 || *inside == '_'))
+            while (inside < end &&
+                   ((unsigned)(*inside - '0') < 10 || (unsigned)((*inside | 0x20) - 'a') < 26 || *inside == '_'))
                 inside++;
             if (inside < end && *inside == ')')
                 c = inside + 1;
@@ -435,14 +430,12 @@ const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out)
 
 const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out)
 {
-    // 10^e for e from −28 to 18, each within half a unit: with 19 digits before it the product stays a normal
-    // float.
+    // 10^e for e from −28 to 18, each within half a unit: with 19 digits before it the product stays a normal float.
     enum { LEAST = -28, MOST = 18 };
-    static const double powers[] = {1e-28, 1e-27, 1e-26, 1e-25, 1e-24, 1e-23, 1e-22, 1e-21, 1e-20, 1e-19,
-                                    1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9,
-                                    1e-8,  1e-7,  1e-6,  1e-5,  1e-4,  1e-3,  1e-2,  1e-1,  1e0,   1e1,
-                                    1e2,   1e3,   1e4,   1e5,   1e6,   1e7,   1e8,   1e9,   1e10,  1e11,
-                                    1e12,  1e13,  1e14,  1e15,  1e16,  1e17,  1e18};
+    static const double powers[] = {1e-28, 1e-27, 1e-26, 1e-25, 1e-24, 1e-23, 1e-22, 1e-21, 1e-20, 1e-19, 1e-18, 1e-17,
+                                    1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9,  1e-8,  1e-7,  1e-6,  1e-5,
+                                    1e-4,  1e-3,  1e-2,  1e-1,  1e0,   1e1,   1e2,   1e3,   1e4,   1e5,   1e6,   1e7,
+                                    1e8,   1e9,   1e10,  1e11,  1e12,  1e13,  1e14,  1e15,  1e16,  1e17,  1e18};
     struct decimal d;
     const uint8_t *behind = scan(at, end, &d);
     if (!behind) {

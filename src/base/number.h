@@ -5,9 +5,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Reads a decimal number (sign, digits, '.', exponent; also inf, nan, as C writes them) at `at`, never
-// looking at or past `end`. Returns the place behind it, NULL if there is no number. The result is the double
-// nearest to the text, ties to even.
+// Reads a decimal number (sign, digits, '.', exponent; also inf, nan, as C writes them) at `at`, never looking at or
+// past `end`. Returns the place behind it, NULL if there is no number. The result is the double nearest to the text,
+// ties to even.
 const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out);
 
 // The same, rounded once to the nearest float (not through double).

@@ -102,8 +102,7 @@ static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t
             fraction += more;
         }
     }
-    if (__builtin_expect(whole + fraction - 1 < 18 && whole < 8 && fraction < 16 && (*stop | 0x20) != 'e',
-                         1)) {
+    if (__builtin_expect(whole + fraction - 1 < 18 && whole < 8 && fraction < 16 && (*stop | 0x20) != 'e', 1)) {
         // Three roundings (`value` above 2^53, the power, the product): off by at most 3 units.
         double x = (double)(int64_t)value * number_tenths[fraction];
         if (__builtin_expect(number_rounds_surely(x), 1)) {

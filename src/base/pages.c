@@ -52,10 +52,9 @@ void *pages_get_sparse(size_t bytes, size_t *held)
     return map(*held);
 }
 
-// A block of at least one huge page is aligned to it: the kernel then backs it with huge pages from the first
-// touch, which costs a third of touching the same memory in small pages. What such a block has behind its
-// last huge page gets one too, quicker than hundreds of small ones, where the block becomes little larger by
-// it.
+// A block of at least one huge page is aligned to it: the kernel then backs it with huge pages from the first touch,
+// which costs a third of touching the same memory in small pages. What such a block has behind its last huge page gets
+// one too, quicker than hundreds of small ones, where the block becomes little larger by it.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)

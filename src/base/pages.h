@@ -19,8 +19,8 @@ void pages_free(void *pages, size_t held);
 // Gives back what lies behind the first `bytes`, where that can be done.
 void pages_trim(void *pages, size_t *held, size_t bytes);
 
-// Bytes of memory that the machine has; SIZE_MAX where it does not tell. The system lends more than there is
-// and kills the process that uses it: what asks for a lot asks this first.
+// Bytes of memory that the machine has; SIZE_MAX where it does not tell. The system lends more than there is and kills
+// the process that uses it: what asks for a lot asks this first.
 size_t pages_of_machine(void);
 
 #endif

@@ -39,8 +39,7 @@ static bool cancelled(const struct watch *watch)
 
 static bool over_time(const struct watch *watch)
 {
-    return watch->control.time_limit_s > 0 &&
-           (double)(now_ns() - watch->start_ns) * 1e-9 > watch->control.time_limit_s;
+    return watch->control.time_limit_s > 0 && (double)(now_ns() - watch->start_ns) * 1e-9 > watch->control.time_limit_s;
 }
 
 bool watch_on(struct watch *watch) { return !watch || (!cancelled(watch) && !over_time(watch)); }
@@ -71,8 +70,7 @@ void watch_refund(struct watch *watch, size_t bytes)
 bool watch_memory_error(struct watch *watch, size_t bytes, lam_error *error)
 {
     if (watch && __atomic_load_n(&watch->over_memory, __ATOMIC_RELAXED))
-        return fail(error, LAM_LIMIT,
-                    "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed",
+        return fail(error, LAM_LIMIT, "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed",
                     (double)watch->control.memory_limit_bytes / 1e6, (double)watch->memory_used / 1e6,
                     (double)bytes / 1e6);
     return fail_memory(error, bytes);

@@ -15,8 +15,8 @@ struct watch {
 // Starts a call. `control` may be NULL.
 void watch_start(struct watch *watch, const lam_control *control);
 
-// False when the call must end: cancelled or over its time. Cheap enough for every few thousand items (about
-// 25 ns); any thread. `watch` may be NULL.
+// False when the call must end: cancelled or over its time. Cheap enough for every few thousand items (about 25 ns);
+// any thread. `watch` may be NULL.
 bool watch_on(struct watch *watch);
 
 // Fills the error with the reason why watch_on said false, and returns false.
@@ -26,8 +26,7 @@ bool watch_error(struct watch *watch, lam_error *error);
 bool watch_charge(struct watch *watch, size_t bytes);
 void watch_refund(struct watch *watch, size_t bytes);
 
-// The error for an arena_alloc that returned NULL: over the budget, or the machine's memory is out. Returns
-// false.
+// The error for an arena_alloc that returned NULL: over the budget, or the machine's memory is out. Returns false.
 bool watch_memory_error(struct watch *watch, size_t bytes, lam_error *error);
 
 // Tells the progress callback; from the calling thread only. Shares never go backwards.

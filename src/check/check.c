@@ -42,8 +42,8 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
             *scenes |= 1u << i;
         else if (asked && p->scenes)
             return fail(error, LAM_BAD_ARGUMENT,
-                        "scene '%s': the shader has no names of the contract %s for what it needs",
-                        studies[i].name, r->reading.contract->name);
+                        "scene '%s': the shader has no names of the contract %s for what it needs", studies[i].name,
+                        r->reading.contract->name);
     }
     for (int k = 0; p->scenes && k < p->scene_count; k++)
         if (study_find(p->scenes[k]) < 0) {
@@ -52,8 +52,8 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
                 names[i] = studies[i].name;
             const char *near = nearest_word(p->scenes[k], names, study_count);
             return fail(error, LAM_BAD_ARGUMENT,
-                        "there is no scene '%.60s'%s%s%s; `lambent check --list` has their names",
-                        p->scenes[k], near ? ", is '" : "", near ? near : "", near ? "' meant?" : "");
+                        "there is no scene '%.60s'%s%s%s; `lambent check --list` has their names", p->scenes[k],
+                        near ? ", is '" : "", near ? near : "", near ? "' meant?" : "");
         }
     return true;
 }
@@ -136,11 +136,10 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
     snprintf(r->report->driver, sizeof r->report->driver, "%s", r->drawn.driver);
     if (r->drawn.state == DRAWN_SLOW) {
         r->report->verdict = LAM_CHECK_ENDLESS;
-        notes_add(
-            &r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
-            "scene '%.30s' took %.2g s of the processor, where a right shader takes some milliseconds: a "
-            "loop without an end? Some drivers leave it after many turns, others stand still",
-            r->drawn.log, r->drawn.seconds);
+        notes_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
+                  "scene '%.30s' took %.2g s of the processor, where a right shader takes some milliseconds: a "
+                  "loop without an end? Some drivers leave it after many turns, others stand still",
+                  r->drawn.log, r->drawn.seconds);
     } else if (r->drawn.state != DRAWN_PICTURES) {
         r->report->verdict = LAM_CHECK_REFUSED;
         notes_of_refusal(&r->notes, &r->drawn, &r->reading, p);
@@ -328,10 +327,9 @@ static bool is_searchable(struct run *r, bool writes)
         spoilt = spoilt || here > 0.25;
     }
     if (writes && clear > 0.02)
-        notes_add(
-            &r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
-            "%.0f %% of the model is not drawn: the shader discards it, or gl_Position puts it elsewhere",
-            clear * 100);
+        notes_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
+                  "%.0f %% of the model is not drawn: the shader discards it, or gl_Position puts it elsewhere",
+                  clear * 100);
     return writes && clear < 0.9 && no_number < 0.5 && !spoilt;
 }
 
@@ -362,9 +360,8 @@ static bool explain(struct run *r, lam_error *error)
     for (int i = 0; i < r->scene_count; i++)
         s.needs |= r->scenes[i].row->needs;
     for (int i = 0; i < r->scene_count; i++) // plain scenes show more than they need
-        s.needs |=
-            (r->scenes[i].study.ka > 0 ? NEED_AMBIENT : 0) |
-            (r->reading.contract->has_attenuation && (r->reading.offers & NEED_POINT) ? NEED_ATTENUATION : 0);
+        s.needs |= (r->scenes[i].study.ka > 0 ? NEED_AMBIENT : 0) |
+                   (r->reading.contract->has_attenuation && (r->reading.offers & NEED_POINT) ? NEED_ATTENUATION : 0);
     s.alone = arena_alloc_zeroed(r->arena, (size_t)r->scene_count * sizeof *s.alone + 1);
     if (!s.alone)
         return fail_memory(error, 1);
@@ -379,13 +376,12 @@ static bool explain(struct run *r, lam_error *error)
         char says[400], write[400];
         mistake_write(s.found[i]->says, &r->reading, r->frame, r->reflection, says, sizeof says);
         mistake_write(s.found[i]->write, &r->reading, r->frame, r->reflection, write, sizeof write);
-        report->findings[report->finding_count++] =
-            (lam_check_finding){.mistake = s.found[i]->id,
-                                .says = arena_string(r->arena, says),
-                                .write = arena_string(r->arena, write),
-                                .certain = s.certain,
-                                .mean_before = i ? s.after[i - 1] : s.before,
-                                .mean_after = s.after[i]};
+        report->findings[report->finding_count++] = (lam_check_finding){.mistake = s.found[i]->id,
+                                                                        .says = arena_string(r->arena, says),
+                                                                        .write = arena_string(r->arena, write),
+                                                                        .certain = s.certain,
+                                                                        .mean_before = i ? s.after[i - 1] : s.before,
+                                                                        .mean_after = s.after[i]};
     }
     for (int i = 0; i < r->scene_count; i++)
         if (!report->scenes[i].passes && s.alone[i])
@@ -413,8 +409,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
         ok = make_scenes(&r, scenes, error);
         if (ok && is_encoded(&r))
             ok = decode_all(&r);
-        float *numbers =
-            ok ? arena_array(r.arena, (size_t)r.size * (size_t)r.size, 4 * sizeof *numbers) : NULL;
+        float *numbers = ok ? arena_array(r.arena, (size_t)r.size * (size_t)r.size, 4 * sizeof *numbers) : NULL;
         ok = ok && (numbers || fail_memory(error, 1));
         bool writes = !ok || hints_of_output(&r.notes, &r.reading.fragment, params->fragment_name);
         if (ok)
@@ -452,12 +447,6 @@ const char *lam_check_verdict_name(lam_check_verdict verdict)
     return verdict >= LAM_CHECK_PASSES && verdict <= LAM_CHECK_NOT_NUMBER ? names[verdict] : NULL;
 }
 
-const char *lam_check_scene_name(int index)
-{
-    return index >= 0 && index < study_count ? studies[index].name : NULL;
-}
+const char *lam_check_scene_name(int index) { return index >= 0 && index < study_count ? studies[index].name : NULL; }
 
-const char *lam_check_scene_shows(int index)
-{
-    return index >= 0 && index < study_count ? studies[index].shows : NULL;
-}
+const char *lam_check_scene_shows(int index) { return index >= 0 && index < study_count ? studies[index].shows : NULL; }

@@ -54,8 +54,7 @@ char *complete_vertex(const struct reading *r, char unknown[256], lam_error *err
     }
     bool modern = d->version >= 130;
     if (d->version)
-        at += (size_t)snprintf(text, room, "#version %d%s%s\n", d->version, d->profile[0] ? " " : "",
-                               d->profile);
+        at += (size_t)snprintf(text, room, "#version %d%s%s\n", d->version, d->profile[0] ? " " : "", d->profile);
     at += (size_t)snprintf(text + at, room - at,
                            "%s vec3 lambent_position;\n%s vec3 lambent_normal;\n"
                            "uniform mat4 lambent_model_view;\nuniform mat4 lambent_projection;\n"
@@ -76,13 +75,10 @@ char *complete_vertex(const struct reading *r, char unknown[256], lam_error *err
             continue;
         const struct contract_varying *v = contract_varying(r->contract, item->name);
         if (!v && strlen(unknown) < 150)
-            snprintf(unknown + strlen(unknown), 256 - strlen(unknown), "%s%.60s", unknown[0] ? ", " : "",
-                     item->name);
+            snprintf(unknown + strlen(unknown), 256 - strlen(unknown), "%s%.60s", unknown[0] ? ", " : "", item->name);
         const char *w = "0.0", *from = v ? source_of(v->carried, &w) : "vec3(0.0)";
         bool four = strcmp(item->type, "vec4") == 0;
-        const char *cut = strcmp(item->type, "vec2") == 0    ? ".xy"
-                          : strcmp(item->type, "float") == 0 ? ".x"
-                                                             : "";
+        const char *cut = strcmp(item->type, "vec2") == 0 ? ".xy" : strcmp(item->type, "float") == 0 ? ".x" : "";
         if (four)
             at += (size_t)snprintf(text + at, room - at, "    %s = vec4(%s, %s);\n", item->name, from, w);
         else if (*cut || strcmp(item->type, "vec3") == 0)

@@ -6,10 +6,7 @@
 
 #include "fail.h"
 
-#define END                                                                                                  \
-    {                                                                                                        \
-        .name = NULL                                                                                         \
-    }
+#define END {.name = NULL}
 
 // Names of the vertex shaders that the check makes itself (complete.c), known to every contract.
 static const struct contract_name made_names[] = {
@@ -28,8 +25,7 @@ static const struct contract_name lambent_names[] = {
     {"model_view", ROLE_MODEL_VIEW, false, "mat4", "model to eye space", NULL},
     {"model_view_projection", ROLE_MODEL_VIEW_PROJECTION, false, "mat4", "model to clip space", NULL},
     {"projection", ROLE_PROJECTION, false, "mat4", "eye to clip space", NULL},
-    {"normal_matrix", ROLE_NORMAL_MATRIX, false, "mat3", "inverse transpose of model_view's 3x3",
-     "normalMatrix"},
+    {"normal_matrix", ROLE_NORMAL_MATRIX, false, "mat3", "inverse transpose of model_view's 3x3", "normalMatrix"},
     {"ambient_light", ROLE_AMBIENT_LIGHT, false, "vec4", "all light from everywhere", NULL},
     {"material.ambient", ROLE_AMBIENT, false, "vec4", "ka", NULL},
     {"material.diffuse", ROLE_DIFFUSE, false, "vec4", "kd; a: the opacity", NULL},
@@ -70,11 +66,10 @@ static const struct contract_name lambent_names[] = {
     {"back_ground_product", ROLE_ZERO, false, "vec4", "of the back", NULL},
     {"exposure", ROLE_ONE, false, "float", "all light is multiplied by it", NULL},
     {"lights[].position", ROLE_LIGHT_POSITION, false, "vec4", "in eye space", NULL},
-    {"lights[].direction", ROLE_LIGHT_TRAVEL, false, "vec4", "in eye space, unit, the way the light travels",
-     NULL},
+    {"lights[].direction", ROLE_LIGHT_TRAVEL, false, "vec4", "in eye space, unit, the way the light travels", NULL},
     {"lights[].attenuation", ROLE_ATTENUATION, false, "vec4", "constant, linear, quadratic, 1/range", NULL},
-    {"lights[].cone", ROLE_CONE, false, "vec4",
-     "cosine of the cutoff, exponent, cosine of the outer angle, 1/width", NULL},
+    {"lights[].cone", ROLE_CONE, false, "vec4", "cosine of the cutoff, exponent, cosine of the outer angle, 1/width",
+     NULL},
     {"lights[].diffuse", ROLE_LIGHT_COLOR, false, "vec4", "Ld", NULL},
     {"lights[].specular", ROLE_LIGHT_SPECULAR, false, "vec4", "Ls", NULL},
     {"lights[].ambient", ROLE_LIGHT_AMBIENT, false, "vec4", "La", NULL},
@@ -91,8 +86,7 @@ static const struct contract_name pittsburgh_names[] = {
      "inverse_transpose"},
     {"ambient_product", ROLE_AMBIENT, false, "vec4", "ka times the light's ambient colour", "AmbientProduct"},
     {"diffuse_product", ROLE_DIFFUSE, false, "vec4", "kd times the light's diffuse colour", "DiffuseProduct"},
-    {"specular_product", ROLE_SPECULAR, false, "vec4", "ks times the light's specular colour",
-     "SpecularProduct"},
+    {"specular_product", ROLE_SPECULAR, false, "vec4", "ks times the light's specular colour", "SpecularProduct"},
     {"light_position", ROLE_LIGHT_POSITION, false, "vec4",
      "where the light is, w 1, or the direction to it, w 0; in the model's space (--light-frame camera: in "
      "eye space)",
@@ -122,8 +116,7 @@ static const char *const oregon_built_ins[] = {
     "gl_Vertex", "gl_Normal", "gl_NormalMatrix", "gl_ModelViewMatrix", "gl_ModelViewProjectionMatrix", NULL};
 
 static const struct contract_name nyu_names[] = {
-    {"position", ROLE_POSITION, true, "vec4", "position of the vertex in the model's space, w 1",
-     "vertexPosition"},
+    {"position", ROLE_POSITION, true, "vec4", "position of the vertex in the model's space, w 1", "vertexPosition"},
     {"normal", ROLE_NORMAL, true, "vec4", "normal of the vertex in the model's space, w 0", "vertexNormal"},
     {"texCoord", ROLE_TEXCOORD, true, "vec2", "texture coordinate; zero", NULL},
     {"modelViewMatrix", ROLE_MODEL_VIEW, false, "mat4", "model to eye space", NULL},
@@ -132,13 +125,11 @@ static const struct contract_name nyu_names[] = {
      "NormalMatrix normal_matrix"},
     {"uColor", ROLE_COLOR, false, "vec3", "colour of the surface", NULL},
     {"lights[].lightPosition", ROLE_LIGHT_POSITION, false, "vec3", "where the light is, in eye space", NULL},
-    {"lights[].lightDirection", ROLE_LIGHT_DIRECTION, false, "vec3",
-     "unit direction to the light, in eye space", NULL},
+    {"lights[].lightDirection", ROLE_LIGHT_DIRECTION, false, "vec3", "unit direction to the light, in eye space", NULL},
     {"lights[].lightColor", ROLE_LIGHT_COLOR, false, "vec3", "diffuse colour of the light", NULL},
     {"lights[].specularLightColor", ROLE_LIGHT_SPECULAR, false, "vec3", "specular colour of the light", NULL},
     {"lightPosition", ROLE_LIGHT_POSITION, false, "vec3", "where the light is, in eye space", NULL},
-    {"lightDirection", ROLE_LIGHT_DIRECTION, false, "vec3", "unit direction to the light, in eye space",
-     NULL},
+    {"lightDirection", ROLE_LIGHT_DIRECTION, false, "vec3", "unit direction to the light, in eye space", NULL},
     {"lightColor", ROLE_LIGHT_COLOR, false, "vec3", "diffuse colour of the light", NULL},
     {"specularLightColor", ROLE_LIGHT_SPECULAR, false, "vec3", "specular colour of the light", NULL},
     END,
@@ -177,8 +168,8 @@ const struct contract contracts[] = {
      .names = lambent_names,
      .varyings = lambent_varyings,
      .built_ins = no_words,
-     .offers = NEED_AMBIENT | NEED_ATTENUATION | NEED_DIRECTIONAL | NEED_POINT | NEED_LIGHTS | NEED_SPOT |
-               NEED_ALPHA | NEED_TWO_SIDES | NEED_SHININESS,
+     .offers = NEED_AMBIENT | NEED_ATTENUATION | NEED_DIRECTIONAL | NEED_POINT | NEED_LIGHTS | NEED_SPOT | NEED_ALPHA |
+               NEED_TWO_SIDES | NEED_SHININESS,
      .light_frame = LAM_FRAME_CAMERA,
      .has_ambient = true,
      .has_attenuation = true,
@@ -226,9 +217,8 @@ const struct contract contracts[] = {
 
 const struct contract *contract_of(lam_check_contract which)
 {
-    return which >= LAM_CONTRACT_LAMBENT && which < LAM_CONTRACT_COUNT
-               ? &contracts[which - LAM_CONTRACT_LAMBENT]
-               : NULL;
+    return which >= LAM_CONTRACT_LAMBENT && which < LAM_CONTRACT_COUNT ? &contracts[which - LAM_CONTRACT_LAMBENT]
+                                                                       : NULL;
 }
 
 const char *lam_check_contract_name(lam_check_contract which)
@@ -263,8 +253,7 @@ static bool among(const char *list, const char *name) // a blank-separated list
     return false;
 }
 
-const struct contract_name *contract_find(const struct contract *contract, const char *name, bool attribute,
-                                          int *index)
+const struct contract_name *contract_find(const struct contract *contract, const char *name, bool attribute, int *index)
 {
     char plain[96];
     int at = plain_name(name, plain);
@@ -327,8 +316,8 @@ static int score(const struct contract *contract, const struct declarations *d)
     return points;
 }
 
-const struct contract *contract_recognise(const struct declarations *vertex,
-                                          const struct declarations *fragment, lam_check_contract *which)
+const struct contract *contract_recognise(const struct declarations *vertex, const struct declarations *fragment,
+                                          lam_check_contract *which)
 {
     int best = 0;
     const struct contract *found = NULL;
@@ -343,8 +332,8 @@ const struct contract *contract_recognise(const struct declarations *vertex,
     return found;
 }
 
-const char *contract_name_used(const struct contract *contract, enum role role,
-                               const struct declarations *vertex, const struct declarations *fragment)
+const char *contract_name_used(const struct contract *contract, enum role role, const struct declarations *vertex,
+                               const struct declarations *fragment)
 {
     const struct declarations *sides[] = {vertex, fragment};
     const char *own = NULL;

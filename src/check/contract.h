@@ -1,5 +1,4 @@
-// contract.h: the names that shaders of each course use, what they mean, and their values for a reference
-// scene.
+// contract.h: the names that shaders of each course use, what they mean, and their values for a reference scene.
 #ifndef CONTRACT_H
 #define CONTRACT_H
 
@@ -87,9 +86,8 @@ struct contract {
     const struct contract_varying *varyings; // ends with NULL
     const char *const *built_ins;            // words that tell the contract besides; ends with NULL
     unsigned offers;                         // study needs that it can meet
-    lam_light_frame
-        light_frame; // object: light positions go by the model-view like vertices; camera: eye space
-    bool products;   // colours come multiplied by the light's
+    lam_light_frame light_frame; // object: light positions go by the model-view like vertices; camera: eye space
+    bool products;               // colours come multiplied by the light's
     bool has_ambient, has_attenuation, own_ambient_color, light_colors, material_strengths;
     lam_reflection reflection;
     float shininess;        // > 0: a constant of the course that shaders write themselves
@@ -101,8 +99,8 @@ extern const struct contract contracts[];
 const struct contract *contract_of(lam_check_contract which);
 
 // The contract that most of the shaders' names belong to. NULL where none has any.
-const struct contract *contract_recognise(const struct declarations *vertex,
-                                          const struct declarations *fragment, lam_check_contract *which);
+const struct contract *contract_recognise(const struct declarations *vertex, const struct declarations *fragment,
+                                          lam_check_contract *which);
 
 // The row of a name ("lights[0].lightColor" is looked up as "lights[].lightColor"); NULL: unknown. `index`
 // (may be NULL) gets the list's index, 0 outside of lists.
@@ -116,8 +114,8 @@ const struct contract_varying *contract_varying(const struct contract *contract,
 const char *contract_nearest(const struct contract *contract, const char *name);
 
 // The name that the shaders use for a role: their own, else the contract's, else NULL.
-const char *contract_name_used(const struct contract *contract, enum role role,
-                               const struct declarations *vertex, const struct declarations *fragment);
+const char *contract_name_used(const struct contract *contract, enum role role, const struct declarations *vertex,
+                               const struct declarations *fragment);
 
 // The study as the contract can say it: what it has no names for takes the contract's fixed values.
 // `offers`: of the contract's, what the shaders have names for, and study rules (reading.h); `light_count`:

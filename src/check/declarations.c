@@ -179,8 +179,7 @@ static bool add_expanded(struct reader *r, const struct declaration *item)
             for (int m = 0; m < r->shapes[s].count; m++) {
                 struct declaration member = r->members[r->shapes[s].first + m];
                 char name[200];
-                snprintf(name, sizeof name, "%.60s%s.%.40s", item->name, item->count ? "[]" : "",
-                         member.name);
+                snprintf(name, sizeof name, "%.60s%s.%.40s", item->name, item->count ? "[]" : "", member.name);
                 snprintf(member.name, sizeof member.name, "%.95s", name);
                 member.kind = item->kind;
                 member.count = item->count;
@@ -348,8 +347,7 @@ bool declarations_use(const struct declarations *d, const char *name)
     return times > declared;
 }
 
-const struct declaration *declarations_find(const struct declarations *d, enum declared kind,
-                                            const char *name)
+const struct declaration *declarations_find(const struct declarations *d, enum declared kind, const char *name)
 {
     for (int i = 0; i < d->count; i++)
         if (d->items[i].kind == kind && strcmp(d->items[i].name, name) == 0)

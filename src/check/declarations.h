@@ -10,8 +10,7 @@
 
 enum declared { DECLARED_UNIFORM, DECLARED_INPUT, DECLARED_OUTPUT };
 
-// A member of a struct that is a uniform stands by itself: "lights[].position". Types and names are pieces of
-// `names`.
+// A member of a struct that is a uniform stands by itself: "lights[].position". Types and names are pieces of `names`.
 struct declaration {
     enum declared kind;
     char type[32];
@@ -46,7 +45,6 @@ void declarations_free(struct declarations *d);
 // Whether an identifier stands anywhere; behind its declaration, where it is declared.
 bool declarations_use(const struct declarations *d, const char *name);
 
-const struct declaration *declarations_find(const struct declarations *d, enum declared kind,
-                                            const char *name);
+const struct declaration *declarations_find(const struct declarations *d, enum declared kind, const char *name);
 
 #endif

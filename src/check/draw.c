@@ -1,5 +1,4 @@
-// draw.c: compiles the shaders under test, gives their uniforms the values of each reference scene, and
-// draws.
+// draw.c: compiles the shaders under test, gives their uniforms the values of each reference scene, and draws.
 #include "job.h"
 #include "reading.h"
 #include "target.h"
@@ -281,20 +280,17 @@ static bool set_values(struct bench *b, const struct study *study, enum gl_profi
     for (int i = 0; i < b->wire_count; i++) {
         const struct wire *w = &b->wires[i];
         float values[16], shaped[16];
-        int count =
-            role_value(w->role, w->light, contract, (lam_light_frame)b->job.light_frame, study, &m, values);
+        int count = role_value(w->role, w->light, contract, (lam_light_frame)b->job.light_frame, study, &m, values);
         count = shape_value(w->type, count, values, shaped);
         if (w->block < 0)
             set_uniform(gl, w, shaped);
         else if (w->block < BLOCKS_MOST)
-            store_in_block(w, shaped, count, bytes + (size_t)w->block * BLOCK_BYTES_MOST,
-                           b->block_bytes[w->block]);
+            store_in_block(w, shaped, count, bytes + (size_t)w->block * BLOCK_BYTES_MOST, b->block_bytes[w->block]);
     }
     for (int i = 0; i < BLOCKS_MOST; i++)
         if (b->blocks[i]) {
             gl->BindBuffer(GL_UNIFORM_BUFFER, b->blocks[i]);
-            gl->BufferData(GL_UNIFORM_BUFFER, b->block_bytes[i], bytes + (size_t)i * BLOCK_BYTES_MOST,
-                           GL_STATIC_DRAW);
+            gl->BufferData(GL_UNIFORM_BUFFER, b->block_bytes[i], bytes + (size_t)i * BLOCK_BYTES_MOST, GL_STATIC_DRAW);
         }
     free(bytes);
     return true;
@@ -398,8 +394,8 @@ bool lam_check_draw(const void *job, size_t size, const char *gl_device, lam_byt
     if (!b)
         return fail_memory(error, sizeof *b);
     float *pixels = NULL;
-    bool ok = job_read(job, size, &b->job, error) && reading_make(&b->reading, b->job.vertex, b->job.fragment,
-                                                                  (lam_check_contract)b->job.contract, error);
+    bool ok = job_read(job, size, &b->job, error) &&
+              reading_make(&b->reading, b->job.vertex, b->job.fragment, (lam_check_contract)b->job.contract, error);
     bool open = false;
     if (ok) {
         enum gl_profile profile = profile_of(&b->reading);

@@ -10,10 +10,10 @@
 
 #define COUNT(list) (int)(sizeof(list) / sizeof *(list))
 
-static const char *const types[] = {
-    "float", "int",   "bool",  "vec2",  "vec3", "vec4",   "ivec2",     "ivec3",       "ivec4",
-    "bvec2", "bvec3", "bvec4", "mat2",  "mat3", "mat4",   "sampler2D", "samplerCube", "sampler3D",
-    "uint",  "uvec2", "uvec3", "uvec4", "void", "double", "dvec3"};
+static const char *const types[] = {"float", "int",       "bool",        "vec2",      "vec3",  "vec4",  "ivec2",
+                                    "ivec3", "ivec4",     "bvec2",       "bvec3",     "bvec4", "mat2",  "mat3",
+                                    "mat4",  "sampler2D", "samplerCube", "sampler3D", "uint",  "uvec2", "uvec3",
+                                    "uvec4", "void",      "double",      "dvec3"};
 
 static const char *const built_ins[] = {"gl_Position",
                                         "gl_FragColor",
@@ -96,8 +96,7 @@ static const char *nearest_declared(const struct declarations *d, const char *na
 static bool quoted_name(const char *words, char name[64])
 {
     const char *open = strpbrk(words, "`'\"");
-    size_t length =
-        open ? strspn(open + 1, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") : 0;
+    size_t length = open ? strspn(open + 1, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") : 0;
     if (length == 0 || length > 63)
         return false;
     snprintf(name, 64, "%.*s", (int)length, open + 1);
@@ -112,8 +111,7 @@ static int first_on_line(const struct declarations *d, int line)
     return d->word_count;
 }
 
-void hints_of_message(struct notes *notes, const struct declarations *d, const char *file, int line,
-                      const char *words)
+void hints_of_message(struct notes *notes, const struct declarations *d, const char *file, int line, const char *words)
 {
     char name[64];
     if ((strstr(words, "undeclared") || strstr(words, "no function") || strstr(words, "undefined")) &&
@@ -144,8 +142,8 @@ void hints_of_message(struct notes *notes, const struct declarations *d, const c
 static void hint_main(struct notes *notes, const struct declarations *d, const char *file)
 {
     for (int i = 0; i + 1 < d->word_count; i++)
-        if (strcmp(d->words[i].text, "main") == 0 && strcmp(d->words[i + 1].text, "(") == 0 &&
-            d->words[i].depth == 0 && (i == 0 || strcmp(d->words[i - 1].text, "void") != 0))
+        if (strcmp(d->words[i].text, "main") == 0 && strcmp(d->words[i + 1].text, "(") == 0 && d->words[i].depth == 0 &&
+            (i == 0 || strcmp(d->words[i - 1].text, "void") != 0))
             notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
                       "write `void main()`: a function needs its type");
 }
@@ -172,8 +170,7 @@ static void hint_built_ins(struct notes *notes, const struct declarations *d, co
         const char *w = d->words[i].text;
         if (in_list(w,
                     (const char *const[]){"gl_Vertex", "gl_Normal", "gl_NormalMatrix", "gl_ModelViewMatrix",
-                                          "gl_ModelViewProjectionMatrix", "gl_ProjectionMatrix",
-                                          "gl_FragColor"},
+                                          "gl_ModelViewProjectionMatrix", "gl_ProjectionMatrix", "gl_FragColor"},
                     7))
             notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
                       "%s exists only in old GLSL: write `#version %d compatibility` in the first line, or "
@@ -185,12 +182,10 @@ static void hint_built_ins(struct notes *notes, const struct declarations *d, co
 static void hint_reserved(struct notes *notes, const struct declarations *d, const char *file)
 {
     for (int i = 1; i < d->word_count; i++)
-        if (in_list(d->words[i].text, reserved, COUNT(reserved)) &&
-            in_list(d->words[i - 1].text, types, COUNT(types)))
-            notes_add(
-                notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
-                "'%s' is a reserved word of GLSL; take another name (for the half vector: H or halfway)",
-                d->words[i].text);
+        if (in_list(d->words[i].text, reserved, COUNT(reserved)) && in_list(d->words[i - 1].text, types, COUNT(types)))
+            notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
+                      "'%s' is a reserved word of GLSL; take another name (for the half vector: H or halfway)",
+                      d->words[i].text);
 }
 
 static bool is_struct(const struct declarations *d, const char *name)
@@ -216,12 +211,10 @@ static void hint_types(struct notes *notes, const struct declarations *d, const 
         char shorter[32];
         snprintf(shorter, sizeof shorter, "%.*s", (int)known - 1, item->type);
         if (in_list(shorter, types, COUNT(types)))
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, item->line,
-                      "'%s %s' is no declaration; is `%s %c%s` meant?", item->type, item->name, shorter,
-                      item->type[known - 1], item->name);
+            notes_add(notes, LAM_CHECK_NOTE_HINT, file, item->line, "'%s %s' is no declaration; is `%s %c%s` meant?",
+                      item->type, item->name, shorter, item->type[known - 1], item->name);
         else if (near)
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, item->line, "'%s' is no type; is %s meant?",
-                      item->type, near);
+            notes_add(notes, LAM_CHECK_NOTE_HINT, file, item->line, "'%s' is no type; is %s meant?", item->type, near);
     }
 }
 
@@ -237,8 +230,7 @@ static void hint_version(struct notes *notes, const struct declarations *d, cons
             notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
                       "'%s' needs GLSL 1.30 or later: write `#version 330 compatibility` in the first line, "
                       "or %s here",
-                      d->words[i].text,
-                      strcmp(d->words[i].text, "in") == 0 && vertex ? "attribute" : "varying");
+                      d->words[i].text, strcmp(d->words[i].text, "in") == 0 && vertex ? "attribute" : "varying");
             return;
         }
 }
@@ -278,17 +270,15 @@ bool hints_of_output(struct notes *notes, const struct declarations *d, const ch
         used |= declarations_use(d, item->name);
         writes |= declarations_use(d, item->name) && !whole;
         if (strcmp(item->type, "vec4") != 0)
-            notes_add(
-                notes, LAM_CHECK_NOTE_HINT, file, item->line,
-                whole ? "the output '%s' is of type %s, and a picture holds floats: write out vec4 %s"
-                      : "the output '%s' is of type %s, which leaves channels undefined: write out vec4 %s",
-                item->name, item->type, item->name);
+            notes_add(notes, LAM_CHECK_NOTE_HINT, file, item->line,
+                      whole ? "the output '%s' is of type %s, and a picture holds floats: write out vec4 %s"
+                            : "the output '%s' is of type %s, which leaves channels undefined: write out vec4 %s",
+                      item->name, item->type, item->name);
     }
     if (!used)
         notes_add(notes, LAM_CHECK_NOTE_HINT, file, 0,
                   "it writes no colour, so that the pictures hold what there was: write %s",
-                  d->version >= 150 ? "out vec4 color; and give color its value in main()"
-                                    : "gl_FragColor = ...;");
+                  d->version >= 150 ? "out vec4 color; and give color its value in main()" : "gl_FragColor = ...;");
     return writes;
 }
 
@@ -301,8 +291,8 @@ void hints_of_link(struct notes *notes, const struct reading *r, const lam_check
         const struct declaration *out = declarations_find(&r->vertex, DECLARED_OUTPUT, in->name);
         if (out && strcmp(out->type, in->type) != 0)
             notes_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line,
-                      "'%s' is a %s here and a %s in the vertex shader, line %d", in->name, in->type,
-                      out->type, out->line);
+                      "'%s' is a %s here and a %s in the vertex shader, line %d", in->name, in->type, out->type,
+                      out->line);
         if (out && out->flat != in->flat)
             notes_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line,
                       "'%s' is flat in one shader and not in the other", in->name);
@@ -318,7 +308,7 @@ void hints_of_link(struct notes *notes, const struct reading *r, const lam_check
             notes_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line,
                       "the vertex shader writes no '%s'; the nearest that it writes is '%s'", in->name, near);
         else
-            notes_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line,
-                      "the vertex shader writes no '%s'", in->name);
+            notes_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line, "the vertex shader writes no '%s'",
+                      in->name);
     }
 }

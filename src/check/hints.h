@@ -5,14 +5,12 @@
 #include "notes.h"
 
 // For one message of the compiler at a line (0: unknown).
-void hints_of_message(struct notes *notes, const struct declarations *d, const char *file, int line,
-                      const char *words);
+void hints_of_message(struct notes *notes, const struct declarations *d, const char *file, int line, const char *words);
 
 // For the whole text of a shader that does not compile.
 void hints_of_text(struct notes *notes, const struct declarations *d, const char *file, bool vertex);
 
-// For a fragment shader that compiles: what it writes. False where it writes no colour that a picture can
-// hold.
+// For a fragment shader that compiles: what it writes. False where it writes no colour that a picture can hold.
 bool hints_of_output(struct notes *notes, const struct declarations *d, const char *file);
 
 // For two shaders that compile and do not link.

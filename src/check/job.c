@@ -50,9 +50,8 @@ bool job_read(const void *bytes, size_t size, struct check_job *job, lam_error *
     memcpy(&head, data, sizeof head);
     size_t rest = size - sizeof head;
     if (!contract_of((lam_check_contract)head.contract) || head.size < 32 || head.size > 1024 ||
-        head.scenes >> study_count || head.vertex_size < 1 || head.vertex_size > rest ||
-        head.fragment_size < 1 || head.fragment_size != rest - head.vertex_size ||
-        data[sizeof head + head.vertex_size - 1] || data[size - 1])
+        head.scenes >> study_count || head.vertex_size < 1 || head.vertex_size > rest || head.fragment_size < 1 ||
+        head.fragment_size != rest - head.vertex_size || data[sizeof head + head.vertex_size - 1] || data[size - 1])
         return fail(error, LAM_BAD_ARGUMENT, "the job of a check: its head does not fit its %zu bytes", size);
     *job = (struct check_job){.contract = head.contract,
                               .light_frame = head.light_frame,
@@ -63,8 +62,7 @@ bool job_read(const void *bytes, size_t size, struct check_job *job, lam_error *
     return true;
 }
 
-bool drawn_write(const struct check_drawn *drawn, const float *pictures, size_t count, lam_bytes *out,
-                 lam_error *error)
+bool drawn_write(const struct check_drawn *drawn, const float *pictures, size_t count, lam_bytes *out, lam_error *error)
 {
     struct drawn_head *head;
     out->size = sizeof *head + count * sizeof(float);
@@ -85,20 +83,18 @@ bool drawn_read(const lam_bytes *bytes, int size, struct check_drawn *drawn, lam
 {
     const struct drawn_head *head = bytes->data;
     if (bytes->size < sizeof *head || memcmp(head->mark, drawn_mark, sizeof drawn_mark) != 0)
-        return fail(error, LAM_CANNOT_READ,
-                    "the process that drew the shader answered %zu bytes that are no answer", bytes->size);
+        return fail(error, LAM_CANNOT_READ, "the process that drew the shader answered %zu bytes that are no answer",
+                    bytes->size);
     *drawn = head->drawn;
     size_t pictures = 0;
     for (int i = 0; i < study_count; i++)
         pictures += drawn->scenes >> i & 1;
     size_t expected = drawn->state == DRAWN_PICTURES ? pictures * (size_t)size * (size_t)size * 4 : 0;
-    if (head->floats != expected || bytes->size != sizeof *head + expected * sizeof(float) ||
-        drawn->state < 0 || drawn->state > DRAWN_SLOW || drawn->unknown_count < 0 ||
-        drawn->unknown_count > DRAWN_UNKNOWN_MOST || drawn->types_count < 0 ||
-        drawn->types_count > DRAWN_UNKNOWN_MOST)
-        return fail(error, LAM_CANNOT_READ,
-                    "the process that drew the shader answered %zu bytes, expected %zu", bytes->size,
-                    sizeof *head + expected * sizeof(float));
+    if (head->floats != expected || bytes->size != sizeof *head + expected * sizeof(float) || drawn->state < 0 ||
+        drawn->state > DRAWN_SLOW || drawn->unknown_count < 0 || drawn->unknown_count > DRAWN_UNKNOWN_MOST ||
+        drawn->types_count < 0 || drawn->types_count > DRAWN_UNKNOWN_MOST)
+        return fail(error, LAM_CANNOT_READ, "the process that drew the shader answered %zu bytes, expected %zu",
+                    bytes->size, sizeof *head + expected * sizeof(float));
     drawn->driver[sizeof drawn->driver - 1] = drawn->log[sizeof drawn->log - 1] = 0;
     for (int i = 0; i < DRAWN_UNKNOWN_MOST; i++)
         drawn->unknown[i][sizeof drawn->unknown[i] - 1] = drawn->types[i][sizeof drawn->types[i] - 1] = 0;

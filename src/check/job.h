@@ -12,13 +12,7 @@ struct check_job {
     const char *vertex, *fragment;
 };
 
-enum drawn_state {
-    DRAWN_PICTURES,
-    DRAWN_REFUSED_VERTEX,
-    DRAWN_REFUSED_FRAGMENT,
-    DRAWN_REFUSED_LINK,
-    DRAWN_SLOW
-};
+enum drawn_state { DRAWN_PICTURES, DRAWN_REFUSED_VERTEX, DRAWN_REFUSED_FRAGMENT, DRAWN_REFUSED_LINK, DRAWN_SLOW };
 
 enum { DRAWN_UNKNOWN_MOST = 16 };
 

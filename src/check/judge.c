@@ -21,10 +21,7 @@ static float clamped(float x) { return x > 0 ? (x < 1 ? x : 1) : 0; } // NaN: 0
 // Alpha is blended with before anything clamps it, so what is above 1 counts.
 static float bounded(float x) { return x > 0 ? (x < 4 ? x : 4) : 0; }
 
-size_t judge_gathered_count(const struct judged *scene)
-{
-    return scene->inside_count * (scene->alpha ? 4 : 3);
-}
+size_t judge_gathered_count(const struct judged *scene) { return scene->inside_count * (scene->alpha ? 4 : 3); }
 
 void judge_gather(const struct judged *scene, const float *picture, float *out)
 {
@@ -80,8 +77,7 @@ struct desk {
 };
 
 // The gathered numbers of a scene drawn with a set of mistakes; valid until the next call. NULL: `error`.
-static const float *picture_of(struct search *s, struct desk *desk, int index, mistake_set set,
-                               lam_error *error)
+static const float *picture_of(struct search *s, struct desk *desk, int index, mistake_set set, lam_error *error)
 {
     const struct judged *scene = &s->scenes[index];
     struct picture_key key = {.scene = (int)(scene->row - studies),
@@ -98,8 +94,7 @@ static const float *picture_of(struct search *s, struct desk *desk, int index, m
         return kept;
     if (!desk->model && !(desk->model = model_open(s->gl_device, s->size, error)))
         return NULL;
-    if (!model_draw(desk->model, &scene->study, s->reading, s->room, s->frame, s->reflection, set,
-                    desk->pixels, error))
+    if (!model_draw(desk->model, &scene->study, s->reading, s->room, s->frame, s->reflection, set, desk->pixels, error))
         return NULL;
     float *out = pictures_add(s->pictures, &key, judge_gathered_count(scene));
     out = out ? out : desk->gathered;

@@ -1,5 +1,4 @@
-// judge.h: pictures against pictures: how far apart, and with which mistakes the model's pictures are
-// nearest.
+// judge.h: pictures against pictures: how far apart, and with which mistakes the model's pictures are nearest.
 #ifndef JUDGE_H
 #define JUDGE_H
 
@@ -51,8 +50,7 @@ struct search {
     int order[ORDER_MOST];
     unsigned needs; // of the scenes together
     bool unset;     // names without a value: only a mistake that explains all by itself counts
-    // Results: mistakes in the order found, the mean distance after each, and whether they explain
-    // everything.
+    // Results: mistakes in the order found, the mean distance after each, and whether they explain everything.
     const struct mistake *found[FOUND_MOST];
     double after[FOUND_MOST];
     int count;

@@ -48,8 +48,8 @@ const struct mistake mistakes[] = {
     {"clip-space", B(NORMAL_BY_MODEL) | B(NORMAL_CLIP) | B(LIGHT_CLIP) | B(POINT_CLIP) | B(EYE_CLIP), 0, 0,
      "lighting is done after the projection; angles and distances mean nothing there",
      "vec3 P = ({model_view} * {position}).xyz; // light in eye space; {projection} only in gl_Position"},
-    {"clip-space-four",
-     B(NORMAL_BY_MODEL) | B(NORMAL_CLIP) | B(LIGHT_CLIP) | B(POINT_CLIP) | B(EYE_CLIP) | B(FOUR), 0, 0,
+    {"clip-space-four", B(NORMAL_BY_MODEL) | B(NORMAL_CLIP) | B(LIGHT_CLIP) | B(POINT_CLIP) | B(EYE_CLIP) | B(FOUR), 0,
+     0,
      "lighting is done after the projection, with vectors of four numbers; angles and distances mean nothing "
      "there",
      "vec3 P = ({model_view} * {position}).xyz; // light in eye space, three numbers; {projection} only in "
@@ -67,8 +67,7 @@ const struct mistake mistakes[] = {
      "the light is in eye space and the vertex in clip space, with four numbers: the two cannot be "
      "subtracted",
      "vec3 P = ({model_view} * {position}).xyz; // no projection"},
-    {"clip-space-light", B(LIGHT_CLIP) | B(POINT_CLIP), 0, 0,
-     "l and the distance are taken after the projection",
+    {"clip-space-light", B(LIGHT_CLIP) | B(POINT_CLIP), 0, 0, "l and the distance are taken after the projection",
      "vec3 L = {light_eye} - ({model_view} * {position}).xyz;"},
     {"light-not-moved", B(LIGHT_AS_GIVEN), WHERE_OBJECT_LIGHT, 0,
      "the light's position is in the model's space and is used as if it were in eye space; if the light is "
@@ -82,15 +81,14 @@ const struct mistake mistakes[] = {
      "the light is in eye space already and goes by the model-view matrix once more",
      "vec3 L = {light_eye} - ({model_view} * {position}).xyz; // the light as it is"},
     {"point-in-object-space", B(LIGHT_FROM_OBJECT) | B(EYE_FROM_OBJECT), 0, 0,
-     "the vertex is taken before its model-view matrix, for l and for v",
-     "vec3 P = ({model_view} * {position}).xyz;"},
+     "the vertex is taken before its model-view matrix, for l and for v", "vec3 P = ({model_view} * {position}).xyz;"},
     {"light-from-object-space", B(LIGHT_FROM_OBJECT), WHERE_EYE_LIGHT, 0,
      "l is the light in eye space minus the vertex before its model-view matrix",
      "vec3 L = {light_eye} - ({model_view} * {position}).xyz;"},
-    {"eye-from-object-space", B(EYE_FROM_OBJECT), 0, 0,
-     "v is taken to the vertex before its model-view matrix", "vec3 V = -({model_view} * {position}).xyz;"},
-    {"all-in-object-space", B(NORMAL_OBJECT) | B(LIGHT_AS_GIVEN) | B(LIGHT_FROM_OBJECT) | B(EYE_FROM_OBJECT),
-     0, 0, "all lighting is done in the model's space, with the eye at its origin",
+    {"eye-from-object-space", B(EYE_FROM_OBJECT), 0, 0, "v is taken to the vertex before its model-view matrix",
+     "vec3 V = -({model_view} * {position}).xyz;"},
+    {"all-in-object-space", B(NORMAL_OBJECT) | B(LIGHT_AS_GIVEN) | B(LIGHT_FROM_OBJECT) | B(EYE_FROM_OBJECT), 0, 0,
+     "all lighting is done in the model's space, with the eye at its origin",
      "vec3 P = ({model_view} * {position}).xyz; // and N, L, V in eye space with it"},
     {"direction-as-point", B(DIRECTION_AS_POINT), 0, NEED_DIRECTIONAL,
      "a directional light (w = 0) is treated as a point: the vertex is subtracted from a direction",
@@ -105,8 +103,7 @@ const struct mistake mistakes[] = {
      "is counted in the length, and l is too short",
      "vec3 L = {light_direction}; // .xyz alone, nothing subtracted"},
     {"direction-reversed", B(DIRECTION_REVERSED), 0, NEED_DIRECTIONAL,
-     "the directional light comes from the wrong side",
-     "vec3 L = {light_direction}; // it points to the light"},
+     "the directional light comes from the wrong side", "vec3 L = {light_direction}; // it points to the light"},
     {"light-backwards", B(LIGHT_BACKWARDS), 0, 0, "l points from the light to the surface",
      "vec3 L = {light_eye} - P; // light minus point"},
     {"eye-backwards", B(EYE_BACKWARDS), WHERE_BLINN, 0, "v points from the eye to the surface",
@@ -115,15 +112,13 @@ const struct mistake mistakes[] = {
      "v is the same for every point, as if the eye were infinitely far away", "vec3 V = normalize(-P);"},
     // --- lengths
     {"light-not-unit", B(LONG_LIGHT), 0, 0, "l is not made unit", "vec3 l = normalize(L);"},
-    {"half-of-raw-light", B(RAW_HALF), WHERE_BLINN, 0,
-     "the half vector is made from l before it is made unit",
+    {"half-of-raw-light", B(RAW_HALF), WHERE_BLINN, 0, "the half vector is made from l before it is made unit",
      "vec3 H = normalize(normalize(L) + normalize(V));"},
     {"half-of-raw-eye", B(LONG_EYE), 0, 0, "v is not made unit", "vec3 v = normalize(V);"},
     {"half-of-raw-both", B(LONG_EYE) | B(RAW_HALF), WHERE_BLINN, 0,
      "the half vector is made from l and v before they are made unit",
      "vec3 H = normalize(normalize(L) + normalize(V));"},
-    {"half-not-unit", B(HALF_LONG), WHERE_BLINN, 0, "the half vector is not made unit",
-     "vec3 H = normalize(l + v);"},
+    {"half-not-unit", B(HALF_LONG), WHERE_BLINN, 0, "the half vector is not made unit", "vec3 H = normalize(l + v);"},
     {"half-is-mean", B(HALF_MEAN), WHERE_BLINN, 0, "the half vector is (l + v)/2, which is shorter than 1",
      "vec3 H = normalize(l + v);"},
     {"unit-too-early", B(EARLY_LIGHT) | B(EARLY_EYE), WHERE_FRAGMENT, 0,
@@ -133,8 +128,7 @@ const struct mistake mistakes[] = {
     {"light-unit-too-early", B(EARLY_LIGHT), WHERE_FRAGMENT, 0,
      "l is made unit in the vertex shader and then interpolated: over large triangles it turns wrongly",
      "L = {light_eye} - P; // as it is; normalize in the fragment shader"},
-    {"eye-unit-too-early", B(EARLY_EYE), WHERE_FRAGMENT, 0,
-     "v is made unit in the vertex shader and then interpolated",
+    {"eye-unit-too-early", B(EARLY_EYE), WHERE_FRAGMENT, 0, "v is made unit in the vertex shader and then interpolated",
      "V = -P; // as it is; normalize in the fragment shader"},
     // --- attenuation
     {"distance-interpolated", B(MEAN_DISTANCE), WHERE_FRAGMENT, NEED_ATTENUATION,
@@ -156,8 +150,7 @@ const struct mistake mistakes[] = {
      "the light is multiplied by a + b d + c d^2 where it should be divided",
      "float attenuation = 1.0 / ({a} + {b} * d + {c} * d * d);"},
     // --- terms
-    {"no-gate", B(NO_GATE), 0, 0,
-     "the highlight is kept where the surface faces away from the light (n.l <= 0)",
+    {"no-gate", B(NO_GATE), 0, 0, "the highlight is kept where the surface faces away from the light (n.l <= 0)",
      "float s = dot(N, L) > 0.0 ? {S} : 0.0;"},
     {"no-clamp", B(NO_CLAMP), 0, 0, "n.l is used below 0 as well: the diffuse term takes light away",
      "float d = max(dot(N, L), 0.0);"},
@@ -195,19 +188,15 @@ const struct mistake mistakes[] = {
      "specular = {ks} * s; // not times {kd}"},
     {"specular-in-diffuse-colour", B(SPECULAR_AS_DIFFUSE), 0, 0, "the highlight has the diffuse colour",
      "specular = {ks} * s;"},
-    {"no-ambient", B(NO_AMBIENT), 0, NEED_AMBIENT, "the ambient term is missing",
-     "color = {ka} + diffuse + specular;"},
-    {"no-diffuse", B(NO_DIFFUSE), 0, 0, "the diffuse term is missing",
-     "color += {kd} * max(dot(N, L), 0.0);"},
+    {"no-ambient", B(NO_AMBIENT), 0, NEED_AMBIENT, "the ambient term is missing", "color = {ka} + diffuse + specular;"},
+    {"no-diffuse", B(NO_DIFFUSE), 0, 0, "the diffuse term is missing", "color += {kd} * max(dot(N, L), 0.0);"},
     {"no-specular", B(NO_SPECULAR), 0, 0, "the specular term is missing", "color += {ks} * {S};"},
-    {"ambient-for-each-light", B(AMBIENT_EACH_LIGHT), 0, NEED_LIGHTS,
-     "the ambient term is added once for each light",
+    {"ambient-for-each-light", B(AMBIENT_EACH_LIGHT), 0, NEED_LIGHTS, "the ambient term is added once for each light",
      "color = ambient; // once, before the loop over the lights"},
     {"first-light-only", B(FIRST_LIGHT_ONLY), 0, NEED_LIGHTS, "only the first light counts",
      "for (int i = 0; i < {count}; i++) // and add, do not assign"},
     {"last-light-only", B(LAST_LIGHT_ONLY), 0, NEED_LIGHTS,
-     "only the last light counts: each overwrites the one before",
-     "color += ...; // in the loop: add, do not assign"},
+     "only the last light counts: each overwrites the one before", "color += ...; // in the loop: add, do not assign"},
     // --- spots, sides, the rest
     {"no-cone", B(NO_CONE), 0, NEED_SPOT, "the spot's cone is missing",
      "float spot = c >= cutoff ? pow(max(c, 0.0), exponent) : 0.0;"},
@@ -221,15 +210,13 @@ const struct mistake mistakes[] = {
     {"smooth-for-flat", B(SMOOTH_FOR_FLAT), 0, NEED_FLAT,
      "flat shading is asked for and the values are interpolated all the same",
      "vec3 n = normalize({flat} ? Nf : Ns); // Nf declared flat, and likewise L and E"},
-    {"alpha-one", B(ALPHA_ONE), 0, NEED_ALPHA, "alpha is set to 1; it is the diffuse alpha",
+    {"alpha-one", B(ALPHA_ONE), 0, NEED_ALPHA, "alpha is set to 1; it is the diffuse alpha", "color.a = {kd}.a;"},
+    {"alpha-summed", B(ALPHA_SUM), 0, NEED_ALPHA, "alpha is summed over the terms; it is the diffuse alpha alone",
      "color.a = {kd}.a;"},
-    {"alpha-summed", B(ALPHA_SUM), 0, NEED_ALPHA,
-     "alpha is summed over the terms; it is the diffuse alpha alone", "color.a = {kd}.a;"},
     {"vertex-colour-clamped", B(VERTEX_CLAMPED), WHERE_VERTEX, 0,
      "the colours of the vertices are clamped to 0...1 before they are interpolated (gl_FrontColor does it)",
      "varying vec4 color; // a varying of its own in place of gl_FrontColor"},
-    {"encoded", B(ENCODED), 0, 0,
-     "the colour is gamma-encoded in the shader, and the plain numbers are expected",
+    {"encoded", B(ENCODED), 0, 0, "the colour is gamma-encoded in the shader, and the plain numbers are expected",
      "gl_FragColor = color; // no pow(color, 1/2.2)"},
     {"upside-down", B(UPSIDE_DOWN), 0, 0, "the picture is upside down",
      "gl_Position = {projection} * {model_view} * {position};"},
@@ -245,10 +232,7 @@ bool mistake_applies(const struct mistake *mistake, const struct reading *readin
     return (mistake->where & ~here) == 0 && (mistake->needs & ~needs) == 0;
 }
 
-const char *lam_check_mistake(int index)
-{
-    return index >= 0 && index < mistake_count ? mistakes[index].id : NULL;
-}
+const char *lam_check_mistake(int index) { return index >= 0 && index < mistake_count ? mistakes[index].id : NULL; }
 
 const char *lam_check_mistake_says(int index)
 {
@@ -295,8 +279,7 @@ static void put(struct line *line, const char *text)
 
 static const char *own_name(const struct line *line, enum role role)
 {
-    return contract_name_used(line->reading->contract, role, &line->reading->vertex,
-                              &line->reading->fragment);
+    return contract_name_used(line->reading->contract, role, &line->reading->vertex, &line->reading->fragment);
 }
 
 static bool is_wide(const struct line *line, enum role role) // a vec4 or mat4
@@ -344,8 +327,7 @@ static void put_light(struct line *line, bool direction)
 static void put_place(struct line *line, const char *place, size_t length)
 {
     if (length == 1 && *place == 'S') {
-        put(line, line->reflection == LAM_REFLECTION_PHONG ? "pow(max(dot(R, V), 0.0), "
-                                                           : "pow(max(dot(N, H), 0.0), ");
+        put(line, line->reflection == LAM_REFLECTION_PHONG ? "pow(max(dot(R, V), 0.0), " : "pow(max(dot(N, H), 0.0), ");
         const char *name = own_name(line, ROLE_SHININESS);
         put(line, name ? name : "64.0");
         put(line, ")");
@@ -384,8 +366,7 @@ static void put_place(struct line *line, const char *place, size_t length)
 void mistake_write(const char *template, const struct reading *reading, lam_light_frame frame,
                    lam_reflection reflection, char *out, size_t room)
 {
-    struct line line = {
-        .reading = reading, .frame = frame, .reflection = reflection, .out = out, .room = room};
+    struct line line = {.reading = reading, .frame = frame, .reflection = reflection, .out = out, .room = room};
     out[0] = 0;
     for (const char *c = template; *c; c++) {
         const char *end = *c == '{' ? strchr(c, '}') : NULL;

@@ -38,8 +38,8 @@ static GLuint compile(struct model *m, GLenum kind, bool in_vertex, const char *
     GLuint shader = target_compile(&m->target, kind, text, log, sizeof log);
     free(text);
     if (!shader)
-        fail(error, LAM_UNSUPPORTED, "%s does not compile the check's own shader: %.300s",
-             m->target.context.renderer, log);
+        fail(error, LAM_UNSUPPORTED, "%s does not compile the check's own shader: %.300s", m->target.context.renderer,
+             log);
     return shader;
 }
 
@@ -68,8 +68,8 @@ static bool build(struct model *m, bool in_vertex, lam_error *error)
     if (fragment) {
         m->program = m->programs[in_vertex] = target_link(&m->target, vertex, fragment, log, sizeof log);
         if (!m->program)
-            fail(error, LAM_UNSUPPORTED, "%s does not link the check's own shaders: %.300s",
-                 m->target.context.renderer, log);
+            fail(error, LAM_UNSUPPORTED, "%s does not link the check's own shaders: %.300s", m->target.context.renderer,
+                 log);
     }
     const struct gl *gl = &m->target.context.gl;
     gl->DeleteShader(vertex);
@@ -100,9 +100,8 @@ static GLint lamp_place(const struct model *m, int i, const char *member)
     return place(m, name);
 }
 
-static void set_lamp(const struct model *m, int i, const struct study_light *light,
-                     const struct reading *reading, lam_light_frame frame, const struct study *study,
-                     const struct study_matrices *matrices)
+static void set_lamp(const struct model *m, int i, const struct study_light *light, const struct reading *reading,
+                     lam_light_frame frame, const struct study *study, const struct study_matrices *matrices)
 {
     const struct gl *gl = &m->target.context.gl;
     const struct contract *contract = reading->contract;
@@ -126,8 +125,7 @@ static void set_color(const struct model *m, const char *name, lam_rgb c, float 
 }
 
 bool model_draw(struct model *m, const struct study *study, const struct reading *reading, int room,
-                lam_light_frame frame, lam_reflection reflection, mistake_set set, float *pixels,
-                lam_error *error)
+                lam_light_frame frame, lam_reflection reflection, mistake_set set, float *pixels, lam_error *error)
 {
     const struct gl *gl = &m->target.context.gl;
     struct study_matrices matrices;
@@ -157,8 +155,7 @@ bool model_draw(struct model *m, const struct study *study, const struct reading
                   study->ambient.g * study->ka * light[1], study->ambient.b * study->ka * light[2]);
     set_color(m, "kd", study->diffuse, study->kd);
     set_color(m, "ks", study->specular, study->ks);
-    // Contracts with strengths and colours apart mix up the one or the other; the rest have only their
-    // products.
+    // Contracts with strengths and colours apart mix up the one or the other; the rest have only their products.
     bool apart = contract->material_strengths;
     set_color(m, "kd_with_ks", apart ? study->diffuse : study->specular, study->ks);
     set_color(m, "ks_with_kd", apart ? study->specular : study->diffuse, study->kd);

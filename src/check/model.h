@@ -12,7 +12,6 @@ void model_close(struct model *model); // NULL is fine
 // Draws a study as the contract can say it; `room`: lights that the shaders have room for. Pixels: size² × 4
 // floats, rows top-down.
 bool model_draw(struct model *model, const struct study *study, const struct reading *reading, int room,
-                lam_light_frame frame, lam_reflection reflection, mistake_set set, float *pixels,
-                lam_error *error);
+                lam_light_frame frame, lam_reflection reflection, mistake_set set, float *pixels, lam_error *error);
 
 #endif

@@ -12,8 +12,7 @@
 
 enum { NOTES_MOST = 64, LOG_LINES_MOST = 8 };
 
-void notes_add(struct notes *notes, lam_check_note_kind kind, const char *file, int line, const char *format,
-               ...)
+void notes_add(struct notes *notes, lam_check_note_kind kind, const char *file, int line, const char *format, ...)
 {
     char text[600];
     va_list arguments;
@@ -31,8 +30,7 @@ void notes_add(struct notes *notes, lam_check_note_kind kind, const char *file, 
         return;
     }
     if (notes->count < NOTES_MOST)
-        notes->items[notes->count++] =
-            (lam_check_note){.kind = kind, .file = file, .line = line, .text = kept};
+        notes->items[notes->count++] = (lam_check_note){.kind = kind, .file = file, .line = line, .text = kept};
 }
 
 // "0:12(5): error: …" (Mesa), "0(12) : error …" (NVIDIA), "ERROR: 0:12: …" (others): the line's number, and
@@ -106,18 +104,16 @@ static void tell_unknown(struct notes *notes, const struct reading *r, const cha
 }
 
 // Compared without case and underscores: matrix names and the like are declared with their types.
-static void tell_types(struct notes *notes, const struct reading *r, const struct declaration *d,
-                       const char *file)
+static void tell_types(struct notes *notes, const struct reading *r, const struct declaration *d, const char *file)
 {
     const struct contract_name *known = contract_find(r->contract, d->name, false, NULL);
     if (known && ((strncmp(known->type, "mat", 3) == 0) != (strncmp(d->type, "mat", 3) == 0) ||
                   (strncmp(known->type, "vec", 3) == 0) != (strncmp(d->type, "vec", 3) == 0)))
-        notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->line, "uniform %s %s: write uniform %s %s", d->type,
-                  d->name, known->type, d->name);
+        notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->line, "uniform %s %s: write uniform %s %s", d->type, d->name,
+                  known->type, d->name);
 }
 
-// Whether the driver keeps a declared name: "lights[].a" is "lights[0].a" to it, and a block's member
-// "Block.a".
+// Whether the driver keeps a declared name: "lights[].a" is "lights[0].a" to it, and a block's member "Block.a".
 static bool is_active(const struct check_drawn *drawn, const char *declared)
 {
     for (int i = 0; i < drawn->unknown_count; i++) {

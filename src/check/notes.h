@@ -13,8 +13,8 @@ struct notes {
     bool failed; // memory ran out
 };
 
-__attribute__((format(printf, 5, 6))) void notes_add(struct notes *notes, lam_check_note_kind kind,
-                                                     const char *file, int line, const char *format, ...);
+__attribute__((format(printf, 5, 6))) void notes_add(struct notes *notes, lam_check_note_kind kind, const char *file,
+                                                     int line, const char *format, ...);
 
 // The driver's log of a refused shader, line by line, and what its lines are known to mean.
 void notes_of_refusal(struct notes *notes, const struct check_drawn *drawn, const struct reading *reading,

@@ -11,10 +11,9 @@ static bool has_role(const struct reading *r, enum role role)
     const struct declarations *sides[] = {&r->vertex, &r->fragment};
     for (int s = 0; s < 2; s++)
         for (int i = 0; i < sides[s]->count; i++) {
-            const struct contract_name *n =
-                sides[s]->items[i].kind == DECLARED_UNIFORM
-                    ? contract_find(r->contract, sides[s]->items[i].name, false, NULL)
-                    : NULL;
+            const struct contract_name *n = sides[s]->items[i].kind == DECLARED_UNIFORM
+                                                ? contract_find(r->contract, sides[s]->items[i].name, false, NULL)
+                                                : NULL;
             if (n && n->role == role)
                 return true;
         }
@@ -29,9 +28,8 @@ static bool is_material(enum role role) { return role >= ROLE_AMBIENT && role <=
 static bool lights_up(const struct contract *contract, const struct declarations *d)
 {
     for (int i = 0; i < d->count; i++) {
-        const struct contract_name *n = d->items[i].kind == DECLARED_UNIFORM
-                                            ? contract_find(contract, d->items[i].name, false, NULL)
-                                            : NULL;
+        const struct contract_name *n =
+            d->items[i].kind == DECLARED_UNIFORM ? contract_find(contract, d->items[i].name, false, NULL) : NULL;
         if (n && (is_material(n->role) || is_light(n->role)))
             return true;
     }
@@ -56,9 +54,8 @@ static bool says(const struct declarations *d, int at, const char *text)
 {
     for (; *text; at++) {
         size_t length = strcspn(text, " ");
-        if (at >= d->word_count ||
-            (!(length == 1 && *text == '?') &&
-             (strlen(d->words[at].text) != length || strncmp(d->words[at].text, text, length) != 0)))
+        if (at >= d->word_count || (!(length == 1 && *text == '?') && (strlen(d->words[at].text) != length ||
+                                                                       strncmp(d->words[at].text, text, length) != 0)))
             return false;
         text += length + (text[length] == ' ');
     }
@@ -95,19 +92,17 @@ static bool can_be_checked(const struct reading *r, lam_error *error)
     static const struct {
         enum declared kind;
         const char *name, *what;
-    } asked[] = {
-        {DECLARED_UNIFORM, "light_list",
-         "lights in a texture, which the check does not make; print it with --lights-in array or block"},
-        {DECLARED_INPUT, "provoking_position",
-         "vertices made for flat shading in GLSL 120, which the check does not make; print it with --glsl "
-         "330"},
-        {DECLARED_INPUT, "front_color",
-         "light that the application has worked out: there is no lighting in it to check"}};
+    } asked[] = {{DECLARED_UNIFORM, "light_list",
+                  "lights in a texture, which the check does not make; print it with --lights-in array or block"},
+                 {DECLARED_INPUT, "provoking_position",
+                  "vertices made for flat shading in GLSL 120, which the check does not make; print it with --glsl "
+                  "330"},
+                 {DECLARED_INPUT, "front_color",
+                  "light that the application has worked out: there is no lighting in it to check"}};
     for (int i = 0; r->which == LAM_CONTRACT_LAMBENT && i < 3; i++)
         if (declarations_find(&r->vertex, asked[i].kind, asked[i].name) ||
             declarations_find(&r->fragment, asked[i].kind, asked[i].name))
-            return fail(error, LAM_UNSUPPORTED, "the shader asks by '%s' for %s", asked[i].name,
-                        asked[i].what);
+            return fail(error, LAM_UNSUPPORTED, "the shader asks by '%s' for %s", asked[i].name, asked[i].what);
     return true;
 }
 
@@ -165,16 +160,16 @@ bool reading_make(struct reading *r, const char *vertex, const char *fragment, l
         reading_free(r);
         return false;
     }
-    r->contract = which == LAM_CONTRACT_AUTO ? contract_recognise(&r->vertex, &r->fragment, &r->which)
-                                             : contract_of(which);
+    r->contract =
+        which == LAM_CONTRACT_AUTO ? contract_recognise(&r->vertex, &r->fragment, &r->which) : contract_of(which);
     if (!r->contract) {
         const struct declarations *sides[] = {&r->vertex, &r->fragment};
         char found[200] = "";
         for (int s = 0; s < 2; s++)
             for (int i = 0; i < sides[s]->count && strlen(found) < 120; i++)
                 if (sides[s]->items[i].kind == DECLARED_UNIFORM)
-                    snprintf(found + strlen(found), sizeof found - strlen(found), "%s%.40s",
-                             found[0] ? ", " : "", sides[s]->items[i].name);
+                    snprintf(found + strlen(found), sizeof found - strlen(found), "%s%.40s", found[0] ? ", " : "",
+                             sides[s]->items[i].name);
         reading_free(r);
         return fail(error, LAM_BAD_ARGUMENT,
                     "no uniform or attribute of the shader has a name of a known contract (found %s); write "

@@ -20,8 +20,7 @@ static void plain_material(struct study *s)
     s->kd = s->ks = 1;
 }
 
-static void limit_light(const struct contract *contract, unsigned offers, int index,
-                        struct study_light *light)
+static void limit_light(const struct contract *contract, unsigned offers, int index, struct study_light *light)
 {
     unsigned rule = offers >> (RULE_FIRST + RULE_BITS * index), kind = rule & RULE_KIND;
     bool directional = kind ? kind == RULE_DIRECTIONAL : !(offers & NEED_POINT);
@@ -108,8 +107,7 @@ static lam_rgb total_ambient(const struct study *s)
 {
     lam_rgb sum = {0, 0, 0};
     for (int i = 0; i < s->light_count; i++)
-        sum = (lam_rgb){sum.r + s->lights[i].ambient.r, sum.g + s->lights[i].ambient.g,
-                        sum.b + s->lights[i].ambient.b};
+        sum = (lam_rgb){sum.r + s->lights[i].ambient.r, sum.g + s->lights[i].ambient.g, sum.b + s->lights[i].ambient.b};
     return sum;
 }
 

@@ -7,68 +7,51 @@
 #include "fail.h"
 #include "linear.h"
 
-#define AMBIENT                                                                                              \
-    {                                                                                                        \
-        0.30f, 0.45f, 0.90f                                                                                  \
-    }
-#define DIFFUSE                                                                                              \
-    {                                                                                                        \
-        0.85f, 0.50f, 0.15f                                                                                  \
-    }
-#define SPECULAR                                                                                             \
-    {                                                                                                        \
-        0.55f, 0.75f, 0.95f                                                                                  \
-    }
-#define COLORS .ambient = AMBIENT, .diffuse = DIFFUSE, .specular = SPECULAR
-#define MATTER COLORS, .alpha = 1
-#define STRETCHED                                                                                            \
-    .mesh = MESH_TEAPOT, .scale = {1.3, 0.8, 1.1}, .turn_axis = {0.3, 1, 0.2}, .turn_deg = 35,               \
+#define AMBIENT  {0.30f, 0.45f, 0.90f}
+#define DIFFUSE  {0.85f, 0.50f, 0.15f}
+#define SPECULAR {0.55f, 0.75f, 0.95f}
+#define COLORS   .ambient = AMBIENT, .diffuse = DIFFUSE, .specular = SPECULAR
+#define MATTER   COLORS, .alpha = 1
+#define STRETCHED                                                                                                      \
+    .mesh = MESH_TEAPOT, .scale = {1.3, 0.8, 1.1}, .turn_axis = {0.3, 1, 0.2}, .turn_deg = 35,                         \
     .move = {0.2, -0.1, -0.3}, .eye = {1.1, 1.5, 3.1}, .target = {0.1, -0.1, -0.2}
-#define BALL                                                                                                 \
-    .scale = {0.9, 0.9, 0.9}, .turn_axis = {1, 1, 0}, .turn_deg = 20, .move = {0.3, 0.2, 0.1},               \
+#define BALL                                                                                                           \
+    .scale = {0.9, 0.9, 0.9}, .turn_axis = {1, 1, 0}, .turn_deg = 20, .move = {0.3, 0.2, 0.1},                         \
     .eye = {-0.8, 0.9, 3.2}, .target = {0.2, 0.1, 0}
 #define WHITE .color = {1, 1, 1}, .specular = {1, 1, 1}, .ambient = {1, 1, 1}
-#define LAMP                                                                                                 \
-    {                                                                                                        \
-        .type = LAM_LIGHT_POINT, .position = {1.6, 2.2, 2.4}, WHITE, .attenuation = { 0.6f, 0.1f, 0.04f }    \
-    }
+#define LAMP  {.type = LAM_LIGHT_POINT, .position = {1.6, 2.2, 2.4}, WHITE, .attenuation = {0.6f, 0.1f, 0.04f}}
 
 const struct study studies[] = {
-    {"all", "every term together, a stretched model, a light near by", 0, STRETCHED, MATTER, .ka = 0.25f,
-     .kd = 0.8f, .ks = 0.6f, .shininess = 20, .light_count = 1, .lights = {LAMP}},
+    {"all", "every term together, a stretched model, a light near by", 0, STRETCHED, MATTER, .ka = 0.25f, .kd = 0.8f,
+     .ks = 0.6f, .shininess = 20, .light_count = 1, .lights = {LAMP}},
     {"ambient", "the ambient term alone", NEED_AMBIENT, STRETCHED, MATTER, .ka = 0.8f, .shininess = 20,
      .light_count = 1, .lights = {LAMP}},
     {"diffuse", "the diffuse term alone", 0, STRETCHED, MATTER, .kd = 0.9f, .shininess = 20, .light_count = 1,
      .lights = {LAMP}},
-    {"specular", "the specular term alone, a wide highlight", 0, STRETCHED, MATTER, .ks = 0.9f,
-     .shininess = 8, .light_count = 1, .lights = {LAMP}},
-    {"highlight", "the specular term alone, a small highlight", NEED_SHININESS, .mesh = MESH_SPHERE, BALL,
-     MATTER, .ks = 1, .shininess = 90, .light_count = 1, .lights = {LAMP}},
+    {"specular", "the specular term alone, a wide highlight", 0, STRETCHED, MATTER, .ks = 0.9f, .shininess = 8,
+     .light_count = 1, .lights = {LAMP}},
+    {"highlight", "the specular term alone, a small highlight", NEED_SHININESS, .mesh = MESH_SPHERE, BALL, MATTER,
+     .ks = 1, .shininess = 90, .light_count = 1, .lights = {LAMP}},
     {"gate", "light from behind: no highlight where n.l is not above 0", 0, .mesh = MESH_SPHERE, BALL, MATTER,
      .ks = 0.9f, .kd = 0.1f, .shininess = 3, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_POINT, .position = {-1.2, 1.9, -2.4}, WHITE, .attenuation = {1, 0, 0}}}},
     {"grazing", "a light just below a plane: no highlight, however small", 0, .mesh = MESH_PLANE,
-     .scale = {1.5, 1, 1.6}, .turn_axis = {0, 1, 0}, .eye = {0.3, 0.55, 3.4}, .target = {0, 0, 0}, MATTER,
-     .kd = 0.5f, .ks = 1, .shininess = 40, .light_count = 1,
+     .scale = {1.5, 1, 1.6}, .turn_axis = {0, 1, 0}, .eye = {0.3, 0.55, 3.4}, .target = {0, 0, 0}, MATTER, .kd = 0.5f,
+     .ks = 1, .shininess = 40, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_POINT, .position = {0.1, -0.15, -3}, WHITE, .attenuation = {1, 0, 0}}}},
-    {"coarse", "few triangles: interpolated normals are short", 0, .mesh = MESH_COARSE,
-     .scale = {1.1, 0.6, 0.9}, .turn_axis = {1, 1, 0}, .turn_deg = 20, .move = {0.3, 0.2, 0.1},
-     .eye = {-0.8, 0.9, 3.2}, .target = {0.2, 0.1, 0}, MATTER, .kd = 0.6f, .ks = 0.6f, .shininess = 12,
-     .light_count = 1,
-     .lights =
-         {{.type = LAM_LIGHT_POINT, .position = {0.6, 1.4, 2.2}, WHITE, .attenuation = {0.5f, 0.1f, 0.05f}}}},
-    {"near", "two large triangles and a light close to them", NEED_POINT, .mesh = MESH_PLANE,
-     .scale = {1.6, 1, 1.6}, .turn_axis = {1, 0, 0}, .turn_deg = 25, .eye = {0.4, 1.9, 3},
-     .target = {0, 0, 0}, MATTER, .kd = 1, .ks = 0.3f, .shininess = 10, .light_count = 1,
-     .lights = {{.type = LAM_LIGHT_POINT,
-                 .position = {0.35, 0.75, 0.3},
-                 WHITE,
-                 .attenuation = {0.4f, 0.3f, 0.6f}}}},
-    {"directional", "a light infinitely far away", NEED_DIRECTIONAL, STRETCHED, MATTER, .ka = 0.1f,
-     .kd = 0.7f, .ks = 0.6f, .shininess = 14, .light_count = 1,
+    {"coarse", "few triangles: interpolated normals are short", 0, .mesh = MESH_COARSE, .scale = {1.1, 0.6, 0.9},
+     .turn_axis = {1, 1, 0}, .turn_deg = 20, .move = {0.3, 0.2, 0.1}, .eye = {-0.8, 0.9, 3.2}, .target = {0.2, 0.1, 0},
+     MATTER, .kd = 0.6f, .ks = 0.6f, .shininess = 12, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_POINT, .position = {0.6, 1.4, 2.2}, WHITE, .attenuation = {0.5f, 0.1f, 0.05f}}}},
+    {"near", "two large triangles and a light close to them", NEED_POINT, .mesh = MESH_PLANE, .scale = {1.6, 1, 1.6},
+     .turn_axis = {1, 0, 0}, .turn_deg = 25, .eye = {0.4, 1.9, 3}, .target = {0, 0, 0}, MATTER, .kd = 1, .ks = 0.3f,
+     .shininess = 10, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_POINT, .position = {0.35, 0.75, 0.3}, WHITE, .attenuation = {0.4f, 0.3f, 0.6f}}}},
+    {"directional", "a light infinitely far away", NEED_DIRECTIONAL, STRETCHED, MATTER, .ka = 0.1f, .kd = 0.7f,
+     .ks = 0.6f, .shininess = 14, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_DIRECTIONAL, .from = {0.9, 1.3, 1.1}, WHITE, .attenuation = {1, 0, 0}}}},
-    {"lights", "three lights of different colours", NEED_LIGHTS, .mesh = MESH_SPHERE, BALL, MATTER,
-     .ka = 0.15f, .kd = 0.8f, .ks = 0.5f, .shininess = 20, .light_count = 3,
+    {"lights", "three lights of different colours", NEED_LIGHTS, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.15f,
+     .kd = 0.8f, .ks = 0.5f, .shininess = 20, .light_count = 3,
      .lights = {{.type = LAM_LIGHT_POINT,
                  .position = {2.2, 1.4, 1.8},
                  .color = {0.8f, 0.3f, 0.2f},
@@ -87,8 +70,8 @@ const struct study studies[] = {
                  .specular = {0.5f, 0.5f, 0.5f},
                  .ambient = {0.1f, 0.2f, 0.5f},
                  .attenuation = {0.9f, 0, 0.05f}}}},
-    {"spot", "a cone of light", NEED_SPOT, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.1f, .kd = 0.8f,
-     .ks = 0.5f, .shininess = 10, .light_count = 1,
+    {"spot", "a cone of light", NEED_SPOT, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.1f, .kd = 0.8f, .ks = 0.5f,
+     .shininess = 10, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_SPOT,
                  .position = {0.8, 1.2, 2.8},
                  .from = {0.25, 0.35, 0.9},
@@ -97,22 +80,20 @@ const struct study studies[] = {
                  .cutoff_deg = 16,
                  .exponent = 12}}},
     {"two sides", "the inside of a bowl: a back face is lit with -n", NEED_TWO_SIDES, .mesh = MESH_BOWL,
-     .scale = {1, 1, 1}, .turn_axis = {1, 0, 0}, .turn_deg = 50, .eye = {0.3, 0.9, 3.3},
-     .target = {0, -0.1, 0}, MATTER, .ka = 0.1f, .kd = 0.8f, .ks = 0.5f, .shininess = 10, .light_count = 1,
-     .lights = {LAMP}},
-    {"flat", "flat shading", NEED_FLAT, .mesh = MESH_COARSE, BALL, MATTER, .ka = 0.15f, .kd = 0.7f,
-     .ks = 0.5f, .shininess = 8, .flat = true, .light_count = 1, .lights = {LAMP}},
-    {"bright", "colours above 1 at the vertices", NEED_VERTEX_LIT, .mesh = MESH_COARSE, BALL, MATTER, .kd = 1,
-     .ks = 1, .shininess = 6, .light_count = 1,
+     .scale = {1, 1, 1}, .turn_axis = {1, 0, 0}, .turn_deg = 50, .eye = {0.3, 0.9, 3.3}, .target = {0, -0.1, 0}, MATTER,
+     .ka = 0.1f, .kd = 0.8f, .ks = 0.5f, .shininess = 10, .light_count = 1, .lights = {LAMP}},
+    {"flat", "flat shading", NEED_FLAT, .mesh = MESH_COARSE, BALL, MATTER, .ka = 0.15f, .kd = 0.7f, .ks = 0.5f,
+     .shininess = 8, .flat = true, .light_count = 1, .lights = {LAMP}},
+    {"bright", "colours above 1 at the vertices", NEED_VERTEX_LIT, .mesh = MESH_COARSE, BALL, MATTER, .kd = 1, .ks = 1,
+     .shininess = 6, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_POINT,
                  .position = {0.6, 1.4, 2.2},
                  .color = {3, 3, 3},
                  .specular = {2, 2, 2},
                  .ambient = {1, 1, 1},
                  .attenuation = {1, 0, 0}}}},
-    {"alpha", "a translucent material: alpha is the diffuse alpha", NEED_ALPHA, .mesh = MESH_SPHERE, BALL,
-     COLORS, .alpha = 0.4f, .ka = 0.15f, .kd = 0.7f, .ks = 0.4f, .shininess = 10, .light_count = 1,
-     .lights = {LAMP}},
+    {"alpha", "a translucent material: alpha is the diffuse alpha", NEED_ALPHA, .mesh = MESH_SPHERE, BALL, COLORS,
+     .alpha = 0.4f, .ka = 0.15f, .kd = 0.7f, .ks = 0.4f, .shininess = 10, .light_count = 1, .lights = {LAMP}},
 };
 const int study_count = sizeof studies / sizeof studies[0];
 
@@ -253,8 +234,7 @@ static bool add_lights(lam_scene *scene, const struct study *s, lam_error *error
         light.ambient = from->ambient;
         light.diffuse = from->color;
         light.specular = from->specular;
-        light.attenuation =
-            (lam_attenuation){from->attenuation[0], from->attenuation[1], from->attenuation[2]};
+        light.attenuation = (lam_attenuation){from->attenuation[0], from->attenuation[1], from->attenuation[2]};
         light.cutoff_rad = (float)math_radians((double)from->cutoff_deg);
         light.exponent = from->exponent;
         if (lam_scene_add_light(scene, &light, error) < 0)

@@ -29,8 +29,7 @@ bool target_open(struct target *t, enum gl_profile profile, const char *gl_devic
     gl->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size, size);
     gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, t->depth);
     if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        fail(error, LAM_UNSUPPORTED, "%s cannot draw into pictures of floats, expected RGBA32F",
-             t->context.renderer);
+        fail(error, LAM_UNSUPPORTED, "%s cannot draw into pictures of floats, expected RGBA32F", t->context.renderer);
         target_close(t);
         return false;
     }
@@ -83,8 +82,7 @@ bool target_mesh(struct target *t, enum study_mesh mesh, lam_error *error)
     const struct gl *gl = &t->context.gl;
     gl->GenBuffers(1, &t->positions[mesh]);
     gl->BindBuffer(GL_ARRAY_BUFFER, t->positions[mesh]);
-    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * 3 * sizeof(float)), points.positions,
-                   GL_STATIC_DRAW);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * 3 * sizeof(float)), points.positions, GL_STATIC_DRAW);
     gl->GenBuffers(1, &t->normals[mesh]);
     gl->BindBuffer(GL_ARRAY_BUFFER, t->normals[mesh]);
     gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * 4 * sizeof(float)), four, GL_STATIC_DRAW);
@@ -110,8 +108,7 @@ static void point_at(const struct gl *gl, GLuint buffer, int place, int width, b
     }
 }
 
-bool target_draw(struct target *t, enum study_mesh mesh, int position, int normal, float *pixels,
-                 lam_error *error)
+bool target_draw(struct target *t, enum study_mesh mesh, int position, int normal, float *pixels, lam_error *error)
 {
     const struct gl *gl = &t->context.gl;
     if (!target_mesh(t, mesh, error))
@@ -126,8 +123,7 @@ bool target_draw(struct target *t, enum study_mesh mesh, int position, int norma
     gl->ReadPixels(0, 0, t->size, t->size, GL_RGBA, GL_FLOAT, pixels);
     GLenum wrong = gl->GetError();
     if (wrong)
-        return fail(error, LAM_UNSUPPORTED, "%s reports error 0x%04x while drawing", t->context.renderer,
-                    wrong);
+        return fail(error, LAM_UNSUPPORTED, "%s reports error 0x%04x while drawing", t->context.renderer, wrong);
     size_t row = 4 * (size_t)t->size; // OpenGL's first row is the lowest
     for (int y = 0; y < t->size / 2; y++) {
         float *a = pixels + (size_t)y * row, *b = pixels + (size_t)(t->size - 1 - y) * row;

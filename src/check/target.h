@@ -15,8 +15,7 @@ struct target {
     int counts[STUDY_MESHES];
 };
 
-bool target_open(struct target *t, enum gl_profile profile, const char *gl_device, int size,
-                 lam_error *error);
+bool target_open(struct target *t, enum gl_profile profile, const char *gl_device, int size, lam_error *error);
 void target_close(struct target *t);
 
 // The mesh's buffers, made when it is first asked for.
@@ -24,8 +23,7 @@ bool target_mesh(struct target *t, enum study_mesh mesh, lam_error *error);
 
 // Clears, draws the mesh with the current program, and reads the picture, rows top-down. Where −1 is given,
 // attributes are the built-in ones of compatibility contexts.
-bool target_draw(struct target *t, enum study_mesh mesh, int position, int normal, float *pixels,
-                 lam_error *error);
+bool target_draw(struct target *t, enum study_mesh mesh, int position, int normal, float *pixels, lam_error *error);
 
 // A shader of `kind`; 0, with the driver's words, where it does not compile.
 GLuint target_compile(struct target *t, GLenum kind, const char *text, char *log, size_t room);

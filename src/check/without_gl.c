@@ -29,10 +29,8 @@ struct model *model_open(const char *gl_device, int size, lam_error *error)
 void model_close(struct model *model) { (void)model; }
 
 bool model_draw(struct model *model, const struct study *study, const struct reading *reading, int room,
-                lam_light_frame frame, lam_reflection reflection, mistake_set set, float *pixels,
-                lam_error *error)
+                lam_light_frame frame, lam_reflection reflection, mistake_set set, float *pixels, lam_error *error)
 {
-    (void)model, (void)study, (void)reading, (void)room, (void)frame, (void)reflection, (void)set,
-        (void)pixels;
+    (void)model, (void)study, (void)reading, (void)room, (void)frame, (void)reflection, (void)set, (void)pixels;
     return left_out(error);
 }

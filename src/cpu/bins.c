@@ -84,8 +84,8 @@ const struct clipped_piece *clipped_piece(const struct thread_state *thread, uin
 
 void bin_large(struct cpu_frame *cpu, struct thread_state *thread, const struct snapped *c, uint32_t id)
 {
-    int64_t area = (int64_t)(c->x[1] - c->x[0]) * (c->y[2] - c->y[0]) -
-                   (int64_t)(c->x[2] - c->x[0]) * (c->y[1] - c->y[0]);
+    int64_t area =
+        (int64_t)(c->x[1] - c->x[0]) * (c->y[2] - c->y[0]) - (int64_t)(c->x[2] - c->x[0]) * (c->y[1] - c->y[0]);
     if (area == 0)
         return;
     int low_x = c->x[0], high_x = c->x[0], low_y = c->y[0], high_y = c->y[0];

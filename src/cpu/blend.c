@@ -1,11 +1,11 @@
 // blend.c: translucent surfaces: a pixel's fragments put in order of depth for every sample, and blended.
 //
-// Colours lie over one another as src·a + dst·(1−a), the result's alpha is a + A·(1−a). That is worked out
-// from the nearest layer to the farthest, with the share of light that the layers so far let through: the sum
-// is the same, and what is left over tells how much of the opaque surface or the background below is seen.
+// Colours lie over one another as src·a + dst·(1−a), the result's alpha is a + A·(1−a). That is worked out from the
+// nearest layer to the farthest, with the share of light that the layers so far let through: the sum is the same, and
+// what is left over tells how much of the opaque surface or the background below is seen.
 //
-// Memory is bounded: a thread holds LAYERS_MAX fragments. Where a tile has more, it is done in halves, and
-// those in halves again, down to single pixels, whose fragments must fit. Nothing is ever left out.
+// Memory is bounded: a thread holds LAYERS_MAX fragments. Where a tile has more, it is done in halves, and those in
+// halves again, down to single pixels, whose fragments must fit. Nothing is ever left out.
 #include "kernels.h"
 
 #include "recorder.h"
@@ -85,11 +85,11 @@ static uint64_t rank_of(float key, uint32_t id)
     uint32_t bits;
     memcpy(&bits, &unsigned_zero, sizeof bits);
     bits = bits >> 31 ? ~bits : bits | 0x80000000u;
-    return (uint64_t)bits << 32 | (uint32_t) ~(id << 1 | id >> 31);
+    return (uint64_t)bits << 32 | (uint32_t)~(id << 1 | id >> 31);
 }
 
-// Joins the fragments that pieces of one clipped triangle have in one pixel; a sample that two of them claim
-// gets the nearer.
+// Joins the fragments that pieces of one clipped triangle have in one pixel; a sample that two of them claim gets the
+// nearer.
 static void join_pieces(struct thread_state *thread, int samples)
 {
     for (int pixel = 0; pixel < TILE * TILE; pixel++) {
@@ -117,8 +117,7 @@ static void join_pieces(struct thread_state *thread, int samples)
     }
 }
 
-// Takes out the fragments that have been joined to others, and finds the remaining ones' nearest samples
-// anew.
+// Takes out the fragments that have been joined to others, and finds the remaining ones' nearest samples anew.
 static void drop_joined(const struct sample_pattern *pattern, struct thread_state *thread)
 {
     size_t samples = (size_t)pattern->count, kept = 0;
@@ -132,8 +131,7 @@ static void drop_joined(const struct sample_pattern *pattern, struct thread_stat
         thread->fragment_pixel[kept] = thread->fragment_pixel[i];
         thread->fragment_sample[kept] = pattern->by_distance[nearest];
         thread->layer_samples[kept] = thread->layer_samples[i];
-        memmove(thread->layer_keys + kept * samples, thread->layer_keys + i * samples,
-                samples * sizeof(float));
+        memmove(thread->layer_keys + kept * samples, thread->layer_keys + i * samples, samples * sizeof(float));
         kept++;
     }
     thread->fragment_count = (int)kept;
@@ -149,8 +147,7 @@ static void blend_pixel(const struct cpu_frame *cpu, struct thread_state *thread
     for (uint32_t i = 0; i < count; i++)
         layers[i].fragment = thread->layer_order[first + i];
     for (int s = 0; s < samples; s++) {
-        // All of them are ordered, seen at this sample or not: the next sample's order will be nearly the
-        // same.
+        // All of them are ordered, seen at this sample or not: the next sample's order will be nearly the same.
         for (uint32_t i = 0; i < count; i++) {
             uint32_t f = layers[i].fragment;
             layers[i].rank =
@@ -232,8 +229,7 @@ static void blend_rectangle(struct cpu_frame *cpu, struct thread_state *thread, 
     thread->resolve_ns += now_ns() - lit;
 }
 
-void blend_tile(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width,
-                int height)
+void blend_tile(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height)
 {
     for (int c = 0; c < 4; c++)
         memset(thread->sum[c], 0, TILE * TILE * sizeof(float));

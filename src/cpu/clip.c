@@ -1,9 +1,7 @@
-// clip.c: triangles that cross the near or far plane or leave the guard band, clipped in homogeneous
-// coordinates.
+// clip.c: triangles that cross the near or far plane or leave the guard band, clipped in homogeneous coordinates.
 //
-// Sutherland and Hodgman, "Reentrant polygon clipping", 1974. An edge is always cut from its inner towards
-// its outer end, so that two triangles that share the edge get the same point, bit for bit, and no gap opens
-// between them.
+// Sutherland and Hodgman, "Reentrant polygon clipping", 1974. An edge is always cut from its inner towards its outer
+// end, so that two triangles that share the edge get the same point, bit for bit, and no gap opens between them.
 #include "pipeline.h"
 
 #include <string.h>
@@ -15,8 +13,7 @@ struct corner {
 // Each plane could at most double the corners, were rounding to fold a thin polygon; a convex one gains one.
 enum { PLANES = 6, CORNERS_MAX = 3 << PLANES };
 
-// Distance to a plane times a positive number; inside is ≥ 0. Near and far first: then w > 0 for the guard
-// planes.
+// Distance to a plane times a positive number; inside is ≥ 0. Near and far first: then w > 0 for the guard planes.
 static float distance(const struct cpu_frame *cpu, const struct corner *c, int plane)
 {
     float dx = c->x - 0.5f * (float)cpu->frame->width * c->w;
@@ -61,10 +58,7 @@ static int clip_polygon(const struct cpu_frame *cpu, struct corner polygon[CORNE
     return count;
 }
 
-static float row(const float m[4], const float *p)
-{
-    return ((m[0] * p[0] + m[1] * p[1]) + m[2] * p[2]) + m[3];
-}
+static float row(const float m[4], const float *p) { return ((m[0] * p[0] + m[1] * p[1]) + m[2] * p[2]) + m[3]; }
 
 // One piece of the fan, if it has an area and is not culled.
 static void bin_piece(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw,
@@ -90,8 +84,8 @@ static void bin_piece(struct cpu_frame *cpu, struct thread_state *thread, const 
     thread->triangles_binned++;
 }
 
-void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw,
-                   uint32_t t, uint32_t id)
+void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw, uint32_t t,
+                   uint32_t id)
 {
     const lam_mesh *mesh = draw->mesh;
     struct corner polygon[CORNERS_MAX];

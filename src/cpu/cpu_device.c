@@ -155,9 +155,8 @@ static uint64_t cpu_memory(const struct lam_device *base)
 {
     const struct cpu_device *device = (const struct cpu_device *)base;
     const struct seeing_room *seeing = &device->seeing;
-    uint64_t bytes = device->vertices.room + device->lists.room + device->products.room +
-                     device->lights.room + device->bins.room + seeing->sets.room + seeing->normals.room +
-                     seeing->stashes.room;
+    uint64_t bytes = device->vertices.room + device->lists.room + device->products.room + device->lights.room +
+                     device->bins.room + seeing->sets.room + seeing->normals.room + seeing->stashes.room;
     for (int i = 0; i < device->thread_count; i++) {
         const struct thread_state *thread = &device->threads[i];
         bytes += thread->scratch.room + slabs_bytes(&thread->blocks) + slabs_bytes(&thread->pieces);
@@ -201,10 +200,10 @@ static void fill_pieces(struct piece *pieces, size_t *at, int draw, uint32_t cou
         pieces[(*at)++] = (struct piece){(uint32_t)draw, first, count - first < size ? count - first : size};
 }
 
-// Lists the pieces of work and makes room for the vertices. False: out of memory, or more vertices than can
-// be numbered.
-static bool make_lists(struct cpu_device *device, struct cpu_frame *cpu, size_t *vertex_pieces,
-                       size_t *triangle_pieces, lam_error *error)
+// Lists the pieces of work and makes room for the vertices. False: out of memory, or more vertices than can be
+// numbered.
+static bool make_lists(struct cpu_device *device, struct cpu_frame *cpu, size_t *vertex_pieces, size_t *triangle_pieces,
+                       lam_error *error)
 {
     const struct frame *frame = cpu->frame;
     uint64_t vertices = 0;
@@ -220,8 +219,8 @@ static bool make_lists(struct cpu_device *device, struct cpu_frame *cpu, size_t 
                     (unsigned long long)vertices, INT32_MAX);
     size_t pieces = *vertex_pieces + *triangle_pieces;
     if (!buffer_reserve(&device->lists,
-                        pieces * sizeof(struct piece) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t),
-                        cpu->watch, error) ||
+                        pieces * sizeof(struct piece) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t), cpu->watch,
+                        error) ||
         !buffer_reserve(&device->vertices, ((size_t)vertices * 3 + 1) * sizeof(float), cpu->watch, error))
         return false;
     cpu->vertices = device->vertices.data;
@@ -274,8 +273,8 @@ static bool make_products(struct cpu_device *device, struct cpu_frame *cpu, lam_
             out->shininess = 128;
         out->fibre = material->fibre;
         memcpy(out->reflectivity, &material->reflectivity, sizeof out->reflectivity);
-        out->mirrors = frame->environment &&
-                       (out->reflectivity[0] != 0 || out->reflectivity[1] != 0 || out->reflectivity[2] != 0);
+        out->mirrors =
+            frame->environment && (out->reflectivity[0] != 0 || out->reflectivity[1] != 0 || out->reflectivity[2] != 0);
         struct light_products *list = (struct light_products *)at;
         at += lights * sizeof *list;
         for (size_t i = 0; i < lights; i++) {
@@ -333,8 +332,7 @@ static void fill_empty_tile(const struct cpu_frame *cpu, int tile_x, int tile_y)
         memcpy(row + (size_t)x * size, cpu->empty_pixel, size);
     for (int y = 0; y < height; y++)
         memcpy((char *)image->pixels +
-                   (((size_t)tile_y * TILE + (size_t)y) * (size_t)image->width + (size_t)tile_x * TILE) *
-                       size,
+                   (((size_t)tile_y * TILE + (size_t)y) * (size_t)image->width + (size_t)tile_x * TILE) * size,
                row, (size_t)width * size);
 }
 
@@ -387,8 +385,7 @@ static void record_tile(struct cpu_frame *cpu, struct recorder *recorder)
     cpu->kernels = &kernels_recording;
     cpu->recorder = recorder;
     const lam_explanation *out = recorder->out;
-    tile_task(cpu,
-              (size_t)(out->y >> TILE_SHIFT) * (size_t)cpu->tiles_across + (size_t)(out->x >> TILE_SHIFT), 0);
+    tile_task(cpu, (size_t)(out->y >> TILE_SHIFT) * (size_t)cpu->tiles_across + (size_t)(out->x >> TILE_SHIFT), 0);
     if (recorder->failed)
         cpu->failed = FAILED_MEMORY;
 }
@@ -397,10 +394,9 @@ static bool step_done(const struct cpu_frame *cpu, lam_error *error)
 {
     int failed = __atomic_load_n(&cpu->failed, __ATOMIC_RELAXED);
     if (failed == FAILED_LAYERS)
-        return fail(
-            error, LAM_LIMIT,
-            "more than %d translucent triangles lie over one pixel: so many can be put in order, no more",
-            LAYERS_MAX);
+        return fail(error, LAM_LIMIT,
+                    "more than %d translucent triangles lie over one pixel: so many can be put in order, no more",
+                    LAYERS_MAX);
     if (failed)
         return watch_memory_error(cpu->watch, 2 << 20, error);
     return watch_on(cpu->watch) || watch_error(cpu->watch, error);
@@ -435,8 +431,8 @@ static void fill_report(lam_frame_report *report, const struct cpu_device *devic
     }
 }
 
-static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_image *image,
-                     struct watch *watch, lam_error *error)
+static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct watch *watch,
+                     lam_error *error)
 {
     struct cpu_device *device = (struct cpu_device *)base;
     struct cpu_frame cpu = {.frame = frame,
@@ -450,12 +446,11 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
                             .decode_linear = device->decode_linear,
                             .tiles_across = (image->width + TILE - 1) / TILE,
                             .tiles_down = (image->height + TILE - 1) / TILE};
-    // The guard band reaches 65536 pixels to each side of the window's middle: snapped coordinates then fit
-    // 26 bits.
+    // The guard band reaches 65536 pixels to each side of the window's middle: snapped coordinates then fit 26 bits.
     cpu.guard[0] = cpu.guard[1] = 65536.0f;
     size_t vertex_pieces, triangle_pieces;
-    if (!make_lists(device, &cpu, &vertex_pieces, &triangle_pieces, error) ||
-        !make_products(device, &cpu, error) || !make_threads_ready(device, &cpu, error))
+    if (!make_lists(device, &cpu, &vertex_pieces, &triangle_pieces, error) || !make_products(device, &cpu, error) ||
+        !make_threads_ready(device, &cpu, error))
         return false;
     cpu.kernels->resolve_empty(&cpu);
     if (!lam_show_is_light(frame->show))
@@ -471,8 +466,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     if (!step_done(&cpu, error))
         return false;
     cpu.recorder = base->recorder;
-    bool ok =
-        !frame->makes_normals || (see_triangles(&cpu, &device->seeing, error) && step_done(&cpu, error));
+    bool ok = !frame->makes_normals || (see_triangles(&cpu, &device->seeing, error) && step_done(&cpu, error));
     if (frame->makes_normals)
         base->report.normals_ms = milliseconds_since(&clock) - device->seeing.search_ms;
     if (ok && base->recorder)
@@ -526,7 +520,7 @@ lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
         device->decode_srgb[i] = (float)srgb_linear(i / 255.0);
         device->decode_linear[i] = (float)(i / 255.0);
     }
-    snprintf(device->base.name, sizeof device->base.name, "cpu %s, %d thread%s", kernels->name,
-             device->thread_count, device->thread_count == 1 ? "" : "s");
+    snprintf(device->base.name, sizeof device->base.name, "cpu %s, %d thread%s", kernels->name, device->thread_count,
+             device->thread_count == 1 ? "" : "s");
     return &device->base;
 }

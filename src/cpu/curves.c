@@ -30,8 +30,8 @@ float lam_attenuation_at(const lam_light *light, float distance)
     uint64_t state = float_state_enter();
     struct frame_light reach;
     frame_light_reach(&reach, light);
-    float result = attenuation_at(distance, reach_of(&reach),
-                                  reach.inverse_range > 0 ? FALLOFF_RANGE : FALLOFF_DISTANCE);
+    float result =
+        attenuation_at(distance, reach_of(&reach), reach.inverse_range > 0 ? FALLOFF_RANGE : FALLOFF_DISTANCE);
     float_state_leave(state);
     return result;
 }

@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-// Sorts the fragments' numbers by group: by 11 bits at a time from the lowest, keeping the order within a
-// group.
+// Sorts the fragments' numbers by group: by 11 bits at a time from the lowest, keeping the order within a group.
 static void sort_by_group(struct thread_state *thread, uint32_t largest)
 {
     uint32_t n = (uint32_t)thread->fragment_count;

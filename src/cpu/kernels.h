@@ -1,5 +1,5 @@
-// kernels.h: the table of hot functions. One text, compiled once for each instruction set (kernels.c); every
-// one gives the same bits as `plain`.
+// kernels.h: the table of hot functions. One text, compiled once for each instruction set (kernels.c); every one gives
+// the same bits as `plain`.
 #ifndef KERNELS_H
 #define KERNELS_H
 
@@ -12,11 +12,10 @@ struct kernels {
     void (*project)(struct cpu_frame *cpu, const struct piece *piece);
     // Rejects and bins the triangles of one piece.
     void (*bin)(struct cpu_frame *cpu, struct thread_state *thread, const struct piece *piece);
-    // Draws one tile's binned opaque triangles into the thread's visibility arrays, and counts the
-    // translucent ones.
+    // Draws one tile's binned opaque triangles into the thread's visibility arrays, and counts the translucent ones.
     void (*cover)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
-    // Lists the fragments of translucent triangles in a rectangle of the tile, but for what lies behind
-    // opaque ones. False: there are more than LAYERS_MAX.
+    // Lists the fragments of translucent triangles in a rectangle of the tile, but for what lies behind opaque ones.
+    // False: there are more than LAYERS_MAX.
     bool (*gather_layers)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y,
                           const struct rectangle *rectangle);
     // Lists the opaque fragments of a tile: width × height pixels of it are in the picture.
@@ -28,8 +27,8 @@ struct kernels {
     void (*take_stash)(const struct stash *stash, struct thread_state *thread, int samples);
     // Colours the thread's fragments.
     void (*light)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
-    // Sums the fragments of a tile into its pixels, under the blended layers where there are any, and writes
-    // those into the picture.
+    // Sums the fragments of a tile into its pixels, under the blended layers where there are any, and writes those into
+    // the picture.
     void (*resolve)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
     // What a pixel without fragments holds, into cpu->empty_pixel.
     void (*resolve_empty)(struct cpu_frame *cpu);
@@ -38,7 +37,6 @@ struct kernels {
 // Those of `plain`, which also keep the numbers of one pixel (record.inc).
 extern const struct kernels kernels_recording;
 
-extern const struct kernels kernels_plain, kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon,
-    kernels_wasm;
+extern const struct kernels kernels_plain, kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon, kernels_wasm;
 
 #endif

@@ -117,8 +117,7 @@ static float *row(struct rows *rows, int count)
 // The same rows, to be written.
 struct written {
     uint32_t *number, *all;
-    float *position[3], *axis[3], *attenuation[3], *least_cosine, *inverse_range, *most_diffuse,
-        *most_specular;
+    float *position[3], *axis[3], *attenuation[3], *least_cosine, *inverse_range, *most_diffuse, *most_specular;
     int32_t *far;
     float *group_low[3], *group_high[3], *group_reach;
     struct place *places, *other;
@@ -241,24 +240,24 @@ bool light_table_make(struct light_table *table, struct buffer *storage, const s
     }
     fill_materials(&w, count, room, frame, materials);
     float slope = (frame->color == LAM_COLOR_RAW ? 1.0f : SRGB_SLOPE) * frame->exposure;
-    *table = (struct light_table){
-        .count = count,
-        .room = room,
-        .number = w.number,
-        .position = {w.position[0], w.position[1], w.position[2]},
-        .far = w.far,
-        .axis = {w.axis[0], w.axis[1], w.axis[2]},
-        .least_cosine = w.least_cosine,
-        .attenuation = {w.attenuation[0], w.attenuation[1], w.attenuation[2]},
-        .inverse_range = w.inverse_range,
-        .most_diffuse = w.most_diffuse,
-        .most_specular = w.most_specular,
-        .group_count = group_count,
-        .group_room = group_room,
-        .group_low = {w.group_low[0], w.group_low[1], w.group_low[2]},
-        .group_high = {w.group_high[0], w.group_high[1], w.group_high[2]},
-        .group_reach = w.group_reach,
-        .all = w.all,
-        .cutoff = count > LIGHTS_ALL_SUMMED ? (slope > 0 ? frame->light_cutoff / slope : 0) : 0};
+    *table =
+        (struct light_table){.count = count,
+                             .room = room,
+                             .number = w.number,
+                             .position = {w.position[0], w.position[1], w.position[2]},
+                             .far = w.far,
+                             .axis = {w.axis[0], w.axis[1], w.axis[2]},
+                             .least_cosine = w.least_cosine,
+                             .attenuation = {w.attenuation[0], w.attenuation[1], w.attenuation[2]},
+                             .inverse_range = w.inverse_range,
+                             .most_diffuse = w.most_diffuse,
+                             .most_specular = w.most_specular,
+                             .group_count = group_count,
+                             .group_room = group_room,
+                             .group_low = {w.group_low[0], w.group_low[1], w.group_low[2]},
+                             .group_high = {w.group_high[0], w.group_high[1], w.group_high[2]},
+                             .group_reach = w.group_reach,
+                             .all = w.all,
+                             .cutoff = count > LIGHTS_ALL_SUMMED ? (slope > 0 ? frame->light_cutoff / slope : 0) : 0};
     return true;
 }

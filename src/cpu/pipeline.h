@@ -27,8 +27,7 @@ enum {
     VERTEX_PIECE = 8192, // vertices and triangles in one piece of parallel work
     TRIANGLE_PIECE = 4096,
     SMALL = TILE * SUBPIXEL, // triangles up to this extent have edge functions in 32 bits
-    LAYERS_MAX =
-        65536, // fragments of translucent surfaces held at once by a thread, and so the most over one pixel
+    LAYERS_MAX = 65536, // fragments of translucent surfaces held at once by a thread, and so the most over one pixel
 };
 
 #define NOTHING   0xffffffffu // a sample that no triangle covers
@@ -98,8 +97,7 @@ struct rectangle {
 // sets of the processor's cache.
 enum { POINTS_AT_ONCE = 512, POINT_ROW = POINTS_AT_ONCE + 16 };
 
-// Fragments beside each other that show the same triangle are a run: rows of what belongs to the triangle
-// (runs.inc).
+// Fragments beside each other that show the same triangle are a run: rows of what belongs to the triangle (runs.inc).
 enum { RUN_CORNERS = 0, RUN_SPANNED = 9, RUN_MORE = 18, RUN_ROWS = 21 };
 struct runs {
     int count;
@@ -158,20 +156,19 @@ struct thread_state {
     // Sums of a tile's pixels: r, g, b premultiplied, and alpha.
     float *sum[4];
 
-    // Translucent surfaces; room is made only for frames that have any. Their fragments use the arrays above,
-    // before the opaque ones do: one for each pixel and triangle, with the samples that show it.
+    // Translucent surfaces; room is made only for frames that have any. Their fragments use the arrays above, before
+    // the opaque ones do: one for each pixel and triangle, with the samples that show it.
     uint32_t translucent_triangles; // binned in this tile
-    bool layers_clipped;     // among the gathered are pieces of clipped triangles, that may share a pixel
-    uint16_t *layer_samples; // of each fragment, a bit each
-    float *layer_keys;       // of each fragment, one for each sample
-    uint32_t *layer_order;   // fragments in the order of pixels
-    uint32_t *layer_start;   // of each pixel, in layer_order; one more at the end
-    struct layer *layers;    // of one pixel
-    float *clear;            // what the layers over each sample let through
+    bool layers_clipped;            // among the gathered are pieces of clipped triangles, that may share a pixel
+    uint16_t *layer_samples;        // of each fragment, a bit each
+    float *layer_keys;              // of each fragment, one for each sample
+    uint32_t *layer_order;          // fragments in the order of pixels
+    uint32_t *layer_start;          // of each pixel, in layer_order; one more at the end
+    struct layer *layers;           // of one pixel
+    float *clear;                   // what the layers over each sample let through
 
     struct buffer scratch; // holds the arrays above but the slabs
-    uint64_t coverage_ns, lighting_ns, resolve_ns, pixels_covered, points_lit, lights_evaluated,
-        triangles_binned;
+    uint64_t coverage_ns, lighting_ns, resolve_ns, pixels_covered, points_lit, lights_evaluated, triangles_binned;
 };
 
 // A light against a material: the products that the sum needs (conventions, "The sum").
@@ -209,21 +206,20 @@ struct cpu_frame {
     struct watch *watch;
     struct pool *pool;
     int tiles_across, tiles_down;
-    float guard[2];  // |x|, |y| of a vertex up to which the fast path takes it, in multiples of w, about the
-                     // window's middle
-    float *vertices; // of all draws, x, y, key of each: pixels (y down, not snapped), and larger is nearer
+    // |x|, |y| of a vertex up to which the fast path takes it, in multiples of w, about the window's middle
+    float guard[2];
+    float *vertices;              // of all draws, x, y, key of each: pixels (y down, not snapped), and larger is nearer
     const uint32_t *first_vertex; // of each draw
     const struct piece *vertex_pieces, *triangle_pieces;
     const struct material_products *materials;
     const struct light_table *lights; // NULL: every light is evaluated everywhere
     struct thread_state *threads;
     const float *decode_srgb, *decode_linear; // 256 entries each: what a colour byte stands for
-    struct recorder
-        *recorder; // of the one pixel that is explained (recorder.h), in the recording kernels; else NULL
-    struct seen_normals seen; // of draws whose meshes have none; its set is of the frame's triangle numbers
-    struct stash *stashes;    // of each tile; NULL: tiles are drawn in one go
-    uint8_t empty_pixel[16];  // what a pixel without fragments holds
-    int failed;               // enum failure, set atomically by a worker
+    struct recorder *recorder; // of the one pixel that is explained (recorder.h), in the recording kernels; else NULL
+    struct seen_normals seen;  // of draws whose meshes have none; its set is of the frame's triangle numbers
+    struct stash *stashes;     // of each tile; NULL: tiles are drawn in one go
+    uint8_t empty_pixel[16];   // what a pixel without fragments holds
+    int failed;                // enum failure, set atomically by a worker
 };
 
 enum failure {
@@ -265,8 +261,7 @@ static inline struct bin_block *bin_with_room(struct cpu_frame *cpu, struct thre
 }
 
 // Appends a number to a bin, and its bound if it is one of backs.
-static inline void bin_put(struct cpu_frame *cpu, struct thread_state *thread, int bin, uint32_t id,
-                           uint32_t bound)
+static inline void bin_put(struct cpu_frame *cpu, struct thread_state *thread, int bin, uint32_t id, uint32_t bound)
 {
     struct bin_block *block = bin_with_room(cpu, thread, bin, 1);
     if (!block)
@@ -282,12 +277,11 @@ struct snapped {
 };
 
 // Bins a triangle of any size by its snapped corners: only tiles it can touch.
-void bin_large(struct cpu_frame *cpu, struct thread_state *thread, const struct snapped *corners,
-               uint32_t id);
+void bin_large(struct cpu_frame *cpu, struct thread_state *thread, const struct snapped *corners, uint32_t id);
 
 // Clips triangle t of a draw (id is its number) against the planes its corners violate, and bins the pieces.
-void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw,
-                   uint32_t t, uint32_t id);
+void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw, uint32_t t,
+                   uint32_t id);
 
 // For frames that make normals (frame.h): finds the triangles that the frame shows, and makes the normals of
 // those. Where the opaque ones are all there is, each tile's fragments are found on the way and kept; else
@@ -305,15 +299,13 @@ void seeing_room_empty(struct seeing_room *room, int threads); // ends the stash
 // Finds the groups of the listed fragments, and their order by group.
 void group_fragments(const struct frame *frame, struct thread_state *thread);
 
-// Gathers, lights and blends the translucent fragments of a tile that lie before the opaque ones: into the
-// thread's sums (premultiplied) and `clear`.
-void blend_tile(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width,
-                int height);
+// Gathers, lights and blends the translucent fragments of a tile that lie before the opaque ones: into the thread's
+// sums (premultiplied) and `clear`.
+void blend_tile(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height);
 
-// What the picture holds where it shows numbers (lam_show): the pixels of a tile, in place of the kernels'
-// resolve, and a pixel without fragments.
-void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width,
-               int height);
+// What the picture holds where it shows numbers (lam_show): the pixels of a tile, in place of the kernels' resolve, and
+// a pixel without fragments.
+void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height);
 void show_empty(struct cpu_frame *cpu);
 
 // Rounds to the nearest 1/256 pixel.
@@ -330,9 +322,8 @@ static inline uint32_t corner_element(const uint32_t *own, const uint32_t *share
     return own ? own[corner] : shared ? shared[corner] : corner;
 }
 
-// A tile's visibility arrays are cut into cells of CELL samples: of as square a part of the tile as has so
-// many, so that small triangles touch few. Within a cell pixels lie row by row, and a pixel's samples side by
-// side.
+// A tile's visibility arrays are cut into cells of CELL samples: of as square a part of the tile as has so many, so
+// that small triangles touch few. Within a cell pixels lie row by row, and a pixel's samples side by side.
 enum { CELL = 16 };
 struct cells {
     int x_shift, y_shift; // a cell's width and height in pixels: 1 << shift

@@ -43,8 +43,7 @@ enum { LARGE_PICTURE = 128 };
 
 // Adds the triangles of the fragments, and tells the lowest and the highest of them. Which of them differ
 // from the one before is a coin's toss: that is asked without a branch.
-static void add_shown(struct number_set *set, const struct thread_state *thread, uint32_t *lowest,
-                      uint32_t *highest)
+static void add_shown(struct number_set *set, const struct thread_state *thread, uint32_t *lowest, uint32_t *highest)
 {
     uint32_t *shown = thread->order; // not in use yet
     uint32_t before = NOTHING;
@@ -88,10 +87,9 @@ static void search_tile(void *user, size_t index, int number)
 
 static bool search_tiles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
 {
-    size_t tiles = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down,
-           threads = (size_t)pool_threads(cpu->pool);
-    if (!buffer_reserve(&room->stashes, tiles * sizeof(struct stash) + threads * sizeof(struct arena),
-                        cpu->watch, error))
+    size_t tiles = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down, threads = (size_t)pool_threads(cpu->pool);
+    if (!buffer_reserve(&room->stashes, tiles * sizeof(struct stash) + threads * sizeof(struct arena), cpu->watch,
+                        error))
         return false;
     cpu->stashes = room->stashes.data;
     memset(cpu->stashes, 0, tiles * sizeof(struct stash));
@@ -132,8 +130,8 @@ static bool make_set(struct cpu_frame *cpu, struct seeing_room *room, lam_error 
 
 // Finds memory for the elements and normals of so many corners: in the spare one where that is large, else of
 // their own, of which fewer pages are touched: corners share normals.
-static bool place_normals(struct seeing_room *room, struct seen_normals *seen, size_t corners,
-                          struct spare *spare, struct watch *watch, lam_error *error)
+static bool place_normals(struct seeing_room *room, struct seen_normals *seen, size_t corners, struct spare *spare,
+                          struct watch *watch, lam_error *error)
 {
     size_t elements = (corners * sizeof *seen->elements + 63) / 64 * 64,
            normals = (corners * sizeof *seen->normals + 63) / 64 * 64;
@@ -178,8 +176,8 @@ bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *e
         return false;
     for (int i = 0; i < frame->draw_count; i++)
         if (frame->draws[i].crease_rad > 0 &&
-            !normals_seen(frame->draws[i].mesh, frame->draws[i].first_id, frame->draws[i].crease_rad, seen,
-                          spare, cpu->kernels->lanes, cpu->pool, cpu->watch, error))
+            !normals_seen(frame->draws[i].mesh, frame->draws[i].first_id, frame->draws[i].crease_rad, seen, spare,
+                          cpu->kernels->lanes, cpu->pool, cpu->watch, error))
             return false;
     return true;
 }

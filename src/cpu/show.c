@@ -5,8 +5,7 @@
 
 #include <string.h>
 
-// Each pixel's number is its first fragment's: the one with the covered sample nearest to the centre
-// (collect.inc).
+// Each pixel's number is its first fragment's: the one with the covered sample nearest to the centre (collect.inc).
 static void pick_fragments(struct thread_state *thread)
 {
     int before = -1;
@@ -24,8 +23,7 @@ static void pick_fragments(struct thread_state *thread)
 static void sum_coverage(const struct cpu_frame *cpu, struct thread_state *thread)
 {
     for (int i = 0; i < thread->fragment_count; i++)
-        thread->sum[0][thread->fragment_pixel[i]] +=
-            (float)thread->fragment_weight[i] / (float)cpu->frame->samples;
+        thread->sum[0][thread->fragment_pixel[i]] += (float)thread->fragment_weight[i] / (float)cpu->frame->samples;
 }
 
 static void sum_overdraw(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height)
@@ -52,8 +50,7 @@ static void resolve_apart(const struct cpu_frame *cpu, struct thread_state *thre
     cpu->kernels->resolve(&copy, thread, 0, 0);
 }
 
-void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width,
-               int height)
+void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height)
 {
     lam_show show = cpu->frame->show;
     bool of_pixels = show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW;
@@ -72,15 +69,13 @@ void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int til
     lam_image *image = cpu->image;
     size_t size = image->format == LAM_RGBA8 ? 4 : 16;
     for (int y = 0; y < height; y++) {
-        char *row =
-            (char *)image->pixels +
-            (((size_t)tile_y * TILE + (size_t)y) * (size_t)image->width + (size_t)tile_x * TILE) * size;
+        char *row = (char *)image->pixels +
+                    (((size_t)tile_y * TILE + (size_t)y) * (size_t)image->width + (size_t)tile_x * TILE) * size;
         for (int x = 0; x < width; x++, row += size) {
             int at = y * TILE + x;
             float first = thread->sum[0][at];
             if (show == LAM_SHOW_CLIPPED)
-                shown_put_clipped(cpu->image->format,
-                                  thread->shown + 4 * ((size_t)y * (size_t)width + (size_t)x), row);
+                shown_put_clipped(cpu->image->format, thread->shown + 4 * ((size_t)y * (size_t)width + (size_t)x), row);
             else if (of_pixels)
                 shown_put(cpu->frame, cpu->image->format, (float[4]){first, first, first, 1}, row);
             else

@@ -11,24 +11,20 @@ static bool check_image(const lam_image *image, lam_error *error)
     if (!image || !image->pixels)
         return fail(error, LAM_BAD_ARGUMENT, "lam_draw: the image has no pixels; lam_image_make makes them");
     if (image->width < 1 || image->width > 65535 || image->height < 1 || image->height > 65535)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "lam_draw: the image is %d×%d pixels, expected 1 to 65535 each way", image->width,
-                    image->height);
+        return fail(error, LAM_BAD_ARGUMENT, "lam_draw: the image is %d×%d pixels, expected 1 to 65535 each way",
+                    image->width, image->height);
     if (image->format != LAM_RGBA8 && image->format != LAM_RGBA32F)
         return fail(error, LAM_BAD_ARGUMENT, "lam_draw: the image's pixel format is %d, which does not exist",
                     image->format);
     return true;
 }
 
-bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *camera,
-              const lam_draw_params *params, lam_image *image, const lam_control *control, lam_error *error)
+bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
+              lam_image *image, const lam_control *control, lam_error *error)
 {
     static const lam_draw_params plain = {0};
     if (!device || !scene || !camera)
-        return fail(error, LAM_BAD_ARGUMENT, "lam_draw: %s is NULL",
-                    !device  ? "device"
-                    : !scene ? "scene"
-                             : "camera");
+        return fail(error, LAM_BAD_ARGUMENT, "lam_draw: %s is NULL", !device ? "device" : !scene ? "scene" : "camera");
     if (!check_image(image, error))
         return false;
     struct watch watch;
@@ -39,8 +35,8 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     if (!watch_charge(&watch, held))
         return watch_memory_error(&watch, held, error);
     uint64_t state = float_state_enter();
-    bool ok = frame_build(&device->frame, scene, camera, params ? params : &plain, image->width,
-                          image->height, &watch, error);
+    bool ok = frame_build(&device->frame, scene, camera, params ? params : &plain, image->width, image->height, &watch,
+                          error);
     device->report.frame_ms = (double)(now_ns() - watch.start_ns) * 1e-6;
     device->report.triangles = device->frame.triangle_count;
     if (ok && device->frame.makes_normals && !device->type->makes_normals)

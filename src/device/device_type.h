@@ -1,5 +1,5 @@
-// device_type.h: the interface that a device fills. The front (device.c) checks arguments and builds the
-// frame once for all.
+// device_type.h: the interface that a device fills. The front (device.c) checks arguments and builds the frame once for
+// all.
 #ifndef DEVICE_TYPE_H
 #define DEVICE_TYPE_H
 

@@ -27,8 +27,7 @@ lam_explained_fragment *recorder_add(struct recorder *recorder)
     return &recorder->fragments[count];
 }
 
-void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float through,
-                    float share)
+void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float through, float share)
 {
     if (pixel != recorder->pixel || !recorder->layer_slots || !recorder->layer_slots[fragment])
         return;
@@ -66,8 +65,7 @@ static void complete(struct recorder *recorder, const lam_scene *scene)
         fragment->mesh = object->mesh;
         for (int k = 0; k < fragment->point_count; k++) {
             lam_explained_point *point = (lam_explained_point *)(uintptr_t)&fragment->points[k];
-            point->mesh_position =
-                v3_add(v3(mesh->origin[0], mesh->origin[1], mesh->origin[2]), point->mesh_position);
+            point->mesh_position = v3_add(v3(mesh->origin[0], mesh->origin[1], mesh->origin[2]), point->mesh_position);
             point->world_position = mat4_point(&object->transform, point->mesh_position);
             for (int n = 0; n < point->light_count; n++) {
                 lam_explained_light *light = (lam_explained_light *)(uintptr_t)&point->lights[n];
@@ -98,8 +96,8 @@ static void take_frame(lam_explanation *out, const struct frame *frame)
     out->exposure = frame->exposure;
 }
 
-static bool check_place(const lam_device *device, const lam_draw_params *params, int width, int height, int x,
-                        int y, lam_error *error)
+static bool check_place(const lam_device *device, const lam_draw_params *params, int width, int height, int x, int y,
+                        lam_error *error)
 {
     if (!device)
         return fail(error, LAM_BAD_ARGUMENT, "lam_explain: device is NULL");
@@ -111,14 +109,14 @@ static bool check_place(const lam_device *device, const lam_draw_params *params,
                     lam_device_name(device));
     if (x < 0 || y < 0 || x >= width || y >= height)
         return fail(error, LAM_BAD_ARGUMENT,
-                    "pixel %d,%d lies outside of the picture of %d×%d pixels, expected 0,0 to %d,%d", x, y,
-                    width, height, width - 1, height - 1);
+                    "pixel %d,%d lies outside of the picture of %d×%d pixels, expected 0,0 to %d,%d", x, y, width,
+                    height, width - 1, height - 1);
     return true;
 }
 
 lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const lam_camera *camera,
-                             const lam_draw_params *params, int width, int height, lam_pixel_format format,
-                             int x, int y, const lam_control *control, lam_error *error)
+                             const lam_draw_params *params, int width, int height, lam_pixel_format format, int x,
+                             int y, const lam_control *control, lam_error *error)
 {
     lam_image image = {0};
     if (!check_place(device, params, width, height, x, y, error) ||

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool null_draw(struct lam_device *device, const struct frame *frame, lam_image *image,
-                      struct watch *watch, lam_error *error)
+static bool null_draw(struct lam_device *device, const struct frame *frame, lam_image *image, struct watch *watch,
+                      lam_error *error)
 {
     (void)device;
     (void)frame;

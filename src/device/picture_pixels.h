@@ -26,10 +26,7 @@ LANE_FN struct pixel_lanes over_background(const struct frame *frame, struct pix
 }
 
 LANE_FN num straight_channel(num x, num a) { return pick(a > 0.0f, x / a, num_of(0.0f)); }
-LANE_FN num encoded_channel(num straight, int raw)
-{
-    return raw ? saturate(straight) : srgb_encode(straight);
-}
+LANE_FN num encoded_channel(num straight, int raw) { return raw ? saturate(straight) : srgb_encode(straight); }
 
 // A premultiplied channel to a byte: colour ÷ alpha, encoded, rounded.
 LANE_FN inum to_byte(num x, num a, int raw)
@@ -68,8 +65,7 @@ LANE_FN void write_packed(inum pixels, void *to, int count)
 }
 
 // Writes the first `count` pixels of a vector to the picture.
-LANE_FN void write_pixels(const struct frame *frame, struct pixel_lanes p, lam_pixel_format format, void *to,
-                          int count)
+LANE_FN void write_pixels(const struct frame *frame, struct pixel_lanes p, lam_pixel_format format, void *to, int count)
 {
     if (format == LAM_RGBA8 && all_lanes(p.a == 1.0f)) {
         write_packed(opaque_to_rgba8(frame, p), to, count);

@@ -13,10 +13,10 @@ struct recorder {
     lam_explanation *out; // its pixel is told before drawing
     lam_explained_fragment *fragments;
     int room;
-    bool failed;           // out of memory
-    int pixel;             // number of the pixel in its tile
-    uint32_t *layer_slots; // the explanation's fragment of each fragment of the translucent surfaces, + 1; 0:
-                           // of another pixel
+    bool failed; // out of memory
+    int pixel;   // number of the pixel in its tile
+    // the explanation's fragment of each fragment of the translucent surfaces, + 1; 0: of another pixel
+    uint32_t *layer_slots;
 
     // The fragment in hand; on: its numbers are being kept.
     bool on;
@@ -31,8 +31,7 @@ struct recorder {
 lam_explained_fragment *recorder_add(struct recorder *recorder);
 
 // A translucent fragment is blended into a sample, with what the layers before it let through.
-void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float through,
-                    float share);
+void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float through, float share);
 
 // Memory of the explanation, zeroed; NULL: out of memory.
 void *recorder_alloc(struct recorder *recorder, size_t count, size_t size);

@@ -1,17 +1,12 @@
-// samples.c: where samples lie in a pixel: Direct3D's standard multisample patterns (D3D11 functional
-// specification, "Multisample patterns"), the ones that graphics processors use.
+// samples.c: where samples lie in a pixel: Direct3D's standard multisample patterns (D3D11 functional specification,
+// "Multisample patterns"), the ones that graphics processors use.
 #include "samples.h"
 
 // by_distance: the sample numbers from the nearest to the farthest of the centre, the lowest of equals first.
 static const struct sample_pattern patterns[] = {
     {.count = 1, .x = {0}, .y = {0}, .least = 0, .most = 0, .by_distance = {0}},
     {.count = 2, .x = {4, -4}, .y = {4, -4}, .least = -4, .most = 4, .by_distance = {0, 1}},
-    {.count = 4,
-     .x = {-2, 6, -6, 2},
-     .y = {-6, -2, 2, 6},
-     .least = -6,
-     .most = 6,
-     .by_distance = {0, 1, 2, 3}},
+    {.count = 4, .x = {-2, 6, -6, 2}, .y = {-6, -2, 2, 6}, .least = -6, .most = 6, .by_distance = {0, 1, 2, 3}},
     {.count = 8,
      .x = {1, -1, 5, -3, -5, -7, 3, 7},
      .y = {-3, 3, 1, -5, 5, -1, 7, -7},

@@ -6,8 +6,7 @@
 
 enum { SAMPLES_MAX = 16 };
 
-// Where samples lie in a pixel, in 1/16 pixel from its centre (y down), and in which order they are near to
-// it.
+// Where samples lie in a pixel, in 1/16 pixel from its centre (y down), and in which order they are near to it.
 struct sample_pattern {
     int count;
     int8_t x[SAMPLES_MAX], y[SAMPLES_MAX];

@@ -13,8 +13,7 @@
 
 static void name_place(const struct egl *egl, struct gl_place *place)
 {
-    const char *extensions =
-        egl->QueryDeviceString ? egl->QueryDeviceString(place->device, EGL_EXTENSIONS) : NULL;
+    const char *extensions = egl->QueryDeviceString ? egl->QueryDeviceString(place->device, EGL_EXTENSIONS) : NULL;
     const char *file = list_has(extensions, "EGL_EXT_device_drm")
                            ? egl->QueryDeviceString(place->device, EGL_DRM_DEVICE_FILE_EXT)
                            : NULL;
@@ -90,21 +89,18 @@ static EGLContext create(const struct egl *egl, EGLDisplay display, EGLConfig co
     return made;
 }
 
-static bool start(struct gl_context *context, const struct gl_place *place, enum gl_profile profile,
-                  lam_error *error)
+static bool start(struct gl_context *context, const struct gl_place *place, enum gl_profile profile, lam_error *error)
 {
     const struct egl *egl = &context->egl;
     EGLint major, minor;
     context->display = display_of(egl, place);
     if (context->display == EGL_NO_DISPLAY || !egl->Initialize(context->display, &major, &minor))
-        return fail(
-            error, LAM_UNSUPPORTED,
-            "OpenGL on %s: %s; for Mesa's drivers on Debian: apt install libegl-mesa0 libgl1-mesa-dri",
-            place->name, egl_reason(egl));
+        return fail(error, LAM_UNSUPPORTED,
+                    "OpenGL on %s: %s; for Mesa's drivers on Debian: apt install libegl-mesa0 libgl1-mesa-dri",
+                    place->name, egl_reason(egl));
     EGLenum api = profile == GL_PROFILE_ES ? EGL_OPENGL_ES_API : EGL_OPENGL_API;
     if (!egl->BindAPI(api))
-        return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: its driver has no %s", place->name,
-                    profile_names[profile]);
+        return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: its driver has no %s", place->name, profile_names[profile]);
     const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
                              profile == GL_PROFILE_ES ? EGL_OPENGL_ES3_BIT_KHR : EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = NULL;
@@ -112,8 +108,8 @@ static bool start(struct gl_context *context, const struct gl_place *place, enum
     const char *extensions = egl->QueryString(context->display, EGL_EXTENSIONS);
     if (!egl->ChooseConfig(context->display, wanted, &config, 1, &configs) || configs < 1) {
         if (!list_has(extensions, "EGL_KHR_no_config_context"))
-            return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: its driver has no configuration for %s",
-                        place->name, profile_names[profile]);
+            return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: its driver has no configuration for %s", place->name,
+                        profile_names[profile]);
         config = NULL; // EGL_NO_CONFIG_KHR
         configs = 0;
     }
@@ -126,9 +122,8 @@ static bool start(struct gl_context *context, const struct gl_place *place, enum
     static const EGLint size[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
     context->surface = configs ? egl->CreatePbufferSurface(context->display, config, size) : EGL_NO_SURFACE;
     if (context->surface == EGL_NO_SURFACE)
-        return fail(error, LAM_UNSUPPORTED,
-                    "OpenGL on %s: no surface can be made to draw without a window: %s", place->name,
-                    egl_reason(egl));
+        return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: no surface can be made to draw without a window: %s",
+                    place->name, egl_reason(egl));
     return true;
 }
 
@@ -160,8 +155,8 @@ static bool has_part(const char *text, const char *part) { return strcasestr(tex
 
 static bool is_number(const char *text) { return *text && strspn(text, "0123456789") == strlen(text); }
 
-static bool make_first(struct gl_context *context, const struct egl *egl, const struct gl_place *places,
-                       int count, const char *device, enum gl_profile profile, bool debug, lam_error *error)
+static bool make_first(struct gl_context *context, const struct egl *egl, const struct gl_place *places, int count,
+                       const char *device, enum gl_profile profile, bool debug, lam_error *error)
 {
     char reasons[300] = "", names[200] = "";
     for (int i = 0; i < count; i++) {
@@ -179,13 +174,13 @@ static bool make_first(struct gl_context *context, const struct egl *egl, const 
         gl_context_free(context);
     }
     if (device && *names)
-        return fail(error, LAM_UNSUPPORTED, "OpenGL: no usable device has '%s' in its name; there is %s",
-                    device, names);
+        return fail(error, LAM_UNSUPPORTED, "OpenGL: no usable device has '%s' in its name; there is %s", device,
+                    names);
     return fail(error, LAM_UNSUPPORTED, "OpenGL: none of %d devices can be used: %s", count, reasons);
 }
 
-bool gl_context_make(struct gl_context *context, const char *library, const char *device,
-                     enum gl_profile profile, bool debug, lam_error *error)
+bool gl_context_make(struct gl_context *context, const char *library, const char *device, enum gl_profile profile,
+                     bool debug, lam_error *error)
 {
     struct egl egl;
     struct gl_place places[GL_PLACES_MAX];
@@ -197,8 +192,7 @@ bool gl_context_make(struct gl_context *context, const char *library, const char
         return make_first(context, &egl, places, count, device, profile, debug, error);
     long number = strlen(device) < 6 ? strtol(device, NULL, 10) : count;
     if (number >= count)
-        return fail(error, LAM_UNSUPPORTED, "OpenGL: there is no device %s, expected 0 to %d", device,
-                    count - 1);
+        return fail(error, LAM_UNSUPPORTED, "OpenGL: there is no device %s, expected 0 to %d", device, count - 1);
     return gl_context_open(context, &egl, &places[number], profile, debug, error);
 }
 
@@ -209,9 +203,9 @@ bool gl_context_enter(struct gl_context *context, struct gl_previous *previous, 
     if (context->context == EGL_NO_CONTEXT)
         return true;
     const struct egl *egl = &context->egl;
-    *previous = (struct gl_previous){egl->GetCurrentDisplay(), egl->GetCurrentContext(),
-                                     egl->GetCurrentSurface(EGL_DRAW), egl->GetCurrentSurface(EGL_READ),
-                                     egl->QueryAPI()};
+    *previous =
+        (struct gl_previous){egl->GetCurrentDisplay(), egl->GetCurrentContext(), egl->GetCurrentSurface(EGL_DRAW),
+                             egl->GetCurrentSurface(EGL_READ), egl->QueryAPI()};
     if (egl->MakeCurrent(context->display, context->surface, context->surface, context->context))
         return true;
     return fail(error, LAM_UNSUPPORTED, "OpenGL: the context cannot be made current: %s", egl_reason(egl));
@@ -239,8 +233,7 @@ void gl_context_free(struct gl_context *context)
     context->context = EGL_NO_CONTEXT;
 }
 
-bool gl_context_adopt(struct gl_context *context, lam_gl_get_proc *get, void *user, bool debug,
-                      lam_error *error)
+bool gl_context_adopt(struct gl_context *context, lam_gl_get_proc *get, void *user, bool debug, lam_error *error)
 {
     *context = (struct gl_context){.debug = debug};
     return gl_load(&context->gl, get, user, error) && gl_context_look(context, error);

@@ -30,8 +30,7 @@ struct gl_messages {
     char first[256];  // the first of either
 };
 
-// A context, with the table of its functions. The caller's own context is one whose `context` is
-// EGL_NO_CONTEXT.
+// A context, with the table of its functions. The caller's own context is one whose `context` is EGL_NO_CONTEXT.
 struct gl_context {
     struct gl gl; // valid while the context is current
     struct egl egl;
@@ -59,12 +58,11 @@ bool gl_context_open(struct gl_context *context, const struct egl *egl, const st
 
 // A context on the device that `device` names (lam_gl_params.device), on the first usable one where it is
 // NULL. A struct gl_context must not move while it collects messages.
-bool gl_context_make(struct gl_context *context, const char *library, const char *device,
-                     enum gl_profile profile, bool debug, lam_error *error);
+bool gl_context_make(struct gl_context *context, const char *library, const char *device, enum gl_profile profile,
+                     bool debug, lam_error *error);
 
 // Takes the caller's own current context.
-bool gl_context_adopt(struct gl_context *context, lam_gl_get_proc *get, void *user, bool debug,
-                      lam_error *error);
+bool gl_context_adopt(struct gl_context *context, lam_gl_get_proc *get, void *user, bool debug, lam_error *error);
 
 // Makes the context current on this thread, and gives the thread back what was. Nothing happens for the
 // caller's own.
@@ -76,8 +74,7 @@ void gl_context_free(struct gl_context *context); // zeroed is fine
 // Of the current context: whether it has an extension ("GL_KHR_debug").
 bool gl_has(const struct gl *gl, const char *extension);
 
-// The debug messages so far make an error: LAM_UNSUPPORTED with the driver's words. True where there are
-// none.
+// The debug messages so far make an error: LAM_UNSUPPORTED with the driver's words. True where there are none.
 bool gl_messages_clean(const struct gl_context *context, const char *doing, lam_error *error);
 
 // Finds what the current context is: version, names; starts collecting messages.

@@ -63,8 +63,7 @@ static void read_version(struct gl_context *context, const char *version)
 
 static bool is_software(const char *renderer)
 {
-    static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "SwiftShader",
-                                        "Software Rasterizer"};
+    static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software Rasterizer"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strstr(renderer, names[i]))
             return true;
@@ -78,8 +77,7 @@ bool gl_context_look(struct gl_context *context, lam_error *error)
     const char *renderer = (const char *)gl->GetString(GL_RENDERER);
     const char *vendor = (const char *)gl->GetString(GL_VENDOR);
     if (!version)
-        return fail(error, LAM_UNSUPPORTED,
-                    "OpenGL: no context is current on this thread, expected the caller's own");
+        return fail(error, LAM_UNSUPPORTED, "OpenGL: no context is current on this thread, expected the caller's own");
     read_version(context, version);
     snprintf(context->renderer, sizeof context->renderer, "%s", renderer ? renderer : "unnamed");
     snprintf(context->driver, sizeof context->driver, "%s, %s", vendor ? vendor : "unnamed", version);
@@ -92,7 +90,6 @@ bool gl_messages_clean(const struct gl_context *context, const char *doing, lam_
     const struct gl_messages *messages = &context->messages;
     if (!messages->errors && !messages->slow)
         return true;
-    return fail(error, LAM_UNSUPPORTED,
-                "OpenGL: %s: the driver tells of %d errors and %d slow calls; the first: %s", doing,
-                messages->errors, messages->slow, messages->first);
+    return fail(error, LAM_UNSUPPORTED, "OpenGL: %s: the driver tells of %d errors and %d slow calls; the first: %s",
+                doing, messages->errors, messages->slow, messages->first);
 }

@@ -23,8 +23,7 @@ static void try_place(const struct egl *egl, const struct gl_place *place, int n
             continue;
         }
         size_t length = strlen(out->versions);
-        snprintf(out->versions + length, sizeof out->versions - length, "%s%s", length ? ", " : "",
-                 tries[i].name);
+        snprintf(out->versions + length, sizeof out->versions - length, "%s%s", length ? ", " : "", tries[i].name);
         if (!out->usable) {
             snprintf(out->name, sizeof out->name, "%s", context.renderer);
             snprintf(out->driver, sizeof out->driver, "%s", context.driver);

@@ -243,8 +243,7 @@ static int keep(struct whole *w, char *calls)
 static void write_kept(struct text *text, const struct whole *w)
 {
     static const char *const titles[FILES] = {
-        "the words that the equations are written in",
-        "how a point of a surface answers the light of one direction",
+        "the words that the equations are written in", "how a point of a surface answers the light of one direction",
         "what of a light arrives at a point: its direction, distance, attenuation and cone",
         "the light that leaves a point, as terms and as their sum"};
     int file = -1;

@@ -10,8 +10,7 @@ enum { SWITCHES = sizeof switches / sizeof *switches, SWITCHES_ES = 10 };
 
 static const GLenum unpacking[] = {GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH,   GL_UNPACK_SKIP_ROWS,
                                    GL_UNPACK_SKIP_PIXELS, GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES};
-static const GLenum packing[] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
-                                 GL_PACK_SKIP_PIXELS};
+static const GLenum packing[] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS};
 static const GLint plain_alignment[6] = {4, 0, 0, 0, 0, 0};
 
 static bool is_there(const struct gl_device *device, int i)
@@ -120,8 +119,7 @@ void caller_restore(const struct gl_device *device, const struct gl_caller_state
     gl->ActiveTexture((GLenum)s->active_unit);
     for (GLuint i = 0; i < POINT_COUNT; i++)
         if (s->block_size[i])
-            gl->BindBufferRange(GL_UNIFORM_BUFFER, i, (GLuint)s->block_buffer[i], s->block_offset[i],
-                                s->block_size[i]);
+            gl->BindBufferRange(GL_UNIFORM_BUFFER, i, (GLuint)s->block_buffer[i], s->block_offset[i], s->block_size[i]);
         else
             gl->BindBufferBase(GL_UNIFORM_BUFFER, i, (GLuint)s->block_buffer[i]);
     gl->BindBuffer(GL_UNIFORM_BUFFER, (GLuint)s->uniform_buffer);

@@ -91,8 +91,7 @@ LANE_FN terms terms_of(const struct side *side, surface s, vec3 color)
     for (int i = 0; i < frame->hemisphere_count; i++) {
         const struct frame_hemisphere *h = &frame->hemispheres[i];
         sum = add_hemisphere(
-            sum, s,
-            (hemisphere){of3(h->up), product3(&m->ambient.r, h->sky), product3(&m->ambient.r, h->ground)});
+            sum, s, (hemisphere){of3(h->up), product3(&m->ambient.r, h->sky), product3(&m->ambient.r, h->ground)});
     }
     num shininess = num_of(glsl_products_of(frame, m).shininess);
     for (int i = 0; i < frame->light_count; i++) {
@@ -122,8 +121,7 @@ LANE_FN vec3 shown_of(const struct frame *frame, terms t)
     case LAM_SHOW_REFLECTION:
         return t.reflection;
     case LAM_SHOW_LIGHT:
-        return frame->reflection == LAM_REFLECTION_NONE ? black3()
-                                                        : add3(add3(t.ambient, t.diffuse), t.specular);
+        return frame->reflection == LAM_REFLECTION_NONE ? black3() : add3(add3(t.ambient, t.diffuse), t.specular);
     default:
         return sum_terms(t);
     }
@@ -131,8 +129,7 @@ LANE_FN vec3 shown_of(const struct frame *frame, terms t)
 
 static bool shows_vectors(lam_show show)
 {
-    return show == LAM_SHOW_NORMALS || show == LAM_SHOW_TANGENTS || show == LAM_SHOW_N_L ||
-           show == LAM_SHOW_N_H;
+    return show == LAM_SHOW_NORMALS || show == LAM_SHOW_TANGENTS || show == LAM_SHOW_N_L || show == LAM_SHOW_N_H;
 }
 
 LANE_FN vec3 vector_of(const struct side *side, surface s)
@@ -170,15 +167,13 @@ LANE_FN surface surface_of(const struct side *side, const struct mesh_vertex *fr
     s.v = to_eye(s.p, frame->distant_viewer ? VIEWER_INFINITE : VIEWER_LOCAL);
     s.t = black3();
     if (frame->reflection >= LAM_REFLECTION_KAJIYA_KAY || frame->show == LAM_SHOW_TANGENTS)
-        s.t = perpendicular3(side->mesh->tangents ? unit3(turn(side->draw->tangent, load3(from, 10)))
-                                                  : field_tangent(side, s.n),
-                             s.n);
+        s.t = perpendicular3(
+            side->mesh->tangents ? unit3(turn(side->draw->tangent, load3(from, 10))) : field_tangent(side, s.n), s.n);
     return s;
 }
 
 // Colours of vertices, with alpha; `count` is a multiple of LANES.
-static void light_side(const struct side *side, const struct mesh_vertex *from, uint32_t count,
-                       float (*out)[4])
+static void light_side(const struct side *side, const struct mesh_vertex *from, uint32_t count, float (*out)[4])
 {
     const struct frame *frame = side->frame;
     bool whole = frame->show == LAM_SHOW_PICTURE || frame->show == LAM_SHOW_CLIPPED;
@@ -223,8 +218,8 @@ static bool note(struct gl_frame *f, struct gl_colors *row, size_t *size, const 
 }
 
 // Structs are noted without the bytes between their members, which may be anything.
-static bool note_light(struct gl_frame *f, struct gl_colors *row, size_t *size,
-                       const struct frame_light *light, lam_error *error)
+static bool note_light(struct gl_frame *f, struct gl_colors *row, size_t *size, const struct frame_light *light,
+                       lam_error *error)
 {
     const int kind[] = {light->directional, (int)light->cone};
     size_t first = offsetof(struct frame_light, position), end = offsetof(struct frame_light, light);
@@ -240,8 +235,8 @@ static bool note_material(struct gl_frame *f, struct gl_colors *row, size_t *siz
            note(f, row, size, &fibre, sizeof fibre, error);
 }
 
-static bool note_surface(struct gl_frame *f, struct gl_colors *row, size_t *size,
-                         const struct frame_surface *s, lam_error *error)
+static bool note_surface(struct gl_frame *f, struct gl_colors *row, size_t *size, const struct frame_surface *s,
+                         lam_error *error)
 {
     const uint32_t run[] = {s->first_id, s->count, s->translucent};
     return note(f, row, size, run, sizeof run, error) &&
@@ -250,18 +245,16 @@ static bool note_surface(struct gl_frame *f, struct gl_colors *row, size_t *size
 }
 
 // All that the colours of a draw depend on, as bytes in row->now.
-static bool note_all(struct gl_frame *f, struct gl_colors *row, const struct gl_mesh *mesh, int number,
-                     size_t *size, lam_error *error)
+static bool note_all(struct gl_frame *f, struct gl_colors *row, const struct gl_mesh *mesh, int number, size_t *size,
+                     lam_error *error)
 {
     const struct frame *frame = f->frame;
     const struct frame_draw *draw = &frame->draws[number];
-    const int choices[] = {frame->show,        frame->reflection,       frame->shading,
-                           frame->gl1,         frame->distant_viewer,   frame->match_highlights,
-                           frame->light_count, frame->hemisphere_count, draw->one_sided,
-                           frame->flat_normal, (int)mesh->form,         frame->translucent};
+    const int choices[] = {frame->show,           frame->reflection,       frame->shading,     frame->gl1,
+                           frame->distant_viewer, frame->match_highlights, frame->light_count, frame->hemisphere_count,
+                           draw->one_sided,       frame->flat_normal,      (int)mesh->form,    frame->translucent};
     const void *places[] = {frame->environment, mesh->mesh.positions, mesh->token};
-    bool ok = note(f, row, size, choices, sizeof choices, error) &&
-              note(f, row, size, places, sizeof places, error) &&
+    bool ok = note(f, row, size, choices, sizeof choices, error) && note(f, row, size, places, sizeof places, error) &&
               note(f, row, size, draw->eye, sizeof draw->eye, error) &&
               note(f, row, size, draw->normal, sizeof draw->normal, error) &&
               note(f, row, size, draw->tangent, sizeof draw->tangent, error) &&
@@ -278,12 +271,11 @@ static bool note_all(struct gl_frame *f, struct gl_colors *row, const struct gl_
 }
 
 // Lights the vertices of a run: front and back side by side.
-static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const struct frame_surface *run,
-                      uint32_t first, uint32_t end, float (*lit)[2][4])
+static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const struct frame_surface *run, uint32_t first,
+                      uint32_t end, float (*lit)[2][4])
 {
     const struct frame_draw *draw = &f->frame->draws[run->draw];
-    struct side side = {
-        .frame = f->frame, .draw = draw, .mesh = &mesh->mesh, .translucent = run->translucent};
+    struct side side = {.frame = f->frame, .draw = draw, .mesh = &mesh->mesh, .translucent = run->translucent};
     struct mesh_vertex *from = f->device->scratch.data;
     float(*one)[4] = (float(*)[4])(from + CHUNK);
     for (; first < end; first += CHUNK) {
@@ -315,8 +307,8 @@ static bool send_colors(struct gl_frame *f, struct gl_colors *row, const struct 
     uint64_t start = now_ns();
     uint32_t count = mesh_vertex_count(&mesh->mesh, mesh->form);
     uint64_t bytes = (uint64_t)count * 8 * sizeof(float);
-    if (!buffer_reserve(&f->device->scratch, CHUNK * (sizeof(struct mesh_vertex) + 4 * sizeof(float)),
-                        f->watch, error) ||
+    if (!buffer_reserve(&f->device->scratch, CHUNK * (sizeof(struct mesh_vertex) + 4 * sizeof(float)), f->watch,
+                        error) ||
         !gl_charge(f, &row->bytes, bytes, error))
         return false;
     float(*lit)[2][4] = gl_map_new(f, row->colors, (size_t)bytes, GL_DYNAMIC_DRAW, error);

@@ -101,11 +101,11 @@ void *gl_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, 
 {
     f->gl->BindBuffer(GL_ARRAY_BUFFER, buffer);
     f->gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)bytes, NULL, usage);
-    void *mapped = f->gl->MapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)bytes,
-                                         GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+    void *mapped =
+        f->gl->MapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)bytes, GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
     if (!mapped) {
-        fail(error, LAM_LIMIT, "OpenGL: the memory of '%s' is out: %zu bytes of vertices",
-             f->device->context.renderer, bytes);
+        fail(error, LAM_LIMIT, "OpenGL: the memory of '%s' is out: %zu bytes of vertices", f->device->context.renderer,
+             bytes);
         return NULL;
     }
     f->device->base.report.bytes_uploaded += bytes;
@@ -116,8 +116,8 @@ void *gl_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, 
 
 static bool shows_place(lam_show show)
 {
-    return show == LAM_SHOW_DEPTH || show == LAM_SHOW_FACING || show == LAM_SHOW_IDS ||
-           show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW;
+    return show == LAM_SHOW_DEPTH || show == LAM_SHOW_FACING || show == LAM_SHOW_IDS || show == LAM_SHOW_COVERAGE ||
+           show == LAM_SHOW_OVERDRAW;
 }
 
 // What the frame asks for, without what its programs do not look at: so that one program serves all that look
@@ -162,8 +162,7 @@ static enum vertex_form form_of(const struct gl_frame *f, const struct frame_dra
 {
     const struct frame *frame = f->frame;
     if (frame->shading == LAM_SHADING_FLAT && !shows_place(frame->show))
-        return frame->flat_normal == LAM_FLAT_NORMAL_VERTEX && draw->mesh->normals ? FORM_FLAT_VERTEX
-                                                                                   : FORM_FLAT_FACE;
+        return frame->flat_normal == LAM_FLAT_NORMAL_VERTEX && draw->mesh->normals ? FORM_FLAT_VERTEX : FORM_FLAT_FACE;
     // Triangles are numbered by their corners; a vertex of two materials has two colours.
     bool counts = f->layered || frame->show == LAM_SHOW_IDS;
     bool two = f->stage == LAM_STAGE_APPLICATION && draw_surfaces > 1;
@@ -180,9 +179,8 @@ static bool same_call(const struct frame_surface *a, const struct frame_surface 
     return a->front == b->front && a->back == b->back && a->translucent == b->translucent;
 }
 
-// The draw calls of one draw, one for all of its surfaces that have the same materials: added to f->surfaces.
-// Returns the number of runs where these do not lie side by side, in device->runs; 0: they do. −1: the error
-// tells.
+// The draw calls of one draw, one for all of its surfaces that have the same materials: added to f->surfaces. Returns
+// the number of runs where these do not lie side by side, in device->runs; 0: they do. −1: the error tells.
 static int add_calls(struct gl_frame *f, const struct frame_surface *list, int count, lam_error *error)
 {
     const struct frame_draw *draw = &f->frame->draws[list->draw];
@@ -214,8 +212,8 @@ static bool set_up_draw(struct gl_frame *f, const struct frame_surface *list, in
     if (runs < 0)
         return false;
     const struct frame_draw *draw = &frame->draws[list->draw];
-    struct gl_mesh *mesh = mesh_on_device(f, draw->mesh, form_of(f, draw, f->surface_count - first),
-                                          f->device->runs.data, runs, error);
+    struct gl_mesh *mesh =
+        mesh_on_device(f, draw->mesh, form_of(f, draw, f->surface_count - first), f->device->runs.data, runs, error);
     if (!mesh)
         return false;
     bool colors = f->stage == LAM_STAGE_APPLICATION && !shows_place(frame->show);
@@ -255,8 +253,7 @@ static bool set_up(struct gl_frame *f, lam_error *error)
             return false;
     }
     for (int first = 0, end; first < frame->surface_count; first = end) {
-        for (end = first;
-             end < frame->surface_count && frame->surfaces[end].draw == frame->surfaces[first].draw;)
+        for (end = first; end < frame->surface_count && frame->surfaces[end].draw == frame->surfaces[first].draw;)
             end++;
         if (!set_up_draw(f, &frame->surfaces[first], end - first, error))
             return false;
@@ -316,8 +313,8 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
         ;
     if (device->callers)
         gl_forget(device);
-    if (!buffer_reserve(&device->surfaces, (size_t)(f->frame->surface_count + 1) * sizeof *f->surfaces,
-                        f->watch, error))
+    if (!buffer_reserve(&device->surfaces, (size_t)(f->frame->surface_count + 1) * sizeof *f->surfaces, f->watch,
+                        error))
         return false;
     f->surfaces = device->surfaces.data;
     meshes_drop(f);
@@ -335,8 +332,7 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
     struct gl_caller_state state;
     if (!gl_context_enter(&device->context, &previous, error))
         return false;
-    struct gl_frame f = {
-        .device = device, .gl = &device->context.gl, .frame = frame, .watch = watch, .image = image};
+    struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .watch = watch, .image = image};
     f.stage = frame->stage;
     f.layered = frame->translucent && frame->show != LAM_SHOW_COVERAGE;
     caller_save(device, &state);
@@ -392,8 +388,8 @@ static bool find_limits(struct gl_device *device, lam_error *error)
     const struct gl_context *c = &device->context;
     if (c->major * 10 + c->minor < (c->es ? 30 : 33))
         return fail(error, LAM_UNSUPPORTED,
-                    "OpenGL: the context has version %s%d.%d, expected OpenGL 3.3 or OpenGL ES 3.0",
-                    c->es ? "ES " : "", c->major, c->minor);
+                    "OpenGL: the context has version %s%d.%d, expected OpenGL 3.3 or OpenGL ES 3.0", c->es ? "ES " : "",
+                    c->major, c->minor);
     gl->GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &device->block_most);
     gl->GetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &device->block_alignment);
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &device->texture_most);
@@ -427,11 +423,10 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
     for (int i = 0; i < 256; i++)
         device->decode_srgb[i] = (float)srgb_linear(i / 255.0);
     gl_forget(device);
-    bool ok = device->callers ? gl_context_adopt(&device->context, params->get_proc_address, params->user,
-                                                 params->debug, error)
-                              : gl_context_make(&device->context, params->library, params->device,
-                                                params->api == LAM_GL_ES ? GL_PROFILE_ES : GL_PROFILE_CORE,
-                                                params->debug, error);
+    bool ok = device->callers
+                  ? gl_context_adopt(&device->context, params->get_proc_address, params->user, params->debug, error)
+                  : gl_context_make(&device->context, params->library, params->device,
+                                    params->api == LAM_GL_ES ? GL_PROFILE_ES : GL_PROFILE_CORE, params->debug, error);
     struct gl_previous previous;
     if (!ok || !gl_context_enter(&device->context, &previous, error)) {
         gl_context_free(&device->context);
@@ -447,8 +442,7 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
         gl_free(&device->base);
         return NULL;
     }
-    snprintf(device->base.name, sizeof device->base.name, "gl %.60s, OpenGL %s%d.%d",
-             device->context.renderer, device->context.es ? "ES " : "", device->context.major,
-             device->context.minor);
+    snprintf(device->base.name, sizeof device->base.name, "gl %.60s, OpenGL %s%d.%d", device->context.renderer,
+             device->context.es ? "ES " : "", device->context.major, device->context.minor);
     return &device->base;
 }

@@ -144,8 +144,7 @@ enum gl_blending {
     BLENDING_UNDER,   // as far as what is there lets through
 };
 
-// What the context has now, so that nothing is set twice. Forgotten at the start of a frame in the caller's
-// context.
+// What the context has now, so that nothing is set twice. Forgotten at the start of a frame in the caller's context.
 struct gl_now {
     GLuint program, array, framebuffer;
     int unit; // of textures; −1: unknown
@@ -240,8 +239,8 @@ void gl_forget(struct gl_device *device); // nothing is known of the context
 // --- gl_meshes.c
 bool mesh_can_share(const lam_mesh *mesh);
 // Vertices `first` … of a mesh in a form, in the order in which they are sent.
-void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form,
-                   uint32_t first, uint32_t count, struct mesh_vertex *out);
+void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
+                   uint32_t count, struct mesh_vertex *out);
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form);
 // The mesh's buffers, made where they are not there yet; with runs (NULL: none) the elements are in the order
 // of their calls. The pointer lasts until the next call. NULL: the error tells.
@@ -258,8 +257,7 @@ void colors_free(struct gl_device *device);
 
 // --- gl_programs.c
 struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
-void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values,
-                 int count);
+void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values, int count);
 void program_set_number(struct gl_frame *f, struct gl_program *program, enum uniform uniform, int value);
 bool program_copy_make(struct gl_device *device, lam_error *error);
 void programs_free(struct gl_device *device);

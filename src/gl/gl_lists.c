@@ -69,8 +69,7 @@ static bool send_texels(struct gl_frame *f, struct gl_list *list, enum texture_u
                        list->next.data);
         list->room = rows;
     } else {
-        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, GLSL_LIST_WIDTH, (GLsizei)rows, GL_RGBA, GL_FLOAT,
-                          list->next.data);
+        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, GLSL_LIST_WIDTH, (GLsizei)rows, GL_RGBA, GL_FLOAT, list->next.data);
     }
     return true;
 }
@@ -86,8 +85,7 @@ static void drop_list(const struct gl *gl, struct gl_list *list)
 }
 
 // Sends `size` bytes of list->next where they are other than those of the frame before.
-static bool send(struct gl_frame *f, struct gl_list *list, size_t size, enum texture_unit unit,
-                 lam_error *error)
+static bool send(struct gl_frame *f, struct gl_list *list, size_t size, enum texture_unit unit, lam_error *error)
 {
     bool texture = f->storage == GLSL_TEXTURE;
     if (list->name && list->texture != texture) {
@@ -147,8 +145,8 @@ bool environment_send(struct gl_frame *f, lam_error *error)
     int side = cube->size + 2;
     if (side > device->texture_most)
         return fail(error, LAM_LIMIT,
-                    "OpenGL: the environment's faces have %d texels on a side, this driver has at most %d",
-                    cube->size, device->texture_most - 2);
+                    "OpenGL: the environment's faces have %d texels on a side, this driver has at most %d", cube->size,
+                    device->texture_most - 2);
     uint64_t bytes = (uint64_t)side * (uint64_t)side * 6 * 3 * sizeof(float);
     if (!gl_charge(f, &device->environment_bytes, bytes, error))
         return false;

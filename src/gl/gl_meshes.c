@@ -8,14 +8,12 @@
 
 enum { CHUNK = 4096 }; // vertices packed at once
 
-// Positions, normals, colours and tangents by one index: then the vertices can be shared as the mesh has
-// them.
+// Positions, normals, colours and tangents by one index: then the vertices can be shared as the mesh has them.
 bool mesh_can_share(const lam_mesh *mesh)
 {
-    return mesh->indices && mesh->normals && !mesh->normal_indices &&
-           mesh->normal_count >= mesh->vertex_count &&
-           (!mesh->colors || (mesh->colors_rate == LAM_PER_VERTEX && !mesh->color_indices &&
-                              mesh->color_count >= mesh->vertex_count)) &&
+    return mesh->indices && mesh->normals && !mesh->normal_indices && mesh->normal_count >= mesh->vertex_count &&
+           (!mesh->colors ||
+            (mesh->colors_rate == LAM_PER_VERTEX && !mesh->color_indices && mesh->color_count >= mesh->vertex_count)) &&
            (!mesh->tangents || (!mesh->tangent_indices && mesh->tangent_count >= mesh->vertex_count));
 }
 
@@ -68,8 +66,8 @@ static void face_normal(const lam_mesh *mesh, uint32_t triangle, float out[3])
     unit(out);
 }
 
-void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form,
-                   uint32_t first, uint32_t count, struct mesh_vertex *out)
+void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
+                   uint32_t count, struct mesh_vertex *out)
 {
     for (uint32_t i = 0; i < count; i++, out++) {
         uint32_t corner = first + i, triangle = corner / 3;
@@ -81,30 +79,24 @@ void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum ve
             face_normal(mesh, triangle, out->normal);
         else
             memcpy(out->normal,
-                   mesh->normals +
-                       3 * (size_t)(shared ? p : element(mesh->normal_indices, mesh->indices, attribute)),
+                   mesh->normals + 3 * (size_t)(shared ? p : element(mesh->normal_indices, mesh->indices, attribute)),
                    sizeof out->normal);
         if (mesh->colors)
             copy_color(device, mesh,
-                       shared ? p
-                       : mesh->colors_rate == LAM_PER_TRIANGLE
-                           ? triangle
-                           : element(mesh->color_indices, mesh->indices, attribute),
+                       shared                                  ? p
+                       : mesh->colors_rate == LAM_PER_TRIANGLE ? triangle
+                                                               : element(mesh->color_indices, mesh->indices, attribute),
                        out->color);
         if (mesh->tangents)
             memcpy(out->tangent,
-                   mesh->tangents +
-                       4 * (size_t)(shared ? p : element(mesh->tangent_indices, mesh->indices, attribute)),
+                   mesh->tangents + 4 * (size_t)(shared ? p : element(mesh->tangent_indices, mesh->indices, attribute)),
                    sizeof out->tangent);
     }
 }
 
 // --- on the device
 
-static size_t floats_of(const lam_mesh *mesh)
-{
-    return 6 + (mesh->colors ? 4 : 0) + (mesh->tangents ? 3 : 0);
-}
+static size_t floats_of(const lam_mesh *mesh) { return 6 + (mesh->colors ? 4 : 0) + (mesh->tangents ? 3 : 0); }
 
 static bool send_vertices(struct gl_frame *f, const struct gl_mesh *row, lam_error *error)
 {
@@ -151,21 +143,18 @@ static void describe(struct gl_frame *f, const struct gl_mesh *row)
     for (GLuint i = 0; i < 4; i++)
         if (has[i]) {
             gl->EnableVertexAttribArray(i);
-            gl->VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, stride,
-                                    (const void *)(at * sizeof(float)));
+            gl->VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, stride, (const void *)(at * sizeof(float)));
             at += (size_t)sizes[i];
         }
 }
 
-// The arrays that the vertices were made of are the same: a scene never writes into an array that it has
-// made.
+// The arrays that the vertices were made of are the same: a scene never writes into an array that it has made.
 static bool same_arrays(const lam_mesh *a, const lam_mesh *b)
 {
     return a->positions == b->positions && a->indices == b->indices && a->normals == b->normals &&
-           a->normal_indices == b->normal_indices && a->colors == b->colors &&
-           a->color_indices == b->color_indices && a->tangents == b->tangents &&
-           a->tangent_indices == b->tangent_indices && a->triangle_count == b->triangle_count &&
-           a->vertex_count == b->vertex_count;
+           a->normal_indices == b->normal_indices && a->colors == b->colors && a->color_indices == b->color_indices &&
+           a->tangents == b->tangents && a->tangent_indices == b->tangent_indices &&
+           a->triangle_count == b->triangle_count && a->vertex_count == b->vertex_count;
 }
 
 static void drop(struct gl_device *device, struct gl_mesh *row)

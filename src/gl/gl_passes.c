@@ -70,8 +70,7 @@ static void set_head(struct gl_frame *f, struct gl_program *program, const lam_m
 static void use_block(struct gl_frame *f, enum block_point point, GLuint buffer, size_t offset, size_t size)
 {
     struct gl_now *now = &f->device->now;
-    if (now->blocks[point].buffer == buffer && now->blocks[point].offset == offset &&
-        now->blocks[point].size == size)
+    if (now->blocks[point].buffer == buffer && now->blocks[point].offset == offset && now->blocks[point].size == size)
         return;
     f->gl->BindBufferRange(GL_UNIFORM_BUFFER, point, buffer, (GLintptr)offset, (GLsizeiptr)size);
     now->blocks[point].buffer = buffer;
@@ -83,8 +82,7 @@ static void set_lists(struct gl_frame *f, const struct gl_surface *s)
 {
     struct gl_device *device = f->device;
     const struct glsl_choices *c = &s->program->choices;
-    size_t front = (size_t)s->surface->front * f->material_step,
-           back = (size_t)s->surface->back * f->material_step;
+    size_t front = (size_t)s->surface->front * f->material_step, back = (size_t)s->surface->back * f->material_step;
     if (f->storage == GLSL_BLOCK) {
         use_block(f, POINT_LIGHTS, device->lights.name, 0, device->lights.size);
         use_block(f, POINT_PRODUCTS, device->products.name, front, glsl_products_bytes(c));

@@ -79,8 +79,8 @@ static void look_up(struct gl_frame *f, struct gl_program *program)
     gl_use_program(f->device, program->name);
     for (int u = 0; u < UNIFORM_COUNT; u++)
         program->locations[u] = gl->GetUniformLocation(program->name, uniform_names[u]);
-    static const char *const textures[UNIT_COPY] = {"environment_faces", "light_list", "product_list",
-                                                    "nearer_places", "opaque_places"};
+    static const char *const textures[UNIT_COPY] = {"environment_faces", "light_list", "product_list", "nearer_places",
+                                                    "opaque_places"};
     for (int unit = 0; unit < UNIT_COPY; unit++) {
         GLint at = gl->GetUniformLocation(program->name, textures[unit]);
         if (at >= 0)
@@ -101,8 +101,7 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
         if (memcmp(&device->programs[i].choices, choices, sizeof *choices) == 0)
             return &device->programs[i];
     if (device->program_count == device->program_room) {
-        // Pointers to programs are held only while one frame is set up, after all of it is compiled
-        // (gl_device.c).
+        // Pointers to programs are held only while one frame is set up, after all of it is compiled (gl_device.c).
         int room = device->program_room ? 2 * device->program_room : 8;
         struct gl_program *grown = realloc(device->programs, (size_t)room * sizeof *grown);
         if (!grown) {
@@ -128,8 +127,7 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
 
 // --- uniforms, sent where they are other than before
 
-void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values,
-                 int count)
+void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values, int count)
 {
     GLint at = program->locations[uniform];
     float *before = program->values[uniform];

@@ -45,8 +45,7 @@ static void store_number(const struct gl_frame *f, const float *from, void *to)
     }
     bool covered = from[3] > 0;
     shown_put(f->frame, f->image->format,
-              (float[4]){covered ? from[0] : 0, covered ? from[1] : 0, covered ? from[2] : 0,
-                         covered ? 1.0f : 0.0f},
+              (float[4]){covered ? from[0] : 0, covered ? from[1] : 0, covered ? from[2] : 0, covered ? 1.0f : 0.0f},
               to);
 }
 

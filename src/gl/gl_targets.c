@@ -6,8 +6,7 @@
 
 #include <string.h>
 
-static GLuint make_texture(struct gl_frame *f, GLenum format, int width, int height, GLenum layout,
-                           GLenum type)
+static GLuint make_texture(struct gl_frame *f, GLenum format, int width, int height, GLenum layout, GLenum type)
 {
     const struct gl *gl = f->gl;
     GLuint name;
@@ -30,8 +29,8 @@ static void free_target(struct gl_device *device, struct gl_target *t)
 }
 
 // A target with a colour, and on request places (depth and triangle of each pixel) and depth.
-static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int height, bool place,
-                        bool depth, lam_error *error)
+static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int height, bool place, bool depth,
+                        lam_error *error)
 {
     const struct gl *gl = f->gl;
     gl->GenFramebuffers(1, &t->framebuffer);
@@ -51,8 +50,7 @@ static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int 
     GLenum status = gl->CheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE)
         return true;
-    return fail(error, LAM_UNSUPPORTED,
-                "OpenGL: the driver cannot draw into floats (framebuffer status 0x%x)", status);
+    return fail(error, LAM_UNSUPPORTED, "OpenGL: the driver cannot draw into floats (framebuffer status 0x%x)", status);
 }
 
 // Whether a small target of the format can be drawn into. Blending is told by an extension.
@@ -70,10 +68,8 @@ static bool can_draw(struct gl_device *device, GLenum format)
 bool targets_find_format(struct gl_device *device, lam_error *error)
 {
     const struct gl *gl = &device->context.gl;
-    bool floats =
-        !device->context.es || (gl_has(gl, "GL_EXT_color_buffer_float") && gl_has(gl, "GL_EXT_float_blend"));
-    bool halves =
-        floats || gl_has(gl, "GL_EXT_color_buffer_float") || gl_has(gl, "GL_EXT_color_buffer_half_float");
+    bool floats = !device->context.es || (gl_has(gl, "GL_EXT_color_buffer_float") && gl_has(gl, "GL_EXT_float_blend"));
+    bool halves = floats || gl_has(gl, "GL_EXT_color_buffer_float") || gl_has(gl, "GL_EXT_color_buffer_half_float");
     if ((floats && can_draw(device, GL_RGBA32F)) || (halves && can_draw(device, GL_RGBA16F)))
         return true;
     return fail(error, LAM_UNSUPPORTED,

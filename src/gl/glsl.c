@@ -17,15 +17,13 @@ static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_
                     c->storage == GLSL_BLOCK ? "uniform blocks" : "texelFetch");
     if (c->version == GLSL_120 && (c->environment == GLSL_FACES || c->show == LAM_SHOW_IDS))
         return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no %s",
-                    c->show == LAM_SHOW_IDS ? "gl_VertexID"
-                                            : "array textures: its environment is a cube map");
+                    c->show == LAM_SHOW_IDS ? "gl_VertexID" : "array textures: its environment is a cube map");
     if (c->version == GLSL_120 && c->layer != GLSL_NO_LAYERS)
         return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no integers in textures: nothing is peeled");
     if (f->shading == LAM_SHADING_PHONG && !f->per_fragment)
         return fail(error, LAM_BAD_ARGUMENT, "Phong shading lights every fragment: its stage is fragment");
     if (f->shading == LAM_SHADING_GOURAUD && f->per_fragment)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "Gouraud shading lights every vertex: its stage is application or vertex");
+        return fail(error, LAM_BAD_ARGUMENT, "Gouraud shading lights every vertex: its stage is application or vertex");
     return true;
 }
 
@@ -77,8 +75,7 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
         text_print(text, "        sum = add_reflected(sum, light, t, reflected_of(%s, %s));\n", lobe_call(c),
                    exponent_of(f));
         if (c->gl1)
-            text_print(text, "        sum = add_arriving_ambient(sum, ambient_of(i%s), t);\n",
-                       list_argument(f));
+            text_print(text, "        sum = add_arriving_ambient(sum, ambient_of(i%s), t);\n", list_argument(f));
         first += group->count;
         text_add(text, first < c->light_count ? "    }\n" : "    }");
     }
@@ -98,8 +95,7 @@ static const char *shown_term(const struct glsl_choices *c)
     case LAM_SHOW_REFLECTION:
         return "sum.reflection";
     case LAM_SHOW_LIGHT:
-        return c->reflection == LAM_REFLECTION_NONE ? "black3()"
-                                                    : "add3(add3(sum.ambient, sum.diffuse), sum.specular)";
+        return c->reflection == LAM_REFLECTION_NONE ? "black3()" : "add3(add3(sum.ambient, sum.diffuse), sum.specular)";
     default:
         return "sum_terms(sum)";
     }
@@ -140,8 +136,8 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
     bool old = c->version == GLSL_120, light_up = f->lit && fragment == f->per_fragment;
     bool flat = f->shading == LAM_SHADING_FLAT, surface = !f->paints && f->lit;
     bool passes_tangent = f->threads && c->tangents, field = f->threads && !c->tangents;
-    bool clamps = c->gl1 && f->shading != LAM_SHADING_PHONG &&
-                  (c->show == LAM_SHOW_PICTURE || c->show == LAM_SHOW_CLIPPED);
+    bool clamps =
+        c->gl1 && f->shading != LAM_SHADING_PHONG && (c->show == LAM_SHOW_PICTURE || c->show == LAM_SHOW_CLIPPED);
     bool tints = c->colors && f->lit && !f->shows_vector;
     bool eye = surface || c->show == LAM_SHOW_DEPTH;
     bool numbers_triangles = c->show == LAM_SHOW_IDS || c->layer != GLSL_NO_LAYERS;
@@ -207,8 +203,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
              old        ? "varying "
              : fragment ? "in "
                         : "out ");
-    const char *const position = f->paints ? NULL : "p", *const sides[4] = {NULL, "true", "false",
-                                                                            "gl_FrontFacing"};
+    const char *const position = f->paints ? NULL : "p", *const sides[4] = {NULL, "true", "false", "gl_FrontFacing"};
     for (int i = 0; i < 4; i++) {
         const char *p = i == 0 ? "vec3 p, vec3 normal" : i == 3 ? "eye_position, n" : "p, n";
         const char *t = !f->threads ? ""
@@ -315,9 +310,8 @@ static void decide_all(struct decided out[DECIDED_MAX], const struct glsl_facts 
     decide_lights(out, "falloff == FALLOFF_RANGE", falloffs[2], all);
 }
 
-static const char *const version_lines[] = {
-    "#version 120\n", "#version 330 core\n",
-    "#version 300 es\nprecision highp float;\nprecision highp int;\n"};
+static const char *const version_lines[] = {"#version 120\n", "#version 330 core\n",
+                                            "#version 300 es\nprecision highp float;\nprecision highp int;\n"};
 
 static char *make_one(const struct glsl_facts *f, bool fragment, lam_error *error)
 {
@@ -330,8 +324,7 @@ static char *make_one(const struct glsl_facts *f, bool fragment, lam_error *erro
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && c->storage == GLSL_TEXTURE)
         text_add(&whole, "precision highp sampler2D;\n");
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && f->environment)
-        text_print(&whole, "precision highp %s;\n",
-                   c->environment == GLSL_CUBE ? "samplerCube" : "sampler2DArray");
+        text_print(&whole, "precision highp %s;\n", c->environment == GLSL_CUBE ? "samplerCube" : "sampler2DArray");
     if (own.bytes && !own.failed) {
         struct decided decided[DECIDED_MAX + 1] = {{NULL, false}};
         decide_all(decided, f);

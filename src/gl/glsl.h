@@ -31,9 +31,10 @@ enum glsl_output {
 
 enum glsl_environment {
     GLSL_NO_ENVIRONMENT,
-    GLSL_CUBE,  // samplerCube environment, bilinear and seamless, no mipmaps
-    GLSL_FACES, // sampler2DArray environment_faces: six bordered faces as src/scene/cube_map.h has them, read
-                // as cube_lookup.h reads them (330, 300 es)
+    GLSL_CUBE, // samplerCube environment, bilinear and seamless, no mipmaps
+    // sampler2DArray environment_faces: six bordered faces as src/scene/cube_map.h has them, read as cube_lookup.h
+    // reads them (330, 300 es)
+    GLSL_FACES,
 };
 
 // Pictures whose translucent surfaces are peeled layer by layer (gl_passes.c); 330 and 300 es. A second
@@ -61,7 +62,7 @@ struct glsl_choices {
     lam_stage stage; // never AUTO
     lam_shading shading;
     lam_reflection reflection; // never AUTO
-    lam_show show; // a term, a vector or a place; COVERAGE and OVERDRAW give 1, CLIPPED the picture
+    lam_show show;             // a term, a vector or a place; COVERAGE and OVERDRAW give 1, CLIPPED the picture
     bool distant_viewer;
     bool gl1;
     bool exposes;       // the fragment multiplies its light by the uniform `exposure`
@@ -79,8 +80,7 @@ struct glsl_choices {
 // What a frame's draw asks for. Left to the caller: version, storage, output, products. `environment` is
 // GLSL_FACES or none (where neither material mirrors). Stage: `stage`, for AUTO fragment, or vertex with
 // Gouraud shading.
-struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_surface *surface,
-                                lam_stage stage);
+struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_surface *surface, lam_stage stage);
 
 struct glsl_text {
     char *vertex, *fragment; // ASCII
@@ -127,8 +127,8 @@ void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *fr
 // whose texels are for each light diffuse, specular [, ambient], then for each hemisphere sky, ground. The
 // list's first texel is the uniform first_product, back_first_product.
 size_t glsl_products_bytes(const struct glsl_choices *choices);
-void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame,
-                        const lam_material *material, float *out);
+void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
+                        float *out);
 
 // The head alone (with GLSL_TEXTURE and GLSL_ARRAY its members are plain uniforms), and struct Material.
 struct glsl_products glsl_products_of(const struct frame *frame, const lam_material *material);

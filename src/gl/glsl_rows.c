@@ -6,8 +6,8 @@
 
 static bool is_place(lam_show show)
 {
-    return show == LAM_SHOW_DEPTH || show == LAM_SHOW_FACING || show == LAM_SHOW_IDS ||
-           show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW;
+    return show == LAM_SHOW_DEPTH || show == LAM_SHOW_FACING || show == LAM_SHOW_IDS || show == LAM_SHOW_COVERAGE ||
+           show == LAM_SHOW_OVERDRAW;
 }
 
 struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
@@ -26,8 +26,8 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
     f.lights = c->light_count > 0 && (sums || f.shows_one_light);
     f.skies = c->hemisphere_count > 0 && sums;
     f.environment = c->environment != GLSL_NO_ENVIRONMENT && sums;
-    f.kajiya_kay = sums && (c->reflection == LAM_REFLECTION_KAJIYA_KAY ||
-                            c->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE);
+    f.kajiya_kay =
+        sums && (c->reflection == LAM_REFLECTION_KAJIYA_KAY || c->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE);
     f.threads = f.kajiya_kay || (f.lit && c->show == LAM_SHOW_TANGENTS);
     f.highlights = sums && c->light_count > 0 && c->reflection != LAM_REFLECTION_LAMBERT;
     f.back = c->two_sided && c->back_material && f.lit && !f.shows_vector;
@@ -45,9 +45,8 @@ struct list {
     int count;
 };
 
-__attribute__((format(printf, 6, 7))) static void add(struct list *list, enum glsl_what what,
-                                                      const char *type, int count, const char *block,
-                                                      const char *name, ...);
+__attribute__((format(printf, 6, 7))) static void add(struct list *list, enum glsl_what what, const char *type,
+                                                      int count, const char *block, const char *name, ...);
 static void add(struct list *list, enum glsl_what what, const char *type, int count, const char *block,
                 const char *name, ...)
 {
@@ -137,8 +136,7 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
     }
     if (normals) {
         add(&list, GLSL_NORMAL_MATRIX, "mat3", 0, NULL, "normal_matrix");
-        mean(&list,
-             "normals to eye space: the inverse transpose of model_view's 3x3, times any positive number");
+        mean(&list, "normals to eye space: the inverse transpose of model_view's 3x3, times any positive number");
     }
     if (c->exposes && !f->shows_place && !f->shows_vector) {
         add(&list, GLSL_EXPOSURE, "float", 0, NULL, "exposure");
@@ -216,10 +214,9 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
     int count = 0;
     rows[count++] = (struct glsl_attribute){0, "vec3", "position", "of the mesh"};
     if (looks)
-        rows[count++] =
-            (struct glsl_attribute){1, "vec3", "normal",
-                                    flat ? "of the mesh: the triangle's own, the same at its three vertices"
-                                         : "of the mesh, of any length"};
+        rows[count++] = (struct glsl_attribute){1, "vec3", "normal",
+                                                flat ? "of the mesh: the triangle's own, the same at its three vertices"
+                                                     : "of the mesh, of any length"};
     if (c->colors && f->lit && !f->shows_vector)
         rows[count++] = (struct glsl_attribute){
             2, "vec4", "color",
@@ -231,16 +228,16 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
             flat && old ? "of the mesh, along the surface: of the triangle's last vertex, at its three"
                         : "of the mesh, along the surface"};
     if (f->application) {
-        rows[count++] = (struct glsl_attribute){4, "vec4", "front_color",
-                                                "the light that leaves the front there, and the opacity"};
+        rows[count++] =
+            (struct glsl_attribute){4, "vec4", "front_color", "the light that leaves the front there, and the opacity"};
         if (c->two_sided)
             rows[count++] = (struct glsl_attribute){5, "vec4", "back_color",
                                                     "the light that leaves the back there, and the opacity"};
     }
     if (flat && old && looks)
-        rows[count++] = (struct glsl_attribute){
-            6, "vec3", "provoking_position",
-            "of the triangle's last vertex, at its three: where a flat triangle is lit"};
+        rows[count++] =
+            (struct glsl_attribute){6, "vec3", "provoking_position",
+                                    "of the triangle's last vertex, at its three: where a flat triangle is lit"};
     return count;
 }
 
@@ -253,9 +250,8 @@ void glsl_declare_attributes(struct text *text, const struct glsl_facts *f)
     for (int i = 0; i < count; i++) {
         char start[40];
         snprintf(start, sizeof start, "layout(location = %d) in ", rows[i].location);
-        text_print(text, "%s%s %s;%*s // %s%s", f->choices->version == GLSL_120 ? "attribute " : start,
-                   rows[i].type, rows[i].name, width - (int)strlen(rows[i].name), "", rows[i].meaning,
-                   i + 1 < count ? "\n" : "");
+        text_print(text, "%s%s %s;%*s // %s%s", f->choices->version == GLSL_120 ? "attribute " : start, rows[i].type,
+                   rows[i].name, width - (int)strlen(rows[i].name), "", rows[i].meaning, i + 1 < count ? "\n" : "");
     }
 }
 
@@ -343,8 +339,7 @@ int glsl_members(const struct glsl_facts *f, const char *type, struct glsl_row r
 
 static int width_of(const struct glsl_row *row)
 {
-    return (int)strlen(row->type) + (int)strlen(row->name) +
-           (row->count ? snprintf(NULL, 0, "[%d]", row->count) : 0);
+    return (int)strlen(row->type) + (int)strlen(row->name) + (row->count ? snprintf(NULL, 0, "[%d]", row->count) : 0);
 }
 
 // The comments of rows that stand together begin in one column.

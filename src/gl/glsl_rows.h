@@ -43,7 +43,7 @@ struct glsl_row {
     const char *block; // NULL: a plain uniform
     const char *meaning;
     bool back; // of the back's material
-    int at; // of a member: where it stands in struct glsl_light, glsl_material or up, sky, ground; in floats
+    int at;    // of a member: where it stands in struct glsl_light, glsl_material or up, sky, ground; in floats
 };
 enum { GLSL_ROWS_MAX = 40 };
 

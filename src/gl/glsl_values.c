@@ -9,10 +9,8 @@ enum { NONE, DISTANCE, RANGE };
 
 int glsl_kind(const struct frame_light *light)
 {
-    static const int of_cone[] = {[CONE_NONE] = POINT,
-                                  [CONE_EXPONENT] = SPOT_EXPONENT,
-                                  [CONE_CUTOFF] = SPOT_CUTOFF,
-                                  [CONE_SOFT] = SPOT_CONES};
+    static const int of_cone[] = {
+        [CONE_NONE] = POINT, [CONE_EXPONENT] = SPOT_EXPONENT, [CONE_CUTOFF] = SPOT_CUTOFF, [CONE_SOFT] = SPOT_CONES};
     return light->directional ? DIRECTIONAL : of_cone[light->cone];
 }
 
@@ -42,8 +40,7 @@ static bool mirrors(const lam_material *m)
     return m->reflectivity.r != 0 || m->reflectivity.g != 0 || m->reflectivity.b != 0;
 }
 
-struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_surface *surface,
-                                lam_stage stage)
+struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_surface *surface, lam_stage stage)
 {
     struct glsl_choices c;
     memset(&c, 0, sizeof c);
@@ -58,8 +55,8 @@ struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_su
     c.back_material = c.two_sided && surface->back != surface->front;
     c.colors = draw->mesh->colors != NULL;
     c.tangents = draw->mesh->tangents != NULL;
-    if (frame->environment && (mirrors(frame->materials[surface->front]) ||
-                               (c.back_material && mirrors(frame->materials[surface->back]))))
+    if (frame->environment &&
+        (mirrors(frame->materials[surface->front]) || (c.back_material && mirrors(frame->materials[surface->back]))))
         c.environment = GLSL_FACES;
     find_groups(&c, frame);
     return c;
@@ -72,8 +69,7 @@ int glsl_frame_light(const struct glsl_choices *c, const struct frame *frame, in
         i -= c->groups[group++].count;
     for (int k = 0; group < c->group_count && k < frame->light_count; k++) {
         const struct frame_light *light = &frame->lights[k];
-        if (glsl_kind(light) == c->groups[group].kind && glsl_falloff(light) == c->groups[group].falloff &&
-            i-- == 0)
+        if (glsl_kind(light) == c->groups[group].kind && glsl_falloff(light) == c->groups[group].falloff && i-- == 0)
             return k;
     }
     return -1;

@@ -8,8 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TO_INSTALL                                                                                           \
-    "on Debian: apt install libegl1 libegl-mesa0 libgl1-mesa-dri, or the graphics card's own driver"
+#define TO_INSTALL "on Debian: apt install libegl1 libegl-mesa0 libgl1-mesa-dri, or the graphics card's own driver"
 
 bool egl_open(struct egl *egl, const char *library, lam_error *error)
 {
@@ -21,23 +20,20 @@ bool egl_open(struct egl *egl, const char *library, lam_error *error)
         return fail(error, LAM_UNSUPPORTED, "OpenGL: the library %s cannot be opened (%.150s); " TO_INSTALL,
                     egl->library, why ? why : "no reason told");
     }
-#define FIND(name)                                                                                           \
-    *(void **)&egl->name = dlsym(opened, "egl" #name);                                                       \
-    if (!egl->name)                                                                                          \
-        return fail(error, LAM_UNSUPPORTED,                                                                  \
-                    "OpenGL: the library %s has no function egl" #name                                       \
-                    ", expected EGL 1.4 or newer; " TO_INSTALL,                                              \
+#define FIND(name)                                                                                                     \
+    *(void **)&egl->name = dlsym(opened, "egl" #name);                                                                 \
+    if (!egl->name)                                                                                                    \
+        return fail(error, LAM_UNSUPPORTED,                                                                            \
+                    "OpenGL: the library %s has no function egl" #name ", expected EGL 1.4 or newer; " TO_INSTALL,     \
                     egl->library);
     EGL_FUNCTIONS(FIND)
 #undef FIND
     const char *client = egl->QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (list_has(client, "EGL_EXT_platform_base"))
-        egl->GetPlatformDisplay =
-            (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl->GetProcAddress("eglGetPlatformDisplayEXT");
+        egl->GetPlatformDisplay = (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl->GetProcAddress("eglGetPlatformDisplayEXT");
     if (list_has(client, "EGL_EXT_device_base") || list_has(client, "EGL_EXT_device_enumeration")) {
         egl->QueryDevices = (PFNEGLQUERYDEVICESEXTPROC)egl->GetProcAddress("eglQueryDevicesEXT");
-        egl->QueryDeviceString =
-            (PFNEGLQUERYDEVICESTRINGEXTPROC)egl->GetProcAddress("eglQueryDeviceStringEXT");
+        egl->QueryDeviceString = (PFNEGLQUERYDEVICESTRINGEXTPROC)egl->GetProcAddress("eglQueryDeviceStringEXT");
     }
     return true;
 }
@@ -80,10 +76,10 @@ bool list_has(const char *list, const char *word)
 bool gl_load(struct gl *gl, lam_gl_get_proc *get, void *user, lam_error *error)
 {
     memset(gl, 0, sizeof *gl);
-#define FIND(name)                                                                                           \
-    gl->name = (__typeof__(gl->name))get(user, "gl" #name);                                                  \
-    if (!gl->name)                                                                                           \
-        return fail(error, LAM_UNSUPPORTED,                                                                  \
+#define FIND(name)                                                                                                     \
+    gl->name = (__typeof__(gl->name))get(user, "gl" #name);                                                            \
+    if (!gl->name)                                                                                                     \
+        return fail(error, LAM_UNSUPPORTED,                                                                            \
                     "OpenGL: the driver has no function gl" #name ", expected OpenGL 3.3 or OpenGL ES 3.0");
     GL_FUNCTIONS(FIND)
 #undef FIND
@@ -91,8 +87,7 @@ bool gl_load(struct gl *gl, lam_gl_get_proc *get, void *user, lam_error *error)
     GL_OPTIONAL_FUNCTIONS(FIND)
 #undef FIND
     if (!gl->DebugMessageCallback) {
-        gl->DebugMessageCallback =
-            (__typeof__(gl->DebugMessageCallback))get(user, "glDebugMessageCallbackKHR");
+        gl->DebugMessageCallback = (__typeof__(gl->DebugMessageCallback))get(user, "glDebugMessageCallbackKHR");
         gl->DebugMessageControl = (__typeof__(gl->DebugMessageControl))get(user, "glDebugMessageControlKHR");
     }
     return true;

@@ -10,22 +10,22 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
-#define EGL_FUNCTIONS(X)                                                                                     \
-    X(BindAPI)                                                                                               \
-    X(ChooseConfig)                                                                                          \
-    X(CreateContext)                                                                                         \
-    X(CreatePbufferSurface)                                                                                  \
-    X(DestroyContext)                                                                                        \
-    X(DestroySurface)                                                                                        \
-    X(GetCurrentContext)                                                                                     \
-    X(GetCurrentDisplay)                                                                                     \
-    X(GetCurrentSurface)                                                                                     \
-    X(GetDisplay)                                                                                            \
-    X(GetError)                                                                                              \
-    X(GetProcAddress)                                                                                        \
-    X(Initialize)                                                                                            \
-    X(MakeCurrent)                                                                                           \
-    X(QueryAPI)                                                                                              \
+#define EGL_FUNCTIONS(X)                                                                                               \
+    X(BindAPI)                                                                                                         \
+    X(ChooseConfig)                                                                                                    \
+    X(CreateContext)                                                                                                   \
+    X(CreatePbufferSurface)                                                                                            \
+    X(DestroyContext)                                                                                                  \
+    X(DestroySurface)                                                                                                  \
+    X(GetCurrentContext)                                                                                               \
+    X(GetCurrentDisplay)                                                                                               \
+    X(GetCurrentSurface)                                                                                               \
+    X(GetDisplay)                                                                                                      \
+    X(GetError)                                                                                                        \
+    X(GetProcAddress)                                                                                                  \
+    X(Initialize)                                                                                                      \
+    X(MakeCurrent)                                                                                                     \
+    X(QueryAPI)                                                                                                        \
     X(QueryString)
 
 struct egl {

@@ -58,30 +58,26 @@ static bool unite(struct making *m, lam_stage stage, int object, lam_error *erro
             first = i;
             continue;
         }
-        const int a = frame->draws[frame->surfaces[first].draw].object,
-                  b = frame->draws[surface->draw].object;
+        const int a = frame->draws[frame->surfaces[first].draw].object, b = frame->draws[surface->draw].object;
         if (own.two_sided != m->choices.two_sided)
-            return fail(
-                error, LAM_BAD_ARGUMENT,
-                "objects %d and %d: one is one-sided, the other is not, and one shader cannot be both; "
-                "expected the number of one object",
-                a, b);
+            return fail(error, LAM_BAD_ARGUMENT,
+                        "objects %d and %d: one is one-sided, the other is not, and one shader cannot be both; "
+                        "expected the number of one object",
+                        a, b);
         struct glsl_facts facts = glsl_facts_of(&own);
         if (facts.threads && own.tangents != m->choices.tangents)
-            return fail(
-                error, LAM_BAD_ARGUMENT,
-                "objects %d and %d: one has tangents, the other has not, and one shader cannot serve both; "
-                "expected the number of one object",
-                a, b);
+            return fail(error, LAM_BAD_ARGUMENT,
+                        "objects %d and %d: one has tangents, the other has not, and one shader cannot serve both; "
+                        "expected the number of one object",
+                        a, b);
         m->choices.colors |= own.colors;
         m->choices.back_material |= own.back_material;
         if (own.environment)
             m->choices.environment = own.environment;
     }
     if (first < 0)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "object is %d, expected one of the scene's with triangles (0 to %d)", object,
-                    lam_scene_object_count(m->scene) - 1);
+        return fail(error, LAM_BAD_ARGUMENT, "object is %d, expected one of the scene's with triangles (0 to %d)",
+                    object, lam_scene_object_count(m->scene) - 1);
     return true;
 }
 
@@ -244,8 +240,7 @@ static bool is_of_draw(enum glsl_what what)
            (what >= GLSL_AMBIENT_PRODUCT && what <= GLSL_GROUND_PRODUCT);
 }
 
-static char *name_of(struct arena *arena, const struct glsl_row *row, const struct glsl_row *member,
-                     int index)
+static char *name_of(struct arena *arena, const struct glsl_row *row, const struct glsl_row *member, int index)
 {
     char name[96], place[24] = "";
     if (row->count)
@@ -285,10 +280,9 @@ static void tell_leaf(const struct making *m, struct telling *t, const struct fr
     t->failed |= !u->name;
 }
 
-// The uniforms of a draw, or (NULL) of the frame. An element of an array begins at a multiple of 16 in its
-// block.
-static bool tell_uniforms(const struct making *m, const struct frame_surface *surface,
-                          const lam_shader_uniform **out, int *count)
+// The uniforms of a draw, or (NULL) of the frame. An element of an array begins at a multiple of 16 in its block.
+static bool tell_uniforms(const struct making *m, const struct frame_surface *surface, const lam_shader_uniform **out,
+                          int *count)
 {
     struct glsl_row members[GLSL_ROWS_MAX];
     size_t room = 0;
@@ -375,8 +369,7 @@ static bool tell_lists(const struct making *m)
     told->lists = lists;
     if (c->storage != GLSL_TEXTURE || (!m->facts.lights && !m->facts.skies))
         return true;
-    size_t bytes = glsl_lights_bytes(c), each = glsl_products_bytes(c),
-           materials = (size_t)m->frame.material_count;
+    size_t bytes = glsl_lights_bytes(c), each = glsl_products_bytes(c), materials = (size_t)m->frame.material_count;
     float *values = arena_alloc(&m->shader->arena, bytes);
     if (!values)
         return false;
@@ -424,16 +417,14 @@ static bool make(struct making *m, const lam_camera *camera, const lam_draw_para
                          .vertex = m->shader->text.vertex,
                          .fragment = m->shader->text.fragment,
                          .flat = m->facts.shading == LAM_SHADING_FLAT};
-    if (!find_order(m) || !tell_attributes(m) ||
-        !tell_uniforms(m, NULL, &told->uniforms, &told->uniform_count) || !tell_draws(m, object) ||
-        !tell_lists(m))
+    if (!find_order(m) || !tell_attributes(m) || !tell_uniforms(m, NULL, &told->uniforms, &told->uniform_count) ||
+        !tell_draws(m, object) || !tell_lists(m))
         return fail(error, LAM_LIMIT, "out of memory for the shader's numbers");
     return true;
 }
 
-lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *draw,
-                            int width, int height, int object, const lam_shader_params *params,
-                            lam_error *error)
+lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *draw, int width,
+                            int height, int object, const lam_shader_params *params, lam_error *error)
 {
     static const lam_draw_params plain_draw = {0};
     static const lam_shader_params plain = {0};
@@ -443,8 +434,7 @@ lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, co
         return NULL;
     }
     if (width < 1 || height < 1 || width > 65535 || height > 65535) {
-        fail(error, LAM_BAD_ARGUMENT, "lam_shader_make: %d×%d pixels, expected 1 to 65535 each way", width,
-             height);
+        fail(error, LAM_BAD_ARGUMENT, "lam_shader_make: %d×%d pixels, expected 1 to 65535 each way", width, height);
         return NULL;
     }
     if (!lam_show_is_light(draw->show)) {

@@ -35,8 +35,7 @@ static const char *closing(const char *at, const char *end, size_t indent)
 }
 
 // `shift`: columns that the lines move to the left.
-static void resolve(struct text *text, const char *at, const char *end, const struct decided *decided,
-                    size_t shift)
+static void resolve(struct text *text, const char *at, const char *end, const struct decided *decided, size_t shift)
 {
     while (at < end) {
         const char *next = next_line(at, end);
@@ -84,10 +83,7 @@ static struct word word_at(const char *at, const char *end)
     return word;
 }
 
-static bool same(struct word a, struct word b)
-{
-    return a.length == b.length && memcmp(a.at, b.at, a.length) == 0;
-}
+static bool same(struct word a, struct word b) { return a.length == b.length && memcmp(a.at, b.at, a.length) == 0; }
 
 // The next word behind `at`, comments left out; of no length at the end.
 static struct word next_word(const char *at, const char *end)
@@ -109,8 +105,7 @@ static bool is_of(const struct stretch *s, struct word variable, struct word typ
     return false;
 }
 
-// The line of a use "variable.member" where all it does is to give that member a value: "variable.member =
-// …;".
+// The line of a use "variable.member" where all it does is to give that member a value: "variable.member = …;".
 static bool only_sets(const struct stretch *s, const char *variable, struct word member, struct stretch *line)
 {
     const char *start = variable, *end = next_line(variable, s->end), *behind = member.at + member.length;
@@ -133,8 +128,7 @@ static bool visit_uses(const struct stretch *s, struct word type, struct word me
         const char *dot = w.at - 1, *variable = dot;
         while (variable > s->start && in_name(variable[-1]))
             variable--;
-        if (variable ==
-            dot) { // of an element (no struct of src/lighting stands in a list), or of a call's result
+        if (variable == dot) { // of an element (no struct of src/lighting stands in a list), or of a call's result
             if (dot > s->start && dot[-1] == ']')
                 continue;
             return true;
@@ -176,8 +170,7 @@ bool simplify_members(const struct stretch *stretches, int count)
             if (at == s->end || *at != ' ') // a member alone in its line is "    TYPE NAME;"
                 continue;
             struct word first = next_word(at, next), name = next_word(first.at + first.length, next);
-            if (left == 1 || !name.length || name.at[name.length] != ';' ||
-                is_read(stretches, count, type, name))
+            if (left == 1 || !name.length || name.at[name.length] != ';' || is_read(stretches, count, type, name))
                 continue;
             for (int k = 0; k < count; k++)
                 visit_uses(&stretches[k], type, name, true);

@@ -33,9 +33,8 @@ uint32_t crc_of(const struct crc_tables *tables, const uint8_t *bytes, size_t si
         uint64_t word;
         memcpy(&word, bytes, 8);
         word ^= crc;
-        crc = row[7][word & 255] ^ row[6][word >> 8 & 255] ^ row[5][word >> 16 & 255] ^
-              row[4][word >> 24 & 255] ^ row[3][word >> 32 & 255] ^ row[2][word >> 40 & 255] ^
-              row[1][word >> 48 & 255] ^ row[0][word >> 56];
+        crc = row[7][word & 255] ^ row[6][word >> 8 & 255] ^ row[5][word >> 16 & 255] ^ row[4][word >> 24 & 255] ^
+              row[3][word >> 32 & 255] ^ row[2][word >> 40 & 255] ^ row[1][word >> 48 & 255] ^ row[0][word >> 56];
     }
     for (; size > 0; size--, bytes++)
         crc = (crc >> 8) ^ row[0][(crc ^ *bytes) & 255];
@@ -104,7 +103,7 @@ void adler_row(struct adler_part *part, const uint32_t *row, int width, int byte
         positions += (uint64_t)stride * ((uint64_t)(first + n - 1) * total - before) + offsets;
     }
     uint64_t size = (uint64_t)width * (unsigned)bytes_per_pixel;
-    struct adler_part next = {(uint32_t)(sum % ADLER_MODULUS),
-                              (uint32_t)((size * sum - positions) % ADLER_MODULUS), size};
+    struct adler_part next = {(uint32_t)(sum % ADLER_MODULUS), (uint32_t)((size * sum - positions) % ADLER_MODULUS),
+                              size};
     adler_join(part, &next);
 }

@@ -12,8 +12,7 @@
 #include <unistd.h>
 
 // Those that can be written come first.
-static const struct codec *const codecs[] = {&codec_png, &codec_ppm,  &codec_pfm,
-                                             &codec_exr, &codec_jpeg, &codec_hdr};
+static const struct codec *const codecs[] = {&codec_png, &codec_ppm, &codec_pfm, &codec_exr, &codec_jpeg, &codec_hdr};
 enum { CODECS = sizeof codecs / sizeof *codecs, WRITTEN = 4, THREADS_MOST = 1024, LIST_ROOM = 128 };
 
 static const struct codec *codec_named(const char *name)
@@ -48,10 +47,10 @@ static bool fail_unknown(lam_error *error, const char *subject, const char *befo
     list_names(before, list);
     if ((nearest = nearest_word(word, names, WRITTEN)))
         return fail(error, LAM_UNSUPPORTED,
-                    "%s: '%s%s' is no picture format that can be written, did you mean %s%s? (%s)", subject,
-                    before, word, before, nearest, list);
-    return fail(error, LAM_UNSUPPORTED, "%s: '%s%s' is no picture format that can be written, expected %s",
-                subject, before, word, list);
+                    "%s: '%s%s' is no picture format that can be written, did you mean %s%s? (%s)", subject, before,
+                    word, before, nearest, list);
+    return fail(error, LAM_UNSUPPORTED, "%s: '%s%s' is no picture format that can be written, expected %s", subject,
+                before, word, list);
 }
 
 static const struct codec *codec_for(const char *path, lam_error *error)
@@ -62,14 +61,13 @@ static const struct codec *codec_for(const char *path, lam_error *error)
     if (!codec && *ending)
         fail_unknown(error, path, ".", ending);
     else if (!codec)
-        fail(error, LAM_UNSUPPORTED,
-             "%s: the name has no ending that tells the picture's format, expected %s", path,
+        fail(error, LAM_UNSUPPORTED, "%s: the name has no ending that tells the picture's format, expected %s", path,
              list_names(".", list));
     return codec;
 }
 
-static bool encode(const struct codec *codec, const lam_image *image, const lam_save_params *params,
-                   lam_bytes *out, lam_error *error)
+static bool encode(const struct codec *codec, const lam_image *image, const lam_save_params *params, lam_bytes *out,
+                   lam_error *error)
 {
     static const lam_save_params plain = {0};
     if (!params)
@@ -96,8 +94,8 @@ static bool encode(const struct codec *codec, const lam_image *image, const lam_
     return ok;
 }
 
-bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params,
-                      lam_bytes *out, lam_error *error)
+bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params, lam_bytes *out,
+                      lam_error *error)
 {
     if (!out || !format)
         return fail(error, LAM_BAD_ARGUMENT, "encode: a format and a place for the bytes are needed");
@@ -172,8 +170,8 @@ static bool load(lam_image *image, const char *path, bool *wide, lam_error *erro
     else if (codec)
         ok = codec->read(file.data, file.size, name, image, error);
     else if (file.size == 0)
-        ok = fail(error, LAM_CANNOT_READ,
-                  "%s: is empty, expected a PNG, JPEG, PPM, PFM, EXR or Radiance picture", name);
+        ok =
+            fail(error, LAM_CANNOT_READ, "%s: is empty, expected a PNG, JPEG, PPM, PFM, EXR or Radiance picture", name);
     else
         ok = fail(error, LAM_CANNOT_READ,
                   "%s: byte 0: not the start of a PNG, JPEG, PPM (P6), PFM, EXR or Radiance picture", name);
@@ -182,10 +180,7 @@ static bool load(lam_image *image, const char *path, bool *wide, lam_error *erro
     return ok;
 }
 
-bool lam_image_load(lam_image *image, const char *path, lam_error *error)
-{
-    return load(image, path, NULL, error);
-}
+bool lam_image_load(lam_image *image, const char *path, lam_error *error) { return load(image, path, NULL, error); }
 
 bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, lam_error *error)
 {

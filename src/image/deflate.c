@@ -117,10 +117,10 @@ static inline void look_at(struct chunk *chunk, const uint32_t *at, uint64_t fou
         const u8x16 bytes = (u8x16)here, zero = {0};
         const u64x2 extra = (u64x2){0} + fourth;
         // Each byte gets a zero byte above it.
-        const u64x2 low = extra | (u64x2)__builtin_shufflevector(bytes, zero, 0, 16, 1, 17, 2, 18, 3, 19, 4,
-                                                                 20, 5, 21, 6, 22, 7, 23);
-        const u64x2 high = extra | (u64x2)__builtin_shufflevector(bytes, zero, 8, 24, 9, 25, 10, 26, 11, 27,
-                                                                  12, 28, 13, 29, 14, 30, 15, 31);
+        const u64x2 low =
+            extra | (u64x2)__builtin_shufflevector(bytes, zero, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+        const u64x2 high = extra | (u64x2)__builtin_shufflevector(bytes, zero, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13,
+                                                                  29, 14, 30, 15, 31);
         memcpy(chunk->told + i, &low, sizeof low);
         memcpy(chunk->told + i + 2, &high, sizeof high);
         memcpy(chunk->in_run + i, &in_run, sizeof in_run);
@@ -206,8 +206,7 @@ static void find_pairs(struct deflate *deflate, int first, int end)
     const uint32_t *row = deflate->row;
     const int64_t row_bytes = (int64_t)width * bytes_per_pixel + 1;
     const uint64_t fourth = bytes_per_pixel == 3 ? (uint64_t)DEFLATE_NOTHING << 48 : 0;
-    const uint64_t near = distance_of((uint32_t)bytes_per_pixel),
-                   one_more = match_of((size_t)bytes_per_pixel, near);
+    const uint64_t near = distance_of((uint32_t)bytes_per_pixel), one_more = match_of((size_t)bytes_per_pixel, near);
     for (int x = 0; x < width;) {
         const uint64_t pair = two_pixels(row + x);
         if (pair == two_pixels(row + x - 1)) {
@@ -233,8 +232,7 @@ static void find_pairs(struct deflate *deflate, int first, int end)
                 if ((back <= DEFLATE_FARTHEST) & (two_pixels(there) == pair)) {
                     int most = width - (x > there_x ? x : there_x);
                     int count = equal_pixels(row + x, there, most < longest ? most : longest);
-                    put_token(token++,
-                              match_of((size_t)(count * bytes_per_pixel), distance_of((uint32_t)back)));
+                    put_token(token++, match_of((size_t)(count * bytes_per_pixel), distance_of((uint32_t)back)));
                     x += count;
                     continue;
                 }
@@ -257,8 +255,7 @@ void deflate_row(struct deflate *deflate, int first, int end)
 {
     struct token *token = deflate->end;
     put_token(deflate->end++, ONE(deflate->filter));
-    // The first pixel repeats nothing: the filter's byte stands before it. Behind the last one every run
-    // ends.
+    // The first pixel repeats nothing: the filter's byte stands before it. Behind the last one every run ends.
     uint32_t *row = deflate->row;
     row[-1] = ~row[0];
     row[deflate->width] = ~row[deflate->width - 1];

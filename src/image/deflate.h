@@ -9,10 +9,9 @@
 //   pairs  also the last place where the same two pixels stood. In a grey picture the three channels say the
 //   same
 //          thing, which codes of single bytes cannot use; a match tells it once (measured: 20 % smaller).
-// No match leaves the strip, so a strip stands alone. The codes are made for each strip from its own counts.
-// Everything between the filter and the bits is a flat list of tokens, and the loops over it (and the search
-// for runs) have no branch that depends on the picture: a wrongly foreseen one costs as much as writing two
-// pixels.
+// No match leaves the strip, so a strip stands alone. The codes are made for each strip from its own counts. Everything
+// between the filter and the bits is a flat list of tokens, and the loops over it (and the search for runs) have no
+// branch that depends on the picture: a wrongly foreseen one costs as much as writing two pixels.
 #ifndef DEFLATE_H
 #define DEFLATE_H
 
@@ -33,8 +32,7 @@ enum {
     DEFLATE_KINDS = DEFLATE_BITS + 512,
 };
 
-// The bytes of a pixel; or a match: length, distance, the distance's further bits low and high; or a row's
-// filter.
+// The bytes of a pixel; or a match: length, distance, the distance's further bits low and high; or a row's filter.
 struct token {
     uint16_t kind[4];
 };
@@ -67,9 +65,8 @@ size_t deflate_scratch(int width, int rows);
 void deflate_start(struct deflate *deflate, uint8_t filter, bool pairs);
 void deflate_row(struct deflate *deflate, int first, int end);
 
-// Writes the rows taken, each with its filter's byte in front, as one or more blocks that are not the last,
-// then an empty stored block, which ends on a byte boundary (what zlib calls a sync flush). Returns the bytes
-// written.
+// Writes the rows taken, each with its filter's byte in front, as one or more blocks that are not the last, then an
+// empty stored block, which ends on a byte boundary (what zlib calls a sync flush). Returns the bytes written.
 size_t deflate_write(const struct deflate *deflate, uint8_t *out);
 
 // The most bytes that deflate_write writes or touches.

@@ -3,8 +3,7 @@
 
 #include "huffman.h"
 
-// Lengths over 10 come in groups of four symbols with as many extra bits as it takes; 258 has a symbol of its
-// own.
+// Lengths over 10 come in groups of four symbols with as many extra bits as it takes; 258 has a symbol of its own.
 unsigned length_symbol(unsigned length, unsigned *extra)
 {
     unsigned beyond = length - DEFLATE_SHORTEST;
@@ -50,8 +49,8 @@ static void tell_lengths(struct codes *codes, const uint8_t *lengths, unsigned c
     }
 }
 
-void codes_make(struct codes *codes, const uint32_t counts[LITERALS],
-                const uint32_t distance_counts[DISTANCES], uint64_t extra_bits)
+void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint32_t distance_counts[DISTANCES],
+                uint64_t extra_bits)
 {
     codes->bits = extra_bits;
     huffman_lengths(counts, LITERALS, CODE_LIMIT, codes->length);

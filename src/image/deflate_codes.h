@@ -1,5 +1,4 @@
-// deflate_codes.h: a block's prefix codes (RFC 1951, 3.2.7): made from counts, told, and the bits they
-// become.
+// deflate_codes.h: a block's prefix codes (RFC 1951, 3.2.7): made from counts, told, and the bits they become.
 #ifndef DEFLATE_CODES_H
 #define DEFLATE_CODES_H
 
@@ -65,8 +64,8 @@ static inline unsigned distance_extra(int symbol) { return symbol < 4 ? 0 : (uns
 
 // Makes the codes of a block in which symbols occur so often, the block's end once, with `extra_bits` of
 // lengths in all; those of distances are added here.
-void codes_make(struct codes *codes, const uint32_t counts[LITERALS],
-                const uint32_t distance_counts[DISTANCES], uint64_t extra_bits);
+void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint32_t distance_counts[DISTANCES],
+                uint64_t extra_bits);
 
 // Begins a block that is not the last.
 void put_codes(struct bits *bits, const struct codes *codes);

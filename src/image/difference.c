@@ -45,18 +45,15 @@ static void difference_floats(const float *a, const float *b, float *out, size_t
     }
 }
 
-bool lam_image_difference(const lam_image *a, const lam_image *b, float gain, lam_image *difference,
-                          lam_error *error)
+bool lam_image_difference(const lam_image *a, const lam_image *b, float gain, lam_image *difference, lam_error *error)
 {
     if (!a || !b || !a->pixels || !b->pixels || !difference)
         return fail(error, LAM_BAD_ARGUMENT, "difference: two pictures and a place for the third are needed");
     if (a->width != b->width || a->height != b->height)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "difference: the pictures have %d×%d and %d×%d pixels, expected the same", a->width,
-                    a->height, b->width, b->height);
+        return fail(error, LAM_BAD_ARGUMENT, "difference: the pictures have %d×%d and %d×%d pixels, expected the same",
+                    a->width, a->height, b->width, b->height);
     if (a->format != b->format)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "difference: one picture has bytes, the other floats, expected the same");
+        return fail(error, LAM_BAD_ARGUMENT, "difference: one picture has bytes, the other floats, expected the same");
     if (!(gain >= 0.0f && gain <= 3e38f))
         return fail(error, LAM_BAD_ARGUMENT, "difference: gain is %g, expected a finite number of 0 or more",
                     (double)gain);

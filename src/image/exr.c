@@ -1,7 +1,7 @@
-// exr.c: OpenEXR, floats in named layers, written and read through OpenEXR's C core, which is opened (dlopen)
-// when a file is at hand and not before. Written: one part of scanlines, 32-bit floats, ZIP compression. The
-// picture's channels are R, G, B, A, linear and premultiplied as OpenEXR has it; a layer's are NAME.R and so
-// on. No time and no place is written down: the same picture gives the same bytes with the same library.
+// exr.c: OpenEXR, floats in named layers, written and read through OpenEXR's C core, which is opened (dlopen) when a
+// file is at hand and not before. Written: one part of scanlines, 32-bit floats, ZIP compression. The picture's
+// channels are R, G, B, A, linear and premultiplied as OpenEXR has it; a layer's are NAME.R and so on. No time and no
+// place is written down: the same picture gives the same bytes with the same library.
 #include "codec.h"
 #include "fail.h"
 
@@ -23,17 +23,16 @@ static bool exr_probe(const uint8_t *bytes, size_t size)
 #define LIBRARY "libOpenEXRCore-3_1.so.30"
 
 // The core's functions that are used here: each a member of struct core by the type of its own declaration.
-#define FUNCTIONS(each)                                                                                      \
-    each(exr_start_write) each(exr_add_part) each(exr_initialize_required_attr_simple) each(exr_add_channel) \
-        each(exr_attr_set_string) each(exr_write_header) each(exr_get_scanlines_per_chunk)                   \
-            each(exr_write_scanline_chunk_info) each(exr_encoding_initialize)                                \
-                each(exr_encoding_choose_default_routines) each(exr_encoding_update) each(exr_encoding_run)  \
-                    each(exr_encoding_destroy) each(exr_finish) each(exr_get_default_error_message)          \
-                        each(exr_start_read) each(exr_get_storage) each(exr_get_data_window)                 \
-                            each(exr_get_channels) each(exr_read_scanline_chunk_info)                        \
-                                each(exr_decoding_initialize) each(exr_decoding_choose_default_routines)     \
-                                    each(exr_decoding_update) each(exr_decoding_run)                         \
-                                        each(exr_decoding_destroy)
+#define FUNCTIONS(each)                                                                                                \
+    each(exr_start_write) each(exr_add_part) each(exr_initialize_required_attr_simple) each(exr_add_channel)           \
+        each(exr_attr_set_string) each(exr_write_header) each(exr_get_scanlines_per_chunk)                             \
+            each(exr_write_scanline_chunk_info) each(exr_encoding_initialize)                                          \
+                each(exr_encoding_choose_default_routines) each(exr_encoding_update) each(exr_encoding_run)            \
+                    each(exr_encoding_destroy) each(exr_finish) each(exr_get_default_error_message)                    \
+                        each(exr_start_read) each(exr_get_storage) each(exr_get_data_window) each(exr_get_channels)    \
+                            each(exr_read_scanline_chunk_info) each(exr_decoding_initialize)                           \
+                                each(exr_decoding_choose_default_routines) each(exr_decoding_update)                   \
+                                    each(exr_decoding_run) each(exr_decoding_destroy)
 
 struct core {
     void *handle;
@@ -78,8 +77,8 @@ struct sink {
     size_t size, room;
 };
 
-static int64_t write_sink(exr_const_context_t context, void *user, const void *from, uint64_t size,
-                          uint64_t offset, exr_stream_error_func_ptr_t error)
+static int64_t write_sink(exr_const_context_t context, void *user, const void *from, uint64_t size, uint64_t offset,
+                          exr_stream_error_func_ptr_t error)
 {
     (void)context, (void)error;
     struct sink *sink = user;
@@ -127,11 +126,11 @@ static struct channel *list_channels(const lam_layer *layers, int count, int *ch
         const char *letters = letters_of(&layers[i]), *name = layers[i].name ? layers[i].name : "";
         size_t length = strlen(name), letter_count = strlen(letters);
         if (letter_count < 1 || letter_count > 4)
-            ok = fail(error, LAM_BAD_ARGUMENT,
-                      "layer '%.100s': channels are '%.20s', expected one to four letters", name, letters);
+            ok = fail(error, LAM_BAD_ARGUMENT, "layer '%.100s': channels are '%.20s', expected one to four letters",
+                      name, letters);
         else if (length > NAME_ROOM - 3)
-            ok = fail(error, LAM_BAD_ARGUMENT, "layer '%.100s…': the name has %zu bytes, expected at most %d",
-                      name, length, NAME_ROOM - 3);
+            ok = fail(error, LAM_BAD_ARGUMENT, "layer '%.100s…': the name has %zu bytes, expected at most %d", name,
+                      length, NAME_ROOM - 3);
         for (size_t k = 0; ok && k < letter_count; k++) {
             struct channel *c = &channels[used++];
             memcpy(c->name, name, length);
@@ -162,8 +161,8 @@ static const float *channel_named(const struct channel *channels, int count, con
     return NULL;
 }
 
-static exr_result_t write_chunks(const struct core *core, exr_context_t file, int part,
-                                 const struct channel *channels, int count, int width, int height)
+static exr_result_t write_chunks(const struct core *core, exr_context_t file, int part, const struct channel *channels,
+                                 int count, int width, int height)
 {
     int32_t rows = 1;
     exr_result_t result = core->exr_get_scanlines_per_chunk(file, part, &rows);
@@ -218,8 +217,7 @@ static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam
     if (result == EXR_ERR_SUCCESS)
         result = core.exr_initialize_required_attr_simple(file, part, width, height, EXR_COMPRESSION_ZIP);
     for (int i = 0; result == EXR_ERR_SUCCESS && i < channel_count; i++)
-        result = core.exr_add_channel(file, part, channels[i].name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LINEAR,
-                                      1, 1);
+        result = core.exr_add_channel(file, part, channels[i].name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LINEAR, 1, 1);
     if (result == EXR_ERR_SUCCESS)
         result = core.exr_attr_set_string(file, part, "software", "lambent");
     if (result == EXR_ERR_SUCCESS)
@@ -233,8 +231,7 @@ static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam
     if (ok)
         *out = (lam_bytes){sink.bytes, sink.size};
     else
-        fail(error, LAM_LIMIT, "EXR: the picture could not be encoded: %s",
-             core.exr_get_default_error_message(result));
+        fail(error, LAM_LIMIT, "EXR: the picture could not be encoded: %s", core.exr_get_default_error_message(result));
     if (!ok)
         free(sink.bytes);
     dlclose(core.handle);
@@ -266,8 +263,7 @@ static int64_t size_of_source(exr_const_context_t context, void *user)
     return (int64_t)((const struct source *)user)->size;
 }
 
-// Where a channel of the file belongs in the picture's pixels; −1: nowhere. Y is luminance, for all three
-// colours.
+// Where a channel of the file belongs in the picture's pixels; −1: nowhere. Y is luminance, for all three colours.
 static int place_of(const char *name)
 {
     static const char letters[] = "RGBA";
@@ -305,8 +301,7 @@ static exr_result_t read_chunks(const struct core *core, exr_context_t file, int
     return result;
 }
 
-static bool read_part(const struct core *core, exr_context_t file, const char *name, lam_image *image,
-                      lam_error *error)
+static bool read_part(const struct core *core, exr_context_t file, const char *name, lam_image *image, lam_error *error)
 {
     exr_storage_t storage;
     exr_attr_box2i_t window;
@@ -316,8 +311,8 @@ static bool read_part(const struct core *core, exr_context_t file, const char *n
         core->exr_get_channels(file, 0, &list) != EXR_ERR_SUCCESS)
         return fail(error, LAM_CANNOT_READ, "%s: the EXR header has no data window or no channels", name);
     if (storage != EXR_STORAGE_SCANLINE)
-        return fail(error, LAM_UNSUPPORTED,
-                    "%s: EXR pictures of scanlines can be read, this one has tiles or is deep", name);
+        return fail(error, LAM_UNSUPPORTED, "%s: EXR pictures of scanlines can be read, this one has tiles or is deep",
+                    name);
     unsigned found = 0;
     bool grey = false;
     for (int i = 0; i < list->num_channels; i++) {
@@ -326,20 +321,18 @@ static bool read_part(const struct core *core, exr_context_t file, const char *n
         if (place < 0)
             continue;
         if (c->x_sampling != 1 || c->y_sampling != 1 || c->pixel_type == EXR_PIXEL_UINT)
-            return fail(
-                error, LAM_UNSUPPORTED,
-                "%s: the EXR channel %s is subsampled or holds integers, expected floats for each pixel",
-                name, c->name.str);
+            return fail(error, LAM_UNSUPPORTED,
+                        "%s: the EXR channel %s is subsampled or holds integers, expected floats for each pixel", name,
+                        c->name.str);
         grey |= strcmp(c->name.str, "Y") == 0;
         found |= 1u << place;
     }
     if ((found & 7) != 7 && !(grey && (found & 7) == 1))
         return fail(error, LAM_UNSUPPORTED, "%s: the EXR picture has no channels R, G and B, nor Y", name);
-    int64_t width = (int64_t)window.max.x - window.min.x + 1,
-            height = (int64_t)window.max.y - window.min.y + 1;
+    int64_t width = (int64_t)window.max.x - window.min.x + 1, height = (int64_t)window.max.y - window.min.y + 1;
     if (width < 1 || height < 1 || width > 65535 || height > 65535)
-        return fail(error, LAM_LIMIT, "%s: the EXR picture has %lld×%lld pixels, expected 1 to 65535 a side",
-                    name, (long long)width, (long long)height);
+        return fail(error, LAM_LIMIT, "%s: the EXR picture has %lld×%lld pixels, expected 1 to 65535 a side", name,
+                    (long long)width, (long long)height);
     if (!lam_image_make(image, (int)width, (int)height, LAM_RGBA32F, error))
         return false;
     float *pixels = image->pixels;
@@ -384,8 +377,8 @@ static bool exr_read(const uint8_t *bytes, size_t size, const char *name, lam_im
 
 #else
 
-#define NOT_BUILT                                                                                            \
-    "EXR: this build of lambent is without OpenEXR; the Debian package libopenexr-dev is needed to build "   \
+#define NOT_BUILT                                                                                                      \
+    "EXR: this build of lambent is without OpenEXR; the Debian package libopenexr-dev is needed to build "             \
     "it with"
 
 static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error)
@@ -402,8 +395,8 @@ static bool exr_read(const uint8_t *bytes, size_t size, const char *name, lam_im
 
 #endif
 
-static bool exr_write(const lam_image *image, const lam_save_params *params, struct pool *pool,
-                      lam_bytes *out, lam_error *error)
+static bool exr_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
+                      lam_error *error)
 {
     (void)params, (void)pool;
     return write_layers(&(lam_layer){.image = image}, 1, out, error);
@@ -412,17 +405,15 @@ static bool exr_write(const lam_image *image, const lam_save_params *params, str
 bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error)
 {
     if (!layers || count < 1 || count > CHANNELS_MOST || !out)
-        return fail(error, LAM_BAD_ARGUMENT, "layers: expected 1 to %d, and a place for the bytes",
-                    CHANNELS_MOST);
+        return fail(error, LAM_BAD_ARGUMENT, "layers: expected 1 to %d, and a place for the bytes", CHANNELS_MOST);
     *out = (lam_bytes){0};
     for (int i = 0; i < count; i++) {
         const lam_image *image = layers[i].image, *first = layers[0].image;
         if (!image || !image->pixels || image->format != LAM_RGBA32F)
             return fail(error, LAM_BAD_ARGUMENT, "layer %d: expected a picture of floats (LAM_RGBA32F)", i);
         if (image->width != first->width || image->height != first->height)
-            return fail(error, LAM_BAD_ARGUMENT,
-                        "layer %d: has %d×%d pixels, the first one %d×%d, expected the same", i, image->width,
-                        image->height, first->width, first->height);
+            return fail(error, LAM_BAD_ARGUMENT, "layer %d: has %d×%d pixels, the first one %d×%d, expected the same",
+                        i, image->width, image->height, first->width, first->height);
     }
     return write_layers(layers, count, out, error);
 }

@@ -1,15 +1,13 @@
-// hdr.c: Radiance pictures (.hdr, RGBE), read only: three mantissas and one exponent for a pixel, linear
-// light.
+// hdr.c: Radiance pictures (.hdr, RGBE), read only: three mantissas and one exponent for a pixel, linear light.
 //
-// Lines of text up to an empty one, a line with the size ("-Y 512 +X 1024"), then rows of pixels, each in one
-// of three ways:
-//   new runs   2, 2, width as two bytes (8 … 32767), then the row's red, green, blue and exponent bytes one
-//   after the other: a
+// Lines of text up to an empty one, a line with the size ("-Y 512 +X 1024"), then rows of pixels, each in one of three
+// ways:
+//   new runs   2, 2, width as two bytes (8 … 32767), then the row's red, green, blue and exponent bytes one after the other: a
 //              count above 128 is a run of count − 128 equal bytes, up to 128 that many bytes as they are
-//   old runs   pixels; 1, 1, 1, n repeats the one before n times, and straight behind another such, n · 256
-//   times, and so on plain      pixels
-// A pixel is mantissa · 2^(exponent − 136), black where the exponent is 0. EXPOSURE lines are not applied
-// (like PFM's scale): programs do not agree about them.
+//   old runs   pixels; 1, 1, 1, n repeats the one before n times, and straight behind another such, n · 256 times, and so on
+//   plain      pixels
+// A pixel is mantissa · 2^(exponent − 136), black where the exponent is 0. EXPOSURE lines are not applied (like PFM's
+// scale): programs do not agree about them.
 #include "codec.h"
 #include "fail.h"
 
@@ -18,8 +16,7 @@
 
 static bool hdr_probe(const uint8_t *bytes, size_t size)
 {
-    return (size >= 11 && memcmp(bytes, "#?RADIANCE\n", 11) == 0) ||
-           (size >= 7 && memcmp(bytes, "#?RGBE\n", 7) == 0);
+    return (size >= 11 && memcmp(bytes, "#?RADIANCE\n", 11) == 0) || (size >= 7 && memcmp(bytes, "#?RGBE\n", 7) == 0);
 }
 
 struct header {
@@ -46,8 +43,7 @@ static int side_at(const uint8_t **at, const uint8_t *end)
     return value >= 1 && value <= 65535 ? value : -1;
 }
 
-static bool read_size(const uint8_t *at, const uint8_t *end, const char *name, struct header *header,
-                      lam_error *error)
+static bool read_size(const uint8_t *at, const uint8_t *end, const char *name, struct header *header, lam_error *error)
 {
     const uint8_t *start = at;
     if (end - at >= 2 && (at[0] == '-' || at[0] == '+') && at[1] == 'Y') {
@@ -69,24 +65,21 @@ static bool read_size(const uint8_t *at, const uint8_t *end, const char *name, s
                     "%s: the Radiance picture's size is '%.*s': columns first, expected -Y and +X", name,
                     (int)(end - start < 40 ? end - start : 40), (const char *)start);
     return fail(error, LAM_CANNOT_READ,
-                "%s: the Radiance header has a size of '%.*s', expected '-Y height +X width', 1 to 65535",
-                name, (int)(end - start < 40 ? end - start : 40), (const char *)start);
+                "%s: the Radiance header has a size of '%.*s', expected '-Y height +X width', 1 to 65535", name,
+                (int)(end - start < 40 ? end - start : 40), (const char *)start);
 }
 
-static bool read_header(const uint8_t *bytes, size_t size, const char *name, struct header *header,
-                        lam_error *error)
+static bool read_header(const uint8_t *bytes, size_t size, const char *name, struct header *header, lam_error *error)
 {
     static const char format[] = "FORMAT=", rgbe[] = "32-bit_rle_rgbe";
     const uint8_t *at = bytes, *end = bytes + size, *stop;
     for (bool text = true; text; at = stop + 1) {
         stop = line_end(at, end);
         if (!stop)
-            return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, within the Radiance header", name,
-                        size);
+            return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, within the Radiance header", name, size);
         size_t length = (size_t)(stop - at) - (stop > at && stop[-1] == '\r');
         if (length >= sizeof format - 1 && memcmp(at, format, sizeof format - 1) == 0 &&
-            (length < sizeof format + sizeof rgbe - 2 ||
-             memcmp(at + sizeof format - 1, rgbe, sizeof rgbe - 1) != 0))
+            (length < sizeof format + sizeof rgbe - 2 || memcmp(at + sizeof format - 1, rgbe, sizeof rgbe - 1) != 0))
             return fail(error, LAM_UNSUPPORTED, "%s: Radiance %.*s, expected FORMAT=%s", name,
                         (int)(length < 60 ? length : 60), (const char *)at, rgbe);
         text = length > 0;
@@ -98,8 +91,7 @@ static bool read_header(const uint8_t *bytes, size_t size, const char *name, str
     return read_size(at, stop, name, header, error);
 }
 
-// Row readers give where the row ends, NULL where it is broken or the file ends in it. `row` takes 4 bytes a
-// pixel.
+// Row readers give where the row ends, NULL where it is broken or the file ends in it. `row` takes 4 bytes a pixel.
 
 static const uint8_t *read_new_runs(const uint8_t *at, const uint8_t *end, int width, uint8_t *row)
 {
@@ -143,8 +135,7 @@ static const uint8_t *read_old_runs(const uint8_t *at, const uint8_t *end, int w
 
 static const uint8_t *read_row(const uint8_t *at, const uint8_t *end, int width, uint8_t *row)
 {
-    if (width >= 8 && width <= 32767 && end - at >= 4 && at[0] == 2 && at[1] == 2 &&
-        (at[2] << 8 | at[3]) == width)
+    if (width >= 8 && width <= 32767 && end - at >= 4 && at[0] == 2 && at[1] == 2 && (at[2] << 8 | at[3]) == width)
         return read_new_runs(at + 4, end, width, row);
     return read_old_runs(at, end, width, row);
 }
@@ -167,14 +158,13 @@ static void fill_scale(float scale[256])
         scale[exponent] = exponent > 10 ? (float)value : 0.0f;
 }
 
-static bool read_rows(const uint8_t *bytes, size_t size, const char *name, const struct header *header,
-                      uint8_t *row, lam_image *image, lam_error *error)
+static bool read_rows(const uint8_t *bytes, size_t size, const char *name, const struct header *header, uint8_t *row,
+                      lam_image *image, lam_error *error)
 {
     const uint8_t *end = bytes + size;
     float scale[256];
     fill_scale(scale);
-    // Twice: a row can be very short, so a small file that claims a huge picture is told before memory is
-    // asked for.
+    // Twice: a row can be very short, so a small file that claims a huge picture is told before memory is asked for.
     for (int pass = 0; pass < 2; pass++) {
         const uint8_t *at = bytes + header->pixels;
         if (pass == 1 && !lam_image_make(image, header->width, header->height, LAM_RGBA32F, error))
@@ -183,8 +173,8 @@ static bool read_rows(const uint8_t *bytes, size_t size, const char *name, const
             const uint8_t *next = read_row(at, end, header->width, row);
             if (!next)
                 return fail(error, LAM_CANNOT_READ,
-                            "%s: byte %zu: row %d of %d is broken off or has a wrong run, expected %d pixels",
-                            name, (size_t)(at - bytes), y + 1, header->height, header->width);
+                            "%s: byte %zu: row %d of %d is broken off or has a wrong run, expected %d pixels", name,
+                            (size_t)(at - bytes), y + 1, header->height, header->width);
             at = next;
             size_t to = (size_t)(header->up ? header->height - 1 - y : y) * (size_t)header->width * 4;
             if (pass == 1)

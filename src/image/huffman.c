@@ -31,16 +31,14 @@ static void tree_depths(const uint32_t *weights, int leaves, uint8_t *depths)
     for (int node = leaves; node < nodes; node++) {
         weight[node] = 0;
         for (int child = 0; child < 2; child++) {
-            int lightest =
-                leaf < leaves && (joined >= node || weight[leaf] <= weight[joined]) ? leaf++ : joined++;
+            int lightest = leaf < leaves && (joined >= node || weight[leaf] <= weight[joined]) ? leaf++ : joined++;
             weight[node] += weight[lightest];
             parent[lightest] = (uint16_t)node;
         }
     }
     depth[nodes - 1] = 0;
     for (int node = nodes - 2; node >= 0; node--)
-        depth[node] =
-            (uint8_t)(depth[parent[node]] + 1); // below 40: counts grow like Fibonacci's numbers with depth
+        depth[node] = (uint8_t)(depth[parent[node]] + 1); // below 40: counts grow like Fibonacci's numbers with depth
     memcpy(depths, depth, (size_t)leaves);
 }
 
@@ -64,10 +62,9 @@ void huffman_lengths(const uint32_t *counts, int symbols, int limit, uint8_t *le
         weights[i] = keys[i] >> 9;
     tree_depths(weights, used, depths);
 
-    // How many codes of each length; those that are too long are cut to the limit. A code of length l takes
-    // 2^(limit−l) of 2^limit places. What the cut overdraws is paid back place by place: one code of the
-    // longest length below the limit becomes one bit longer and shares its place with one taken from the
-    // limit.
+    // How many codes of each length; those that are too long are cut to the limit. A code of length l takes 2^(limit−l)
+    // of 2^limit places. What the cut overdraws is paid back place by place: one code of the longest length below the
+    // limit becomes one bit longer and shares its place with one taken from the limit.
     uint32_t of_length[64] = {0}, taken = 0;
     for (int i = 0; i < used; i++) {
         int length = depths[i] < limit ? depths[i] : limit;

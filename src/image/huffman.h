@@ -11,8 +11,7 @@ enum { HUFFMAN_SYMBOLS = 288 }; // the most there can be
 // Only the counts decide, so the code is the same everywhere; equal counts are ranked by symbol.
 void huffman_lengths(const uint32_t *counts, int symbols, int limit, uint8_t *lengths);
 
-// The canonical codes for these lengths (RFC 1951, 3.2.2), first bit lowest, as they go into a deflate
-// stream.
+// The canonical codes for these lengths (RFC 1951, 3.2.2), first bit lowest, as they go into a deflate stream.
 void huffman_codes(const uint8_t *lengths, int symbols, uint16_t *codes);
 
 #endif

@@ -34,20 +34,18 @@ bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format fo
         return fail(error, LAM_BAD_ARGUMENT, "image: none given");
     *image = (lam_image){0};
     if (format != LAM_RGBA8 && format != LAM_RGBA32F)
-        return fail(error, LAM_BAD_ARGUMENT, "image: pixel format %d is not one of lam_pixel_format",
-                    (int)format);
+        return fail(error, LAM_BAD_ARGUMENT, "image: pixel format %d is not one of lam_pixel_format", (int)format);
     if (width < 1 || height < 1)
         return fail(error, LAM_BAD_ARGUMENT, "image: %d×%d pixels, expected at least 1×1", width, height);
     if (width > SIDE_MOST || height > SIDE_MOST)
         return fail(error, LAM_LIMIT, "image: %d×%d pixels, expected at most %d×%d", width, height, SIDE_MOST,
                     SIDE_MOST);
     uint64_t bytes = (uint64_t)width * (uint64_t)height * pixel_bytes(format); // below 2³⁶
-    // The system lends memory that is not there and kills the process that uses it; drawing and encoding need
-    // some too.
+    // The system lends memory that is not there and kills the process that uses it; drawing and encoding need some too.
     void *pixels = bytes <= SIZE_MAX && bytes <= pages_of_machine() / 2 ? get_pixels((size_t)bytes) : NULL;
     if (!pixels)
-        return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which could not be had",
-                    width, height, (double)bytes / 1e6);
+        return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which could not be had", width,
+                    height, (double)bytes / 1e6);
     *image = (lam_image){width, height, format, pixels};
     return true;
 }
@@ -147,12 +145,10 @@ bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *d
     if (!a || !b || !a->pixels || !b->pixels || !difference)
         return fail(error, LAM_BAD_ARGUMENT, "compare: two pictures and a place for the result are needed");
     if (a->width != b->width || a->height != b->height)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "compare: the pictures have %d×%d and %d×%d pixels, expected the same", a->width,
-                    a->height, b->width, b->height);
+        return fail(error, LAM_BAD_ARGUMENT, "compare: the pictures have %d×%d and %d×%d pixels, expected the same",
+                    a->width, a->height, b->width, b->height);
     if (a->format != b->format)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "compare: one picture has bytes, the other floats, expected the same");
+        return fail(error, LAM_BAD_ARGUMENT, "compare: one picture has bytes, the other floats, expected the same");
     uint64_t state = float_state_enter();
     struct tally tally = {0};
     size_t pixels = (size_t)a->width * (size_t)a->height;

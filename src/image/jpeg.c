@@ -1,5 +1,4 @@
-// jpeg.c: JPEG, read only, through libjpeg-turbo with its exact integer transform: the same bytes on every
-// processor.
+// jpeg.c: JPEG, read only, through libjpeg-turbo with its exact integer transform: the same bytes on every processor.
 #include "codec.h"
 #include "fail.h"
 
@@ -27,8 +26,7 @@ _Noreturn static void give_up(j_common_ptr jpeg)
     longjmp(reader->out, 1);
 }
 
-// Warnings (level −1) that tell of lost picture end the reading; others are habits of cameras and old
-// programs.
+// Warnings (level −1) that tell of lost picture end the reading; others are habits of cameras and old programs.
 static void take_message(j_common_ptr jpeg, int level)
 {
     int code = jpeg->err->msg_code;
@@ -52,16 +50,16 @@ static bool jpeg_probe(const uint8_t *bytes, size_t size)
     return size >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
-// A block of 64 pixels takes a bit at the least, in the component with the most blocks; that may have 1/16 of
-// the pixels.
+// A block of 64 pixels takes a bit at the least, in the component with the most blocks; that may have 1/16 of the
+// pixels.
 static bool jpeg_fits(const struct jpeg_decompress_struct *jpeg, size_t size)
 {
     return (uint64_t)jpeg->image_width * jpeg->image_height / (8 * 64 * 16) <= size;
 }
 
 // The part that libjpeg may jump out of; what it changes lies behind pointers.
-static bool decode(struct reader *reader, const uint8_t *bytes, size_t size, const char *name,
-                   lam_image *image, lam_error *error)
+static bool decode(struct reader *reader, const uint8_t *bytes, size_t size, const char *name, lam_image *image,
+                   lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
     jpeg_create_decompress(jpeg);
@@ -71,8 +69,7 @@ static bool decode(struct reader *reader, const uint8_t *bytes, size_t size, con
     if (jpeg->jpeg_color_space == JCS_CMYK || jpeg->jpeg_color_space == JCS_YCCK)
         return fail(error, LAM_UNSUPPORTED, "%s: JPEG in CMYK colours, expected RGB or grey", name);
     if (!jpeg_fits(jpeg, size))
-        return fail(error, LAM_CANNOT_READ,
-                    "%s: JPEG of %u×%u pixels, which cannot be in a file of %zu bytes", name,
+        return fail(error, LAM_CANNOT_READ, "%s: JPEG of %u×%u pixels, which cannot be in a file of %zu bytes", name,
                     jpeg->image_width, jpeg->image_height, size);
     jpeg->out_color_space = JCS_EXT_RGBA; // alpha 255
     jpeg->dct_method = JDCT_ISLOW;

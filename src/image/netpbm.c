@@ -28,16 +28,16 @@ bool netpbm_read_header(const uint8_t *bytes, size_t size, const char *title, co
         const uint8_t *start = skip_space(at, end);
         at = start > at ? number_double(start, end, &values[i]) : NULL;
         if (!at || at == end || !is_space(*at))
-            return fail(error, LAM_CANNOT_READ, "%s: byte %zu: no %s in the %s header", name,
-                        (size_t)(start - bytes), words[i], title);
+            return fail(error, LAM_CANNOT_READ, "%s: byte %zu: no %s in the %s header", name, (size_t)(start - bytes),
+                        words[i], title);
     }
     for (int i = 0; i < 2; i++) {
         if (values[i] > 65535)
-            return fail(error, LAM_LIMIT, "%s: the %s header has a %s of %g, expected at most 65535", name,
-                        title, words[i], values[i]);
+            return fail(error, LAM_LIMIT, "%s: the %s header has a %s of %g, expected at most 65535", name, title,
+                        words[i], values[i]);
         if (!(values[i] >= 1) || values[i] != (int)values[i])
-            return fail(error, LAM_CANNOT_READ, "%s: the %s header has a %s of %g, expected 1 to 65535", name,
-                        title, words[i], values[i]);
+            return fail(error, LAM_CANNOT_READ, "%s: the %s header has a %s of %g, expected 1 to 65535", name, title,
+                        words[i], values[i]);
     }
     *header = (struct netpbm_header){(int)values[0], (int)values[1], values[2], (size_t)(at - bytes) + 1};
     return true;

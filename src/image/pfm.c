@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool pfm_write(const lam_image *image, const lam_save_params *params, struct pool *pool,
-                      lam_bytes *out, lam_error *error)
+static bool pfm_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
+                      lam_error *error)
 {
     (void)params, (void)pool;
     char header[40];
@@ -53,15 +53,14 @@ static bool pfm_read(const uint8_t *bytes, size_t size, const char *name, lam_im
     if (!netpbm_read_header(bytes, size, "PFM", name, &header, error))
         return false;
     if (header.last == 0 || header.last != header.last)
-        return fail(error, LAM_CANNOT_READ,
-                    "%s: the PFM header has a scale of %g, expected a number above or below 0", name,
-                    header.last);
+        return fail(error, LAM_CANNOT_READ, "%s: the PFM header has a scale of %g, expected a number above or below 0",
+                    name, header.last);
     const size_t channels = bytes[1] == 'F' ? 3 : 1;
     const bool little = header.last < 0;
     uint64_t wanted = (uint64_t)header.width * (uint64_t)header.height * channels * 4;
     if (wanted > size - header.pixels)
-        return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its %d×%d floats take up to byte %llu",
-                    name, size, header.width, header.height, (unsigned long long)(wanted + header.pixels));
+        return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its %d×%d floats take up to byte %llu", name,
+                    size, header.width, header.height, (unsigned long long)(wanted + header.pixels));
     if (!lam_image_make(image, header.width, header.height, LAM_RGBA32F, error))
         return false;
     const uint8_t *at = bytes + header.pixels;

@@ -121,8 +121,7 @@ bool png_best_start(struct png_encoding *encoding, struct pool *pool, struct are
     return watch_on(&encoding->watch) || watch_error(&encoding->watch, error);
 }
 
-size_t png_best_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler,
-                      uint8_t *out)
+size_t png_best_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out)
 {
     struct png_best *best = &encoding->best[thread];
     const int top = strip * encoding->rows, rows = png_strip_rows(encoding, strip);

@@ -49,7 +49,6 @@ size_t png_best_room(const struct png_encoding *encoding);
 // Gets memory and decides how each strip is filtered.
 bool png_best_start(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error);
 // Writes strip `strip`'s stream. Returns its bytes.
-size_t png_best_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler,
-                      uint8_t *out);
+size_t png_best_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out);
 
 #endif

@@ -59,8 +59,8 @@ INLINE void put(uint32_t *out, int at, u8x16 result) { *(u8x16_memory *)(out + a
 
 // One vector at a time; the first, which has nothing to its left, and the last, which may be short, go
 // through copies.
-INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width,
-                       uint32_t mask, uint32_t *out)
+INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t mask,
+                       uint32_t *out)
 {
     const int bytes = 4 * width;
     const u8x16 masks = (u8x16)((u32x4){0} + mask);
@@ -68,11 +68,10 @@ INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t
         if (at > 0 && at + VECTOR <= bytes) {
             for (; at + VECTOR <= bytes; at += VECTOR)
                 put(out, at,
-                    masks & filtered(filter, load(row + at), load(row + at - 4), load(above + at),
-                                     load(above + at - 4)));
+                    masks &
+                        filtered(filter, load(row + at), load(row + at - 4), load(above + at), load(above + at - 4)));
         } else {
-            uint8_t near[VECTOR + 4] = {0},
-                                  far[VECTOR + 4] = {0}; // this row and the one above, from the left pixel on
+            uint8_t near[VECTOR + 4] = {0}, far[VECTOR + 4] = {0}; // this row and the one above, from the left pixel on
             const int before = at > 0 ? 4 : 0, behind = bytes - at < VECTOR ? bytes - at : VECTOR;
             memcpy(near + 4 - before, row + at - before, (size_t)(before + behind));
             memcpy(far + 4 - before, above + at - before, (size_t)(before + behind));
@@ -85,8 +84,8 @@ INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t
     }
 }
 
-void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width,
-                    uint32_t mask, uint32_t *out)
+void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t mask,
+                    uint32_t *out)
 {
     // Written out so that each loop is made for its filter.
     switch (filter) {
@@ -111,8 +110,7 @@ void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *a
 static bool is_blank(const uint8_t *block)
 {
     typedef uint64_t u64x2 __attribute__((vector_size(16)));
-    u64x2 any =
-        (u64x2)(load(block) | load(block + VECTOR) | load(block + 2 * VECTOR) | load(block + 3 * VECTOR));
+    u64x2 any = (u64x2)(load(block) | load(block + VECTOR) | load(block + 2 * VECTOR) | load(block + 3 * VECTOR));
     return (any[0] | any[1]) == 0;
 }
 

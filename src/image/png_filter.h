@@ -10,15 +10,15 @@ enum png_filter {
     PNG_FILTER_SUB,     // minus the pixel to the left
     PNG_FILTER_UP,      // minus the one above
     PNG_FILTER_AVERAGE, // minus the mean of both
-    PNG_FILTER_PAETH,   // minus that of left, above and above left which is nearest to left + above − above
-                        // left
+    // minus that of left, above and above left which is nearest to left + above − above left
+    PNG_FILTER_PAETH,
 };
 
 // Filters a row of `width` RGBA pixels, `above` being the row before it (zeros for the first), into `out`,
 // which has room for a multiple of 4 pixels; the words from `width` up to there become zero. Each word is
 // masked by `mask`.
-void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width,
-                    uint32_t mask, uint32_t *out);
+void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t mask,
+                    uint32_t *out);
 
 // The pixels of a row from `first` to before `end`; those on both sides are zero: the transparent background,
 // most of many a picture. Equal numbers: all are.

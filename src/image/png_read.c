@@ -45,8 +45,8 @@ static bool fits(const struct spng_ihdr *header, size_t size)
     return (bits / 8 + 1) * header->height / 1032 <= size;
 }
 
-// The 16-bit numbers lie in the second half of the pixels' memory; in ascending order none is overwritten
-// before it is read.
+// The 16-bit numbers lie in the second half of the pixels' memory; in ascending order none is overwritten before it is
+// read.
 static void widen(lam_image *image)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
@@ -61,8 +61,8 @@ static void widen(lam_image *image)
 }
 
 // `wide`: where to tell that there were 16 bits, which then are kept; NULL: they are cut to 8.
-static bool decode(spng_ctx *spng, const uint8_t *bytes, size_t size, const char *name, lam_image *image,
-                   bool *wide, lam_error *error)
+static bool decode(spng_ctx *spng, const uint8_t *bytes, size_t size, const char *name, lam_image *image, bool *wide,
+                   lam_error *error)
 {
     struct spng_ihdr header;
     enum { CHUNK_MOST = 64 << 20 }; // texts and profiles, decompressed
@@ -74,18 +74,18 @@ static bool decode(spng_ctx *spng, const uint8_t *bytes, size_t size, const char
     if (code)
         return fail(error, LAM_CANNOT_READ, "%s: PNG header: %s", name, spng_strerror(code));
     if (header.width > 65535 || header.height > 65535)
-        return fail(error, LAM_LIMIT, "%s: PNG of %u×%u pixels, expected at most 65535×65535", name,
-                    header.width, header.height);
+        return fail(error, LAM_LIMIT, "%s: PNG of %u×%u pixels, expected at most 65535×65535", name, header.width,
+                    header.height);
     if (!fits(&header, size))
-        return fail(error, LAM_CANNOT_READ, "%s: PNG of %u×%u pixels, which cannot be in a file of %zu bytes",
-                    name, header.width, header.height, size);
+        return fail(error, LAM_CANNOT_READ, "%s: PNG of %u×%u pixels, which cannot be in a file of %zu bytes", name,
+                    header.width, header.height, size);
     bool keep = wide && header.bit_depth == 16;
     if (!lam_image_make(image, (int)header.width, (int)header.height, keep ? LAM_RGBA32F : LAM_RGBA8, error))
         return false;
     size_t count = (size_t)header.width * header.height;
-    code = keep ? spng_decode_image(spng, (char *)image->pixels + 8 * count, 8 * count, SPNG_FMT_RGBA16,
-                                    SPNG_DECODE_TRNS)
-                : spng_decode_image(spng, image->pixels, 4 * count, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS);
+    code =
+        keep ? spng_decode_image(spng, (char *)image->pixels + 8 * count, 8 * count, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS)
+             : spng_decode_image(spng, image->pixels, 4 * count, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS);
     if (!code)
         code = spng_decode_chunks(spng); // to the file's end, so that one cut behind the pixels is told too
     if (code)

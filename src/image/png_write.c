@@ -15,10 +15,9 @@
 #include <string.h>
 
 enum {
-    STRIP_PIXELS =
-        32768, // a strip's words stay in the second-level cache; its Huffman code costs about 80 bytes
-    BATCH_STRIPS = 256, // strips between two joinings: bounds the room that waits for the worst case
-    TRIAL_STEP = 8,     // each eighth row is tried with every filter
+    STRIP_PIXELS = 32768, // a strip's words stay in the second-level cache; its Huffman code costs about 80 bytes
+    BATCH_STRIPS = 256,   // strips between two joinings: bounds the room that waits for the worst case
+    TRIAL_STEP = 8,       // each eighth row is tried with every filter
 };
 
 static void put_u32(uint8_t *at, uint32_t value)
@@ -35,8 +34,7 @@ size_t png_close_chunk(const struct crc_tables *crc, const char *type, uint8_t *
     return size + PNG_CHUNK;
 }
 
-static size_t put_chunk(const struct crc_tables *crc, const char *type, const void *data, size_t size,
-                        uint8_t *out)
+static size_t put_chunk(const struct crc_tables *crc, const char *type, const void *data, size_t size, uint8_t *out)
 {
     if (size)
         memcpy(out + 8, data, size);
@@ -84,8 +82,8 @@ static struct png_span span_at(const struct png_encoding *encoding, int y)
                              png_span_of(png_pixel_row(encoding, y - 1), width), width);
 }
 
-static void filter_span(const struct png_encoding *encoding, enum png_filter filter, int y,
-                        struct png_span span, uint32_t *out)
+static void filter_span(const struct png_encoding *encoding, enum png_filter filter, int y, struct png_span span,
+                        uint32_t *out)
 {
     const size_t offset = 4 * (size_t)span.first;
     png_filter_row(filter, png_pixel_row(encoding, y) + offset, png_pixel_row(encoding, y - 1) + offset,
@@ -93,8 +91,7 @@ static void filter_span(const struct png_encoding *encoding, enum png_filter fil
 }
 
 // The filter that leaves the least on some of the strip's rows; of equals the highest number.
-static enum png_filter best_filter(const struct png_encoding *encoding, struct deflate *scratch, int top,
-                                   int rows)
+static enum png_filter best_filter(const struct png_encoding *encoding, struct deflate *scratch, int top, int rows)
 {
     uint64_t cost[PNG_FILTER_PAETH + 1] = {0};
     enum png_filter best = PNG_FILTER_PAETH;
@@ -126,8 +123,7 @@ static bool is_grey(const struct png_encoding *encoding, int top, int rows)
     return (differ & 0xFFFF) == 0;
 }
 
-static size_t quick_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler,
-                          uint8_t *out)
+static size_t quick_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out)
 {
     struct deflate *scratch = &encoding->scratch[thread];
     const int width = encoding->image->width;
@@ -223,8 +219,7 @@ static bool get_scratch(struct png_encoding *encoding, bool best, struct pool *p
 
 // Strips are made at a distance that fits the worst case, then moved together. Pages that were not reached
 // are never touched, so the room costs address space only.
-static bool encode_strips(struct png_encoding *encoding, bool raw, struct pool *pool, lam_bytes *out,
-                          lam_error *error)
+static bool encode_strips(struct png_encoding *encoding, bool raw, struct pool *pool, lam_bytes *out, lam_error *error)
 {
     uint8_t *bytes = NULL;
     size_t size = 0;
@@ -283,15 +278,15 @@ bool png_write(const lam_image *image, const lam_save_params *params, struct poo
         encoding.bytes_per_pixel = 3;
         encoding.mask = 0x00FFFFFFu;
     }
-    encoding.room = PNG_CHUNK + 2 +
-                    (best ? png_best_room(&encoding)
-                          : deflate_room(image->width, encoding.rows, encoding.bytes_per_pixel));
+    encoding.room =
+        PNG_CHUNK + 2 +
+        (best ? png_best_room(&encoding) : deflate_room(image->width, encoding.rows, encoding.bytes_per_pixel));
     crc_tables_make(&encoding.crc);
 
     struct arena arena;
     arena_start(&arena, NULL);
-    bool ok = get_scratch(&encoding, best, pool, &arena, error) &&
-              encode_strips(&encoding, params->raw, pool, out, error);
+    bool ok =
+        get_scratch(&encoding, best, pool, &arena, error) && encode_strips(&encoding, params->raw, pool, out, error);
     arena_free(&arena);
     return ok;
 }

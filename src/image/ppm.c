@@ -13,7 +13,7 @@ static const char remark[] = "P6\n# lambent\n";
 // How channels are laid over a background: in linear light, unless the numbers are raw.
 struct over {
     double linear[256]; // of a byte
-    double from[256]; // the least linear number that is rounded to byte i, for i > 0: that of (i − ½)/255
+    double from[256];   // the least linear number that is rounded to byte i, for i > 0: that of (i − ½)/255
 };
 
 static void make_over(struct over *over, bool raw)
@@ -40,13 +40,12 @@ static uint8_t lay(const struct over *over, uint8_t color, uint8_t alpha, double
     return byte_of(over, over->linear[color] * share + background * (1.0 - share));
 }
 
-static bool ppm_write(const lam_image *image, const lam_save_params *params, struct pool *pool,
-                      lam_bytes *out, lam_error *error)
+static bool ppm_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
+                      lam_error *error)
 {
     (void)pool;
     char header[64];
-    size_t head =
-        (size_t)snprintf(header, sizeof header, "%s%d %d\n255\n", remark, image->width, image->height);
+    size_t head = (size_t)snprintf(header, sizeof header, "%s%d %d\n255\n", remark, image->width, image->height);
     uint64_t pixels = (uint64_t)image->width * (uint64_t)image->height, wanted = pixels * 3 + head;
     uint8_t *bytes = wanted <= SIZE_MAX ? malloc((size_t)wanted) : NULL;
     if (!bytes)
@@ -88,13 +87,11 @@ static bool ppm_read(const uint8_t *bytes, size_t size, const char *name, lam_im
     if (!netpbm_read_header(bytes, size, "PPM", name, &header, error))
         return false;
     if (header.last != 255)
-        return fail(error, LAM_UNSUPPORTED, "%s: PPM with a largest value of %g, expected 255", name,
-                    header.last);
+        return fail(error, LAM_UNSUPPORTED, "%s: PPM with a largest value of %g, expected 255", name, header.last);
     uint64_t pixels = (uint64_t)header.width * (uint64_t)header.height;
     if (pixels * 3 > size - header.pixels)
-        return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its %d×%d pixels take up to byte %llu",
-                    name, size, header.width, header.height,
-                    (unsigned long long)(pixels * 3 + header.pixels));
+        return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its %d×%d pixels take up to byte %llu", name,
+                    size, header.width, header.height, (unsigned long long)(pixels * 3 + header.pixels));
     if (!lam_image_make(image, header.width, header.height, LAM_RGBA8, error))
         return false;
     const uint8_t *at = bytes + header.pixels;

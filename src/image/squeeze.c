@@ -27,12 +27,12 @@ struct match {
 struct squeeze {
     const uint8_t *bytes;
     size_t end, row;
-    uint32_t last[1 << HASH_BITS];   // the last place with a hash
-    uint32_t before[SQUEEZE_WINDOW]; // the place before, of the place modulo the window
-    struct match matches[MATCHES];   // of the block's places, one after the other, each longer than the last
-    uint32_t first[BLOCK + 1];       // of each place
-    uint32_t price[BLOCK + 1];       // of the cheapest way there
-    struct match step[BLOCK + 1];    // the last step of that way; length 1: a byte
+    uint32_t last[1 << HASH_BITS];        // the last place with a hash
+    uint32_t before[SQUEEZE_WINDOW];      // the place before, of the place modulo the window
+    struct match matches[MATCHES];        // of the block's places, one after the other, each longer than the last
+    uint32_t first[BLOCK + 1];            // of each place
+    uint32_t price[BLOCK + 1];            // of the cheapest way there
+    struct match step[BLOCK + 1];         // the last step of that way; length 1: a byte
     struct match way[BLOCK], best[BLOCK]; // the steps in order
     uint32_t literal_price[256], length_price[DEFLATE_LONGEST + 1], distance_price[DISTANCES];
     uint32_t counts[LITERALS], distance_counts[DISTANCES];
@@ -74,8 +74,7 @@ static uint32_t equal_bytes(const uint8_t *a, const uint8_t *b, uint32_t most)
 
 // Lists the matches at a place, longer and longer, of at most `most` bytes.
 // Returns how many.
-static uint32_t find(const struct squeeze *s, size_t at, uint32_t most, int depth, struct match *out,
-                     uint32_t room)
+static uint32_t find(const struct squeeze *s, size_t at, uint32_t most, int depth, struct match *out, uint32_t room)
 {
     uint32_t count = 0, longest = 2;
     if (most < 3)
@@ -231,8 +230,7 @@ static uint32_t go_cheaply(struct squeeze *s, size_t at, uint32_t size)
             struct match match = s->matches[m];
             uint32_t far = here + s->distance_price[distance_symbol(match.distance)];
             for (uint32_t length = shorter + 1; length <= match.length; length++)
-                offer(s, i + length, far + s->length_price[length],
-                      (struct match){(uint16_t)length, match.distance});
+                offer(s, i + length, far + s->length_price[length], (struct match){(uint16_t)length, match.distance});
             shorter = match.length;
         }
     }
@@ -345,8 +343,8 @@ uint64_t squeeze_estimate(struct squeeze *s, const uint8_t *bytes, size_t size, 
             struct match found[16], step = {1, 0};
             uint32_t most = end - at < DEFLATE_LONGEST ? (uint32_t)(end - at) : DEFLATE_LONGEST;
             uint32_t count = find(s, at, most, QUICK_DEPTH, found, 16);
-            if (count && (found[count - 1].length > 4 ||
-                          (found[count - 1].length > 3 && found[count - 1].distance < 1024)))
+            if (count &&
+                (found[count - 1].length > 4 || (found[count - 1].length > 3 && found[count - 1].distance < 1024)))
                 step = found[count - 1];
             count_step(s, bytes[at], step);
             for (size_t next = at + step.length; at < next; at++)

@@ -21,8 +21,7 @@ struct squeeze *squeeze_make(struct arena *arena);
 // the last SQUEEZE_WINDOW are made use of. What stands `row` bytes before a place is often the same. Writes
 // blocks that are not the last, then an empty stored block, which ends on a byte boundary. Returns the bytes
 // written. before + size < 2³¹.
-size_t squeeze(struct squeeze *squeeze, const uint8_t *bytes, size_t before, size_t size, size_t row,
-               uint8_t *out);
+size_t squeeze(struct squeeze *squeeze, const uint8_t *bytes, size_t before, size_t size, size_t row, uint8_t *out);
 
 // The most bytes that squeeze writes or touches.
 size_t squeeze_room(size_t size);

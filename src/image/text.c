@@ -6,8 +6,7 @@
 
 #include <lambent/text.h>
 
-#define NEEDED                                                                                               \
-    "captions need the Debian packages libfreetype6 and fonts-dejavu-core, or a font named by LAMBENT_FONT"
+#define NEEDED "captions need the Debian packages libfreetype6 and fonts-dejavu-core, or a font named by LAMBENT_FONT"
 
 // What Debian's packages fonts-dejavu-core, fonts-liberation2, fonts-liberation, fonts-noto-core,
 // fonts-freefont-ttf and fonts-roboto-unhinted install.
@@ -67,12 +66,10 @@ static bool open_freetype(struct freetype *ft, lam_error *error)
     void *h = ft->handle;
     if (find(h, "FT_Init_FreeType", &ft->init) && find(h, "FT_Done_FreeType", &ft->done) &&
         find(h, "FT_New_Face", &ft->new_face) && find(h, "FT_Done_Face", &ft->done_face) &&
-        find(h, "FT_Set_Char_Size", &ft->set_char_size) &&
-        find(h, "FT_Get_Char_Index", &ft->get_char_index) && find(h, "FT_Load_Glyph", &ft->load_glyph) &&
-        find(h, "FT_Get_Kerning", &ft->get_kerning))
+        find(h, "FT_Set_Char_Size", &ft->set_char_size) && find(h, "FT_Get_Char_Index", &ft->get_char_index) &&
+        find(h, "FT_Load_Glyph", &ft->load_glyph) && find(h, "FT_Get_Kerning", &ft->get_kerning))
         return true;
-    return fail(error, LAM_UNSUPPORTED,
-                "text: libfreetype.so.6 lacks functions that FreeType 2 has; " NEEDED);
+    return fail(error, LAM_UNSUPPORTED, "text: libfreetype.so.6 lacks functions that FreeType 2 has; " NEEDED);
 }
 
 static const char *find_font(void)
@@ -200,8 +197,7 @@ static double walk(lam_image *image, lam_font *font, double x, double y, double 
     while (*text) {
         FT_UInt glyph = font->ft.get_char_index(font->face, next_letter(&text));
         FT_Vector kerning = {0, 0};
-        if (before && glyph &&
-            font->ft.get_kerning(font->face, before, glyph, FT_KERNING_UNFITTED, &kerning) == 0)
+        if (before && glyph && font->ft.get_kerning(font->face, before, glyph, FT_KERNING_UNFITTED, &kerning) == 0)
             pen += kerning.x;
         before = glyph;
         if (font->ft.load_glyph(font->face, glyph, FT_LOAD_TARGET_LIGHT | (image ? FT_LOAD_RENDER : 0)) != 0)
@@ -230,8 +226,7 @@ bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double 
     if (!(size_px >= 1 && size_px <= 1000))
         return fail(error, LAM_BAD_ARGUMENT, "text: the size is %g pixels, expected 1 to 1000", size_px);
     if (!(x > -1e6 && x < 1e6 && y > -1e6 && y < 1e6))
-        return fail(error, LAM_BAD_ARGUMENT, "text: its place is %g, %g, expected pixels of the picture", x,
-                    y);
+        return fail(error, LAM_BAD_ARGUMENT, "text: its place is %g, %g, expected pixels of the picture", x, y);
     walk(image, font, x, y, size_px, color, text);
     return true;
 }

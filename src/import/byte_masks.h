@@ -42,9 +42,8 @@ static inline struct byte_masks byte_masks_of(const uint8_t *at)
         __m128i bytes = _mm_loadu_si128((const __m128i *)(const void *)(at + 16 * i));
         __m128i special = _mm_or_si128(_mm_cmpeq_epi8(bytes, hash), _mm_cmpeq_epi8(bytes, backslash));
         masks.newline |= (uint64_t)(unsigned)_mm_movemask_epi8(_mm_cmpeq_epi8(bytes, newline)) << 16 * i;
-        masks.white |=
-            (uint64_t)(unsigned)_mm_movemask_epi8(_mm_cmpeq_epi8(_mm_min_epu8(bytes, space), bytes))
-            << 16 * i;
+        masks.white |= (uint64_t)(unsigned)_mm_movemask_epi8(_mm_cmpeq_epi8(_mm_min_epu8(bytes, space), bytes))
+                       << 16 * i;
         masks.slash |= (uint64_t)(unsigned)_mm_movemask_epi8(_mm_cmpeq_epi8(bytes, slash)) << 16 * i;
         masks.special |= (uint64_t)(unsigned)_mm_movemask_epi8(special) << 16 * i;
     }

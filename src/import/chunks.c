@@ -23,13 +23,12 @@ static void run_one(void *user, size_t index, int thread)
     }
     if (run->task(run->user, index, NULL))
         return;
-    while (index < wrong && !__atomic_compare_exchange_n(&run->first_wrong, &wrong, index, false,
-                                                         __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+    while (index < wrong &&
+           !__atomic_compare_exchange_n(&run->first_wrong, &wrong, index, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
         ;
 }
 
-bool chunks_run(const struct import_source *source, size_t count, chunk_task *task, void *user,
-                lam_error *error)
+bool chunks_run(const struct import_source *source, size_t count, chunk_task *task, void *user, lam_error *error)
 {
     struct run run = {.source = source, .task = task, .user = user, .first_wrong = count};
     pool_run(source->pool, count, run_one, &run);

@@ -4,8 +4,7 @@
 
 #include "importer.h"
 
-// Rows (facets, vertices, faces) of one piece. A piece of the usual formats stays within a second-level
-// cache.
+// Rows (facets, vertices, faces) of one piece. A piece of the usual formats stays within a second-level cache.
 enum { CHUNK_ROWS = 4096 };
 
 static inline size_t chunk_count(size_t rows) { return rows / CHUNK_ROWS + (rows % CHUNK_ROWS != 0); }
@@ -24,7 +23,6 @@ typedef bool chunk_task(void *user, size_t index, lam_error *error);
 // Does pieces 0 … count − 1 on the source's pool. If some are wrong, the first of them is done again on the
 // calling thread to fill `error`, so that a file's first mistake is the one that is told. Also false where
 // the watch ends the call.
-bool chunks_run(const struct import_source *source, size_t count, chunk_task *task, void *user,
-                lam_error *error);
+bool chunks_run(const struct import_source *source, size_t count, chunk_task *task, void *user, lam_error *error);
 
 #endif

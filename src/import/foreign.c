@@ -79,23 +79,18 @@ static bool holds(const uint8_t *bytes, size_t size, const char *word)
 static bool is_3ds(const uint8_t *bytes, size_t size)
 {
     return size >= 6 && bytes[0] == 0x4d && bytes[1] == 0x4d &&
-           ((size_t)bytes[2] | (size_t)bytes[3] << 8 | (size_t)bytes[4] << 16 | (size_t)bytes[5] << 24) ==
-               size;
+           ((size_t)bytes[2] | (size_t)bytes[3] << 8 | (size_t)bytes[4] << 16 | (size_t)bytes[5] << 24) == size;
 }
 
 // IGES has cards of 80 columns, the first of them numbered S      1.
-static bool is_iges(const uint8_t *bytes, size_t size)
-{
-    return size > 80 && memcmp(bytes + 72, "S      1", 8) == 0;
-}
+static bool is_iges(const uint8_t *bytes, size_t size) { return size > 80 && memcmp(bytes + 72, "S      1", 8) == 0; }
 
 const struct foreign_kind *foreign_kind_of(const uint8_t *bytes, size_t size)
 {
     static const struct foreign_kind studio = {"a 3DS file", true}, iges = {"an IGES file", true};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         const struct kind *kind = &kinds[i];
-        if (size >= kind->offset + kind->length &&
-            memcmp(bytes + kind->offset, kind->magic, kind->length) == 0 &&
+        if (size >= kind->offset + kind->length && memcmp(bytes + kind->offset, kind->magic, kind->length) == 0 &&
             (!kind->within || holds(bytes, size, kind->within)))
             return &kind->kind;
     }

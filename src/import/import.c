@@ -13,14 +13,10 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-static const struct importer *const importers[] = {&importer_obj, &importer_stl, &importer_ply,
-                                                   &importer_scene};
+static const struct importer *const importers[] = {&importer_obj, &importer_stl, &importer_ply, &importer_scene};
 enum { IMPORTERS = sizeof importers / sizeof *importers };
 
-const char *lam_format_name(int format)
-{
-    return format >= 0 && format < IMPORTERS ? importers[format]->name : NULL;
-}
+const char *lam_format_name(int format) { return format >= 0 && format < IMPORTERS ? importers[format]->name : NULL; }
 
 const char *lam_format_extensions(int format)
 {
@@ -99,8 +95,8 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
             if (strcasecmp(importers[i]->name, wanted) == 0 || has_ending(importers[i], wanted))
                 return importers[i];
         }
-        fail(error, LAM_UNSUPPORTED, "%s: the format '%s' cannot be read; this version reads %s", name,
-             wanted, format_list(list));
+        fail(error, LAM_UNSUPPORTED, "%s: the format '%s' cannot be read; this version reads %s", name, wanted,
+             format_list(list));
         return NULL;
     }
     if (file->size == 0) {
@@ -136,8 +132,7 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
     }
     if (by_ending)
         return by_ending; // its reader says what is wrong
-    fail(error, LAM_CANNOT_READ, "%s: this is no model format known here; expected %s", name,
-         format_list(list));
+    fail(error, LAM_CANNOT_READ, "%s: this is no model format known here; expected %s", name, format_list(list));
     return NULL;
 }
 
@@ -188,22 +183,20 @@ static bool open_by_caller(const struct import_source *source, const char *insid
 }
 
 // The name beside the model, as it can be opened from here.
-static bool beside(const struct import_source *source, const char *name, char path[2 * PATH_LONGEST],
-                   lam_error *error)
+static bool beside(const struct import_source *source, const char *name, char path[2 * PATH_LONGEST], lam_error *error)
 {
     const char *model = ((const struct companions *)source->open_state)->model;
     int folder = name[0] == '/' ? 0 : (int)(path_name(model) - model);
     // Behind "./" a file called "-" is a file.
-    int length = snprintf(path, 2 * PATH_LONGEST, "%.*s%s%s", folder, model,
-                          folder == 0 && name[0] == '-' ? "./" : "", name);
+    int length =
+        snprintf(path, 2 * PATH_LONGEST, "%.*s%s%s", folder, model, folder == 0 && name[0] == '-' ? "./" : "", name);
     if (length < 0 || length >= 2 * PATH_LONGEST)
         return fail(error, LAM_CANNOT_READ, "%s: the path to '%.80s' is too long", source->name, name);
     return true;
 }
 
 // A pipe or a device of that name would be waited for.
-static bool read_regular(const struct import_source *source, const char *path, struct file_bytes *out,
-                         lam_error *error)
+static bool read_regular(const struct import_source *source, const char *path, struct file_bytes *out, lam_error *error)
 {
     struct stat about;
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
@@ -215,8 +208,7 @@ static bool confine_or_fail(const struct import_source *source, const char *name
                             lam_error *error)
 {
     if (!confine(name, inside, PATH_LONGEST) || !*inside || strcmp(inside, "..") == 0)
-        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for",
-                    source->name, name);
+        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for", source->name, name);
     return true;
 }
 
@@ -232,8 +224,8 @@ static bool open_companion(const struct import_source *source, const char *name,
     return beside(source, inside, path, error) && read_regular(source, path, out, error);
 }
 
-static bool open_model(const struct import_source *source, const char *name, struct arena *arena,
-                       const char **path, struct file_bytes *out, lam_error *error)
+static bool open_model(const struct import_source *source, const char *name, struct arena *arena, const char **path,
+                       struct file_bytes *out, lam_error *error)
 {
     const struct companions *companions = source->open_state;
     char inside[PATH_LONGEST], at[2 * PATH_LONGEST];
@@ -298,8 +290,8 @@ static struct lam_scene *start_scene(const struct import_source *source, const s
 }
 
 // What follows reading: where it came from, normals, extents.
-static bool finish(struct lam_scene *scene, const struct import_source *source,
-                   const struct importer *importer, uint64_t start_ns, lam_error *error)
+static bool finish(struct lam_scene *scene, const struct import_source *source, const struct importer *importer,
+                   uint64_t start_ns, lam_error *error)
 {
     const lam_load_params *params = source->params;
     if (!check_not_empty(scene, source->name, error))
@@ -318,8 +310,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source,
     watch_progress(source->watch, 0.8, "normals");
     if (params->normals_when_drawn && params->normals != LAM_NORMALS_FACET && importer != &importer_scene)
         scene_defer_normals(scene, params->normals, params->crease_angle_rad);
-    else if (!scene_prepare(scene, params->normals, params->crease_angle_rad, source->pool, source->watch,
-                            error))
+    else if (!scene_prepare(scene, params->normals, params->crease_angle_rad, source->pool, source->watch, error))
         return false;
     if (!scene_measure(scene, source->pool, error))
         return false;
@@ -330,8 +321,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source,
 
 // The importer that reads a file of this beginning and size part by part: the one that would be chosen for
 // the whole.
-static const struct importer *importer_of_parts(const char *name, const uint8_t *head, size_t size,
-                                                const char *wanted)
+static const struct importer *importer_of_parts(const char *name, const uint8_t *head, size_t size, const char *wanted)
 {
     if (wanted) {
         const struct importer *importer = importer_for(name, NULL, wanted, NULL);
@@ -368,8 +358,8 @@ static struct lam_scene *load_parts(struct import_source *source, const struct i
 }
 
 // `path` or else `bytes`.
-static lam_scene *load(const char *path, const void *bytes, size_t size, const char *name,
-                       const lam_load_params *given, const lam_control *control, lam_error *error)
+static lam_scene *load(const char *path, const void *bytes, size_t size, const char *name, const lam_load_params *given,
+                       const lam_control *control, lam_error *error)
 {
     static const lam_load_params defaults;
     const lam_load_params *params = given ? given : &defaults;
@@ -417,8 +407,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     return ok ? scene : NULL;
 }
 
-lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control,
-                          lam_error *error)
+lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control, lam_error *error)
 {
     if (!path || !*path) {
         fail(error, LAM_BAD_ARGUMENT, "no file name given");
@@ -427,8 +416,8 @@ lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const
     return load(path, NULL, 0, strcmp(path, "-") == 0 ? "standard input" : path, params, control, error);
 }
 
-lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name,
-                                 const lam_load_params *params, const lam_control *control, lam_error *error)
+lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name, const lam_load_params *params,
+                                 const lam_control *control, lam_error *error)
 {
     if (!bytes && size) {
         fail(error, LAM_BAD_ARGUMENT, "no bytes given");

@@ -8,22 +8,19 @@
 #include "watch.h"
 
 struct import_source {
-    const char *name; // for messages: the path as the user gave it
-    const char
-        *path; // of the file, as it can be opened from here; NULL: it came from memory or standard input
+    const char *name;     // for messages: the path as the user gave it
+    const char *path;     // of the file, as it can be opened from here; NULL: it came from memory or standard input
     const uint8_t *bytes; // FILE_PADDING zero bytes follow the last one
     size_t size;
     const lam_load_params *params;
     struct pool *pool;   // may be NULL: no threads
     struct watch *watch; // never NULL; check it in every long loop
-    // Opens a companion file by the name that the model uses, confined to the model's folder. The caller
-    // releases it.
-    bool (*open)(const struct import_source *source, const char *name, struct file_bytes *out,
-                 lam_error *error);
-    // Opens a model that a scene file names: as above, or anywhere where the caller allows it. *path is where
-    // it lies, as it can be opened from here, in `arena`; NULL: not on disk.
-    bool (*open_model)(const struct import_source *source, const char *name, struct arena *arena,
-                       const char **path, struct file_bytes *out, lam_error *error);
+    // Opens a companion file by the name that the model uses, confined to the model's folder. The caller releases it.
+    bool (*open)(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error);
+    // Opens a model that a scene file names: as above, or anywhere where the caller allows it. *path is where it lies,
+    // as it can be opened from here, in `arena`; NULL: not on disk.
+    bool (*open_model)(const struct import_source *source, const char *name, struct arena *arena, const char **path,
+                       struct file_bytes *out, lam_error *error);
     void *open_state;
 };
 
@@ -33,25 +30,24 @@ struct importer {
     lam_up up;              // the format's up axis
     // How sure the format is of these bytes: 0 no, 1 could be (then the name's ending decides), 2 certain.
     int (*probe)(const uint8_t *bytes, size_t size);
-    // Fills an empty scene: meshes, materials, one object a mesh. The arena is the scene's; on failure the
-    // caller frees it.
+    // Fills an empty scene: meshes, materials, one object a mesh. The arena is the scene's; on failure the caller frees
+    // it.
     bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);
     // NULL, or: the same from a large file whose first FILE_HEAD bytes are the source's, without holding it
     // whole. False where it is not of a layout that this serves, or something is wrong: then `load` is asked,
     // with a fresh scene and the whole file.
-    bool (*load_parts)(const struct import_source *source, const struct file_parts *file,
-                       struct lam_scene *scene);
+    bool (*load_parts)(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 };
 
 extern const struct importer importer_obj, importer_stl, importer_ply, importer_scene;
 
-// The importer for these bytes: by content, else by the name's ending; `wanted`: by this name of a format.
-// NULL and the reason where there is none.
+// The importer for these bytes: by content, else by the name's ending; `wanted`: by this name of a format. NULL and the
+// reason where there is none.
 const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
                                     lam_error *error);
 
-// A name that stays within a folder: as the file has it, with slashes for backslashes; only its last part
-// where it begins at a root or drive, or climbs. False: there is no room for it.
+// A name that stays within a folder: as the file has it, with slashes for backslashes; only its last part where it
+// begins at a root or drive, or climbs. False: there is no room for it.
 bool confine(const char *name, char *out, size_t room);
 
 // LAM_CANNOT_READ with "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". Return false.

@@ -77,8 +77,7 @@ struct reader {
     size_t unknown_count, stray_count;
 };
 
-// The line that a place is in, for warnings: counted on from the one before, so that a file of mistakes costs
-// one pass.
+// The line that a place is in, for warnings: counted on from the one before, so that a file of mistakes costs one pass.
 static size_t line_of(struct reader *reader, const uint8_t *at)
 {
     if (at < reader->counted_to || !reader->counted_to) {
@@ -91,8 +90,7 @@ static size_t line_of(struct reader *reader, const uint8_t *at)
 }
 
 // Reads `least` to `most` numbers, and says how many there were; fewer are −1, with a warning.
-static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t *end, float *to, int least,
-                        int most)
+static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t *end, float *to, int least, int most)
 {
     int count = 0;
     while (count < most) {
@@ -112,14 +110,13 @@ static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t 
 }
 
 // A number brought into a range, with a warning where it was not.
-static float within(struct reader *reader, const uint8_t *at, float x, float low, float high,
-                    const char *what)
+static float within(struct reader *reader, const uint8_t *at, float x, float low, float high, const char *what)
 {
     if (x >= low && x <= high)
         return x;
     float to = x > high ? high : low; // NaN goes to the lower end
-    scene_warn(reader->scene, "%s:%zu: %s %g is out of range; %g is used", reader->name, line_of(reader, at),
-               what, (double)x, (double)to);
+    scene_warn(reader->scene, "%s:%zu: %s %g is out of range; %g is used", reader->name, line_of(reader, at), what,
+               (double)x, (double)to);
     return to;
 }
 
@@ -130,13 +127,11 @@ static float linear(const struct reader *reader, float c)
 }
 
 // K… r [g b]; one number stands for three. False: not read.
-static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *end, const char *what,
-                       lam_rgb *out)
+static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *end, const char *what, lam_rgb *out)
 {
     at = text_skip_white(at, end);
     if (text_is_word(at, end, "spectral") || text_is_word(at, end, "xyz")) {
-        scene_warn(reader->scene, "%s:%zu: %s as a %s is not read, only r g b", reader->name,
-                   line_of(reader, at), what,
+        scene_warn(reader->scene, "%s:%zu: %s as a %s is not read, only r g b", reader->name, line_of(reader, at), what,
                    text_is_word(at, end, "xyz") ? "CIE XYZ colour" : "spectral curve");
         return false;
     }
@@ -155,19 +150,18 @@ static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *
 // Ends the material that is open and puts it into the scene.
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-// A material whose colours are all 0 shows nothing but a hole. Exporters write it where the colours are in
-// textures, or nowhere: the neutral colours are taken, and the file's user is told.
+// A material whose colours are all 0 shows nothing but a hole. Exporters write it where the colours are in textures, or
+// nowhere: the neutral colours are taken, and the file's user is told.
 static void mend_black(struct reader *reader, lam_material *m)
 {
     lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
-    if (!reader->kd || !is_black(kd) || !is_black(m->ambient) || !is_black(m->specular) ||
-        !is_black(m->emission))
+    if (!reader->kd || !is_black(kd) || !is_black(m->ambient) || !is_black(m->specular) || !is_black(m->emission))
         return;
     lam_material neutral = lam_material_default();
     m->ambient = neutral.ambient;
     m->diffuse = (lam_rgba){neutral.diffuse.r, neutral.diffuse.g, neutral.diffuse.b, m->diffuse.a};
-    scene_warn(reader->scene, "%s: material '%s' is black in every colour; a neutral grey is drawn",
-               reader->name, m->name);
+    scene_warn(reader->scene, "%s: material '%s' is black in every colour; a neutral grey is drawn", reader->name,
+               m->name);
 }
 
 static bool close_material(struct reader *reader, lam_error *error)
@@ -182,8 +176,8 @@ static bool close_material(struct reader *reader, lam_error *error)
     if (!reader->ka)
         m->ambient = (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b};
     if (m->illum == 0) { // the colour itself, unlit
-        m->emission = (lam_rgb){m->emission.r + m->diffuse.r, m->emission.g + m->diffuse.g,
-                                m->emission.b + m->diffuse.b};
+        m->emission =
+            (lam_rgb){m->emission.r + m->diffuse.r, m->emission.g + m->diffuse.g, m->emission.b + m->diffuse.b};
         m->diffuse.r = m->diffuse.g = m->diffuse.b = 0;
         m->ambient = (lam_rgb){0, 0, 0};
     }
@@ -196,8 +190,7 @@ static bool close_material(struct reader *reader, lam_error *error)
         return false;
     reader->open = false;
     return remember(reader->set, m->name, index) ||
-           watch_memory_error(reader->scene->arena.watch, reader->set->room * sizeof(struct mtl_entry),
-                              error);
+           watch_memory_error(reader->scene->arena.watch, reader->set->room * sizeof(struct mtl_entry), error);
 }
 
 static bool start_material(struct reader *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
@@ -247,8 +240,7 @@ static const uint8_t *behind_options(const uint8_t *at, const uint8_t *end)
     }
 }
 
-static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at, const uint8_t *end,
-                     lam_error *error)
+static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at, const uint8_t *end, lam_error *error)
 {
     const uint8_t *name = behind_options(at, end), *last = name;
     if (name == end)
@@ -357,8 +349,8 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
     switch (statement) {
     case KA:
         if (read_color(reader, at, end, "Ka", &m->ambient))
-            reader->ka = !(m->ambient.r == 1 && m->ambient.g == 1 &&
-                           m->ambient.b == 1); // 1 1 1 is a habit, not a choice
+            reader->ka =
+                !(m->ambient.r == 1 && m->ambient.g == 1 && m->ambient.b == 1); // 1 1 1 is a habit, not a choice
         break;
     case KD:
         if (read_color(reader, at, end, "Kd", &color)) {
@@ -393,8 +385,8 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
         if (number_int(at, end, &model) && model >= 0 && model <= 10)
             m->illum = (int)model;
         else
-            scene_warn(reader->scene, "%s:%zu: illum is not one of the models 0 to 10; it is left out",
-                       reader->name, line_of(reader, word));
+            scene_warn(reader->scene, "%s:%zu: illum is not one of the models 0 to 10; it is left out", reader->name,
+                       line_of(reader, word));
         break;
     }
     case NOTHING:
@@ -408,8 +400,8 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
     return true;
 }
 
-bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene,
-              const char *name, const struct file_bytes *file, lam_error *error)
+bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene, const char *name,
+              const struct file_bytes *file, lam_error *error)
 {
     struct reader reader = {
         .set = set,
@@ -435,9 +427,8 @@ bool mtl_read(struct mtl_set *set, const struct import_source *source, struct la
     }
     char found[TEXT_FOUND_SIZE];
     if (reader.unknown_count)
-        scene_warn(scene, "%s:%zu: the statement %s is not known%s", name,
-                   text_line(reader.begin, reader.unknown), text_found(reader.unknown, reader.end, found),
-                   reader.unknown_count > 1 ? ", nor are others" : "");
+        scene_warn(scene, "%s:%zu: the statement %s is not known%s", name, text_line(reader.begin, reader.unknown),
+                   text_found(reader.unknown, reader.end, found), reader.unknown_count > 1 ? ", nor are others" : "");
     if (reader.stray_count)
         scene_warn(scene, "%s:%zu: %s stands before any newmtl and is left out", name,
                    text_line(reader.begin, reader.stray), text_found(reader.stray, reader.end, found));

@@ -19,8 +19,8 @@ struct mtl_entry {
 
 // Reads a file's materials into the scene and the set. The first of equal names is kept. Mistakes in the file
 // are warnings; only memory and the watch make it fail. `name` is the file's, for messages.
-bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene,
-              const char *name, const struct file_bytes *file, lam_error *error);
+bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene, const char *name,
+              const struct file_bytes *file, lam_error *error);
 
 // The material of a name, −1: none.
 int32_t mtl_find(const struct mtl_set *set, const char *name);

@@ -11,8 +11,7 @@
 
 static bool first_word_known(const uint8_t *at, const uint8_t *end)
 {
-    static const char *const words[] = {"v", "vt", "vn", "vp", "f",      "g",
-                                        "o", "s",  "l",  "p",  "mtllib", "usemtl"};
+    static const char *const words[] = {"v", "vt", "vn", "vp", "f", "g", "o", "s", "l", "p", "mtllib", "usemtl"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         if (text_is_word(at, end, words[i]))
             return true;
@@ -66,8 +65,7 @@ size_t obj_line(struct obj *obj, const uint8_t *at)
     return lines;
 }
 
-static bool take_array(struct obj *obj, struct arena *arena, void *out, uint64_t count, size_t size,
-                       lam_error *error)
+static bool take_array(struct obj *obj, struct arena *arena, void *out, uint64_t count, size_t size, lam_error *error)
 {
     void *array = arena_array(arena, (size_t)count, size);
     if (!array)
@@ -85,14 +83,11 @@ static bool take_arrays(struct obj *obj, lam_error *error)
            take_array(obj, kept, &obj->indices, corners, sizeof(uint32_t), error) &&
            take_array(obj, spare, &obj->polygons, total->polygons, sizeof *obj->polygons, error) &&
            take_array(obj, spare, &obj->statements, total->others, sizeof *obj->statements, error) &&
-           (!obj->colors_present ||
-            take_array(obj, kept, &obj->colors, 4 * total->positions, sizeof(float), error)) &&
-           (!total->texcoords ||
-            (take_array(obj, kept, &obj->texcoords, 2 * total->texcoords, sizeof(float), error) &&
-             take_array(obj, kept, &obj->texcoord_indices, corners, sizeof(uint32_t), error))) &&
-           (!total->normals ||
-            (take_array(obj, kept, &obj->normals, 3 * total->normals, sizeof(float), error) &&
-             take_array(obj, kept, &obj->normal_indices, corners, sizeof(uint32_t), error)));
+           (!obj->colors_present || take_array(obj, kept, &obj->colors, 4 * total->positions, sizeof(float), error)) &&
+           (!total->texcoords || (take_array(obj, kept, &obj->texcoords, 2 * total->texcoords, sizeof(float), error) &&
+                                  take_array(obj, kept, &obj->texcoord_indices, corners, sizeof(uint32_t), error))) &&
+           (!total->normals || (take_array(obj, kept, &obj->normals, 3 * total->normals, sizeof(float), error) &&
+                                take_array(obj, kept, &obj->normal_indices, corners, sizeof(uint32_t), error)));
 }
 
 static void warn_faces(struct obj *obj)
@@ -111,13 +106,12 @@ static void warn_faces(struct obj *obj)
     }
     const char *name = obj->source->name;
     if (faces)
-        scene_warn(obj->scene, "%s:%zu: faces of one or two corners are left out: this is the first of %llu",
-                   name, obj_line(obj, face), (unsigned long long)faces);
+        scene_warn(obj->scene, "%s:%zu: faces of one or two corners are left out: this is the first of %llu", name,
+                   obj_line(obj, face), (unsigned long long)faces);
     if (numbers)
-        scene_warn(
-            obj->scene,
-            "%s:%zu: normals or texture coordinates that are not finite are taken as 0: the first of %llu",
-            name, obj_line(obj, number), (unsigned long long)numbers);
+        scene_warn(obj->scene,
+                   "%s:%zu: normals or texture coordinates that are not finite are taken as 0: the first of %llu", name,
+                   obj_line(obj, number), (unsigned long long)numbers);
     if (texcoords)
         scene_warn(obj->scene, "%s: faces name texture coordinates, but the file has none", name);
     if (normals)
@@ -173,8 +167,8 @@ static bool modern_line_ends(struct obj *obj, lam_error *error)
 bool obj_complete(struct obj *obj, lam_error *error)
 {
     watch_progress(obj->source->watch, 0.7, "read");
-    if (!obj_cut_polygons(obj, error) || !obj_read_statements(obj, error) ||
-        !obj_complete_texcoords(obj, error) || !obj_complete_normals(obj, error))
+    if (!obj_cut_polygons(obj, error) || !obj_read_statements(obj, error) || !obj_complete_texcoords(obj, error) ||
+        !obj_complete_normals(obj, error))
         return false;
     warn_faces(obj);
     return finish(obj, error);
@@ -192,8 +186,7 @@ static bool load(struct obj *obj, size_t chunk_bytes, lam_error *error)
     return obj_complete(obj, error);
 }
 
-bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes,
-                      lam_error *error)
+bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes, lam_error *error)
 {
     struct obj obj = {
         .source = source,

@@ -43,8 +43,8 @@ struct obj_chunk {
     double low_exact[3], high_exact[3]; // the same in double, where an origin is needed
     float brightest;                    // the largest colour channel
     bool texcoord_used, texcoord_missing, normal_used, normal_missing; // by some corner
-    bool texcoord_unknown, normal_unknown;  // named although the file has none at all
-    uint64_t short_faces;                   // of one or two corners
+    bool texcoord_unknown, normal_unknown;                             // named although the file has none at all
+    uint64_t short_faces;                                              // of one or two corners
     uint64_t odd_numbers;                   // normals and texture coordinates that are not finite
     const uint8_t *short_face, *odd_number; // the first ones
 };
@@ -89,11 +89,9 @@ struct obj {
     struct mtl_set materials;
 };
 
-// obj_scan.c Where a logical line ends: behind its '\n', or at `end`. A backslash before the '\n' continues
-// it.
+// obj_scan.c Where a logical line ends: behind its '\n', or at `end`. A backslash before the '\n' continues it.
 const uint8_t *obj_line_behind(const uint8_t *at, const uint8_t *end);
-// The next word of the statement, or its end: at '\n' or `end`. Steps over white space, continued lines and a
-// comment.
+// The next word of the statement, or its end: at '\n' or `end`. Steps over white space, continued lines and a comment.
 const uint8_t *obj_next_slowly(const uint8_t *at, const uint8_t *end);
 bool obj_cut(struct obj *obj, size_t chunk_bytes, lam_error *error);
 bool obj_scan(struct obj *obj, lam_error *error); // pass one, and the sums
@@ -132,8 +130,7 @@ bool obj_complete_normals(struct obj *obj, lam_error *error);
 bool obj_read_statements(struct obj *obj, lam_error *error);
 
 // obj_large.c: the importer's load_parts.
-bool obj_load_large(const struct import_source *source, const struct file_parts *file,
-                    struct lam_scene *scene);
+bool obj_load_large(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 
 // obj.c: what follows once positions and faces are read.
 bool obj_complete(struct obj *obj, lam_error *error);

@@ -88,8 +88,8 @@ bool obj_cut_polygons(struct obj *obj, lam_error *error)
         triangulator_start(&cutting.scratch[t], watch);
         arena_start(&cutting.spare[t], watch);
     }
-    pool_run(obj->source->pool, (obj->total.polygons + OBJ_POLYGONS_A_PIECE - 1) / OBJ_POLYGONS_A_PIECE,
-             cut_piece, &cutting);
+    pool_run(obj->source->pool, (obj->total.polygons + OBJ_POLYGONS_A_PIECE - 1) / OBJ_POLYGONS_A_PIECE, cut_piece,
+             &cutting);
     for (size_t t = 0; t < threads; t++) {
         triangulator_stop(&cutting.scratch[t]);
         arena_free(&cutting.spare[t]);
@@ -104,8 +104,7 @@ bool obj_cut_polygons(struct obj *obj, lam_error *error)
 // --- attributes that some corners name and others do not
 
 // The same array with room for `more` elements behind its `count`.
-static float *grow(struct obj *obj, const float *array, size_t count, size_t more, size_t width,
-                   lam_error *error)
+static float *grow(struct obj *obj, const float *array, size_t count, size_t more, size_t width, lam_error *error)
 {
     float *larger = arena_array(&obj->scene->arena, count + more, width * sizeof *larger);
     if (!larger) {
@@ -179,8 +178,8 @@ static bool make_missing(struct obj *obj, lam_error *error)
         .smoothing_groups = groups,
     };
     double crease = source->params->crease_angle_rad;
-    if (!normals_smooth(&part, crease > 0 ? crease : math_radians(40), &obj->memory, source->pool,
-                        source->watch, error))
+    if (!normals_smooth(&part, crease > 0 ? crease : math_radians(40), &obj->memory, source->pool, source->watch,
+                        error))
         return false;
     size_t own = (size_t)obj->total.normals;
     float *normals = grow(obj, obj->normals, own, part.normal_count, 3, error);

@@ -167,8 +167,7 @@ static bool keep_statements(struct large *large, const struct room *room, uint64
 {
     struct arena *memory = &large->obj->memory;
     size_t kept = (size_t)large->total.others;
-    if (!grow(memory, &large->statements, &large->statements_room, kept, (size_t)count,
-              sizeof *large->statements))
+    if (!grow(memory, &large->statements, &large->statements_room, kept, (size_t)count, sizeof *large->statements))
         return false;
     for (uint64_t i = 0; i < count; i++) {
         const uint8_t *at = room->statements[i].at;
@@ -417,8 +416,7 @@ static bool load(struct large *large)
     return obj_complete(obj, NULL) && !obj->line_missed;
 }
 
-bool obj_load_large(const struct import_source *source, const struct file_parts *file,
-                    struct lam_scene *scene)
+bool obj_load_large(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)
 {
     struct obj obj = {.source = source, .scene = scene, .in_pieces = true};
     struct large large = {.obj = &obj, .file = file, .halt = {.watch = source->watch}};

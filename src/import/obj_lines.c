@@ -27,8 +27,7 @@ static inline uint64_t newlines_of(const struct constants *c, const uint8_t *blo
     return byte_masks_newlines(block);
 }
 
-static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *stop,
-                                 uint32_t to[3])
+static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *stop, uint32_t to[3])
 {
     const uint8_t *at = line + 1;
     for (int i = 0; i < 3; i++) {
@@ -45,8 +44,7 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
     return at + (*at == '\r') == stop;
 }
 
-static inline bool read_coordinates(const struct constants *c, const uint8_t *line, const uint8_t *stop,
-                                    float out[3])
+static inline bool read_coordinates(const struct constants *c, const uint8_t *line, const uint8_t *stop, float out[3])
 {
     (void)c;
     const uint8_t *at = line + 1;
@@ -97,8 +95,7 @@ static inline void put_down(const struct hand *hand, struct obj_reader *reader)
     memcpy(reader->high, &hand->box.high, sizeof reader->high);
 }
 
-static inline bool take_triangle(struct hand *hand, const struct constants *c, const uint8_t *line,
-                                 const uint8_t *stop)
+static inline bool take_triangle(struct hand *hand, const struct constants *c, const uint8_t *line, const uint8_t *stop)
 {
     if (hand->corners >= hand->corners_end || !read_triangle(c, line, stop, hand->corners))
         return false;
@@ -106,8 +103,7 @@ static inline bool take_triangle(struct hand *hand, const struct constants *c, c
     return true;
 }
 
-static inline bool take_position(struct hand *hand, const struct constants *c, const uint8_t *line,
-                                 const uint8_t *stop)
+static inline bool take_position(struct hand *hand, const struct constants *c, const uint8_t *line, const uint8_t *stop)
 {
     if (hand->position >= hand->positions_end)
         return false;

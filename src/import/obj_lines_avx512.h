@@ -13,8 +13,7 @@
 
 static inline unsigned first_of(uint64_t set) { return (unsigned)__builtin_ctzll(set); }
 static inline uint64_t but_first(uint64_t set) { return set & (set - 1); }
-// Kept from the compiler, which would reckon with sets where they are made, in registers that are slow to do
-// so.
+// Kept from the compiler, which would reckon with sets where they are made, in registers that are slow to do so.
 static inline uint64_t set_of(__mmask64 bytes)
 {
     uint64_t set = bytes;
@@ -46,8 +45,7 @@ static inline struct constants constants_of(uint32_t most)
         .point = _mm512_set1_epi8('.'),
         .minus = _mm512_set1_epi8('-'),
         .one = _mm512_set1_epi8(1),
-        .lanes_of_8 =
-            _mm512_setr_epi64(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303, 0, 0, 0, 0),
+        .lanes_of_8 = _mm512_setr_epi64(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303, 0, 0, 0, 0),
         .lanes_of_16 = _mm512_setr_epi64(0, 0, 0x0101010101010101, 0x0101010101010101, 0x0202020202020202,
                                          0x0202020202020202, 0x0303030303030303, 0x0303030303030303),
         .back_8 = _mm512_set1_epi64((long long)0xfffefdfcfbfaf9f8u),
@@ -69,9 +67,7 @@ static inline struct constants constants_of(uint32_t most)
     // Opaque to the compiler from here on.
     __asm__("" : "+v"(c.newline), "+v"(c.zero), "+v"(c.nine), "+v"(c.space), "+v"(c.point), "+v"(c.minus));
     __asm__("" : "+v"(c.lanes_of_8), "+v"(c.lanes_of_16), "+v"(c.back_8), "+v"(c.back_16));
-    __asm__(""
-            : "+v"(c.tens), "+v"(c.hundreds), "+v"(c.ten_thousands), "+v"(c.tenths_to_6),
-              "+v"(c.tenths_to_14));
+    __asm__("" : "+v"(c.tens), "+v"(c.hundreds), "+v"(c.ten_thousands), "+v"(c.tenths_to_6), "+v"(c.tenths_to_14));
     __asm__("" : "+v"(c.cut), "+v"(c.middle), "+v"(c.doubt), "+v"(c.hundred_millions), "+v"(c.sign));
     __asm__("" : "+v"(c.one), "+v"(c.one_32), "+v"(c.most));
     return c;
@@ -84,8 +80,7 @@ static inline uint64_t newlines_of(const struct constants *c, const uint8_t *blo
 
 // Three numbers of one to eight digits, one space between them, each from 1 to `most`. Whether that is the
 // line, which ends at `stop`.
-static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *stop,
-                                 uint32_t to[3])
+static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *stop, uint32_t to[3])
 {
     const uint8_t *at = line + 2;
     unsigned length = (unsigned)(stop - at) - (stop[-1] == '\r');
@@ -102,12 +97,12 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
     if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf8f8f8) // not 1 to 8 digits each
         return false;
     const __m256i lanes = _mm512_castsi512_si256(c->lanes_of_8);
-    __m256i from = _mm256_add_epi8(_mm256_shuffle_epi8(_mm256_set1_epi32((int)ends), lanes),
-                                   _mm512_castsi512_si256(c->back_8));
+    __m256i from =
+        _mm256_add_epi8(_mm256_shuffle_epi8(_mm256_set1_epi32((int)ends), lanes), _mm512_castsi512_si256(c->back_8));
     __mmask32 is = _mm256_cmpge_epi8_mask(from, _mm256_shuffle_epi8(_mm256_set1_epi32((int)begins), lanes));
     // Neighbours are joined: digits to pairs, pairs to fours, fours to numbers.
-    __m256i pairs = _mm256_maddubs_epi16(_mm256_maskz_permutexvar_epi8(is, from, values),
-                                         _mm512_castsi512_si256(c->tens));
+    __m256i pairs =
+        _mm256_maddubs_epi16(_mm256_maskz_permutexvar_epi8(is, from, values), _mm512_castsi512_si256(c->tens));
     __m256i fours = _mm256_madd_epi16(pairs, _mm512_castsi512_si256(c->hundreds));
     __m128i numbers = _mm_madd_epi16(_mm256_cvtepi32_epi16(fours), _mm512_castsi512_si128(c->ten_thousands));
     __m128i indices = _mm_sub_epi32(numbers, c->one_32);
@@ -118,10 +113,8 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
     return true;
 }
 
-// Three numbers like -12.3456, of 2 to 15 digits with some on both sides of the point, one space between
-// them.
-static inline bool read_coordinates(const struct constants *c, const uint8_t *line, const uint8_t *stop,
-                                    __m128 *out)
+// Three numbers like -12.3456, of 2 to 15 digits with some on both sides of the point, one space between them.
+static inline bool read_coordinates(const struct constants *c, const uint8_t *line, const uint8_t *stop, __m128 *out)
 {
     const uint8_t *at = line + 2;
     unsigned length = (unsigned)(stop - at) - (stop[-1] == '\r');
@@ -132,8 +125,7 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
     uint64_t digits = set_of(_mm512_cmple_epu8_mask(values, c->nine)) & inside;
     uint64_t spaces = set_of(_mm512_cmpeq_epi8_mask(bytes, c->space)) & inside;
     uint64_t points = set_of(_mm512_cmpeq_epi8_mask(bytes, c->point)) & inside;
-    uint64_t starts = spaces << 1 | 1,
-             signs = set_of(_mm512_cmpeq_epi8_mask(bytes, c->minus)) & starts & inside;
+    uint64_t starts = spaces << 1 | 1, signs = set_of(_mm512_cmpeq_epi8_mask(bytes, c->minus)) & starts & inside;
     // Nothing else; digits begin where a number does, and behind each sign and point, and nowhere else;
     // point, space, point, space, point.
     uint64_t between = spaces | points, strange = (digits | signs | between) ^ inside;
@@ -146,18 +138,15 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
     uint32_t begins = (ends << 8) + 0x010100 + (uint32_t)_pdep_u64(negative, 0x010101);
     if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf0f0f0) // more than 15 digits, and the point
         return false;
-    __m512i from =
-        _mm512_add_epi8(_mm512_shuffle_epi8(_mm512_set1_epi32((int)ends), c->lanes_of_16), c->back_16);
+    __m512i from = _mm512_add_epi8(_mm512_shuffle_epi8(_mm512_set1_epi32((int)ends), c->lanes_of_16), c->back_16);
     __m512i point_at = _mm512_shuffle_epi8(_mm512_set1_epi32((int)middles), c->lanes_of_16);
     __m512i begin_at = _mm512_shuffle_epi8(_mm512_set1_epi32((int)begins), c->lanes_of_16);
     from = _mm512_mask_sub_epi8(from, _mm512_cmple_epi8_mask(from, point_at), from, c->one);
     __m512i lanes = _mm512_maskz_permutexvar_epi8(_mm512_cmpge_epi8_mask(from, begin_at), from, values);
     __m512i fours = _mm512_madd_epi16(_mm512_maddubs_epi16(lanes, c->tens), c->hundreds);
-    __m256i eights =
-        _mm256_madd_epi16(_mm512_cvtepi32_epi16(fours), _mm512_castsi512_si256(c->ten_thousands));
+    __m256i eights = _mm256_madd_epi16(_mm512_cvtepi32_epi16(fours), _mm512_castsi512_si256(c->ten_thousands));
     // Of each two the first counts 10⁸.
-    __m256i whole =
-        _mm256_add_epi64(_mm256_mul_epu32(eights, c->hundred_millions), _mm256_srli_epi64(eights, 32));
+    __m256i whole = _mm256_add_epi64(_mm256_mul_epu32(eights, c->hundred_millions), _mm256_srli_epi64(eights, 32));
     __m512i behind = _mm512_cvtepu8_epi64(_mm_cvtsi32_si128((int)(ends - middles))); // digits there, and one
     __m256d tenths = _mm512_castpd512_pd256(_mm512_permutex2var_pd(c->tenths_to_6, behind, c->tenths_to_14));
     __m256d product = _mm256_mul_pd(_mm256_cvtepi64_pd(whole), tenths); // as number_float_quick has it

@@ -17,16 +17,15 @@ static const uint8_t *wrong(struct obj_reader *reader, const uint8_t *at, const 
         return NULL;
     char found[TEXT_FOUND_SIZE];
     struct obj *obj = reader->obj;
-    const char *what =
-        at < reader->end && *at == '\n' ? "the end of the line" : text_found(at, reader->end, found);
+    const char *what = at < reader->end && *at == '\n' ? "the end of the line" : text_found(at, reader->end, found);
     fail_line(reader->error, obj->source, obj_line(obj, at), "found %s, expected %s", what, expected);
     return NULL;
 }
 
 // Reads `count` numbers; a missing one is 0 where `least` are there. Returns the place of the word behind
 // them; NULL: wrong. `expected` names them.
-static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8_t *at, float *to, int least,
-                                          int count, const char *expected)
+static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8_t *at, float *to, int least, int count,
+                                          const char *expected)
 {
     const uint8_t *end = reader->end;
     for (int i = 0; i < count; i++) {
@@ -74,8 +73,7 @@ static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, f
     if (color && count >= 3) {
         for (int i = 0; i < 3; i++) {
             color[i] = clean(extra[i]);
-            reader->chunk->brightest =
-                color[i] > reader->chunk->brightest ? color[i] : reader->chunk->brightest;
+            reader->chunk->brightest = color[i] > reader->chunk->brightest ? color[i] : reader->chunk->brightest;
         }
     }
     return at;
@@ -159,8 +157,8 @@ static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *a
 
 // Reads a number of a corner: 1 is the first, −1 the last above. NULL: wrong. `what` names it, `so_far` are
 // above it.
-static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t *at, uint64_t total,
-                                        uint64_t so_far, const char *what, uint32_t *out)
+static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t *at, uint64_t total, uint64_t so_far,
+                                        const char *what, uint32_t *out)
 {
     uint64_t eight = number_load8(at);
     unsigned digits = number_digit_count(eight);
@@ -190,16 +188,15 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
             fail_line(reader->error, obj->source, line, "a face names %s %s; the file has %llu", name, found,
                       (unsigned long long)total);
         else
-            fail_line(reader->error, obj->source, line, "a face names %s %s, counted back; %llu are above it",
-                      name, found, (unsigned long long)so_far);
+            fail_line(reader->error, obj->source, line, "a face names %s %s, counted back; %llu are above it", name,
+                      found, (unsigned long long)so_far);
         return NULL;
     }
     *out = (uint32_t)index;
     return behind;
 }
 
-static const char what_position[] = "a vertex", what_texcoord[] = "a texture coordinate",
-                  what_normal[] = "a normal";
+static const char what_position[] = "a vertex", what_texcoord[] = "a texture coordinate", what_normal[] = "a normal";
 
 // One face: v, v/t, v//n or v/t/n for each corner, each corner by itself.
 static const uint8_t *read_face(struct obj_reader *reader, const uint8_t *at)
@@ -221,8 +218,7 @@ static const uint8_t *read_face(struct obj_reader *reader, const uint8_t *at)
             at++;
             if (*at != '/' && !obj_word_over(at)) {
                 if (texcoords) {
-                    at = read_index(reader, at, obj->total.texcoords, reader->at.texcoords, what_texcoord,
-                                    &texcoord);
+                    at = read_index(reader, at, obj->total.texcoords, reader->at.texcoords, what_texcoord, &texcoord);
                     if (!at)
                         return NULL;
                 } else {
@@ -238,8 +234,7 @@ static const uint8_t *read_face(struct obj_reader *reader, const uint8_t *at)
                 at++;
                 if (!obj_word_over(at)) {
                     if (normals) {
-                        at = read_index(reader, at, obj->total.normals, reader->at.normals, what_normal,
-                                        &normal);
+                        at = read_index(reader, at, obj->total.normals, reader->at.normals, what_normal, &normal);
                         if (!at)
                             return NULL;
                     } else {
@@ -302,8 +297,7 @@ const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at)
     case OBJ_OTHER:
         if (reader->at.others >= reader->limit.others)
             return wrong(reader, at, "what was there a moment ago");
-        reader->obj->statements[reader->at.others++] =
-            (struct obj_statement){at, (uint32_t)reader->at.triangles};
+        reader->obj->statements[reader->at.others++] = (struct obj_statement){at, (uint32_t)reader->at.triangles};
         return obj_line_behind(at, end);
     case OBJ_EMPTY:
         if (*at == 0 && at < end)

@@ -128,8 +128,7 @@ static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
     uint32_t from = last ? last->first_triangle + last->triangle_count : 0;
     if (triangle == from)
         return true;
-    bool same =
-        last && same_name(state->object, state->part_object) && same_name(state->group, state->part_group);
+    bool same = last && same_name(state->object, state->part_object) && same_name(state->group, state->part_group);
     if (same && last->material == state->material) {
         last->triangle_count += triangle - from;
         return true;
@@ -279,12 +278,11 @@ static void warn_elements(struct state *state)
         scene_warn(obj->scene,
                    "%s:%zu: free-form curves and surfaces are not drawn: %s is the first of %zu statements "
                    "that make them",
-                   name, obj_line(obj, state->first[FREE_FORM]),
-                   text_found(state->first[FREE_FORM], obj->end, found), free_form);
+                   name, obj_line(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found),
+                   free_form);
     if (state->counts[UNKNOWN])
-        scene_warn(obj->scene,
-                   "%s:%zu: the statement %s is not known; it is the first of %zu that are passed over", name,
-                   obj_line(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found),
+        scene_warn(obj->scene, "%s:%zu: the statement %s is not known; it is the first of %zu that are passed over",
+                   name, obj_line(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found),
                    state->counts[UNKNOWN]);
 }
 
@@ -297,22 +295,19 @@ static bool explain_nothing(struct state *state, lam_error *error)
     size_t lines = state->counts[LINES], points = state->counts[POINTS];
     char found[TEXT_FOUND_SIZE];
     if (state->counts[FREE_FORM])
-        return fail(
-            error, LAM_UNSUPPORTED,
-            "%s:%zu: holds no faces, only free-form curves and surfaces (%s), which this version cannot draw",
-            name, obj_line(obj, state->first[FREE_FORM]),
-            text_found(state->first[FREE_FORM], obj->end, found));
+        return fail(error, LAM_UNSUPPORTED,
+                    "%s:%zu: holds no faces, only free-form curves and surfaces (%s), which this version cannot draw",
+                    name, obj_line(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found));
     if (lines && points)
-        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu line%s and %zu point%s", name,
-                    lines, lines == 1 ? "" : "s", points, points == 1 ? "" : "s");
+        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu line%s and %zu point%s", name, lines,
+                    lines == 1 ? "" : "s", points, points == 1 ? "" : "s");
     if (lines + points)
         return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu %s%s", name, lines + points,
                     lines ? "line" : "point", lines + points == 1 ? "" : "s");
     if (state->counts[UNKNOWN])
         return fail(error, LAM_CANNOT_READ,
-                    "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file holds no triangles",
-                    name, obj_line(obj, state->first[UNKNOWN]),
-                    text_found(state->first[UNKNOWN], obj->end, found));
+                    "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file holds no triangles", name,
+                    obj_line(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found));
     return true;
 }
 
@@ -323,13 +318,11 @@ static void warn_materials(struct state *state)
     if (state->unknown_materials && !state->library_missing) {
         size_t line = obj_line(obj, state->unknown_material_at);
         if (!state->libraries)
-            scene_warn(
-                obj->scene,
-                "%s:%zu: uses the material '%s' but names no material file; it is drawn in neutral grey",
-                name, line, state->unknown_material);
-        else if (state->unknown_materials == 1)
             scene_warn(obj->scene,
-                       "%s:%zu: no material file has the material '%s'; it is drawn in neutral grey", name,
+                       "%s:%zu: uses the material '%s' but names no material file; it is drawn in neutral grey", name,
+                       line, state->unknown_material);
+        else if (state->unknown_materials == 1)
+            scene_warn(obj->scene, "%s:%zu: no material file has the material '%s'; it is drawn in neutral grey", name,
                        line, state->unknown_material);
         else
             scene_warn(obj->scene,

@@ -221,8 +221,8 @@ bool obj_scan(struct obj *obj, lam_error *error)
     uint64_t most = sum.positions > sum.texcoords ? sum.positions : sum.texcoords;
     most = most > sum.normals ? most : sum.normals;
     if (most >= UINT32_MAX)
-        return fail(error, LAM_LIMIT, "%s: holds %llu vertices of a kind; at most 4294967294 can be held",
-                    name, (unsigned long long)most);
+        return fail(error, LAM_LIMIT, "%s: holds %llu vertices of a kind; at most 4294967294 can be held", name,
+                    (unsigned long long)most);
     if (sum.triangles > UINT32_MAX / 3)
         return fail(error, LAM_LIMIT, "%s: holds %llu triangles; at most %u can be held", name,
                     (unsigned long long)sum.triangles, UINT32_MAX / 3);

@@ -1,5 +1,4 @@
-// ply.c: PLY, ASCII and binary: the order in which a file's elements become a mesh. ply.h says where the rest
-// is.
+// ply.c: PLY, ASCII and binary: the order in which a file's elements become a mesh. ply.h says where the rest is.
 #include "ply.h"
 #include "fail.h"
 #include "text.h"
@@ -29,8 +28,8 @@ struct reading {
 static bool fail_header(const struct reading *reading, const struct ply_element *element, const char *found,
                         const char *expected, lam_error *error)
 {
-    return fail_line(error, reading->source, element->line, "element %s %s, expected %s", element->name,
-                     found, expected);
+    return fail_line(error, reading->source, element->line, "element %s %s, expected %s", element->name, found,
+                     expected);
 }
 
 // Finds the elements and the list of corners in each.
@@ -60,8 +59,7 @@ static bool choose(struct reading *reading, lam_error *error)
             return fail_header(reading, element, "has no list of corners",
                                "a property such as \"list uchar int vertex_indices\"", error);
         if (!ply_type_is_integer(element->properties[list].type))
-            return fail_header(reading, element, "has corners that are not whole numbers", "an integer type",
-                               error);
+            return fail_header(reading, element, "has corners that are not whole numbers", "an integer type", error);
         reading->lists[kind] = list;
     }
     return true;
@@ -76,14 +74,12 @@ static bool check_surface(const struct reading *reading, lam_error *error)
         return fail(error, LAM_CANNOT_READ, "%s: the file holds %llu points and no faces, expected a surface",
                     reading->source->name, (unsigned long long)vertices->count);
     if (surface && !vertices)
-        return fail(error, LAM_CANNOT_READ,
-                    "%s: the file holds faces and no vertices, expected element vertex",
+        return fail(error, LAM_CANNOT_READ, "%s: the file holds faces and no vertices, expected element vertex",
                     reading->source->name);
     return true;
 }
 
-static struct ply_request request_for(const struct reading *reading, int kind,
-                                      enum ply_positions_as positions)
+static struct ply_request request_for(const struct reading *reading, int kind, enum ply_positions_as positions)
 {
     const struct ply_element *vertices = reading->elements[VERTICES], *element = reading->elements[kind];
     return (struct ply_request){
@@ -103,8 +99,8 @@ static bool read_element(struct reading *reading, const struct ply_element *elem
     if (table)
         request = request_for(reading, kind, positions);
     if (reading->header.format == PLY_ASCII)
-        return ply_read_ascii(reading->source, element, &request, &reading->scene->arena, reading->scratch,
-                              at, table, error);
+        return ply_read_ascii(reading->source, element, &request, &reading->scene->arena, reading->scratch, at, table,
+                              error);
     return ply_read_binary(reading->source, &reading->header, element, &request, &reading->scene->arena,
                            reading->scratch, at, table, error);
 }
@@ -162,8 +158,7 @@ static bool build(struct reading *reading, lam_error *error)
 
     lam_mesh mesh = {0};
     const struct ply_table *vertices = &reading->tables[VERTICES];
-    if (!read_positions(reading, &mesh, error) ||
-        !ply_normals(source, vertices, &scene->arena, &mesh.normals, error) ||
+    if (!read_positions(reading, &mesh, error) || !ply_normals(source, vertices, &scene->arena, &mesh.normals, error) ||
         !ply_texcoords(source, vertices, &scene->arena, &mesh.texcoords, error) ||
         !ply_tangents(source, vertices, &scene->arena, &mesh.tangents, error) ||
         !ply_colors(source, vertices, &scene->arena, &mesh.colors, &mesh.colors_format, error))

@@ -89,14 +89,13 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
                     struct ply_table *table, lam_error *error);
 
 // What both kinds of body share. Sets offsets, types and stride for rows without their lists.
-bool ply_plan_rows(const struct import_source *source, const struct ply_request *request,
-                   struct arena *scratch, struct ply_table *table, lam_error *error);
+bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,
+                   struct ply_table *table, lam_error *error);
 // The file ends before the element's row `row`, counted from 0, is whole.
 bool ply_fail_short(const struct import_source *source, const struct ply_element *element, uint64_t row,
                     lam_error *error);
 // More than 32-bit numbers can tell apart: LAM_LIMIT.
-bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element,
-                       lam_error *error);
+bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error);
 
 // Indices of the scalar properties of these names (−1: none); whether all are there.
 bool ply_find_all(const struct ply_table *table, const char *const *names, int count, int *properties);
@@ -105,8 +104,8 @@ bool ply_side_by_side(const struct ply_table *table, const int *properties, int 
 // Likewise red, green, blue and alpha, by any of their usual names; whether the first three are there.
 bool ply_find_colors(const struct ply_table *table, int properties[4]);
 // A scalar property of rows [first, last) as floats, each divided by `divisor`, to every `step`-th of `out`.
-void ply_copy_column(const struct ply_table *table, int property, size_t first, size_t last, float divisor,
-                     float *out, size_t step);
+void ply_copy_column(const struct ply_table *table, int property, size_t first, size_t last, float divisor, float *out,
+                     size_t step);
 
 // Positions: origin, positions (from `arena`) and vertex_count of the mesh. *far_out: the table holds an
 // ASCII file's numbers as floats, and they are to be read once more as doubles; nothing else is done then.
@@ -132,7 +131,6 @@ bool ply_strips(const struct import_source *source, const struct ply_table *stri
                 lam_mesh *mesh, lam_error *error);
 
 // ply_parts.c: the importer's load_parts.
-bool ply_load_parts(const struct import_source *source, const struct file_parts *file,
-                    struct lam_scene *scene);
+bool ply_load_parts(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 
 #endif

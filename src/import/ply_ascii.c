@@ -61,8 +61,7 @@ static const uint8_t *read_scalar(const struct reading *reading, size_t row, int
     if (type == PLY_F32 || type == PLY_F64) {
         float narrow = 0.0f;
         double wide = 0.0;
-        next = type == PLY_F32 ? number_float(at, reading->end, &narrow)
-                               : number_double(at, reading->end, &wide);
+        next = type == PLY_F32 ? number_float(at, reading->end, &narrow) : number_double(at, reading->end, &wide);
         if (!next || (next < reading->end && !text_white(*next))) {
             fail_number(reading, row, property, at, "a number", error);
             return NULL;
@@ -103,8 +102,7 @@ static const uint8_t *read_item(const struct reading *reading, size_t row, const
     return next;
 }
 
-// Walks over the rows: where each piece begins, how many items each row's list has. *at ends behind the last
-// row.
+// Walks over the rows: where each piece begins, how many items each row's list has. *at ends behind the last row.
 static bool walk(struct reading *reading, bool *threes, const uint8_t **at, lam_error *error)
 {
     const struct ply_element *element = reading->element;
@@ -169,8 +167,7 @@ static bool read_piece(void *user, size_t index, lam_error *error)
                     continue;
                 }
                 at = read_scalar(reading, row, i, at,
-                                 reading->rows + row * reading->table->stride + reading->table->offsets[i],
-                                 error);
+                                 reading->rows + row * reading->table->stride + reading->table->offsets[i], error);
                 if (!at)
                     return false;
                 continue;
@@ -181,8 +178,7 @@ static bool read_piece(void *user, size_t index, lam_error *error)
                 at = text_skip_white(at, end);
                 if (i != reading->request->list)
                     at = text_skip_word(at, end);
-                else if (!(at = read_item(reading, row, at, &reading->items[reading->starts[row] + item],
-                                          error)))
+                else if (!(at = read_item(reading, row, at, &reading->items[reading->starts[row] + item], error)))
                     return false;
             }
         }

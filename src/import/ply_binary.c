@@ -11,23 +11,19 @@
 bool ply_fail_short(const struct import_source *source, const struct ply_element *element, uint64_t row,
                     lam_error *error)
 {
-    return fail(
-        error, LAM_CANNOT_READ,
-        "%s: the file is cut short: its header promises %llu rows of element \"%s\", found %llu in %zu bytes",
-        source->name, (unsigned long long)element->count, element->name, (unsigned long long)row,
-        source->size);
+    return fail(error, LAM_CANNOT_READ,
+                "%s: the file is cut short: its header promises %llu rows of element \"%s\", found %llu in %zu bytes",
+                source->name, (unsigned long long)element->count, element->name, (unsigned long long)row, source->size);
 }
 
-bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element,
-                       lam_error *error)
+bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error)
 {
-    return fail(error, LAM_LIMIT,
-                "%s: element \"%s\" holds more than %u numbers, the most this program can tell apart",
+    return fail(error, LAM_LIMIT, "%s: element \"%s\" holds more than %u numbers, the most this program can tell apart",
                 source->name, element->name, UINT32_MAX - 1);
 }
 
-bool ply_plan_rows(const struct import_source *source, const struct ply_request *request,
-                   struct arena *scratch, struct ply_table *table, lam_error *error)
+bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,
+                   struct ply_table *table, lam_error *error)
 {
     const struct ply_element *element = table->element;
     size_t count = (size_t)element->property_count;
@@ -38,8 +34,7 @@ bool ply_plan_rows(const struct import_source *source, const struct ply_request 
     table->stride = 0;
     for (size_t i = 0; i < count; i++) {
         const struct ply_property *property = &element->properties[i];
-        bool position =
-            !property->list && property->name[0] >= 'x' && property->name[0] <= 'z' && !property->name[1];
+        bool position = !property->list && property->name[0] >= 'x' && property->name[0] <= 'z' && !property->name[1];
         types[i] = property->type;
         if (position && request->positions != PLY_AS_DECLARED)
             types[i] = request->positions == PLY_AS_FLOAT ? PLY_F32 : PLY_F64;
@@ -78,8 +73,8 @@ static bool fail_item(const struct reading *reading, size_t row, const uint8_t *
 }
 
 // Reads the items of one row's list, with their check.
-static bool read_items(const struct reading *reading, size_t row, const uint8_t *at, uint32_t count,
-                       uint32_t *items, lam_error *error)
+static bool read_items(const struct reading *reading, size_t row, const uint8_t *at, uint32_t count, uint32_t *items,
+                       lam_error *error)
 {
     enum ply_type type = reading->element->properties[reading->request->list].type;
     bool swapped = reading->table->swapped;
@@ -137,8 +132,7 @@ static bool read_threes(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Whether the bytes that are left are what rows with three items each would take, the elements behind
-// included.
+// Whether the bytes that are left are what rows with three items each would take, the elements behind included.
 static bool may_be_threes(const struct reading *reading, const struct ply_header *header)
 {
     const struct ply_element *element = reading->element, *end = header->elements + header->element_count;
@@ -158,14 +152,13 @@ static bool may_be_threes(const struct reading *reading, const struct ply_header
 }
 
 // Tries that layout. *done: it was it.
-static bool try_threes(struct reading *reading, struct arena *keep, struct arena *scratch, bool *done,
-                       lam_error *error)
+static bool try_threes(struct reading *reading, struct arena *keep, struct arena *scratch, bool *done, lam_error *error)
 {
     const struct ply_element *element = reading->element;
     int list = reading->request->list;
     size_t count = (size_t)element->count, property_count = (size_t)element->property_count;
-    size_t list_bytes = ply_type_size(element->properties[list].count_type) +
-                        3 * ply_type_size(element->properties[list].type);
+    size_t list_bytes =
+        ply_type_size(element->properties[list].count_type) + 3 * ply_type_size(element->properties[list].type);
     reading->items = arena_array(keep, count, 3 * sizeof *reading->items);
     uint32_t *offsets = arena_array(scratch, property_count, sizeof *offsets);
     if (!reading->items || !offsets)
@@ -192,8 +185,7 @@ static bool try_threes(struct reading *reading, struct arena *keep, struct arena
     return true;
 }
 
-// Walks over the rows: where each piece begins, how many items each row's list has. *end is behind the last
-// row.
+// Walks over the rows: where each piece begins, how many items each row's list has. *end is behind the last row.
 static bool walk(struct reading *reading, bool *threes, const uint8_t **end, lam_error *error)
 {
     const struct ply_element *element = reading->element;
@@ -217,11 +209,10 @@ static bool walk(struct reading *reading, bool *threes, const uint8_t **end, lam
             if (property->list) {
                 int64_t items = ply_load_integer(at, property->count_type, reading->table->swapped);
                 if (items < 0)
-                    return fail_byte(
-                        error, reading->source, (size_t)(at - reading->source->bytes),
-                        "%s %zu of %llu: found %lld as the number of items of %s, expected 0 or more",
-                        element->name, row + 1, (unsigned long long)element->count, (long long)items,
-                        property->name);
+                    return fail_byte(error, reading->source, (size_t)(at - reading->source->bytes),
+                                     "%s %zu of %llu: found %lld as the number of items of %s, expected 0 or more",
+                                     element->name, row + 1, (unsigned long long)element->count, (long long)items,
+                                     property->name);
                 at += size;
                 size = (size_t)items * ply_type_size(property->type); // at most 2³² · 8
                 if ((size_t)(file_end - at) < size)
@@ -254,8 +245,7 @@ static bool read_piece(void *user, size_t index, lam_error *error)
             const struct ply_property *property = &element->properties[i];
             size_t size = ply_type_size(property->type);
             if (property->list) {
-                uint32_t count =
-                    (uint32_t)ply_load_integer(at, property->count_type, reading->table->swapped);
+                uint32_t count = (uint32_t)ply_load_integer(at, property->count_type, reading->table->swapped);
                 at += ply_type_size(property->count_type);
                 if (i == reading->request->list &&
                     !read_items(reading, row, at, count, reading->items + reading->starts[row], error))
@@ -270,8 +260,8 @@ static bool read_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-static bool read_lists(struct reading *reading, struct arena *keep, struct arena *scratch,
-                       const uint8_t **end, lam_error *error)
+static bool read_lists(struct reading *reading, struct arena *keep, struct arena *scratch, const uint8_t **end,
+                       lam_error *error)
 {
     struct ply_table *table = reading->table;
     const struct ply_request *request = reading->request;

@@ -1,5 +1,4 @@
-// ply_columns.c: columns of a PLY table as normals, tangents, texture coordinates and colours, in parallel
-// pieces.
+// ply_columns.c: columns of a PLY table as normals, tangents, texture coordinates and colours, in parallel pieces.
 #include "chunks.h"
 #include "srgb.h"
 #include "linear.h"
@@ -7,15 +6,15 @@
 
 #include <float.h>
 
-void ply_copy_column(const struct ply_table *table, int property, size_t first, size_t last, float divisor,
-                     float *out, size_t step)
+void ply_copy_column(const struct ply_table *table, int property, size_t first, size_t last, float divisor, float *out,
+                     size_t step)
 {
     const uint8_t *at = table->rows + first * table->stride + table->offsets[property];
     size_t stride = table->stride;
     bool swapped = table->swapped;
-#define COLUMN(LOAD)                                                                                         \
-    for (size_t row = first; row < last; row++, at += stride, out += step)                                   \
-        *out = (float)(LOAD) / divisor;                                                                      \
+#define COLUMN(LOAD)                                                                                                   \
+    for (size_t row = first; row < last; row++, at += stride, out += step)                                             \
+        *out = (float)(LOAD) / divisor;                                                                                \
     break
     switch (table->types[property]) {
     case PLY_I8:
@@ -111,8 +110,7 @@ static bool vector_piece(void *user, size_t index, lam_error *error)
     } else {
         for (size_t c = 0; c < width; c++) {
             if (vectors->properties[c] >= 0) {
-                ply_copy_column(table, vectors->properties[c], first, last, vectors->divisors[c], out + c,
-                                width);
+                ply_copy_column(table, vectors->properties[c], first, last, vectors->divisors[c], out + c, width);
                 continue;
             }
             for (size_t row = first; row < last; row++)
@@ -125,8 +123,8 @@ static bool vector_piece(void *user, size_t index, lam_error *error)
 }
 
 // `numbers` are properties, the rest up to `width` is 1.
-static bool read_vectors(const struct import_source *source, struct vectors *vectors, int numbers,
-                         struct arena *arena, const float **out, lam_error *error)
+static bool read_vectors(const struct import_source *source, struct vectors *vectors, int numbers, struct arena *arena,
+                         const float **out, lam_error *error)
 {
     size_t bytes = vectors->table->count * (size_t)vectors->width * sizeof(float);
     bool whole = true;
@@ -150,8 +148,7 @@ bool ply_normals(const struct import_source *source, const struct ply_table *tab
 {
     static const char *const names[] = {"nx", "ny", "nz"};
     struct vectors vectors = {.table = table, .kind = NORMALS, .width = 3};
-    return !ply_find_all(table, names, 3, vectors.properties) ||
-           read_vectors(source, &vectors, 3, arena, out, error);
+    return !ply_find_all(table, names, 3, vectors.properties) || read_vectors(source, &vectors, 3, arena, out, error);
 }
 
 bool ply_tangents(const struct import_source *source, const struct ply_table *table, struct arena *arena,
@@ -159,8 +156,7 @@ bool ply_tangents(const struct import_source *source, const struct ply_table *ta
 {
     static const char *const names[] = {"tx", "ty", "tz"};
     struct vectors vectors = {.table = table, .kind = TANGENTS, .width = 4};
-    return !ply_find_all(table, names, 3, vectors.properties) ||
-           read_vectors(source, &vectors, 3, arena, out, error);
+    return !ply_find_all(table, names, 3, vectors.properties) || read_vectors(source, &vectors, 3, arena, out, error);
 }
 
 // What integers are divided by: bytes and 16-bit numbers span 0…1.

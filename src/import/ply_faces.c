@@ -61,8 +61,8 @@ static bool cut_piece(void *user, size_t index, lam_error *error)
 }
 
 // Polygons of any size: mesh->indices and triangle_count, and each triangle's face where asked.
-static bool cut_polygons(struct polygons *polygons, bool want_faces, struct lam_scene *scene,
-                         struct arena *scratch, lam_mesh *mesh, lam_error *error)
+static bool cut_polygons(struct polygons *polygons, bool want_faces, struct lam_scene *scene, struct arena *scratch,
+                         lam_mesh *mesh, lam_error *error)
 {
     const struct import_source *source = polygons->source;
     const struct ply_table *faces = polygons->faces;
@@ -81,8 +81,8 @@ static bool cut_polygons(struct polygons *polygons, bool want_faces, struct lam_
     if (triangles > TRIANGLES_MAX)
         return fail_too_many(source, triangles, error);
     if (poor > 0)
-        scene_warn(scene, "%s: %zu of %zu faces have fewer than three corners and are left out", source->name,
-                   poor, faces->count);
+        scene_warn(scene, "%s: %zu of %zu faces have fewer than three corners and are left out", source->name, poor,
+                   faces->count);
     polygons->indices = arena_array(&scene->arena, triangles, 3 * sizeof *polygons->indices);
     if (want_faces)
         polygons->face_of = arena_array(&scene->arena, triangles, sizeof *polygons->face_of);
@@ -96,8 +96,8 @@ static bool cut_polygons(struct polygons *polygons, bool want_faces, struct lam_
 }
 
 // Face normals serve where the vertices have none: one element a face, named by each of its corners.
-static bool face_normals(const struct import_source *source, const struct ply_table *faces,
-                         const uint32_t *face_of, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
+static bool face_normals(const struct import_source *source, const struct ply_table *faces, const uint32_t *face_of,
+                         struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
     const float *normals = NULL;
     if (mesh->normals)
@@ -120,9 +120,8 @@ static bool face_normals(const struct import_source *source, const struct ply_ta
 }
 
 // Face colours likewise; the triangles of a polygon repeat its own.
-static bool face_colors(const struct import_source *source, const struct ply_table *faces,
-                        const uint32_t *face_of, struct lam_scene *scene, struct arena *scratch,
-                        lam_mesh *mesh, lam_error *error)
+static bool face_colors(const struct import_source *source, const struct ply_table *faces, const uint32_t *face_of,
+                        struct lam_scene *scene, struct arena *scratch, lam_mesh *mesh, lam_error *error)
 {
     const void *colors = NULL;
     lam_colors_format format = LAM_COLORS_NONE;
@@ -148,8 +147,8 @@ static bool face_colors(const struct import_source *source, const struct ply_tab
     return true;
 }
 
-static bool load_faces(const struct import_source *source, const struct ply_table *faces,
-                       struct lam_scene *scene, struct arena *scratch, lam_mesh *mesh, lam_error *error)
+static bool load_faces(const struct import_source *source, const struct ply_table *faces, struct lam_scene *scene,
+                       struct arena *scratch, lam_mesh *mesh, lam_error *error)
 {
     struct polygons polygons = {.source = source, .faces = faces, .positions = mesh->positions};
     if (faces->starts) {

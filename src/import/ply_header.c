@@ -20,9 +20,8 @@ static const struct {
     const char *name, *sized_name;
     size_t size;
 } types[PLY_TYPE_COUNT] = {
-    [PLY_I8] = {"char", "int8", 1},      [PLY_U8] = {"uchar", "uint8", 1},
-    [PLY_I16] = {"short", "int16", 2},   [PLY_U16] = {"ushort", "uint16", 2},
-    [PLY_I32] = {"int", "int32", 4},     [PLY_U32] = {"uint", "uint32", 4},
+    [PLY_I8] = {"char", "int8", 1},      [PLY_U8] = {"uchar", "uint8", 1},     [PLY_I16] = {"short", "int16", 2},
+    [PLY_U16] = {"ushort", "uint16", 2}, [PLY_I32] = {"int", "int32", 4},      [PLY_U32] = {"uint", "uint32", 4},
     [PLY_F32] = {"float", "float32", 4}, [PLY_F64] = {"double", "float64", 8},
 };
 
@@ -78,8 +77,7 @@ static bool fail_word(const struct lines *lines, const uint8_t *word, const char
 {
     char found[TEXT_FOUND_SIZE];
     return fail_line(error, lines->source, lines->number, "found %s, expected %s",
-                     word < lines->end ? text_found(word, lines->end, found) : "the end of the line",
-                     expected);
+                     word < lines->end ? text_found(word, lines->end, found) : "the end of the line", expected);
 }
 
 static bool read_type(struct lines *lines, enum ply_type *type, lam_error *error)
@@ -146,8 +144,7 @@ static bool read_property(struct lines *lines, struct ply_element *element, stru
         if (!read_type(lines, &property->count_type, error))
             return false;
         if (!ply_type_is_integer(property->count_type))
-            return fail_word(lines, text_skip_white(before, lines->end), "an integer type for a list's count",
-                             error);
+            return fail_word(lines, text_skip_white(before, lines->end), "an integer type for a list's count", error);
     } else {
         lines->at = before;
     }
@@ -208,16 +205,15 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
     struct ply_element *elements = arena_array(arena, element_room, sizeof *elements);
     struct ply_property *properties = arena_array(arena, property_room, sizeof *properties);
     if (!elements || !properties)
-        return watch_memory_error(
-            source->watch, element_room * sizeof *elements + property_room * sizeof *properties, error);
+        return watch_memory_error(source->watch, element_room * sizeof *elements + property_room * sizeof *properties,
+                                  error);
 
     bool has_format = false;
     *header = (struct ply_header){.elements = elements};
     lines = start(source, arena);
     for (;;) {
         if (!next_line(&lines))
-            return fail_line(error, source, lines.number,
-                             "the file ends in its header, expected \"end_header\"");
+            return fail_line(error, source, lines.number, "the file ends in its header, expected \"end_header\"");
         keyword = read_keyword(&lines, &word);
         struct ply_element *element = header->element_count > 0 ? &elements[header->element_count - 1] : NULL;
         switch (keyword) {

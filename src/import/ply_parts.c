@@ -1,9 +1,8 @@
 // ply_parts.c: large PLY files of the usual layout, read part by part: binary, little-endian, vertices
 // without lists, then faces that are one list of three corners each.
 //
-// A part is converted while it is in the second-level cache, and the file is never held as a whole: half the
-// memory, and half the traffic, of reading it first. Whatever is not so, and whatever is wrong, is left to
-// ply.c.
+// A part is converted while it is in the second-level cache, and the file is never held as a whole: half the memory,
+// and half the traffic, of reading it first. Whatever is not so, and whatever is wrong, is left to ply.c.
 #include "halt.h"
 #include "ply_load.h"
 
@@ -93,8 +92,8 @@ static bool usual(const struct ply_header *header, size_t size)
     if (!corners || ply_type_size(list->count_type) != 1 || (list->type != PLY_I32 && list->type != PLY_U32))
         return false;
     size_t body = size - header->body;
-    return vertices->count > 0 && faces->count > 0 && vertices->count < UINT32_MAX &&
-           faces->count <= TRIANGLES_MAX && vertices->count <= body / vertices->scalar_bytes &&
+    return vertices->count > 0 && faces->count > 0 && vertices->count < UINT32_MAX && faces->count <= TRIANGLES_MAX &&
+           vertices->count <= body / vertices->scalar_bytes &&
            faces->count <= (body - vertices->count * vertices->scalar_bytes) / FACE;
 }
 
@@ -166,8 +165,7 @@ static bool load(struct parts *parts, struct lam_scene *scene, struct arena *scr
     return object.mesh >= 0 && scene_take_object(scene, &object, NULL) >= 0;
 }
 
-bool ply_load_parts(const struct import_source *source, const struct file_parts *file,
-                    struct lam_scene *scene)
+bool ply_load_parts(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)
 {
     struct arena scratch;
     arena_start(&scratch, source->watch);

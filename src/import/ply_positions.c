@@ -15,30 +15,29 @@ struct positions {
     struct box {
         double minimum[3], maximum[3];
         bool finite;
-    } * boxes; // one for each piece
+    } *boxes; // one for each piece
     double origin[3];
 };
 
-static bool fail_position(const struct positions *positions, size_t row, int axis, const char *found,
-                          lam_error *error)
+static bool fail_position(const struct positions *positions, size_t row, int axis, const char *found, lam_error *error)
 {
     const struct ply_table *table = positions->table;
     const uint8_t *at = table->rows + row * table->stride + table->offsets[positions->properties[axis]];
     const struct import_source *source = positions->source;
     uintptr_t offset = (uintptr_t)at - (uintptr_t)source->bytes;
     if (offset < source->size) // a binary row where it lies in the file
-        return fail_byte(error, source, offset, "vertex %zu of %zu: found %s as %c, expected a finite number",
-                         row + 1, table->count, found, "xyz"[axis]);
-    return fail(error, LAM_CANNOT_READ, "%s: vertex %zu of %zu: found %s as %c, expected a finite number",
-                source->name, row + 1, table->count, found, "xyz"[axis]);
+        return fail_byte(error, source, offset, "vertex %zu of %zu: found %s as %c, expected a finite number", row + 1,
+                         table->count, found, "xyz"[axis]);
+    return fail(error, LAM_CANNOT_READ, "%s: vertex %zu of %zu: found %s as %c, expected a finite number", source->name,
+                row + 1, table->count, found, "xyz"[axis]);
 }
 
 static double position_at(const struct positions *positions, size_t row, int axis)
 {
     const struct ply_table *table = positions->table;
     int property = positions->properties[axis];
-    return ply_load_double(table->rows + row * table->stride + table->offsets[property],
-                           table->types[property], table->swapped);
+    return ply_load_double(table->rows + row * table->stride + table->offsets[property], table->types[property],
+                           table->swapped);
 }
 
 static bool is_finite(double value) { return value >= -DBL_MAX && value <= DBL_MAX; }
@@ -152,8 +151,8 @@ bool ply_positions(const struct import_source *source, const struct ply_table *t
     *far_out = false;
     if (!ply_find_all(table, names, 3, positions.properties)) {
         int missing = positions.properties[0] < 0 ? 0 : positions.properties[1] < 0 ? 1 : 2;
-        return fail_line(error, source, table->element->line,
-                         "element vertex has no property %s, expected x, y and z", names[missing]);
+        return fail_line(error, source, table->element->line, "element vertex has no property %s, expected x, y and z",
+                         names[missing]);
     }
     if (table->count > UINT32_MAX - 1)
         return ply_fail_too_many(source, table->element, error);

@@ -1,5 +1,4 @@
-// scene_json.c: scene files: the JSON around it all, the picture's settings, and the row in the table of
-// formats.
+// scene_json.c: scene files: the JSON around it all, the picture's settings, and the row in the table of formats.
 #include "scene_file.h"
 
 #include "cube_map.h"
@@ -50,8 +49,7 @@ static bool read_image(struct scene_reader *r, const json_t *root)
             return false;
         for (size_t i = 0; i < 2; i++)
             if (!(sides[i] >= 1 && sides[i] <= 65535) || sides[i] != (double)(int)sides[i])
-                return fail_place(r, ELEMENT_OF(here, i), "found %.10g, expected pixels from 1 to 65535",
-                                  sides[i]);
+                return fail_place(r, ELEMENT_OF(here, i), "found %.10g, expected pixels from 1 to 65535", sides[i]);
         s->width = (int)sides[0];
         s->height = (int)sides[1];
         s->given |= LAM_GIVEN_SIZE;
@@ -76,8 +74,7 @@ static bool read_image(struct scene_reader *r, const json_t *root)
 
 static bool read_camera(struct scene_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"eye",  "target", "up", "fovy", "ortho_half_height",
-                                       "near", "far",    NULL};
+    static const char *const keys[] = {"eye", "target", "up", "fovy", "ortho_half_height", "near", "far", NULL};
     const json_t *value = json_object_get(root, "camera");
     const struct place *place = KEY_OF(NULL, "camera");
     lam_camera camera = lam_camera_default();
@@ -87,8 +84,7 @@ static bool read_camera(struct scene_reader *r, const json_t *root)
     bool has_fovy = json_object_get(value, "fovy"), ortho = json_object_get(value, "ortho_half_height");
     bool near = json_object_get(value, "near"), far = json_object_get(value, "far");
     if (!check_keys(r, place, value, keys) || !take_vector(r, place, value, "eye", &camera.eye) ||
-        !take_vector(r, place, value, "target", &camera.target) ||
-        !take_direction(r, place, value, "up", &camera.up) ||
+        !take_vector(r, place, value, "target", &camera.target) || !take_direction(r, place, value, "up", &camera.up) ||
         !take_number(r, place, value, "fovy", 0, 180, &fovy) ||
         !take_number(r, place, value, "ortho_half_height", 0, 1e30, &camera.ortho_half_height) ||
         !take_number(r, place, value, "near", -1e30, 1e30, &camera.near_plane) ||
@@ -97,16 +93,14 @@ static bool read_camera(struct scene_reader *r, const json_t *root)
     if (has_fovy && ortho)
         return fail_place(r, place, "has both fovy and ortho_half_height, expected one of them");
     if (has_fovy && !(fovy > 0 && fovy < 180))
-        return fail_place(r, KEY_OF(place, "fovy"), "found %.10g, expected degrees above 0 and below 180",
-                          fovy);
+        return fail_place(r, KEY_OF(place, "fovy"), "found %.10g, expected degrees above 0 and below 180", fovy);
     if (ortho && camera.ortho_half_height == 0)
         return fail_place(r, KEY_OF(place, "ortho_half_height"), "found 0, expected a number above 0");
     if (near != far)
-        return fail_place(r, place, "has only %s, expected both of near and far, or neither",
-                          near ? "near" : "far");
+        return fail_place(r, place, "has only %s, expected both of near and far, or neither", near ? "near" : "far");
     if (near && !(camera.near_plane < camera.far_plane && (ortho || camera.near_plane > 0)))
-        return fail_place(r, place, "near is %.10g and far is %.10g, expected %snear < far",
-                          camera.near_plane, camera.far_plane, ortho ? "" : "0 < ");
+        return fail_place(r, place, "near is %.10g and far is %.10g, expected %snear < far", camera.near_plane,
+                          camera.far_plane, ortho ? "" : "0 < ");
     if (v3_length(v3_sub(camera.eye, camera.target)) == 0)
         return fail_place(r, place, "eye and target are the same point");
     if (has_fovy)
@@ -129,8 +123,7 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
         !take_word(r, NULL, root, "viewer", viewer_words, &viewer) ||
         !take_word(r, NULL, root, "flat_normal", flat_normal_words, &flat_normal) ||
         !take_bool(r, NULL, root, "match_highlights", &draw->match_highlights) ||
-        !take_bool(r, NULL, root, "gl1", &draw->gl1) ||
-        !take_number(r, NULL, root, "light_cutoff", 0, 1, &cutoff) ||
+        !take_bool(r, NULL, root, "gl1", &draw->gl1) || !take_number(r, NULL, root, "light_cutoff", 0, 1, &cutoff) ||
         !take_word(r, NULL, root, "up", up_words, &up) || !take_rgb(r, NULL, root, "ambient", &ambient))
         return false;
     if (json_object_get(root, "light_cutoff"))
@@ -197,8 +190,7 @@ static bool read_faces(struct scene_reader *r, const struct place *place, const 
     for (size_t i = 0; i < 6; i++) {
         const json_t *face = json_array_get(faces, i);
         if (!json_is_string(face) || !json_string_length(face))
-            return fail_place(r, ELEMENT_OF(place, i), "found %s, expected a picture's name",
-                              json_kind(face, kind));
+            return fail_place(r, ELEMENT_OF(place, i), "found %s, expected a picture's name", json_kind(face, kind));
         if (!(r->settings->faces[i] = picture_path(r, json_string_value(face))))
             return false;
     }
@@ -227,9 +219,8 @@ static struct lam_environment *load_environment(const struct scene_reader *r)
     struct watch *watch = r->source->watch;
     if (s->built_in)
         return lam_environment_built_in(s->built_in, r->error);
-    return s->equirectangular
-               ? environment_load(s->equirectangular, r->color, watch, r->error)
-               : environment_load_faces((const char *const *)s->faces, r->color, watch, r->error);
+    return s->equirectangular ? environment_load(s->equirectangular, r->color, watch, r->error)
+                              : environment_load_faces((const char *const *)s->faces, r->color, watch, r->error);
 }
 
 static bool read_environment(struct scene_reader *r, const json_t *root)
@@ -241,8 +232,7 @@ static bool read_environment(struct scene_reader *r, const json_t *root)
     double rotation = 0;
     if (!value)
         return true;
-    if (!check_keys(r, place, value, keys) ||
-        !take_text(r, place, value, "equirectangular", &s->equirectangular) ||
+    if (!check_keys(r, place, value, keys) || !take_text(r, place, value, "equirectangular", &s->equirectangular) ||
         !take_text(r, place, value, "builtin", &s->built_in) ||
         !take_number(r, place, value, "rotation", -360000, 360000, &rotation))
         return false;
@@ -258,8 +248,7 @@ static bool read_environment(struct scene_reader *r, const json_t *root)
     s->environment_rotation_rad = math_radians(rotation);
     s->given |= LAM_GIVEN_ENVIRONMENT;
     lam_environment *environment = load_environment(r);
-    bool ok = environment &&
-              lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->error);
+    bool ok = environment && lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->error);
     lam_environment_free(environment);
     return ok;
 }
@@ -268,25 +257,22 @@ static bool read_environment(struct scene_reader *r, const json_t *root)
 
 static bool read_root(struct scene_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {
-        "lambent",    "image",     "camera",  "ambient",     "environment",      "shading",
-        "reflection", "viewer",    "stage",   "flat_normal", "match_highlights", "gl1",
-        "up",         "materials", "objects", "lights",      "light_cutoff",     NULL};
+    static const char *const keys[] = {"lambent",          "image",        "camera", "ambient",   "environment",
+                                       "shading",          "reflection",   "viewer", "stage",     "flat_normal",
+                                       "match_highlights", "gl1",          "up",     "materials", "objects",
+                                       "lights",           "light_cutoff", NULL};
     int version = 0;
-    if (!check_keys(r, NULL, root, keys) ||
-        !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
+    if (!check_keys(r, NULL, root, keys) || !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
         return false;
     if (!json_object_get(root, "lambent"))
         return fail_place(r, NULL, "'lambent' is missing, expected the format's version, 1");
     if (version != 1)
-        return fail(r->error, LAM_UNSUPPORTED,
-                    "%s: lambent: the format's version is %d, this program reads version 1", r->source->name,
-                    version);
+        return fail(r->error, LAM_UNSUPPORTED, "%s: lambent: the format's version is %d, this program reads version 1",
+                    r->source->name, version);
     r->has_lights = json_object_get(root, "lights");
     // The order matters: the colour mode before colours, objects before the lights that stand on them.
-    return read_image(r, root) && read_camera(r, root) && read_methods(r, root) &&
-           read_environment(r, root) && read_materials(r, root) && read_objects(r, root) &&
-           read_lights(r, root);
+    return read_image(r, root) && read_camera(r, root) && read_methods(r, root) && read_environment(r, root) &&
+           read_materials(r, root) && read_objects(r, root) && read_lights(r, root);
 }
 
 // What Jansson takes for a file of this size at the worst: one small value for each two bytes ("1,1,1").
@@ -306,8 +292,7 @@ static bool scene_load(const struct import_source *source, struct lam_scene *sce
                                   .color = source->params->color,
                                   .error = error ? error : &unwanted};
     json_error_t wrong;
-    json_t *root =
-        json_loadb((const char *)source->bytes + skip, source->size - skip, JSON_REJECT_DUPLICATES, &wrong);
+    json_t *root = json_loadb((const char *)source->bytes + skip, source->size - skip, JSON_REJECT_DUPLICATES, &wrong);
     bool ok;
     if (root) {
         ok = read_root(&reader, root);
@@ -315,8 +300,8 @@ static bool scene_load(const struct import_source *source, struct lam_scene *sce
     } else if (json_error_code(&wrong) == json_error_out_of_memory) {
         ok = fail_memory(error, charge);
     } else {
-        ok = fail_line(error, source, (size_t)(wrong.line > 0 ? wrong.line : 1), "column %d: %s",
-                       wrong.column, wrong.text);
+        ok = fail_line(error, source, (size_t)(wrong.line > 0 ? wrong.line : 1), "column %d: %s", wrong.column,
+                       wrong.text);
     }
     watch_refund(source->watch, charge);
     scene->settings = settings;

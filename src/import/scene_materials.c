@@ -17,13 +17,11 @@ bool read_material_keys(struct scene_reader *r, const struct place *place, const
         return false;
     if (whole) // a surface answers light from all around as it answers any light
         m->ambient = (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b};
-    if (!take_rgb(r, place, value, "ambient", &m->ambient) ||
-        !take_rgb(r, place, value, "specular", &m->specular) ||
+    if (!take_rgb(r, place, value, "ambient", &m->ambient) || !take_rgb(r, place, value, "specular", &m->specular) ||
         !take_rgb(r, place, value, "emission", &m->emission) ||
         !take_number(r, place, value, "shininess", 0, 1e30, &shininess) ||
         !take_rgb(r, place, value, "reflectivity", &m->reflectivity) ||
-        !take_number(r, place, value, "opacity", 0, 1, &opacity) ||
-        !take_bool(r, place, value, "fibre", &m->fibre))
+        !take_number(r, place, value, "opacity", 0, 1, &opacity) || !take_bool(r, place, value, "fibre", &m->fibre))
         return false;
     m->shininess = (float)shininess;
     if (opacity >= 0)
@@ -64,8 +62,7 @@ static bool unknown_name(struct scene_reader *r, const struct place *place, cons
     }
     return nearest
                ? fail_place(r, place, "no material is named '%s'; did you mean '%s'?", name, nearest)
-               : fail_place(r, place, "no material is named '%s', neither in \"materials\" nor a classic one",
-                            name);
+               : fail_place(r, place, "no material is named '%s', neither in \"materials\" nor a classic one", name);
 }
 
 bool read_material_value(struct scene_reader *r, const struct place *place, const json_t *value,
@@ -100,8 +97,7 @@ bool read_materials(struct scene_reader *r, const json_t *root)
     }
     r->material_at = arena_array(&r->scene->arena, json_object_size(list), sizeof *r->material_at);
     if (!r->material_at)
-        return watch_memory_error(r->source->watch, json_object_size(list) * sizeof *r->material_at,
-                                  r->error);
+        return watch_memory_error(r->source->watch, json_object_size(list) * sizeof *r->material_at, r->error);
     const char *key;
     json_t *value;
     int i = 0;
@@ -109,8 +105,7 @@ bool read_materials(struct scene_reader *r, const json_t *root)
     {
         if (!json_is_object(value)) {
             char kind[32];
-            return fail_place(r, KEY_OF(place, key), "found %s, expected an object, { … }",
-                              json_kind(value, kind));
+            return fail_place(r, KEY_OF(place, key), "found %s, expected an object, { … }", json_kind(value, kind));
         }
         if (!read_material_value(r, KEY_OF(place, key), value, NULL, &r->material_at[i]))
             return false;

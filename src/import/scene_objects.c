@@ -6,9 +6,8 @@
 
 #include <string.h>
 
-#define EVERY_OBJECT                                                                                         \
-    "name", "transform", "material", "back_material", "two_sided", "cull", "tangents", "normals",            \
-        "crease_angle"
+#define EVERY_OBJECT                                                                                                   \
+    "name", "transform", "material", "back_material", "two_sided", "cull", "tangents", "normals", "crease_angle"
 static const char *const shape_keys[] = {EVERY_OBJECT, "shape", "radius", "slices", "stacks", NULL};
 static const char *const file_keys[] = {EVERY_OBJECT, "file", "materials", "parts", NULL};
 static const char *const any_keys[] = {EVERY_OBJECT, "shape",     "radius", "slices", "stacks",
@@ -22,15 +21,13 @@ struct nested {
 };
 
 // A companion of the model: in the model's folder.
-static bool open_nested(const struct import_source *source, const char *name, struct file_bytes *out,
-                        lam_error *error)
+static bool open_nested(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error)
 {
     const struct nested *nested = source->open_state;
     char inside[4096], path[8192];
     const char *unused;
     if (!confine(name, inside, sizeof inside) || !*inside || strcmp(inside, "..") == 0)
-        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for",
-                    source->name, name);
+        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for", source->name, name);
     strcpy(path, nested->folder);
     strcat(path, inside);
     struct arena scratch;
@@ -70,9 +67,8 @@ static bool merge(struct scene_reader *r, struct lam_scene *inner)
     return ok;
 }
 
-static bool import_bytes(struct scene_reader *r, const struct place *place,
-                         const struct import_source *source, const struct file_bytes *file,
-                         struct scene_origin *origin)
+static bool import_bytes(struct scene_reader *r, const struct place *place, const struct import_source *source,
+                         const struct file_bytes *file, struct scene_origin *origin)
 {
     const struct importer *importer = importer_for(source->name, file, NULL, r->error);
     if (!importer)
@@ -83,8 +79,7 @@ static bool import_bytes(struct scene_reader *r, const struct place *place,
     struct lam_scene inner = {
         .arena = r->scene->arena, .up = importer->up, .format = importer->name, .color = r->color};
     bool ok = importer->load(source, &inner, r->error) &&
-              scene_prepare(&inner, origin->normals, origin->crease_angle_rad, source->pool, source->watch,
-                            r->error);
+              scene_prepare(&inner, origin->normals, origin->crease_angle_rad, source->pool, source->watch, r->error);
     r->scene->arena = inner.arena;
     uint64_t triangles = 0;
     for (int i = 0; ok && i < inner.meshes.count; i++)
@@ -94,8 +89,7 @@ static bool import_bytes(struct scene_reader *r, const struct place *place,
     return ok && merge(r, &inner);
 }
 
-static bool add_file(struct scene_reader *r, const struct place *place, const char *name,
-                     struct scene_origin *origin)
+static bool add_file(struct scene_reader *r, const struct place *place, const char *name, struct scene_origin *origin)
 {
     struct nested nested = {.outer = r->source};
     size_t folder = (size_t)(path_name(name) - name);
@@ -112,8 +106,7 @@ static bool add_file(struct scene_reader *r, const struct place *place, const ch
     if (!r->source->open_model(r->source, name, &r->scene->arena, &origin->path, &file, &reason)) {
         if (r->error)
             *r->error = reason;
-        return reason.code == LAM_CANNOT_READ ? fail_place(r, KEY_OF(place, "file"), "%s", reason.text)
-                                              : false;
+        return reason.code == LAM_CANNOT_READ ? fail_place(r, KEY_OF(place, "file"), "%s", reason.text) : false;
     }
     struct import_source source = *r->source;
     source.name = origin->path ? origin->path : name;
@@ -139,8 +132,7 @@ static bool change_materials(struct scene_reader *r, const struct place *place, 
     const struct place *here = KEY_OF(place, "materials");
     if (list && !json_is_object(list)) {
         char kind[32];
-        return fail_place(r, here, "found %s, expected an object of the model's materials",
-                          json_kind(list, kind));
+        return fail_place(r, here, "found %s, expected an object of the model's materials", json_kind(list, kind));
     }
     json_object_foreach(list, key, change)
     {
@@ -170,17 +162,14 @@ static bool replace_parts(struct scene_reader *r, const struct place *place, con
     if (!list)
         return true;
     if (!json_is_array(list) || json_array_size(list) != (size_t)origin->part_count)
-        return fail_place(r, here,
-                          "found %s, expected a list of %d, one material or null for each part of the model",
+        return fail_place(r, here, "found %s, expected a list of %d, one material or null for each part of the model",
                           json_kind(list, kind), origin->part_count);
     for (int i = origin->first_mesh; i < origin->first_mesh + origin->mesh_count; i++)
         for (uint32_t k = 0; k < scene_mesh(r->scene, i)->part_count; k++, n++) {
-            lam_part *part =
-                (lam_part *)(uintptr_t)&scene_mesh(r->scene, i)->parts[k]; // in the scene's arena
+            lam_part *part = (lam_part *)(uintptr_t)&scene_mesh(r->scene, i)->parts[k]; // in the scene's arena
             const json_t *material = json_array_get(list, n);
             int index = part->material;
-            if (!json_is_null(material) &&
-                !read_material_value(r, ELEMENT_OF(here, n), material, NULL, &index))
+            if (!json_is_null(material) && !read_material_value(r, ELEMENT_OF(here, n), material, NULL, &index))
                 return false;
             part->material = index;
         }
@@ -195,21 +184,18 @@ static lam_material front_of(const struct lam_scene *scene, const lam_object *ob
     return index >= 0 ? ((const lam_material *)scene->materials.items)[index] : lam_material_default();
 }
 
-static bool read_sides(struct scene_reader *r, const struct place *place, const json_t *value,
-                       lam_object *object)
+static bool read_sides(struct scene_reader *r, const struct place *place, const json_t *value, lam_object *object)
 {
     bool two_sided = !object->one_sided;
     int cull = (int)object->cull;
-    if (!take_bool(r, place, value, "two_sided", &two_sided) ||
-        !take_word(r, place, value, "cull", cull_words, &cull))
+    if (!take_bool(r, place, value, "two_sided", &two_sided) || !take_word(r, place, value, "cull", cull_words, &cull))
         return false;
     object->one_sided = !two_sided;
     object->cull = (lam_cull)cull;
     const json_t *back = json_object_get(value, "back_material");
     lam_material front = front_of(r->scene, object);
     front.name = NULL;
-    return !back ||
-           read_material_value(r, KEY_OF(place, "back_material"), back, &front, &object->back_material);
+    return !back || read_material_value(r, KEY_OF(place, "back_material"), back, &front, &object->back_material);
 }
 
 static bool is_identity(const lam_mat4 *m)
@@ -219,8 +205,7 @@ static bool is_identity(const lam_mat4 *m)
 }
 
 // Applies the keys that shapes and files share to the objects from `first` on.
-static bool finish(struct scene_reader *r, const struct place *place, const json_t *value, int first,
-                   const char *name)
+static bool finish(struct scene_reader *r, const struct place *place, const json_t *value, int first, const char *name)
 {
     lam_mat4 transform = lam_mat4_identity();
     const json_t *steps = json_object_get(value, "transform"), *material = json_object_get(value, "material");
@@ -231,10 +216,9 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
         return false;
     for (int i = first; i < r->scene->objects.count; i++) {
         lam_object *object = (lam_object *)r->scene->objects.items + i;
-        if (steps) // not through a product where there is nothing to multiply: it would lose the signs of
-                   // zeros
-            object->transform =
-                is_identity(&object->transform) ? transform : mat4_mul(&transform, &object->transform);
+        // not through a product where there is nothing to multiply: it would lose the signs of zeros
+        if (steps)
+            object->transform = is_identity(&object->transform) ? transform : mat4_mul(&transform, &object->transform);
         if (front >= 0)
             object->material = front;
         if (name && (i == first || !object->name))
@@ -245,16 +229,15 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
     return true;
 }
 
-static bool add_shape(struct scene_reader *r, const struct place *place, const json_t *value,
-                      const char *shape, const struct scene_origin *origin)
+static bool add_shape(struct scene_reader *r, const struct place *place, const json_t *value, const char *shape,
+                      const struct scene_origin *origin)
 {
     lam_shape_params segments = {0};
     lam_object object = lam_object_default();
     lam_error reason;
-    if (lam_shape_find(shape) >= 0 &&
-        (!take_number(r, place, value, "radius", 1e-30, 1e30, &segments.radius) ||
-         !take_whole(r, place, value, "slices", 3, 16384, &segments.slices) ||
-         !take_whole(r, place, value, "stacks", 1, 16384, &segments.stacks)))
+    if (lam_shape_find(shape) >= 0 && (!take_number(r, place, value, "radius", 1e-30, 1e30, &segments.radius) ||
+                                       !take_whole(r, place, value, "slices", 3, 16384, &segments.slices) ||
+                                       !take_whole(r, place, value, "stacks", 1, 16384, &segments.stacks)))
         return false;
     int meshes = r->scene->meshes.count;
     object.name = shape;
@@ -262,15 +245,14 @@ static bool add_shape(struct scene_reader *r, const struct place *place, const j
     if (object.mesh < 0) {
         if (r->error)
             *r->error = reason;
-        return reason.code == LAM_BAD_ARGUMENT ? fail_place(r, KEY_OF(place, "shape"), "%s", reason.text)
-                                               : false;
+        return reason.code == LAM_BAD_ARGUMENT ? fail_place(r, KEY_OF(place, "shape"), "%s", reason.text) : false;
     }
     // Normals are made as scene_prepare makes them, of this mesh alone.
     struct lam_scene one = {.arena = r->scene->arena};
     lam_mesh *mesh = (lam_mesh *)r->scene->meshes.items + meshes;
-    bool ok = scene_take_mesh(&one, mesh, r->error) >= 0 &&
-              scene_prepare(&one, origin->normals, origin->crease_angle_rad, r->source->pool,
-                            r->source->watch, r->error);
+    bool ok =
+        scene_take_mesh(&one, mesh, r->error) >= 0 &&
+        scene_prepare(&one, origin->normals, origin->crease_angle_rad, r->source->pool, r->source->watch, r->error);
     if (ok)
         *mesh = *scene_mesh(&one, 0);
     r->scene->arena = one.arena;
@@ -291,8 +273,7 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
                           is_file ? "has both shape and file, expected one of them"
                                   : "has neither shape nor file, expected one of them");
     if (!take_text(r, place, value, "shape", &shape) || !take_text(r, place, value, "file", &file) ||
-        !take_text(r, place, value, "name", &name) ||
-        !take_word(r, place, value, "normals", normals_words, &normals) ||
+        !take_text(r, place, value, "name", &name) || !take_word(r, place, value, "normals", normals_words, &normals) ||
         !take_number(r, place, value, "crease_angle", 0, 180, &crease_deg) ||
         !take_word(r, place, value, "tangents", tangent_words, &field))
         return false;
@@ -330,8 +311,7 @@ bool read_objects(struct scene_reader *r, const json_t *root)
         return fail_place(r, NULL, "'objects' is missing, expected a list of at least one object");
     if (!json_is_array(list) || !json_array_size(list)) {
         char kind[32];
-        return fail_place(r, place, "found %s, expected a list of at least one object",
-                          json_kind(list, kind));
+        return fail_place(r, place, "found %s, expected a list of at least one object", json_kind(list, kind));
     }
     for (size_t i = 0; i < json_array_size(list); i++) {
         if (!watch_on(r->source->watch))

@@ -1,5 +1,4 @@
-// scene_values.c: values of a scene file, each checked as it is taken, and the sentences where one does not
-// fit.
+// scene_values.c: values of a scene file, each checked as it is taken, and the sentences where one does not fit.
 #include "scene_file.h"
 
 #include "fail.h"
@@ -30,8 +29,7 @@ bool fail_place(struct scene_reader *r, const struct place *place, const char *f
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    return fail(r->error, LAM_CANNOT_READ, "%s: %s%s%s", r->source->name, where, *where ? ": " : "",
-                sentence);
+    return fail(r->error, LAM_CANNOT_READ, "%s: %s%s%s", r->source->name, where, *where ? ": " : "", sentence);
 }
 
 const char *json_kind(const json_t *value, char out[32])
@@ -57,15 +55,13 @@ const char *json_kind(const json_t *value, char out[32])
     }
 }
 
-static bool unexpected(struct scene_reader *r, const struct place *place, const json_t *found,
-                       const char *expected)
+static bool unexpected(struct scene_reader *r, const struct place *place, const json_t *found, const char *expected)
 {
     char kind[32];
     return fail_place(r, place, "found %s, expected %s", json_kind(found, kind), expected);
 }
 
-bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object,
-                const char *const *keys)
+bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys)
 {
     if (!json_is_object(object))
         return unexpected(r, place, object, "an object, { … }");
@@ -95,8 +91,8 @@ bool check_keys(struct scene_reader *r, const struct place *place, const json_t 
 
 // --- numbers
 
-static bool number_of(struct scene_reader *r, const struct place *place, const json_t *value, double least,
-                      double most, double *out)
+static bool number_of(struct scene_reader *r, const struct place *place, const json_t *value, double least, double most,
+                      double *out)
 {
     char expected[100];
     if (!json_is_number(value))
@@ -115,15 +111,15 @@ static bool number_of(struct scene_reader *r, const struct place *place, const j
     return unexpected(r, place, value, expected);
 }
 
-bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
-                 double least, double most, double *out)
+bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double least,
+                 double most, double *out)
 {
     const json_t *value = json_object_get(object, key);
     return !value || number_of(r, KEY_OF(place, key), value, least, most, out);
 }
 
-bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
-                int least, int most, int *out)
+bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int least,
+                int most, int *out)
 {
     const json_t *value = json_object_get(object, key);
     double number = 0;
@@ -135,8 +131,7 @@ bool take_whole(struct scene_reader *r, const struct place *place, const json_t 
     return (double)*out == number || unexpected(r, KEY_OF(place, key), value, "a whole number");
 }
 
-bool take_bool(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
-               bool *out)
+bool take_bool(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, bool *out)
 {
     const json_t *value = json_object_get(object, key);
     if (!value)
@@ -145,8 +140,8 @@ bool take_bool(struct scene_reader *r, const struct place *place, const json_t *
     return json_is_boolean(value) || unexpected(r, KEY_OF(place, key), value, "true or false");
 }
 
-bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t least,
-                size_t most, double *out, size_t *count)
+bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t least, size_t most,
+                double *out, size_t *count)
 {
     char expected[60];
     size_t size = json_is_array(list) ? json_array_size(list) : 0;
@@ -225,8 +220,8 @@ bool take_word(struct scene_reader *r, const struct place *place, const json_t *
     bool text = json_is_string(value) && json_string_length(value) <= 40;
     const char *nearest = text ? nearest_word(json_string_value(value), names, count) : NULL;
     char expected[240];
-    snprintf(expected, sizeof expected, "%s%s%s%s", known, nearest ? "; did you mean '" : "",
-             nearest ? nearest : "", nearest ? "'?" : "");
+    snprintf(expected, sizeof expected, "%s%s%s%s", known, nearest ? "; did you mean '" : "", nearest ? nearest : "",
+             nearest ? "'?" : "");
     return unexpected(r, KEY_OF(place, key), value, expected);
 }
 
@@ -247,8 +242,7 @@ const struct scene_word stage_words[] = {{"auto", LAM_STAGE_AUTO},
                                          {"vertex", LAM_STAGE_VERTEX},
                                          {"fragment", LAM_STAGE_FRAGMENT},
                                          {NULL, 0}};
-const struct scene_word viewer_words[] = {
-    {"local", LAM_VIEWER_LOCAL}, {"infinite", LAM_VIEWER_INFINITE}, {NULL, 0}};
+const struct scene_word viewer_words[] = {{"local", LAM_VIEWER_LOCAL}, {"infinite", LAM_VIEWER_INFINITE}, {NULL, 0}};
 const struct scene_word flat_normal_words[] = {
     {"face", LAM_FLAT_NORMAL_FACE}, {"vertex", LAM_FLAT_NORMAL_VERTEX}, {NULL, 0}};
 const struct scene_word normals_words[] = {
@@ -258,26 +252,22 @@ const struct scene_word cull_words[] = {
 const struct scene_word up_words[] = {{"x", LAM_UP_X}, {"y", LAM_UP_Y}, {"z", LAM_UP_Z}, {NULL, 0}};
 const struct scene_word frame_words[] = {
     {"world", LAM_FRAME_WORLD}, {"camera", LAM_FRAME_CAMERA}, {"object", LAM_FRAME_OBJECT}, {NULL, 0}};
-const struct scene_word light_type_words[] = {
-    {"ambient", LAM_LIGHT_AMBIENT}, {"hemisphere", LAM_LIGHT_HEMISPHERE},
-    {"point", LAM_LIGHT_POINT},     {"directional", LAM_LIGHT_DIRECTIONAL},
-    {"spot", LAM_LIGHT_SPOT},       {NULL, 0}};
+const struct scene_word light_type_words[] = {{"ambient", LAM_LIGHT_AMBIENT}, {"hemisphere", LAM_LIGHT_HEMISPHERE},
+                                              {"point", LAM_LIGHT_POINT},     {"directional", LAM_LIGHT_DIRECTIONAL},
+                                              {"spot", LAM_LIGHT_SPOT},       {NULL, 0}};
 const struct scene_word tangent_words[] = {{"file", false}, {"field", true}, {NULL, 0}};
 
 // --- colours
 
-static bool color_of(struct scene_reader *r, const struct place *place, const json_t *value, size_t most,
-                     lam_rgba *out)
+static bool color_of(struct scene_reader *r, const struct place *place, const json_t *value, size_t most, lam_rgba *out)
 {
     double part[4] = {0, 0, 0, 1};
     if (json_is_string(value)) {
         lam_error reason;
-        if (json_string_length(value) > 40 ||
-            !lam_color_parse(json_string_value(value), r->color, out, &reason))
+        if (json_string_length(value) > 40 || !lam_color_parse(json_string_value(value), r->color, out, &reason))
             return unexpected(r, place, value,
                               "a colour: \"#rrggbb\", a name such as \"white\", or a list of linear numbers");
-        return most == 4 || out->a == 1 ||
-               fail_place(r, place, "has an alpha, expected a colour of three parts");
+        return most == 4 || out->a == 1 || fail_place(r, place, "has an alpha, expected a colour of three parts");
     }
     if (!numbers_of(r, place, value, 3, most, part, NULL))
         return false;
@@ -289,15 +279,13 @@ static bool color_of(struct scene_reader *r, const struct place *place, const js
     return true;
 }
 
-bool take_rgba(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
-               lam_rgba *out)
+bool take_rgba(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgba *out)
 {
     const json_t *value = json_object_get(object, key);
     return !value || color_of(r, KEY_OF(place, key), value, 4, out);
 }
 
-bool take_rgb(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
-              lam_rgb *out)
+bool take_rgb(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgb *out)
 {
     const json_t *value = json_object_get(object, key);
     lam_rgba color;

@@ -1,5 +1,5 @@
-// scene_write.c: a scene and its settings as a scene file, from which the same picture comes again. Numbers
-// are written so that they read back as the same bits.
+// scene_write.c: a scene and its settings as a scene file, from which the same picture comes again. Numbers are written
+// so that they read back as the same bits.
 #include "scene_write.h"
 
 #include "fail.h"
@@ -18,10 +18,7 @@ void put(struct scene_writer *w, json_t *object, const char *key, json_t *value)
     w->ok &= json_object_set_new(object, key, value) == 0;
 }
 
-void append(struct scene_writer *w, json_t *list, json_t *value)
-{
-    w->ok &= json_array_append_new(list, value) == 0;
-}
+void append(struct scene_writer *w, json_t *list, json_t *value) { w->ok &= json_array_append_new(list, value) == 0; }
 
 // Whole numbers without a point.
 static json_t *number(double x)
@@ -134,13 +131,12 @@ static bool put_path(struct scene_writer *w, json_t *object, const char *key, co
 {
     char real[PATH_MAX], relative[2 * PATH_MAX];
     if (!realpath(path, real))
-        return fail(w->error, LAM_CANNOT_WRITE, "%s: names '%.200s', which cannot be found: %s", w->path,
-                    path, strerror(errno));
+        return fail(w->error, LAM_CANNOT_WRITE, "%s: names '%.200s', which cannot be found: %s", w->path, path,
+                    strerror(errno));
     json_t *text = relative_path(w->folder, real, relative, sizeof relative) ? json_string(relative) : NULL;
     if (!text)
         return fail(w->error, LAM_UNSUPPORTED,
-                    "%s: the path of '%.200s' is too long or not UTF-8, which JSON cannot hold", w->path,
-                    path);
+                    "%s: the path of '%.200s' is too long or not UTF-8, which JSON cannot hold", w->path, path);
     if (key)
         put(w, object, key, text);
     else
@@ -203,8 +199,7 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
     return true;
 }
 
-// Parts that show another material than the file gave them: one entry for each part, null where it is the
-// file's.
+// Parts that show another material than the file gave them: one entry for each part, null where it is the file's.
 static void put_parts(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
 {
     json_t *list = json_array();
@@ -247,14 +242,13 @@ static bool is_identity(const lam_mat4 *m)
     return true;
 }
 
-static void put_transform(struct scene_writer *w, json_t *entry, const lam_object *object,
-                          const lam_object *own)
+static void put_transform(struct scene_writer *w, json_t *entry, const lam_object *object, const lam_object *own)
 {
     lam_mat4 matrix = object->transform, inverse;
     // A file's own transform stays in the file: what came on top of it is written.
     if (!is_identity(&own->transform) && mat4_inverse_affine(&own->transform, &inverse))
-        matrix = memcmp(&matrix, &own->transform, sizeof matrix) == 0 ? lam_mat4_identity()
-                                                                      : mat4_mul(&matrix, &inverse);
+        matrix =
+            memcmp(&matrix, &own->transform, sizeof matrix) == 0 ? lam_mat4_identity() : mat4_mul(&matrix, &inverse);
     if (!is_identity(&matrix))
         put(w, entry, "transform", list_of(w, &matrix.m[0][0], 16));
 }
@@ -343,8 +337,8 @@ static void put_cone(struct scene_writer *w, json_t *out, const lam_light *l)
 static json_t *light_json(struct scene_writer *w, const lam_light *given)
 {
     lam_light placed_light = *given, *l = &placed_light;
-    if (l->frame == LAM_FRAME_MODEL) { // a file's model stands as it was read: the light goes where the model
-                                       // has been turned to
+    // a file's model stands as it was read: the light goes where the model has been turned to
+    if (l->frame == LAM_FRAME_MODEL) {
         const lam_mat4 *m = &w->scene->placement;
         l->frame = LAM_FRAME_WORLD;
         l->position = mat4_point(m, l->position);
@@ -478,8 +472,7 @@ static bool put_settings(struct scene_writer *w, json_t *root, const lam_setting
     if ((s->given & LAM_GIVEN_GL1) && s->draw.gl1)
         put(w, root, "gl1", json_true());
     if ((s->given & LAM_GIVEN_LIGHT_CUTOFF) && s->draw.light_cutoff != 0)
-        put(w, root, "light_cutoff",
-            s->draw.light_cutoff > 0 ? number_float(s->draw.light_cutoff) : json_integer(0));
+        put(w, root, "light_cutoff", s->draw.light_cutoff > 0 ? number_float(s->draw.light_cutoff) : json_integer(0));
     return true;
 }
 
@@ -498,8 +491,7 @@ static bool find_folder(struct scene_writer *w, const char *path, char folder[PA
     given[length ? length : 1] = 0;
     w->folder = folder;
     return realpath(given, folder) ||
-           fail(w->error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%.200s': %s", path, given,
-                strerror(errno));
+           fail(w->error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%.200s': %s", path, given, strerror(errno));
 }
 
 static bool save(struct scene_writer *w, const lam_settings *settings, const char *path)
@@ -518,8 +510,7 @@ static bool save(struct scene_writer *w, const lam_settings *settings, const cha
     ok = ok && put_objects(w, root);
     put_lights(w, root, settings->draw.rig);
     lam_bytes bytes = {0};
-    ok = memory_or(w, ok) && scene_print(root, &bytes, w->error) &&
-         file_write(path, bytes.data, bytes.size, w->error);
+    ok = memory_or(w, ok) && scene_print(root, &bytes, w->error) && file_write(path, bytes.data, bytes.size, w->error);
     lam_bytes_free(&bytes);
     json_decref(root);
     return ok;

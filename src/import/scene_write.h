@@ -16,8 +16,8 @@ struct scene_writer {
 void put(struct scene_writer *w, json_t *object, const char *key, json_t *value);
 void append(struct scene_writer *w, json_t *list, json_t *value);
 
-// JSON as people read it: a line for each key at the top, and for each element of a list of objects. Every
-// number has as many digits as it needs to be read back as the same bits.
+// JSON as people read it: a line for each key at the top, and for each element of a list of objects. Every number has
+// as many digits as it needs to be read back as the same bits.
 bool scene_print(const json_t *root, lam_bytes *out, lam_error *error);
 
 #endif

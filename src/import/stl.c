@@ -15,12 +15,8 @@ static uint32_t facets_promised(const uint8_t *bytes)
 
 enum { SAMPLE = 1024 }; // bytes that are looked at
 
-// No text holds a zero byte, and no binary STL lacks one: at least the number of facets has one, up to 16
-// million.
-static bool has_zero(const uint8_t *bytes, size_t size)
-{
-    return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE);
-}
+// No text holds a zero byte, and no binary STL lacks one: at least the number of facets has one, up to 16 million.
+static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
 
 // ASCII files begin with "solid" (or, carelessly made, "facet"), hold no zero byte, and soon say "facet" or
 // "endsolid". Binary ones often begin with "solid" too, so the word alone proves nothing.
@@ -38,8 +34,7 @@ static bool looks_ascii(const uint8_t *bytes, size_t size)
            (size < SAMPLE || text_count_word(at, end, "facet") || text_count_word(at, end, "endsolid"));
 }
 
-// The size decides first: 84 + 50 · count bytes cannot be met by chance in a text, whose count would be above
-// 10⁸.
+// The size decides first: 84 + 50 · count bytes cannot be met by chance in a text, whose count would be above 10⁸.
 static enum kind tell_kind(const uint8_t *bytes, size_t size)
 {
     bool room = size >= STL_FACETS;
@@ -57,8 +52,8 @@ static int stl_probe(const uint8_t *bytes, size_t size)
     case BINARY_EXACT:
     case ASCII:
         return 2;
-    case BINARY_LOOSE: // cut short, or with bytes behind the last facet: the file's name must say that it is
-                       // STL
+    // cut short, or with bytes behind the last facet: the file's name must say that it is STL
+    case BINARY_LOOSE:
         return 1;
     default:
         return 0;
@@ -67,8 +62,8 @@ static int stl_probe(const uint8_t *bytes, size_t size)
 
 bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error)
 {
-    return fail(error, LAM_LIMIT, "%s: %llu facets, expected at most %d", source->name,
-                (unsigned long long)facets, STL_FACETS_MAX);
+    return fail(error, LAM_LIMIT, "%s: %llu facets, expected at most %d", source->name, (unsigned long long)facets,
+                STL_FACETS_MAX);
 }
 
 static bool stl_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
@@ -85,8 +80,8 @@ static bool stl_load(const struct import_source *source, struct lam_scene *scene
                     "%s: no STL file: found %s at its start and %zu bytes, expected \"solid\" and facets, or "
                     "a binary "
                     "header of %d bytes and facets",
-                    source->name, text_found(source->bytes, source->bytes + source->size, found),
-                    source->size, STL_FACETS);
+                    source->name, text_found(source->bytes, source->bytes + source->size, found), source->size,
+                    STL_FACETS);
     default:
         if (!stl_load_binary(source, scene, &mesh, error))
             return false;

@@ -15,14 +15,11 @@ enum {
 };
 
 // Each fills the mesh but its name; triangle_count stays 0 for a file without facets.
-bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh,
-                     lam_error *error);
-bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh,
-                    lam_error *error);
+bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
+bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
 
 // stl_parts.c: the importer's load_parts.
-bool stl_load_parts(const struct import_source *source, const struct file_parts *file,
-                    struct lam_scene *scene);
+bool stl_load_parts(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 
 // More corners than 32-bit numbers can tell apart: LAM_LIMIT.
 bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error);

@@ -105,8 +105,7 @@ static bool read_facet(struct reading *reading, lam_error *error)
     if (!expect(reading, "loop", error))
         return false;
     for (size_t c = 0; c < 3; c++) {
-        if (!expect(reading, "vertex", error) ||
-            !read_corner(reading, 3 * (size_t)reading->facets + c, error))
+        if (!expect(reading, "vertex", error) || !read_corner(reading, 3 * (size_t)reading->facets + c, error))
             return false;
     }
     if (!expect(reading, "endloop", error) || !expect(reading, "endfacet", error))
@@ -205,16 +204,14 @@ static bool read_far_out(struct reading *reading, struct arena *scratch, double 
     for (size_t i = 0; i < numbers; i++) {
         double relative = reading->exact[i] - origin[i % 3];
         if (!(relative >= -(double)FLT_MAX && relative <= (double)FLT_MAX))
-            return fail(error, LAM_CANNOT_READ,
-                        "%s: facet %zu: corner %zu lies too far from the others for a float",
+            return fail(error, LAM_CANNOT_READ, "%s: facet %zu: corner %zu lies too far from the others for a float",
                         reading->source->name, i / 9 + 1, i % 9 / 3 + 1);
         reading->positions[i] = (float)relative;
     }
     return true;
 }
 
-bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh,
-                    lam_error *error)
+bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
     struct reading reading = {.source = source, .scene = scene, .start = source->bytes};
     reading.end = source->bytes + source->size;
@@ -235,8 +232,7 @@ bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene,
     reading.positions = arena_array(&scene->arena, corners, 3 * sizeof(float));
     reading.parts = arena_array(&scene->arena, parts, sizeof(lam_part));
     if (!reading.positions || !reading.parts)
-        return watch_memory_error(source->watch, corners * 3 * sizeof(float) + parts * sizeof(lam_part),
-                                  error);
+        return watch_memory_error(source->watch, corners * 3 * sizeof(float) + parts * sizeof(lam_part), error);
     if (!read_all(&reading, error))
         return false;
     if (reading.facets == 0)

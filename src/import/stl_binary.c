@@ -14,11 +14,10 @@
 
 // What a piece has seen of its attribute words.
 struct words {
-    uint32_t marked; // how many have bit 15 set
-    uint32_t
-        unmarked_values; // of those without bit 15: 0: all zero; 1: one value, or zero; 2: several values
-    uint16_t unmarked;   // that value
-    bool any;            // a word that is not 0
+    uint32_t marked;          // how many have bit 15 set
+    uint32_t unmarked_values; // of those without bit 15: 0: all zero; 1: one value, or zero; 2: several values
+    uint16_t unmarked;        // that value
+    bool any;                 // a word that is not 0
 };
 
 struct reading {
@@ -103,8 +102,7 @@ static bool color_piece(void *user, size_t index, lam_error *error)
     for (size_t i = first; i < last; i++) {
         unsigned word = word_of(reading->facets + i * STL_FACET);
         bool own = (word >> 15) != (unsigned)reading->magics;
-        uint8_t low = five_bits(word & 31), middle = five_bits(word >> 5 & 31),
-                high = five_bits(word >> 10 & 31);
+        uint8_t low = five_bits(word & 31), middle = five_bits(word >> 5 & 31), high = five_bits(word >> 10 & 31);
         uint8_t color[4] = {reading->magics ? low : high, middle, reading->magics ? high : low, 255};
         memcpy(reading->colors + 4 * i, own ? color : reading->fallback, 4);
     }
@@ -158,14 +156,12 @@ static bool read_colors(struct reading *reading, struct lam_scene *scene, lam_me
     }
     mesh->colors = reading->colors;
     mesh->color_count = (uint32_t)reading->count;
-    mesh->colors_format =
-        reading->source->params->color == LAM_COLOR_RAW ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
+    mesh->colors_format = reading->source->params->color == LAM_COLOR_RAW ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
     mesh->colors_rate = LAM_PER_TRIANGLE;
     return true;
 }
 
-bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh,
-                     lam_error *error)
+bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
     uint32_t promised;
     memcpy(&promised, source->bytes + STL_HEADER, 4);
@@ -174,11 +170,10 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
 #endif
     size_t room = source->size - STL_FACETS, present = room / STL_FACET;
     if (promised > present)
-        return fail(
-            error, LAM_CANNOT_READ,
-            "%s: the file is cut short: its header promises %u facets (%llu bytes), found %zu (%zu bytes)",
-            source->name, promised, (unsigned long long)STL_FACETS + (unsigned long long)STL_FACET * promised,
-            present, source->size);
+        return fail(error, LAM_CANNOT_READ,
+                    "%s: the file is cut short: its header promises %u facets (%llu bytes), found %zu (%zu bytes)",
+                    source->name, promised, (unsigned long long)STL_FACETS + (unsigned long long)STL_FACET * promised,
+                    present, source->size);
     if (promised > STL_FACETS_MAX)
         return stl_fail_too_many(source, promised, error);
     if (promised == 0)
@@ -193,16 +188,14 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
     bool done = reading.positions && reading.words;
     if (!done)
         watch_memory_error(source->watch, promised * 9 * sizeof(float), error);
-    done = done && chunks_run(source, pieces, read_piece, &reading, error) &&
-           read_colors(&reading, scene, mesh, error);
+    done = done && chunks_run(source, pieces, read_piece, &reading, error) && read_colors(&reading, scene, mesh, error);
     arena_free(&scratch);
     if (!done)
         return false;
 
     size_t extra = room - (size_t)promised * STL_FACET;
     if (extra > 0)
-        scene_warn(scene, "%s: %zu bytes behind the last of %u facets are ignored", source->name, extra,
-                   promised);
+        scene_warn(scene, "%s: %zu bytes behind the last of %u facets are ignored", source->name, extra, promised);
     mesh->positions = reading.positions;
     mesh->vertex_count = 3 * promised;
     mesh->triangle_count = promised;

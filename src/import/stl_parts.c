@@ -26,8 +26,8 @@ static void read_facets(void *user, size_t index, int thread)
     size_t first = index * PART_FACETS, count = parts->count - first;
     count = count < PART_FACETS ? count : PART_FACETS;
     const uint8_t *facet = parts->room + (size_t)thread * PART_FACETS * STL_FACET;
-    bool read = file_read_part(parts->file, STL_FACETS + first * STL_FACET, (uint8_t *)(uintptr_t)facet,
-                               count * STL_FACET);
+    bool read =
+        file_read_part(parts->file, STL_FACETS + first * STL_FACET, (uint8_t *)(uintptr_t)facet, count * STL_FACET);
     uint32_t odd = 0; // its top bit: an exponent of all ones was met
     uint16_t words = 0;
     float *out = parts->positions + 9 * first;
@@ -54,13 +54,11 @@ static bool has_color(const uint8_t *header)
     return false;
 }
 
-bool stl_load_parts(const struct import_source *source, const struct file_parts *file,
-                    struct lam_scene *scene)
+bool stl_load_parts(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)
 {
     uint32_t count;
     memcpy(&count, source->bytes + STL_HEADER, sizeof count);
-    if (file->size != STL_FACETS + (uint64_t)STL_FACET * count || count > STL_FACETS_MAX ||
-        has_color(source->bytes))
+    if (file->size != STL_FACETS + (uint64_t)STL_FACET * count || count > STL_FACETS_MAX || has_color(source->bytes))
         return false;
     struct arena scratch;
     arena_start(&scratch, source->watch);

@@ -47,8 +47,7 @@ const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUN
     return out;
 }
 
-// Bytes of the UTF-8 character at `at`, 0 if there is none: no overlong forms, surrogates, or beyond
-// U+10FFFF.
+// Bytes of the UTF-8 character at `at`, 0 if there is none: no overlong forms, surrogates, or beyond U+10FFFF.
 static size_t utf8_length(const uint8_t *at, size_t length)
 {
     if (at[0] < 0x80)
@@ -60,8 +59,8 @@ static size_t utf8_length(const uint8_t *at, size_t length)
         if ((at[i] & 0xc0) != 0x80)
             return 0;
     }
-    if ((at[0] == 0xe0 && at[1] < 0xa0) || (at[0] == 0xed && at[1] > 0x9f) ||
-        (at[0] == 0xf0 && at[1] < 0x90) || (at[0] == 0xf4 && at[1] > 0x8f))
+    if ((at[0] == 0xe0 && at[1] < 0xa0) || (at[0] == 0xed && at[1] > 0x9f) || (at[0] == 0xf0 && at[1] < 0x90) ||
+        (at[0] == 0xf4 && at[1] > 0x8f))
         return 0;
     return count;
 }

@@ -34,8 +34,7 @@ static inline const uint8_t *text_line_end(const uint8_t *at, const uint8_t *end
     return at;
 }
 
-// Whether `at` begins with the word (given in lower case), in any case, followed by white space or the
-// end.
+// Whether `at` begins with the word (given in lower case), in any case, followed by white space or the end.
 bool text_is_word(const uint8_t *at, const uint8_t *end, const char *word);
 
 // How often that word stands in the text, between white space.
@@ -45,8 +44,7 @@ size_t text_count_word(const uint8_t *at, const uint8_t *end, const char *word);
 // messages only.
 size_t text_line(const uint8_t *bytes, const uint8_t *at);
 
-// What stands at `at`, for a message: the word in quotes, cut to 32 bytes, or "the end of the file". Returns
-// `out`.
+// What stands at `at`, for a message: the word in quotes, cut to 32 bytes, or "the end of the file". Returns `out`.
 enum { TEXT_FOUND_SIZE = 48 };
 const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE]);
 

@@ -1,14 +1,12 @@
 // triangulate.c: polygons of any size, convex or not, into triangles.
 //
-// Ear clipping (Meisters 1975): a corner is an ear when it is convex and no other corner lies in its
-// triangle. Cutting an ear changes only its two neighbours, so each corner is looked at about three times.
-// Only corners that are not convex can lie in an ear; they are kept in a tree of boxes over their Morton
-// order, so that one look takes about √count steps even for long thin ears, however unevenly the corners are
-// spread.
+// Ear clipping (Meisters 1975): a corner is an ear when it is convex and no other corner lies in its triangle. Cutting
+// an ear changes only its two neighbours, so each corner is looked at about three times. Only corners that are not
+// convex can lie in an ear; they are kept in a tree of boxes over their Morton order, so that one look takes about
+// √count steps even for long thin ears, however unevenly the corners are spread.
 //
-// Decisions are exact: the corners are projected along the largest axis of the polygon's normal and snapped
-// to integers, 2^30 steps along the longer side (finer than a float), where a cross product fits into 64
-// bits.
+// Decisions are exact: the corners are projected along the largest axis of the polygon's normal and snapped to
+// integers, 2^30 steps along the longer side (finer than a float), where a cross product fits into 64 bits.
 #include "triangulate.h"
 
 #include <string.h>
@@ -83,8 +81,7 @@ static void face_normal(const float *a, const float *b, const float *c, double o
 }
 
 // Whether two triangles that share an edge of a quad face the same way.
-static bool same_side(const float *a, const float *b, const float *c, const float *d, const float *e,
-                      const float *f)
+static bool same_side(const float *a, const float *b, const float *c, const float *d, const float *e, const float *f)
 {
     double m[3], n[3];
     face_normal(a, b, c, m);
@@ -123,10 +120,7 @@ static int64_t turn_at(const struct corner *corners, uint32_t i)
     return turn(&corners[corners[i].previous], &corners[i], &corners[corners[i].next]);
 }
 
-static bool same_place(const struct corner *a, const struct corner *b)
-{
-    return a->x == b->x && a->y == b->y;
-}
+static bool same_place(const struct corner *a, const struct corner *b) { return a->x == b->x && a->y == b->y; }
 
 // Projects and snaps the corners, turned so that the polygon runs counter-clockwise. False: it has no area.
 static bool snap(const float *positions, const uint32_t *numbers, uint32_t count, struct corner *corners)
@@ -160,8 +154,7 @@ static bool snap(const float *positions, const uint32_t *numbers, uint32_t count
         up = swap;
     }
 
-    double side =
-        high[across] - low[across] > high[up] - low[up] ? high[across] - low[across] : high[up] - low[up];
+    double side = high[across] - low[across] > high[up] - low[up] ? high[across] - low[across] : high[up] - low[up];
     double scale = (double)STEPS / side;
     if (!(side > 0) || !(scale < 1e300)) // no extent, or one that no float polygon with area has
         return false;
@@ -195,10 +188,7 @@ static uint64_t spread(uint32_t x)
     return (v | v << 1) & 0x5555555555555555u;
 }
 
-static uint64_t morton(const struct corner *c)
-{
-    return spread((uint32_t)c->x) | spread((uint32_t)c->y) << 1;
-}
+static uint64_t morton(const struct corner *c) { return spread((uint32_t)c->x) | spread((uint32_t)c->y) << 1; }
 
 // Sorts corner numbers by Morton code: a stable radix sort, a byte of the code at a time.
 static void sort_points(const struct corner *corners, uint32_t *points, uint32_t *spare, uint32_t count)
@@ -259,8 +249,7 @@ static void tree_remove(struct clip *clip, uint32_t i)
 static bool box_outside(const struct box *box, const struct corner *a, const struct corner *b, bool touching)
 {
     // The box's corner farthest to the left of the edge.
-    struct corner far = {.x = b->y < a->y ? box->max_x : box->min_x,
-                         .y = b->x > a->x ? box->max_y : box->min_y};
+    struct corner far = {.x = b->y < a->y ? box->max_x : box->min_x, .y = b->x > a->x ? box->max_y : box->min_y};
     int64_t side = turn(a, b, &far);
     return touching ? side < 0 : side <= 0;
 }
@@ -301,9 +290,8 @@ static bool blocked(const struct clip *clip, uint32_t i, bool touching)
     while (depth > 0) {
         uint32_t node = stack[--depth];
         const struct box *box = &clip->boxes[node];
-        if (box->count == 0 || box->min_x > around.max_x || box->max_x < around.min_x ||
-            box->min_y > around.max_y || box->max_y < around.min_y ||
-            box_outside(box, triangle[0], triangle[1], touching) ||
+        if (box->count == 0 || box->min_x > around.max_x || box->max_x < around.min_x || box->min_y > around.max_y ||
+            box->max_y < around.min_y || box_outside(box, triangle[0], triangle[1], touching) ||
             box_outside(box, triangle[1], triangle[2], touching) ||
             box_outside(box, triangle[2], triangle[0], touching))
             continue;
@@ -313,10 +301,8 @@ static bool blocked(const struct clip *clip, uint32_t i, bool touching)
             continue;
         }
         for (uint32_t slot = (node - clip->leaves) * LEAF; slot < (node - clip->leaves + 1) * LEAF; slot++) {
-            // Slots behind the last point belong to no one: such a leaf has the count 0, or is the last one
-            // used.
-            if (clip->points[slot] != NONE &&
-                point_inside(triangle, &clip->corners[clip->points[slot]], touching))
+            // Slots behind the last point belong to no one: such a leaf has the count 0, or is the last one used.
+            if (clip->points[slot] != NONE && point_inside(triangle, &clip->corners[clip->points[slot]], touching))
                 return true;
         }
     }
@@ -447,8 +433,8 @@ static bool make_room(struct triangulator *scratch, uint32_t count, struct clip 
     return true;
 }
 
-bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners,
-                 uint32_t count, uint32_t *triples)
+bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
+                 uint32_t *triples)
 {
     if (count == 4)
         cut_quad(positions, corners, triples);

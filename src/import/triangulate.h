@@ -29,7 +29,7 @@ void triangulator_stop(struct triangulator *scratch);
 // count − 2 triples of corner numbers (0 … count − 1, so that every attribute can follow) to `triples`, wound
 // as the polygon is. False when memory is out or the watch says stop (watch_on then tells which); never for
 // up to four corners.
-bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners,
-                 uint32_t count, uint32_t *triples);
+bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
+                 uint32_t *triples);
 
 #endif

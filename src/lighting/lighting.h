@@ -1,7 +1,7 @@
 // lighting.h: the equations in C. Include with LANES defined as 1, 4, 8 or 16 (src/base/math/lanes.h).
 //
-// In GLSL the three files of the equations follow one another in this order after prelude.glsl; hence no
-// guards in them.
+// In GLSL the three files of the equations follow one another in this order after prelude.glsl; hence no guards in
+// them.
 #ifndef LIGHTING_H
 #define LIGHTING_H
 

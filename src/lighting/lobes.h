@@ -1,11 +1,9 @@
-// lobes.h: how a point of a surface answers the light of one direction: Lambert, Phong, Blinn-Phong,
-// Kajiya-Kay.
+// lobes.h: how a point of a surface answers the light of one direction: Lambert, Phong, Blinn-Phong, Kajiya-Kay.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space: n the unit normal, l
-// from the point to the light, v from the point to the eye, t the tangent, all of length 1, or 0 where there
-// is none; then the answer is 0. D is the share of diffuse light, S the strength of the highlight, both in
-// 0...1; what multiplies them stands in sum.h. No light comes through a surface: S is 0 where n.l <= 0, since
-// r.v and n.h may be positive there.
+// One text for C and GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space: n the unit normal, l from the
+// point to the light, v from the point to the eye, t the tangent, all of length 1, or 0 where there is none; then the
+// answer is 0. D is the share of diffuse light, S the strength of the highlight, both in 0...1; what multiplies them
+// stands in sum.h. No light comes through a surface: S is 0 where n.l <= 0, since r.v and n.h may be positive there.
 
 // The reflection models, numbered as in lambent/device.h.
 #define MODEL_NONE               1
@@ -46,8 +44,8 @@ FN num cosine(num x) { return lesser(greater(x, num_of(-1.0f)), num_of(1.0f)); }
 // Whether a direction is there at all: not the zero vector.
 FN mask present(vec3 w) { return dot3(w, w) > 0.0f; }
 
-// The mirror image of w about n:  2 (n.w) n - w.  Of l it is the lectures' r, of v the ray that an
-// environment is looked up with.
+// The mirror image of w about n:  2 (n.w) n - w.  Of l it is the lectures' r, of v the ray that an environment is
+// looked up with.
 FN vec3 mirror3(vec3 w, vec3 n) { return sub3(scale3(n, 2.0f * dot3(n, w)), w); }
 
 // The vector halfway between l and v, both of length 1.
@@ -56,8 +54,8 @@ FN vec3 halfway3(vec3 l, vec3 v) { return unit3(add3(l, v)); }
 // w made perpendicular to n and unit (Gram and Schmidt); 0 where w lies along n.
 FN vec3 perpendicular3(vec3 w, vec3 n) { return unit3(sub3(w, scale3(n, dot3(n, w)))); }
 
-// Lambert (1760): a matt surface sends the light it takes in evenly to all sides, and takes in the more the
-// steeper the light falls:  D = max(n.l, 0)
+// Lambert (1760): a matt surface sends the light it takes in evenly to all sides, and takes in the more the steeper the
+// light falls:  D = max(n.l, 0)
 FN answer lambert_lobe(surface s, vec3 l)
 {
     answer b;
@@ -69,8 +67,8 @@ FN answer lambert_lobe(surface s, vec3 l)
 }
 
 // Phong (1975): the highlight is round the mirror image of the light.  S = [n.l > 0] max(r.v, 0)^shininess
-// r.v is taken as 1 - |r - v|^2 / 2, the same for unit vectors: an error in the length of n would count
-// fourfold in the product where the highlight is brightest, and here it does not count at all.
+// r.v is taken as 1 - |r - v|^2 / 2, the same for unit vectors: an error in the length of n would count fourfold in the
+// product where the highlight is brightest, and here it does not count at all.
 FN num phong_base(vec3 n, vec3 l, vec3 v)
 {
     vec3 apart = sub3(mirror3(l, n), v);
@@ -84,10 +82,10 @@ FN answer phong_lobe(surface s, vec3 l)
     return b;
 }
 
-// Blinn (1977), the lectures' modified Phong: how near the normal comes to the vector halfway between light
-// and eye. S = [n.l > 0] max(n.h, 0)^shininess  with  h = (l + v) / |l + v| The length is divided by after
-// the product with n, which saves three products; n.l + n.v in place of n.(l + v) would save more and lose
-// digits where l and v are nearly opposite.
+// Blinn (1977), the lectures' modified Phong: how near the normal comes to the vector halfway between light and eye.
+// S = [n.l > 0] max(n.h, 0)^shininess  with  h = (l + v) / |l + v|
+// The length is divided by after the product with n, which saves three products; n.l + n.v in place of n.(l + v) would
+// save more and lose digits where l and v are nearly opposite.
 STRUCT(halfway)
 {
     num product; // n.(l + v)
@@ -111,13 +109,11 @@ FN answer blinn_phong_lobe(surface s, vec3 l)
     return b;
 }
 
-// Kajiya and Kay (1989): a thread along t mirrors light into a cone round t. With the angles between t and l,
-// t and v:
+// Kajiya and Kay (1989): a thread along t mirrors light into a cone round t. With the angles between t and l, t and v:
 //     D = sin(t,l)        S = max(sin(t,l) sin(t,v) - cos(t,l) cos(t,v), 0)^shininess        the mirror cone
-//                         S = max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)^shininess        `lecture`, as
-//                         some print it
-// sin(t,l) = |t x l|: the root of 1 - (t.l)^2 would lose half of the digits where l is nearly along t. On a
-// solid surface D and S are gated by n.l > 0; a fibre has no inside, and the lecture's form has no gate.
+//                         S = max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)^shininess        `lecture`, as some print it
+// sin(t,l) = |t x l|: the root of 1 - (t.l)^2 would lose half of the digits where l is nearly along t. On a solid
+// surface D and S are gated by n.l > 0; a fibre has no inside, and the lecture's form has no gate.
 FN answer kajiya_kay_lobe(surface s, vec3 l, int lecture, int fibre)
 {
     vec3 across_l = cross3(s.t, l);

@@ -1,18 +1,16 @@
-// prelude_c.h: gives the words of the equations their meaning in C: one pixel with LANES 1, or 4, 8, 16 at a
-// time.
+// prelude_c.h: gives the words of the equations their meaning in C: one pixel with LANES 1, or 4, 8, 16 at a time.
 //
-// The equations (lobes.h, sources.h, sum.h) are one text for C and GLSL. Its words are + − * / and
-// comparisons on num, the functions below and those of lanes.h and functions.h named in prelude.glsl, which
-// gives the same words their meaning there. A new word is one line here, one there, and one row in
-// tests/lighting/words.h.
+// The equations (lobes.h, sources.h, sum.h) are one text for C and GLSL. Its words are + − * / and comparisons on num,
+// the functions below and those of lanes.h and functions.h named in prelude.glsl, which gives the same words their
+// meaning there. A new word is one line here, one there, and one row in tests/lighting/words.h.
 #ifndef PRELUDE_C_H
 #define PRELUDE_C_H
 
 #include "functions.h"
 
 #define FN LANE_FN // starts every function
-#define STRUCT(name)                                                                                         \
-    typedef struct name name;                                                                                \
+#define STRUCT(name)                                                                                                   \
+    typedef struct name name;                                                                                          \
     struct name // starts every struct
 
 STRUCT(vec3) { num x, y, z; };
@@ -28,15 +26,9 @@ FN vec3 mul3(vec3 a, vec3 b) { return (vec3){a.x * b.x, a.y * b.y, a.z * b.z}; }
 FN vec3 scale3(vec3 a, num s) { return (vec3){a.x * s, a.y * s, a.z * s}; }
 FN vec3 negate3(vec3 a) { return (vec3){-a.x, -a.y, -a.z}; }
 FN num dot3(vec3 a, vec3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
-FN vec3 cross3(vec3 a, vec3 b)
-{
-    return (vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+FN vec3 cross3(vec3 a, vec3 b) { return (vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 FN vec3 mix3(vec3 a, vec3 b, num t) { return add3(a, scale3(sub3(b, a), t)); } // a at 0, b at 1
-FN vec3 pick3(mask m, vec3 a, vec3 b)
-{
-    return (vec3){pick(m, a.x, b.x), pick(m, a.y, b.y), pick(m, a.z, b.z)};
-}
+FN vec3 pick3(mask m, vec3 a, vec3 b) { return (vec3){pick(m, a.x, b.x), pick(m, a.y, b.y), pick(m, a.z, b.z)}; }
 
 // Length 1, for lengths from 1e-15 to 1e15; the zero vector stays zero.
 FN vec3 unit3(vec3 a) { return scale3(a, inverse_root(dot3(a, a))); }

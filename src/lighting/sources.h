@@ -1,10 +1,9 @@
 // sources.h: what of a light arrives at a point: its direction, distance, attenuation and cone.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). Everything is in eye space, distances in the scene's
-// units.
+// One text for C and GLSL (prelude_c.h, prelude.glsl). Everything is in eye space, distances in the scene's units.
 
-// Kinds of light that have a direction, told to each function as a uniform number. Ambient and hemisphere
-// light, which come from everywhere, stand in sum.h.
+// Kinds of light that have a direction, told to each function as a uniform number. Ambient and hemisphere light, which
+// come from everywhere, stand in sum.h.
 #define LIGHT_POINT         0 // from a position to all sides
 #define LIGHT_DIRECTIONAL   1 // from infinitely far
 #define LIGHT_SPOT_CUTOFF   2 // a cone with a sharp edge and a power of the cosine inside
@@ -16,8 +15,8 @@
 #define FALLOFF_DISTANCE 1 // 1 / (constant + linear d + quadratic d^2)
 #define FALLOFF_RANGE    2 // that, and the window that ends at the range
 
-// One light as it acts on one material: the colours are products, formed once for each draw. What the kind of
-// light has no use for is never looked at.
+// One light as it acts on one material: the colours are products, formed once for each draw. What the kind of light
+// has no use for is never looked at.
 STRUCT(source)
 {
     vec3 position;     // point and spot
@@ -42,8 +41,8 @@ STRUCT(toward)
     num spot;        // the cone's factor, 0...1
 };
 
-// 1 / (a + b d + c d^2), and 0 where that sum is 0. With a range, times the window of glTF's
-// KHR_lights_punctual: max(min(1 - (d / range)^4, 1), 0).
+// 1 / (a + b d + c d^2), and 0 where that sum is 0. With a range, times the window of glTF's KHR_lights_punctual:
+// max(min(1 - (d / range)^4, 1), 0).
 FN num attenuation_at(num d, source light, int falloff)
 {
     num sum = light.constant + (light.linear + light.quadratic * d) * d;
@@ -59,10 +58,9 @@ FN num attenuation_at(num d, source light, int falloff)
 // The cone's factor from c, the cosine between the spot's axis and the way from the light to the point:
 //     cutoff:    [c >= cos cutoff] max(c, 0)^exponent
 //     exponent:  max(c, 0)^exponent
-//     cones:     clamp((c - cos outer) / max(0.001, cos inner - cos outer), 0, 1)^2, as in
-//     KHR_lights_punctual
-// The sharp edge itself is lit, whichever way c was rounded: hence the 5e-7, the most that c may be off. The
-// cones enlarge that error by 1 / (cos inner - cos outer), the power by its exponent.
+//     cones:     clamp((c - cos outer) / max(0.001, cos inner - cos outer), 0, 1)^2, as in KHR_lights_punctual
+// The sharp edge itself is lit, whichever way c was rounded: hence the 5e-7, the most that c may be off. The cones
+// enlarge that error by 1 / (cos inner - cos outer), the power by its exponent.
 FN num spot_at(num c, source light, int kind)
 {
     num spot = num_of(1.0f);
@@ -79,8 +77,7 @@ FN num spot_at(num c, source light, int kind)
     return spot;
 }
 
-// The light at the end of the way from a point; `square` is the way's length squared, `inverse` 1 by the
-// length.
+// The light at the end of the way from a point; `square` is the way's length squared, `inverse` 1 by the length.
 FN toward toward_along(vec3 way, num square, num inverse)
 {
     toward t;

@@ -6,9 +6,9 @@
 //         + sum over lights of  spot_i attenuation_i (kd * Ld_i D_i + ks * Ls_i S_i)
 //         + kr * environment
 //
-// where * between colours goes channel by channel. The products ka * La, kd * Ld, ks * Ls are formed once for
-// each draw and come in here as colours. Ambient light is neither attenuated nor narrowed by a cone, so that
-// all of it is one colour for a draw.
+// where * between colours goes channel by channel. The products ka * La, kd * Ld, ks * Ls are formed once for each
+// draw and come in here as colours. Ambient light is neither attenuated nor narrowed by a cone, so that all of it is
+// one colour for a draw.
 
 // The terms before their sum: pictures of one term, and the explanation of one pixel, come from these.
 STRUCT(terms) { vec3 ambient, diffuse, specular, emission, reflection; };
@@ -47,8 +47,7 @@ FN surface surface_at(vec3 p, vec3 normal, vec3 tangent, int viewer)
     return s;
 }
 
-// What is there before any light: ambient = ka * (La global + sum of the lights' La), and the surface's own
-// emission.
+// What is there before any light: ambient = ka * (La global + sum of the lights' La), and the surface's own emission.
 FN terms start_terms(vec3 ambient, vec3 emission)
 {
     terms sum;
@@ -93,8 +92,7 @@ FN terms add_arriving_ambient(terms sum, vec3 ambient, toward t)
 }
 
 // Adds one point, directional or spot light.
-FN terms add_light(terms sum, surface s, source light, num shininess, int kind, int falloff, int model,
-                   int fibre)
+FN terms add_light(terms sum, surface s, source light, num shininess, int kind, int falloff, int model, int fibre)
 {
     toward t = toward_light(s.p, light, kind, falloff);
     reflected r = reflect_light(s, t.l, shininess, model, fibre);
@@ -108,8 +106,7 @@ FN terms add_environment(terms sum, vec3 kr, vec3 colour)
     return sum;
 }
 
-// A colour that varies over the surface (vertex colours, a texture) multiplies what is reflected evenly: ka
-// and kd.
+// A colour that varies over the surface (vertex colours, a texture) multiplies what is reflected evenly: ka and kd.
 FN terms tint_terms(terms sum, vec3 colour)
 {
     sum.ambient = mul3(sum.ambient, colour);

@@ -101,8 +101,8 @@ static void box_piece(void *user, size_t index, int thread)
         box_level(boxing, 1, first / BOX_CHILDREN, (end + BOX_CHILDREN - 1) / BOX_CHILDREN);
 }
 
-bool box_tree_make(struct box_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count,
-                   struct arena *arena, struct pool *pool, lam_error *error)
+bool box_tree_make(struct box_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count, struct arena *arena,
+                   struct pool *pool, lam_error *error)
 {
     *tree = (struct box_tree){.block = mesh->indices ? BLOCK_SHARED : BLOCK_CORNERS, .vertices = count};
     if (!count)

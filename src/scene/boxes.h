@@ -27,8 +27,8 @@ struct box_tree {
 };
 
 // `used` lists the vertices that count, in order (NULL: the first `count`). False when memory is out.
-bool box_tree_make(struct box_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count,
-                   struct arena *arena, struct pool *pool, lam_error *error);
+bool box_tree_make(struct box_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count, struct arena *arena,
+                   struct pool *pool, lam_error *error);
 
 // The box around everything. Only of a tree with vertices.
 void box_tree_whole(const struct box_tree *tree, box_of_six whole);
@@ -39,9 +39,6 @@ static inline const box_of_six *boxes_of_level(const struct box_tree *tree, int 
 }
 
 // The end of what a box holds that begins at `first`, `each` things in a box, of `all` things.
-static inline size_t box_end(size_t first, size_t each, size_t all)
-{
-    return all - first < each ? all : first + each;
-}
+static inline size_t box_end(size_t first, size_t each, size_t all) { return all - first < each ? all : first + each; }
 
 #endif

@@ -18,8 +18,8 @@ lam_mat4 lam_camera_view(const lam_camera *camera)
     return view;
 }
 
-// Turns a direction given with Y up, front +Z, into the scene's up axis. Z up has its front at −Y, as CAD
-// has; X up at +Z.
+// Turns a direction given with Y up, front +Z, into the scene's up axis. Z up has its front at −Y, as CAD has; X up at
+// +Z.
 static lam_vec3 turn_up(lam_up up, lam_vec3 d)
 {
     switch (up) {
@@ -47,8 +47,7 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view)
 }
 
 // Orthographic: half the box over the fill, centred.
-static lam_camera fit_orthographic(const lam_scene *scene, const struct view_axes *axes, double aspect,
-                                   double fill)
+static lam_camera fit_orthographic(const lam_scene *scene, const struct view_axes *axes, double aspect, double fill)
 {
     struct reach box = {0};
     reach_find(scene, axes, &box);
@@ -57,8 +56,7 @@ static lam_camera fit_orthographic(const lam_scene *scene, const struct view_axe
     double half_width = (right + left) / 2, half_height = (top + bottom) / 2;
     double half = half_height > half_width / aspect ? half_height : half_width / aspect;
     double size = half > 0 ? half : 1;
-    lam_vec3 centre =
-        v3_add(v3_scale(axes->right, (right - left) / 2), v3_scale(axes->above, (top - bottom) / 2));
+    lam_vec3 centre = v3_add(v3_scale(axes->right, (right - left) / 2), v3_scale(axes->above, (top - bottom) / 2));
     lam_vec3 target = v3_add(centre, v3_scale(axes->back, box.value[REACH_FRONT]));
     return (lam_camera){.eye = v3_add(target, v3_scale(axes->back, 2 * size)),
                         .target = target,
@@ -66,13 +64,12 @@ static lam_camera fit_orthographic(const lam_scene *scene, const struct view_axe
                         .ortho_half_height = size / fill};
 }
 
-// Perspective, for one axis across the view: a vertex is inside when ±(x − ex) ≤ k·(ez − z), that is ±x + k·z
-// ≤ ±ex + k·ez. With R and L the largest of x + k·z and −x + k·z, both sides touch at ex = (R − L)/2 and ez =
-// (R + L)/(2k): exact, from one pass over the vertices. The axis that asks for the larger ez decides it; the
-// other is centred by finding the smaller k at which it would touch at that ez (a few passes, each from the
-// last one's answer).
-static lam_camera fit_perspective(const lam_scene *scene, const struct view_axes *axes, double fovy,
-                                  double aspect, double fill)
+// Perspective, for one axis across the view: a vertex is inside when ±(x − ex) ≤ k·(ez − z), that is ±x + k·z ≤ ±ex +
+// k·ez. With R and L the largest of x + k·z and −x + k·z, both sides touch at ex = (R − L)/2 and ez = (R + L)/(2k):
+// exact, from one pass over the vertices. The axis that asks for the larger ez decides it; the other is centred by
+// finding the smaller k at which it would touch at that ez (a few passes, each from the last one's answer).
+static lam_camera fit_perspective(const lam_scene *scene, const struct view_axes *axes, double fovy, double aspect,
+                                  double fill)
 {
     struct reach reach = {.ky = math_tan(fovy / 2) * fill};
     reach.kx = reach.ky * aspect;

@@ -12,11 +12,10 @@ static const struct {
     const char *name;
     uint32_t rgb;
 } names[] = {
-    {"black", 0x000000},   {"silver", 0xc0c0c0},  {"gray", 0x808080},  {"grey", 0x808080},
-    {"white", 0xffffff},   {"maroon", 0x800000},  {"red", 0xff0000},   {"purple", 0x800080},
-    {"fuchsia", 0xff00ff}, {"magenta", 0xff00ff}, {"green", 0x008000}, {"lime", 0x00ff00},
-    {"olive", 0x808000},   {"yellow", 0xffff00},  {"navy", 0x000080},  {"blue", 0x0000ff},
-    {"teal", 0x008080},    {"aqua", 0x00ffff},    {"cyan", 0x00ffff},  {"orange", 0xffa500},
+    {"black", 0x000000},  {"silver", 0xc0c0c0}, {"gray", 0x808080},   {"grey", 0x808080},    {"white", 0xffffff},
+    {"maroon", 0x800000}, {"red", 0xff0000},    {"purple", 0x800080}, {"fuchsia", 0xff00ff}, {"magenta", 0xff00ff},
+    {"green", 0x008000},  {"lime", 0x00ff00},   {"olive", 0x808000},  {"yellow", 0xffff00},  {"navy", 0x000080},
+    {"blue", 0x0000ff},   {"teal", 0x008080},   {"aqua", 0x00ffff},   {"cyan", 0x00ffff},    {"orange", 0xffa500},
 };
 
 static int hex_digit(char c)
@@ -105,8 +104,7 @@ bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam
         *color = numbers;
         return true;
     }
-    return fail(
-        error, LAM_BAD_ARGUMENT,
-        "found '%.60s', expected a colour: #rrggbb, #rrggbbaa, r/g/b, transparent, or a name such as white",
-        text);
+    return fail(error, LAM_BAD_ARGUMENT,
+                "found '%.60s', expected a colour: #rrggbb, #rrggbbaa, r/g/b, transparent, or a name such as white",
+                text);
 }

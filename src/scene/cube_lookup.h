@@ -9,15 +9,14 @@ struct cube_color {
     num r, g, b;
 };
 
-// Where a direction meets the cube: in texels of the bordered face, ½ … size + 1½. The zero vector gives some
-// place.
+// Where a direction meets the cube: in texels of the bordered face, ½ … size + 1½. The zero vector gives some place.
 struct cube_place {
     inum face;
     num s, t;
 };
 
-// OpenGL's table (4.6, 8.13): the axis with the largest size names the face. At equal sizes either would do,
-// the filter being continuous.
+// OpenGL's table (4.6, 8.13): the axis with the largest size names the face. At equal sizes either would do, the filter
+// being continuous.
 LANE_FN struct cube_place cube_place(num x, num y, num z, int size)
 {
     num ax = absolute(x), ay = absolute(y), az = absolute(z);
@@ -60,8 +59,7 @@ LANE_FN struct cube_color cube_look(const struct lam_environment *cube, num x, n
         }
     }
     num s = place.s - num_of_int(column), t = place.t - num_of_int(row);
-    return (struct cube_color){cube_mix(texels[0], s, t), cube_mix(texels[1], s, t),
-                               cube_mix(texels[2], s, t)};
+    return (struct cube_color){cube_mix(texels[0], s, t), cube_mix(texels[1], s, t), cube_mix(texels[2], s, t)};
 }
 
 #endif

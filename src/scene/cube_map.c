@@ -51,9 +51,9 @@ void cube_direction(int face, double major, double across, double down, double o
     memcpy(out, table[face], sizeof table[face]);
 }
 
-// The texel beside the edge on the neighbouring face. A face is taken from −size to size, so that texel i
-// lies at the odd number 2i + 1 − size; across the edge one axis goes on inwards as far as the other came
-// outwards. All numbers are whole.
+// The texel beside the edge on the neighbouring face. A face is taken from −size to size, so that texel i lies at the
+// odd number 2i + 1 − size; across the edge one axis goes on inwards as far as the other came outwards. All numbers are
+// whole.
 static const float *neighbour(const struct lam_environment *cube, int face, int s, int t)
 {
     int n = cube->size;

@@ -1,9 +1,8 @@
-// cube_map.h: the inside of lam_environment: six faces, each with a border of one texel taken from its
-// neighbours.
+// cube_map.h: the inside of lam_environment: six faces, each with a border of one texel taken from its neighbours.
 //
-// With the border, bilinear filtering needs no case at edges and corners, and is continuous there: both faces
-// mix the same four texels. A border's corner, where three faces meet and there is no fourth texel, is the
-// average of the three.
+// With the border, bilinear filtering needs no case at edges and corners, and is continuous there: both faces mix the
+// same four texels. A border's corner, where three faces meet and there is no fourth texel, is the average of the
+// three.
 #ifndef CUBE_MAP_H
 #define CUBE_MAP_H
 
@@ -38,8 +37,7 @@ static inline size_t cube_bytes(int size)
 struct watch;
 struct lam_environment *environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
                                                struct watch *watch, lam_error *error);
-struct lam_environment *environment_load(const char *path, lam_color_mode color, struct watch *watch,
-                                         lam_error *error);
+struct lam_environment *environment_load(const char *path, lam_color_mode color, struct watch *watch, lam_error *error);
 
 // Fills the borders from the faces.
 void cube_close(struct lam_environment *cube);

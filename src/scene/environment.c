@@ -41,10 +41,9 @@ static bool copy_face(struct lam_environment *cube, int face, const struct piece
     int n = cube->size;
     for (int t = 0; t < n; t++) {
         for (int s = 0; s < n; s++) {
-            int x = piece->x + (piece->turned ? n - 1 - s : s),
-                y = piece->y + (piece->turned ? n - 1 - t : t);
-            const float *from = (const float *)piece->image->pixels +
-                                ((size_t)y * (size_t)piece->image->width + (size_t)x) * 4;
+            int x = piece->x + (piece->turned ? n - 1 - s : s), y = piece->y + (piece->turned ? n - 1 - t : t);
+            const float *from =
+                (const float *)piece->image->pixels + ((size_t)y * (size_t)piece->image->width + (size_t)x) * 4;
             for (int channel = 0; channel < 3; channel++)
                 if (!(from[channel] >= 0 && from[channel] <= 3e38f))
                     return fail(error, LAM_BAD_ARGUMENT,
@@ -57,8 +56,8 @@ static bool copy_face(struct lam_environment *cube, int face, const struct piece
 }
 
 static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE_COUNT],
-                                              const char *const names[LAM_FACE_COUNT], int size,
-                                              struct watch *watch, lam_error *error)
+                                              const char *const names[LAM_FACE_COUNT], int size, struct watch *watch,
+                                              lam_error *error)
 {
     if (size > CUBE_SIDE_MOST) {
         fail(error, LAM_LIMIT, "%s: a face of %d×%d pixels, expected at most %d×%d", names[0], size, size,
@@ -85,9 +84,8 @@ static struct lam_environment *cube_of_faces(const lam_image *faces, const char 
         pieces[face] = (struct piece){.image = &faces[face]};
         if (faces[face].width == faces[0].width && faces[face].height == faces[0].width)
             continue;
-        fail(error, LAM_UNSUPPORTED,
-             "%s: %d×%d pixels, expected %d×%d: faces of a cube are squares of one size", names[face],
-             faces[face].width, faces[face].height, faces[0].width, faces[0].width);
+        fail(error, LAM_UNSUPPORTED, "%s: %d×%d pixels, expected %d×%d: faces of a cube are squares of one size",
+             names[face], faces[face].width, faces[face].height, faces[0].width, faces[0].width);
         return NULL;
     }
     return cube_of_pieces(pieces, names, faces[0].width, watch, error);
@@ -193,8 +191,7 @@ static bool linear_copy(const lam_image *image, lam_color_mode color, lam_image 
     if (!image || !image->pixels || image->width < 1 || image->height < 1)
         return fail(error, LAM_BAD_ARGUMENT, "environment: a picture is missing");
     if ((unsigned)color > LAM_COLOR_RAW)
-        return fail(error, LAM_BAD_ARGUMENT, "environment: color mode %d is not one of lam_color_mode",
-                    (int)color);
+        return fail(error, LAM_BAD_ARGUMENT, "environment: color mode %d is not one of lam_color_mode", (int)color);
     if (!lam_image_make(out, image->width, image->height, image->format, error))
         return false;
     memcpy(out->pixels, image->pixels,
@@ -264,8 +261,7 @@ struct lam_environment *environment_load_faces(const char *const paths[LAM_FACE_
     return cube;
 }
 
-struct lam_environment *environment_load(const char *path, lam_color_mode color, struct watch *watch,
-                                         lam_error *error)
+struct lam_environment *environment_load(const char *path, lam_color_mode color, struct watch *watch, lam_error *error)
 {
     lam_image image = {0};
     if (!load_picture(&image, path, color, watch, error))

@@ -35,8 +35,7 @@ static double squared(double x, int n)
     return x;
 }
 
-// A clear afternoon: blue above, pale at the horizon, the sun a third up to the right in front (+X +Z), brown
-// ground.
+// A clear afternoon: blue above, pale at the horizon, the sun a third up to the right in front (+X +Z), brown ground.
 static struct rgb sky(lam_vec3 d)
 {
     static const struct rgb zenith = {{0.10, 0.24, 0.62}}, horizon = {{0.72, 0.80, 0.88}},
@@ -61,8 +60,8 @@ static double soft_box(double x, double y, double half_width, double half_height
     return ramp(-half_width - edge, -half_width, -x) * ramp(-half_height - edge, -half_height, -y);
 }
 
-// A dark room, a cube about the origin: a broad lamp at the ceiling, a tall strip at the left, a wide dim one
-// at the right, a small one behind, a floor that returns some of it.
+// A dark room, a cube about the origin: a broad lamp at the ceiling, a tall strip at the left, a wide dim one at the
+// right, a small one behind, a floor that returns some of it.
 static struct rgb studio(lam_vec3 d)
 {
     double ax = d.x < 0 ? -d.x : d.x, ay = d.y < 0 ? -d.y : d.y, az = d.z < 0 ? -d.z : d.z;
@@ -124,7 +123,6 @@ lam_environment *lam_environment_built_in(const char *name, lam_error *error)
             return cube;
         }
     }
-    fail(error, LAM_BAD_ARGUMENT, "environment: '%s' is not built in, expected sky or studio",
-         name ? name : "");
+    fail(error, LAM_BAD_ARGUMENT, "environment: '%s' is not built in, expected sky or studio", name ? name : "");
     return NULL;
 }

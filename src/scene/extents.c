@@ -30,8 +30,8 @@ static void mark_piece(void *user, size_t index, int thread)
 }
 
 // The list of used vertices where some are not used. False when memory is out.
-static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent,
-                      struct pool *pool, lam_error *error)
+static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
+                      lam_error *error)
 {
     size_t corners = (size_t)mesh->triangle_count * 3;
     extent->used = NULL;
@@ -98,8 +98,8 @@ static bool has_clear_colors(const lam_mesh *mesh, struct pool *pool)
     return clearing.found;
 }
 
-static bool measure(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent,
-                    struct pool *pool, lam_error *error)
+static bool measure(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
+                    lam_error *error)
 {
     *extent = (struct scene_extent){.translucent = has_clear_colors(mesh, pool)};
     if (!find_used(scene, mesh, extent, pool, error))
@@ -166,9 +166,9 @@ bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec3 *maxim
         }
         for (uint32_t v = 0; v < extent->used_count; v++) {
             const float *p = mesh->positions + 3 * (size_t)(extent->used ? extent->used[v] : v);
-            lam_vec3 w = mat4_point(&object->transform,
-                                    v3((double)p[0] + mesh->origin[0], (double)p[1] + mesh->origin[1],
-                                       (double)p[2] + mesh->origin[2]));
+            lam_vec3 w =
+                mat4_point(&object->transform, v3((double)p[0] + mesh->origin[0], (double)p[1] + mesh->origin[1],
+                                                  (double)p[2] + mesh->origin[2]));
             low = lower(low, w);
             high = upper(high, w);
         }

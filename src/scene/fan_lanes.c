@@ -48,8 +48,7 @@ static void fetch_vertices(struct fan_block *b, const lam_mesh *mesh)
         for (uint32_t p = 0; mesh->indices && p < FAN_PLACES; p += LANES) {
             inum vertex[3], k = inum_load((const int32_t *)place + p);
             igather3(mesh->indices, triangle + p, 3, vertex);
-            inum_store((int32_t *)b->next_vertex[i] + p,
-                       ipick(k == 0, vertex[1], ipick(k == 1, vertex[2], vertex[0])));
+            inum_store((int32_t *)b->next_vertex[i] + p, ipick(k == 0, vertex[1], ipick(k == 1, vertex[2], vertex[0])));
             inum_store((int32_t *)b->before_vertex[i] + p,
                        ipick(k == 0, vertex[2], ipick(k == 1, vertex[0], vertex[1])));
         }
@@ -105,11 +104,11 @@ static void look(struct fan_block *b)
             int steep = length > across;
             double larger = steep ? length : across;
             double t = (steep ? across : length) / (spans ? larger : 1), s = t * t;
-            double angle = t * (0.9999948346338877 +
-                                s * (-0.33295711032247277 +
-                                     s * (0.1953465900279569 +
-                                          s * (-0.12044858521312099 +
-                                               s * (0.05658998519974516 + s * -0.013130382075233026)))));
+            double angle =
+                t * (0.9999948346338877 +
+                     s * (-0.33295711032247277 +
+                          s * (0.1953465900279569 +
+                               s * (-0.12044858521312099 + s * (0.05658998519974516 + s * -0.013130382075233026)))));
             angle = steep ? PI / 2 - angle : angle;
             angle = dot < 0 ? PI - angle : angle;
             angle = spans ? angle : 0;
@@ -132,8 +131,7 @@ static void link(struct fan_block *b, double least_cosine, bool grouped)
         for (uint32_t j = i + 1; j < b->count; j++) {
             fan_numbers near;
             for (uint32_t p = 0; p < FAN_PLACES; p++) {
-                double cosine = b->normal[i][0][p] * b->normal[j][0][p] +
-                                b->normal[i][1][p] * b->normal[j][1][p] +
+                double cosine = b->normal[i][0][p] * b->normal[j][0][p] + b->normal[i][1][p] * b->normal[j][1][p] +
                                 b->normal[i][2][p] * b->normal[j][2][p];
                 near[p] = cosine >= least_cosine;
             }
@@ -141,11 +139,9 @@ static void link(struct fan_block *b, double least_cosine, bool grouped)
                 for (uint32_t p = 0; p < FAN_PLACES; p++)
                     near[p] &= (b->groups[i][p] == b->groups[j][p]) & (b->groups[i][p] != 0);
             for (uint32_t p = 0; p < FAN_PLACES; p++) {
-                uint32_t after = (b->next[i][0][p] == b->before[j][0][p]) &
-                                 (b->next[i][1][p] == b->before[j][1][p]) &
+                uint32_t after = (b->next[i][0][p] == b->before[j][0][p]) & (b->next[i][1][p] == b->before[j][1][p]) &
                                  (b->next[i][2][p] == b->before[j][2][p]);
-                uint32_t ahead = (b->next[j][0][p] == b->before[i][0][p]) &
-                                 (b->next[j][1][p] == b->before[i][1][p]) &
+                uint32_t ahead = (b->next[j][0][p] == b->before[i][0][p]) & (b->next[j][1][p] == b->before[i][1][p]) &
                                  (b->next[j][2][p] == b->before[i][2][p]);
                 uint32_t joined = (after | ahead) & near[p];
                 b->links[i][p] |= joined << j;

@@ -19,8 +19,7 @@ static bool check_camera(const lam_camera *camera, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "camera: eye and target are the same point");
     double half = camera->ortho_half_height;
     if (!(half >= 0) || !math_finite(half))
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "camera: ortho_half_height is %g, expected a positive number or 0", half);
+        return fail(error, LAM_BAD_ARGUMENT, "camera: ortho_half_height is %g, expected a positive number or 0", half);
     if (half == 0 && !(camera->fovy_rad > 0 && camera->fovy_rad < PI))
         return fail(error, LAM_BAD_ARGUMENT, "camera: fovy is %g°, expected more than 0° and less than 180°",
                     math_degrees(camera->fovy_rad));
@@ -40,25 +39,21 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
     const float *b = &params->background.r;
     for (int i = 0; i < 4; i++)
         if (!(b[i] >= 0 && b[i] <= 3e38f))
-            return fail(error, LAM_BAD_ARGUMENT,
-                        "background: a channel is %g, expected a number of at least 0", (double)b[i]);
+            return fail(error, LAM_BAD_ARGUMENT, "background: a channel is %g, expected a number of at least 0",
+                        (double)b[i]);
     if (b[3] > 1)
         return fail(error, LAM_BAD_ARGUMENT, "background: alpha is %g, expected 0 to 1", (double)b[3]);
     if (!(params->exposure >= -100 && params->exposure <= 100))
-        return fail(error, LAM_BAD_ARGUMENT, "exposure is %g, expected stops from -100 to 100",
-                    params->exposure);
+        return fail(error, LAM_BAD_ARGUMENT, "exposure is %g, expected stops from -100 to 100", params->exposure);
     if ((unsigned)params->color > LAM_COLOR_RAW || (unsigned)params->rig > LAM_RIG_LECTURE ||
         (unsigned)params->shading > LAM_SHADING_FLAT ||
         (unsigned)params->reflection > LAM_REFLECTION_KAJIYA_KAY_LECTURE)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "draw parameters: color, rig, shading or reflection is out of its range");
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: color, rig, shading or reflection is out of its range");
     if ((unsigned)params->stage > LAM_STAGE_FRAGMENT || (unsigned)params->viewer > LAM_VIEWER_INFINITE ||
         (unsigned)params->flat_normal > LAM_FLAT_NORMAL_VERTEX)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "draw parameters: stage, viewer or flat_normal is out of its range");
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
     if (!(params->light_cutoff >= -3e38f && params->light_cutoff <= 1))
-        return fail(error, LAM_BAD_ARGUMENT, "light_cutoff is %g, expected at most 1",
-                    (double)params->light_cutoff);
+        return fail(error, LAM_BAD_ARGUMENT, "light_cutoff is %g, expected at most 1", (double)params->light_cutoff);
     if ((unsigned)params->show >= LAM_SHOW_COUNT || params->show_light < 0)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: show or show_light is out of its range");
     if (params->shading == LAM_SHADING_PHONG &&
@@ -73,8 +68,7 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
     return true;
 }
 
-// Distances along the view that hold all objects, with a margin; a camera among them starts at 1/10000 of the
-// far one.
+// Distances along the view that hold all objects, with a margin; a camera among them starts at 1/10000 of the far one.
 static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthographic, double *near_plane,
                        double *far_plane)
 {
@@ -144,8 +138,7 @@ static void build_draw(struct frame_draw *draw, const lam_scene *scene, int obje
             largest = c > largest ? c : largest;
             largest_eye = e > largest_eye ? e : largest_eye;
         }
-    // The cofactors are the inverse transpose times the determinant: its sign is taken out, its size does not
-    // matter.
+    // The cofactors are the inverse transpose times the determinant: its sign is taken out, its size does not matter.
     double scale = (draw->mirrored ? -1 : 1) / (largest > 0 ? largest : 1);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -195,8 +188,7 @@ static bool light_space(const lam_scene *scene, const lam_light *light, const la
             return true;
         }
     }
-    return fail(error, LAM_BAD_ARGUMENT,
-                "light '%s': its frame is the object '%s', which the scene does not have",
+    return fail(error, LAM_BAD_ARGUMENT, "light '%s': its frame is the object '%s', which the scene does not have",
                 light->name ? light->name : "", light->object ? light->object : "");
 }
 
@@ -260,8 +252,7 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
         out->source = light;
         return true;
     }
-    struct frame_light *placed =
-        light->type == LAM_LIGHT_AMBIENT ? NULL : &frame->lights[frame->light_count++];
+    struct frame_light *placed = light->type == LAM_LIGHT_AMBIENT ? NULL : &frame->lights[frame->light_count++];
     if (placed)
         build_light(placed, light, &space, index);
     if (placed && frame->gl1) {
@@ -275,8 +266,8 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
 }
 
 // All lights, or the one that is shown (`only`; then without the scene's ambient light).
-static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig rig, int only,
-                         const lam_mat4 *view, lam_error *error)
+static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig rig, int only, const lam_mat4 *view,
+                         lam_error *error)
 {
     store_rgb(frame->ambient, only < 0 ? scene->ambient : (lam_rgb){0});
     for (int i = 0; i < scene->lights.count; i++)
@@ -284,15 +275,13 @@ static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig ri
             return false;
     int count = lam_scene_rig_lights(scene, rig, frame->rig);
     for (int i = 0; i < count; i++)
-        if ((only < 0 || only == scene->lights.count + i) &&
-            !add_light(frame, scene, &frame->rig[i], -1, view, error))
+        if ((only < 0 || only == scene->lights.count + i) && !add_light(frame, scene, &frame->rig[i], -1, view, error))
             return false;
     if (only >= scene->lights.count + count)
-        return fail(error, LAM_BAD_ARGUMENT, "show_light is %d, but the frame has %d lights, counted from 0",
-                    only, scene->lights.count + count);
+        return fail(error, LAM_BAD_ARGUMENT, "show_light is %d, but the frame has %d lights, counted from 0", only,
+                    scene->lights.count + count);
     if (only >= 0 && frame->show != LAM_SHOW_LIGHT && !frame->light_count)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "%s: light %d comes from everywhere, expected one with a direction",
+        return fail(error, LAM_BAD_ARGUMENT, "%s: light %d comes from everywhere, expected one with a direction",
                     lam_show_name(frame->show), only);
     return true;
 }
@@ -315,17 +304,11 @@ static void build_surfaces(struct frame *frame, const lam_scene *scene, int draw
             last->count += part->triangle_count;
             continue;
         }
-        bool translucent = scene_extent(scene, object->mesh)->translucent ||
-                           frame->materials[front]->diffuse.a < 1 ||
+        bool translucent = scene_extent(scene, object->mesh)->translucent || frame->materials[front]->diffuse.a < 1 ||
                            (!draw->one_sided && frame->materials[back]->diffuse.a < 1);
         frame->translucent |= translucent;
-        frame->surfaces[frame->surface_count++] =
-            (struct frame_surface){draw->first_id + part->first_triangle,
-                                   part->triangle_count,
-                                   draw_index,
-                                   front,
-                                   back,
-                                   translucent};
+        frame->surfaces[frame->surface_count++] = (struct frame_surface){
+            draw->first_id + part->first_triangle, part->triangle_count, draw_index, front, back, translucent};
     }
 }
 
@@ -357,15 +340,14 @@ static bool make_room(struct frame *frame, const lam_scene *scene, struct watch 
     return true;
 }
 
-// Directions of eye space to the environment's axes: through the world, then its up axis to +Y (as the fitted
-// camera turns, camera.c), then against the environment's own rotation.
+// Directions of eye space to the environment's axes: through the world, then its up axis to +Y (as the fitted camera
+// turns, camera.c), then against the environment's own rotation.
 static void build_environment(struct frame *frame, const lam_scene *scene, const lam_mat4 *view)
 {
     frame->environment = scene->environment;
     double s = math_sin(scene->environment_rotation_rad), c = math_cos(scene->environment_rotation_rad);
     for (int j = 0; j < 3; j++) {
-        lam_vec3 w =
-            v3(view->m[j][0], view->m[j][1], view->m[j][2]); // where eye axis j points to in the world
+        lam_vec3 w = v3(view->m[j][0], view->m[j][1], view->m[j][2]); // where eye axis j points to in the world
         if (scene->up == LAM_UP_Z)
             w = v3(w.x, w.z, -w.y);
         else if (scene->up == LAM_UP_X)
@@ -376,11 +358,10 @@ static void build_environment(struct frame *frame, const lam_scene *scene, const
     }
 }
 
-bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera,
-                 const lam_draw_params *params, int width, int height, struct watch *watch, lam_error *error)
+bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
+                 int width, int height, struct watch *watch, lam_error *error)
 {
-    if (!check_camera(camera, error) || !check_params(params, error) ||
-        !make_room(frame, scene, watch, error))
+    if (!check_camera(camera, error) || !check_params(params, error) || !make_room(frame, scene, watch, error))
         return false;
     frame->token = scene->token;
     frame->width = width;
@@ -393,8 +374,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->stage = params->stage                            ? params->stage
                    : params->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX
                                                             : LAM_STAGE_FRAGMENT;
-    frame->reflection =
-        params->reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : params->reflection;
+    frame->reflection = params->reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : params->reflection;
     frame->orthographic = camera->ortho_half_height > 0;
     frame->distant_viewer = frame->orthographic || params->viewer == LAM_VIEWER_INFINITE;
     frame->flat_normal = params->flat_normal;
@@ -447,8 +427,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     // Numbers are those of the nearest surface, however clear it is.
     if (!lam_show_is_light(frame->show) && frame->show != LAM_SHOW_CLIPPED)
         frame->translucent = false;
-    return build_lights(frame, scene, params->rig, shows_one_light(frame->show) ? params->show_light : -1,
-                        &view, error);
+    return build_lights(frame, scene, params->rig, shows_one_light(frame->show) ? params->show_light : -1, &view,
+                        error);
 }
 
 void frame_free(struct frame *frame) { buffer_free(&frame->storage); }

@@ -1,7 +1,7 @@
 // frame.h: a scene and a camera flattened into what a device draws: flat lists, floats, eye space.
 //
-// All set-up work in double ends here, rounded once to float. Triangles of all draws are numbered through:
-// triangle t of a draw has the number first_id + t, and that number is what a visibility buffer holds.
+// All set-up work in double ends here, rounded once to float. Triangles of all draws are numbered through: triangle t
+// of a draw has the number first_id + t, and that number is what a visibility buffer holds.
 #ifndef FRAME_H
 #define FRAME_H
 
@@ -23,8 +23,8 @@ struct frame_draw {
     bool mirrored;       // the transform turns the winding
     bool one_sided;
     lam_cull cull;
-    double crease_rad; // > 0: the mesh has no normals; the device makes those that it needs, creased at this
-                       // angle
+    // > 0: the mesh has no normals; the device makes those that it needs, creased at this angle
+    double crease_rad;
 };
 
 // A run of triangles of one draw with the same materials.
@@ -82,14 +82,13 @@ struct frame {
     lam_flat_normal flat_normal;
     bool match_highlights, gl1;
     lam_show show;
-    float light_cutoff;  // share of the encoded range that lights left out may be worth together; 0: none is
-                         // left out
+    // share of the encoded range that lights left out may be worth together; 0: none is left out
+    float light_cutoff;
     bool distant_viewer; // v = +z for every point: an orthographic camera, or asked for
     bool orthographic;
     bool translucent;   // any surface is
     bool makes_normals; // some draw has a crease_rad, and its normals will be asked for
-    // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the
-    // window.
+    // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;
 
     struct frame_draw *draws;
@@ -119,10 +118,10 @@ static inline bool shows_one_light(lam_show show)
     return show == LAM_SHOW_LIGHT || show == LAM_SHOW_N_L || show == LAM_SHOW_N_H;
 }
 
-// Builds the frame; keeps its storage from call to call. Errors: LAM_BAD_ARGUMENT (camera or parameters out
-// of range), LAM_LIMIT (memory, too many triangles).
-bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera,
-                 const lam_draw_params *params, int width, int height, struct watch *watch, lam_error *error);
+// Builds the frame; keeps its storage from call to call. Errors: LAM_BAD_ARGUMENT (camera or parameters out of range),
+// LAM_LIMIT (memory, too many triangles).
+bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
+                 int width, int height, struct watch *watch, lam_error *error);
 void frame_free(struct frame *frame);
 
 // The surface that a triangle number belongs to.

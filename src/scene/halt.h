@@ -12,8 +12,7 @@ struct halt {
 // False once the call was cancelled, its time is over, or memory is out; every piece of work asks first.
 static inline bool goes_on(struct halt *halt)
 {
-    if (__atomic_load_n(&halt->stopped, __ATOMIC_RELAXED) ||
-        __atomic_load_n(&halt->out_of_memory, __ATOMIC_RELAXED))
+    if (__atomic_load_n(&halt->stopped, __ATOMIC_RELAXED) || __atomic_load_n(&halt->out_of_memory, __ATOMIC_RELAXED))
         return false;
     if (watch_on(halt->watch))
         return true;
@@ -21,16 +20,12 @@ static inline bool goes_on(struct halt *halt)
     return false;
 }
 
-static inline void no_memory(struct halt *halt)
-{
-    __atomic_store_n(&halt->out_of_memory, 1, __ATOMIC_RELAXED);
-}
+static inline void no_memory(struct halt *halt) { __atomic_store_n(&halt->out_of_memory, 1, __ATOMIC_RELAXED); }
 
 // Fills the error with the reason and returns false. `bytes`: about what could not be had.
 static inline bool halt_error(struct halt *halt, size_t bytes, lam_error *error)
 {
-    return halt->out_of_memory ? watch_memory_error(halt->watch, bytes, error)
-                               : watch_error(halt->watch, error);
+    return halt->out_of_memory ? watch_memory_error(halt->watch, bytes, error) : watch_error(halt->watch, error);
 }
 
 #endif

@@ -30,8 +30,7 @@ static const double HALF_TURN = PI + 1e-6, QUARTER_TURN = PI / 2 + 1e-6;
 
 static const char *const type_words[] = {"ambient", "hemisphere", "point", "directional", "spot"};
 
-static bool bad(lam_error *error, const lam_light *light, const char *field, double found,
-                const char *expected)
+static bool bad(lam_error *error, const lam_light *light, const char *field, double found, const char *expected)
 {
     return fail(error, LAM_BAD_ARGUMENT, "%s light%s%s%s: %s is %g, expected %s", type_words[light->type],
                 light->name ? " '" : "", light->name ? light->name : "", light->name ? "'" : "", field, found,
@@ -48,11 +47,10 @@ static bool at_least_zero(const lam_light *light, const char *field, double valu
 static bool color_fits(const lam_light *light, const char *r, const char *g, const char *b, lam_rgb color,
                        lam_error *error)
 {
-    return at_least_zero(light, r, (double)color.r, error) &&
-           at_least_zero(light, g, (double)color.g, error) && at_least_zero(light, b, (double)color.b, error);
+    return at_least_zero(light, r, (double)color.r, error) && at_least_zero(light, g, (double)color.g, error) &&
+           at_least_zero(light, b, (double)color.b, error);
 }
-#define COLOR_FITS(light, field, error)                                                                      \
-    color_fits(light, #field ".r", #field ".g", #field ".b", (light)->field, error)
+#define COLOR_FITS(light, field, error) color_fits(light, #field ".r", #field ".g", #field ".b", (light)->field, error)
 
 static bool vector_fits(const lam_light *light, const char *x, const char *y, const char *z, lam_vec3 v,
                         lam_error *error)
@@ -64,7 +62,7 @@ static bool vector_fits(const lam_light *light, const char *x, const char *y, co
         return bad(error, light, y, v.y, finite);
     return math_finite(v.z) || bad(error, light, z, v.z, finite);
 }
-#define VECTOR_FITS(light, field, error)                                                                     \
+#define VECTOR_FITS(light, field, error)                                                                               \
     vector_fits(light, #field ".x", #field ".y", #field ".z", (light)->field, error)
 
 static bool direction_fits(const lam_light *light, lam_error *error)
@@ -87,8 +85,7 @@ static bool cone_fits(const lam_light *light, lam_error *error)
 {
     double inner = (double)light->inner_rad, outer = (double)light->outer_rad;
     double cutoff = (double)light->cutoff_rad;
-    if (!at_least_zero(light, "inner_rad", inner, error) ||
-        !at_least_zero(light, "outer_rad", outer, error) ||
+    if (!at_least_zero(light, "inner_rad", inner, error) || !at_least_zero(light, "outer_rad", outer, error) ||
         !at_least_zero(light, "cutoff_rad", cutoff, error) ||
         !at_least_zero(light, "exponent", (double)light->exponent, error))
         return false;
@@ -110,11 +107,9 @@ bool lam_light_check(const lam_light *light, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "light: type is %d, expected 0 to %d", (int)light->type,
                     (int)LAM_LIGHT_SPOT);
     if ((unsigned)light->frame > LAM_FRAME_MODEL)
-        return bad(error, light, "frame", (double)light->frame,
-                   "0 (world), 1 (camera), 2 (object) or 3 (model)");
+        return bad(error, light, "frame", (double)light->frame, "0 (world), 1 (camera), 2 (object) or 3 (model)");
     if (light->type == LAM_LIGHT_HEMISPHERE)
-        return COLOR_FITS(light, sky, error) && COLOR_FITS(light, ground, error) &&
-               VECTOR_FITS(light, up, error);
+        return COLOR_FITS(light, sky, error) && COLOR_FITS(light, ground, error) && VECTOR_FITS(light, up, error);
     if (!COLOR_FITS(light, ambient, error))
         return false;
     if (light->type == LAM_LIGHT_AMBIENT)
@@ -130,8 +125,8 @@ bool lam_light_check(const lam_light *light, lam_error *error)
 
 // --- Rigs
 
-// A directional light that moves with the camera. `from` points to where the light comes from: x right, y up,
-// z towards the viewer.
+// A directional light that moves with the camera. `from` points to where the light comes from: x right, y up, z
+// towards the viewer.
 static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, float specular)
 {
     lam_light light = lam_light_default(LAM_LIGHT_DIRECTIONAL);
@@ -145,11 +140,10 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
 
 // The default look. What a point returns is its ka or kd times at most
 //   0.74 (key) + 0.24·cos 79° (fill, where the key is full) + 0.17 (sky, seen from there) = 0.96
-// (0.9 on top, where the rim light joins in), so that even a white material keeps its form and does not blow
-// out; the default material's 0.72 ends at 0.69 (sRGB 215), with a highlight above it. A point that only the
-// ground lights still has 0.72·0.06 (sRGB 58), and between the two stand the fill's side (about 0.2, sRGB
-// 124) and the rim, which draws a line of light along the upper edges so that a model stands out from a dark
-// page.
+// (0.9 on top, where the rim light joins in), so that even a white material keeps its form and does not blow out; the
+// default material's 0.72 ends at 0.69 (sRGB 215), with a highlight above it. A point that only the ground lights still
+// has 0.72·0.06 (sRGB 58), and between the two stand the fill's side (about 0.2, sRGB 124) and the rim, which draws a
+// line of light along the upper edges so that a model stands out from a dark page.
 static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = camera_light("key", v3(-0.65, 0.75, 0.80), 0.74f, 0.9f);
@@ -168,8 +162,8 @@ static int headlight(lam_light lights[LAM_RIG_LIGHTS_MAX])
     return 1;
 }
 
-// A portrait's three lights. Where key and fill both arrive in full a point returns its kd times 0.8 +
-// 0.4·cos 73° + 0.05, below 1; on the fill's own side the ratio of key to fill is 2 to 1.
+// A portrait's three lights. Where key and fill both arrive in full a point returns its kd times 0.8 + 0.4·cos 73° +
+// 0.05, below 1; on the fill's own side the ratio of key to fill is 2 to 1.
 static int three_point(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = camera_light("key", v3(-1.0, 1.0, 1.0), 0.8f, 0.8f);

@@ -12,7 +12,7 @@ struct named_material {
 };
 
 // The last column of the published table is a share of OpenGL's largest exponent.
-#define SHININESS(share) ((float)((share)*128.0))
+#define SHININESS(share) ((float)((share) * 128.0))
 
 // The numbers of SGI's demonstration teapots.c, unchanged.
 static const struct named_material named[LAM_MATERIAL_COUNT] = {
@@ -21,11 +21,8 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
                               {0.07568f, 0.61424f, 0.07568f},
                               {0.633f, 0.727811f, 0.633f},
                               SHININESS(0.6)},
-    [LAM_MATERIAL_JADE] = {"jade",
-                           {0.135f, 0.2225f, 0.1575f},
-                           {0.54f, 0.89f, 0.63f},
-                           {0.316228f, 0.316228f, 0.316228f},
-                           SHININESS(0.1)},
+    [LAM_MATERIAL_JADE] =
+        {"jade", {0.135f, 0.2225f, 0.1575f}, {0.54f, 0.89f, 0.63f}, {0.316228f, 0.316228f, 0.316228f}, SHININESS(0.1)},
     [LAM_MATERIAL_OBSIDIAN] = {"obsidian",
                                {0.05375f, 0.05f, 0.06625f},
                                {0.18275f, 0.17f, 0.22525f},
@@ -56,11 +53,8 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
                              {0.714f, 0.4284f, 0.18144f},
                              {0.393548f, 0.271906f, 0.166721f},
                              SHININESS(0.2)},
-    [LAM_MATERIAL_CHROME] = {"chrome",
-                             {0.25f, 0.25f, 0.25f},
-                             {0.4f, 0.4f, 0.4f},
-                             {0.774597f, 0.774597f, 0.774597f},
-                             SHININESS(0.6)},
+    [LAM_MATERIAL_CHROME] =
+        {"chrome", {0.25f, 0.25f, 0.25f}, {0.4f, 0.4f, 0.4f}, {0.774597f, 0.774597f, 0.774597f}, SHININESS(0.6)},
     [LAM_MATERIAL_COPPER] = {"copper",
                              {0.19125f, 0.0735f, 0.0225f},
                              {0.7038f, 0.27048f, 0.0828f},
@@ -91,11 +85,8 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
         {"white-plastic", {0.0f, 0.0f, 0.0f}, {0.55f, 0.55f, 0.55f}, {0.7f, 0.7f, 0.7f}, SHININESS(0.25)},
     [LAM_MATERIAL_YELLOW_PLASTIC] =
         {"yellow-plastic", {0.0f, 0.0f, 0.0f}, {0.5f, 0.5f, 0.0f}, {0.6f, 0.6f, 0.5f}, SHININESS(0.25)},
-    [LAM_MATERIAL_BLACK_RUBBER] = {"black-rubber",
-                                   {0.02f, 0.02f, 0.02f},
-                                   {0.01f, 0.01f, 0.01f},
-                                   {0.4f, 0.4f, 0.4f},
-                                   SHININESS(0.078125)},
+    [LAM_MATERIAL_BLACK_RUBBER] =
+        {"black-rubber", {0.02f, 0.02f, 0.02f}, {0.01f, 0.01f, 0.01f}, {0.4f, 0.4f, 0.4f}, SHININESS(0.078125)},
     [LAM_MATERIAL_CYAN_RUBBER] =
         {"cyan-rubber", {0.0f, 0.05f, 0.05f}, {0.4f, 0.5f, 0.5f}, {0.04f, 0.7f, 0.7f}, SHININESS(0.078125)},
     [LAM_MATERIAL_GREEN_RUBBER] =

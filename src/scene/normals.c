@@ -259,8 +259,7 @@ static void facet_chunk(void *user, size_t index, int thread)
     }
 }
 
-bool normals_facet(lam_mesh *mesh, struct arena *arena, struct pool *pool, struct watch *watch,
-                   lam_error *error)
+bool normals_facet(lam_mesh *mesh, struct arena *arena, struct pool *pool, struct watch *watch, lam_error *error)
 {
     struct facets f = {.mesh = mesh, .halt = {.watch = watch}};
     size_t count = mesh->triangle_count;

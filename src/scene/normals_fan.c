@@ -85,11 +85,10 @@ static double angle_of(double y, double x)
     if (!(larger > 0))
         return 0;
     double t = (steep ? ax : y) / larger, z = t * t;
-    double a =
-        t * (0.9999948346338877 +
-             z * (-0.33295711032247277 +
-                  z * (0.1953465900279569 +
-                       z * (-0.12044858521312099 + z * (0.05658998519974516 + z * -0.013130382075233026)))));
+    double a = t * (0.9999948346338877 +
+                    z * (-0.33295711032247277 +
+                         z * (0.1953465900279569 +
+                              z * (-0.12044858521312099 + z * (0.05658998519974516 + z * -0.013130382075233026)))));
     if (steep)
         a = PI / 2 - a;
     return x < 0 ? PI - a : a;
@@ -124,10 +123,7 @@ static void look(const lam_mesh *mesh, uint32_t corner, struct spoke *spoke)
     spoke->angle = spans ? angle_of(length, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) : 0;
 }
 
-static bool has_area(const struct spoke *s)
-{
-    return s->normal[0] != 0 || s->normal[1] != 0 || s->normal[2] != 0;
-}
+static bool has_area(const struct spoke *s) { return s->normal[0] != 0 || s->normal[1] != 0 || s->normal[2] != 0; }
 
 static uint32_t root_of(struct spoke *spokes, uint32_t i)
 {
@@ -153,10 +149,7 @@ static void join(struct spoke *spokes, uint32_t a, uint32_t b, double least_cosi
         spokes[x].fan = y;
 }
 
-static bool same_bits(const uint32_t a[3], const uint32_t b[3])
-{
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
+static bool same_bits(const uint32_t a[3], const uint32_t b[3]) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
 
 // Consistently wound neighbours have their common edge in opposite directions: one's next corner is where the
 // other's corner before is. Few spokes: every pair.
@@ -215,9 +208,7 @@ static void join_many(struct spoke *spokes, struct fan_edge *edges, uint32_t cou
 // else the fan of `otherwise`.
 static uint32_t fan_beside(const struct spoke *spokes, uint32_t count, uint32_t i, uint32_t otherwise)
 {
-    enum {
-        LOOKED_AT_MAX = 64
-    }; // so that a position with a million such corners takes no million squared steps
+    enum { LOOKED_AT_MAX = 64 }; // so that a position with a million such corners takes no million squared steps
     for (uint32_t j = 0; j < count && j < LOOKED_AT_MAX; j++)
         if (has_area(&spokes[j]) &&
             (same_bits(spokes[i].next, spokes[j].before) || same_bits(spokes[i].before, spokes[j].next)))
@@ -261,8 +252,7 @@ uint32_t fan_normals(const lam_mesh *mesh, double least_cosine, struct fan_room 
         if (!has_area(&spokes[i]))
             spokes[i].fan = fan_beside(spokes, count, i, first_with_area);
 
-    // The corners are in the spokes too, the edges are done with: their room serves for the numbers and the
-    // sums.
+    // The corners are in the spokes too, the edges are done with: their room serves for the numbers and the sums.
     uint32_t fans = number_fans(spokes, count, room->corners);
     double(*sums)[3] = (double(*)[3])room->edges;
     memset(sums, 0, fans * sizeof *sums);

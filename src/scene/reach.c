@@ -88,8 +88,7 @@ static double limit_of(const struct search *s, const box_of_six box, int d)
     return v3_dot(s->axis[d], middle) + v3_dot(s->axis_size[d], half) + s->offset[d];
 }
 
-// From the topmost level down to the box that promises most: with what is found there, most others cannot
-// matter.
+// From the topmost level down to the box that promises most: with what is found there, most others cannot matter.
 static void look_at_most_promising(const struct search *s, int d)
 {
     const struct box_tree *tree = &s->extent->boxes;
@@ -154,8 +153,7 @@ static void search_object(const lam_scene *scene, const lam_object *object, cons
     look_at_level(&s, s.extent->boxes.levels - 1, 0);
 }
 
-static void search(const lam_scene *scene, const struct view_axes *axes, struct reach *reach, int first,
-                   int end)
+static void search(const lam_scene *scene, const struct view_axes *axes, struct reach *reach, int first, int end)
 {
     for (int d = first; d < end; d++)
         reach->value[d] = -1e308;

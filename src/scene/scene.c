@@ -59,8 +59,7 @@ void scene_token_release(struct scene_token *token)
 }
 
 // Appends an item; −1 when memory is out.
-int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size,
-                 lam_error *error)
+int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error)
 {
     if (list->count == list->room) {
         int room = list->room ? list->room * 2 : 8;
@@ -113,8 +112,7 @@ void scene_warn(struct lam_scene *scene, const char *format, ...)
                      NULL); // without memory a warning is not worth failing for
 }
 
-bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object,
-                       lam_error *error)
+bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error)
 {
     origin.mesh_count = scene->meshes.count - origin.first_mesh;
     origin.material_count = scene->materials.count - origin.first_material;
@@ -150,9 +148,8 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
         origin->crease_angle_rad = crease_angle_rad;
     }
     if (crease_angle_rad == 0)
-        crease_angle_rad = scene->deferred_crease_rad > 0 && normals == LAM_NORMALS_FILE
-                               ? scene->deferred_crease_rad
-                               : math_radians(40);
+        crease_angle_rad = scene->deferred_crease_rad > 0 && normals == LAM_NORMALS_FILE ? scene->deferred_crease_rad
+                                                                                         : math_radians(40);
     for (int i = 0; i < scene->meshes.count; i++) {
         lam_mesh *mesh = (lam_mesh *)scene->meshes.items + i;
         if (mesh->normals && normals == LAM_NORMALS_FILE)
@@ -266,8 +263,7 @@ void lam_scene_set_up(lam_scene *scene, lam_up up)
 
 void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient)
 {
-    if (scene && math_finite((double)ambient.r) && math_finite((double)ambient.g) &&
-        math_finite((double)ambient.b))
+    if (scene && math_finite((double)ambient.r) && math_finite((double)ambient.g) && math_finite((double)ambient.b))
         scene->ambient = ambient;
 }
 
@@ -286,15 +282,9 @@ bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environm
     return true;
 }
 
-const lam_environment *lam_scene_environment(const lam_scene *scene)
-{
-    return scene ? scene->environment : NULL;
-}
+const lam_environment *lam_scene_environment(const lam_scene *scene) { return scene ? scene->environment : NULL; }
 
-double lam_scene_environment_rotation(const lam_scene *scene)
-{
-    return scene ? scene->environment_rotation_rad : 0;
-}
+double lam_scene_environment_rotation(const lam_scene *scene) { return scene ? scene->environment_rotation_rad : 0; }
 
 const lam_material *lam_scene_default_material(const lam_scene *scene)
 {

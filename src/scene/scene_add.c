@@ -25,8 +25,8 @@ static bool indices_below(const uint32_t *indices, size_t count, uint32_t limit)
 }
 
 // One attribute of a mesh under check: its array, how many there are, its index array.
-static bool check_attribute(const char *name, const float *values, uint32_t count, int width,
-                            const uint32_t *own, const lam_mesh *mesh, lam_error *error)
+static bool check_attribute(const char *name, const float *values, uint32_t count, int width, const uint32_t *own,
+                            const lam_mesh *mesh, lam_error *error)
 {
     size_t corners = (size_t)mesh->triangle_count * 3;
     if (!values)
@@ -34,8 +34,7 @@ static bool check_attribute(const char *name, const float *values, uint32_t coun
     if (!finite_floats(values, (size_t)count * (size_t)width))
         return fail(error, LAM_BAD_ARGUMENT, "mesh: %s hold a number that is not finite", name);
     if (own ? !indices_below(own, corners, count) : count < (mesh->indices ? mesh->vertex_count : corners))
-        return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner refers to %s beyond the %u there are", name,
-                    count);
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner refers to %s beyond the %u there are", name, count);
     return true;
 }
 
@@ -50,19 +49,15 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
     if (!math_finite(mesh->origin[0]) || !math_finite(mesh->origin[1]) || !math_finite(mesh->origin[2]))
         return fail(error, LAM_BAD_ARGUMENT, "mesh: the origin is not finite");
     if (mesh->indices && !indices_below(mesh->indices, corners, mesh->vertex_count))
-        return fail(error, LAM_BAD_ARGUMENT, "mesh: an index is not below vertex_count, %u",
-                    mesh->vertex_count);
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: an index is not below vertex_count, %u", mesh->vertex_count);
     if (!mesh->indices && corners > mesh->vertex_count)
         return fail(error, LAM_BAD_ARGUMENT, "mesh: %u triangles without indices need %zu vertices, found %u",
                     mesh->triangle_count, corners, mesh->vertex_count);
     if (mesh->positions && !finite_floats(mesh->positions, (size_t)mesh->vertex_count * 3))
         return fail(error, LAM_BAD_ARGUMENT, "mesh: positions hold a number that is not finite");
-    if (!check_attribute("normals", mesh->normals, mesh->normal_count, 3, mesh->normal_indices, mesh,
-                         error) ||
-        !check_attribute("texcoords", mesh->texcoords, mesh->texcoord_count, 2, mesh->texcoord_indices, mesh,
-                         error) ||
-        !check_attribute("tangents", mesh->tangents, mesh->tangent_count, 4, mesh->tangent_indices, mesh,
-                         error))
+    if (!check_attribute("normals", mesh->normals, mesh->normal_count, 3, mesh->normal_indices, mesh, error) ||
+        !check_attribute("texcoords", mesh->texcoords, mesh->texcoord_count, 2, mesh->texcoord_indices, mesh, error) ||
+        !check_attribute("tangents", mesh->tangents, mesh->tangent_count, 4, mesh->tangent_indices, mesh, error))
         return false;
     if (mesh->colors) {
         if (mesh->colors_format < LAM_COLORS_SRGB8 || mesh->colors_format > LAM_COLORS_LINEAR_F32)
@@ -75,8 +70,7 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
                         : mesh->indices                       ? mesh->vertex_count
                                                               : corners;
         bool by_index = mesh->color_indices && mesh->colors_rate == LAM_PER_VERTEX;
-        if (by_index ? !indices_below(mesh->color_indices, corners, mesh->color_count)
-                     : mesh->color_count < needed)
+        if (by_index ? !indices_below(mesh->color_indices, corners, mesh->color_count) : mesh->color_count < needed)
             return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner refers to colors beyond the %u there are",
                         mesh->color_count);
     }
@@ -94,8 +88,8 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
                         scene->materials.count);
     }
     if (mesh->part_count && next != mesh->triangle_count)
-        return fail(error, LAM_BAD_ARGUMENT, "mesh: the parts cover %llu of %u triangles",
-                    (unsigned long long)next, mesh->triangle_count);
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: the parts cover %llu of %u triangles", (unsigned long long)next,
+                    mesh->triangle_count);
     return true;
 }
 
@@ -173,13 +167,11 @@ static bool own_material(lam_scene *scene, const lam_material *material, lam_mat
     if (!scene || !material)
         return fail(error, LAM_BAD_ARGUMENT, "material: the %s is NULL", scene ? "material" : "scene");
     const lam_material *m = material;
-    if (!finite_floats(&m->ambient.r, 3) || !finite_floats(&m->diffuse.r, 4) ||
-        !finite_floats(&m->specular.r, 3) || !finite_floats(&m->emission.r, 3) ||
-        !finite_floats(&m->reflectivity.r, 3))
+    if (!finite_floats(&m->ambient.r, 3) || !finite_floats(&m->diffuse.r, 4) || !finite_floats(&m->specular.r, 3) ||
+        !finite_floats(&m->emission.r, 3) || !finite_floats(&m->reflectivity.r, 3))
         return fail(error, LAM_BAD_ARGUMENT, "material: a colour is not finite");
     if (!(m->shininess >= 0) || !finite_floats(&m->shininess, 1))
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "material: shininess is %g, expected a finite number of at least 0",
+        return fail(error, LAM_BAD_ARGUMENT, "material: shininess is %g, expected a finite number of at least 0",
                     (double)m->shininess);
     if (!(m->diffuse.a >= 0 && m->diffuse.a <= 1))
         return fail(error, LAM_BAD_ARGUMENT, "material: the diffuse alpha is %g, expected 0 to 1",
@@ -214,8 +206,7 @@ bool lam_scene_set_part_material(lam_scene *scene, int mesh, uint32_t part, int 
     if (!m)
         return fail(error, LAM_BAD_ARGUMENT, "part: mesh %d of %d", mesh, lam_scene_mesh_count(scene));
     if (part >= m->part_count)
-        return fail(error, LAM_BAD_ARGUMENT, "part: %u of the %u that mesh %d has", part, m->part_count,
-                    mesh);
+        return fail(error, LAM_BAD_ARGUMENT, "part: %u of the %u that mesh %d has", part, m->part_count, mesh);
     if (material < -1 || material >= scene->materials.count)
         return fail(error, LAM_BAD_ARGUMENT, "part: material %d of %d", material, scene->materials.count);
     ((lam_part *)(uintptr_t)m->parts)[part].material = material; // the array is the scene's own
@@ -270,8 +261,7 @@ static bool check_object(const struct lam_scene *scene, const lam_object *object
     if (object->mesh < 0 || object->mesh >= scene->meshes.count)
         return fail(error, LAM_BAD_ARGUMENT, "object: mesh %d of %d", object->mesh, scene->meshes.count);
     if (object->material < -1 || object->material >= scene->materials.count)
-        return fail(error, LAM_BAD_ARGUMENT, "object: material %d of %d", object->material,
-                    scene->materials.count);
+        return fail(error, LAM_BAD_ARGUMENT, "object: material %d of %d", object->material, scene->materials.count);
     if (object->back_material < -1 || object->back_material >= scene->materials.count)
         return fail(error, LAM_BAD_ARGUMENT, "object: back_material %d of %d", object->back_material,
                     scene->materials.count);
@@ -283,9 +273,8 @@ static bool check_object(const struct lam_scene *scene, const lam_object *object
             if (!math_finite(m[i][j]))
                 return fail(error, LAM_BAD_ARGUMENT, "object: transform[%d][%d] is not finite", i, j);
     if (m[3][0] != 0 || m[3][1] != 0 || m[3][2] != 0 || m[3][3] != 1)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "object: the transform's last row is %g %g %g %g, expected 0 0 0 1", m[3][0], m[3][1],
-                    m[3][2], m[3][3]);
+        return fail(error, LAM_BAD_ARGUMENT, "object: the transform's last row is %g %g %g %g, expected 0 0 0 1",
+                    m[3][0], m[3][1], m[3][2], m[3][3]);
     double determinant = mat4_determinant3(&object->transform);
     if (!(determinant != 0) || !math_finite(determinant))
         return fail(error, LAM_BAD_ARGUMENT, "object: the transform cannot be inverted");

@@ -10,11 +10,10 @@ bool lam_scene_make_normals(lam_scene *scene, lam_normals normals, double crease
     if (!scene)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_make_normals: the scene is NULL");
     if ((unsigned)normals > LAM_NORMALS_FACET)
-        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_make_normals: normals is %d, expected 0 to 2",
-                    normals);
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_make_normals: normals is %d, expected 0 to 2", normals);
     if (!(crease_angle_rad >= 0 && crease_angle_rad <= 3.15))
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "lam_scene_make_normals: the crease angle is %g, expected 0 to pi", crease_angle_rad);
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_make_normals: the crease angle is %g, expected 0 to pi",
+                    crease_angle_rad);
     struct pool *pool = pool_make(threads);
     if (!pool)
         return fail_memory(error, 0);

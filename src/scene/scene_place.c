@@ -1,5 +1,5 @@
-// scene_place.c: where a scene's objects stand as a whole: the sphere around them, moving them, and the
-// lights of a rig about them.
+// scene_place.c: where a scene's objects stand as a whole: the sphere around them, moving them, and the lights of a rig
+// about them.
 #include "scene_store.h"
 
 #include "fail.h"
@@ -7,8 +7,7 @@
 #include "linear.h"
 
 // Widens *radius so that the mesh's vertices, under the transform, lie in the sphere about the centre.
-static void widen(const lam_scene *scene, int mesh_index, const lam_mat4 *transform, lam_vec3 centre,
-                  double *radius)
+static void widen(const lam_scene *scene, int mesh_index, const lam_mat4 *transform, lam_vec3 centre, double *radius)
 {
     const lam_mesh *mesh = scene_mesh(scene, mesh_index);
     const struct scene_extent *extent = scene_extent(scene, mesh_index);
@@ -59,13 +58,11 @@ static bool check_transform(const lam_mat4 *transform, lam_error *error)
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             if (!math_finite(transform->m[i][j]))
-                return fail(error, LAM_BAD_ARGUMENT, "lam_scene_transform: transform[%d][%d] is not finite",
-                            i, j);
+                return fail(error, LAM_BAD_ARGUMENT, "lam_scene_transform: transform[%d][%d] is not finite", i, j);
     const double *last = transform->m[3];
     if (last[0] != 0 || last[1] != 0 || last[2] != 0 || last[3] != 1)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "lam_scene_transform: the last row is %g %g %g %g, expected 0 0 0 1", last[0], last[1],
-                    last[2], last[3]);
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_transform: the last row is %g %g %g %g, expected 0 0 0 1",
+                    last[0], last[1], last[2], last[3]);
     double determinant = mat4_determinant3(transform);
     if (!(determinant != 0) || !math_finite(determinant))
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_transform: the transform cannot be inverted");
@@ -82,11 +79,9 @@ static bool place(lam_scene *scene, const lam_mat4 *transform, lam_error *error)
             lam_object *object = (lam_object *)scene->objects.items + i;
             lam_mat4 moved = mat4_mul(transform, &object->transform);
             double determinant = mat4_determinant3(&moved);
-            if (!(determinant != 0) || !math_finite(determinant) ||
-                !v3_finite(mat4_point(&moved, v3(0, 0, 0))))
+            if (!(determinant != 0) || !math_finite(determinant) || !v3_finite(mat4_point(&moved, v3(0, 0, 0))))
                 return fail(error, LAM_BAD_ARGUMENT,
-                            "lam_scene_transform: object %d would have a transform that cannot be inverted",
-                            i);
+                            "lam_scene_transform: object %d would have a transform that cannot be inverted", i);
             if (pass == 1)
                 object->transform = moved;
         }
@@ -97,8 +92,7 @@ static bool place(lam_scene *scene, const lam_mat4 *transform, lam_error *error)
 bool lam_scene_transform(lam_scene *scene, const lam_mat4 *transform, lam_error *error)
 {
     if (!scene || !transform)
-        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_transform: the %s is NULL",
-                    scene ? "transform" : "scene");
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_transform: the %s is NULL", scene ? "transform" : "scene");
     uint64_t state = float_state_enter();
     bool ok = place(scene, transform, error);
     float_state_leave(state);
@@ -109,8 +103,7 @@ bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, double a
 {
     if (!scene)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_rotate: the scene is NULL");
-    if (!v3_finite(centre) || !v3_finite(axis) || v3_length(axis) == 0 ||
-        !(angle_rad >= -1e6 && angle_rad <= 1e6))
+    if (!v3_finite(centre) || !v3_finite(axis) || v3_length(axis) == 0 || !(angle_rad >= -1e6 && angle_rad <= 1e6))
         return fail(error, LAM_BAD_ARGUMENT,
                     "lam_scene_rotate: the axis is zero, or a number is not finite or over a million");
     uint64_t state = float_state_enter();

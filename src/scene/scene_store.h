@@ -15,8 +15,8 @@ struct scene_list {
     int count, room;
 };
 
-// What a mesh's triangles span, and whether any of its colours has an alpha below 1. `used` lists the
-// vertices that triangles refer to, in order; NULL: all of them.
+// What a mesh's triangles span, and whether any of its colours has an alpha below 1. `used` lists the vertices that
+// triangles refer to, in order; NULL: all of them.
 struct scene_extent {
     lam_vec3 minimum, maximum; // mesh coordinates, origin included
     const uint32_t *used;
@@ -25,8 +25,7 @@ struct scene_extent {
     bool translucent;
 };
 
-// Where meshes came from, for writing them as a scene file: a model file or a built-in shape, and how it was
-// read.
+// Where meshes came from, for writing them as a scene file: a model file or a built-in shape, and how it was read.
 struct scene_origin {
     const char *path;  // as it can be opened from here; NULL: a shape, or bytes in memory
     const char *shape; // its name; NULL: a file
@@ -70,8 +69,8 @@ struct lam_scene {
     lam_color_mode color;            // what the file's colours were read as
     const char *format;
     double read_ms, prepare_ms;
-    double deferred_crease_rad; // meshes without normals get theirs from the device that draws them, creased
-                                // at this angle; 0: there are none
+    // meshes without normals get theirs from the device that draws them, creased at this angle; 0: there are none
+    double deferred_crease_rad;
 };
 
 // As lam_scene_make, charging `watch` (may be NULL) while the scene is being built; scene_built ends that.
@@ -81,28 +80,26 @@ void scene_built(struct lam_scene *scene);
 struct scene_token *scene_token_hold(struct scene_token *token);
 void scene_token_release(struct scene_token *token); // NULL is fine
 
-// Take what already lies in the scene's arena, without copying and without making normals. Return the index,
-// −1 when memory is out.
+// Take what already lies in the scene's arena, without copying and without making normals. Return the index, −1 when
+// memory is out.
 int scene_take_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error);
 int scene_take_material(struct lam_scene *scene, const lam_material *material, lam_error *error);
 int scene_take_object(struct lam_scene *scene, const lam_object *object, lam_error *error);
 int scene_take_light(struct lam_scene *scene, const lam_light *light, lam_error *error);
 
 // Appends one item of a list; its index, −1 when memory is out.
-int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size,
-                 lam_error *error);
+int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error);
 
 // Adds a warning, formatted. At most SCENE_WARNINGS_MAX are kept; the last one then says that more follow.
 enum { SCENE_WARNINGS_MAX = 64 };
 void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Notes where the meshes and materials from these numbers on came from. False when memory is out.
-bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object,
-                       lam_error *error);
+bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error);
 
 // A built-in shape as a new mesh, charged to the scene's own watch. Its index, −1 on failure.
-int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params,
-                    struct watch *watch, lam_error *error);
+int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params, struct watch *watch,
+                    lam_error *error);
 
 // Makes every mesh ready to draw: normals where they are missing or asked for, degenerate ones told.
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,
@@ -110,8 +107,8 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
 // The same, but leaves smooth normals to the device.
 void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad);
 
-// Works out the extents of meshes that have none yet; every public call that adds meshes ends with it, so
-// that readers never write. False when memory is out.
+// Works out the extents of meshes that have none yet; every public call that adds meshes ends with it, so that readers
+// never write. False when memory is out.
 bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error);
 
 static inline const lam_mesh *scene_mesh(const struct lam_scene *scene, int i)

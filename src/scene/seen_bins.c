@@ -13,8 +13,7 @@ enum {
 
 static inline bool put(struct seeing *s, struct seen_lists *lists, uint32_t position, uint32_t corner)
 {
-    struct seen_block *block =
-        seen_block_for_one(lists, &lists->bins[position >> s->range_shift], BLOCK_CORNERS);
+    struct seen_block *block = seen_block_for_one(lists, &lists->bins[position >> s->range_shift], BLOCK_CORNERS);
     if (!block)
         return false;
     block->at.place[block->count] = (uint16_t)(position & (((uint32_t)1 << s->range_shift) - 1));

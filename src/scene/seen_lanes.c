@@ -11,8 +11,7 @@ static inline uint32_t bits_of_number(float x)
 }
 
 // The first loop becomes wide by itself, since its length is known.
-static uint64_t ask(const float *points, uint32_t count, const struct seen_filter *filter,
-                    uint32_t hashes[WORD])
+static uint64_t ask(const float *points, uint32_t count, const struct seen_filter *filter, uint32_t hashes[WORD])
 {
     float padded[3 * WORD];
     if (count < WORD) {
@@ -58,8 +57,8 @@ static uint32_t list(const uint32_t *indices, const uint32_t *position_of, uint3
         inum position = igather((const int32_t *)position_of, inum_load((const int32_t *)indices + i));
         unsigned bits = mask_bits(position != -1);
         pack_lanes((int32_t *)positions + listed, bits, position);
-        listed += pack_lanes((int32_t *)corners + listed, bits,
-                             wrap_add(inum_of((int32_t)(first + i)), lane_numbers()));
+        listed +=
+            pack_lanes((int32_t *)corners + listed, bits, wrap_add(inum_of((int32_t)(first + i)), lane_numbers()));
     }
     for (; i < count; i++) {
         corners[listed] = first + i;

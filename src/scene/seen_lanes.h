@@ -31,8 +31,7 @@ static inline uint32_t seen_hash(const uint32_t bits[3])
 struct seen_lanes {
     int lanes; // 32-bit numbers in a register
     // The hashes of WORD or fewer points, 3 floats each. Bit i: the filter has point i.
-    uint64_t (*ask)(const float *points, uint32_t count, const struct seen_filter *filter,
-                    uint32_t hashes[WORD]);
+    uint64_t (*ask)(const float *points, uint32_t count, const struct seen_filter *filter, uint32_t hashes[WORD]);
     // Numbers the members of a word of a set from `first` on; the others get UINT32_MAX.
     void (*number)(uint64_t members, uint32_t first, uint32_t numbers[WORD]);
     // Lists those of `count` corners from number `first` on whose vertices, at `indices`, have a position.

@@ -8,8 +8,7 @@ void *spare_take(struct spare *spare, struct arena *arena, size_t count, size_t 
         return NULL;
     size_t whole = (bytes + 63) / 64 * 64;
     while (whole <= spare->room - used)
-        if (__atomic_compare_exchange_n(&spare->used, &used, used + whole, false, __ATOMIC_RELAXED,
-                                        __ATOMIC_RELAXED))
+        if (__atomic_compare_exchange_n(&spare->used, &used, used + whole, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
             return (char *)spare->memory + used;
     return arena_alloc(arena, bytes);
 }

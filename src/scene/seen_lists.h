@@ -60,8 +60,7 @@ void spare_give_back(struct spare *spare);
 struct seen_block *seen_block_new(struct seen_lists *lists, struct seen_block *before);
 
 // The block of a list with room for one more of those that a block has `room` for; NULL: out of memory.
-static inline struct seen_block *seen_block_for_one(struct seen_lists *lists, struct seen_block **list,
-                                                    uint32_t room)
+static inline struct seen_block *seen_block_for_one(struct seen_lists *lists, struct seen_block **list, uint32_t room)
 {
     if (*list && (*list)->count < room)
         return *list;

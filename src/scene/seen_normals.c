@@ -19,13 +19,12 @@ struct seen_worker {
     size_t room_for;                      // corners
     uint32_t *starts;                     // of each position of a range, in `sorted`
     uint32_t next_element, elements_left; // that only this thread may give
-    uint32_t coming; // positions whose normals are not yet begun: each needs an element at least
+    uint32_t coming;                      // positions whose normals are not yet begun: each needs an element at least
 };
 
 // An element with that normal. `needed`: how many are in any case, this one among them. The counter that all
 // threads share is rarely touched.
-static uint32_t new_element(struct seeing *s, struct seen_worker *worker, uint32_t needed, float x, float y,
-                            float z)
+static uint32_t new_element(struct seeing *s, struct seen_worker *worker, uint32_t needed, float x, float y, float z)
 {
     if (!worker->elements_left) {
         worker->elements_left = needed + worker->coming;
@@ -65,8 +64,7 @@ static bool make_fans(struct seeing *s, struct seen_worker *worker, const uint32
     return true;
 }
 
-// The normals at the positions that wait with that many corners; fans of which no corner is seen get no
-// element.
+// The normals at the positions that wait with that many corners; fans of which no corner is seen get no element.
 static bool make_block(struct seeing *s, struct seen_worker *worker, uint32_t count)
 {
     struct fan_block *block = &worker->batch->block;
@@ -98,8 +96,7 @@ static bool make_block(struct seeing *s, struct seen_worker *worker, uint32_t co
 }
 
 // The normals at one position, now or with others.
-static bool add_position(struct seeing *s, struct seen_worker *worker, const uint32_t *corners,
-                         uint32_t count)
+static bool add_position(struct seeing *s, struct seen_worker *worker, const uint32_t *corners, uint32_t count)
 {
     if (count > FAN_FEW)
         return make_fans(s, worker, corners, count);
@@ -156,8 +153,7 @@ static bool start_workers(struct seeing *s)
         struct seen_worker *worker = &s->workers[i];
         arena_start(&worker->arena, s->halt.watch);
         fan_room_start(&worker->room, s->halt.watch);
-        worker->starts =
-            seeing_take(s, &s->scratch, ((size_t)1 << s->range_shift) + 1, sizeof *worker->starts);
+        worker->starts = seeing_take(s, &s->scratch, ((size_t)1 << s->range_shift) + 1, sizeof *worker->starts);
         worker->batch = seeing_take(s, &s->scratch, 1, sizeof *worker->batch);
         if (!worker->starts || !worker->batch)
             return false;
@@ -189,8 +185,7 @@ static void lend_normals(struct seeing *s)
     uint32_t *elements = seen->elements + 3 * (size_t)s->seen_before;
     size_t own = 3 * (size_t)seen_triangles_before(s, s->mesh->triangle_count);
     s->until_fans[0] = lines_between(elements, elements + own);
-    s->until_fans[1] =
-        lines_between(seen->normals + seen->used, seen->normals + 3 * (size_t)seen->triangles.count);
+    s->until_fans[1] = lines_between(seen->normals + seen->used, seen->normals + 3 * (size_t)seen->triangles.count);
 }
 
 bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad, struct seen_normals *seen,

@@ -56,10 +56,9 @@ void number_set_count(struct number_set *set);
 // normals[elements[3p + k]], and two corners that share one have the same element.
 struct seen_normals {
     struct number_set triangles;
-    uint32_t *elements; // 3 · triangles.count
-    float (
-        *normals)[3]; // room for as many; the first `used` are there, which are far fewer where corners share
-    uint32_t used;    // by all meshes so far; in no order that is kept
+    uint32_t *elements;  // 3 · triangles.count
+    float (*normals)[3]; // room for as many; the first `used` are there, which are far fewer where corners share
+    uint32_t used;       // by all meshes so far; in no order that is kept
 };
 
 // The element of a corner of a triangle that is in the set.

@@ -116,8 +116,7 @@ static inline bool spread(struct seeing *s, int thread, size_t vertex)
             return true;
         copy_bits(lately->bits, bits);
     }
-    struct seen_block *block =
-        seen_block_for_one(lists, &lists->bins[seen_table_part(&s->table, hash)], BLOCK_KEYS);
+    struct seen_block *block = seen_block_for_one(lists, &lists->bins[seen_table_part(&s->table, hash)], BLOCK_KEYS);
     if (!block)
         return false;
     struct seen_key *key = &block->key[block->count++];
@@ -264,8 +263,7 @@ static size_t place_some(const struct seeing *s, size_t word, size_t end)
         uint64_t shown = s->shown.bits[word];
         uint32_t hashes[WORD];
         s->search->number(shown, s->shown.before[word], s->position_of + first);
-        uint64_t passed =
-            s->search->ask(point_of(s, first), (uint32_t)count, &s->table.filter, hashes) & ~shown;
+        uint64_t passed = s->search->ask(point_of(s, first), (uint32_t)count, &s->table.filter, hashes) & ~shown;
         for (; passed; passed &= passed - 1) {
             uint32_t i = (uint32_t)__builtin_ctzll(passed);
             __builtin_prefetch(&s->table.lines[seen_table_start(&s->table, hashes[i])]);
@@ -325,8 +323,7 @@ bool weld_all(struct seeing *s, lam_error *error)
         s->position_of = seeing_take(s, &s->scratch, s->vertices, sizeof *s->position_of);
     if (!s->position_of)
         return watch_memory_error(s->halt.watch, s->vertices * 4, error);
-    if (!weld_positions(s->mesh->positions, s->vertices, s->position_of, &positions, s->pool, s->halt.watch,
-                        error))
+    if (!weld_positions(s->mesh->positions, s->vertices, s->position_of, &positions, s->pool, s->halt.watch, error))
         return false;
     uint8_t *shown = seeing_take_zeroed(s, positions);
     if (!shown)

@@ -38,8 +38,8 @@ struct seeing {
     int crowded;              // touched atomically: a file was made so that positions fall into few slots
 
     // A position has the rank of the shown vertex that stands for it; without indices, of the shown corner.
-    struct number_set shown; // vertices of the triangles that are seen; of a mesh with indices
-    uint32_t *position_of;   // of each vertex, NONE: none of a seen triangle; NULL: corners are looked up
+    struct number_set shown;      // vertices of the triangles that are seen; of a mesh with indices
+    uint32_t *position_of;        // of each vertex, NONE: none of a seen triangle; NULL: corners are looked up
     struct seen_answer **answers; // each thread's
     uint32_t answers_mask;
     size_t positions;
@@ -55,10 +55,7 @@ static inline void *seeing_take(struct seeing *s, struct arena *arena, size_t co
 }
 void *seeing_take_zeroed(struct seeing *s, size_t bytes); // from the scratch arena
 
-static inline const float *point_of(const struct seeing *s, size_t vertex)
-{
-    return s->mesh->positions + 3 * vertex;
-}
+static inline const float *point_of(const struct seeing *s, size_t vertex) { return s->mesh->positions + 3 * vertex; }
 
 static inline size_t pieces_of(size_t total, size_t piece) { return (total + piece - 1) / piece; }
 
@@ -83,8 +80,7 @@ static inline uint32_t seen_triangles_before(const struct seeing *s, size_t tria
     return (number < set->size ? number_set_place(set, number) : set->count) - s->seen_before;
 }
 
-// No more steps in the table than a well filled one takes; else `crowded` is set. A file can be made to take
-// more.
+// No more steps in the table than a well filled one takes; else `crowded` is set. A file can be made to take more.
 bool few_steps(struct seeing *s, size_t steps, size_t total);
 
 #endif

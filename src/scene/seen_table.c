@@ -62,13 +62,12 @@ void seen_table_place(struct seen_table *table, void *memory)
 static inline struct seen_line *seek(const struct seen_table *table, const uint32_t bits[3], uint32_t hash,
                                      unsigned *same, unsigned *unused, size_t *steps)
 {
-    size_t first = (size_t)seen_table_part(table, hash) * table->part_lines,
-           last = first + table->part_lines - 1;
+    size_t first = (size_t)seen_table_part(table, hash) * table->part_lines, last = first + table->part_lines - 1;
     inum x = inum_of((int32_t)bits[0]), y = inum_of((int32_t)bits[1]), z = inum_of((int32_t)bits[2]);
     for (size_t i = seen_table_start(table, hash);; i = i == last ? first : i + 1, ++*steps) {
         struct seen_line *line = &table->lines[i];
-        mask equal = both(both(inum_load(line->bits[0]) == x, inum_load(line->bits[1]) == y),
-                          inum_load(line->bits[2]) == z);
+        mask equal =
+            both(both(inum_load(line->bits[0]) == x, inum_load(line->bits[1]) == y), inum_load(line->bits[2]) == z);
         inum vertex = inum_load(line->vertex);
         *same = mask_bits(both(equal, vertex != -1));
         *unused = mask_bits(vertex == -1);
@@ -89,8 +88,7 @@ bool seen_table_fill(struct seen_table *table, uint32_t part, struct seen_lists 
 {
     size_t most = 4 * (size_t)table->part_lines / 8 * 7, used = 0, steps = 0, total = 0;
     memset(table->lines + (size_t)part * table->part_lines, 0xff, table->part_lines * sizeof *table->lines);
-    memset(table->filter.words + (size_t)part * table->part_words, 0,
-           table->part_words * sizeof *table->filter.words);
+    memset(table->filter.words + (size_t)part * table->part_words, 0, table->part_words * sizeof *table->filter.words);
     for (int t = 0; t < threads; t++) {
         for (const struct seen_block *block = lists[t].bins[part]; block; block = block->before) {
             total += block->count;

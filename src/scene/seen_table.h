@@ -29,10 +29,7 @@ void seen_table_plan(struct seen_table *table, size_t vertices);
 size_t seen_table_size(struct seen_table *table, size_t vertices, bool strict);
 void seen_table_place(struct seen_table *table, void *memory);
 
-static inline uint32_t seen_table_parts(const struct seen_table *table)
-{
-    return (uint32_t)1 << table->part_bits;
-}
+static inline uint32_t seen_table_parts(const struct seen_table *table) { return (uint32_t)1 << table->part_bits; }
 
 static inline uint32_t seen_table_part(const struct seen_table *table, uint32_t hash)
 {
@@ -59,8 +56,7 @@ static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
 }
 
 // The vertex that stands for a position; NONE: it is not in the table. Adds the steps beyond the first line.
-uint32_t seen_table_find(const struct seen_table *table, const uint32_t bits[3], uint32_t hash,
-                         size_t *steps);
+uint32_t seen_table_find(const struct seen_table *table, const uint32_t bits[3], uint32_t hash, size_t *steps);
 
 // Fills a part from its bin in each of `threads` lists, which is empty then; with `doubles`, each vertex at a
 // position that another one stands for goes to that list of `mine`. False: too many steps, or no memory.

@@ -16,8 +16,7 @@ struct circle_point circle(double steps, double around)
 {
     double four = 4 * steps;
     long long quarter = (long long)(four / around + (four >= 0 ? 0.5 : -0.5));
-    double rest =
-        (four - (double)quarter * around) / around; // of a quarter turn, −½…½; the numerator is exact
+    double rest = (four - (double)quarter * around) / around; // of a quarter turn, −½…½; the numerator is exact
     double c = math_cos(rest * (PI / 2)), s = math_sin(rest * (PI / 2));
     switch (quarter & 3) {
     case 0:
@@ -36,8 +35,7 @@ struct segments {
     double slices, stacks;
 };
 
-// The level direction after u slices, starting at the back and turning to the left, and its derivative by the
-// angle.
+// The level direction after u slices, starting at the back and turning to the left, and its derivative by the angle.
 static lam_vec3 around(const struct segments *n, double u, lam_vec3 *sideways)
 {
     struct circle_point at = circle(u, n->slices);
@@ -54,8 +52,7 @@ static void sphere_point(void *user, double u, double v, lam_surface_point *out)
     struct circle_point latitude = circle(2 * v - n->stacks, 4 * n->stacks);
     double c = latitude.c, s = latitude.s;
     out->p = v3_add(v3_scale(out_level, c), up(s));
-    out->dp_du =
-        v3_scale(sideways, (c > 0 ? c : 1) * (2 * PI / n->slices)); // at the poles the limit's direction
+    out->dp_du = v3_scale(sideways, (c > 0 ? c : 1) * (2 * PI / n->slices)); // at the poles the limit's direction
     out->dp_dv = v3_scale(v3_add(v3_scale(out_level, -s), up(c)), PI / n->stacks);
 }
 
@@ -145,8 +142,7 @@ static void knot_point(void *user, double u, double v, lam_surface_point *out)
     double r = KNOT_RING + KNOT_LOOP * c, r1 = -KNOT_LOOP * q * s, r2 = -KNOT_LOOP * q * q * c;
     lam_vec3 curve = v3_add(v3_scale(e, r), up(KNOT_LOOP * s));
     lam_vec3 d1 = v3_add(v3_add(v3_scale(e, r1), v3_scale(f, r * p)), up(KNOT_LOOP * q * c));
-    lam_vec3 d2 =
-        v3_add(v3_add(v3_scale(e, r2 - r * p * p), v3_scale(f, 2 * r1 * p)), up(-KNOT_LOOP * q * q * s));
+    lam_vec3 d2 = v3_add(v3_add(v3_scale(e, r2 - r * p * p), v3_scale(f, 2 * r1 * p)), up(-KNOT_LOOP * q * q * s));
     double speed = v3_length(d1);
     lam_vec3 t = v3_scale(d1, 1 / speed);
     lam_vec3 t1 = v3_scale(v3_sub(d2, v3_scale(t, v3_dot(t, d2))), 1 / speed);
@@ -245,15 +241,14 @@ static bool build_round(const struct shape_request *request, lam_surface_fn *sur
     stacks = request->stacks ? request->stacks : stacks;
     int least = v_closed ? 3 : 2; // fewer do not enclose anything
     if (stacks < least)
-        return fail(request->error, LAM_BAD_ARGUMENT,
-                    "shape: stacks is %d, expected at least %d for this one", stacks, least);
+        return fail(request->error, LAM_BAD_ARGUMENT, "shape: stacks is %d, expected at least %d for this one", stacks,
+                    least);
     struct segments n = {slices, stacks};
     lam_parametric one = {surface, &n, 0, slices, 0, stacks, slices, stacks, true, v_closed};
     return tessellate_parametric(&one, 1, request->arena, request->watch, mesh, request->error);
 }
 
-// Segments: with 192 around, the outline at 1024 pixels is nowhere more than a sixteenth of a pixel off the
-// circle.
+// Segments: with 192 around, the outline at 1024 pixels is nowhere more than a sixteenth of a pixel off the circle.
 static bool sphere_build(const struct shape_request *request, lam_mesh *mesh)
 {
     return build_round(request, sphere_point, 192, 96, false, mesh);
@@ -288,13 +283,12 @@ static bool cube_build(const struct shape_request *request, lam_mesh *mesh)
     int slices = request->slices ? request->slices : 1, stacks = request->stacks ? request->stacks : 1;
     lam_parametric surfaces[6];
     for (int i = 0; i < 6; i++)
-        surfaces[i] = (lam_parametric){square_point, &faces[i], -1, 1, -1, 1, slices, i < 4 ? stacks : slices,
-                                       false,        false};
+        surfaces[i] =
+            (lam_parametric){square_point, &faces[i], -1, 1, -1, 1, slices, i < 4 ? stacks : slices, false, false};
     return tessellate_parametric(surfaces, 6, request->arena, request->watch, mesh, request->error);
 }
 
-static bool build_turned(const struct shape_request *request, lam_surface_fn *side, bool has_top,
-                         lam_mesh *mesh)
+static bool build_turned(const struct shape_request *request, lam_surface_fn *side, bool has_top, lam_mesh *mesh)
 {
     int slices = request->slices ? request->slices : 192, stacks = request->stacks ? request->stacks : 1;
     struct segments n = {slices, stacks};
@@ -303,8 +297,7 @@ static bool build_turned(const struct shape_request *request, lam_surface_fn *si
         {bottom_disc, &n, 0, slices, 0, 1, slices, 1, true, false},
         {top_disc, &n, 0, slices, 0, 1, slices, 1, true, false},
     };
-    return tessellate_parametric(surfaces, has_top ? 3 : 2, request->arena, request->watch, mesh,
-                                 request->error);
+    return tessellate_parametric(surfaces, has_top ? 3 : 2, request->arena, request->watch, mesh, request->error);
 }
 
 static bool cylinder_build(const struct shape_request *request, lam_mesh *mesh)
@@ -324,8 +317,7 @@ static bool build_implicit(const struct shape_request *request, double (*value)(
     if (request->slices > 1024)
         return fail(request->error, LAM_BAD_ARGUMENT,
                     "shape: slices is %d, expected at most 1024 for an implicit surface", request->slices);
-    // A little more than the surface, so that it is not cut and its symmetric points do not fall on the
-    // lattice.
+    // A little more than the surface, so that it is not cut and its symmetric points do not fall on the lattice.
     const double side = 1.03;
     lam_implicit one = {value,
                         gradient,
@@ -371,10 +363,7 @@ int lam_shape_count(void) { return SHAPES; }
 
 const char *lam_shape_name(int shape) { return shape >= 0 && shape < SHAPES ? shapes[shape].name : NULL; }
 
-const char *lam_shape_summary(int shape)
-{
-    return shape >= 0 && shape < SHAPES ? shapes[shape].summary : NULL;
-}
+const char *lam_shape_summary(int shape) { return shape >= 0 && shape < SHAPES ? shapes[shape].summary : NULL; }
 
 int lam_shape_find(const char *name)
 {
@@ -422,15 +411,14 @@ static void scale_mesh(lam_mesh *mesh, double radius)
 static bool check_params(const char *name, const lam_shape_params *params, lam_error *error)
 {
     if (!(params->radius >= 0) || params->radius > 1e30)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "shape '%s': radius is %g, expected more than 0 and at most 1e30 (0: 1)", name,
-                    params->radius);
+        return fail(error, LAM_BAD_ARGUMENT, "shape '%s': radius is %g, expected more than 0 and at most 1e30 (0: 1)",
+                    name, params->radius);
     if (params->slices != 0 && (params->slices < 3 || params->slices > 16384))
-        return fail(error, LAM_BAD_ARGUMENT, "shape '%s': slices is %d, expected 3 to 16384 (0: its own)",
-                    name, params->slices);
+        return fail(error, LAM_BAD_ARGUMENT, "shape '%s': slices is %d, expected 3 to 16384 (0: its own)", name,
+                    params->slices);
     if (params->stacks < 0 || params->stacks > 16384)
-        return fail(error, LAM_BAD_ARGUMENT, "shape '%s': stacks is %d, expected 1 to 16384 (0: its own)",
-                    name, params->stacks);
+        return fail(error, LAM_BAD_ARGUMENT, "shape '%s': stacks is %d, expected 1 to 16384 (0: its own)", name,
+                    params->stacks);
     return true;
 }
 
@@ -440,12 +428,12 @@ static bool unknown_shape(const char *name, lam_error *error)
     for (int i = 0; i < SHAPES; i++)
         names[i] = shapes[i].name;
     const char *nearest = nearest_word(name, names, SHAPES);
-    return fail(error, LAM_BAD_ARGUMENT, "no shape is named '%s'%s%s%s", name,
-                nearest ? ", the nearest name is '" : "", nearest ? nearest : "", nearest ? "'" : "");
+    return fail(error, LAM_BAD_ARGUMENT, "no shape is named '%s'%s%s%s", name, nearest ? ", the nearest name is '" : "",
+                nearest ? nearest : "", nearest ? "'" : "");
 }
 
-int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params,
-                    struct watch *watch, lam_error *error)
+int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params, struct watch *watch,
+                    lam_error *error)
 {
     const lam_shape_params plain = {0};
     params = params ? params : &plain;
@@ -499,8 +487,7 @@ int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, co
     return end(scene, state, take(scene, made, &mesh, error));
 }
 
-int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const lam_control *control,
-                           lam_error *error)
+int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const lam_control *control, lam_error *error)
 {
     if (!scene || !surface) {
         fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_implicit: %s is NULL", scene ? "surface" : "scene");

@@ -1,5 +1,4 @@
-// shapes_implicit.c: meshes from implicit surfaces f(p) = 0, by marching cubes with a table that is derived
-// here.
+// shapes_implicit.c: meshes from implicit surfaces f(p) = 0, by marching cubes with a table that is derived here.
 //
 // The box is cut into cells. A lattice point is inside where f < 0 (0 and NaN count as outside); where the
 // two ends of a cell's edge differ, the surface crosses it, at one vertex that all cells around the edge
@@ -69,13 +68,11 @@ static void link_edges(int inside, int next[EDGES])
             int entry = k; // back to where the run began
             while (inside >> face_corner(face, (entry + 3) % 4) & 1)
                 entry = (entry + 3) % 4;
-            next[edge_between(face_corner(face, (entry + 3) % 4), face_corner(face, entry))] =
-                edge_between(from, to);
+            next[edge_between(face_corner(face, (entry + 3) % 4), face_corner(face, entry))] = edge_between(from, to);
         }
 }
 
-// Do two edges lie in one face of the cell? Each lies in the two faces that its number's other coordinates
-// name.
+// Do two edges lie in one face of the cell? Each lies in the two faces that its number's other coordinates name.
 static bool share_face(int a, int b)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -137,8 +134,7 @@ struct march {
 static double coordinate(const struct march *m, int axis, int i)
 {
     const lam_implicit *s = m->surface;
-    double low[3] = {s->minimum.x, s->minimum.y, s->minimum.z},
-           high[3] = {s->maximum.x, s->maximum.y, s->maximum.z};
+    double low[3] = {s->minimum.x, s->minimum.y, s->minimum.z}, high[3] = {s->maximum.x, s->maximum.y, s->maximum.z};
     int n = m->cells[axis];
     if (i <= 0)
         return low[axis];
@@ -191,8 +187,7 @@ static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa
     return before;
 }
 
-// ∇f made unit; where it vanishes or is not finite, from differences of f a hundredth of a cell to either
-// side.
+// ∇f made unit; where it vanishes or is not finite, from differences of f a hundredth of a cell to either side.
 static lam_vec3 normal_at(const struct march *m, lam_vec3 p)
 {
     const lam_implicit *s = m->surface;
@@ -259,8 +254,7 @@ static bool add_vertex(struct march *m, lam_vec3 p, lam_vec3 at, uint32_t *corne
 }
 
 // The vertex on the edge between two neighbouring lattice points, if the surface crosses it.
-static bool cross_edge(struct march *m, const int from[3], const int to[3], int plane_from, int plane_to,
-                       uint32_t *id)
+static bool cross_edge(struct march *m, const int from[3], const int to[3], int plane_from, int plane_to, uint32_t *id)
 {
     size_t row = (size_t)m->cells[0] + 1;
     size_t i = (size_t)from[1] * row + (size_t)from[0], j = (size_t)to[1] * row + (size_t)to[0];
@@ -272,8 +266,7 @@ static bool cross_edge(struct march *m, const int from[3], const int to[3], int 
     double t = find_root(m, pa, pb, a, b);
     lam_vec3 p = v3_add(pa, v3_scale(v3_sub(pb, pa), t));
     bool nearer_a = t < 0.5;
-    return add_vertex(m, p, nearer_a ? pa : pb,
-                      nearer_a ? &m->corners[plane_from][i] : &m->corners[plane_to][j], id);
+    return add_vertex(m, p, nearer_a ? pa : pb, nearer_a ? &m->corners[plane_from][i] : &m->corners[plane_to][j], id);
 }
 
 static bool evaluate_plane(struct march *m, int z, int plane)
@@ -297,11 +290,11 @@ static bool cross_plane(struct march *m, int z, int plane)
     for (int y = 0; y <= m->cells[1]; y++)
         for (int x = 0; x <= m->cells[0]; x++) {
             size_t at = (size_t)y * row + (size_t)x;
-            if (x < m->cells[0] && !cross_edge(m, (int[]){x, y, z}, (int[]){x + 1, y, z}, plane, plane,
-                                               &m->crossed[plane][0][at]))
+            if (x < m->cells[0] &&
+                !cross_edge(m, (int[]){x, y, z}, (int[]){x + 1, y, z}, plane, plane, &m->crossed[plane][0][at]))
                 return false;
-            if (y < m->cells[1] && !cross_edge(m, (int[]){x, y, z}, (int[]){x, y + 1, z}, plane, plane,
-                                               &m->crossed[plane][1][at]))
+            if (y < m->cells[1] &&
+                !cross_edge(m, (int[]){x, y, z}, (int[]){x, y + 1, z}, plane, plane, &m->crossed[plane][1][at]))
                 return false;
         }
     return true;
@@ -336,8 +329,7 @@ static uint32_t edge_vertex(const struct march *m, int edge, size_t at, int belo
 // How far a triangle turns away from the normal at one of its corners: 0 not at all, 2 the other way.
 static double misfit(const struct march *m, uint32_t a, uint32_t b, uint32_t c)
 {
-    const float *p[3] = {m->positions + 3 * (size_t)a, m->positions + 3 * (size_t)b,
-                         m->positions + 3 * (size_t)c};
+    const float *p[3] = {m->positions + 3 * (size_t)a, m->positions + 3 * (size_t)b, m->positions + 3 * (size_t)c};
     const uint32_t ids[3] = {a, b, c};
     lam_vec3 first = v3((double)p[0][0], (double)p[0][1], (double)p[0][2]);
     lam_vec3 face = v3_unit(v3_cross(v3_sub(v3((double)p[1][0], (double)p[1][1], (double)p[1][2]), first),
@@ -448,8 +440,8 @@ static bool march_all(struct march *m)
         return false;
     for (int z = 0; z < m->cells[2]; z++) {
         int below = z & 1, above = !below;
-        if (!evaluate_plane(m, z + 1, above) || !cross_plane(m, z + 1, above) ||
-            !cross_between(m, z, below, above) || !fill_layer(m, table, below, above))
+        if (!evaluate_plane(m, z + 1, above) || !cross_plane(m, z + 1, above) || !cross_between(m, z, below, above) ||
+            !fill_layer(m, table, below, above))
             return false;
     }
     return true;
@@ -459,24 +451,22 @@ static bool check(const lam_implicit *s, lam_error *error)
 {
     const char *place = "implicit surface";
     if (!s->value || !s->gradient)
-        return fail(error, LAM_BAD_ARGUMENT, "%s: the function `%s` is NULL", place,
-                    s->value ? "gradient" : "value");
+        return fail(error, LAM_BAD_ARGUMENT, "%s: the function `%s` is NULL", place, s->value ? "gradient" : "value");
     if (!v3_finite(s->minimum) || !v3_finite(s->maximum))
         return fail(error, LAM_BAD_ARGUMENT, "%s: a side of the box is not finite", place);
-    double low[3] = {s->minimum.x, s->minimum.y, s->minimum.z},
-           high[3] = {s->maximum.x, s->maximum.y, s->maximum.z};
+    double low[3] = {s->minimum.x, s->minimum.y, s->minimum.z}, high[3] = {s->maximum.x, s->maximum.y, s->maximum.z};
     for (int a = 0; a < 3; a++)
         if (!(low[a] < high[a]) || !(high[a] - low[a] < 1e38))
             return fail(error, LAM_BAD_ARGUMENT,
-                        "%s: the box goes from %g to %g along %c, expected a length in 0 to 1e38", place,
-                        low[a], high[a], "xyz"[a]);
+                        "%s: the box goes from %g to %g along %c, expected a length in 0 to 1e38", place, low[a],
+                        high[a], "xyz"[a]);
     if (s->cells != 0 && (s->cells < 2 || s->cells > 1024))
         return fail(error, LAM_BAD_ARGUMENT, "%s: cells is %d, expected 2 to 1024, or 0", place, s->cells);
     return true;
 }
 
-bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct watch *watch,
-                         lam_mesh *mesh, lam_error *error)
+bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct watch *watch, lam_mesh *mesh,
+                         lam_error *error)
 {
     if (!check(surface, error))
         return false;

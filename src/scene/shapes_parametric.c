@@ -81,8 +81,8 @@ static double inside(double x, double low, double high)
 }
 
 // Normal and tangent, unit, and the bitangent's sign. The normal is zero where no side tells it.
-static void frame_at(const struct tessellation *t, double u, double v, const lam_surface_point *point,
-                     lam_vec3 *normal, lam_vec3 *tangent)
+static void frame_at(const struct tessellation *t, double u, double v, const lam_surface_point *point, lam_vec3 *normal,
+                     lam_vec3 *tangent)
 {
     const lam_parametric *s = t->surface;
     double inner_u = inside(u, s->u_min, s->u_max), inner_v = inside(v, s->v_min, s->v_max);
@@ -138,8 +138,7 @@ static bool add_position(struct tessellation *t, lam_vec3 p, uint32_t *id, lam_e
     for (int a = 0; a < 3; a++) {
         if (!(q[a] > -limit && q[a] < limit))
             return fail(error, LAM_BAD_ARGUMENT,
-                        "parametric surface: a point's coordinate is %g, expected a finite number below 1e38",
-                        q[a]);
+                        "parametric surface: a point's coordinate is %g, expected a finite number below 1e38", q[a]);
         at[a] = (float)(q[a] + 0.0); // −0 becomes 0
     }
     *id = t->vertex++;
@@ -195,8 +194,7 @@ static void add_attributes(struct tessellation *t, int j, bool pole)
     for (int i = 0; i <= count; i++) {
         size_t at = attribute_at(t, i, j);
         bool column_pole = (i == 0 && t->first_column_pole) || (i == count && t->last_column_pole);
-        double u = pole && i < count ? middle(s->u_min, s->u_max, i, count)
-                                     : parameter(s->u_min, s->u_max, i, count);
+        double u = pole && i < count ? middle(s->u_min, s->u_max, i, count) : parameter(s->u_min, s->u_max, i, count);
         double at_v = column_pole && j < s->v_segments ? middle(s->v_min, s->v_max, j, s->v_segments) : v;
         t->texcoords[2 * at] = (float)((u - s->u_min) / (s->u_max - s->u_min));
         t->texcoords[2 * at + 1] = (float)((at_v - s->v_min) / (s->v_max - s->v_min));
@@ -247,8 +245,7 @@ struct cell_corner {
     uint32_t vertex, attribute;
 };
 
-static void add_triangle(struct tessellation *t, struct cell_corner a, struct cell_corner b,
-                         struct cell_corner c)
+static void add_triangle(struct tessellation *t, struct cell_corner a, struct cell_corner b, struct cell_corner c)
 {
     if (a.vertex == b.vertex || b.vertex == c.vertex || c.vertex == a.vertex)
         return;
@@ -260,13 +257,11 @@ static void add_triangle(struct tessellation *t, struct cell_corner a, struct ce
 }
 
 // A corner of cell (cell_i, cell_j). At a pole the cell has a corner of its own, kept under its own number.
-static struct cell_corner corner_of(const struct tessellation *t, int i, int j, int cell_i, int cell_j,
-                                    uint32_t vertex, bool row_pole)
+static struct cell_corner corner_of(const struct tessellation *t, int i, int j, int cell_i, int cell_j, uint32_t vertex,
+                                    bool row_pole)
 {
-    bool column_pole =
-        (i == 0 && t->first_column_pole) || (i == t->surface->u_segments && t->last_column_pole);
-    return (struct cell_corner){vertex,
-                                (uint32_t)attribute_at(t, row_pole ? cell_i : i, column_pole ? cell_j : j)};
+    bool column_pole = (i == 0 && t->first_column_pole) || (i == t->surface->u_segments && t->last_column_pole);
+    return (struct cell_corner){vertex, (uint32_t)attribute_at(t, row_pole ? cell_i : i, column_pole ? cell_j : j)};
 }
 
 static void add_cells(struct tessellation *t, int j, bool pole_before, bool pole)
@@ -315,25 +310,20 @@ static bool check(const lam_parametric *s, lam_error *error)
     if (!s->surface)
         return fail(error, LAM_BAD_ARGUMENT, "%s: the function `surface` is NULL", place);
     if (!math_finite(s->u_min) || !math_finite(s->u_max) || !(s->u_min < s->u_max))
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "%s: u goes from %g to %g, expected finite numbers with u_min < u_max", place, s->u_min,
-                    s->u_max);
+        return fail(error, LAM_BAD_ARGUMENT, "%s: u goes from %g to %g, expected finite numbers with u_min < u_max",
+                    place, s->u_min, s->u_max);
     if (!math_finite(s->v_min) || !math_finite(s->v_max) || !(s->v_min < s->v_max))
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "%s: v goes from %g to %g, expected finite numbers with v_min < v_max", place, s->v_min,
-                    s->v_max);
+        return fail(error, LAM_BAD_ARGUMENT, "%s: v goes from %g to %g, expected finite numbers with v_min < v_max",
+                    place, s->v_min, s->v_max);
     if (s->u_segments < 1 || s->u_segments > 16384)
-        return fail(error, LAM_BAD_ARGUMENT, "%s: u_segments is %d, expected 1 to 16384", place,
-                    s->u_segments);
+        return fail(error, LAM_BAD_ARGUMENT, "%s: u_segments is %d, expected 1 to 16384", place, s->u_segments);
     if (s->v_segments < 1 || s->v_segments > 16384)
-        return fail(error, LAM_BAD_ARGUMENT, "%s: v_segments is %d, expected 1 to 16384", place,
-                    s->v_segments);
+        return fail(error, LAM_BAD_ARGUMENT, "%s: v_segments is %d, expected 1 to 16384", place, s->v_segments);
     return true;
 }
 
 // The box of all surfaces from a coarse sample, for tolerances and the origin.
-static bool sample_box(const lam_parametric *surfaces, int count, double low[3], double high[3],
-                       lam_error *error)
+static bool sample_box(const lam_parametric *surfaces, int count, double low[3], double high[3], lam_error *error)
 {
     enum { STEPS = 8 };
     for (int a = 0; a < 3; a++) {
@@ -344,8 +334,7 @@ static bool sample_box(const lam_parametric *surfaces, int count, double low[3],
         for (int j = 0; j <= STEPS; j++)
             for (int i = 0; i <= STEPS; i++) {
                 const lam_parametric *s = &surfaces[k];
-                double u = parameter(s->u_min, s->u_max, i, STEPS),
-                       v = parameter(s->v_min, s->v_max, j, STEPS);
+                double u = parameter(s->u_min, s->u_max, i, STEPS), v = parameter(s->v_min, s->v_max, j, STEPS);
                 lam_surface_point point = {0};
                 s->surface(s->user, u, v, &point);
                 if (!v3_finite(point.p))
@@ -360,8 +349,8 @@ static bool sample_box(const lam_parametric *surfaces, int count, double low[3],
     return true;
 }
 
-bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena,
-                           struct watch *watch, lam_mesh *mesh, lam_error *error)
+bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct watch *watch,
+                           lam_mesh *mesh, lam_error *error)
 {
     uint64_t attributes = 0, triangles = 0;
     int widest = 0;
@@ -396,8 +385,8 @@ bool tessellate_parametric(const lam_parametric *surfaces, int count, struct are
     t.texcoords = arena_array(arena, attributes, 2 * sizeof(float));
     t.indices = arena_array(arena, 3 * triangles, sizeof(uint32_t));
     t.attributes = arena_array(arena, 3 * triangles, sizeof(uint32_t));
-    bool ok = t.row && t.ids[0] && t.ids[1] && t.ids[2] && t.positions && t.normals && t.tangents &&
-              t.texcoords && t.indices && t.attributes;
+    bool ok = t.row && t.ids[0] && t.ids[1] && t.ids[2] && t.positions && t.normals && t.tangents && t.texcoords &&
+              t.indices && t.attributes;
     if (!ok)
         watch_memory_error(watch, attributes * 48 + triangles * 24, error);
     for (int k = 0; ok && k < count; k++) {

@@ -1,10 +1,10 @@
 // tangents.c: tangents of meshes that have texture coordinates and none of their own.
 //
-// A triangle's tangent is ∂p/∂s, the way in which the first texture coordinate grows (from p = p0 + ∂p/∂s·Δs
-// + ∂p/∂t·Δt along two edges). Corners that share position, normal, texture coordinate and the sense of the
-// mapping share the mean of their triangles' tangents, weighted by the corner's angle as smooth normals are,
-// so that the result does not depend on how a flat face is cut. Corners are listed by vertex with a counting
-// sort and worked through in one order: the same bits on every run.
+// A triangle's tangent is ∂p/∂s, the way in which the first texture coordinate grows (from p = p0 + ∂p/∂s·Δs + ∂p/∂t·Δt
+// along two edges). Corners that share position, normal, texture coordinate and the sense of the mapping share the mean
+// of their triangles' tangents, weighted by the corner's angle as smooth normals are, so that the result does not
+// depend on how a flat face is cut. Corners are listed by vertex with a counting sort and worked through in one order:
+// the same bits on every run.
 #include "scene_store.h"
 
 #include "fail.h"
@@ -37,7 +37,7 @@ static int by_key(const void *a, const void *b)
 struct making {
     const lam_mesh *mesh;
     size_t corners;
-    float (*faces)[4]; // of each triangle: unit ∂p/∂s, and ±1 for the sense; all zero where none can be told
+    float (*faces)[4];      // of each triangle: unit ∂p/∂s, and ±1 for the sense; all zero where none can be told
     uint32_t *first, *list; // corners by vertex: list[first[v]] … list[first[v + 1] − 1]
     float *tangents;        // the result, 4 per element
     uint32_t *indices;      // the result, one per corner
@@ -68,16 +68,14 @@ static void face_tangent(const lam_mesh *mesh, size_t triangle, float out[4])
     lam_vec3 p[3];
     for (size_t k = 0; k < 3; k++) {
         size_t corner = 3 * triangle + k;
-        const float *uv =
-            mesh->texcoords + 2 * (size_t)element(mesh->texcoord_indices, mesh->indices, corner);
+        const float *uv = mesh->texcoords + 2 * (size_t)element(mesh->texcoord_indices, mesh->indices, corner);
         s[k] = (double)uv[0];
         t[k] = (double)uv[1];
         p[k] = position_of(mesh, corner);
     }
     double area = (s[1] - s[0]) * (t[2] - t[0]) - (s[2] - s[0]) * (t[1] - t[0]);
     double sense = area > 0 ? 1 : area < 0 ? -1 : 0;
-    lam_vec3 along =
-        v3_sub(v3_scale(v3_sub(p[1], p[0]), t[2] - t[0]), v3_scale(v3_sub(p[2], p[0]), t[1] - t[0]));
+    lam_vec3 along = v3_sub(v3_scale(v3_sub(p[1], p[0]), t[2] - t[0]), v3_scale(v3_sub(p[2], p[0]), t[1] - t[0]));
     along = v3_unit(v3_scale(along, sense));
     bool known = sense != 0 && v3_finite(along) && v3_length(along) > 0.5;
     out[0] = known ? (float)along.x : 0;
@@ -96,8 +94,8 @@ static double angle_at(const lam_mesh *mesh, uint32_t corner)
     return math_acos(v3_dot(a, b));
 }
 
-// The direction of meshes that tell none: round the y axis, along x where the normal is along y; as
-// src/cpu/light.inc has it.
+// The direction of meshes that tell none: round the y axis, along x where the normal is along y; as src/cpu/light.inc
+// has it.
 static lam_vec3 field(lam_vec3 n)
 {
     lam_vec3 around = v3_cross(v3(0, 1, 0), n);
@@ -139,8 +137,7 @@ static void share_vertex(struct making *m, uint32_t vertex)
     qsort(m->shared, count, sizeof *m->shared, by_key); // the order is total: any sorting gives the same
     for (uint32_t from = 0, to; from < count; from = to) {
         for (to = from + 1; to < count; to++)
-            if (m->shared[to].normal != m->shared[from].normal ||
-                m->shared[to].texcoord != m->shared[from].texcoord ||
+            if (m->shared[to].normal != m->shared[from].normal || m->shared[to].texcoord != m->shared[from].texcoord ||
                 m->shared[to].turned != m->shared[from].turned)
                 break;
         share(m, &m->shared[from], to - from);
@@ -166,8 +163,7 @@ static uint32_t list_corners(struct making *m, uint32_t vertices)
     return most;
 }
 
-static bool make(struct lam_scene *scene, lam_mesh *mesh, struct arena *scratch, struct watch *watch,
-                 lam_error *error)
+static bool make(struct lam_scene *scene, lam_mesh *mesh, struct arena *scratch, struct watch *watch, lam_error *error)
 {
     struct making m = {.mesh = mesh, .corners = (size_t)mesh->triangle_count * 3};
     uint32_t vertices = mesh->indices ? mesh->vertex_count : (uint32_t)m.corners;
@@ -211,8 +207,7 @@ bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_e
     watch_start(&watch, control);
     uint64_t state = float_state_enter();
     scene->arena.watch = &watch;
-    bool ok =
-        scene->deferred_crease_rad <= 0 || scene_prepare(scene, LAM_NORMALS_FILE, 0, NULL, &watch, error);
+    bool ok = scene->deferred_crease_rad <= 0 || scene_prepare(scene, LAM_NORMALS_FILE, 0, NULL, &watch, error);
     for (int i = 0; ok && i < scene->meshes.count; i++) {
         lam_mesh *mesh = (lam_mesh *)scene->meshes.items + i;
         if (mesh->tangents || !mesh->texcoords || !mesh->normals || !mesh->triangle_count)

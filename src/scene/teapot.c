@@ -77,8 +77,7 @@ static void patch_point(void *user, double u, double v, lam_surface_point *out)
     }
 }
 
-// The four quarters, from the back (+y) to the left, the front and the right, so that ∂p/∂u × ∂p/∂v points
-// outward.
+// The four quarters, from the back (+y) to the left, the front and the right, so that ∂p/∂u × ∂p/∂v points outward.
 static void turn(struct patches *patches, const struct teapot_ring (*bands)[4], int count)
 {
     static const double way[5][2] = {{0, 1}, {-1, 0}, {0, -1}, {1, 0}, {0, 1}};

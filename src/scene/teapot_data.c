@@ -28,8 +28,7 @@ const struct teapot_ring teapot_lid[2][4] = {
     {{0.2, 0.112, 2.7}, {0, 0, 2.85}, {0.8, 0.45, 3.15}, {0, 0, 3.15}},
 };
 
-// A half of a cross-section has the control points (ax, 0, az), (ax, ∓width, az), (bx, ∓width, bz), (bx, 0,
-// bz).
+// A half of a cross-section has the control points (ax, 0, az), (ax, ∓width, az), (bx, ∓width, bz), (bx, 0, bz).
 const struct teapot_section teapot_handle[2][4] = {
     // upper half, from the body
     {{-1.6, 2.025, -1.5, 2.25, 0.3},

@@ -79,8 +79,8 @@ static void spread_chunk(void *user, size_t index, int thread)
         w->spread[places[vertex_hash(w, v, bits) >> w->partition_shift]++] = (uint32_t)v;
 }
 
-static struct weld_slot *find_slot(struct weld_slot *slots, size_t mask, uint64_t hash,
-                                   const uint32_t bits[3], size_t *steps)
+static struct weld_slot *find_slot(struct weld_slot *slots, size_t mask, uint64_t hash, const uint32_t bits[3],
+                                   size_t *steps)
 {
     for (size_t i = hash & mask;; i = (i + 1) & mask) {
         struct weld_slot *slot = &slots[i];
@@ -112,13 +112,11 @@ static bool table_double(struct weld_table *table, struct arena *arena, size_t r
     size_t steps = 0;
     for (size_t i = 0; i < room; i++)
         if (old[i].vertex != NO_VERTEX)
-            *find_slot(table->slots, 2 * room - 1, position_hash(old[i].position), old[i].position, &steps) =
-                old[i];
+            *find_slot(table->slots, 2 * room - 1, position_hash(old[i].position), old[i].position, &steps) = old[i];
     return true;
 }
 
-// A file may have been made so that all its positions fall into few slots. Then the partition is sorted
-// instead.
+// A file may have been made so that all its positions fall into few slots. Then the partition is sorted instead.
 struct sorted_vertex {
     uint32_t position[3], vertex;
 };
@@ -237,14 +235,11 @@ static void cut(struct welding *w)
     }
 }
 
-bool weld_positions(const float *points, size_t count, uint32_t *position_of, uint32_t *positions,
-                    struct pool *pool, struct watch *watch, lam_error *error)
+bool weld_positions(const float *points, size_t count, uint32_t *position_of, uint32_t *positions, struct pool *pool,
+                    struct watch *watch, lam_error *error)
 {
-    struct welding welding = {.points = points,
-                              .vertices = count,
-                              .position_of = position_of,
-                              .pool = pool,
-                              .halt = {.watch = watch}};
+    struct welding welding = {
+        .points = points, .vertices = count, .position_of = position_of, .pool = pool, .halt = {.watch = watch}};
     struct welding *w = &welding;
     *positions = 0;
     if (count == 0)

@@ -1,8 +1,7 @@
 // replay.c: plays a corpus through a fuzz target in the normal test run, without libFuzzer.
 //
-// Every file of the folder CORPUS goes in as it is, cut after each of its bytes, and in some hundred changed
-// forms, the same in every run. An input that kills the program is left in the current folder as
-// "fuzz-failure".
+// Every file of the folder CORPUS goes in as it is, cut after each of its bytes, and in some hundred changed forms, the
+// same in every run. An input that kills the program is left in the current folder as "fuzz-failure".
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -112,10 +111,7 @@ static void change(struct seed *seed, uint64_t *random)
     }
 }
 
-static int by_name(const struct dirent **a, const struct dirent **b)
-{
-    return strcmp((*a)->d_name, (*b)->d_name);
-}
+static int by_name(const struct dirent **a, const struct dirent **b) { return strcmp((*a)->d_name, (*b)->d_name); }
 
 int main(void)
 {

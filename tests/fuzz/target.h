@@ -14,8 +14,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 // What must hold for every input: a scene that is whole, or an error with its sentence. Bounded in memory and
 // time, so that an input that makes the library run away is found as one.
-static inline void load_model(const uint8_t *data, size_t size, const char *name, lam_open_fn *open,
-                              void *user)
+static inline void load_model(const uint8_t *data, size_t size, const char *name, lam_open_fn *open, void *user)
 {
     lam_load_params params = {.threads = 1, .open = open, .user = user};
     lam_control control = {.memory_limit_bytes = 256 << 20, .time_limit_s = 20};

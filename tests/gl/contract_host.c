@@ -46,15 +46,11 @@ static void no_gl(const char *what)
 static void make_context(const char *version)
 {
     int es = strcmp(version, "300es") == 0, core = strcmp(version, "330") == 0;
-    const EGLint attributes[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE,
-                                 es ? EGL_OPENGL_ES3_BIT : EGL_OPENGL_BIT, EGL_NONE};
-    const EGLint core_context[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                   3,
-                                   EGL_CONTEXT_MINOR_VERSION,
-                                   3,
-                                   EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                   EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                   EGL_NONE};
+    const EGLint attributes[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, es ? EGL_OPENGL_ES3_BIT : EGL_OPENGL_BIT,
+                                 EGL_NONE};
+    const EGLint core_context[] = {
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     const EGLint es_context[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
     const EGLint old_context[] = {EGL_CONTEXT_MAJOR_VERSION, 2, EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE};
     EGLConfig config;
@@ -66,10 +62,7 @@ static void make_context(const char *version)
     if (!eglBindAPI(es ? EGL_OPENGL_ES_API : EGL_OPENGL_API) ||
         !eglChooseConfig(display, attributes, &config, 1, &count) || !count)
         no_gl("EGL has no configuration for this API (package libgl1-mesa-dri)");
-    context = eglCreateContext(display, config, EGL_NO_CONTEXT,
-                               es     ? es_context
-                               : core ? core_context
-                                      : old_context);
+    context = eglCreateContext(display, config, EGL_NO_CONTEXT, es ? es_context : core ? core_context : old_context);
     if (!context || !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
         no_gl("EGL makes no context of this version");
 }

@@ -78,8 +78,7 @@ int glsl_combinations(void (*visit)(void *user, const struct glsl_choices *choic
 {
     struct visitor v = {visit, user, 0};
     for (int version = GLSL_120; version <= GLSL_300_ES; version++)
-        for (int storage = GLSL_ARRAY; storage <= (version == GLSL_120 ? GLSL_ARRAY : GLSL_TEXTURE);
-             storage++)
+        for (int storage = GLSL_ARRAY; storage <= (version == GLSL_120 ? GLSL_ARRAY : GLSL_TEXTURE); storage++)
             for (int way = 0; way < WAYS; way++)
                 for (int products = 0; products < 2; products++) {
                     struct glsl_choices base;

@@ -17,11 +17,11 @@ static struct gl_context context; // the caller's
 static struct gl real;
 static int drawn;
 
-#define COUNT(name, parameters, arguments)                                                                   \
-    static void APIENTRY count_##name parameters                                                             \
-    {                                                                                                        \
-        drawn++;                                                                                             \
-        real.name arguments;                                                                                 \
+#define COUNT(name, parameters, arguments)                                                                             \
+    static void APIENTRY count_##name parameters                                                                       \
+    {                                                                                                                  \
+        drawn++;                                                                                                       \
+        real.name arguments;                                                                                           \
     }
 COUNT(DrawArrays, (GLenum a, GLint b, GLsizei c), (a, b, c))
 COUNT(DrawElements, (GLenum a, GLsizei b, GLenum c, const void *d), (a, b, c, d))
@@ -29,10 +29,10 @@ COUNT(DrawElements, (GLenum a, GLsizei b, GLenum c, const void *d), (a, b, c, d)
 static lam_gl_function counting(void *user, const char *name)
 {
     (void)user;
-#define ROW(function)                                                                                        \
-    if (strcmp(name, "gl" #function) == 0) {                                                                 \
-        real.function = context.gl.function;                                                                 \
-        return (lam_gl_function)count_##function;                                                            \
+#define ROW(function)                                                                                                  \
+    if (strcmp(name, "gl" #function) == 0) {                                                                           \
+        real.function = context.gl.function;                                                                           \
+        return (lam_gl_function)count_##function;                                                                      \
     }
     ROW(DrawArrays)
     ROW(DrawElements)
@@ -119,8 +119,7 @@ static void test_one_call(void **state)
         params.stage = way == 1 || way == 3 ? LAM_STAGE_APPLICATION : LAM_STAGE_AUTO;
         lam_image a = {0}, b = {0};
         lam_difference difference;
-        assert_true(lam_image_make(&a, 64, 64, LAM_RGBA8, &error) &&
-                    lam_image_make(&b, 64, 64, LAM_RGBA8, &error));
+        assert_true(lam_image_make(&a, 64, 64, LAM_RGBA8, &error) && lam_image_make(&b, 64, 64, LAM_RGBA8, &error));
         assert_true(lam_draw(cpu, demo.scene, &demo.camera, &params, &a, NULL, &error));
         drawn = 0;
         assert_true(lam_draw(device, demo.scene, &demo.camera, &params, &b, NULL, &error));

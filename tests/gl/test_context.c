@@ -161,9 +161,8 @@ static void test_caller_without(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_profiles),       cmocka_unit_test(test_nested),
-        cmocka_unit_test(test_debug_messages), cmocka_unit_test(test_missing),
-        cmocka_unit_test(test_devices),        cmocka_unit_test(test_caller_without),
+        cmocka_unit_test(test_profiles), cmocka_unit_test(test_nested),  cmocka_unit_test(test_debug_messages),
+        cmocka_unit_test(test_missing),  cmocka_unit_test(test_devices), cmocka_unit_test(test_caller_without),
     };
     return cmocka_run_group_tests_name("gl-context", tests, NULL, NULL);
 }

@@ -46,8 +46,7 @@ static lam_image draw(lam_device *device, const struct demo *demo, const lam_dra
     return image;
 }
 
-// How far the two devices are apart: the share of pixels by more than 1/255, and the largest difference in
-// floats.
+// How far the two devices are apart: the share of pixels by more than 1/255, and the largest difference in floats.
 struct apart {
     double share, floats;
 };
@@ -214,8 +213,7 @@ static void test_parts_and_samples(void **state)
     assert_true(compare(gl, &demo, &params).share <= 0.001);
     demo.width = 160;
     demo.height = 120;
-    // Lit at each sample instead of once for each triangle: not the same, but the same shape (coverage is
-    // exact).
+    // Lit at each sample instead of once for each triangle: not the same, but the same shape (coverage is exact).
     for (int samples = 2; samples <= 16; samples *= 2) {
         params.samples = samples;
         params.show = LAM_SHOW_COVERAGE;

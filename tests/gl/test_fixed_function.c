@@ -19,35 +19,35 @@ enum { W = 128, H = 96, AROUND = 20, ALONG = 12, ROW = AROUND + 1, CORNERS = ROW
 
 // --- the functions of OpenGL 1, by their names
 
-#define CLASSIC_FUNCTIONS(X)                                                                                 \
-    X(Begin)                                                                                                 \
-    X(End)                                                                                                   \
-    X(Normal3f)                                                                                              \
-    X(Vertex3f)                                                                                              \
-    X(Lightfv)                                                                                               \
-    X(Lightf)                                                                                                \
-    X(LightModelfv)                                                                                          \
-    X(LightModeli)                                                                                           \
-    X(Materialfv)                                                                                            \
-    X(Materialf)                                                                                             \
-    X(MatrixMode)                                                                                            \
-    X(LoadMatrixd)                                                                                           \
-    X(MultMatrixd)                                                                                           \
-    X(ShadeModel)                                                                                            \
-    X(FrontFace)                                                                                             \
-    X(Enable)                                                                                                \
-    X(Disable)                                                                                               \
-    X(Clear)                                                                                                 \
-    X(ClearColor)                                                                                            \
-    X(Viewport)                                                                                              \
-    X(ReadPixels)                                                                                            \
-    X(GetError)                                                                                              \
-    X(GenFramebuffers)                                                                                       \
-    X(BindFramebuffer)                                                                                       \
-    X(FramebufferRenderbuffer)                                                                               \
-    X(CheckFramebufferStatus)                                                                                \
-    X(GenRenderbuffers)                                                                                      \
-    X(BindRenderbuffer)                                                                                      \
+#define CLASSIC_FUNCTIONS(X)                                                                                           \
+    X(Begin)                                                                                                           \
+    X(End)                                                                                                             \
+    X(Normal3f)                                                                                                        \
+    X(Vertex3f)                                                                                                        \
+    X(Lightfv)                                                                                                         \
+    X(Lightf)                                                                                                          \
+    X(LightModelfv)                                                                                                    \
+    X(LightModeli)                                                                                                     \
+    X(Materialfv)                                                                                                      \
+    X(Materialf)                                                                                                       \
+    X(MatrixMode)                                                                                                      \
+    X(LoadMatrixd)                                                                                                     \
+    X(MultMatrixd)                                                                                                     \
+    X(ShadeModel)                                                                                                      \
+    X(FrontFace)                                                                                                       \
+    X(Enable)                                                                                                          \
+    X(Disable)                                                                                                         \
+    X(Clear)                                                                                                           \
+    X(ClearColor)                                                                                                      \
+    X(Viewport)                                                                                                        \
+    X(ReadPixels)                                                                                                      \
+    X(GetError)                                                                                                        \
+    X(GenFramebuffers)                                                                                                 \
+    X(BindFramebuffer)                                                                                                 \
+    X(FramebufferRenderbuffer)                                                                                         \
+    X(CheckFramebufferStatus)                                                                                          \
+    X(GenRenderbuffers)                                                                                                \
+    X(BindRenderbuffer)                                                                                                \
     X(RenderbufferStorage)
 
 struct classic {
@@ -85,8 +85,7 @@ static const double eye[3] = {0.4, 1.1, 4.2}, target[3] = {0.1, 0, 0}, fovy = 38
 static const float global[4] = {0.1F, 0.2F, 0.15F, 1};
 static const float front[4][4] = {
     {0.3F, 0.2F, 0.25F, 1}, {0.7F, 0.5F, 0.2F, 1}, {0.6F, 0.7F, 0.8F, 1}, {0.02F, 0.01F, 0.03F, 1}};
-static const float back[4][4] = {
-    {0.1F, 0.2F, 0.4F, 1}, {0.1F, 0.3F, 0.9F, 1}, {0.9F, 0.2F, 0.1F, 1}, {0, 0.05F, 0, 1}};
+static const float back[4][4] = {{0.1F, 0.2F, 0.4F, 1}, {0.1F, 0.3F, 0.9F, 1}, {0.9F, 0.2F, 0.1F, 1}, {0, 0.05F, 0, 1}};
 
 // --- the mesh: an open piece of a sphere, so that both sides show
 
@@ -97,12 +96,11 @@ static char ply[CORNERS * 110 + AROUND * ALONG * 2 * 24 + 400];
 static void make_mesh(void)
 {
     char *at = ply;
-    at += sprintf(
-        at,
-        "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\nproperty float z\n"
-        "property float nx\nproperty float ny\nproperty float nz\nelement face %d\n"
-        "property list uchar int vertex_indices\nend_header\n",
-        CORNERS, AROUND * ALONG * 2);
+    at += sprintf(at,
+                  "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\nproperty float z\n"
+                  "property float nx\nproperty float ny\nproperty float nz\nelement face %d\n"
+                  "property list uchar int vertex_indices\nend_header\n",
+                  CORNERS, AROUND * ALONG * 2);
     for (int i = 0; i < CORNERS; i++) {
         double theta = 0.4 + 2.2 * (i / ROW) / ALONG, phi = 4.4 * (i % ROW) / AROUND;
         float *c = corners[i];
@@ -136,8 +134,7 @@ static char *write_material(char *at, const char *key, const float m[4][4], floa
     static const char *const names[4] = {"ambient", "diffuse", "specular", "emission"};
     at += sprintf(at, "\"%s\": {\"shininess\": %.9g", key, (double)shininess);
     for (int i = 0; i < 4; i++)
-        at += sprintf(at, ", \"%s\": [%.9g, %.9g, %.9g]", names[i], (double)m[i][0], (double)m[i][1],
-                      (double)m[i][2]);
+        at += sprintf(at, ", \"%s\": [%.9g, %.9g, %.9g]", names[i], (double)m[i][0], (double)m[i][1], (double)m[i][2]);
     return at + sprintf(at, "}, ");
 }
 
@@ -170,23 +167,21 @@ static void draw_lambent(const struct classic_case *k, lam_image *image, lam_ima
 {
     static char text[8192];
     char *at = text;
-    at += sprintf(
-        at,
-        "{\"lambent\": 1, \"image\": {\"size\": [%d, %d], \"samples\": 1, \"color\": \"raw\"}, \"camera\": "
-        "{\"eye\": [%.17g, %.17g, %.17g], \"target\": [%.17g, %.17g, %.17g], \"fovy\": %.17g, \"near\": "
-        "%.17g, \"far\": %.17g}, \"ambient\": [%.9g, %.9g, %.9g], \"gl1\": true, \"reflection\": "
-        "\"blinn-phong\", \"shading\": \"%s\", \"flat_normal\": \"vertex\", \"viewer\": \"%s\", \"objects\": "
-        "[{\"file\": \"m.ply\", \"two_sided\": %s, ",
-        W, H, eye[0], eye[1], eye[2], target[0], target[1], target[2], fovy, near, far, (double)global[0],
-        (double)global[1], (double)global[2], k->flat ? "flat" : "gouraud",
-        k->infinite ? "infinite" : "local", k->two_sided ? "true" : "false");
+    at += sprintf(at,
+                  "{\"lambent\": 1, \"image\": {\"size\": [%d, %d], \"samples\": 1, \"color\": \"raw\"}, \"camera\": "
+                  "{\"eye\": [%.17g, %.17g, %.17g], \"target\": [%.17g, %.17g, %.17g], \"fovy\": %.17g, \"near\": "
+                  "%.17g, \"far\": %.17g}, \"ambient\": [%.9g, %.9g, %.9g], \"gl1\": true, \"reflection\": "
+                  "\"blinn-phong\", \"shading\": \"%s\", \"flat_normal\": \"vertex\", \"viewer\": \"%s\", \"objects\": "
+                  "[{\"file\": \"m.ply\", \"two_sided\": %s, ",
+                  W, H, eye[0], eye[1], eye[2], target[0], target[1], target[2], fovy, near, far, (double)global[0],
+                  (double)global[1], (double)global[2], k->flat ? "flat" : "gouraud",
+                  k->infinite ? "infinite" : "local", k->two_sided ? "true" : "false");
     at = write_material(at, "material", front, k->shininess);
     at = write_material(at, "back_material", back, k->shininess);
-    at += sprintf(
-        at,
-        "\"transform\": [[\"translate\", %.17g, %.17g, %.17g], [\"rotate\", %.17g, 0, 1, 0], [\"scale\", "
-        "%.17g, %.17g, %.17g]]}], \"lights\": [",
-        k->move[0], k->move[1], k->move[2], k->turn, k->scale[0], k->scale[1], k->scale[2]);
+    at += sprintf(at,
+                  "\"transform\": [[\"translate\", %.17g, %.17g, %.17g], [\"rotate\", %.17g, 0, 1, 0], [\"scale\", "
+                  "%.17g, %.17g, %.17g]]}], \"lights\": [",
+                  k->move[0], k->move[1], k->move[2], k->turn, k->scale[0], k->scale[1], k->scale[2]);
     for (int i = 0; i < k->count; i++)
         at = write_light(i ? at + sprintf(at, ", ") : at, &k->lights[i]);
     sprintf(at, "]}");
@@ -321,8 +316,7 @@ static void draw_classic(const struct classic *gl, const struct classic_case *k,
 
 // Whether the pixel and its neighbours all show the same side of the surface. Flat colours jump at edges of
 // triangles: there the neighbours' colours must agree too.
-static bool inside(const struct classic_case *k, const lam_image *image, const lam_image *facing, int x,
-                   int y)
+static bool inside(const struct classic_case *k, const lam_image *image, const lam_image *facing, int x, int y)
 {
     const float *side = facing->pixels, *color = image->pixels;
     int here = 4 * (y * W + x);
@@ -358,8 +352,8 @@ static int compare(const struct classic *gl, const struct classic_case *k)
             counted++;
             behind += ((const float *)facing.pixels)[4 * (y * W + x)] < 0;
         }
-    print_message("%-32s %4d pixels, %4d of them from behind; at most %.2e, on average %.2e\n", k->name,
-                  counted, behind, largest, total / (3 * counted));
+    print_message("%-32s %4d pixels, %4d of them from behind; at most %.2e, on average %.2e\n", k->name, counted,
+                  behind, largest, total / (3 * counted));
     assert_true(counted > 200);
     assert_true(largest <= 2e-4);
     assert_true(total / (3 * counted) <= 2e-6);
@@ -368,31 +362,13 @@ static int compare(const struct classic *gl, const struct classic_case *k)
     return behind;
 }
 
-#define ONE                                                                                                  \
-    {                                                                                                        \
-        1, 1, 1                                                                                              \
-    }
-#define POINT_LIGHT                                                                                          \
-    {                                                                                                        \
-        "world", {2, 3, 4, 1}, {0, 0, -1}, {0.1F, 0, 0.2F}, {0.8F, 0.7F, 0.6F}, ONE, {1, 0, 0}, 180, 0       \
-    }
-#define SUN                                                                                                  \
-    {                                                                                                        \
-        "world", {1, 2, 1.5F, 0}, {0, 0, -1}, {0, 0.1F, 0}, {0.5F, 0.6F, 0.7F}, ONE, {1, 0, 0}, 180, 0       \
-    }
-#define FADING                                                                                               \
-    {                                                                                                        \
-        "world", {1, 1.5F, 2, 1}, {0, 0, -1}, {0.3F, 0.2F, 0.2F}, ONE, {0.2F, 0.9F, 1}, {0.2F, 0.1F, 0.3F},  \
-            180, 0                                                                                           \
-    }
-#define SPOT                                                                                                 \
-    {                                                                                                        \
-        "world", {0.5F, 2, 2.5F, 1}, {-0.2F, -0.9F, -1.1F}, {0.2F, 0.2F, 0}, ONE, ONE, {1, 0.1F, 0}, 30, 8   \
-    }
-#define TORCH                                                                                                \
-    {                                                                                                        \
-        "camera", {0.3F, 0.2F, 0, 1}, {0, 0, -1}, {0, 0, 0}, ONE, {0.5F, 0.5F, 0.5F}, {1, 0, 0.05F}, 90, 40  \
-    }
+#define ONE         {1, 1, 1}
+#define POINT_LIGHT {"world", {2, 3, 4, 1}, {0, 0, -1}, {0.1F, 0, 0.2F}, {0.8F, 0.7F, 0.6F}, ONE, {1, 0, 0}, 180, 0}
+#define SUN         {"world", {1, 2, 1.5F, 0}, {0, 0, -1}, {0, 0.1F, 0}, {0.5F, 0.6F, 0.7F}, ONE, {1, 0, 0}, 180, 0}
+#define FADING                                                                                                         \
+    {"world", {1, 1.5F, 2, 1}, {0, 0, -1}, {0.3F, 0.2F, 0.2F}, ONE, {0.2F, 0.9F, 1}, {0.2F, 0.1F, 0.3F}, 180, 0}
+#define SPOT   {"world", {0.5F, 2, 2.5F, 1}, {-0.2F, -0.9F, -1.1F}, {0.2F, 0.2F, 0}, ONE, ONE, {1, 0.1F, 0}, 30, 8}
+#define TORCH  {"camera", {0.3F, 0.2F, 0, 1}, {0, 0, -1}, {0, 0, 0}, ONE, {0.5F, 0.5F, 0.5F}, {1, 0, 0.05F}, 90, 40}
 #define EVENLY .scale = ONE, .shininess = 30
 
 static void test_fixed_function(void **state)
@@ -400,26 +376,25 @@ static void test_fixed_function(void **state)
     (void)state;
     static const struct classic_case cases[] = {
         {"point", EVENLY, .two_sided = true, .lights = {POINT_LIGHT}, .count = 1},
-        {"point, infinite viewer", EVENLY, .infinite = true, .two_sided = true, .lights = {POINT_LIGHT},
-         .count = 1},
+        {"point, infinite viewer", EVENLY, .infinite = true, .two_sided = true, .lights = {POINT_LIGHT}, .count = 1},
         {"directional", EVENLY, .turn = 60, .two_sided = true, .lights = {SUN}, .count = 1},
-        {"directional, infinite viewer", EVENLY, .turn = 60, .infinite = true, .two_sided = true,
-         .lights = {SUN}, .count = 1},
+        {"directional, infinite viewer", EVENLY, .turn = 60, .infinite = true, .two_sided = true, .lights = {SUN},
+         .count = 1},
         {"attenuated, its ambient too", EVENLY, .two_sided = true, .lights = {FADING}, .count = 1},
         {"spot with an exponent", EVENLY, .two_sided = true, .lights = {SPOT}, .count = 1},
         {"torch of the camera", EVENLY, .turn = -40, .two_sided = true, .lights = {TORCH}, .count = 1},
-        {"three lights, colours over 1", EVENLY, .turn = 20, .two_sided = true,
-         .lights = {POINT_LIGHT, SUN, FADING}, .count = 3},
+        {"three lights, colours over 1", EVENLY, .turn = 20, .two_sided = true, .lights = {POINT_LIGHT, SUN, FADING},
+         .count = 3},
         {"one-sided", EVENLY, .turn = 100, .two_sided = false, .lights = {POINT_LIGHT}, .count = 1},
         {"non-uniform scale", .turn = -50, .scale = {0.6, 1.3, 1.1}, .move = {0, 0.1, 0}, .shininess = 50,
          .two_sided = true, .lights = {POINT_LIGHT, TORCH}, .count = 2},
-        {"mirrored", .turn = 20, .scale = {1, -1.2, 1}, .shininess = 10, .two_sided = true,
-         .lights = {POINT_LIGHT}, .count = 1},
-        {"shininess 128", .turn = 20, .scale = ONE, .shininess = 128, .two_sided = true,
-         .lights = {POINT_LIGHT, SUN}, .count = 2},
+        {"mirrored", .turn = 20, .scale = {1, -1.2, 1}, .shininess = 10, .two_sided = true, .lights = {POINT_LIGHT},
+         .count = 1},
+        {"shininess 128", .turn = 20, .scale = ONE, .shininess = 128, .two_sided = true, .lights = {POINT_LIGHT, SUN},
+         .count = 2},
         // Not 0: there Mesa takes a short cut that leaves 0^0 out.
-        {"shininess 0.01", .turn = 20, .scale = ONE, .shininess = 0.01F, .two_sided = true,
-         .lights = {FADING}, .count = 1},
+        {"shininess 0.01", .turn = 20, .scale = ONE, .shininess = 0.01F, .two_sided = true, .lights = {FADING},
+         .count = 1},
         {"flat", EVENLY, .flat = true, .two_sided = true, .lights = {POINT_LIGHT, SPOT}, .count = 2},
     };
     struct gl_context context;

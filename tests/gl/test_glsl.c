@@ -1,6 +1,5 @@
-// test_glsl.c: the texts of every combination of choices are accepted by the reference compiler
-// (glslangValidator), vertex and fragment text fit each other, and what the choices do not need is not in
-// them.
+// test_glsl.c: the texts of every combination of choices are accepted by the reference compiler (glslangValidator),
+// vertex and fragment text fit each other, and what the choices do not need is not in them.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -70,8 +69,7 @@ static void test_only_what_is_needed(void **state)
 static void test_what_does_not_go_together(void **state)
 {
     (void)state;
-    struct glsl_choices right = {
-        .version = GLSL_120, .stage = LAM_STAGE_FRAGMENT, .reflection = LAM_REFLECTION_PHONG};
+    struct glsl_choices right = {.version = GLSL_120, .stage = LAM_STAGE_FRAGMENT, .reflection = LAM_REFLECTION_PHONG};
     struct glsl_text text = make(&right);
     glsl_free(&text);
     struct glsl_choices wrong[5] = {right, right, right, right, right};
@@ -92,12 +90,10 @@ static void test_what_does_not_go_together(void **state)
 static void test_templates_refuse_what_they_do_not_know(void **state)
 {
     (void)state;
-    const struct template_flag flags[] = {
-        {"on", true}, {"off", false}, {"back_material", true}, {NULL, false}};
+    const struct template_flag flags[] = {{"on", true}, {"off", false}, {"back_material", true}, {NULL, false}};
     const struct template_value values[] = {{"five", "5"}, {NULL, NULL}};
     const struct template_words words = {flags, values};
-    static const char *const wrong[] = {"//@if what\n//@end\n", "a @six@ b\n", "//@if on\n",
-                                        "//@unless on\n//@end\n"};
+    static const char *const wrong[] = {"//@if what\n//@end\n", "a @six@ b\n", "//@if on\n", "//@unless on\n//@end\n"};
     for (int i = 0; i < 4; i++) {
         struct text text = {0};
         template_add(&text, wrong[i], &words);
@@ -105,8 +101,7 @@ static void test_templates_refuse_what_they_do_not_know(void **state)
         free(text.bytes);
     }
     struct text text = {0};
-    template_add(&text,
-                 "//@if off\na\n//@elif on\nb @five@ $(x[i]).y\n//@else\nc\n//@end\n//@if !off\nd\n//@end\n",
+    template_add(&text, "//@if off\na\n//@elif on\nb @five@ $(x[i]).y\n//@else\nc\n//@end\n//@if !off\nd\n//@end\n",
                  &words);
     assert_false(text.failed);
     assert_string_equal(text.bytes, "b 5 (front ? x[i] : back_x[i]).y\nd\n");
@@ -125,9 +120,8 @@ static void test_nothing_that_nobody_looks_at(void **state)
                              .light_count = 2,
                              .group_count = 1,
                              .groups = {{1, 0, 2}}};
-    static const char *const of_others[] = {"spot_at",    "attenuation_at", "LIGHT_POINT",
-                                            "cos_cutoff", "distance;",      ".xyz(vec4",
-                                            "vec3 t;",    "if (kind",       "inverse_range"};
+    static const char *const of_others[] = {"spot_at",   "attenuation_at", "LIGHT_POINT", "cos_cutoff",   "distance;",
+                                            ".xyz(vec4", "vec3 t;",        "if (kind",    "inverse_range"};
     struct glsl_text text = make(&c);
     const char *sun = strstr(text.fragment, "struct Light");
     assert_non_null(sun);
@@ -166,11 +160,9 @@ static void test_simplify(void **state)
     assert_string_equal(text.bytes, "{\n    x();\n    v();\n    if (c) {\n        w();\n    }\n}\n");
     free(text.bytes);
 
-    char of
-        [] = "STRUCT(s)\n{\n    int used;\n    int chain;\n    int other; // .other\n};\n",
-      by[] =
-          "int f(s a, t b)\n{\n    a.used = 1;\n    a.chain = a.other;\n    a.other = 2;\n    b.chain = 3;\n"
-          "    return a.used + b.chain;\n}\n";
+    char of[] = "STRUCT(s)\n{\n    int used;\n    int chain;\n    int other; // .other\n};\n",
+         by[] = "int f(s a, t b)\n{\n    a.used = 1;\n    a.chain = a.other;\n    a.other = 2;\n    b.chain = 3;\n"
+                "    return a.used + b.chain;\n}\n";
     const struct stretch stretches[] = {{of, of + strlen(of)}, {by, by + strlen(by)}};
     assert_true(simplify_members(stretches, 2)); // chain, then what only it read
     assert_true(simplify_members(stretches, 2) || !strstr(of, "other;"));
@@ -248,8 +240,7 @@ static void test_reference_compiler_accepts(void **state)
 {
     (void)state;
     if (system("glslangValidator --version > /dev/null 2>&1") != 0) {
-        print_message(
-            "glslangValidator (package glslang-tools) is not installed: the shaders were not checked\n");
+        print_message("glslangValidator (package glslang-tools) is not installed: the shaders were not checked\n");
         skip();
     }
     char folder[] = "/tmp/lambent-glsl-XXXXXX";

@@ -1,5 +1,4 @@
-// test_glsl_driver.c: a driver compiles and links the texts, and finds in them the uniforms that their table
-// tells.
+// test_glsl_driver.c: a driver compiles and links the texts, and finds in them the uniforms that their table tells.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -44,8 +43,7 @@ static GLuint compile(const struct gl *gl, GLenum kind, const char *text)
     return shader;
 }
 
-// The values' offsets in a block are those of our structs: what glsl_pack_… writes lies where the driver
-// reads.
+// The values' offsets in a block are those of our structs: what glsl_pack_… writes lies where the driver reads.
 static void check_block(const struct gl *gl, GLuint program, const char *block, size_t bytes)
 {
     GLuint index = gl->GetUniformBlockIndex(program, block);
@@ -57,8 +55,7 @@ static void check_block(const struct gl *gl, GLuint program, const char *block, 
         fail_msg("the block %s has %d bytes for the driver, %zu for us", block, size, bytes);
 }
 
-static void check_blocks(const struct gl *gl, GLuint program, const struct glsl_choices *c,
-                         const struct glsl_facts *f)
+static void check_blocks(const struct gl *gl, GLuint program, const struct glsl_choices *c, const struct glsl_facts *f)
 {
     if (c->storage != GLSL_BLOCK || f->paints || f->shows_vector || !f->lit)
         return;

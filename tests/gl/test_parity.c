@@ -26,8 +26,9 @@ enum { SCALE = 4 }; // of the table's pictures: edges then take a smaller share 
 static const struct {
     const char *name;
     double floats;
-    bool order; // surfaces lie nearer to each other than depth values tell: pixels off by more than 2/255
-                // count among the 0.1 % alone
+    // surfaces lie nearer to each other than depth values tell: pixels off by more than 2/255 count among the 0.1 %
+    // alone
+    bool order;
 } loose[] = {
     // A square of 40 000 units: a float is exact to 0.002 there, and the light is 4 away. A ball touches it,
     // and with a near plane of 0.01 depth values are 0.0004 apart where that is.
@@ -57,8 +58,8 @@ static lam_device *cpu;
 static lam_device *gl[2]; // OpenGL 3.3 core, OpenGL ES 3.0; NULL: there is none
 static uint64_t pixels_of_table, covered_of_table, masked_of_table;
 
-static void draw(lam_device *device, const struct demo *demo, const lam_draw_params *params,
-                 lam_pixel_format format, lam_image *image)
+static void draw(lam_device *device, const struct demo *demo, const lam_draw_params *params, lam_pixel_format format,
+                 lam_image *image)
 {
     lam_error error = {0};
     *image = (lam_image){0};
@@ -141,8 +142,7 @@ static double pixel_size(const struct demo *demo, const lam_image *depth)
     return 2 * half / demo->height;
 }
 
-// A step in depth: where a line through two pixels misses the third by more than `limit`, all three are
-// masked.
+// A step in depth: where a line through two pixels misses the third by more than `limit`, all three are masked.
 static void mask_steps(struct mask *mask, lam_image *image, double limit)
 {
     const float *p = image->pixels;
@@ -271,10 +271,9 @@ static struct outcome compare(lam_device *device, const struct demo *demo, const
     }
     lam_image_free(&bytes);
     lam_image_free(&floats);
-    print_message(
-        "%-28s %-4s %s %6.3f %% over 1/255, worst outside %g/255, %.1e in floats, mask %4.1f %% of covered\n",
-        name, device == gl[0] ? "3.3" : "ES", good ? "  " : "!!", 100.0 * (double)o.over_1 / (double)o.pixels,
-        o.worst_outside, o.worst_float, o.covered ? 100.0 * (double)o.masked / (double)o.covered : 0);
+    print_message("%-28s %-4s %s %6.3f %% over 1/255, worst outside %g/255, %.1e in floats, mask %4.1f %% of covered\n",
+                  name, device == gl[0] ? "3.3" : "ES", good ? "  " : "!!", 100.0 * (double)o.over_1 / (double)o.pixels,
+                  o.worst_outside, o.worst_float, o.covered ? 100.0 * (double)o.masked / (double)o.covered : 0);
     return o;
 }
 

@@ -67,12 +67,12 @@ static void set(const char *name, enum state state, uint64_t of, const void *val
     known[known_count++] = (struct known){state, of, h};
 }
 
-#define SETS(name, state, of, parameters, arguments)                                                         \
-    static void APIENTRY note_##name parameters                                                              \
-    {                                                                                                        \
-        const uint64_t value[] = {VALUE arguments};                                                          \
-        set(#name, state, of, value, sizeof value);                                                          \
-        real.name arguments;                                                                                 \
+#define SETS(name, state, of, parameters, arguments)                                                                   \
+    static void APIENTRY note_##name parameters                                                                        \
+    {                                                                                                                  \
+        const uint64_t value[] = {VALUE arguments};                                                                    \
+        set(#name, state, of, value, sizeof value);                                                                    \
+        real.name arguments;                                                                                           \
     }
 #define VALUE(...) __VA_ARGS__
 SETS(BlendFunc, STATE_BLEND, 0, (GLenum a, GLenum b), (a, b))
@@ -122,26 +122,24 @@ static void APIENTRY note_BindBufferRange(GLenum a, GLuint b, GLuint c, GLintptr
     real.BindBufferRange(a, b, c, d, e);
 }
 
-#define UNIFORM(name, parameters, arguments, value, bytes)                                                   \
-    static void APIENTRY note_##name parameters                                                              \
-    {                                                                                                        \
-        set(#name, STATE_UNIFORM, (uint64_t)program_now << 32 | (uint32_t)at, value, bytes);                 \
-        real.name arguments;                                                                                 \
+#define UNIFORM(name, parameters, arguments, value, bytes)                                                             \
+    static void APIENTRY note_##name parameters                                                                        \
+    {                                                                                                                  \
+        set(#name, STATE_UNIFORM, (uint64_t)program_now << 32 | (uint32_t)at, value, bytes);                           \
+        real.name arguments;                                                                                           \
     }
 UNIFORM(Uniform1f, (GLint at, GLfloat b), (at, b), &b, sizeof b)
 UNIFORM(Uniform1i, (GLint at, GLint b), (at, b), &b, sizeof b)
 UNIFORM(Uniform4fv, (GLint at, GLsizei n, const GLfloat *c), (at, n, c), c, (size_t)n * 16)
-UNIFORM(UniformMatrix3fv, (GLint at, GLsizei n, GLboolean t, const GLfloat *d), (at, n, t, d), d,
-        (size_t)n * 36)
-UNIFORM(UniformMatrix4fv, (GLint at, GLsizei n, GLboolean t, const GLfloat *d), (at, n, t, d), d,
-        (size_t)n * 64)
+UNIFORM(UniformMatrix3fv, (GLint at, GLsizei n, GLboolean t, const GLfloat *d), (at, n, t, d), d, (size_t)n * 36)
+UNIFORM(UniformMatrix4fv, (GLint at, GLsizei n, GLboolean t, const GLfloat *d), (at, n, t, d), d, (size_t)n * 64)
 
-#define COUNT(name, counter, parameters, arguments)                                                          \
-    static void APIENTRY note_##name parameters                                                              \
-    {                                                                                                        \
-        counter++;                                                                                           \
-        calls++;                                                                                             \
-        real.name arguments;                                                                                 \
+#define COUNT(name, counter, parameters, arguments)                                                                    \
+    static void APIENTRY note_##name parameters                                                                        \
+    {                                                                                                                  \
+        counter++;                                                                                                     \
+        calls++;                                                                                                       \
+        real.name arguments;                                                                                           \
     }
 COUNT(BufferData, made, (GLenum a, GLsizeiptr b, const void *c, GLenum d), (a, b, c, d))
 COUNT(GenBuffers, made, (GLsizei a, GLuint *b), (a, b))
@@ -149,12 +147,10 @@ COUNT(GenTextures, made, (GLsizei a, GLuint *b), (a, b))
 COUNT(GenVertexArrays, made, (GLsizei a, GLuint *b), (a, b))
 COUNT(GenFramebuffers, made, (GLsizei a, GLuint *b), (a, b))
 COUNT(GenQueries, made, (GLsizei a, GLuint *b), (a, b))
-COUNT(TexImage2D, made,
-      (GLenum a, GLint b, GLint c, GLsizei d, GLsizei e, GLint f, GLenum g, GLenum h, const void *i),
+COUNT(TexImage2D, made, (GLenum a, GLint b, GLint c, GLsizei d, GLsizei e, GLint f, GLenum g, GLenum h, const void *i),
       (a, b, c, d, e, f, g, h, i))
 COUNT(TexImage3D, made,
-      (GLenum a, GLint b, GLint c, GLsizei d, GLsizei e, GLsizei f, GLint g, GLenum h, GLenum i,
-       const void *j),
+      (GLenum a, GLint b, GLint c, GLsizei d, GLsizei e, GLsizei f, GLint g, GLenum h, GLenum i, const void *j),
       (a, b, c, d, e, f, g, h, i, j))
 COUNT(LinkProgram, made, (GLuint a), (a))
 COUNT(BufferSubData, sent, (GLenum a, GLintptr b, GLsizeiptr c, const void *d), (a, b, c, d))
@@ -237,8 +233,7 @@ static lam_frame_report frame(lam_device *device, const struct demo *demo, const
 static void test_unchanged(void **state)
 {
     (void)state;
-    static const char *const names[] = {"lights", "translucent", "mirror-gouraud", "two-sides-mirrored",
-                                        "culled-back"};
+    static const char *const names[] = {"lights", "translucent", "mirror-gouraud", "two-sides-mirrored", "culled-back"};
     static const lam_stage stages[] = {LAM_STAGE_APPLICATION, LAM_STAGE_VERTEX, LAM_STAGE_FRAGMENT};
     for (int api = 0; api < 2; api++) {
         lam_device *device = start(api ? LAM_GL_ES : LAM_GL_CORE);
@@ -252,15 +247,13 @@ static void test_unchanged(void **state)
                 params.shading = way == 2 ? LAM_SHADING_PHONG : LAM_SHADING_GOURAUD;
                 frame(device, &demo, &params);
                 assert_true(drawn > 0 && (made > 0 || way > 0));
-                lam_frame_report second = frame(device, &demo, &params),
-                                 third = frame(device, &demo, &params);
+                lam_frame_report second = frame(device, &demo, &params), third = frame(device, &demo, &params);
                 if (made || sent || again || third.bytes_uploaded || third.points_lit)
-                    fail_msg("%s, stage %d: %d made, %d sent, %d set again (%s), %llu bytes", names[n], way,
-                             made, sent, again, first_again, (unsigned long long)third.bytes_uploaded);
+                    fail_msg("%s, stage %d: %d made, %d sent, %d set again (%s), %llu bytes", names[n], way, made, sent,
+                             again, first_again, (unsigned long long)third.bytes_uploaded);
                 assert_int_equal(third.memory_bytes, second.memory_bytes);
             }
-            print_message("%-20s unchanged: %d calls that draw, %d that set\n", names[n], drawn,
-                          calls - drawn);
+            print_message("%-20s unchanged: %d calls that draw, %d that set\n", names[n], drawn, calls - drawn);
             lam_scene_free(demo.scene);
         }
         lam_device_free(device);
@@ -321,8 +314,7 @@ static void test_changed(void **state)
             else if (vertex && change > 3)
                 assert_int_equal(report.bytes_uploaded, 0); // another program, or a uniform
             else if (vertex)
-                assert_true(report.bytes_uploaded > 0 &&
-                            report.bytes_uploaded < 20000); // lights and products
+                assert_true(report.bytes_uploaded > 0 && report.bytes_uploaded < 20000); // lights and products
             else
                 assert_int_equal(report.bytes_uploaded, colors);
             if (!vertex && change == 5) // the plane's stay

@@ -1,9 +1,8 @@
-// test_images.c: every demonstration scene, drawn with every instruction set and thread count, has exactly
-// the recorded bytes.
+// test_images.c: every demonstration scene, drawn with every instruction set and thread count, has exactly the recorded
+// bytes.
 //
 //   test-images              compares with tests/images/expected/
-//   test-images --update     records what the plain kernels draw now (look at the pictures before you commit
-//   them)
+//   test-images --update     records what the plain kernels draw now (look at the pictures before you commit them)
 //
 // A failure leaves NAME.actual.png and NAME.difference.png in the working directory.
 #include "scenes.h"

@@ -1,8 +1,8 @@
-// test_cover.c: coverage and depth against a pixel-by-pixel reference in 64-bit integers and double, for
-// every instruction set.
+// test_cover.c: coverage and depth against a pixel-by-pixel reference in 64-bit integers and double, for every
+// instruction set.
 //
-// The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is
-// snapped to itself.
+// The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to
+// itself.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -30,10 +30,7 @@ static uint32_t random_bits(void)
     return (uint32_t)(seed >> 33);
 }
 
-static double random_between(double low, double high)
-{
-    return low + (high - low) * (random_bits() / 2147483648.0);
-}
+static double random_between(double low, double high) { return low + (high - low) * (random_bits() / 2147483648.0); }
 
 static double on_grid(double x) { return floor(x * 256 + 0.5) / 256; }
 
@@ -128,8 +125,7 @@ static bool covers(const double *c, const int64_t p[2], double *depth)
     return true;
 }
 
-// What a pixel should show: a triangle's number, 0 for none, and whether the second is too near to call in
-// floats.
+// What a pixel should show: a triangle's number, 0 for none, and whether the second is too near to call in floats.
 struct reference {
     int number[SIZE * SIZE];
     bool close[SIZE * SIZE];
@@ -283,8 +279,7 @@ static void test_backs(void **state)
     check(&soup, true);
 }
 
-// A jittered grid of triangles covers every sample exactly once: no holes at 1, 4 and 16 samples, seen by
-// alpha.
+// A jittered grid of triangles covers every sample exactly once: no holes at 1, 4 and 16 samples, seen by alpha.
 static void test_watertight(void **state)
 {
     (void)state;
@@ -294,8 +289,7 @@ static void test_watertight(void **state)
     double cell = (double)(SIZE + 20) / CELLS;
     for (int j = 0; j <= CELLS; j++)
         for (int i = 0; i <= CELLS; i++) {
-            grid[j][i][0] =
-                i * cell - 10 + random_between(-0.4, 0.4) * cell; // off the snapping grid on purpose
+            grid[j][i][0] = i * cell - 10 + random_between(-0.4, 0.4) * cell; // off the snapping grid on purpose
             grid[j][i][1] = j * cell - 10 + random_between(-0.4, 0.4) * cell;
         }
     struct soup soup = {2 * CELLS * CELLS, malloc(2 * CELLS * CELLS * 9 * sizeof(double))};

@@ -36,8 +36,7 @@ static struct thread_state thread_of(struct fragments *f, int count)
 }
 
 // Numbers from `lowest` to `highest`, both of which occur.
-static void comes_back(const struct kernels *kernels, int samples, int count, uint32_t lowest,
-                       uint32_t highest)
+static void comes_back(const struct kernels *kernels, int samples, int count, uint32_t lowest, uint32_t highest)
 {
     struct fragments *in = calloc(1, sizeof *in), *out = calloc(1, sizeof *out);
     uint64_t seed = (uint64_t)samples + highest;

@@ -1,10 +1,9 @@
-// test_translucent.c: translucent surfaces against a reference that sorts and blends every sample's fragments
-// in double, for every instruction set and several thread counts.
+// test_translucent.c: translucent surfaces against a reference that sorts and blends every sample's fragments in
+// double, for every instruction set and several thread counts.
 //
-// The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is
-// snapped to itself. Colours are painted unlit. What is told here is told twice, in the library and below,
-// from docs/lighting.md alone. Above 600 lines: the reference in double and every way to reach it stand
-// together.
+// The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to
+// itself. Colours are painted unlit. What is told here is told twice, in the library and below, from docs/lighting.md
+// alone. Above 600 lines: the reference in double and every way to reach it stand together.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -19,8 +18,7 @@
 
 enum { SIZE = 96, SAMPLES_MAX = 16 };
 
-// Triangles, each of one colour. `opaque` ones are drawn as an object of their own whose colours have no
-// alpha below 1.
+// Triangles, each of one colour. `opaque` ones are drawn as an object of their own whose colours have no alpha below 1.
 struct soup {
     int count;
     double (*corners)[3][3]; // x, y (pixels, y down), z (larger is nearer)
@@ -30,8 +28,7 @@ struct soup {
 
 static struct soup soup_make(int count)
 {
-    struct soup soup = {count, calloc((size_t)count, sizeof *soup.corners),
-                        calloc((size_t)count, sizeof *soup.colors),
+    struct soup soup = {count, calloc((size_t)count, sizeof *soup.corners), calloc((size_t)count, sizeof *soup.colors),
                         calloc((size_t)count, sizeof *soup.opaque)};
     return soup;
 }
@@ -185,8 +182,8 @@ struct hit {
     int triangle;
 };
 
-// Farthest first; of equals the later one first, so that the first stays in front. Translucent ones come
-// before opaque ones.
+// Farthest first; of equals the later one first, so that the first stays in front. Translucent ones come before opaque
+// ones.
 static int farther(const void *a, const void *b)
 {
     const struct hit *x = a, *y = b;
@@ -281,17 +278,15 @@ static void compare(const struct reference *reference, const float *drawn, doubl
 }
 
 // Draws in every way: all the same bytes, and the reference's picture.
-static void check(const struct soup *soup, const int *order, int samples, lam_rgba background,
-                  double tolerance)
+static void check(const struct soup *soup, const int *order, int samples, lam_rgba background, double tolerance)
 {
     static float first[SIZE * SIZE * 4], other[SIZE * SIZE * 4];
     static struct reference reference;
     lam_scene *scene = scene_of(soup, order);
-    struct way way = {
-        .isa = LAM_ISA_PLAIN,
-        .threads = 1,
-        .format = LAM_RGBA32F,
-        .params = {.samples = samples, .reflection = LAM_REFLECTION_NONE, .background = background}};
+    struct way way = {.isa = LAM_ISA_PLAIN,
+                      .threads = 1,
+                      .format = LAM_RGBA32F,
+                      .params = {.samples = samples, .reflection = LAM_REFLECTION_NONE, .background = background}};
     draw(scene, &way, first);
     static const int threads[] = {1, 2, 5};
     for (int isa = LAM_ISA_PLAIN; isa < LAM_ISA_COUNT; isa++)
@@ -300,8 +295,7 @@ static void check(const struct soup *soup, const int *order, int samples, lam_rg
             way.threads = threads[t];
             draw(scene, &way, other);
             if (memcmp(first, other, sizeof first) != 0)
-                fail_msg("%s with %d threads is not what plain with one is", lam_isa_name((lam_isa)isa),
-                         threads[t]);
+                fail_msg("%s with %d threads is not what plain with one is", lam_isa_name((lam_isa)isa), threads[t]);
         }
     lam_scene_free(scene);
     refer(soup, samples, background, &reference);
@@ -342,8 +336,8 @@ static void test_random(void **state)
     }
 }
 
-// Triangles of one colour look the same under every shading method, also where a tile has more points to
-// light than there is room for at once.
+// Triangles of one colour look the same under every shading method, also where a tile has more points to light than
+// there is room for at once.
 static void test_methods(void **state)
 {
     (void)state;
@@ -353,10 +347,9 @@ static void test_methods(void **state)
     lam_scene *scene = scene_of(&soup, NULL);
     uint64_t lit = 0;
     for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++) {
-        struct way way = {
-            .threads = 2,
-            .format = LAM_RGBA32F,
-            .params = {.samples = 1, .shading = (lam_shading)shading, .reflection = LAM_REFLECTION_NONE}};
+        struct way way = {.threads = 2,
+                          .format = LAM_RGBA32F,
+                          .params = {.samples = 1, .shading = (lam_shading)shading, .reflection = LAM_REFLECTION_NONE}};
         lam_camera seen = camera();
         uint64_t points = draw_seen(scene, &seen, &way, drawn[shading]);
         lit = shading == LAM_SHADING_PHONG ? points : lit;
@@ -459,8 +452,7 @@ static void test_equal_depth(void **state)
 
 // --- bounds
 
-// Far more fragments than a thread holds: the tile is done in parts, down to few pixels, and the picture is
-// the same.
+// Far more fragments than a thread holds: the tile is done in parts, down to few pixels, and the picture is the same.
 static void test_many_layers(void **state)
 {
     (void)state;
@@ -469,8 +461,8 @@ static void test_many_layers(void **state)
     for (int i = 0; i < soup.count; i++) {
         double z = on_grid(random_between(-50, 50)), tilt = on_grid(random_between(-3, 3));
         double corners[3][3] = {{34, 40, z}, {47 + i % 5, 44, z + tilt}, {40, 55 + i % 3, z - tilt}};
-        float color[4] = {(float)random_between(0, 1), (float)random_between(0, 1),
-                          (float)random_between(0, 1), i % 100 ? 0.002f : 0.3f};
+        float color[4] = {(float)random_between(0, 1), (float)random_between(0, 1), (float)random_between(0, 1),
+                          i % 100 ? 0.002f : 0.3f};
         set(&soup, i, corners, color, false);
     }
     static float first[SIZE * SIZE * 4], other[SIZE * SIZE * 4];
@@ -490,12 +482,11 @@ static void test_many_layers(void **state)
         assert_memory_equal(first, other, sizeof first);
     }
     refer(&soup, 4, (lam_rgba){0, 0, 0, 0}, &reference);
-    // So many layers lie closer together than floats tell here and there: two that change places move a pixel
-    // by less than their alphas' product.
+    // So many layers lie closer together than floats tell here and there: two that change places move a pixel by less
+    // than their alphas' product.
     for (int i = 0; i < SIZE * SIZE; i++)
         for (int c = 0; c < 4; c++)
-            assert_true(fabs((double)first[4 * i + c] - reference.pixel[i][c]) <
-                        (reference.close[i] ? 1e-3 : 1e-5));
+            assert_true(fabs((double)first[4 * i + c] - reference.pixel[i][c]) < (reference.close[i] ? 1e-3 : 1e-5));
     assert_true(first[4 * (SIZE * 45 + 40) + 3] > 0.99f);
     lam_scene_free(scene);
     soup_free(&soup);
@@ -587,8 +578,8 @@ static int add_square(lam_scene *scene, const float corners[4][3], const float a
     return lam_scene_add_mesh(scene, &mesh, error);
 }
 
-// A slanted ground that reaches behind the eye is clipped into pieces whose seams cross the picture: each
-// sample still gets each triangle once, and a pixel on a seam is lit once.
+// A slanted ground that reaches behind the eye is clipped into pieces whose seams cross the picture: each sample still
+// gets each triangle once, and a pixel on a seam is lit once.
 static void test_clipped(void **state)
 {
     (void)state;
@@ -612,8 +603,7 @@ static void test_clipped(void **state)
             object.mesh = add_square(scene, corners, (float[4]){alpha, alpha, alpha, alpha}, &error);
             object.material = lam_scene_add_material(scene, &material, &error);
             assert_true(lam_scene_add_object(scene, &object, &error) >= 0);
-            struct way way = {
-                .threads = 2, .format = LAM_RGBA32F, .params = {.reflection = LAM_REFLECTION_NONE}};
+            struct way way = {.threads = 2, .format = LAM_RGBA32F, .params = {.reflection = LAM_REFLECTION_NONE}};
             lit[i] = draw_seen(scene, &seen, &way, drawn[i]);
             lam_scene_free(scene);
         }
@@ -643,15 +633,14 @@ static void test_shading(void **state)
     for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++) {
         draw(
             scene,
-            &(struct way){
-                .threads = 1,
-                .format = LAM_RGBA32F,
-                .params = {.samples = 1, .shading = (lam_shading)shading, .reflection = LAM_REFLECTION_NONE}},
+            &(struct way){.threads = 1,
+                          .format = LAM_RGBA32F,
+                          .params = {.samples = 1, .shading = (lam_shading)shading, .reflection = LAM_REFLECTION_NONE}},
             drawn);
         for (int y = 20; y < 76; y++)
             for (int x = 20; x < 76; x++) {
-                // Flat: the last vertex's colour; the lower triangle (y up) ends in a corner of alpha 1, the
-                // upper in one of 0.
+                // Flat: the last vertex's colour; the lower triangle (y up) ends in a corner of alpha 1, the upper in
+                // one of 0.
                 bool lower = x - 16 > 79 - y, edge_pixel = abs((x - 16) - (79 - y)) < 2;
                 double expected = 0.5 * (shading == LAM_SHADING_FLAT ? lower : (x + 0.5 - 16) / 64);
                 const float *pixel = drawn + 4 * (y * SIZE + x);
@@ -684,18 +673,16 @@ static void test_sides(void **state)
         object.back_material = lam_scene_add_material(scene, swapped ? &solid : &clear, &error);
         object.cull = culled ? LAM_CULL_BACK : LAM_CULL_NONE;
         assert_true(lam_scene_add_object(scene, &object, &error) >= 0);
-        draw(
-            scene,
-            &(struct way){.threads = 1, .format = LAM_RGBA32F, .params = {.reflection = LAM_REFLECTION_NONE}},
-            drawn);
+        draw(scene, &(struct way){.threads = 1, .format = LAM_RGBA32F, .params = {.reflection = LAM_REFLECTION_NONE}},
+             drawn);
         float expected = culled && back ? 0 : back != swapped ? 0.25f : 1;
         assert_true(drawn[4 * (48 * SIZE + 48) + 3] == expected);
         lam_scene_free(scene);
     }
 }
 
-// Colours that could be clear but are not: as the opaque picture, and one clear colour that nothing uses
-// changes nothing.
+// Colours that could be clear but are not: as the opaque picture, and one clear colour that nothing uses changes
+// nothing.
 static void test_as_opaque(void **state)
 {
     (void)state;
@@ -762,13 +749,11 @@ static void test_straight(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random),      cmocka_unit_test(test_methods),
-        cmocka_unit_test(test_order),       cmocka_unit_test(test_intersecting),
-        cmocka_unit_test(test_cyclic),      cmocka_unit_test(test_equal_depth),
-        cmocka_unit_test(test_many_layers), cmocka_unit_test(test_limit),
-        cmocka_unit_test(test_memory),      cmocka_unit_test(test_clipped),
-        cmocka_unit_test(test_shading),     cmocka_unit_test(test_sides),
-        cmocka_unit_test(test_as_opaque),   cmocka_unit_test(test_straight),
+        cmocka_unit_test(test_random),       cmocka_unit_test(test_methods),  cmocka_unit_test(test_order),
+        cmocka_unit_test(test_intersecting), cmocka_unit_test(test_cyclic),   cmocka_unit_test(test_equal_depth),
+        cmocka_unit_test(test_many_layers),  cmocka_unit_test(test_limit),    cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_clipped),      cmocka_unit_test(test_shading),  cmocka_unit_test(test_sides),
+        cmocka_unit_test(test_as_opaque),    cmocka_unit_test(test_straight),
     };
     return cmocka_run_group_tests_name("translucent", tests, NULL, NULL);
 }

@@ -11,8 +11,8 @@ struct points {
     float in[INPUTS][POINTS], out[OUTPUTS][POINTS];
 };
 
-// Points about the origin of a scene 4 units in front of the eye, lights 0.5 to 10 away, everything a program
-// may ask for: normals and tangents of any length, the exponents of the project's accuracy promise in turn.
+// Points about the origin of a scene 4 units in front of the eye, lights 0.5 to 10 away, everything a program may ask
+// for: normals and tangents of any length, the exponents of the project's accuracy promise in turn.
 static inline void points_fill(struct points *p, uint64_t seed)
 {
     static const float exponents[] = {0, 1, 27.8f, 50, 128, 500, 1000, 10000};

@@ -1,9 +1,8 @@
-// test_equations.c: src/lighting against the textbook version in double (textbook.c): random points, then
-// every degenerate case that the conventions name.
+// test_equations.c: src/lighting against the textbook version in double (textbook.c): random points, then every
+// degenerate case that the conventions name.
 //
-// The promise: each term within 2e-6 + 4e-7·α of its largest value. Where a light's own law enlarges the last
-// digits of the cosine it is given (a spot's exponent, a narrow cone), that factor is added, as
-// docs/lighting.md says.
+// The promise: each term within 2e-6 + 4e-7·α of its largest value. Where a light's own law enlarges the last digits of
+// the cosine it is given (a spot's exponent, a narrow cone), that factor is added, as docs/lighting.md says.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -52,9 +51,8 @@ static void compare(const struct points *p, const struct modes *m, int i)
         return;
     if (kajiya && t.tangent_sine < 0.3)
         return;
-    if (m->model == MODEL_BLINN_PHONG &&
-        t.half_length < 0.1) {       // light from straight behind: what is left of l + v
-        lobe *= 0.1 / t.half_length; // is the roundings of l and v
+    if (m->model == MODEL_BLINN_PHONG && t.half_length < 0.1) { // light from straight behind: what is left of l + v
+        lobe *= 0.1 / t.half_length;                            // is the roundings of l and v
         base *= 0.1 / t.half_length;
     }
 
@@ -85,8 +83,7 @@ static void compare(const struct points *p, const struct modes *m, int i)
         if (!(error <= allowed[k]))
             fail_msg("output %d of point %d, kind %d falloff %d model %d fibre %d alpha %g: %.9g, textbook "
                      "%.9g, allowed %g",
-                     k, i, m->kind, m->falloff, m->model, m->fibre, alpha, (double)p->out[k][i], t.out[k],
-                     allowed[k]);
+                     k, i, m->kind, m->falloff, m->model, m->fibre, alpha, (double)p->out[k][i], t.out[k], allowed[k]);
         if (allowed[k] > 0 && error / allowed[k] > worst[k])
             worst[k] = error / allowed[k];
     }
@@ -265,8 +262,7 @@ static void test_known_answers(void **state)
     plain_point(in); // head on, light at the eye: everything 1
     for (int model = MODEL_PHONG; model <= MODEL_BLINN_PHONG; model++) {
         light_one(&(struct modes){LIGHT_POINT, FALLOFF_NONE, model, 0, 0}, in, out);
-        assert_true(out[OUT_D] == 1 && out[OUT_S] == 1 && out[OUT_DISTANCE] == 4 &&
-                    out[OUT_ATTENUATION] == 1);
+        assert_true(out[OUT_D] == 1 && out[OUT_S] == 1 && out[OUT_DISTANCE] == 4 && out[OUT_ATTENUATION] == 1);
     }
     in[IN_QUADRATIC] = 0.2f; // the lecture's 1, 0.54, 0.2 at distance 4: 1/(1 + 2.16 + 3.2)
     in[IN_LINEAR] = 0.54f;

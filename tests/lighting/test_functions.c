@@ -1,6 +1,6 @@
-// test_functions.c: power, exp2, log2, inverse root and the sRGB curves against libm in double, to the errors
-// that functions.h and encoding.h promise, and at their edges. Every width gives the same bits
-// (test_widths.c), so one is enough here.
+// test_functions.c: power, exp2, log2, inverse root and the sRGB curves against libm in double, to the errors that
+// functions.h and encoding.h promise, and at their edges. Every width gives the same bits (test_widths.c), so one is
+// enough here.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -32,8 +32,8 @@ static float of(enum function function, float a, float b)
     return out[0];
 }
 
-// The largest relative error of base^exponent over bases with bits first, first + step, … last, where the
-// true result is a normal number.
+// The largest relative error of base^exponent over bases with bits first, first + step, … last, where the true result
+// is a normal number.
 static double power_error(enum function function, float first, float last, uint32_t step, float exponent)
 {
     static float base[BLOCK], exponents[BLOCK], out[BLOCK];
@@ -80,9 +80,8 @@ static void test_power(void **state)
         }
         over = fmax(over, power_error(FUNCTION_POWER, 1, 0x1.fffffep127f, 4099, e));
     }
-    print_message(
-        "power: largest relative error %.3g up to exponent 128, %.3g beyond, %.3g for bases over 1\n", low,
-        high, over);
+    print_message("power: largest relative error %.3g up to exponent 128, %.3g beyond, %.3g for bases over 1\n", low,
+                  high, over);
     assert_true(low > 1e-7 && low <= 2e-6);
     assert_true(high <= 3e-6);
     assert_true(over <= 3e-6);
@@ -145,8 +144,7 @@ static void test_exp2_and_log2(void **state)
         for (int i = 0; i < BLOCK; i++)
             exp2_error = fmax(exp2_error, fabs((double)out[i] / exp2((double)x[i]) - 1));
         for (int i = 0; i < BLOCK; i++)
-            x[i] =
-                i % 2 ? float_of_bits(0x800000 + random_bits(&r) % 0x7f000000) : random_between(&r, 0.5f, 2);
+            x[i] = i % 2 ? float_of_bits(0x800000 + random_bits(&r) % 0x7f000000) : random_between(&r, 0.5f, 2);
         one_lane()->apply(FUNCTION_LOG2, x, x, out, BLOCK);
         for (int i = 0; i < BLOCK; i++) {
             double want = log2((double)x[i]), error = fabs((double)out[i] - want);
@@ -156,8 +154,7 @@ static void test_exp2_and_log2(void **state)
                 log2_relative = fmax(log2_relative, error / fabs(want));
         }
     }
-    print_message("exp2 %.3g; log2 %.3g absolute up to 1, %.3g relative\n", exp2_error, log2_absolute,
-                  log2_relative);
+    print_message("exp2 %.3g; log2 %.3g absolute up to 1, %.3g relative\n", exp2_error, log2_absolute, log2_relative);
     assert_true(exp2_error <= 2.5e-7);
     assert_true(log2_absolute <= 1.2e-7);
     assert_true(log2_relative <= 2e-7);
@@ -178,8 +175,7 @@ static void test_inverse_root(void **state)
     (void)state;
     static float x[BLOCK], out[BLOCK];
     double worst = 0;
-    for (uint32_t bits = bits_of_float(1); bits < bits_of_float(4);
-         bits += 3 * BLOCK) { // two binades: all there is
+    for (uint32_t bits = bits_of_float(1); bits < bits_of_float(4); bits += 3 * BLOCK) { // two binades: all there is
         for (uint32_t i = 0; i < BLOCK; i++)
             x[i] = float_of_bits(bits + 3 * i);
         one_lane()->apply(FUNCTION_INVERSE_ROOT, x, x, out, BLOCK);
@@ -189,8 +185,8 @@ static void test_inverse_root(void **state)
     struct random r = {11};
     for (int round = 0; round < 100; round++) {
         for (int i = 0; i < BLOCK; i++)
-            x[i] = float_of_bits(bits_of_float(1e-30f) +
-                                 random_bits(&r) % (bits_of_float(1e30f) - bits_of_float(1e-30f)));
+            x[i] =
+                float_of_bits(bits_of_float(1e-30f) + random_bits(&r) % (bits_of_float(1e30f) - bits_of_float(1e-30f)));
         one_lane()->apply(FUNCTION_INVERSE_ROOT, x, x, out, BLOCK);
         for (int i = 0; i < BLOCK; i++)
             worst = fmax(worst, fabs((double)out[i] * sqrt((double)x[i]) - 1));
@@ -241,9 +237,8 @@ static void test_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_power),        cmocka_unit_test(test_power_edges),
-        cmocka_unit_test(test_no_denormals), cmocka_unit_test(test_exp2_and_log2),
-        cmocka_unit_test(test_inverse_root), cmocka_unit_test(test_srgb),
+        cmocka_unit_test(test_power),         cmocka_unit_test(test_power_edges),  cmocka_unit_test(test_no_denormals),
+        cmocka_unit_test(test_exp2_and_log2), cmocka_unit_test(test_inverse_root), cmocka_unit_test(test_srgb),
         cmocka_unit_test(test_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
-// test_known_scenes.c: scene files with a mesh that carries normals and tangents, drawn as linear floats,
-// against the textbook's sums over the same triangles: rays through the pixels' centres, in double, written
-// without a look at the renderer.
+// test_known_scenes.c: scene files with a mesh that carries normals and tangents, drawn as linear floats, against the
+// textbook's sums over the same triangles: rays through the pixels' centres, in double, written without a look at the
+// renderer.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -11,14 +11,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-enum {
-    W = 96,
-    H = 72,
-    AROUND = 14,
-    ALONG = 9,
-    VERTICES = (AROUND + 1) * (ALONG + 1),
-    TRIANGLES = 2 * AROUND * ALONG
-};
+enum { W = 96, H = 72, AROUND = 14, ALONG = 9, VERTICES = (AROUND + 1) * (ALONG + 1), TRIANGLES = 2 * AROUND * ALONG };
 
 typedef struct vec {
     double x, y, z;
@@ -29,10 +22,7 @@ static vec add(vec a, vec b) { return of(a.x + b.x, a.y + b.y, a.z + b.z); }
 static vec sub(vec a, vec b) { return of(a.x - b.x, a.y - b.y, a.z - b.z); }
 static vec times(vec a, double s) { return of(a.x * s, a.y * s, a.z * s); }
 static double dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static vec cross(vec a, vec b)
-{
-    return of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
+static vec cross(vec a, vec b) { return of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
 static vec unit(vec a) { return times(a, 1 / sqrt(dot(a, a))); }
 static vec each(vec a, vec b) { return of(a.x * b.x, a.y * b.y, a.z * b.z); }
 
@@ -48,8 +38,8 @@ static void make_mesh(void)
     static const char *const names[9] = {"x", "y", "z", "nx", "ny", "nz", "tx", "ty", "tz"};
     for (int i = 0; i < 9; i++)
         used += (size_t)sprintf(ply + used, "property float %s\n", names[i]);
-    used += (size_t)sprintf(
-        ply + used, "element face %d\nproperty list uchar int vertex_indices\nend_header\n", TRIANGLES);
+    used +=
+        (size_t)sprintf(ply + used, "element face %d\nproperty list uchar int vertex_indices\nend_header\n", TRIANGLES);
     for (int j = 0; j <= ALONG; j++)
         for (int i = 0; i <= AROUND; i++) {
             double theta = 0.5 + 2.1 * j / ALONG, phi = 4.4 * i / AROUND;
@@ -173,9 +163,8 @@ static vec lit(const struct known *k, vec p, vec n, vec t, bool back)
             S = nl > 0 ? pow(fmax(sine_l * sine_v - dot(t, l) * dot(t, v), 0), shininess) : 0;
         }
         sum = add(sum, each(ka, light->ambient));
-        sum =
-            add(sum, times(add(times(each(diffuse, light->diffuse), D), times(each(ks, light->specular), S)),
-                           reach * cone));
+        sum = add(sum, times(add(times(each(diffuse, light->diffuse), D), times(each(ks, light->specular), S)),
+                             reach * cone));
     }
     return sum;
 }
@@ -208,8 +197,7 @@ static int hit(const struct world *w, vec way, double weights[3])
 
 static vec mix(const vec *of_corners, const int *c, const double *b)
 {
-    return add(add(times(of_corners[c[0]], b[0]), times(of_corners[c[1]], b[1])),
-               times(of_corners[c[2]], b[2]));
+    return add(add(times(of_corners[c[0]], b[0]), times(of_corners[c[1]], b[1])), times(of_corners[c[2]], b[2]));
 }
 
 static vec expected(const struct known *k, const struct world *w, int i, const double b[3])
@@ -238,10 +226,9 @@ static void add_light(const struct light *l)
     char *at = scene_text + strlen(scene_text);
     at += sprintf(at, "{\"type\": \"%s\", \"frame\": \"%s\", ", types[l->law], l->frame);
     if (l->law != DIRECTIONAL)
-        at += sprintf(
-            at,
-            "\"position\": [%.17g, %.17g, %.17g], \"attenuation\": [%.17g, %.17g, %.17g], \"range\": %.17g, ",
-            l->at.x, l->at.y, l->at.z, l->attenuation.x, l->attenuation.y, l->attenuation.z, l->range);
+        at += sprintf(at,
+                      "\"position\": [%.17g, %.17g, %.17g], \"attenuation\": [%.17g, %.17g, %.17g], \"range\": %.17g, ",
+                      l->at.x, l->at.y, l->at.z, l->attenuation.x, l->attenuation.y, l->attenuation.z, l->range);
     if (l->law != POINT)
         at += sprintf(at, "\"direction\": [%.17g, %.17g, %.17g], ", l->way.x, l->way.y, l->way.z);
     if (l->law == CUTOFF)
@@ -306,8 +293,7 @@ static void compare(const struct known *k)
         const float *c = corner[i];
         w.p[i] = point_out(k, of((double)c[0], (double)c[1], (double)c[2]));
         w.n[i] = normal_out(k, of((double)c[3], (double)c[4], (double)c[5]));
-        w.t[i] = unit(
-            direction_out(k, of((double)c[6], (double)c[7], (double)c[8]))); // as a vertex shader hands it on
+        w.t[i] = unit(direction_out(k, of((double)c[6], (double)c[7], (double)c[8]))); // as a vertex shader hands it on
     }
     w.sign = k->scale.x * k->scale.y * k->scale.z < 0 ? -1 : 1;
     vec x, y, z;
@@ -316,8 +302,7 @@ static void compare(const struct known *k)
     int counted = 0;
     for (int j = 0; j < H; j++)
         for (int i = 0; i < W; i++) {
-            double b[3] = {0}, px = (2 * (i + 0.5) / W - 1) * half * W / H,
-                   py = (1 - 2 * (j + 0.5) / H) * half;
+            double b[3] = {0}, px = (2 * (i + 0.5) / W - 1) * half * W / H, py = (1 - 2 * (j + 0.5) / H) * half;
             int t = hit(&w, sub(add(times(x, px), times(y, py)), z), b);
             const float *got = (const float *)image.pixels + 4 * (j * W + i);
             // Coverage is decided on snapped corners: a pixel at an edge may show its neighbour.
@@ -342,16 +327,10 @@ static void compare(const struct known *k)
     lam_scene_free(scene);
 }
 
-#define WHITE                                                                                                \
-    {                                                                                                        \
-        1, 1, 1                                                                                              \
-    }
-#define STRAIGHT .scale = WHITE, .two_sided = true
-#define PLAIN    .attenuation = {1, 0, 0}, .diffuse = WHITE, .specular = WHITE
-#define FROM_POINT                                                                                           \
-    {                                                                                                        \
-        POINT, "world", .at = {2, 3, 4}, PLAIN                                                               \
-    }
+#define WHITE      {1, 1, 1}
+#define STRAIGHT   .scale = WHITE, .two_sided = true
+#define PLAIN      .attenuation = {1, 0, 0}, .diffuse = WHITE, .specular = WHITE
+#define FROM_POINT {POINT, "world", .at = {2, 3, 4}, PLAIN}
 
 static void test_known_scenes(void **unused)
 {
@@ -371,27 +350,20 @@ static void test_known_scenes(void **unused)
         {"directional, phong", STRAIGHT, .model = PHONG,
          .lights = {{DIRECTIONAL, "world", .way = {-1, -2, -1.5}, PLAIN}}, .light_count = 1},
         {"spot, cutoff", STRAIGHT,
-         .lights = {{CUTOFF, "world", {0.5, 2, 2.5}, {-0.2, -0.9, -1.1}, PLAIN, .a = 40, .b = 8}},
-         .light_count = 1},
+         .lights = {{CUTOFF, "world", {0.5, 2, 2.5}, {-0.2, -0.9, -1.1}, PLAIN, .a = 40, .b = 8}}, .light_count = 1},
         {"spot, cones, camera", STRAIGHT,
          .lights = {{CONES, "camera", {0.3, 0.2, 0}, {0, 0, -1}, PLAIN, .a = 5, .b = 18}}, .light_count = 1},
-        {"spot in the object's frame", .move = {0.2, -0.1, 0.3}, .turn = 35, .scale = {1.2, 0.7, 1},
-         .two_sided = true,
-         .lights = {{CONES, "object", {0, 1, 2.5}, {0, -0.3, -1}, PLAIN, .a = 10, .b = 30}},
-         .light_count = 1},
-        {"non-uniform scale, two lights", .move = {0, 0.1, 0}, .turn = -50, .scale = {0.6, 1.3, 1.1},
-         .two_sided = true,
+        {"spot in the object's frame", .move = {0.2, -0.1, 0.3}, .turn = 35, .scale = {1.2, 0.7, 1}, .two_sided = true,
+         .lights = {{CONES, "object", {0, 1, 2.5}, {0, -0.3, -1}, PLAIN, .a = 10, .b = 30}}, .light_count = 1},
+        {"non-uniform scale, two lights", .move = {0, 0.1, 0}, .turn = -50, .scale = {0.6, 1.3, 1.1}, .two_sided = true,
          .lights = {FROM_POINT,
-                    {DIRECTIONAL, "camera", .way = {1, -1, -1}, .diffuse = {0.2, 0.3, 0.6},
-                     .specular = {0.3, 0, 0}}},
+                    {DIRECTIONAL, "camera", .way = {1, -1, -1}, .diffuse = {0.2, 0.3, 0.6}, .specular = {0.3, 0, 0}}},
          .light_count = 2},
-        {"mirrored", .turn = 20, .scale = {1, -1.2, 1}, .two_sided = true, .lights = {FROM_POINT},
-         .light_count = 1},
-        {"one-sided", .turn = 100, .scale = WHITE, .two_sided = false, .lights = {FROM_POINT},
-         .light_count = 1},
+        {"mirrored", .turn = 20, .scale = {1, -1.2, 1}, .two_sided = true, .lights = {FROM_POINT}, .light_count = 1},
+        {"one-sided", .turn = 100, .scale = WHITE, .two_sided = false, .lights = {FROM_POINT}, .light_count = 1},
         {"gouraud", STRAIGHT, .method = GOURAUD, .turn = 60, .lights = {FROM_POINT}, .light_count = 1},
-        {"flat", .method = FLAT, .turn = 60, .scale = {1, 1.2, 0.8}, .two_sided = true,
-         .lights = {FROM_POINT}, .light_count = 1},
+        {"flat", .method = FLAT, .turn = 60, .scale = {1, 1.2, 0.8}, .two_sided = true, .lights = {FROM_POINT},
+         .light_count = 1},
         {"flat, mirrored", .method = FLAT, .scale = {-1, 1.2, 0.8}, .two_sided = true, .lights = {FROM_POINT},
          .light_count = 1},
         {"lambert", STRAIGHT, .model = LAMBERT, .lights = {FROM_POINT}, .light_count = 1},

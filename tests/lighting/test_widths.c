@@ -1,5 +1,5 @@
-// test_widths.c: every width and instruction set gives the same bits, on ordinary numbers and on any bit
-// pattern; and so does every compiler and build type: one recorded hash over all results.
+// test_widths.c: every width and instruction set gives the same bits, on ordinary numbers and on any bit pattern; and
+// so does every compiler and build type: one recorded hash over all results.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -15,8 +15,8 @@
 #define LANES 1
 #include "lighting.h"
 
-// Over all results below. It changes when an equation or a function changes its last bits, and never
-// otherwise: then look at test_functions and test_equations first, and record the new one.
+// Over all results below. It changes when an equation or a function changes its last bits, and never otherwise: then
+// look at test_functions and test_equations first, and record the new one.
 #define RECORDED_HASH 0x36f8132e3d431d0au
 
 enum { WIDTHS_MAX = 16, NUMBERS = 1 << 16 };
@@ -136,8 +136,7 @@ static uint64_t hash_of_lighting(uint64_t hash)
                 hash = hash_of(hash, first->out[0], OUTPUTS * POINTS);
                 for (int w = 1; w < count; w++) {
                     points_light(p, widths[w], &m);
-                    assert_same(first->out[0], p->out[0], OUTPUTS * POINTS, widths[w]->name,
-                                kind * 10 + model);
+                    assert_same(first->out[0], p->out[0], OUTPUTS * POINTS, widths[w]->name, kind * 10 + model);
                 }
             }
         }
@@ -156,8 +155,7 @@ static void test_same_bits(void **state)
                  (unsigned long long)RECORDED_HASH);
 }
 
-// Every width finds the same numbers, bit for bit, and touches nothing behind the last one: there the page
-// ends.
+// Every width finds the same numbers, bit for bit, and touches nothing behind the last one: there the page ends.
 static void test_gather(void **state)
 {
     (void)state;

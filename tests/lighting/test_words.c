@@ -1,6 +1,5 @@
-// test_words.c: the dialect of src/lighting is as small as it says, each of its words means the same in C and
-// exists in GLSL, and the whole text is accepted as GLSL 120, 330 and 300 es by the reference compiler
-// (glslangValidator).
+// test_words.c: the dialect of src/lighting is as small as it says, each of its words means the same in C and exists in
+// GLSL, and the whole text is accepted as GLSL 120, 330 and 300 es by the reference compiler (glslangValidator).
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -35,8 +34,8 @@ static int near(float a, float b) { return fabsf(a - b) <= 1e-6f * fabsf(b); }
 static void test_meaning_in_c(void **state)
 {
     (void)state;
-#define WORD(name, use, truth)                                                                               \
-    if (!(truth))                                                                                            \
+#define WORD(name, use, truth)                                                                                         \
+    if (!(truth))                                                                                                      \
         fail_msg("in C the word %s does not mean: %s", #name, #truth);
 #include "words.h"
 #undef WORD
@@ -90,8 +89,7 @@ static int is_equation(char *const texts[EQUATION_FILES], const char *name, size
     return 0;
 }
 
-// What the dialect leaves out. What both languages know and use otherwise (discard, texture…) falls to the
-// words' list.
+// What the dialect leaves out. What both languages know and use otherwise (discard, texture…) falls to the words' list.
 static const char *const forbidden[] = {"[",     "]",        "->",   "?",       "%",      "|",     "++",
                                         "--",    "#include", "#if",  "static",  "const ", "float", "double",
                                         "while", "switch",   "goto", "sampler", "sizeof", "inout"};
@@ -127,15 +125,13 @@ static void test_dialect_is_closed(void **state)
                         fail_msg("%s: literal %.12s has no f", equation_files[i], c);
                 }
                 size_t gap = strspn(c + length, " ");
-                int is_keyword = (length == 2 && memcmp(c, "if", 2) == 0) ||
-                                 (length == 3 && memcmp(c, "for", 3) == 0) ||
-                                 (length == 6 && memcmp(c, "STRUCT", 6) == 0) ||
-                                 (length == 6 && memcmp(c, "return", 6) == 0);
+                int is_keyword =
+                    (length == 2 && memcmp(c, "if", 2) == 0) || (length == 3 && memcmp(c, "for", 3) == 0) ||
+                    (length == 6 && memcmp(c, "STRUCT", 6) == 0) || (length == 6 && memcmp(c, "return", 6) == 0);
                 if (c[length + gap] == '(' && !is_keyword && !is_number) {
                     calls++;
                     if (!is_word(c, length) && !is_equation(texts, c, length))
-                        fail_msg("%s calls %.*s, which is no word and no equation", equation_files[i],
-                                 (int)length, c);
+                        fail_msg("%s calls %.*s, which is no word and no equation", equation_files[i], (int)length, c);
                 }
             }
         }
@@ -199,8 +195,7 @@ static void test_glsl_is_accepted(void **state)
 {
     (void)state;
     if (system("glslangValidator --version > /dev/null 2>&1") != 0) {
-        print_message(
-            "glslangValidator (package glslang-tools) is not installed: the GLSL text was not checked\n");
+        print_message("glslangValidator (package glslang-tools) is not installed: the GLSL text was not checked\n");
         skip();
     }
     static const char *const versions[] = {"330 core", "300 es", "120"};

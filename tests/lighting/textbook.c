@@ -20,10 +20,7 @@ static vector minus(vector a, vector b) { return plus(a, times(-1, b)); }
 static int none(vector a) { return length(a) < 1e-9; }
 static vector normalize(vector a) { return none(a) ? (vector){0, 0, 0} : times(1 / length(a), a); }
 static double limit(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
-static double raise(double base, double exponent)
-{
-    return exponent == 0 ? 1 : base <= 0 ? 0 : pow(base, exponent);
-}
+static double raise(double base, double exponent) { return exponent == 0 ? 1 : base <= 0 ? 0 : pow(base, exponent); }
 
 static void put(double *out, vector a)
 {
@@ -69,8 +66,7 @@ struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]
 
     vector p = take(in + IN_POINT), n = normalize(take(in + IN_NORMAL)), tangent = take(in + IN_TANGENT);
     vector t = normalize(minus(tangent, times(inner(tangent, n), n)));
-    result.tangent_sine =
-        none(tangent) ? 0 : length(minus(tangent, times(inner(tangent, n), n))) / length(tangent);
+    result.tangent_sine = none(tangent) ? 0 : length(minus(tangent, times(inner(tangent, n), n))) / length(tangent);
     vector v = modes->viewer == VIEWER_INFINITE ? (vector){0, 0, 1} : normalize(times(-1, p));
 
     vector l, axis = take(in + IN_DIRECTION);

@@ -1,5 +1,5 @@
-// textbook.h: the lighting equations in double precision, written from docs/lighting.md with libm and on its
-// own, to judge src/lighting by. One point, one light.
+// textbook.h: the lighting equations in double precision, written from docs/lighting.md with libm and on its own, to
+// judge src/lighting by. One point, one light.
 #ifndef TEXTBOOK_H
 #define TEXTBOOK_H
 

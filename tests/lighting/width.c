@@ -1,5 +1,5 @@
-// width.c: the functions and equations at one width. Compiled once for each: LANES, WIDTH_NAME and
-// WIDTH_FEATURES are given by the build.
+// width.c: the functions and equations at one width. Compiled once for each: LANES, WIDTH_NAME and WIDTH_FEATURES are
+// given by the build.
 #include "widths.h"
 
 #include "cpu_features.h"
@@ -57,12 +57,11 @@ static void store3(float *const out[], int at, int i, vec3 v)
     num_store(out[at + 2] + i, v.z);
 }
 
-static void light(const struct modes *modes, const float *const in[INPUTS], float *const out[OUTPUTS],
-                  int count)
+static void light(const struct modes *modes, const float *const in[INPUTS], float *const out[OUTPUTS], int count)
 {
     for (int i = 0; i < count; i += LANES) {
-        surface s = surface_at(load3(in, IN_POINT, i), load3(in, IN_NORMAL, i), load3(in, IN_TANGENT, i),
-                               modes->viewer);
+        surface s =
+            surface_at(load3(in, IN_POINT, i), load3(in, IN_NORMAL, i), load3(in, IN_TANGENT, i), modes->viewer);
         source l;
         l.position = load3(in, IN_POSITION, i);
         l.direction = load3(in, IN_DIRECTION, i);

@@ -76,14 +76,12 @@ struct width {
     const char *name;
     int features; // of cpu_features.h, that it needs to run
     void (*apply)(enum function function, const float *a, const float *b, float *out, int count);
-    void (*light)(const struct modes *modes, const float *const in[INPUTS], float *const out[OUTPUTS],
-                  int count);
+    void (*light)(const struct modes *modes, const float *const in[INPUTS], float *const out[OUTPUTS], int count);
     // Three neighbours from each of `count` places, `stride` numbers apart, into three arrays.
     void (*gather)(const float *from, const uint32_t *at, int stride, float *const out[3], int count);
 };
 
-// Compiled into this program; those that this processor cannot run are left out. The first has one lane,
-// plain C.
+// Compiled into this program; those that this processor cannot run are left out. The first has one lane, plain C.
 int widths_usable(const struct width *usable[], int room);
 
 #endif

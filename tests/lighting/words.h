@@ -1,6 +1,6 @@
-// words.h: the words of the equations' dialect. WORD(name, use, truth): a GLSL expression of type float that
-// uses the word, and a C expression that is true when the word means what it should. A new word is a row
-// here, a line in prelude_c.h (or lanes.h, functions.h) and a line in prelude.glsl.
+// words.h: the words of the equations' dialect. WORD(name, use, truth): a GLSL expression of type float that uses the
+// word, and a C expression that is true when the word means what it should. A new word is a row here, a line in
+// prelude_c.h (or lanes.h, functions.h) and a line in prelude.glsl.
 
 WORD(num_of, num_of(a), num_of(2.0f) == 2.0f)
 WORD(vec3_of, vec3_of(a, b, a).y, vec3_of(1, 2, 3).x == 1 && vec3_of(1, 2, 3).z == 3)
@@ -24,12 +24,10 @@ WORD(lesser, lesser(a, b), lesser(1, 2) == 1 && lesser(2, 1) == 1 && lesser(NAN,
 WORD(greater, greater(a, b), greater(1, 2) == 2 && greater(2, 1) == 2 && greater(NAN, 1) == 1)
 WORD(absolute, absolute(a), absolute(-2) == 2 && absolute(2) == 2)
 WORD(positive, positive(a), positive(-2) == 0 && positive(2) == 2 && positive(NAN) == 0)
-WORD(saturate, saturate(a),
-     saturate(-2) == 0 && saturate(2) == 1 && saturate(0.5f) == 0.5f && saturate(NAN) == 0)
+WORD(saturate, saturate(a), saturate(-2) == 0 && saturate(2) == 1 && saturate(0.5f) == 0.5f && saturate(NAN) == 0)
 WORD(root, root(a), root(9) == 3 && root(0) == 0)
 WORD(inverse_root, inverse_root(a), near(inverse_root(16), 0.25f) && 0 * inverse_root(0) == 0)
 WORD(log2_of, log2_of(a), log2_of(8) == 3 && log2_of(0) == -126)
 WORD(exp2_of, exp2_of(a), exp2_of(3) == 8 && exp2_of(-200) == 0 && exp2_of(300) < INFINITY)
 WORD(power, power(a, b), near(power(3, 2), 9) && power(0, 0) == 1 && power(0, 2) == 0)
-WORD(unit_power, unit_power(a, b),
-     near(unit_power(0.5f, 2), 0.25f) && unit_power(2, 3) == 1 && unit_power(-1, 0) == 1)
+WORD(unit_power, unit_power(a, b), near(unit_power(0.5f, 2), 0.25f) && unit_power(2, 3) == 1 && unit_power(-1, 0) == 1)

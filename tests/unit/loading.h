@@ -43,8 +43,7 @@ static inline void put_u32(struct made *file, uint32_t n) { put_number(file, &n,
 static inline void put_f32(struct made *file, float n) { put_number(file, &n, sizeof n); }
 static inline void put_f64(struct made *file, double n) { put_number(file, &n, sizeof n); }
 
-static inline lam_scene *load_with(const void *bytes, size_t size, const char *name,
-                                   const lam_load_params *params)
+static inline lam_scene *load_with(const void *bytes, size_t size, const char *name, const lam_load_params *params)
 {
     lam_error error = {0};
     lam_scene *scene = lam_scene_load_memory(bytes, size, name, params, NULL, &error);
@@ -65,8 +64,7 @@ static inline lam_scene *load_text(const char *text, const char *name)
 }
 
 // The load must fail with this code and this whole sentence.
-static inline void refuse(const void *bytes, size_t size, const char *name, lam_code code,
-                          const char *sentence)
+static inline void refuse(const void *bytes, size_t size, const char *name, lam_code code, const char *sentence)
 {
     lam_error error = {0};
     lam_scene *scene = lam_scene_load_memory(bytes, size, name, NULL, NULL, &error);
@@ -85,12 +83,10 @@ static inline lam_vec3 corner_at(const lam_mesh *mesh, uint32_t triangle, uint32
 {
     uint32_t i = 3 * triangle + corner;
     const float *p = mesh->positions + 3 * (size_t)(mesh->indices ? mesh->indices[i] : i);
-    return (lam_vec3){mesh->origin[0] + (double)p[0], mesh->origin[1] + (double)p[1],
-                      mesh->origin[2] + (double)p[2]};
+    return (lam_vec3){mesh->origin[0] + (double)p[0], mesh->origin[1] + (double)p[1], mesh->origin[2] + (double)p[2]};
 }
 
-static inline void assert_corner(const lam_mesh *mesh, uint32_t triangle, uint32_t corner, double x, double y,
-                                 double z)
+static inline void assert_corner(const lam_mesh *mesh, uint32_t triangle, uint32_t corner, double x, double y, double z)
 {
     lam_vec3 p = corner_at(mesh, triangle, corner);
     assert_true(p.x == x && p.y == y && p.z == z);
@@ -145,8 +141,7 @@ static inline void check_prefixes(const void *bytes, size_t size, const char *na
 {
     for (size_t length = 0; length <= size; length++) {
         lam_error error = {0};
-        lam_scene *scene =
-            lam_scene_load_memory(bytes, length, name, &(lam_load_params){.threads = 1}, NULL, &error);
+        lam_scene *scene = lam_scene_load_memory(bytes, length, name, &(lam_load_params){.threads = 1}, NULL, &error);
         assert_true(scene || (error.code && error.text[0]));
         assert_true(scene || length < size);
         lam_scene_free(scene);
@@ -161,8 +156,7 @@ static inline void check_allocations(const void *bytes, size_t size, const char 
         assert_true(countdown < 1000);
         lam_error error = {0};
         arena_fail_after(countdown);
-        lam_scene *scene =
-            lam_scene_load_memory(bytes, size, name, &(lam_load_params){.threads = 1}, NULL, &error);
+        lam_scene *scene = lam_scene_load_memory(bytes, size, name, &(lam_load_params){.threads = 1}, NULL, &error);
         arena_fail_after(-1);
         if (!scene)
             assert_int_equal(error.code, LAM_LIMIT);

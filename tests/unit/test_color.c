@@ -65,10 +65,10 @@ static void colors_in_every_form(void **state)
 static void wrong_colors_are_told(void **state)
 {
     (void)state;
-    static const char *const wrong[] = {
-        "",        "#",      "#1",      "#12",     "#1234", "#12345", "#1234567", "#123456789",
-        "#gggggg", "whit",   "whitee",  "1",       "1/2",   "1/2/",   "1/2/3/",   "1/2/3/4/5",
-        "1/2/3/2", "-1/0/0", "nan/0/0", "inf/0/0", "1/2/x", "1 /2/3", " white",   "255,0,0"};
+    static const char *const wrong[] = {"",         "#",          "#1",      "#12",       "#1234",   "#12345",
+                                        "#1234567", "#123456789", "#gggggg", "whit",      "whitee",  "1",
+                                        "1/2",      "1/2/",       "1/2/3/",  "1/2/3/4/5", "1/2/3/2", "-1/0/0",
+                                        "nan/0/0",  "inf/0/0",    "1/2/x",   "1 /2/3",    " white",  "255,0,0"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         lam_rgba color;
         lam_error error = {0};
@@ -106,8 +106,7 @@ static void normals_made_anew(void **state)
     assert_false(lam_scene_make_normals(scene, LAM_NORMALS_SMOOTH, 4, 0, NULL, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     lam_cancel cancel = {1};
-    assert_false(
-        lam_scene_make_normals(scene, LAM_NORMALS_SMOOTH, 0, 0, &(lam_control){.cancel = &cancel}, &error));
+    assert_false(lam_scene_make_normals(scene, LAM_NORMALS_SMOOTH, 0, 0, &(lam_control){.cancel = &cancel}, &error));
     assert_int_equal(error.code, LAM_CANCELLED);
     lam_scene_free(scene);
 }

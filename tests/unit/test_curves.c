@@ -61,8 +61,7 @@ static void highlight(void **state)
     for (int i = 0; i < 5; i++)
         for (double a = 0; a < 1.55; a += 0.05) {
             double alpha = (double)alphas[i];
-            near(lam_highlight_at(LAM_REFLECTION_PHONG, alphas[i], a), pow(cos(a), alpha),
-                 2e-7 * (alpha + 5));
+            near(lam_highlight_at(LAM_REFLECTION_PHONG, alphas[i], a), pow(cos(a), alpha), 2e-7 * (alpha + 5));
             near(lam_highlight_at(LAM_REFLECTION_BLINN_PHONG, alphas[i], a), pow(cos(a / 2), alpha),
                  2e-7 * (alpha + 5));
         }

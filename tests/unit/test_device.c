@@ -1,5 +1,4 @@
-// test_device.c: the front of the devices: arguments, control, sharing, memory, the caller's floating-point
-// state.
+// test_device.c: the front of the devices: arguments, control, sharing, memory, the caller's floating-point state.
 #include "scenes.h"
 
 #include "float_state.h"
@@ -188,10 +187,8 @@ static void test_float_state(void **state)
     _mm_setcsr(odd);
     struct demo again;
     bool built = demo_build_named("lights", &again, NULL);
-    lam_device *made_here =
-        lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL); // its threads inherit the state
-    bool drawn =
-        built && made_here && lam_draw(made_here, again.scene, &again.camera, NULL, &after, NULL, NULL);
+    lam_device *made_here = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL); // its threads inherit the state
+    bool drawn = built && made_here && lam_draw(made_here, again.scene, &again.camera, NULL, &after, NULL, NULL);
     unsigned left = _mm_getcsr();
     _mm_setcsr(own);
     assert_true(drawn);
@@ -307,19 +304,18 @@ static lam_scene *load_sheet(bool when_drawn, bool clear)
     size_t used = 0;
     for (int j = 0; j <= SIDE; j++)
         for (int i = 0; i <= SIDE; i++)
-            used +=
-                (size_t)snprintf(text + used, sizeof text - used, "v %d.%02d %d %d\n", i / 10,
-                                 i % 10 * 7 % 100, (i * i * 7 + j * 3) % 5 + (j > 30 ? 3 * j - 90 : 0), j);
+            used += (size_t)snprintf(text + used, sizeof text - used, "v %d.%02d %d %d\n", i / 10, i % 10 * 7 % 100,
+                                     (i * i * 7 + j * 3) % 5 + (j > 30 ? 3 * j - 90 : 0), j);
     for (int j = 0; j < SIDE; j++)
         for (int i = 0; i < SIDE; i++) {
             int a = j * (SIDE + 1) + i + 1;
-            used += (size_t)snprintf(text + used, sizeof text - used, "f %d %d %d %d\n", a, a + SIDE + 1,
-                                     a + SIDE + 2, a + 1);
+            used += (size_t)snprintf(text + used, sizeof text - used, "f %d %d %d %d\n", a, a + SIDE + 1, a + SIDE + 2,
+                                     a + 1);
         }
     lam_error error = {0};
     lam_scene *scene = lam_scene_load_memory(
-        text, used, "sheet.obj",
-        &(lam_load_params){.normals_when_drawn = when_drawn, .crease_angle_rad = 0.6}, NULL, &error);
+        text, used, "sheet.obj", &(lam_load_params){.normals_when_drawn = when_drawn, .crease_angle_rad = 0.6}, NULL,
+        &error);
     if (!scene)
         fail_msg("%s", error.text);
     assert_int_equal(lam_scene_mesh(scene, 0)->normals == NULL, when_drawn);
@@ -358,8 +354,7 @@ static void test_normals_when_drawn(void **state)
         }
         lam_frame_report report;
         lam_device_report(device, &report);
-        bool asked =
-            params.shading != LAM_SHADING_FLAT || params.flat_normal == LAM_FLAT_NORMAL_VERTEX || i >= 12;
+        bool asked = params.shading != LAM_SHADING_FLAT || params.flat_normal == LAM_FLAT_NORMAL_VERTEX || i >= 12;
         assert_true((report.normals_ms > 0) == asked);
         // Made after all, they are the scene's, and the picture stays.
         assert_true(lam_scene_make_normals(scenes[1], LAM_NORMALS_FILE, 0, 1, NULL, NULL));
@@ -372,8 +367,8 @@ static void test_normals_when_drawn(void **state)
         lam_scene *again = load_sheet(true, clear);
         lam_error error = {0};
         lam_device *fresh = make_device(2);
-        assert_false(lam_draw(fresh, again, &camera, &params, &images[1],
-                              &(lam_control){.memory_limit_bytes = 100000}, &error));
+        assert_false(
+            lam_draw(fresh, again, &camera, &params, &images[1], &(lam_control){.memory_limit_bytes = 100000}, &error));
         assert_int_equal(error.code, LAM_LIMIT);
         lam_device_free(fresh);
         lam_device_free(device);

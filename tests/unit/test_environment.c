@@ -25,10 +25,7 @@ static vec add(vec a, vec b) { return of(a.x + b.x, a.y + b.y, a.z + b.z); }
 static vec sub(vec a, vec b) { return of(a.x - b.x, a.y - b.y, a.z - b.z); }
 static vec times(vec a, double s) { return of(a.x * s, a.y * s, a.z * s); }
 static double dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static vec cross(vec a, vec b)
-{
-    return of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
+static vec cross(vec a, vec b) { return of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
 static vec unit(vec a) { return times(a, 1 / sqrt(dot(a, a))); }
 
 // --- cubes of pictures, and their reference in double
@@ -54,20 +51,18 @@ static int face_of(vec d, double *sc, double *tc, double *ma)
 // The same backwards: the direction with those three numbers on a face.
 static vec direction_on(int face, double sc, double tc, double ma)
 {
-    const vec table[6] = {{ma, -tc, -sc}, {-ma, -tc, sc}, {sc, ma, tc},
-                          {sc, -ma, -tc}, {sc, -tc, ma},  {-sc, -tc, -ma}};
+    const vec table[6] = {{ma, -tc, -sc}, {-ma, -tc, sc}, {sc, ma, tc}, {sc, -ma, -tc}, {sc, -tc, ma}, {-sc, -tc, -ma}};
     return table[face];
 }
 
 static vec texel(const struct cube *cube, int face, int s, int t)
 {
-    const float *p =
-        (const float *)cube->faces[face].pixels + 4 * ((size_t)t * (size_t)cube->size + (size_t)s);
+    const float *p = (const float *)cube->faces[face].pixels + 4 * ((size_t)t * (size_t)cube->size + (size_t)s);
     return of((double)p[0], (double)p[1], (double)p[2]);
 }
 
-// Texel (s, t), which may lie one beyond an edge: then it is the nearest one on the face there; beyond a
-// corner the average.
+// Texel (s, t), which may lie one beyond an edge: then it is the nearest one on the face there; beyond a corner the
+// average.
 static vec any_texel(const struct cube *cube, int face, int s, int t)
 {
     int n = cube->size;
@@ -76,11 +71,11 @@ static vec any_texel(const struct cube *cube, int face, int s, int t)
         return texel(cube, face, s, t);
     int in_s = s < 0 ? 0 : s >= n ? n - 1 : s, in_t = t < 0 ? 0 : t >= n ? n - 1 : t;
     if (out_s && out_t)
-        return times(add(add(texel(cube, face, in_s, in_t), any_texel(cube, face, s, in_t)),
-                         any_texel(cube, face, in_s, t)),
-                     1 / 3.0);
-    double sc = out_s ? (s < 0 ? -1 : 1) : (2 * s + 1.0) / n - 1,
-           tc = out_t ? (t < 0 ? -1 : 1) : (2 * t + 1.0) / n - 1, ma;
+        return times(
+            add(add(texel(cube, face, in_s, in_t), any_texel(cube, face, s, in_t)), any_texel(cube, face, in_s, t)),
+            1 / 3.0);
+    double sc = out_s ? (s < 0 ? -1 : 1) : (2 * s + 1.0) / n - 1, tc = out_t ? (t < 0 ? -1 : 1) : (2 * t + 1.0) / n - 1,
+           ma;
     vec d = direction_on(face, sc, tc, 1 - 1.0 / n);
     face = face_of(d, &sc, &tc, &ma);
     return texel(cube, face, (int)floor((sc / ma + 1) / 2 * n), (int)floor((tc / ma + 1) / 2 * n));
@@ -95,8 +90,7 @@ static vec look(const struct cube *cube, vec d)
     u -= s;
     v -= t;
     vec upper = add(times(any_texel(cube, face, s, t), 1 - u), times(any_texel(cube, face, s + 1, t), u));
-    vec lower =
-        add(times(any_texel(cube, face, s, t + 1), 1 - u), times(any_texel(cube, face, s + 1, t + 1), u));
+    vec lower = add(times(any_texel(cube, face, s, t + 1), 1 - u), times(any_texel(cube, face, s + 1, t + 1), u));
     return add(times(upper, 1 - v), times(lower, v));
 }
 
@@ -152,10 +146,7 @@ static double apart(lam_rgb a, vec b)
     return fmax(r, fmax(g, bl));
 }
 
-static lam_rgb look_at(const lam_environment *e, vec d)
-{
-    return lam_environment_look(e, (lam_vec3){d.x, d.y, d.z});
-}
+static lam_rgb look_at(const lam_environment *e, vec d) { return lam_environment_look(e, (lam_vec3){d.x, d.y, d.z}); }
 
 static void test_lookup_equals_reference(void **state)
 {
@@ -247,8 +238,8 @@ static vec vertex(const float *list, uint32_t i)
     return of((double)list[3 * i], (double)list[3 * i + 1], (double)list[3 * i + 2]);
 }
 
-// Where a ray meets a mesh first, well within a triangle: point and interpolated normal. False: nowhere, or
-// near an edge.
+// Where a ray meets a mesh first, well within a triangle: point and interpolated normal. False: nowhere, or near an
+// edge.
 static bool meet(const lam_mesh *mesh, vec from, vec along, vec *point, vec *normal)
 {
     double nearest = HUGE_VAL;
@@ -266,16 +257,14 @@ static bool meet(const lam_mesh *mesh, vec from, vec along, vec *point, vec *nor
             continue;
         vec s = sub(from, a);
         q = cross(s, u);
-        double b = dot(s, h) / determinant, c = dot(along, q) / determinant,
-               distance = dot(w, q) / determinant;
+        double b = dot(s, h) / determinant, c = dot(along, q) / determinant, distance = dot(w, q) / determinant;
         if (b < -1e-3 || c < -1e-3 || b + c > 1 + 1e-3 || distance > nearest)
             continue;
         nearest = distance;
         sure = b > 1e-2 && c > 1e-2 && b + c < 1 - 1e-2;
         *point = add(from, times(along, distance));
-        *normal =
-            unit(add(times(vertex(mesh->normals, own[0]), 1 - b - c),
-                     add(times(vertex(mesh->normals, own[1]), b), times(vertex(mesh->normals, own[2]), c))));
+        *normal = unit(add(times(vertex(mesh->normals, own[0]), 1 - b - c),
+                           add(times(vertex(mesh->normals, own[1]), b), times(vertex(mesh->normals, own[2]), c))));
     }
     return sure;
 }
@@ -288,8 +277,7 @@ static void check_ball(const struct ball *ball)
     lam_environment *environment = environment_of(&cube);
     lam_scene *scene = lam_scene_make(&error);
     lam_object object = lam_object_default();
-    object.mesh =
-        lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 24, .stacks = 12}, &error);
+    object.mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 24, .stacks = 12}, &error);
     lam_material mirror = {.diffuse = {0, 0, 0, 1}, .reflectivity = {0.9f, 0.8f, 0.7f}};
     object.material = lam_scene_add_material(scene, &mirror, &error);
     lam_scene_add_object(scene, &object, &error);
@@ -345,8 +333,7 @@ static void check_ball(const struct ball *ball)
     }
     assert_true(count > 3 * SIDE * SIDE / 3);
     if (getenv("LAMBENT_TEST_TELL"))
-        print_message("# at most %g, mean %g, light's r %g over %d numbers\n", most, sum / count,
-                      wrong / count, count);
+        print_message("# at most %g, mean %g, light's r %g over %d numbers\n", most, sum / count, wrong / count, count);
     if (most > 5e-4 || sum / count > 5e-6)
         fail_msg("%g at most, %g on average, expected 5e-4 and 5e-6", most, sum / count);
     assert_true(wrong / count > 0.05);
@@ -400,8 +387,7 @@ static void test_crosses(void **state)
                                         {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {1, 3}}};
     for (int stands = 0; stands < 2; stands++) {
         lam_image cross_image = {0};
-        assert_true(
-            lam_image_make(&cross_image, N * (stands ? 3 : 4), N * (stands ? 4 : 3), LAM_RGBA32F, NULL));
+        assert_true(lam_image_make(&cross_image, N * (stands ? 3 : 4), N * (stands ? 4 : 3), LAM_RGBA32F, NULL));
         memset(cross_image.pixels, 0xff, (size_t)12 * N * N * 16); // NaN: nobody looks outside of the cross
         for (int face = 0; face < 6; face++) {
             for (int t = 0; t < N; t++) {
@@ -468,8 +454,7 @@ static void write_16(const char *path, const uint16_t pixels[3])
     spng_ctx *spng = spng_ctx_new(SPNG_CTX_ENCODER);
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
-    struct spng_ihdr header = {
-        .width = 1, .height = 1, .bit_depth = 16, .color_type = SPNG_COLOR_TYPE_TRUECOLOR};
+    struct spng_ihdr header = {.width = 1, .height = 1, .bit_depth = 16, .color_type = SPNG_COLOR_TYPE_TRUECOLOR};
     spng_set_png_file(spng, file);
     spng_set_ihdr(spng, &header);
     assert_int_equal(spng_encode_image(spng, pixels, 6, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE), 0);
@@ -495,8 +480,7 @@ static void test_files_of_16_bits(void **state)
     }
     for (int mode = 0; mode < 2; mode++) {
         lam_error error = {0};
-        lam_environment *e =
-            lam_environment_load_faces(paths, mode ? LAM_COLOR_RAW : LAM_COLOR_SRGB, NULL, &error);
+        lam_environment *e = lam_environment_load_faces(paths, mode ? LAM_COLOR_RAW : LAM_COLOR_SRGB, NULL, &error);
         if (!e)
             fail_msg("%s", error.text);
         for (int face = 0; face < 6; face++) {
@@ -530,8 +514,8 @@ static void test_real_files(void **state)
         skip();
     }
     for (int face = 0; face < 6; face++) {
-        snprintf(names[face], sizeof names[face], "%s/env/noon_grass_cube/%s.png",
-                 models ? models : "../shared/models", sides[face]);
+        snprintf(names[face], sizeof names[face], "%s/env/noon_grass_cube/%s.png", models ? models : "../shared/models",
+                 sides[face]);
         paths[face] = names[face];
     }
     lam_error error = {0};
@@ -560,8 +544,7 @@ static void test_built_in(void **state)
         assert_non_null(e);
         double bright = 0, dark = 1e9;
         for (int i = 0; i < 20000; i++) {
-            lam_rgb c =
-                look_at(e, of(random_number() * 2 - 1, random_number() * 2 - 1, random_number() * 2 - 1));
+            lam_rgb c = look_at(e, of(random_number() * 2 - 1, random_number() * 2 - 1, random_number() * 2 - 1));
             bright = fmax(bright, (double)c.g);
             dark = fmin(dark, (double)c.g);
         }
@@ -594,16 +577,14 @@ static void test_refusals(void **state)
     const float bad[3] = {NAN, -1e-3f, INFINITY};
     for (int i = 0; i < 3; i++) {
         pixel[4 * 5 + 1] = bad[i];
-        refused(lam_environment_make(faces, LAM_COLOR_RAW, &error), &error, LAM_BAD_ARGUMENT,
-                "face +Y: pixel 1, 1");
+        refused(lam_environment_make(faces, LAM_COLOR_RAW, &error), &error, LAM_BAD_ARGUMENT, "face +Y: pixel 1, 1");
     }
     pixel[4 * 5 + 1] = 0;
     lam_image odd = {0};
     assert_true(lam_image_make(&odd, 5, 4, LAM_RGBA8, NULL));
     memset(odd.pixels, 0, 80);
     faces[4] = &odd;
-    refused(lam_environment_make(faces, LAM_COLOR_RAW, &error), &error, LAM_UNSUPPORTED,
-            "face +Z: 5×4 pixels");
+    refused(lam_environment_make(faces, LAM_COLOR_RAW, &error), &error, LAM_UNSUPPORTED, "face +Z: 5×4 pixels");
     refused(lam_environment_from_image(&odd, LAM_COLOR_RAW, &error), &error, LAM_UNSUPPORTED,
             "5×4 pixels, expected a cross");
     refused(lam_environment_from_image(NULL, LAM_COLOR_RAW, &error), &error, LAM_BAD_ARGUMENT, "missing");
@@ -611,8 +592,8 @@ static void test_refusals(void **state)
     refused(lam_environment_make(faces, LAM_COLOR_RAW, &error), &error, LAM_BAD_ARGUMENT, "missing");
     refused(lam_environment_make(NULL, LAM_COLOR_RAW, &error), &error, LAM_BAD_ARGUMENT, "no faces");
     refused(lam_environment_built_in("heaven", &error), &error, LAM_BAD_ARGUMENT, "heaven");
-    refused(lam_environment_load("no-such-picture.hdr", LAM_COLOR_SRGB, NULL, &error), &error,
-            LAM_CANNOT_READ, "no-such-picture.hdr");
+    refused(lam_environment_load("no-such-picture.hdr", LAM_COLOR_SRGB, NULL, &error), &error, LAM_CANNOT_READ,
+            "no-such-picture.hdr");
     lam_scene *scene = lam_scene_make(&error);
     assert_false(lam_scene_set_environment(scene, NULL, (double)NAN, &error));
     assert_true(lam_scene_set_environment(scene, NULL, 0, &error));

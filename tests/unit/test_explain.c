@@ -38,20 +38,16 @@ static void add(float sum[3], lam_rgb x)
     sum[2] += x.b;
 }
 
-static void assert_rgb(lam_rgb told, const float expected[3])
-{
-    assert_memory_equal(&told, expected, sizeof told);
-}
+static void assert_rgb(lam_rgb told, const float expected[3]) { assert_memory_equal(&told, expected, sizeof told); }
 
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 static int reflections; // points whose reflection term was checked and is not 0
 
-static void check_light(const lam_explanation *e, const lam_explained_fragment *f,
-                        const lam_explained_point *p, const lam_explained_light *l)
+static void check_light(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
+                        const lam_explained_light *l)
 {
-    bool thread =
-        e->reflection == LAM_REFLECTION_KAJIYA_KAY || e->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    bool thread = e->reflection == LAM_REFLECTION_KAJIYA_KAY || e->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
     float weak = l->attenuation * l->spot;
     for (int c = 0; c < 3; c++) {
         float kd = (&f->surface.diffuse.r)[c] * (&l->diffuse.r)[c],
@@ -85,8 +81,8 @@ static void check_light(const lam_explanation *e, const lam_explained_fragment *
 }
 
 // The mirrored eye vector, what the environment gives from there, and what becomes of it.
-static void check_environment(const lam_explanation *e, const lam_explained_fragment *f,
-                              const lam_explained_point *p, const lam_environment *environment)
+static void check_environment(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
+                              const lam_environment *environment)
 {
     assert_true(e->has_environment == (environment != NULL));
     bool looks = environment && e->reflection != LAM_REFLECTION_NONE && dot(p->n, p->n) > 0;
@@ -110,8 +106,8 @@ static void check_environment(const lam_explanation *e, const lam_explained_frag
         assert_true((&p->reflection.r)[c] == (&f->surface.reflectivity.r)[c] * (&light.r)[c]);
 }
 
-static void check_point(const lam_explanation *e, const lam_explained_fragment *f,
-                        const lam_explained_point *p, const lam_environment *environment)
+static void check_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
+                        const lam_environment *environment)
 {
     check_environment(e, f, p, environment);
     if (e->reflection != LAM_REFLECTION_NONE) {
@@ -143,10 +139,7 @@ static void check_point(const lam_explanation *e, const lam_explained_fragment *
     assert_true(fabs(dot(p->v, p->v) - 1) < 1e-5 || dot(p->v, p->v) == 0);
 }
 
-static float between(const float w[3], float a, float b, float c)
-{
-    return a + ((b - a) * w[1] + (c - a) * w[2]);
-}
+static float between(const float w[3], float a, float b, float c) { return a + ((b - a) * w[1] + (c - a) * w[2]); }
 
 static void check_fragment(const lam_explanation *e, const lam_explained_fragment *f,
                            const lam_environment *environment)
@@ -167,8 +160,8 @@ static void check_fragment(const lam_explanation *e, const lam_explained_fragmen
 static void check_numbers(const lam_explanation *e, const lam_environment *environment)
 {
     float sum[4] = {0};
-    bool layered = false; // then each sample is blended by itself, and the sum of the shares is the same but
-                          // for rounding
+    // then each sample is blended by itself, and the sum of the shares is the same but for rounding
+    bool layered = false;
     for (int i = 0; i < e->fragment_count; i++) {
         const lam_explained_fragment *f = &e->fragments[i];
         check_fragment(e, f, environment);
@@ -189,8 +182,7 @@ static void check_numbers(const lam_explanation *e, const lam_environment *envir
     assert_memory_equal(&e->sum, sum, sizeof sum);
     for (int c = 0; c < 3; c++) {
         float clear = 1 - sum[3], straight = e->result.a > 0 ? (&e->result.r)[c] / e->result.a : 0;
-        assert_true((&e->result.r)[c] ==
-                    sum[c] * e->exposure + clear * ((&e->background.r)[c] * e->background.a));
+        assert_true((&e->result.r)[c] == sum[c] * e->exposure + clear * ((&e->background.r)[c] * e->background.a));
         assert_true((&e->straight.r)[c] == straight);
         assert_int_equal(e->bytes[c], (int)floorf((&e->encoded.r)[c] * 255 + 0.5f));
     }
@@ -202,8 +194,8 @@ static void check_pixel(lam_device *device, const struct demo *demo, const lam_i
                         const char *name)
 {
     lam_error error = {0};
-    lam_explanation *e = lam_explain(device, demo->scene, &demo->camera, &demo->params, image->width,
-                                     image->height, image->format, x, y, NULL, &error);
+    lam_explanation *e = lam_explain(device, demo->scene, &demo->camera, &demo->params, image->width, image->height,
+                                     image->format, x, y, NULL, &error);
     if (!e)
         fail_msg("%s: %s", name, error.text);
     size_t size = image->format == LAM_RGBA8 ? 4 : 16;
@@ -218,14 +210,12 @@ static void check_pixel(lam_device *device, const struct demo *demo, const lam_i
 static int alpha_of(const lam_image *image, int x, int y)
 {
     size_t at = 4 * ((size_t)y * (size_t)image->width + (size_t)x) + 3;
-    float alpha =
-        image->format == LAM_RGBA8 ? ((uint8_t *)image->pixels)[at] / 255.0f : ((float *)image->pixels)[at];
+    float alpha = image->format == LAM_RGBA8 ? ((uint8_t *)image->pixels)[at] / 255.0f : ((float *)image->pixels)[at];
     return alpha == 0 ? 0 : alpha < 1 ? 1 : 2;
 }
 
 // Some pixels of each kind: without, with a part of, and full of triangles.
-static void check_pixels(lam_device *drawing, lam_device *explaining, const struct demo *demo,
-                         const char *name)
+static void check_pixels(lam_device *drawing, lam_device *explaining, const struct demo *demo, const char *name)
 {
     lam_image image = {0};
     lam_error error = {0};
@@ -327,8 +317,7 @@ static void test_ways(void **state)
     lam_device_free(device);
 }
 
-// A picture full of one surface: each pixel of a tile is one fragment, and stands in no sum while it is
-// drawn.
+// A picture full of one surface: each pixel of a tile is one fragment, and stands in no sum while it is drawn.
 static void test_filled(void **state)
 {
     (void)state;
@@ -336,8 +325,7 @@ static void test_filled(void **state)
     struct demo demo = {.width = 130, .height = 130, .camera = lam_camera_default()};
     demo.scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
-    object.mesh =
-        lam_scene_add_shape(demo.scene, "sphere", &(lam_shape_params){.slices = 200, .stacks = 100}, NULL);
+    object.mesh = lam_scene_add_shape(demo.scene, "sphere", &(lam_shape_params){.slices = 200, .stacks = 100}, NULL);
     assert_true(lam_scene_add_object(demo.scene, &object, NULL) >= 0);
     demo.camera.eye = (lam_vec3){0, 0.3, 1.2};
     demo.camera.target = (lam_vec3){0, 0, 0};

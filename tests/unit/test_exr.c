@@ -99,8 +99,7 @@ static void test_layers(void **state)
     lam_error error = {0};
     if (!encode(layers, 4, &bytes))
         return;
-    static const char *const names[] = {"R",         "G",         "B",       "A",    "diffuse.R",
-                                        "diffuse.G", "diffuse.B", "depth.Z", "n.l.Y"};
+    static const char *const names[] = {"R", "G", "B", "A", "diffuse.R", "diffuse.G", "diffuse.B", "depth.Z", "n.l.Y"};
     for (int i = 0; i < 9; i++)
         assert_true(contains(bytes, names[i]));
     assert_false(contains(bytes, "diffuse.A"));

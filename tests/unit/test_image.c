@@ -1,5 +1,4 @@
-// test_image.c: pictures in memory, their files other than how PNG is packed, comparison, and every way to
-// fail.
+// test_image.c: pictures in memory, their files other than how PNG is packed, comparison, and every way to fail.
 #include <lambent/image.h>
 
 #include <math.h>
@@ -124,8 +123,7 @@ static void makes_within_limits(void **state)
     expect_error(lam_image_make(&image, 5, -1, LAM_RGBA8, &error), &error, LAM_BAD_ARGUMENT, "5×-1");
     expect_error(lam_image_make(&image, 65536, 5, LAM_RGBA8, &error), &error, LAM_LIMIT, "65535");
     expect_error(lam_image_make(&image, 5, 2147483647, LAM_RGBA8, &error), &error, LAM_LIMIT, "65535");
-    expect_error(lam_image_make(&image, 5, 5, (lam_pixel_format)7, &error), &error, LAM_BAD_ARGUMENT,
-                 "format 7");
+    expect_error(lam_image_make(&image, 5, 5, (lam_pixel_format)7, &error), &error, LAM_BAD_ARGUMENT, "format 7");
     expect_error(lam_image_make(NULL, 5, 5, LAM_RGBA8, &error), &error, LAM_BAD_ARGUMENT, "image");
     assert_false(lam_image_make(&image, 0, 0, LAM_RGBA8, NULL));
     assert_null(image.pixels);
@@ -142,10 +140,8 @@ static void names_pick_formats(void **state)
     assert_int_equal(format, LAM_RGBA8);
     assert_true(lam_image_format_for("x.y.pfm", &format, NULL));
     assert_int_equal(format, LAM_RGBA32F);
-    expect_error(lam_image_format_for("a.jpg", &format, &error), &error, LAM_UNSUPPORTED,
-                 ".png, .ppm, .pfm or .exr");
-    expect_error(lam_image_format_for("a.pngg", &format, &error), &error, LAM_UNSUPPORTED,
-                 "did you mean .png");
+    expect_error(lam_image_format_for("a.jpg", &format, &error), &error, LAM_UNSUPPORTED, ".png, .ppm, .pfm or .exr");
+    expect_error(lam_image_format_for("a.pngg", &format, &error), &error, LAM_UNSUPPORTED, "did you mean .png");
     expect_error(lam_image_format_for("dir.png/a", &format, &error), &error, LAM_UNSUPPORTED, "no ending");
     expect_error(lam_image_format_for(NULL, &format, &error), &error, LAM_BAD_ARGUMENT, "path");
 }
@@ -156,11 +152,9 @@ static void encode_checks_its_arguments(void **state)
     lam_image bytes = bytes_picture(3, 2), floats = floats_picture(3, 2), none = {0};
     lam_bytes out = {&out, 5};
     lam_error error;
-    expect_error(lam_image_encode(&bytes, "gif", NULL, &out, &error), &error, LAM_UNSUPPORTED,
-                 "png, ppm, pfm or exr");
+    expect_error(lam_image_encode(&bytes, "gif", NULL, &out, &error), &error, LAM_UNSUPPORTED, "png, ppm, pfm or exr");
     assert_null(out.data);
-    expect_error(lam_image_encode(&bytes, "pfm", NULL, &out, &error), &error, LAM_BAD_ARGUMENT,
-                 "LAM_RGBA32F");
+    expect_error(lam_image_encode(&bytes, "pfm", NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "LAM_RGBA32F");
     expect_error(lam_image_encode(&floats, "png", NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "LAM_RGBA8");
     expect_error(lam_image_encode(&floats, "ppm", NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "PPM");
     expect_error(lam_image_encode(&none, "png", NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "pixels");
@@ -404,16 +398,14 @@ static void refusals_say_why(void **state)
         write_file(in_folder("r"), cases[i].content, strlen(cases[i].content));
         expect_error(lam_image_load(&image, in_folder("r"), &error), &error, cases[i].code, cases[i].words);
     }
-    expect_error(lam_image_load(&image, in_folder("absent.png"), &error), &error, LAM_CANNOT_READ,
-                 "absent.png");
+    expect_error(lam_image_load(&image, in_folder("absent.png"), &error), &error, LAM_CANNOT_READ, "absent.png");
     expect_error(lam_image_load(&image, folder, &error), &error, LAM_CANNOT_READ, "directory");
     expect_error(lam_image_load(&image, NULL, &error), &error, LAM_BAD_ARGUMENT, "path");
 
     // A PNG of 57 bytes that claims 60000×60000 pixels: told before memory is asked for.
-    static const uint8_t bomb[] = {137, 80, 78, 71, 13, 10,   26,   10,   0,    0, 0,    13,
-                                   73,  72, 68, 82, 0,  0,    0xEA, 0x60, 0,    0, 0xEA, 0x60,
-                                   8,   6,  0,  0,  0,  0x1D, 0x3E, 0x8E, 0x51, 0, 0,    0,
-                                   0,   73, 68, 65, 84, 0x35, 0xAF, 0x06, 0x1E};
+    static const uint8_t bomb[] = {137,  80,   78,   71,   13,   10, 26, 10,   0,    0,  0,  13,   73,   72,   68,
+                                   82,   0,    0,    0xEA, 0x60, 0,  0,  0xEA, 0x60, 8,  6,  0,    0,    0,    0x1D,
+                                   0x3E, 0x8E, 0x51, 0,    0,    0,  0,  73,   68,   65, 84, 0x35, 0xAF, 0x06, 0x1E};
     write_file(in_folder("bomb.png"), bomb, sizeof bomb);
     assert_false(lam_image_load(&image, in_folder("bomb.png"), &error));
     assert_int_equal(error.code, LAM_CANNOT_READ);
@@ -428,31 +420,27 @@ static void writes_whole_or_not_at_all(void **state)
     lam_error error;
     expect_error(lam_image_save(&image, in_folder("a.pfm"), NULL, &error), &error, LAM_BAD_ARGUMENT, "PFM");
     expect_error(lam_image_save(&image, in_folder("a.bmp"), NULL, &error), &error, LAM_UNSUPPORTED, ".bmp");
-    expect_error(lam_image_save(&image, in_folder("sub/a.png"), NULL, &error), &error, LAM_CANNOT_WRITE,
-                 "sub/a.png");
+    expect_error(lam_image_save(&image, in_folder("sub/a.png"), NULL, &error), &error, LAM_CANNOT_WRITE, "sub/a.png");
     expect_error(lam_image_save(&image, NULL, NULL, &error), &error, LAM_BAD_ARGUMENT, "path");
     assert_int_equal(files_in_folder(), 0);
 
     // A full device behind a link that ends in .png.
     if (access("/dev/full", W_OK) == 0) {
         assert_int_equal(symlink("/dev/full", in_folder("full.png")), 0);
-        expect_error(lam_image_save(&image, in_folder("full.png"), NULL, &error), &error, LAM_CANNOT_WRITE,
-                     "full.png");
+        expect_error(lam_image_save(&image, in_folder("full.png"), NULL, &error), &error, LAM_CANNOT_WRITE, "full.png");
         assert_int_equal(files_in_folder(), 1);
         unlink(in_folder("full.png"));
     }
     // A folder in the way.
     assert_int_equal(mkdir(in_folder("dir.png"), 0700), 0);
-    expect_error(lam_image_save(&image, in_folder("dir.png"), NULL, &error), &error, LAM_CANNOT_WRITE,
-                 "dir.png");
+    expect_error(lam_image_save(&image, in_folder("dir.png"), NULL, &error), &error, LAM_CANNOT_WRITE, "dir.png");
     assert_int_equal(files_in_folder(), 1);
     assert_int_equal(rmdir(in_folder("dir.png")), 0);
 
     // A folder that may not be written; root may.
     if (geteuid() != 0) {
         assert_int_equal(chmod(folder, 0500), 0);
-        expect_error(lam_image_save(&image, in_folder("a.png"), NULL, &error), &error, LAM_CANNOT_WRITE,
-                     "a.png");
+        expect_error(lam_image_save(&image, in_folder("a.png"), NULL, &error), &error, LAM_CANNOT_WRITE, "a.png");
         assert_int_equal(chmod(folder, 0700), 0);
         assert_int_equal(files_in_folder(), 0);
     }

@@ -13,8 +13,7 @@
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
-static void expect_error(const char *bytes, size_t size, const char *name, lam_code code,
-                         const char *sentence)
+static void expect_error(const char *bytes, size_t size, const char *name, lam_code code, const char *sentence)
 {
     lam_error error = {0};
     assert_null(lam_scene_load_memory(bytes, size, name, NULL, NULL, &error));
@@ -58,8 +57,7 @@ static void test_choice(void **unused)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         lam_error error;
-        lam_scene *scene =
-            lam_scene_load_memory(rows[i].text, strlen(rows[i].text), rows[i].name, NULL, NULL, &error);
+        lam_scene *scene = lam_scene_load_memory(rows[i].text, strlen(rows[i].text), rows[i].name, NULL, NULL, &error);
         if (!scene)
             fail_msg("%s", error.text);
         assert_string_equal(lam_scene_format(scene), rows[i].format);
@@ -91,10 +89,8 @@ static void test_foreign(void **unused)
 #define ROW(text, name, sentence, code) {text, sizeof text - 1, name, sentence, code}
 #define YET                             ", which this version cannot read yet; it reads obj, stl, ply and scene"
 #define NOT                             ", not a 3D model; expected obj, stl, ply and scene"
-        ROW("glTF\2\0\0\0\x40\0\0\0", "scene.glb", "scene.glb: this is a glTF binary file" YET,
-            LAM_UNSUPPORTED),
-        ROW("{\n \"asset\": {\"version\": \"2.0\"}}", "a.gltf", "a.gltf: this is a glTF file" YET,
-            LAM_UNSUPPORTED),
+        ROW("glTF\2\0\0\0\x40\0\0\0", "scene.glb", "scene.glb: this is a glTF binary file" YET, LAM_UNSUPPORTED),
+        ROW("{\n \"asset\": {\"version\": \"2.0\"}}", "a.gltf", "a.gltf: this is a glTF file" YET, LAM_UNSUPPORTED),
         ROW("{\"name\": 1}", "a.json",
             "a.json: this is a JSON file without the key \"lambent\" of scene files (\"lambent\": 1)" NOT,
             LAM_CANNOT_READ),
@@ -104,13 +100,12 @@ static void test_foreign(void **unused)
         ROW("OFF\n8 6 12\n", "a.off", "a.off: this is an OFF file" YET, LAM_UNSUPPORTED),
         ROW("PK\3\4....3D/3dmodel.model", "a.3mf", "a.3mf: this is a 3MF file" YET, LAM_UNSUPPORTED),
         ROW("PK\3\4....word/document.xml", "a.obj", "a.obj: this is a ZIP archive" NOT, LAM_CANNOT_READ),
-        ROW("<?xml version=\"1.0\"?>\n<COLLADA>", "a.dae", "a.dae: this is a COLLADA file" YET,
-            LAM_UNSUPPORTED),
+        ROW("<?xml version=\"1.0\"?>\n<COLLADA>", "a.dae", "a.dae: this is a COLLADA file" YET, LAM_UNSUPPORTED),
         ROW("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "a.obj", "a.obj: this is a PNG picture" NOT, LAM_CANNOT_READ),
         ROW("# x\nnewmtl a\nKd 1 1 1\n", "a.mtl",
             "a.mtl: this is a MTL file (materials only; give the .obj that names it)" NOT, LAM_CANNOT_READ),
-        ROW("hello there\n", "a.txt",
-            "a.txt: this is no model format known here; expected obj, stl, ply and scene", LAM_CANNOT_READ),
+        ROW("hello there\n", "a.txt", "a.txt: this is no model format known here; expected obj, stl, ply and scene",
+            LAM_CANNOT_READ),
         ROW("", "a.obj", "a.obj: the file is empty", LAM_CANNOT_READ),
         ROW("hello there\n", "a.obj",
             "a.obj:1: found 'hello', expected a statement of OBJ (v, f, …); the file holds no triangles",
@@ -199,8 +194,7 @@ static void test_files(void **unused)
     rmdir(folder);
 }
 
-// Every OBJ model of the corpus, with the number of triangles that its table gives, on one thread and on
-// three.
+// Every OBJ model of the corpus, with the number of triangles that its table gives, on one thread and on three.
 static void test_corpus(void **unused)
 {
     (void)unused;
@@ -228,8 +222,8 @@ static void test_corpus(void **unused)
             if (!scene)
                 fail_msg("%s", error.text);
             if (lam_scene_triangle_count(scene) != triangles)
-                fail_msg("%s: %llu triangles, expected %llu", name,
-                         (unsigned long long)lam_scene_triangle_count(scene), triangles);
+                fail_msg("%s: %llu triangles, expected %llu", name, (unsigned long long)lam_scene_triangle_count(scene),
+                         triangles);
             lam_vec3 low, high;
             assert_true(lam_scene_bounds(scene, &low, &high));
             lam_scene_free(scene);

@@ -52,8 +52,7 @@ static lam_scene *make_scene(bool clear)
     static const char *const shapes[] = {"torus-knot", "plane"};
     for (int i = 0; i < 2; i++) {
         lam_object object = lam_object_default();
-        object.mesh =
-            lam_scene_add_shape(scene, shapes[i], &(lam_shape_params){.slices = 60, .stacks = 12}, NULL);
+        object.mesh = lam_scene_add_shape(scene, shapes[i], &(lam_shape_params){.slices = 60, .stacks = 12}, NULL);
         object.material = lam_scene_add_material(scene, &materials[i], NULL);
         if (i == 1)
             object.transform.m[1][3] = -0.8, object.transform.m[0][0] = 2;
@@ -122,8 +121,8 @@ static void test_exact(void **state)
         const float *a = few.pixels, *b = many.pixels;
         for (int i = 0; i < CHANNELS; i++)
             if (memcmp(&a[i], &b[i], 4) != 0)
-                fail_msg("round %d: pixel %d,%d channel %d is %.9g among black lights, %.9g without them",
-                         round, i / 4 % WIDTH, i / 4 / WIDTH, i % 4, (double)b[i], (double)a[i]);
+                fail_msg("round %d: pixel %d,%d channel %d is %.9g among black lights, %.9g without them", round,
+                         i / 4 % WIDTH, i / 4 / WIDTH, i % 4, (double)b[i], (double)a[i]);
         asked += report.lights_evaluated;
         all += report.points_lit * 34;
         lam_image_free(&few);
@@ -144,8 +143,7 @@ static lam_scene *make_many(bool ranged, bool clear)
         light.range = ranged ? 0.6f : 0;
         light.attenuation = (lam_attenuation){1, 0, ranged ? 10.0f : 40.0f};
         float s = ranged ? 0.5f : 1;
-        light.diffuse = light.specular =
-            (lam_rgb){s * random_between(&r, 0, 1), s * random_between(&r, 0, 1), s};
+        light.diffuse = light.specular = (lam_rgb){s * random_between(&r, 0, 1), s * random_between(&r, 0, 1), s};
         if (light.type == LAM_LIGHT_DIRECTIONAL)
             light.diffuse = light.specular = (lam_rgb){1e-6f, 1e-6f, 1e-6f};
         assert_true(lam_scene_add_light(scene, &light, NULL) >= 0);
@@ -214,11 +212,10 @@ static void test_bound(void **state)
             float sums[CHANNELS] = {0};
             double most = 0;
             for (int i = 0; i < CHANNELS; i++)
-                most = fmax(most, fabs((double)((const float *)picture.pixels)[i] -
-                                       (double)((const float *)whole.pixels)[i]));
+                most = fmax(
+                    most, fabs((double)((const float *)picture.pixels)[i] - (double)((const float *)whole.pixels)[i]));
             if (!(most > 0 && most <= (double)cutoffs[c] + 1e-5))
-                fail_msg("way %d: with a cutoff of %g the picture is off by %g", way, (double)cutoffs[c],
-                         most);
+                fail_msg("way %d: with a cutoff of %g the picture is off by %g", way, (double)cutoffs[c], most);
             for (int show = LAM_SHOW_AMBIENT; show <= LAM_SHOW_REFLECTION; show++) {
                 params.show = (lam_show)show;
                 lam_image term = draw(scene, &params, LAM_RGBA32F, &report);
@@ -237,8 +234,7 @@ static void test_bound(void **state)
     }
 }
 
-// The same bytes with every instruction set and number of threads, also where many layers lie over one
-// another.
+// The same bytes with every instruction set and number of threads, also where many layers lie over one another.
 static void test_same_everywhere(void **state)
 {
     (void)state;
@@ -277,8 +273,8 @@ static void test_explained(void **state)
         lam_frame_report report;
         lam_image picture = draw(scene, &params, LAM_RGBA8, &report);
         for (int at = 0; at < WIDTH * HEIGHT; at += 1487) {
-            lam_explanation *e = lam_explain(device, scene, &camera, &params, WIDTH, HEIGHT, LAM_RGBA8,
-                                             at % WIDTH, at / WIDTH, NULL, &error);
+            lam_explanation *e = lam_explain(device, scene, &camera, &params, WIDTH, HEIGHT, LAM_RGBA8, at % WIDTH,
+                                             at / WIDTH, NULL, &error);
             if (!e)
                 fail_msg("%s", error.text);
             assert_memory_equal(e->bytes, (const uint8_t *)picture.pixels + 4 * at, 4);
@@ -314,8 +310,8 @@ static void test_refused(void **state)
     const float bad[] = {1.5f, NAN, INFINITY, -INFINITY};
     for (int i = 0; i < 4; i++) {
         lam_error error = {0};
-        assert_false(lam_draw(device, scene, &camera, &(lam_draw_params){.light_cutoff = bad[i]}, &image,
-                              NULL, &error));
+        assert_false(
+            lam_draw(device, scene, &camera, &(lam_draw_params){.light_cutoff = bad[i]}, &image, NULL, &error));
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
         assert_non_null(strstr(error.text, "light_cutoff"));
     }
@@ -327,9 +323,8 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_exact),     cmocka_unit_test(test_default),
-        cmocka_unit_test(test_bound),     cmocka_unit_test(test_same_everywhere),
-        cmocka_unit_test(test_explained), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_exact),           cmocka_unit_test(test_default),   cmocka_unit_test(test_bound),
+        cmocka_unit_test(test_same_everywhere), cmocka_unit_test(test_explained), cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

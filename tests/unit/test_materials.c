@@ -20,16 +20,12 @@ static const struct {
     const char *name;
     double n[10];
 } published[] = {
-    {LAM_MATERIAL_EMERALD,
-     "emerald",
-     {0.0215, 0.1745, 0.0215, 0.07568, 0.61424, 0.07568, 0.633, 0.727811, 0.633, 0.6}},
+    {LAM_MATERIAL_EMERALD, "emerald", {0.0215, 0.1745, 0.0215, 0.07568, 0.61424, 0.07568, 0.633, 0.727811, 0.633, 0.6}},
     {LAM_MATERIAL_JADE, "jade", {0.135, 0.2225, 0.1575, 0.54, 0.89, 0.63, 0.316228, 0.316228, 0.316228, 0.1}},
     {LAM_MATERIAL_OBSIDIAN,
      "obsidian",
      {0.05375, 0.05, 0.06625, 0.18275, 0.17, 0.22525, 0.332741, 0.328634, 0.346435, 0.3}},
-    {LAM_MATERIAL_PEARL,
-     "pearl",
-     {0.25, 0.20725, 0.20725, 1, 0.829, 0.829, 0.296648, 0.296648, 0.296648, 0.088}},
+    {LAM_MATERIAL_PEARL, "pearl", {0.25, 0.20725, 0.20725, 1, 0.829, 0.829, 0.296648, 0.296648, 0.296648, 0.088}},
     {LAM_MATERIAL_RUBY,
      "ruby",
      {0.1745, 0.01175, 0.01175, 0.61424, 0.04136, 0.04136, 0.727811, 0.626959, 0.626959, 0.6}},
@@ -39,9 +35,7 @@ static const struct {
     {LAM_MATERIAL_BRASS,
      "brass",
      {0.329412, 0.223529, 0.027451, 0.780392, 0.568627, 0.113725, 0.992157, 0.941176, 0.807843, 0.21794872}},
-    {LAM_MATERIAL_BRONZE,
-     "bronze",
-     {0.2125, 0.1275, 0.054, 0.714, 0.4284, 0.18144, 0.393548, 0.271906, 0.166721, 0.2}},
+    {LAM_MATERIAL_BRONZE, "bronze", {0.2125, 0.1275, 0.054, 0.714, 0.4284, 0.18144, 0.393548, 0.271906, 0.166721, 0.2}},
     {LAM_MATERIAL_CHROME, "chrome", {0.25, 0.25, 0.25, 0.4, 0.4, 0.4, 0.774597, 0.774597, 0.774597, 0.6}},
     {LAM_MATERIAL_COPPER,
      "copper",
@@ -60,9 +54,7 @@ static const struct {
     {LAM_MATERIAL_RED_PLASTIC, "red-plastic", {0, 0, 0, 0.5, 0, 0, 0.7, 0.6, 0.6, 0.25}},
     {LAM_MATERIAL_WHITE_PLASTIC, "white-plastic", {0, 0, 0, 0.55, 0.55, 0.55, 0.70, 0.70, 0.70, 0.25}},
     {LAM_MATERIAL_YELLOW_PLASTIC, "yellow-plastic", {0, 0, 0, 0.5, 0.5, 0, 0.60, 0.60, 0.50, 0.25}},
-    {LAM_MATERIAL_BLACK_RUBBER,
-     "black-rubber",
-     {0.02, 0.02, 0.02, 0.01, 0.01, 0.01, 0.4, 0.4, 0.4, 0.078125}},
+    {LAM_MATERIAL_BLACK_RUBBER, "black-rubber", {0.02, 0.02, 0.02, 0.01, 0.01, 0.01, 0.4, 0.4, 0.4, 0.078125}},
     {LAM_MATERIAL_CYAN_RUBBER, "cyan-rubber", {0, 0.05, 0.05, 0.4, 0.5, 0.5, 0.04, 0.7, 0.7, 0.078125}},
     {LAM_MATERIAL_GREEN_RUBBER, "green-rubber", {0, 0.05, 0, 0.4, 0.5, 0.4, 0.04, 0.7, 0.04, 0.078125}},
     {LAM_MATERIAL_RED_RUBBER, "red-rubber", {0.05, 0, 0, 0.5, 0.4, 0.4, 0.7, 0.04, 0.04, 0.078125}},
@@ -107,8 +99,7 @@ static void test_find(void **state)
     assert_int_equal(lam_material_find("Black Plastic"), LAM_MATERIAL_BLACK_PLASTIC);
     assert_int_equal(lam_material_find("BLACK_PLASTIC"), LAM_MATERIAL_BLACK_PLASTIC);
     assert_int_equal(lam_material_find("bRaSs"), LAM_MATERIAL_BRASS);
-    static const char *const none[] = {"",       "bras",  "brasss", "blackplastic", "black--plastic",
-                                       " brass", "black-"};
+    static const char *const none[] = {"", "bras", "brasss", "blackplastic", "black--plastic", " brass", "black-"};
     for (size_t i = 0; i < sizeof none / sizeof *none; i++)
         assert_int_equal(lam_material_find(none[i]), LAM_MATERIAL_COUNT);
     assert_int_equal(lam_material_find(NULL), LAM_MATERIAL_COUNT);
@@ -160,19 +151,18 @@ static void accepted(const lam_light *light)
         fail_msg("%s", error.text);
 }
 
-// Sets one field of a light to a bad number, expects it named, and that a light without use for it does not
-// mind.
-#define BAD(type, field, value)                                                                              \
-    do {                                                                                                     \
-        lam_light wrong_ = lam_light_default(type);                                                          \
-        wrong_.field = (value);                                                                              \
-        refused(&wrong_, #field);                                                                            \
+// Sets one field of a light to a bad number, expects it named, and that a light without use for it does not mind.
+#define BAD(type, field, value)                                                                                        \
+    do {                                                                                                               \
+        lam_light wrong_ = lam_light_default(type);                                                                    \
+        wrong_.field = (value);                                                                                        \
+        refused(&wrong_, #field);                                                                                      \
     } while (0)
-#define GOOD(type, field, value)                                                                             \
-    do {                                                                                                     \
-        lam_light right_ = lam_light_default(type);                                                          \
-        right_.field = (value);                                                                              \
-        accepted(&right_);                                                                                   \
+#define GOOD(type, field, value)                                                                                       \
+    do {                                                                                                               \
+        lam_light right_ = lam_light_default(type);                                                                    \
+        right_.field = (value);                                                                                        \
+        accepted(&right_);                                                                                             \
     } while (0)
 
 static void test_light_checks(void **state)

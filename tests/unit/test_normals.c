@@ -21,10 +21,9 @@
 
 #include <lambent/scene.h>
 
-#define RADIANS(degrees) ((degrees)*M_PI / 180)
+#define RADIANS(degrees) ((degrees) * M_PI / 180)
 
-// Sees those of a mesh's triangles that `take` picks (0: all), numbered from `first` on; the arrays lie in
-// `arena`.
+// Sees those of a mesh's triangles that `take` picks (0: all), numbered from `first` on; the arrays lie in `arena`.
 static bool see(const lam_mesh *mesh, uint32_t first, uint32_t take, int lanes, double crease_rad,
                 struct seen_normals *seen, struct arena *arena, struct pool *pool, lam_error *error)
 {
@@ -35,8 +34,7 @@ static bool see(const lam_mesh *mesh, uint32_t first, uint32_t take, int lanes, 
     set->before = arena_array(arena, words, sizeof *set->before);
     // Other meshes' triangles on both sides.
     for (uint32_t i = 0; set->bits && i < set->size; i++)
-        if (i < first ? i % 2
-                      : i - first >= mesh->triangle_count || !take || (i - first) * 2654435761u % take == 0)
+        if (i < first ? i % 2 : i - first >= mesh->triangle_count || !take || (i - first) * 2654435761u % take == 0)
             number_set_add(set, i);
     bool ok = set->bits && set->before;
     if (ok) {
@@ -83,8 +81,7 @@ static void seen_as_made(const lam_mesh *mesh, double crease_degrees, struct poo
                 continue;
             members++;
             for (uint32_t c = 0; c < 3; c++) {
-                uint32_t element = seen_element(&seen, firsts[k] + t, c),
-                         made = mesh->normal_indices[3 * t + c];
+                uint32_t element = seen_element(&seen, firsts[k] + t, c), made = mesh->normal_indices[3 * t + c];
                 assert_memory_equal(seen.normals[element], mesh->normals + 3 * (size_t)made, 12);
                 assert_true(same[made] == UINT32_MAX || same[made] == element);
                 same[made] = element;
@@ -124,8 +121,8 @@ static void assert_normal(const lam_mesh *mesh, size_t corner, double x, double 
     const float *n = normal_of(mesh, corner);
     double dx = (double)n[0] - x, dy = (double)n[1] - y, dz = (double)n[2] - z;
     if (!(dx * dx + dy * dy + dz * dz < 1e-12))
-        fail_msg("corner %zu: normal %g %g %g, expected %g %g %g", corner, (double)n[0], (double)n[1],
-                 (double)n[2], x, y, z);
+        fail_msg("corner %zu: normal %g %g %g, expected %g %g %g", corner, (double)n[0], (double)n[1], (double)n[2], x,
+                 y, z);
 }
 
 // --- A cube of eight vertices
@@ -138,8 +135,7 @@ static const float cube_faces[6][3] = {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {0, 1,
 
 static lam_mesh cube(void)
 {
-    return (lam_mesh){
-        .positions = cube_positions, .vertex_count = 8, .indices = cube_indices, .triangle_count = 12};
+    return (lam_mesh){.positions = cube_positions, .vertex_count = 8, .indices = cube_indices, .triangle_count = 12};
 }
 
 static void test_cube(void **state)
@@ -203,8 +199,8 @@ static void test_sphere(void **state)
     arena_start(&arena, NULL);
     double before = 0;
     for (int slices = 48; slices <= 192; slices *= 2) {
-        int index = lam_scene_add_shape(scene, "sphere",
-                                        &(lam_shape_params){.slices = slices, .stacks = slices / 2}, NULL);
+        int index =
+            lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = slices, .stacks = slices / 2}, NULL);
         lam_mesh mesh = *lam_scene_mesh(scene, index);
         smooth(&mesh, 40, &arena, NULL);
         assert_int_equal(mesh.normal_count, mesh.vertex_count); // one normal at each position
@@ -293,8 +289,8 @@ static void test_degenerate(void **state)
 
     // A sliver on a crease does not smooth it over, and takes a side that it shares an edge with.
     static const float corner[] = {0, 0, 0, 2, 0, 0, 1, 0, 0, 1, 1, 0, 1, 0, 1};
-    static const uint32_t bent[] = {
-        0, 1, 3, /* floor side */ 1, 0, 2, /* sliver, on the edge's middle */ 0, 4, 2, 2, 4, 1};
+    static const uint32_t bent[] = {0, 1, 3, /* floor side */ 1, 0, 2, /* sliver, on the edge's middle */ 0, 4, 2,
+                                    2, 4, 1};
     lam_mesh crease = {.positions = corner, .vertex_count = 5, .indices = bent, .triangle_count = 4};
     smooth(&crease, 40, &arena, NULL);
     for (size_t c = 0; c < 3; c++)
@@ -313,8 +309,7 @@ static void test_degenerate(void **state)
     smooth(&nothing, 40, &arena, NULL);
 
     // Numbers at the ends of the range of floats.
-    static const float wide[] = {-3e38f, -3e38f, 0, 3e38f,  -3e38f, 0, 0, 3e38f,  0,
-                                 0,      0,      0, 1e-45f, 0,      0, 0, 1e-45f, 0};
+    static const float wide[] = {-3e38f, -3e38f, 0, 3e38f, -3e38f, 0, 0, 3e38f, 0, 0, 0, 0, 1e-45f, 0, 0, 0, 1e-45f, 0};
     lam_mesh extremes = {.positions = wide, .vertex_count = 6, .triangle_count = 2};
     smooth(&extremes, 40, &arena, NULL);
     for (size_t c = 0; c < 6; c++)
@@ -330,8 +325,7 @@ static void test_bow_tie(void **state)
     // Two pyramids' tips touch at vertex 0, without a common edge: two normals there, whatever the crease.
     static const float p[] = {0, 0, 0, 1, -1, 1, 1,  -1, -1, -1, -1, -1, -1, -1,
                               1, 1, 1, 1, 1,  1, -1, -1, 1,  -1, -1, 1,  1};
-    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1,
-                                       0, 6, 5, 0, 7, 6, 0, 8, 7, 0, 5, 8};
+    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1, 0, 6, 5, 0, 7, 6, 0, 8, 7, 0, 5, 8};
     lam_mesh mesh = {.positions = p, .vertex_count = 9, .indices = indices, .triangle_count = 8};
     smooth(&mesh, 180, &arena, NULL);
     assert_int_equal(mesh.normal_count, 10);
@@ -550,8 +544,8 @@ static void test_colliding_positions(void **state)
     memcpy(twice + 3 * COUNT, p, COUNT * 12);
     for (uint32_t i = 0; i < 2 * COUNT; i++)
         indices[i] = i;
-    mesh = (lam_mesh){
-        .positions = twice, .vertex_count = 2 * COUNT, .indices = indices, .triangle_count = 2 * COUNT / 3};
+    mesh =
+        (lam_mesh){.positions = twice, .vertex_count = 2 * COUNT, .indices = indices, .triangle_count = 2 * COUNT / 3};
     uint32_t *groups = malloc(2 * COUNT / 3 * sizeof *groups);
     for (int i = 0; i < 2 * COUNT / 3; i++)
         groups[i] = 1;
@@ -596,10 +590,8 @@ static void test_seen_collisions(void **state)
         memcpy(p + 3 * count++, f, 12);
     }
     for (int indexed = 0; indexed < 2; indexed++) {
-        lam_mesh mesh = {.positions = p,
-                         .vertex_count = COUNT,
-                         .indices = indexed ? counted : NULL,
-                         .triangle_count = COUNT / 3};
+        lam_mesh mesh = {
+            .positions = p, .vertex_count = COUNT, .indices = indexed ? counted : NULL, .triangle_count = COUNT / 3};
         clock_t start = clock();
         smooth(&mesh, 40, &arena, NULL);
         within_seconds(start, 10);
@@ -635,8 +627,7 @@ static void test_one_partition(void **state)
     uint32_t *indices = malloc(2 * COUNT * sizeof *indices);
     for (uint32_t i = 0; i < 2 * COUNT; i++)
         indices[i] = i < COUNT ? i : 2 * COUNT - 1 - i; // each triangle again, turned over
-    lam_mesh mesh = {
-        .positions = p, .vertex_count = COUNT, .indices = indices, .triangle_count = 2 * COUNT / 3};
+    lam_mesh mesh = {.positions = p, .vertex_count = COUNT, .indices = indices, .triangle_count = 2 * COUNT / 3};
     smooth(&mesh, 180, &arena, NULL);
     assert_int_equal(mesh.normal_count, COUNT);
     for (uint32_t i = 0; i < COUNT; i++)

@@ -1,5 +1,4 @@
-// test_number.c: numbers in text are read correctly rounded: against the C library, on random and on hard
-// cases.
+// test_number.c: numbers in text are read correctly rounded: against the C library, on random and on hard cases.
 #include "number.h"
 #include "number_scan.h"
 
@@ -223,8 +222,8 @@ static void test_random(void **unused)
             continue;
         snprintf(text, sizeof text, "%.*g", (int)(random64() % 12) + 1, (double)f);
         check(text);
-        snprintf(text, sizeof text, "%llu%llue%d", (unsigned long long)random64(),
-                 (unsigned long long)(bits % 1000), (int)(random64() % 700) - 360);
+        snprintf(text, sizeof text, "%llu%llue%d", (unsigned long long)random64(), (unsigned long long)(bits % 1000),
+                 (int)(random64() % 700) - 360);
         check(text);
     }
 }

@@ -34,8 +34,7 @@ static bool open_library(void *user, const char *name, struct lam_bytes *bytes, 
     return false;
 }
 
-static lam_scene *load_with(const char *text, lam_load_params params, const struct library *libraries,
-                            lam_error *error)
+static lam_scene *load_with(const char *text, lam_load_params params, const struct library *libraries, lam_error *error)
 {
     params.open = open_library;
     params.user = (void *)(uintptr_t)libraries;
@@ -84,8 +83,8 @@ static const float *position(const lam_mesh *mesh, uint32_t corner)
     return mesh->positions + 3 * mesh->indices[corner];
 }
 
-static void expect_part(const lam_mesh *mesh, uint32_t index, const char *name, uint32_t first,
-                        uint32_t count, int material)
+static void expect_part(const lam_mesh *mesh, uint32_t index, const char *name, uint32_t first, uint32_t count,
+                        int material)
 {
     assert_true(index < mesh->part_count);
     const lam_part *part = &mesh->parts[index];
@@ -184,14 +183,12 @@ static void test_polygons(void **unused)
     assert_int_equal(mesh->triangle_count, 6);
     double areas[6];
     for (uint32_t t = 0; t < 6; t++) {
-        const float *a = position(mesh, 3 * t), *b = position(mesh, 3 * t + 1),
-                    *c = position(mesh, 3 * t + 2);
+        const float *a = position(mesh, 3 * t), *b = position(mesh, 3 * t + 1), *c = position(mesh, 3 * t + 2);
         areas[t] = ((double)b[0] - (double)a[0]) * ((double)c[1] - (double)a[1]) -
                    ((double)b[1] - (double)a[1]) * ((double)c[0] - (double)a[0]);
         assert_true(areas[t] > 0);
         for (uint32_t k = 0; k < 3; k++) {
-            const float *p = position(mesh, 3 * t + k),
-                        *s = mesh->texcoords + 2 * mesh->texcoord_indices[3 * t + k];
+            const float *p = position(mesh, 3 * t + k), *s = mesh->texcoords + 2 * mesh->texcoord_indices[3 * t + k];
             assert_true(p[0] == s[0] && p[1] == s[1]);
         }
     }
@@ -231,13 +228,11 @@ static void test_warnings(void **unused)
                    "statements that make them");
     expect_warning(TRIANGLE "f 1 2 3\nfoo bar\n\nbaz\n", NULL,
                    "t.obj:5: the statement 'foo' is not known; it is the first of 2 that are passed over");
-    expect_warning(TRIANGLE "f 1/1 2/2 3/3\n", NULL,
-                   "t.obj: faces name texture coordinates, but the file has none");
+    expect_warning(TRIANGLE "f 1/1 2/2 3/3\n", NULL, "t.obj: faces name texture coordinates, but the file has none");
     expect_warning(TRIANGLE "f 1//1 2//1 3//1\n", NULL,
                    "t.obj: faces name normals, but the file has none; smooth ones are made");
-    expect_warning(
-        TRIANGLE "vn 0 0 1\nvn nan 0 0\nf 1//1 2//1 3//1\n", NULL,
-        "t.obj:5: normals or texture coordinates that are not finite are taken as 0: the first of 1");
+    expect_warning(TRIANGLE "vn 0 0 1\nvn nan 0 0\nf 1//1 2//1 3//1\n", NULL,
+                   "t.obj:5: normals or texture coordinates that are not finite are taken as 0: the first of 1");
     expect_warning("mtllib a.mtl\n" TRIANGLE "usemtl x\nf 1 2 3\nusemtl y\n", NULL,
                    "a.mtl: no such file; what uses its materials is drawn in neutral grey");
     expect_warning(TRIANGLE "usemtl x\nf 1 2 3\nusemtl y\n", NULL,
@@ -264,10 +259,8 @@ static void test_errors(void **unused)
                  "t.obj:4: found '-1e39', expected a finite coordinate");
     expect_error(TRIANGLE "v 1 2 3 red\nf 1 2 3\n", LAM_CANNOT_READ,
                  "t.obj:4: found 'red', expected a weight or a colour behind the position");
-    expect_error(TRIANGLE "f 0 1 2\n", LAM_CANNOT_READ,
-                 "t.obj:4: a face names vertex 0; they are counted from 1");
-    expect_error(TRIANGLE "\n\nf 1 2 4\n", LAM_CANNOT_READ,
-                 "t.obj:6: a face names vertex '4'; the file has 3");
+    expect_error(TRIANGLE "f 0 1 2\n", LAM_CANNOT_READ, "t.obj:4: a face names vertex 0; they are counted from 1");
+    expect_error(TRIANGLE "\n\nf 1 2 4\n", LAM_CANNOT_READ, "t.obj:6: a face names vertex '4'; the file has 3");
     expect_error(TRIANGLE "f 1 2 99999999999999999999\n", LAM_CANNOT_READ,
                  "t.obj:4: found '99999999999999999999', expected a vertex");
     expect_error(TRIANGLE "f -1 -2 -4\n", LAM_CANNOT_READ,
@@ -279,16 +272,14 @@ static void test_errors(void **unused)
                  "t.obj:4: found '.5', expected a space between a face's corners (v, v/t, v//n or v/t/n)");
     expect_error(TRIANGLE "vt 0 0\nf 1/1 2/1 3/2\n", LAM_CANNOT_READ,
                  "t.obj:5: a face names texture coordinate '2'; the file has 1");
-    expect_error(TRIANGLE "vn 0 0 1\nf 1//1 2//1 3//y\n", LAM_CANNOT_READ,
-                 "t.obj:5: found 'y', expected a normal");
+    expect_error(TRIANGLE "vn 0 0 1\nf 1//1 2//1 3//y\n", LAM_CANNOT_READ, "t.obj:5: found 'y', expected a normal");
     expect_error(TRIANGLE "vn 0 0\nf 1//1 2//1 3//1\n", LAM_CANNOT_READ,
                  "t.obj:4: found the end of the line, expected a normal's coordinate (vn x y z)");
     expect_error(TRIANGLE "f 1 2 3\nf 1 2 7\nf 8 1 2\n", LAM_CANNOT_READ,
                  "t.obj:5: a face names vertex '7'; the file has 3");
     expect_error("", LAM_CANNOT_READ, "t.obj: holds no triangles");
     expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: holds no triangles (3 points only)");
-    expect_error(TRIANGLE "l 1 2\np 1 2 3\n", LAM_CANNOT_READ,
-                 "t.obj: holds no triangles, only 1 line and 1 point");
+    expect_error(TRIANGLE "l 1 2\np 1 2 3\n", LAM_CANNOT_READ, "t.obj: holds no triangles, only 1 line and 1 point");
     expect_error(TRIANGLE "cstype bspline\nsurf 0 1 0 1 1 2 3\n", LAM_UNSUPPORTED,
                  "t.obj:4: holds no faces, only free-form curves and surfaces ('cstype'), which this version "
                  "cannot draw");
@@ -333,16 +324,16 @@ static void test_parts(void **unused)
     lam_scene_free(scene);
 
     // Several files on one line, the first one missing.
-    scene = load_with("mtllib a.mtl b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n", (lam_load_params){0},
-                      libraries, &error);
+    scene =
+        load_with("mtllib a.mtl b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n", (lam_load_params){0}, libraries, &error);
     assert_string_equal(lam_scene_warning(scene, 0),
                         "a.mtl: no such file; what uses its materials is drawn in neutral grey");
     expect_part(lam_scene_mesh(scene, 0), 0, NULL, 0, 1, 0);
     lam_scene_free(scene);
 
     // A name that leaves the model's folder is looked for inside it.
-    scene = load_with("mtllib ..\\x\\b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n", (lam_load_params){0},
-                      libraries, &error);
+    scene =
+        load_with("mtllib ..\\x\\b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n", (lam_load_params){0}, libraries, &error);
     assert_int_equal(lam_scene_material_count(scene), 2);
     lam_scene_free(scene);
 }
@@ -350,8 +341,7 @@ static void test_parts(void **unused)
 static void test_smoothing(void **unused)
 {
     (void)unused;
-    lam_scene *scene =
-        load(SQUARE "f 1 2 3\ns 3\nf 1 2 3\nf 1 3 4\ns off\nf 1 2 3\ns 1\nf 1 2 3\ns 0\nf 1 3 4\n");
+    lam_scene *scene = load(SQUARE "f 1 2 3\ns 3\nf 1 2 3\nf 1 3 4\ns off\nf 1 2 3\ns 1\nf 1 2 3\ns 0\nf 1 3 4\n");
     static const uint32_t groups[] = {0, 3, 3, 0, 1, 0};
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_memory_equal(mesh->smoothing_groups, groups, sizeof groups);
@@ -389,8 +379,7 @@ static void test_origin(void **unused)
     lam_scene *scene =
         load("v 500000.001 4e6 -7.0005\nv 500001.002 4000000.5 -7\nv 500000.003 4000001.25 -6\nf 1 2 3\n");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
-    static const double expected[9] = {500000.001, 4e6,        -7.0005,    500001.002, 4000000.5,
-                                       -7,         500000.003, 4000001.25, -6};
+    static const double expected[9] = {500000.001, 4e6, -7.0005, 500001.002, 4000000.5, -7, 500000.003, 4000001.25, -6};
     assert_true(mesh->origin[0] != 0 && mesh->origin[1] != 0 && mesh->origin[2] == 0);
     for (int i = 0; i < 9; i++) {
         double off = mesh->origin[i % 3] + (double)mesh->positions[i] - expected[i];
@@ -409,8 +398,7 @@ static const lam_material *load_material(const char *mtl, lam_color_mode color, 
 {
     struct library libraries[] = {{"a.mtl", mtl}, {NULL, NULL}};
     lam_error error;
-    *scene = load_with("mtllib a.mtl\n" TRIANGLE "f 1 2 3\n", (lam_load_params){.color = color}, libraries,
-                       &error);
+    *scene = load_with("mtllib a.mtl\n" TRIANGLE "f 1 2 3\n", (lam_load_params){.color = color}, libraries, &error);
     assert_non_null(*scene);
     return lam_scene_material(*scene, 0);
 }
@@ -451,11 +439,10 @@ static void test_mtl_maps(void **unused)
 {
     (void)unused;
     lam_scene *scene;
-    const lam_material *m =
-        load_material("newmtl a\nmap_Kd -s 1 1 1 -o 0.5 0 -clamp on my picture.png\nmap_Ka\n"
-                      "map_Bump -bm 0.5 b.png\nrefl -type sphere r.png\nnorm n.png\ndisp -s 2 7\n"
-                      "map_Pr rough.png\n",
-                      LAM_COLOR_RAW, &scene);
+    const lam_material *m = load_material("newmtl a\nmap_Kd -s 1 1 1 -o 0.5 0 -clamp on my picture.png\nmap_Ka\n"
+                                          "map_Bump -bm 0.5 b.png\nrefl -type sphere r.png\nnorm n.png\ndisp -s 2 7\n"
+                                          "map_Pr rough.png\n",
+                                          LAM_COLOR_RAW, &scene);
     assert_string_equal(m->map_names[LAM_MAP_DIFFUSE], "my picture.png");
     assert_string_equal(m->map_options[LAM_MAP_DIFFUSE], "-s 1 1 1 -o 0.5 0 -clamp on");
     assert_string_equal(m->map_names[LAM_MAP_BUMP], "b.png");
@@ -485,8 +472,7 @@ static void test_mtl_warnings(void **unused)
         {"newmtl a\nd 1.5\n", "a.mtl:2: d 1.5 is out of range; 1 is used"},
         {"newmtl a\nKd -1 0 0\n", "a.mtl:2: Kd -1 is out of range; 0 is used"},
         {"newmtl a\nKd red\n", "a.mtl:2: found 'red', expected a number; the statement is left out"},
-        {"newmtl a\nKd\n",
-         "a.mtl:2: found the end of the line, expected a number; the statement is left out"},
+        {"newmtl a\nKd\n", "a.mtl:2: found the end of the line, expected a number; the statement is left out"},
         {"newmtl a\nKd spectral x.rfl\n", "a.mtl:2: Kd as a spectral curve is not read, only r g b"},
         {"newmtl a\nKs xyz 1 1 1\n", "a.mtl:2: Ks as a CIE XYZ colour is not read, only r g b"},
         {"newmtl a\nillum 99\n", "a.mtl:2: illum is not one of the models 0 to 10; it is left out"},
@@ -500,15 +486,14 @@ static void test_mtl_warnings(void **unused)
 
 // --- the same for any threads, any chunks
 
-#define MIXED                                                                                                \
-    "# a model\nmtllib a.mtl\no thing\n" SQUARE                                                              \
-    "v 2 2 2 0.5 1 0 # coloured\nvt 0 0\nvn 0 0 1\ng one\ns 1\nf 1//1 2//1 "                                 \
-    "3//1\nusemtl x\nf -5/1 -4 \\\n -3 -2\nf 1 2 3 \\\n4 5\n\n  f 1/1/1 2/1/1 5/-1/-1\nl 1 2\nv 3 1 4\nf "   \
-    "-1 1 2\n"                                                                                               \
+#define MIXED                                                                                                          \
+    "# a model\nmtllib a.mtl\no thing\n" SQUARE                                                                        \
+    "v 2 2 2 0.5 1 0 # coloured\nvt 0 0\nvn 0 0 1\ng one\ns 1\nf 1//1 2//1 "                                           \
+    "3//1\nusemtl x\nf -5/1 -4 \\\n -3 -2\nf 1 2 3 \\\n4 5\n\n  f 1/1/1 2/1/1 5/-1/-1\nl 1 2\nv 3 1 4\nf "             \
+    "-1 1 2\n"                                                                                                         \
     "o other\ns off\nf 1 2 6\nf 6 5 4 3 2 1\nfoo\nf 1 2\n"
 
-static bool no_companion(const struct import_source *source, const char *name, struct file_bytes *out,
-                         lam_error *error)
+static bool no_companion(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error)
 {
     (void)out;
     (void)source;
@@ -620,8 +605,7 @@ static void test_damage(void **unused)
 static void test_memory(void **unused)
 {
     (void)unused;
-    static const struct library libraries[] = {{"a.mtl", "newmtl x\nKd 1 1 1\nmap_Kd -s 1 1 1 a.png\n"},
-                                               {NULL, NULL}};
+    static const struct library libraries[] = {{"a.mtl", "newmtl x\nKd 1 1 1\nmap_Kd -s 1 1 1 a.png\n"}, {NULL, NULL}};
     for (long countdown = 0; countdown < 1000; countdown++) {
         lam_error error = {0};
         arena_fail_after(countdown);

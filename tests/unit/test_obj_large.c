@@ -1,5 +1,4 @@
-// test_obj_large.c: large OBJ files are read piece by piece; what comes of it is what comes of reading them
-// whole.
+// test_obj_large.c: large OBJ files are read piece by piece; what comes of it is what comes of reading them whole.
 #include "loading.h"
 
 #include "obj.h"
@@ -106,13 +105,8 @@ static bool served(int threads)
     struct file_parts file;
     watch_start(&watch, NULL);
     assert_true(head && pool && file_open_parts(path, head, &file));
-    struct import_source source = {.name = path,
-                                   .path = path,
-                                   .bytes = head,
-                                   .size = FILE_HEAD,
-                                   .params = &params,
-                                   .pool = pool,
-                                   .watch = &watch};
+    struct import_source source = {
+        .name = path, .path = path, .bytes = head, .size = FILE_HEAD, .params = &params, .pool = pool, .watch = &watch};
     struct lam_scene *scene = scene_make(&watch, NULL);
     assert_non_null(scene);
     bool done = importer_obj.load_parts(&source, &file, scene);
@@ -259,8 +253,8 @@ static void unusual_files(void **state)
 static void edges(void **state)
 {
     (void)state;
-    static const char *const lines[] = {"f 1 2 \\\n3\n", "# a comment \\\nf 4 5 6\n", "v 1 \\\r\n2 3\n",
-                                        "\n\n\n", "f 123 4567 89\r\n"};
+    static const char *const lines[] = {"f 1 2 \\\n3\n", "# a comment \\\nf 4 5 6\n", "v 1 \\\r\n2 3\n", "\n\n\n",
+                                        "f 123 4567 89\r\n"};
     make((struct style){0});
     size_t whole = size;
     char *copy = malloc(whole);
@@ -296,9 +290,9 @@ static void edges(void **state)
 static void what_is_wrong_is_told_as_ever(void **state)
 {
     (void)state;
-    static const char *const wrong[] = {
-        "f 1 2 44101\n", "f 0 1 2\n", "f 1 2\n", "v 1 2\n",        "v 1 nan 2\n",      "f 1 2 x\n",
-        "v 1 2 3 x\n",   "vn 1 2\n",  "hello\n", "f 1 2 -44101\n", "f 1 2 99999999\n", "f 1 2 4294967297\n"};
+    static const char *const wrong[] = {"f 1 2 44101\n", "f 0 1 2\n",      "f 1 2\n",          "v 1 2\n",
+                                        "v 1 nan 2\n",   "f 1 2 x\n",      "v 1 2 3 x\n",      "vn 1 2\n",
+                                        "hello\n",       "f 1 2 -44101\n", "f 1 2 99999999\n", "f 1 2 4294967297\n"};
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
         for (int place = 0; place < 3; place++) { // first, at a piece's edge, last
             make((struct style){.first = place == 0 ? wrong[w] : NULL});

@@ -24,8 +24,7 @@ static int readers(obj_lines_reader *out[2])
 {
     out[0] = obj_read_lines_plain;
 #if defined(__x86_64__)
-    if (cpu_features() & CPU_AVX512 && __builtin_cpu_supports("avx512vbmi") &&
-        __builtin_cpu_supports("bmi2")) {
+    if (cpu_features() & CPU_AVX512 && __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("bmi2")) {
         out[1] = obj_read_lines_avx512;
         return 2;
     }
@@ -57,11 +56,8 @@ static void check(size_t size, uint64_t positions, uint64_t triangles)
     memset(text + size, 0, FILE_PADDING);
     const uint8_t *begin = (const uint8_t *)text, *end = begin + size;
     for (int r = 0; r < count; r++) {
-        struct obj obj = {.begin = begin,
-                          .end = end,
-                          .positions = found,
-                          .indices = found_corners,
-                          .total = {.positions = 1u << 31}};
+        struct obj obj = {
+            .begin = begin, .end = end, .positions = found, .indices = found_corners, .total = {.positions = 1u << 31}};
         struct obj_chunk chunk = {.begin = begin, .end = end};
         struct obj_reader reader = {
             .obj = &obj, .chunk = &chunk, .end = end, .limit = {.positions = LINES, .triangles = LINES}};
@@ -96,8 +92,7 @@ static void positions(void **state)
         for (size_t d = 0; d < 3; d++) {
             size_t size = 0;
             for (int i = 0; i < LINES / 10; i++)
-                size +=
-                    make_position(text + size, forms[f], digits[d], i % 7 ? "\n" : "\r\n", expected + 3 * i);
+                size += make_position(text + size, forms[f], digits[d], i % 7 ? "\n" : "\r\n", expected + 3 * i);
             check(size, LINES / 10, 0);
         }
     }
@@ -111,8 +106,7 @@ static void halves(void **state)
     for (int i = 0; i < LINES; i++) {
         text[size++] = 'v';
         for (int k = 0; k < 3; k++) {
-            // Of a float between 1 and 2, and the next one, the middle: 25 bits; as 15 digits, and one
-            // beside.
+            // Of a float between 1 and 2, and the next one, the middle: 25 bits; as 15 digits, and one beside.
             double middle = 1 + (double)(2 * (next_random() % (1 << 23)) + 1) / (1 << 24);
             char number[64];
             snprintf(number, sizeof number, k ? "%.14f" : "%.7f", middle);
@@ -135,11 +129,7 @@ static void triangles(void **state)
             uint32_t corner = (uint32_t)(next_random() % most[next_random() % 9]) + 1;
             expected_corners[3 * i + k] = corner - 1;
             // Leading zeros, and more than one space, are allowed too.
-            size += (size_t)sprintf(text + size,
-                                    i % 50 == 49   ? "  %u"
-                                    : i % 50 == 48 ? " 00%u"
-                                                   : " %u",
-                                    corner);
+            size += (size_t)sprintf(text + size, i % 50 == 49 ? "  %u" : i % 50 == 48 ? " 00%u" : " %u", corner);
         }
         size += (size_t)sprintf(text + size, "%s", i % 9 ? "\n" : i % 2 ? " \n" : "\r\n");
     }
@@ -202,11 +192,10 @@ static void others(void **state)
                               .polygons = polygons,
                               .total = {.positions = 4000000000u}};
             struct obj_chunk chunk = {.begin = begin, .end = end};
-            struct obj_reader reader = {
-                .obj = &obj,
-                .chunk = &chunk,
-                .end = end,
-                .limit = {.positions = 8, .triangles = 8, .others = 8, .polygons = 8}};
+            struct obj_reader reader = {.obj = &obj,
+                                        .chunk = &chunk,
+                                        .end = end,
+                                        .limit = {.positions = 8, .triangles = 8, .others = 8, .polygons = 8}};
             while (at && at < end)
                 at = all[r](&reader, at, end);
             if ((at == NULL) != (lines[l].positions < 0) ||

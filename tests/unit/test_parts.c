@@ -43,11 +43,11 @@ static void make_ply(const char *more_properties, size_t more_bytes, const char 
 {
     char header[600];
     size = 0;
-    int length = snprintf(
-        header, sizeof header,
-        "ply\nformat binary_little_endian 1.0\nelement vertex %d\nproperty float x\nproperty float y\n"
-        "property float z\n%selement face %d\nproperty %s\nend_header\n",
-        VERTICES, more_properties, FACES, list);
+    int length =
+        snprintf(header, sizeof header,
+                 "ply\nformat binary_little_endian 1.0\nelement vertex %d\nproperty float x\nproperty float y\n"
+                 "property float z\n%selement face %d\nproperty %s\nend_header\n",
+                 VERTICES, more_properties, FACES, list);
     append(header, (size_t)length);
     body = size;
     for (int i = 0; i < VERTICES; i++) {
@@ -134,8 +134,7 @@ static bool load_both(void)
     return loaded;
 }
 
-// Whether the file can be loaded within a budget that has no room for the whole of it beside what comes of
-// it.
+// Whether the file can be loaded within a budget that has no room for the whole of it beside what comes of it.
 static bool fits(size_t kept)
 {
     lam_error error;

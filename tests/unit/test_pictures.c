@@ -1,5 +1,4 @@
-// test_pictures.c: Radiance, JPEG and deep PNG files are read as they were meant, and broken ones are
-// refused.
+// test_pictures.c: Radiance, JPEG and deep PNG files are read as they were meant, and broken ones are refused.
 #include "codec.h"
 
 #include <math.h>
@@ -57,13 +56,11 @@ static lam_image read_hdr(const struct file *file)
 static void test_hdr_numbers(void **state)
 {
     (void)state;
-    // 128·2^(129 − 136) = 1; exponent 0 is black whatever the mantissas; the largest; below the normal
-    // floats.
+    // 128·2^(129 − 136) = 1; exponent 0 is black whatever the mantissas; the largest; below the normal floats.
     static const uint8_t rows[] = {128, 64, 32, 129, 200, 100, 50, 0, 255, 0, 1, 255, 255, 255, 255, 9};
     struct file file = hdr_of(HEADER "-Y 2 +X 2\n", rows, sizeof rows);
     lam_image image = read_hdr(&file);
-    static const float expected[4][3] = {
-        {1, 0.5f, 0.25f}, {0, 0, 0}, {255 * 0x1p119f, 0, 0x1p119f}, {0, 0, 0}};
+    static const float expected[4][3] = {{1, 0.5f, 0.25f}, {0, 0, 0}, {255 * 0x1p119f, 0, 0x1p119f}, {0, 0, 0}};
     for (int i = 0; i < 4; i++) {
         assert_memory_equal(pixel(&image, i % 2, i / 2), expected[i], 12);
         assert_true(pixel(&image, i % 2, i / 2)[3] == 1);
@@ -127,8 +124,7 @@ static void test_hdr_refusals(void **state)
     wrong[4] = 128; // a run of none: nothing would ever end
     file = hdr_of(HEADER "-Y 1 +X 10\n", wrong, sizeof wrong);
     hdr_refused(&file, LAM_CANNOT_READ, "wrong run");
-    static const uint8_t old[] = {9, 9, 9, 9,   1, 1, 1, 255, 1, 1, 1, 255,
-                                  1, 1, 1, 255, 1, 1, 1, 255, 1, 1, 1, 255};
+    static const uint8_t old[] = {9, 9, 9, 9, 1, 1, 1, 255, 1, 1, 1, 255, 1, 1, 1, 255, 1, 1, 1, 255, 1, 1, 1, 255};
     file = hdr_of(HEADER "-Y 1 +X 3\n", old, sizeof old);
     hdr_refused(&file, LAM_CANNOT_READ, "wrong run");
     file = hdr_of(HEADER "-Y 65535 +X 65535\n", old, sizeof old); // told without asking for 68 GB
@@ -237,8 +233,7 @@ static void test_jpeg_refusals(void **state)
     free(file.bytes);
     file = make_jpeg(3, false);
     for (size_t i = 0; i + 9 < file.size; i++) {
-        if (file.bytes[i] == 0xff &&
-            file.bytes[i + 1] == 0xc0) // the frame's header: precision, height, width
+        if (file.bytes[i] == 0xff && file.bytes[i + 1] == 0xc0) // the frame's header: precision, height, width
             memset(file.bytes + i + 5, 0xff, 4);
     }
     assert_false(codec_jpeg.read(file.bytes, file.size, "test.jpg", &image, &error));
@@ -283,9 +278,8 @@ static void test_linear(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hdr_numbers),   cmocka_unit_test(test_hdr_runs),
-        cmocka_unit_test(test_hdr_refusals),  cmocka_unit_test(test_jpeg_pixels),
-        cmocka_unit_test(test_jpeg_refusals), cmocka_unit_test(test_linear),
+        cmocka_unit_test(test_hdr_numbers), cmocka_unit_test(test_hdr_runs),      cmocka_unit_test(test_hdr_refusals),
+        cmocka_unit_test(test_jpeg_pixels), cmocka_unit_test(test_jpeg_refusals), cmocka_unit_test(test_linear),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

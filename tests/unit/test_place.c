@@ -1,5 +1,5 @@
-// test_place.c: the sphere around a scene, moving and turning it, rigs in their places, lights of the model's
-// frame, materials of parts, and tangents from texture coordinates.
+// test_place.c: the sphere around a scene, moving and turning it, rigs in their places, lights of the model's frame,
+// materials of parts, and tangents from texture coordinates.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -68,8 +68,7 @@ static void camera_does_not_depend_on_the_order(void **state)
     static uint32_t indices[COUNT];
     for (int i = 0; i < COUNT; i++) {
         double a = i * 0.0007, r = 1 + 0.3 * sin(i * 0.0057);
-        const float p[3] = {(float)(3 + r * cos(a)), (float)(0.4 * sin(3 * a) + 0.1 * r),
-                            (float)(r * sin(a) - 2)};
+        const float p[3] = {(float)(3 + r * cos(a)), (float)(0.4 * sin(3 * a) + 0.1 * r), (float)(r * sin(a) - 2)};
         memcpy(points[0] + 3 * i, p, sizeof p);
         memcpy(points[1] + (size_t)3 * ((size_t)i * 7919 % COUNT), p, sizeof p);
         indices[i] = (uint32_t)i + (i >= UNUSED);
@@ -106,8 +105,8 @@ static void camera_does_not_depend_on_the_order(void **state)
                 double e[3];
                 for (int k = 0; k < 3; k++)
                     e[k] = look.m[k][0] * w[0] + look.m[k][1] * w[1] + look.m[k][2] * w[2] + look.m[k][3];
-                double half = view.orthographic ? cameras[order].ortho_half_height
-                                                : -e[2] * tan(cameras[order].fovy_rad / 2);
+                double half =
+                    view.orthographic ? cameras[order].ortho_half_height : -e[2] * tan(cameras[order].fovy_rad / 2);
                 double x = fabs(e[0]) / (half * view.aspect), y = fabs(e[1]) / half;
                 farthest = fmax(farthest, fmax(x, y));
             }
@@ -166,8 +165,7 @@ static void rigs_stand_about_the_scene(void **state)
     assert_true(lights[0].diffuse.r == 1 && lights[0].specular.b == 1 && lights[0].attenuation.constant == 1);
     assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_NONE, lights), 0);
     lam_light studio[LAM_RIG_LIGHTS_MAX];
-    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, lights),
-                     lam_rig_lights(LAM_RIG_STUDIO, studio));
+    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, lights), lam_rig_lights(LAM_RIG_STUDIO, studio));
     for (int rig = 0; rig <= LAM_RIG_LECTURE; rig++)
         for (int i = 0, count = lam_rig_lights((lam_rig)rig, lights); i < count; i++)
             assert_true(lam_light_check(&lights[i], NULL));
@@ -187,8 +185,8 @@ static void draw(lam_scene *scene, lam_image *image)
     lam_device_free(device);
 }
 
-// A light of the model's frame goes with the model: what it does is what a light of the world does in the
-// place that the transform moves it to.
+// A light of the model's frame goes with the model: what it does is what a light of the world does in the place that
+// the transform moves it to.
 static void lights_go_with_the_model(void **state)
 {
     (void)state;
@@ -290,10 +288,7 @@ static void tangents_of_a_square(void **state)
     static const struct {
         const float *texcoords;
         float expected[4];
-    } rows[] = {{straight, {1, 0, 0, 1}},
-                {turned, {0, -1, 0, 1}},
-                {mirrored, {-1, 0, 0, -1}},
-                {nowhere, {1, 0, 0, 1}}};
+    } rows[] = {{straight, {1, 0, 0, 1}}, {turned, {0, -1, 0, 1}}, {mirrored, {-1, 0, 0, -1}}, {nowhere, {1, 0, 0, 1}}};
     for (int r = 0; r < 4; r++) {
         lam_scene *scene = square_scene(rows[r].texcoords, NULL, 0);
         assert_true(lam_scene_make_tangents(scene, NULL, NULL));
@@ -311,8 +306,8 @@ static void tangents_of_a_square(void **state)
     lam_scene_free(bare);
 }
 
-// A shape's own tangents, from its formula, are those that its texture coordinates tell, but for the error of
-// the segments.
+// A shape's own tangents, from its formula, are those that its texture coordinates tell, but for the error of the
+// segments.
 static void tangents_of_a_torus(void **state)
 {
     (void)state;
@@ -330,8 +325,7 @@ static void tangents_of_a_torus(void **state)
     double least = 1;
     for (uint32_t corner = 0; corner < 3 * mesh->triangle_count; corner++) {
         const uint32_t *by = from->tangent_indices ? from->tangent_indices : from->indices;
-        const float *a = from->tangents + 4 * (size_t)(by ? by[corner] : corner),
-                    *b = tangent_at(mesh, corner);
+        const float *a = from->tangents + 4 * (size_t)(by ? by[corner] : corner), *b = tangent_at(mesh, corner);
         double dot = (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
         least = fmin(least, dot);
         assert_true(a[3] == b[3]);

@@ -39,14 +39,12 @@ static void make_everything(struct made *file, const char *format)
     *file = (struct made){.big = strcmp(format, "binary_big_endian") == 0};
     put_text(file, "ply\r\ncomment first\r\nformat ");
     put_text(file, format);
-    put_text(
-        file,
-        " 1.0\r\nobj_info x\r\nelement vertex 5\r\nproperty uchar mark\r\nproperty double x\r\n"
-        "property short y\r\nproperty list uchar ushort extra\r\nproperty float z\r\nproperty uint id\r\n"
-        "element edge 2\r\nproperty list uint char a\r\nproperty int b\r\n"
-        "element face 2\r\nproperty float area\r\nproperty list short ushort vertex_index\r\n"
-        "property list uchar float texcoord\r\nproperty char flag\r\nelement rest 0\r\nproperty int c\r\n"
-        "end_header\r\n");
+    put_text(file, " 1.0\r\nobj_info x\r\nelement vertex 5\r\nproperty uchar mark\r\nproperty double x\r\n"
+                   "property short y\r\nproperty list uchar ushort extra\r\nproperty float z\r\nproperty uint id\r\n"
+                   "element edge 2\r\nproperty list uint char a\r\nproperty int b\r\n"
+                   "element face 2\r\nproperty float area\r\nproperty list short ushort vertex_index\r\n"
+                   "property list uchar float texcoord\r\nproperty char flag\r\nelement rest 0\r\nproperty int c\r\n"
+                   "end_header\r\n");
     static const int corners[2][5] = {{3, 0, 1, 4}, {4, 0, 1, 2, 3}};
     static const double xy[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, -2}};
     char line[256];
@@ -122,8 +120,7 @@ static void test_everything(void **state)
     }
 }
 
-static void put_square(struct made *file, const char *format, const char *vertex_header,
-                       const char *face_header)
+static void put_square(struct made *file, const char *format, const char *vertex_header, const char *face_header)
 {
     file->big = strcmp(format, "binary_big_endian") == 0;
     put_text(file, "ply\nformat ");
@@ -210,16 +207,15 @@ static void test_mixed_of_triangle_size(void **state)
 static void test_vertex_attributes(void **state)
 {
     (void)state;
-    lam_scene *scene =
-        load_text(HEADER("ascii") "element vertex 3\nproperty float nz\n" XYZ
-                                  "property float nx\nproperty float ny\nproperty float tx\n"
-                                  "property float ty\nproperty float tz\nproperty float u\n"
-                                  "property float v\n" FACE("1") "end_header\n"
-                                                                 "1 0 0 0 0.5 0.25 3 0 4 0 1\n"
-                                                                 "0 1 0 0 0 nan 0 0 0 0.5 inf\n"
-                                                                 "2 0 1 0 0 0 0 -7 0 0.5 0.75\n"
-                                                                 "3 0 1 2\n",
-                  "a.ply");
+    lam_scene *scene = load_text(HEADER("ascii") "element vertex 3\nproperty float nz\n" XYZ
+                                                 "property float nx\nproperty float ny\nproperty float tx\n"
+                                                 "property float ty\nproperty float tz\nproperty float u\n"
+                                                 "property float v\n" FACE("1") "end_header\n"
+                                                                                "1 0 0 0 0.5 0.25 3 0 4 0 1\n"
+                                                                                "0 1 0 0 0 nan 0 0 0 0.5 inf\n"
+                                                                                "2 0 1 0 0 0 0 -7 0 0.5 0.75\n"
+                                                                                "3 0 1 2\n",
+                                 "a.ply");
     const lam_mesh *mesh = mesh_of(scene);
     static const float normals[] = {0.5f, 0.25f, 1, 0, 0, 0, 0, 0, 2};
     static const float tangents[] = {0.6f, 0, 0.8f, 1, 0, 0, 0, 1, 0, -1, 0, 1};
@@ -239,9 +235,8 @@ static void test_colors_bytes(void **state)
 {
     (void)state;
     static const char text[] =
-        HEADER("ascii") "element vertex 3\n" XYZ
-                        "property uchar red\nproperty uchar green\nproperty uchar blue\n" FACE(
-                            "1") "end_header\n0 0 0 255 0 7\n1 0 0 1 2 3\n0 1 0 9 8 7\n3 0 1 2\n";
+        HEADER("ascii") "element vertex 3\n" XYZ "property uchar red\nproperty uchar green\nproperty uchar blue\n" FACE(
+            "1") "end_header\n0 0 0 255 0 7\n1 0 0 1 2 3\n0 1 0 9 8 7\n3 0 1 2\n";
     static const uint8_t colors[] = {255, 0, 7, 255, 1, 2, 3, 255, 9, 8, 7, 255};
     lam_scene *scene = load_text(text, "a.ply");
     assert_int_equal(mesh_of(scene)->colors_format, LAM_COLORS_SRGB8);
@@ -268,12 +263,11 @@ static void test_colors_floats(void **state)
                                   "property float alpha\n" FACE("1") "end_header\n",
                   STEPS);
     for (int i = 0; i < STEPS; i++)
-        at += sprintf(at, "%d %d 0 %.9g %d %s %.9g\n", i, i % 3, i / 500.0, i * 65, i ? "-1" : "nan",
-                      i / 500.0);
+        at += sprintf(at, "%d %d 0 %.9g %d %s %.9g\n", i, i % 3, i / 500.0, i * 65, i ? "-1" : "nan", i / 500.0);
     sprintf(at, "3 0 1 2\n");
     for (int raw = 0; raw < 2; raw++) {
-        lam_scene *scene = load_with(text, strlen(text), "a.ply",
-                                     &(lam_load_params){.color = raw ? LAM_COLOR_RAW : LAM_COLOR_SRGB});
+        lam_scene *scene =
+            load_with(text, strlen(text), "a.ply", &(lam_load_params){.color = raw ? LAM_COLOR_RAW : LAM_COLOR_SRGB});
         assert_int_equal(mesh_of(scene)->colors_format, LAM_COLORS_LINEAR_F32);
         const float *colors = mesh_of(scene)->colors;
         for (int i = 0; i < STEPS; i++) {
@@ -321,10 +315,10 @@ static void test_concave_polygon(void **state)
 {
     (void)state;
     // An L of six corners: a fan from its first corner would cover the notch.
-    lam_scene *scene = load_text(HEADER("ascii") "element vertex 6\n" XYZ FACE(
-                                     "1") "end_header\n"
-                                          "2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 0\n6 0 1 2 3 4 5\n",
-                                 "a.ply");
+    lam_scene *scene = load_text(
+        HEADER("ascii") "element vertex 6\n" XYZ FACE("1") "end_header\n"
+                                                           "2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 0\n6 0 1 2 3 4 5\n",
+        "a.ply");
     const lam_mesh *mesh = mesh_of(scene);
     assert_int_equal(mesh->triangle_count, 4);
     double area = 0;
@@ -341,11 +335,10 @@ static void test_concave_polygon(void **state)
 static void test_strips(void **state)
 {
     (void)state;
-    static const char text[] =
-        HEADER("ascii") "element vertex 6\n" XYZ
-                        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
-                        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n"
-                        "10 0 1 2 3 -1 2 3 4 4 5\n";
+    static const char text[] = HEADER("ascii") "element vertex 6\n" XYZ
+                                               "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+                                               "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n"
+                                               "10 0 1 2 3 -1 2 3 4 4 5\n";
     // Every second triangle is turned round; those with a corner twice are left out.
     static const uint32_t indices[] = {0, 1, 2, 2, 1, 3, 2, 3, 4};
     lam_scene *scene = load_text(text, "a.ply");
@@ -389,10 +382,10 @@ static void test_far_from_zero(void **state)
 
     // Nothing of this for a model near zero: its floats are the file's numbers, rounded once. The second
     // number lies just above the middle of two floats, where rounding by way of a double gives the wrong one.
-    lam_scene *near = load_text(
-        HEADER("ascii") "element vertex 3\nproperty double x\nproperty double y\nproperty double z\n" FACE(
-            "1") "end_header\n0.1 1.00000005960464477540 0\n1 0 0\n0 0 1\n3 0 1 2\n",
-        "a.ply");
+    lam_scene *near =
+        load_text(HEADER("ascii") "element vertex 3\nproperty double x\nproperty double y\nproperty double z\n" FACE(
+                      "1") "end_header\n0.1 1.00000005960464477540 0\n1 0 0\n0 0 1\n3 0 1 2\n",
+                  "a.ply");
     assert_true(mesh_of(near)->origin[0] == 0 && mesh_of(near)->origin[1] == 0);
     assert_true(mesh_of(near)->positions[0] == 0.1f && mesh_of(near)->positions[1] == 0x1.000002p0f);
     lam_scene_free(near);
@@ -409,9 +402,8 @@ static void test_header_errors(void **state)
                 "a.ply:3: found 'many', expected the number of rows");
     refuse_text("ply\nformat ascii 1.0\nelement vertex -1\n", "a.ply",
                 "a.ply:3: found '-1', expected the number of rows");
-    refuse_text(
-        "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n", "a.ply",
-        "a.ply:4: found 'real', expected a type (char, uchar, short, ushort, int, uint, float or double)");
+    refuse_text("ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n", "a.ply",
+                "a.ply:4: found 'real', expected a type (char, uchar, short, ushort, int, uint, float or double)");
     refuse_text("ply\nformat ascii 1.0\nelement vertex 1\nproperty float\n", "a.ply",
                 "a.ply:4: found the end of the line, expected a name");
     refuse_text("ply\nformat ascii 1.0\nelement face 1\nproperty list float int vertex_indices\n", "a.ply",
@@ -422,22 +414,19 @@ static void test_header_errors(void **state)
                 "a.ply:6: found 'end_header', expected a format line before it");
     refuse_text("ply\nformat ascii 1.0\nvertex 3\n", "a.ply",
                 "a.ply:3: found 'vertex', expected format, comment, element, property or end_header");
-    refuse_text("ply\nformat ascii 1.0\n", "a.ply",
-                "a.ply:2: the file ends in its header, expected \"end_header\"");
-    refuse_text(HEADER("ascii") "element vertex 1\nproperty float x\nproperty float z\n" FACE(
-                    "1") "end_header\n0 0\n3 0 0 0\n",
-                "a.ply", "a.ply:3: element vertex has no property y, expected x, y and z");
+    refuse_text("ply\nformat ascii 1.0\n", "a.ply", "a.ply:2: the file ends in its header, expected \"end_header\"");
+    refuse_text(
+        HEADER("ascii") "element vertex 1\nproperty float x\nproperty float z\n" FACE("1") "end_header\n0 0\n3 0 0 0\n",
+        "a.ply", "a.ply:3: element vertex has no property y, expected x, y and z");
     refuse_text(HEADER("ascii") "element vertex 1\n" XYZ
                                 "element face 1\nproperty int vertex_indices\nend_header\n0 0 0\n1\n",
                 "a.ply",
                 "a.ply:7: element face has no list of corners, expected a property such as "
                 "\"list uchar int vertex_indices\"");
-    refuse_text(
-        HEADER("ascii") "element vertex 1\n" XYZ "element face 1\nproperty list uchar float vertex_indices\n"
-                        "end_header\n0 0 0\n3 0 0 0\n",
-        "a.ply", "a.ply:7: element face has corners that are not whole numbers, expected an integer type");
-    refuse_text(HEADER("ascii") "element vertex 1\n" XYZ
-                                "element vertex 1\n" XYZ FACE("1") "end_header\n0 0 0\n",
+    refuse_text(HEADER("ascii") "element vertex 1\n" XYZ "element face 1\nproperty list uchar float vertex_indices\n"
+                                "end_header\n0 0 0\n3 0 0 0\n",
+                "a.ply", "a.ply:7: element face has corners that are not whole numbers, expected an integer type");
+    refuse_text(HEADER("ascii") "element vertex 1\n" XYZ "element vertex 1\n" XYZ FACE("1") "end_header\n0 0 0\n",
                 "a.ply", "a.ply:7: element vertex is there twice, expected it once");
 }
 
@@ -455,16 +444,12 @@ static void test_body_errors(void **state)
                 "a.ply:11: vertex 2 of 4: found 'zero' as y, expected a number");
     refuse_text(VERTICES FACE("1") "end_header\n0 0 0\n1 nan 0\n1 1 0\n0 1 0\n3 0 1 2\n", "a.ply",
                 "a.ply: vertex 2 of 4: found NaN as y, expected a finite number");
-    refuse_text(
-        VERTICES
-        "property uchar red\n" FACE("1") "end_header\n0 0 0 256\n1 0 0 0\n1 1 0 0\n0 1 0 0\n3 0 1 2\n",
-        "a.ply", "a.ply:11: vertex 1 of 4: found '256' as red, expected a whole number from 0 to 255");
-    refuse_text(
-        VERTICES FACE("2") "end_header\n" SQUARE "3 0 1 2\n", "a.ply",
-        "a.ply: the file is cut short: its header promises 2 rows of element \"face\", found 1 in 186 bytes");
-    refuse_text(
-        VERTICES FACE("1") "end_header\n" SQUARE "9 0 1 2\n", "a.ply",
-        "a.ply: the file is cut short: its header promises 1 rows of element \"face\", found 0 in 186 bytes");
+    refuse_text(VERTICES "property uchar red\n" FACE("1") "end_header\n0 0 0 256\n1 0 0 0\n1 1 0 0\n0 1 0 0\n3 0 1 2\n",
+                "a.ply", "a.ply:11: vertex 1 of 4: found '256' as red, expected a whole number from 0 to 255");
+    refuse_text(VERTICES FACE("2") "end_header\n" SQUARE "3 0 1 2\n", "a.ply",
+                "a.ply: the file is cut short: its header promises 2 rows of element \"face\", found 1 in 186 bytes");
+    refuse_text(VERTICES FACE("1") "end_header\n" SQUARE "9 0 1 2\n", "a.ply",
+                "a.ply: the file is cut short: its header promises 1 rows of element \"face\", found 0 in 186 bytes");
     refuse_text(HEADER("ascii") "element vertex 99999999999\n" XYZ FACE("1") "end_header\n" SQUARE, "a.ply",
                 "a.ply: the file is cut short: its header promises 99999999999 rows of element \"vertex\", "
                 "found 4 in "
@@ -489,10 +474,9 @@ static void test_binary_errors(void **state)
             put_u32(&file, square_faces[f][c]);
     }
     char sentence[256];
-    snprintf(
-        sentence, sizeof sentence,
-        "a.ply: the file is cut short: its header promises 2 rows of element \"face\", found 1 in %zu bytes",
-        file.size - 1);
+    snprintf(sentence, sizeof sentence,
+             "a.ply: the file is cut short: its header promises 2 rows of element \"face\", found 1 in %zu bytes",
+             file.size - 1);
     refuse(file.bytes, file.size - 1, "a.ply", LAM_CANNOT_READ, sentence);
 
     // The same place is told for the layout of most files and for rows that are walked.
@@ -503,24 +487,21 @@ static void test_binary_errors(void **state)
         if (walked)
             put_u8(&bad, 0);
         snprintf(sentence, sizeof sentence,
-                 "a.ply: byte %zu: face 2 of 2: found index 4 in vertex_indices, expected 0 to 3",
-                 second + 5);
+                 "a.ply: byte %zu: face 2 of 2: found index 4 in vertex_indices, expected 0 to 3", second + 5);
         refuse(bad.bytes, bad.size, "a.ply", LAM_CANNOT_READ, sentence);
         memset(bad.bytes + second + 5, 0xff, 4);
         snprintf(sentence, sizeof sentence,
-                 "a.ply: byte %zu: face 2 of 2: found index -1 in vertex_indices, expected 0 to 3",
-                 second + 5);
+                 "a.ply: byte %zu: face 2 of 2: found index -1 in vertex_indices, expected 0 to 3", second + 5);
         refuse(bad.bytes, bad.size, "a.ply", LAM_CANNOT_READ, sentence);
     }
     uint32_t infinity = 0x7f800000;
     memcpy(file.bytes + body + 16, &infinity, 4);
-    snprintf(sentence, sizeof sentence,
-             "a.ply: byte %zu: vertex 2 of 4: found infinity as y, expected a finite number", body + 16);
+    snprintf(sentence, sizeof sentence, "a.ply: byte %zu: vertex 2 of 4: found infinity as y, expected a finite number",
+             body + 16);
     refuse(file.bytes, file.size, "a.ply", LAM_CANNOT_READ, sentence);
 
     struct made negative = {0};
-    put_square(&negative, "binary_little_endian", XYZ,
-               "element face 1\nproperty list char int vertex_indices\n");
+    put_square(&negative, "binary_little_endian", XYZ, "element face 1\nproperty list char int vertex_indices\n");
     for (int i = 0; i < 12; i++)
         put_f32(&negative, square[i / 3][i % 3]);
     snprintf(sentence, sizeof sentence,
@@ -539,15 +520,14 @@ static void test_threads(void **state)
     size_t room = 4 << 20;
     char *text = malloc(room), *at = text;
     assert_non_null(text);
-    at += sprintf(
-        at,
-        HEADER("ascii") "element vertex %d\n" XYZ "property uchar red\nproperty uchar green\n"
-                        "property uchar blue\nproperty float nx\nproperty float ny\nproperty float nz\n"
-                        "element face %d\nproperty list uchar int vertex_indices\nend_header\n",
-        VERTICES_ACROSS * VERTICES_ACROSS, FACES_ACROSS * FACES_ACROSS);
+    at += sprintf(at,
+                  HEADER("ascii") "element vertex %d\n" XYZ "property uchar red\nproperty uchar green\n"
+                                  "property uchar blue\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                                  "element face %d\nproperty list uchar int vertex_indices\nend_header\n",
+                  VERTICES_ACROSS * VERTICES_ACROSS, FACES_ACROSS * FACES_ACROSS);
     for (int i = 0; i < VERTICES_ACROSS * VERTICES_ACROSS; i++)
-        at += sprintf(at, "%d.5 %d 0.%d %d 0 9 0 %d 1\n", i % VERTICES_ACROSS, i / VERTICES_ACROSS,
-                      i * 37 % 100, i % 256, i % 3);
+        at += sprintf(at, "%d.5 %d 0.%d %d 0 9 0 %d 1\n", i % VERTICES_ACROSS, i / VERTICES_ACROSS, i * 37 % 100,
+                      i % 256, i % 3);
     for (int i = 0; i < FACES_ACROSS * FACES_ACROSS; i++) {
         int corner = i / FACES_ACROSS * VERTICES_ACROSS + i % FACES_ACROSS;
         at += i % 5 ? sprintf(at, "4 %d %d %d %d\n", corner, corner + 1, corner + VERTICES_ACROSS + 1,

@@ -1,6 +1,5 @@
-// test_png.c: PNG files decode to the picture they were made from, and are the same bytes whoever makes them.
-// Above 600 lines: the encoder's steps, each with its second version here, share the pictures they are tried
-// on.
+// test_png.c: PNG files decode to the picture they were made from, and are the same bytes whoever makes them. Above 600
+// lines: the encoder's steps, each with its second version here, share the pictures they are tried on.
 #include "checksum.h"
 #include "deflate.h"
 #include "huffman.h"
@@ -99,10 +98,7 @@ static lam_bytes encode_as(const lam_image *image, int threads, lam_compress com
     return bytes;
 }
 
-static lam_bytes encode(const lam_image *image, int threads)
-{
-    return encode_as(image, threads, LAM_COMPRESS_FAST);
-}
+static lam_bytes encode(const lam_image *image, int threads) { return encode_as(image, threads, LAM_COMPRESS_FAST); }
 
 // libspng checks every CRC, zlib the Adler-32.
 static void decode_and_compare(const lam_bytes *bytes, const lam_image *image, const char *what)
@@ -123,8 +119,7 @@ static void decode_and_compare(const lam_bytes *bytes, const lam_image *image, c
     free(pixels);
     spng_ctx_free(spng);
     if (!same)
-        fail_msg("%s, %d×%d: %s", what, image->width, image->height,
-                 code ? spng_strerror(code) : "other pixels");
+        fail_msg("%s, %d×%d: %s", what, image->width, image->height, code ? spng_strerror(code) : "other pixels");
 }
 
 static void round_trip(int width, int height, enum content content)
@@ -172,8 +167,7 @@ static void holds_runs_of_every_length(void **state)
         assert_true(lam_image_make(&image, 256, 256, LAM_RGBA8, &error));
         for (int y = 0; y < 256; y++)
             for (int x = 0; x < 256; x++) {
-                // A first run of y pixels and a second of the rest; after filtering too there are runs of all
-                // lengths.
+                // A first run of y pixels and a second of the rest; after filtering too there are runs of all lengths.
                 uint32_t value = x < y ? 0x00112233u : 0x00445566u + (uint32_t)(y % 3);
                 value |= opaque ? 0xFF000000u : 0x80000000u;
                 memcpy((uint8_t *)image.pixels + (y * 256 + x) * 4, &value, 4);
@@ -264,8 +258,8 @@ static void small_files_decode(void **state)
             lam_bytes bytes = encode_as(&image, 1, LAM_COMPRESS_BEST), fast = encode(&image, 1);
             decode_and_compare(&bytes, &image, content_names[content]);
             if (bytes.size > fast.size + 16)
-                fail_msg("%s, %d×%d: %zu bytes, the quick kind %zu", content_names[content], sizes[i][0],
-                         sizes[i][1], bytes.size, fast.size);
+                fail_msg("%s, %d×%d: %zu bytes, the quick kind %zu", content_names[content], sizes[i][0], sizes[i][1],
+                         bytes.size, fast.size);
             if (large) {
                 lam_bytes three = encode_as(&image, 3, LAM_COMPRESS_BEST);
                 assert_int_equal(bytes.size, three.size);
@@ -332,9 +326,7 @@ static const uint8_t *find_chunk(const lam_bytes *bytes, const char *type)
     for (size_t at = 8; at + 12 <= bytes->size;) {
         if (memcmp(data + at + 4, type, 4) == 0)
             return data + at;
-        at +=
-            ((size_t)data[at] << 24 | (size_t)data[at + 1] << 16 | (size_t)data[at + 2] << 8 | data[at + 3]) +
-            12;
+        at += ((size_t)data[at] << 24 | (size_t)data[at + 1] << 16 | (size_t)data[at + 2] << 8 | data[at + 3]) + 12;
     }
     return NULL;
 }
@@ -419,8 +411,7 @@ static int plain_paeth(int a, int b, int c)
     return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
 }
 
-// The filters against the specification's words, for every combination of left, above and above left in
-// steps.
+// The filters against the specification's words, for every combination of left, above and above left in steps.
 static void filters_as_specified(void **state)
 {
     (void)state;
@@ -483,15 +474,14 @@ static void ends_of_zeros_change_nothing(void **state)
         }
         for (int y = 1; y <= ROWS; y++) {
             const uint8_t *row = (const uint8_t *)rows[y], *above = (const uint8_t *)rows[y - 1];
-            struct png_span span =
-                png_span_filtered(png_span_of(row, width), png_span_of(above, width), width);
+            struct png_span span = png_span_filtered(png_span_of(row, width), png_span_of(above, width), width);
             assert_in_range(span.first, 0, span.end);
             assert_in_range(span.end, 0, width);
             passed += width - (span.end - span.first);
             png_filter_row(filter, row, above, width, 0xFFFFFFFFu, whole);
             memset(part, 0, sizeof part);
-            png_filter_row(filter, row + 4 * span.first, above + 4 * span.first, span.end - span.first,
-                           0xFFFFFFFFu, part + span.first);
+            png_filter_row(filter, row + 4 * span.first, above + 4 * span.first, span.end - span.first, 0xFFFFFFFFu,
+                           part + span.first);
             assert_memory_equal(whole, part, (size_t)width * 4);
             adler_row(&sums[0], whole, width, 4);
             adler_zeros(&sums[1], (uint64_t)span.first * 4);

@@ -12,9 +12,9 @@ static bool open_beside(void *user, const char *name, lam_bytes *bytes, lam_erro
     (void)user;
     const char *text = strcmp(name, "a.obj") == 0 ? "mtllib a.mtl\n" TRIANGLE
                                                     "usemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n"
-                       : strcmp(name, "a.mtl") == 0    ? "newmtl red\nKd 1 0 0\nNs 9\nnewmtl blue\nKd 0 0 1\n"
-                       : strcmp(name, "in/b.obj") == 0 ? "mtllib b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n"
-                       : strcmp(name, "in/b.mtl") == 0 ? "newmtl green\nKd 0 1 0\n"
+                       : strcmp(name, "a.mtl") == 0      ? "newmtl red\nKd 1 0 0\nNs 9\nnewmtl blue\nKd 0 0 1\n"
+                       : strcmp(name, "in/b.obj") == 0   ? "mtllib b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n"
+                       : strcmp(name, "in/b.mtl") == 0   ? "newmtl green\nKd 0 1 0\n"
                        : strcmp(name, "points.obj") == 0 ? "v 0 0 0\n"
                        : strcmp(name, "inner.json") == 0 ? "{\"lambent\": 1}"
                                                          : NULL;
@@ -97,8 +97,7 @@ static void test_picture(void **unused)
 
     scene = good("{\"lambent\": 1, \"camera\": {\"fovy\": 60}, \"stage\": \"application\", " BALL "}");
     lam_scene_settings(scene, &s);
-    assert_true(fabs(s.camera.fovy_rad - acos(0.5)) < 1e-15 && s.camera.eye.z == 4 &&
-                s.camera.near_plane == 0);
+    assert_true(fabs(s.camera.fovy_rad - acos(0.5)) < 1e-15 && s.camera.eye.z == 4 && s.camera.near_plane == 0);
     assert_int_equal(s.draw.shading, LAM_SHADING_GOURAUD);
     lam_scene_free(scene);
 }
@@ -125,13 +124,11 @@ static void test_objects(void **unused)
     assert_string_equal(one->name, "one");
     // The last step acts first: (1, 0, 0) → scaled (2, 0, 0) → turned (0, 2, 0) → moved (1, 4, 3).
     const double(*m)[4] = one->transform.m;
-    assert_true(fabs(m[0][0] + m[0][3] - 1) < 1e-15 && fabs(m[1][0] + m[1][3] - 4) < 1e-15 &&
-                m[2][0] + m[2][3] == 3);
+    assert_true(fabs(m[0][0] + m[0][3] - 1) < 1e-15 && fabs(m[1][0] + m[1][3] - 4) < 1e-15 && m[2][0] + m[2][3] == 3);
     const lam_material *front = lam_scene_material(scene, one->material),
                        *back = lam_scene_material(scene, one->back_material);
     assert_true(front->diffuse.a == 0.25f && front->ambient.g == 0.2f && front->specular.r == 1 &&
-                front->emission.b == 3 && front->shininess == 7 && front->reflectivity.r == 0.1f &&
-                front->fibre);
+                front->emission.b == 3 && front->shininess == 7 && front->reflectivity.r == 0.1f && front->fibre);
     // What the back leaves out is the front's.
     assert_true(back->diffuse.r == 1 && back->ambient.g == 0.2f && back->shininess == 7 && back->fibre);
     assert_true(one->one_sided && one->cull == LAM_CULL_BACK);
@@ -156,8 +153,7 @@ static void test_lights(void **unused)
 {
     (void)unused;
     lam_scene *scene = good(
-        "{\"lambent\": 1, " BALL
-        ", \"lights\": [{\"type\": \"ambient\", \"color\": [1, 1, 1], \"intensity\": 0.5}, "
+        "{\"lambent\": 1, " BALL ", \"lights\": [{\"type\": \"ambient\", \"color\": [1, 1, 1], \"intensity\": 0.5}, "
         "{\"type\": \"hemisphere\", \"sky\": [1, 0, 0], \"ground\": [0, 1, 0], \"up\": [1, 0, 0], \"frame\": "
         "\"camera\"}, "
         "{\"name\": \"p\", \"type\": \"point\", \"position\": [2, 4, 6, 2], \"attenuation\": [0, 0, 1], "
@@ -175,16 +171,13 @@ static void test_lights(void **unused)
     for (int i = 0; i < 11; i++)
         l[i] = lam_scene_light(scene, i);
     assert_true(l[0]->ambient.r == 0.5f);
-    assert_true(l[1]->sky.r == 1 && l[1]->ground.g == 1 && l[1]->up.x == 1 &&
-                l[1]->frame == LAM_FRAME_CAMERA);
+    assert_true(l[1]->sky.r == 1 && l[1]->ground.g == 1 && l[1]->up.x == 1 && l[1]->frame == LAM_FRAME_CAMERA);
     assert_true(l[2]->position.x == 1 && l[2]->position.z == 3 && l[2]->attenuation.quadratic == 1 &&
                 l[2]->attenuation.constant == 0 && l[2]->range == 9);
     assert_true(l[3]->type == LAM_LIGHT_DIRECTIONAL && l[3]->direction.x == -1 && l[3]->direction.z == -3);
     assert_true(l[4]->direction.y == -1);
-    assert_true(l[5]->diffuse.r == 2 && l[5]->diffuse.g == 1 && l[5]->specular.r == 0 &&
-                l[5]->specular.b == 1);
-    assert_true(l[6]->direction.y == -1 && fabs((double)l[6]->cutoff_rad - asin(0.5)) < 1e-7 &&
-                l[6]->exponent == 2);
+    assert_true(l[5]->diffuse.r == 2 && l[5]->diffuse.g == 1 && l[5]->specular.r == 0 && l[5]->specular.b == 1);
+    assert_true(l[6]->direction.y == -1 && fabs((double)l[6]->cutoff_rad - asin(0.5)) < 1e-7 && l[6]->exponent == 2);
     assert_true(l[7]->outer_rad > l[7]->inner_rad && l[7]->inner_rad > 0.17f && l[7]->cutoff_rad == 0);
     assert_string_equal(l[7]->object, "sphere");
     assert_true(l[8]->cutoff_rad == 0 && l[8]->exponent == 4);
@@ -199,13 +192,10 @@ static void test_errors(void **unused)
     static const struct {
         const char *text, *sentence;
     } rows[] = {
-#define WITH(more, sentence) {"{\"lambent\": 1, " BALL ", " more "}", "s.json: " sentence}
-#define OBJECT(more, sentence)                                                                               \
-    {                                                                                                        \
-        "{\"lambent\": 1, \"objects\": [{" more "}]}", "s.json: objects[0]" sentence                         \
-    }
-#define LIGHT(more, sentence) WITH("\"lights\": [{" more "}]", "lights[0]" sentence)
-#define SPHERE                "\"shape\": \"sphere\", "
+#define WITH(more, sentence)   {"{\"lambent\": 1, " BALL ", " more "}", "s.json: " sentence}
+#define OBJECT(more, sentence) {"{\"lambent\": 1, \"objects\": [{" more "}]}", "s.json: objects[0]" sentence}
+#define LIGHT(more, sentence)  WITH("\"lights\": [{" more "}]", "lights[0]" sentence)
+#define SPHERE                 "\"shape\": \"sphere\", "
         {"{\"lambent\": 1,\n \"objects\": [}", "s.json:2: column 14: unexpected token near '}'"},
         {"{\"lambent\": 1, \"lambent\": 1}", "s.json:1: column 24: duplicate object key near '\"lambent\"'"},
         {"{\"x\": \"\\\"lambent\\\"\", \"lambent\": 1}",
@@ -213,8 +203,7 @@ static void test_errors(void **unused)
          "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, gl1, up, "
          "materials, objects, lights, light_cutoff"},
         {"{\"lambent\": 1}", "s.json: 'objects' is missing, expected a list of at least one object"},
-        {"{\"lambent\": 2, " BALL "}",
-         "s.json: lambent: the format's version is 2, this program reads version 1"},
+        {"{\"lambent\": 2, " BALL "}", "s.json: lambent: the format's version is 2, this program reads version 1"},
         {"{\"lambent\": \"1\", " BALL "}", "s.json: lambent: found \"1\", expected a number"},
         {"{\"lambent\": 1, \"objects\": []}",
          "s.json: objects: found a list of 0, expected a list of at least one object"},
@@ -228,8 +217,7 @@ static void test_errors(void **unused)
              "image.background[3]: found 2, expected a number from 0 to 1"),
         WITH("\"camera\": {\"fovy\": 180}", "camera.fovy: found 180, expected degrees above 0 and below 180"),
         WITH("\"camera\": {\"near\": 1}", "camera: has only near, expected both of near and far, or neither"),
-        WITH("\"camera\": {\"near\": 3, \"far\": 2}",
-             "camera: near is 3 and far is 2, expected 0 < near < far"),
+        WITH("\"camera\": {\"near\": 3, \"far\": 2}", "camera: near is 3 and far is 2, expected 0 < near < far"),
         WITH("\"camera\": {\"fovy\": 30, \"ortho_half_height\": 1}",
              "camera: has both fovy and ortho_half_height, expected one of them"),
         WITH("\"camera\": {\"eye\": [0, 0, 0]}", "camera: eye and target are the same point"),
@@ -247,8 +235,7 @@ static void test_errors(void **unused)
         WITH("\"stage\": \"fragment\", \"shading\": \"gouraud\"",
              "stage: Gouraud shading has the stages application and vertex; fragment goes with flat and "
              "phong"),
-        WITH("\"environment\": {\"rotation\": 5}",
-             "environment: expected one of faces, equirectangular and builtin"),
+        WITH("\"environment\": {\"rotation\": 5}", "environment: expected one of faces, equirectangular and builtin"),
         WITH("\"environment\": {\"faces\": [\"a\"]}",
              "environment.faces: found a list of 1, expected six names of pictures: +x, -x, +y, -y, +z, -z"),
         WITH("\"materials\": {\"m\": {\"shininess\": -1}}",
@@ -274,10 +261,8 @@ static void test_errors(void **unused)
         OBJECT("\"file\": \"a.obj\", \"radius\": 4",
                ".radius: unknown key; expected name, transform, material, "
                "back_material, two_sided, cull, tangents, normals, crease_angle, file, materials, parts"),
-        OBJECT(SPHERE "\"material\": {\"shinines\": 4}",
-               ".material.shinines: unknown key; did you mean 'shininess'?"),
-        OBJECT(SPHERE "\"material\": \"glod\"",
-               ".material: no material is named 'glod'; did you mean 'gold'?"),
+        OBJECT(SPHERE "\"material\": {\"shinines\": 4}", ".material.shinines: unknown key; did you mean 'shininess'?"),
+        OBJECT(SPHERE "\"material\": \"glod\"", ".material: no material is named 'glod'; did you mean 'gold'?"),
         OBJECT(SPHERE "\"transform\": [[\"rotate\", 3, 0, 0, 0]]",
                ".transform[0]: the axis of the rotation is 0, 0, 0, expected a direction"),
         OBJECT(SPHERE "\"transform\": [[\"scale\", 1, 0, 1]]",
@@ -285,16 +270,14 @@ static void test_errors(void **unused)
         OBJECT(SPHERE "\"transform\": [[\"skew\", 1]]",
                ".transform[0]: found \"skew\" with 1 number, expected [\"translate\", x, "
                "y, z], [\"rotate\", degrees, x, y, z] or [\"scale\", x, y, z]"),
-        OBJECT(SPHERE "\"transform\": [1, 2, 3]",
-               ".transform: found a list of 3, expected a list of 16 numbers"),
+        OBJECT(SPHERE "\"transform\": [1, 2, 3]", ".transform: found a list of 3, expected a list of 16 numbers"),
         OBJECT(SPHERE "\"transform\": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1]",
                ".transform: the transform cannot be inverted: it flattens the object, or its numbers are too "
                "large"),
         OBJECT(SPHERE "\"transform\": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1]",
                ".transform: the matrix's last row is 0, 0, 1, 1, expected 0, 0, 0, 1"),
         OBJECT(SPHERE "\"cull\": \"both\"", ".cull: found \"both\", expected none, back or front"),
-        LIGHT("\"name\": \"x\"",
-              ": 'type' is missing, expected ambient, hemisphere, point, directional or spot"),
+        LIGHT("\"name\": \"x\"", ": 'type' is missing, expected ambient, hemisphere, point, directional or spot"),
         LIGHT("\"type\": \"point\", \"cutoff\": 4",
               ".cutoff: unknown key; expected name, type, frame, object, color, "
               "intensity, ambient, diffuse, specular, position, attenuation, range"),
@@ -307,8 +290,7 @@ static void test_errors(void **unused)
               ".position: a directional light has a direction, or a position whose fourth number is 0"),
         LIGHT("\"type\": \"spot\", \"position\": [1, 2, 3, 0]",
               ".position: the fourth number is 0, but a spot light stands somewhere"),
-        LIGHT("\"type\": \"point\", \"position\": [0, 0, 0, 0]",
-              ".position: found 0, 0, 0, 0, expected a direction"),
+        LIGHT("\"type\": \"point\", \"position\": [0, 0, 0, 0]", ".position: found 0, 0, 0, 0, expected a direction"),
         LIGHT("\"type\": \"spot\", \"inner\": 30, \"outer\": 20",
               ".inner: found 30, expected less than outer, which is 20"),
         LIGHT("\"type\": \"spot\", \"inner\": 30", ": inner is given without outer, expected both"),
@@ -316,10 +298,8 @@ static void test_errors(void **unused)
               ".cutoff: found 120, expected degrees above 0 and up to 90, or 180"),
         LIGHT("\"type\": \"spot\", \"cutoff\": 20, \"outer\": 20",
               ": inner and outer stand beside cutoff or exponent, expected one pair of them"),
-        LIGHT("\"type\": \"spot\", \"direction\": [0, 0, 0]",
-              ".direction: found 0, 0, 0, expected a direction"),
-        LIGHT("\"type\": \"point\", \"frame\": \"object\", \"object\": \"cube\"",
-              ".object: no object is named 'cube'"),
+        LIGHT("\"type\": \"spot\", \"direction\": [0, 0, 0]", ".direction: found 0, 0, 0, expected a direction"),
+        LIGHT("\"type\": \"point\", \"frame\": \"object\", \"object\": \"cube\"", ".object: no object is named 'cube'"),
         LIGHT("\"type\": \"point\", \"object\": \"sphere\"", ".object: goes only with \"frame\": \"object\""),
         LIGHT("\"type\": \"point\", \"intensity\": 1e30, \"color\": [1e30, 0, 0]",
               ": point light: diffuse.r is inf, expected a finite number of 0 or more"),
@@ -333,8 +313,7 @@ static void test_errors(void **unused)
             assert_non_null(strstr(error.text, "real number overflow"));
         else
             assert_string_equal(error.text, rows[i].sentence);
-        assert_int_equal(error.code,
-                         strstr(rows[i].text, "\"lambent\": 2") ? LAM_UNSUPPORTED : LAM_CANNOT_READ);
+        assert_int_equal(error.code, strstr(rows[i].text, "\"lambent\": 2") ? LAM_UNSUPPORTED : LAM_CANNOT_READ);
         assert_null(load_scene(rows[i].text, NULL));
     }
     lam_error error = {0};
@@ -479,8 +458,7 @@ static void test_writing(void **unused)
     }
     for (int i = 0; i < 4; i++) {
         lam_light a = *lam_scene_light(scene, i), b = *lam_scene_light(back, i);
-        assert_memory_equal(&a.position, &b.position,
-                            sizeof a.position + sizeof a.direction + 3 * sizeof a.ambient);
+        assert_memory_equal(&a.position, &b.position, sizeof a.position + sizeof a.direction + 3 * sizeof a.ambient);
         assert_true(a.range == b.range && a.exponent == b.exponent && a.inner_rad == b.inner_rad &&
                     a.outer_rad == b.outer_rad);
         assert_true(a.cutoff_rad == b.cutoff_rad || a.outer_rad > 0);

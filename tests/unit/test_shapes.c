@@ -190,8 +190,7 @@ static void check_texture_frame(const lam_mesh *mesh, const char *name)
         double area = s1 * t2 - s2 * t1;
         if (!(area > 0))
             fail_msg("%s: the texture of triangle %zu is mirrored or without area", name, t);
-        point along = {(t2 * e1.x - t1 * e2.x) / area, (t2 * e1.y - t1 * e2.y) / area,
-                       (t2 * e1.z - t1 * e2.z) / area};
+        point along = {(t2 * e1.x - t1 * e2.x) / area, (t2 * e1.y - t1 * e2.y) / area, (t2 * e1.z - t1 * e2.z) / area};
         const float *four = mesh->tangents + 4 * (size_t)element(mesh->tangent_indices, mesh, 3 * t);
         if (!(dot(along, from_floats(four)) > 0.7 * length(along)))
             fail_msg("%s: the tangent of triangle %zu does not follow its texture", name, t);
@@ -261,8 +260,7 @@ static void test_shapes(void **state)
         assert_true(farthest >= 1 - e->reach - 1e-9);
         if (hash_mesh(mesh) != e->hash) {
             print_message("%s: hash 0x%016llx, recorded 0x%016llx (%u triangles)\n", e->name,
-                          (unsigned long long)hash_mesh(mesh), (unsigned long long)e->hash,
-                          mesh->triangle_count);
+                          (unsigned long long)hash_mesh(mesh), (unsigned long long)e->hash, mesh->triangle_count);
             wrong++;
         }
     }
@@ -304,8 +302,7 @@ static void test_shape_options(void **state)
                                            {.radius = -1},
                                            {.radius = (double)INFINITY},
                                            {.radius = (double)NAN}};
-    static const char *const named[] = {"slices", "slices", "slices", "stacks",
-                                        "stacks", "radius", "radius", "radius"};
+    static const char *const named[] = {"slices", "slices", "slices", "stacks", "stacks", "radius", "radius", "radius"};
     for (int k = 0; k < 8; k++) {
         assert_int_equal(lam_scene_add_shape(scene, "sphere", &bad[k], &error), -1);
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
@@ -409,8 +406,7 @@ static void test_unit_sphere(void **state)
         check_texture_frame(mesh, "sphere");
         assert_int_equal(open_edges(mesh), 0);
         for (size_t c = 0; c < 3 * (size_t)mesh->triangle_count; c++) {
-            // The parametric normal ∂p/∂u × ∂p/∂v, ∇f/|∇f| and the position are one vector on the unit
-            // sphere.
+            // The parametric normal ∂p/∂u × ∂p/∂v, ∇f/|∇f| and the position are one vector on the unit sphere.
             point p = position(mesh, c), n = normal(mesh, c);
             lam_vec3 g = ball_gradient(NULL, (lam_vec3){p.x, p.y, p.z});
             point gradient = {g.x / 2, g.y / 2, g.z / 2};
@@ -418,14 +414,12 @@ static void test_unit_sphere(void **state)
         }
         // The seam: both sides' normals are the same bits.
         for (int j = 0; j <= 24; j++)
-            assert_memory_equal(mesh->normals + 3 * (size_t)(49 * j),
-                                mesh->normals + 3 * (size_t)(49 * j + 48), 12);
+            assert_memory_equal(mesh->normals + 3 * (size_t)(49 * j), mesh->normals + 3 * (size_t)(49 * j + 48), 12);
     }
     // Lattice points on the surface (cells 20, 24), and none on it (cells 25).
     static const int cells[] = {20, 24, 25, 61};
     for (int k = 0; k < 4; k++) {
-        lam_implicit ball = {ball_value,         ball_gradient, NULL, {-1.25, -1.25, -1.25},
-                             {1.25, 1.25, 1.25}, cells[k]};
+        lam_implicit ball = {ball_value, ball_gradient, NULL, {-1.25, -1.25, -1.25}, {1.25, 1.25, 1.25}, cells[k]};
         int index = lam_scene_add_implicit(scene, &ball, NULL, &error);
         assert_int_equal(index, 2 + k);
         const lam_mesh *mesh = lam_scene_mesh(scene, index);
@@ -441,8 +435,7 @@ static void test_unit_sphere(void **state)
     lam_scene_free(scene);
 }
 
-// Every case of the table, by random values on the lattice: closed meshes without an edge in more than two
-// triangles.
+// Every case of the table, by random values on the lattice: closed meshes without an edge in more than two triangles.
 struct noise {
     int n;
     signed char *sign; // of the inner lattice points
@@ -456,8 +449,7 @@ static double noise_value(void *user, lam_vec3 p)
     int x = (int)floor(p.x), y = (int)floor(p.y), z = (int)floor(p.z);
     for (int k = 0; k < 8; k++) {
         int i = x + (k & 1), j = y + (k >> 1 & 1), l = z + (k >> 2);
-        double w = (k & 1 ? p.x - x : 1 - p.x + x) * (k & 2 ? p.y - y : 1 - p.y + y) *
-                   (k & 4 ? p.z - z : 1 - p.z + z);
+        double w = (k & 1 ? p.x - x : 1 - p.x + x) * (k & 2 ? p.y - y : 1 - p.y + y) * (k & 4 ? p.z - z : 1 - p.z + z);
         bool inner = i > 0 && j > 0 && l > 0 && i < n && j < n && l < n;
         f += w * (inner ? noise->sign[(l * n + j) * n + i] : 1);
     }
@@ -512,8 +504,7 @@ static void test_tip(void **state)
 {
     (void)state;
     lam_scene *scene = lam_scene_make(NULL);
-    // (v, u) in this order makes ∂p/∂u × ∂p/∂v point outward, so the tip is a column that coincides, not a
-    // row.
+    // (v, u) in this order makes ∂p/∂u × ∂p/∂v point outward, so the tip is a column that coincides, not a row.
     lam_parametric cone = {cone_point, NULL, 0, 2 * M_PI, 0, 1, 16, 4, true, false};
     assert_int_equal(lam_scene_add_parametric(scene, &cone, NULL, NULL), 0);
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
@@ -570,8 +561,7 @@ static void test_bad_formulas(void **state)
     lam_error error;
     lam_parametric good = {user_sphere, NULL, 0, 1, 0, 1, 4, 4, false, false};
     lam_parametric bad[6];
-    static const char *const named[6] = {"NULL",       "u goes",     "v goes",
-                                         "u_segments", "v_segments", "coordinate"};
+    static const char *const named[6] = {"NULL", "u goes", "v goes", "u_segments", "v_segments", "coordinate"};
     for (int i = 0; i < 6; i++)
         bad[i] = good;
     bad[0].surface = NULL;
@@ -617,8 +607,7 @@ static void test_bad_formulas(void **state)
     assert_int_equal(lam_scene_add_parametric(scene, &good, &(lam_control){.cancel = &cancel}, &error), -1);
     assert_int_equal(error.code, LAM_CANCELLED);
     ball.cells = 200;
-    assert_int_equal(
-        lam_scene_add_implicit(scene, &ball, &(lam_control){.memory_limit_bytes = 4 << 20}, &error), -1);
+    assert_int_equal(lam_scene_add_implicit(scene, &ball, &(lam_control){.memory_limit_bytes = 4 << 20}, &error), -1);
     assert_int_equal(error.code, LAM_LIMIT);
     assert_int_equal(lam_scene_mesh_count(scene), 1);
     lam_scene_free(scene);
@@ -669,8 +658,7 @@ static void test_teapot_data(void **state)
     assert_memory_equal(&teapot_spout[0][3], &teapot_spout[1][0], sizeof(struct teapot_section));
 }
 
-// The shared teapot.obj is the same patches cut into 10 × 10: our vertices with 10 segments a patch are its
-// vertices.
+// The shared teapot.obj is the same patches cut into 10 × 10: our vertices with 10 segments a patch are its vertices.
 static void test_teapot_against_file(void **state)
 {
     (void)state;
@@ -715,8 +703,7 @@ static void test_teapot_against_file(void **state)
     lam_scene_free(scene);
 }
 
-// Poles and joints of the teapot: the lid's top looks up, the bottom down, and across joints normals do not
-// jump.
+// Poles and joints of the teapot: the lid's top looks up, the bottom down, and across joints normals do not jump.
 static void test_teapot_normals(void **state)
 {
     (void)state;
@@ -763,8 +750,7 @@ static void test_circle(void **state)
     for (int n = 3; n < 400; n++)
         for (int i = -n; i <= 2 * n; i++) {
             struct circle_point p = circle(i, n), back = circle(-i, n);
-            assert_true(fabs(p.c - cos(2 * M_PI * i / n)) < 1e-14 &&
-                        fabs(p.s - sin(2 * M_PI * i / n)) < 1e-14);
+            assert_true(fabs(p.c - cos(2 * M_PI * i / n)) < 1e-14 && fabs(p.s - sin(2 * M_PI * i / n)) < 1e-14);
             assert_true(p.c == back.c && p.s == -back.s);
             if (i % n == 0)
                 assert_true(p.c == 1 && p.s == 0);

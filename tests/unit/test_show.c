@@ -1,5 +1,5 @@
-// test_show.c: pictures of terms add up to the picture; pictures of numbers hold the numbers that they say,
-// and their codes.
+// test_show.c: pictures of terms add up to the picture; pictures of numbers hold the numbers that they say, and their
+// codes.
 #include "scenes.h"
 
 #include <math.h>
@@ -29,8 +29,8 @@ static int tear_down(void **state)
     return 0;
 }
 
-static lam_image draw(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
-                      int width, int height, lam_pixel_format format)
+static lam_image draw(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params, int width,
+                      int height, lam_pixel_format format)
 {
     lam_image image;
     lam_error error = {0};
@@ -40,8 +40,8 @@ static lam_image draw(const lam_scene *scene, const lam_camera *camera, const la
     return image;
 }
 
-static lam_image draw_show(const lam_scene *scene, const lam_camera *camera, lam_draw_params params,
-                           lam_show show, int light)
+static lam_image draw_show(const lam_scene *scene, const lam_camera *camera, lam_draw_params params, lam_show show,
+                           int light)
 {
     params.show = show;
     params.show_light = light;
@@ -72,8 +72,8 @@ static void check_sums(const char *what, const double *sums, const lam_image *pi
         double expected = (double)p[i], bound = 1e-6 * (1 + fabs(expected));
         brightest = fmax(brightest, expected);
         if (!(fabs(sums[i] - expected) <= bound))
-            fail_msg("%s: pixel %d,%d channel %d: the sum is %.9g, the picture %.9g", what, i / 4 % 96,
-                     i / 4 / 96, i % 4, sums[i], expected);
+            fail_msg("%s: pixel %d,%d channel %d: the sum is %.9g, the picture %.9g", what, i / 4 % 96, i / 4 / 96,
+                     i % 4, sums[i], expected);
     }
     if (covered && brightest < 0.05)
         fail_msg("%s: the picture is black", what);
@@ -103,8 +103,7 @@ static void check_scene(const char *name, lam_scene *scene, const lam_camera *ca
     lam_light ambient = lam_light_default(LAM_LIGHT_AMBIENT);
     ambient.ambient = lam_scene_ambient(scene);
     lam_scene_set_ambient(scene, (lam_rgb){0});
-    params.rig =
-        params.rig == LAM_RIG_AUTO && lights && !lam_scene_light_count(scene) ? LAM_RIG_STUDIO : params.rig;
+    params.rig = params.rig == LAM_RIG_AUTO && lights && !lam_scene_light_count(scene) ? LAM_RIG_STUDIO : params.rig;
     int added = lam_scene_add_light(scene, &ambient, NULL);
     assert_true(added >= 0);
     add(sums, draw_show(scene, camera, params, LAM_SHOW_LIGHT, added));
@@ -128,8 +127,7 @@ static void test_demos(void **state)
     }
 }
 
-// A scene of every kind of light and term: emission, ambient of lights and scene, hemisphere, spot, coloured
-// vertices.
+// A scene of every kind of light and term: emission, ambient of lights and scene, hemisphere, spot, coloured vertices.
 static lam_scene *full_scene(bool colors)
 {
     lam_scene *scene = lam_scene_make(NULL);
@@ -191,10 +189,10 @@ static void test_every_method(void **state)
                     lam_scene *scene = full_scene(colors);
                     lam_camera camera = lam_camera_fit(scene, NULL);
                     char name[80];
-                    snprintf(name, sizeof name, "colours %d, shading %d, model %d, gl1 %d", colors, shading,
-                             model, gl1);
-                    if (params.gl1) // the scene's ambient light goes with the lights' there, and is weakened
-                                    // as theirs
+                    snprintf(name, sizeof name, "colours %d, shading %d, model %d, gl1 %d", colors, shading, model,
+                             gl1);
+                    // the scene's ambient light goes with the lights' there, and is weakened as theirs
+                    if (params.gl1)
                         lam_scene_set_ambient(scene, (lam_rgb){0});
                     check_scene(name, scene, &camera, params);
                     lam_scene_free(scene);
@@ -229,16 +227,14 @@ static void test_one_light(void **state)
     lam_scene_free(scene);
 }
 
-// --- numbers: a rectangle across the picture at z = 0, its left half seen from behind, over a second one at
-// z = -1
+// --- numbers: a rectangle across the picture at z = 0, its left half seen from behind, over a second one at z = -1
 
 static lam_scene *two_sheets(lam_camera *camera)
 {
     lam_scene *scene = lam_scene_make(NULL);
     static const float positions[] = {-2, -2, 0, 0, -2, 0, 0, 2, 0, -2, 2, 0, 2, -2, 0, 2, 2, 0};
     static const uint32_t indices[] = {0, 2, 1, 0, 3, 2, 1, 4, 5, 1, 5, 2}; // the left half clockwise
-    lam_mesh near_sheet = {
-        .vertex_count = 6, .triangle_count = 4, .positions = positions, .indices = indices};
+    lam_mesh near_sheet = {.vertex_count = 6, .triangle_count = 4, .positions = positions, .indices = indices};
     static const float behind[] = {-2, -2, -1, 2, -2, -1, 2, 0, -1, -2, 0, -1}; // the lower half only
     static const uint32_t quad[] = {0, 1, 2, 0, 2, 3};
     lam_mesh far_sheet = {.vertex_count = 4, .triangle_count = 2, .positions = behind, .indices = quad};
@@ -308,10 +304,8 @@ static void test_numbers(void **state)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         for (size_t k = 0; k < 3 * 2; k++) {
             const struct expected *e = &all[i];
-            lam_draw_params params = {.show = e->show,
-                                      .shading = shadings[k / 2],
-                                      .samples = k % 2 ? 4 : 1,
-                                      .background = {1, 1, 1, 1}};
+            lam_draw_params params = {
+                .show = e->show, .shading = shadings[k / 2], .samples = k % 2 ? 4 : 1, .background = {1, 1, 1, 1}};
             lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
             lam_image bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
             const int at[3] = {40 * 60 + 15, 20 * 60 + 40, 2 * 60 + 2}; // left below, right above, outside
@@ -325,8 +319,8 @@ static void test_numbers(void **state)
                                  (double)found, (double)values[p][c]);
                     int code = ((uint8_t *)bytes.pixels)[4 * at[p] + c];
                     if (code != codes[p][c])
-                        fail_msg("%s, place %d, channel %d: byte %d, expected %d", lam_show_name(e->show), p,
-                                 c, code, codes[p][c]);
+                        fail_msg("%s, place %d, channel %d: byte %d, expected %d", lam_show_name(e->show), p, c, code,
+                                 codes[p][c]);
                 }
             lam_image_free(&floats);
             lam_image_free(&bytes);
@@ -353,8 +347,7 @@ static void test_ids(void **state)
             continue;
         }
         int triangle = (int)v[0], object = (int)v[1];
-        assert_true((float)triangle == v[0] && (float)object == v[1] && v[2] == 0 &&
-                    v[3] == 1); // never a mixture
+        assert_true((float)triangle == v[0] && (float)object == v[1] && v[2] == 0 && v[3] == 1); // never a mixture
         assert_true(object >= 0 && object < 2 && triangle >= 0 && triangle < (object ? 2 : 4));
         assert_true(b[0] >= 48 && b[1] >= 48 && b[2] >= 48 && b[3] == 255);
         if (seen[object][triangle])
@@ -382,8 +375,7 @@ static void test_clipped(void **state)
               bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
     int marked = 0;
     for (int i = 0; i < 60 * 60; i++) {
-        const float *p = (float *)picture.pixels + (ptrdiff_t)4 * i,
-                    *v = (float *)floats.pixels + (ptrdiff_t)4 * i;
+        const float *p = (float *)picture.pixels + (ptrdiff_t)4 * i, *v = (float *)floats.pixels + (ptrdiff_t)4 * i;
         const uint8_t *b = (uint8_t *)bytes.pixels + (ptrdiff_t)4 * i;
         bool over = false;
         for (int c = 0; c < 3; c++) {
@@ -402,8 +394,7 @@ static void test_clipped(void **state)
     lam_scene_free(scene);
 }
 
-// Coverage is the picture's alpha; tangents are unit and perpendicular to the normals; depth is the eye's own
-// distance.
+// Coverage is the picture's alpha; tangents are unit and perpendicular to the normals; depth is the eye's own distance.
 static void test_relations(void **state)
 {
     (void)state;
@@ -432,8 +423,7 @@ static void test_relations(void **state)
             nt += (double)n[k] * (double)t[k];
         }
         assert_true(fabs(nn - 1) < 1e-5 && fabs(tt - 1) < 1e-5 && fabs(nt) < 1e-5);
-        assert_true(n[2] >
-                    -0.35f); // two-sided: towards the eye, but for the smooth normals of triangles at the rim
+        assert_true(n[2] > -0.35f); // two-sided: towards the eye, but for the smooth normals of triangles at the rim
         float cosine = ((float *)n_l.pixels)[i], half = ((float *)n_h.pixels)[i];
         assert_true(cosine >= -1 && cosine <= 1 && half >= -1 && half <= 1);
     }

@@ -92,10 +92,9 @@ static void test_ascii_oddities(void **state)
 static void test_ascii_in_one_line(void **state)
 {
     (void)state;
-    lam_scene *scene =
-        load_text("solid all of it facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
-                  "endloop endfacet endsolid",
-                  "line.stl");
+    lam_scene *scene = load_text("solid all of it facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
+                                 "endloop endfacet endsolid",
+                                 "line.stl");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->triangle_count, 1);
     assert_string_equal(mesh->parts[0].name, "all of it");
@@ -137,18 +136,15 @@ static void test_ascii_errors(void **state)
                 "a.stl", "a.stl:4: facet 1: found 'inf', expected a finite number");
     refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", "a.stl",
                 "a.stl:6: facet 1: found 'endloop', expected \"vertex\"");
-    refuse_text(
-        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n",
-        "a.stl", "a.stl:7: facet 1: found 'vertex', expected \"endloop\"");
+    refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n",
+                "a.stl", "a.stl:7: facet 1: found 'vertex', expected \"endloop\"");
     refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "a.stl",
                 "a.stl:5: facet 1: found the end of the file, expected \"vertex\"");
-    refuse_text("solid a\nfacet normal 0 0 1\n  ring\n", "a.stl",
-                "a.stl:3: facet 1: found 'ring', expected \"outer\"");
+    refuse_text("solid a\nfacet normal 0 0 1\n  ring\n", "a.stl", "a.stl:3: facet 1: found 'ring', expected \"outer\"");
     refuse_text("solid a\ntriangle\nfacet\n", "a.stl",
                 "a.stl:2: facet 1: found 'triangle', expected \"facet\", \"endsolid\" or \"solid\"");
-    refuse_text(
-        "solid a\nfacet outer loop vertex 1e300 0 0 vertex -1e300 0 0 vertex 0 0 0 endloop endfacet\n",
-        "a.stl", "a.stl: facet 1: corner 1 lies too far from the others for a float");
+    refuse_text("solid a\nfacet outer loop vertex 1e300 0 0 vertex -1e300 0 0 vertex 0 0 0 endloop endfacet\n", "a.stl",
+                "a.stl: facet 1: corner 1 lies too far from the others for a float");
 }
 
 static void test_binary(void **state)
@@ -176,8 +172,7 @@ static void test_binary(void **state)
     put_text(&file, "more");
     scene = load(&file, "a.stl");
     assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, 2);
-    assert_string_equal(lam_scene_warning(scene, 0),
-                        "a.stl: 4 bytes behind the last of 2 facets are ignored");
+    assert_string_equal(lam_scene_warning(scene, 0), "a.stl: 4 bytes behind the last of 2 facets are ignored");
     lam_scene_free(scene);
 }
 
@@ -224,8 +219,7 @@ static void test_first_mistake(void **state)
         memcpy(bytes + 84 + 50 * facet + 12, &infinity, 4);
     for (int threads = 1; threads <= 5; threads += 2) {
         lam_error error = {0};
-        assert_null(lam_scene_load_memory(bytes, size, "a.stl", &(lam_load_params){.threads = threads}, NULL,
-                                          &error));
+        assert_null(lam_scene_load_memory(bytes, size, "a.stl", &(lam_load_params){.threads = threads}, NULL, &error));
         assert_string_equal(error.text, "a.stl: byte 450096: facet 9001: found infinity as x of corner 1, "
                                         "expected a finite number");
     }

@@ -102,10 +102,8 @@ static void blends_and_clips(void **state)
     lam_image bytes = blank(20, 20, LAM_RGBA8), floats = blank(20, 20, LAM_RGBA32F);
     memset(bytes.pixels, 255, 20 * 20 * 4);
     // Far larger than the picture and hanging out on every side; a bar's middle covers all of it.
-    assert_true(
-        lam_text_draw(&bytes, font, -200, 200, 800, (lam_rgba){0, 0, 0, 0.5f}, "\u2588\u2588\u2588", NULL));
-    assert_true(
-        lam_text_draw(&floats, font, -200, 200, 800, (lam_rgba){2, 0, 0, 0.5f}, "\u2588\u2588\u2588", NULL));
+    assert_true(lam_text_draw(&bytes, font, -200, 200, 800, (lam_rgba){0, 0, 0, 0.5f}, "\u2588\u2588\u2588", NULL));
+    assert_true(lam_text_draw(&floats, font, -200, 200, 800, (lam_rgba){2, 0, 0, 0.5f}, "\u2588\u2588\u2588", NULL));
     const uint8_t *b = (const uint8_t *)bytes.pixels + 4 * (10 * 20 + 10);
     const float *f = (const float *)floats.pixels + 4 * (10 * 20 + 10);
     assert_true(b[0] == 128 && b[3] == 255);

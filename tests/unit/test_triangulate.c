@@ -122,18 +122,15 @@ static void test_small(void **unused)
     }
 }
 
-// A ring whose hole is joined by a bridge there and back, holes that touch the outline, and points that
-// repeat.
+// A ring whose hole is joined by a bridge there and back, holes that touch the outline, and points that repeat.
 static void test_touching(void **unused)
 {
     (void)unused;
-    static const double ring[][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0},
-                                     {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
+    static const double ring[][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
     static const double two_holes[][2] = {{0, 0}, {8, 0}, {8, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3},
                                           {3, 1}, {1, 1}, {5, 1}, {5, 3}, {7, 3}, {7, 1}, {5, 1}, {1, 1}};
     static const double hole_at_corner[][2] = {{0, 0}, {1, 2}, {2, 1}, {0, 0}, {4, 0}, {4, 4}, {0, 4}};
-    static const double repeated[][2] = {{0, 0},   {0, 0}, {2, 0}, {2, 0}, {2, 0},
-                                         {1, 0.5}, {2, 2}, {0, 2}, {0, 2}};
+    static const double repeated[][2] = {{0, 0}, {0, 0}, {2, 0}, {2, 0}, {2, 0}, {1, 0.5}, {2, 2}, {0, 2}, {0, 2}};
     static const double hourglass[][2] = {{0, 0}, {2, 0}, {1, 1}, {2, 2}, {0, 2}, {1, 1}};
     for (int plane = 0; plane < 3; plane++) {
         check(ring, 10, plane);
@@ -227,13 +224,12 @@ static void test_hopeless(void **unused)
             corners[i] = i;
             for (int k = 0; k < 3; k++) {
                 double r = random_unit();
-                positions[3 * i + (uint32_t)k] =
-                    (float)(round % 6 == 0   ? 1                           // one point
-                            : round % 6 == 1 ? i * (k + 1)                 // a line
-                            : round % 6 == 2 ? r                           // a tangle
-                            : round % 6 == 3 ? (k == 2 ? 0 : floor(4 * r)) // few places
-                            : round % 6 == 4 ? (r - 0.5) * 6.8e38          // as far as floats go
-                                             : r * 1e-44);                 // denormals
+                positions[3 * i + (uint32_t)k] = (float)(round % 6 == 0   ? 1                           // one point
+                                                         : round % 6 == 1 ? i * (k + 1)                 // a line
+                                                         : round % 6 == 2 ? r                           // a tangle
+                                                         : round % 6 == 3 ? (k == 2 ? 0 : floor(4 * r)) // few places
+                                                         : round % 6 == 4 ? (r - 0.5) * 6.8e38 // as far as floats go
+                                                                          : r * 1e-44);        // denormals
             }
         }
         memset(triples, 0xff, sizeof triples);

@@ -1,8 +1,7 @@
 // functions.h: powers, logarithms and inverse roots, many at a time, with the same bits on every machine.
 //
-// On top of lanes.h: + − × and integer work on the bits, no libm, no table, no division. Each function says
-// its range and its error, both measured by tests/lighting/test_functions.c. No argument gives NaN, unless it
-// says so.
+// On top of lanes.h: + − × and integer work on the bits, no libm, no table, no division. Each function says its range
+// and its error, both measured by tests/lighting/test_functions.c. No argument gives NaN, unless it says so.
 #ifndef FUNCTIONS_H
 #define FUNCTIONS_H
 
@@ -10,8 +9,7 @@
 
 #define SMALLEST_NORMAL 1.17549435e-38f // 2⁻¹²⁶
 
-// x = 2^exponent · (1 + rest) with |rest| ≤ 1/3, exactly, for normal x > 0: the mantissa is cut at 2/3 and
-// 4/3.
+// x = 2^exponent · (1 + rest) with |rest| ≤ 1/3, exactly, for normal x > 0: the mantissa is cut at 2/3 and 4/3.
 struct binary_parts {
     num exponent, rest;
 };
@@ -23,8 +21,8 @@ LANE_FN struct binary_parts binary_parts_of(num x)
     return (struct binary_parts){num_of_int(shift_right(above, 23)), num_of_bits(mantissa) - 1.0f};
 }
 
-// log₂(1 + z) − 1.5·z for |z| ≤ 1/3, at most 0.085; best polynomial, error 1.2e-9 before rounding. 1.5·z is
-// exact in a float, so that the two together know the logarithm to some bits more than a float has.
+// log₂(1 + z) − 1.5·z for |z| ≤ 1/3, at most 0.085; best polynomial, error 1.2e-9 before rounding. 1.5·z is exact in a
+// float, so that the two together know the logarithm to some bits more than a float has.
 LANE_FN num log2_remainder(num z)
 {
     num z2 = z * z, z4 = z2 * z2;
@@ -42,8 +40,8 @@ LANE_FN num exp2_fraction(num f)
            f2 * ((f * 5.5507299e-2f + 2.4022247e-1f) + f2 * (f * 1.3265090e-3f + 9.6713379e-3f));
 }
 
-// A whole number n near y and 2^n. Adding 1.5·2²³ + 127 leaves no room for a fraction and puts n + 127, the
-// exponent as floats store it, into the lowest bits. Meaningless but harmless where |y| > 126.
+// A whole number n near y and 2^n. Adding 1.5·2²³ + 127 leaves no room for a fraction and puts n + 127, the exponent as
+// floats store it, into the lowest bits. Meaningless but harmless where |y| > 126.
 struct whole_power {
     num whole, power;
 };
@@ -96,10 +94,9 @@ LANE_FN num least_base(num exponent)
     return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-__builtin_inff()));
 }
 
-// base^exponent for a base in 0…1 (more counts as 1) and any finite exponent ≥ 0. 0⁰ = 1. Otherwise 0 where
-// the base is 0, negative or below the smallest normal number; 0 where it is NaN. Results below the smallest
-// normal number are 0: denormals cost two to three times the rest. Relative error at most 2e-6 for exponents
-// up to 128, and 3e-6 for all.
+// base^exponent for a base in 0…1 (more counts as 1) and any finite exponent ≥ 0. 0⁰ = 1. Otherwise 0 where the base is
+// 0, negative or below the smallest normal number; 0 where it is NaN. Results below the smallest normal number are 0:
+// denormals cost two to three times the rest. Relative error at most 2e-6 for exponents up to 128, and 3e-6 for all.
 //
 // In three steps, so that loops over many powers need not wait for each one's end: the base's parts, its
 // logarithm, with a head of −∞ where the result is 0, and the power of two.
@@ -136,10 +133,9 @@ LANE_FN num power(num base, num exponent)
     return pick(some, exp2_fraction(fraction) * w.power, num_of(0.0f));
 }
 
-// 1/√x for normal x > 0 within 9e-8 relative; about 3.6e19 at 0, so that 0 · inverse_root(0) = 0. A start
-// from the bits (the halved, negated exponent), a first step whose constants were fitted to come out a little
-// low, which makes the rounding of x·y² finer, and one step of third order: with e = 1 − x·y², 1/√x = y/√(1 −
-// e) = y·(1 + e/2 + 3e²/8 + …).
+// 1/√x for normal x > 0 within 9e-8 relative; about 3.6e19 at 0, so that 0 · inverse_root(0) = 0. A start from the bits
+// (the halved, negated exponent), a first step whose constants were fitted to come out a little low, which makes the
+// rounding of x·y² finer, and one step of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2 + 3e²/8 + …).
 //
 // In two steps for loops over many, as above: what is near it, and the rest of the way.
 LANE_FN num inverse_root_near(num x)

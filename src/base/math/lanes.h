@@ -2,12 +2,11 @@
 //
 //   num    LANES floats          inum   LANES 32-bit integers          mask   LANES truths, from comparing
 //
-// With LANES 1 a num is a float and the same text is ordinary C. With more it is a GCC/Clang vector type,
-// which any instruction set can carry (wider than the machine's registers: several of them), so every width
-// runs everywhere and, since only correctly rounded operations occur (+ − × ÷ √, no fused ones), gives the
-// same bits. This is the one file that may hold intrinsics. The words below and + − * / < <= > >= == != are
-// the whole language; vectors take a C float on one side of an operator, but a variable that starts from a
-// float needs num_of().
+// With LANES 1 a num is a float and the same text is ordinary C. With more it is a GCC/Clang vector type, which any
+// instruction set can carry (wider than the machine's registers: several of them), so every width runs everywhere and,
+// since only correctly rounded operations occur (+ − × ÷ √, no fused ones), gives the same bits.
+// This is the one file that may hold intrinsics. The words below and + − * / < <= > >= == != are the whole language;
+// vectors take a C float on one side of an operator, but a variable that starts from a float needs num_of().
 #ifndef LANES_H
 #define LANES_H
 
@@ -349,16 +348,15 @@ LANE_FN num num_load_halves(const float *low, const float *high)
 
 #if LANES == 8 && defined(__AVX2__)
 // For each set of bits, their numbers from the lowest on, a byte each.
-#define BIT_NUMBER(b, i) ((b) >> (i)&1 ? (uint64_t)(i) << 8 * __builtin_popcount((b) & ((1u << (i)) - 1)) : 0)
-#define BIT_NUMBERS(b)                                                                                       \
-    (BIT_NUMBER(b, 0) | BIT_NUMBER(b, 1) | BIT_NUMBER(b, 2) | BIT_NUMBER(b, 3) | BIT_NUMBER(b, 4) |          \
-     BIT_NUMBER(b, 5) | BIT_NUMBER(b, 6) | BIT_NUMBER(b, 7))
+#define BIT_NUMBER(b, i) ((b) >> (i) & 1 ? (uint64_t)(i) << 8 * __builtin_popcount((b) & ((1u << (i)) - 1)) : 0)
+#define BIT_NUMBERS(b)                                                                                                 \
+    (BIT_NUMBER(b, 0) | BIT_NUMBER(b, 1) | BIT_NUMBER(b, 2) | BIT_NUMBER(b, 3) | BIT_NUMBER(b, 4) | BIT_NUMBER(b, 5) | \
+     BIT_NUMBER(b, 6) | BIT_NUMBER(b, 7))
 #define BIT_NUMBERS_4(b)  BIT_NUMBERS(b), BIT_NUMBERS(b + 1), BIT_NUMBERS(b + 2), BIT_NUMBERS(b + 3)
 #define BIT_NUMBERS_16(b) BIT_NUMBERS_4(b), BIT_NUMBERS_4(b + 4), BIT_NUMBERS_4(b + 8), BIT_NUMBERS_4(b + 12)
-#define BIT_NUMBERS_64(b)                                                                                    \
-    BIT_NUMBERS_16(b), BIT_NUMBERS_16(b + 16), BIT_NUMBERS_16(b + 32), BIT_NUMBERS_16(b + 48)
-static const uint64_t bit_numbers[256] __attribute__((unused)) = {BIT_NUMBERS_64(0u), BIT_NUMBERS_64(64u),
-                                                                  BIT_NUMBERS_64(128u), BIT_NUMBERS_64(192u)};
+#define BIT_NUMBERS_64(b) BIT_NUMBERS_16(b), BIT_NUMBERS_16(b + 16), BIT_NUMBERS_16(b + 32), BIT_NUMBERS_16(b + 48)
+static const uint64_t bit_numbers[256]
+    __attribute__((unused)) = {BIT_NUMBERS_64(0u), BIT_NUMBERS_64(64u), BIT_NUMBERS_64(128u), BIT_NUMBERS_64(192u)};
 #undef BIT_NUMBER
 #undef BIT_NUMBERS
 #undef BIT_NUMBERS_4
@@ -450,8 +448,7 @@ LANE_FN void igather3(const void *from, const uint32_t *at, int stride, inum out
         const char *at_row = base + at[j] * step;
         int32_t third;
         memcpy(&third, at_row + 8, 4);
-        row[j] = _mm_unpacklo_epi64(_mm_loadl_epi64((const __m128i *)(const void *)at_row),
-                                    _mm_cvtsi32_si128(third));
+        row[j] = _mm_unpacklo_epi64(_mm_loadl_epi64((const __m128i *)(const void *)at_row), _mm_cvtsi32_si128(third));
     }
     __m128i xy0 = _mm_unpacklo_epi32(row[0], row[1]), xy1 = _mm_unpacklo_epi32(row[2], row[3]);
     __m128i z0 = _mm_unpackhi_epi32(row[0], row[1]), z1 = _mm_unpackhi_epi32(row[2], row[3]);

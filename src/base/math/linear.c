@@ -8,14 +8,13 @@ double math_sqrt(double x) { return x > 0 ? __builtin_sqrt(x) : 0; }
 double math_radians(double degrees) { return degrees * (PI / 180); }
 double math_degrees(double radians) { return radians * (180 / PI); }
 
-// π/2 in three parts, the first two with 33 significant bits, so that their products with the quotient are
-// exact.
+// π/2 in three parts, the first two with 33 significant bits, so that their products with the quotient are exact.
 #define HALF_PI_1 1.57079632673412561417e+00
 #define HALF_PI_2 6.07710050630396597660e-11
 #define HALF_PI_3 2.02226624879595063154e-21
 
-// x = quarter·π/2 + rest with |rest| ≤ π/4 (a little more by rounding). Exact enough for |x| ≤ 1e6; beyond,
-// the angle is taken to be 0 turns off: no user gives such an angle, and the result stays finite.
+// x = quarter·π/2 + rest with |rest| ≤ π/4 (a little more by rounding). Exact enough for |x| ≤ 1e6; beyond, the angle
+// is taken to be 0 turns off: no user gives such an angle, and the result stays finite.
 static double reduce(double x, int *quarter)
 {
     if (!(x > -1e9 && x < 1e9)) {
@@ -78,8 +77,7 @@ double math_cos(double x)
 
 double math_tan(double x) { return math_sin(x) / math_cos(x); }
 
-// atan of t in [0, 1]: halved twice by atan t = 2 atan(t / (1 + √(1 + t²))), then its series for t ≤
-// tan(π/16).
+// atan of t in [0, 1]: halved twice by atan t = 2 atan(t / (1 + √(1 + t²))), then its series for t ≤ tan(π/16).
 static double arctangent(double t)
 {
     for (int i = 0; i < 2; i++)
@@ -160,10 +158,7 @@ lam_vec3 v3_unit(lam_vec3 a)
     return v3(a.x / length, a.y / length, a.z / length);
 }
 
-lam_mat4 lam_mat4_identity(void)
-{
-    return (lam_mat4){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-}
+lam_mat4 lam_mat4_identity(void) { return (lam_mat4){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}; }
 
 lam_mat4 mat4_mul(const lam_mat4 *a, const lam_mat4 *b)
 {

@@ -1,6 +1,5 @@
-// linear.h: vectors, matrices and angles in double, in one fixed order of operations, for set-up work:
-// cameras, rotations, transforms. The per-pixel side is lanes.h. No libm: its last bits differ between
-// machines and versions.
+// linear.h: vectors, matrices and angles in double, in one fixed order of operations, for set-up work: cameras,
+// rotations, transforms. The per-pixel side is lanes.h. No libm: its last bits differ between machines and versions.
 #ifndef LINEAR_H
 #define LINEAR_H
 
@@ -21,8 +20,7 @@ double v3_length(lam_vec3 a);
 lam_vec3 v3_unit(lam_vec3 a); // the zero vector stays zero; safe from overflow and underflow
 bool v3_finite(lam_vec3 a);
 
-// Correctly rounded √ (the processor's own), and angle functions within 2 units in the last place for |x| ≤
-// 1e6.
+// Correctly rounded √ (the processor's own), and angle functions within 2 units in the last place for |x| ≤ 1e6.
 double math_sqrt(double x);
 double math_sin(double x);
 double math_cos(double x);
@@ -45,7 +43,7 @@ void mat4_normal_matrix(const lam_mat4 *m, double out[3][3]);
 
 lam_mat4 mat4_translate(double x, double y, double z);
 lam_mat4 mat4_scale(double x, double y, double z);
-lam_mat4 mat4_rotate(double radians, lam_vec3 axis); // right-handed about the axis, any length but 0
+lam_mat4 mat4_rotate(double radians, lam_vec3 axis);               // right-handed about the axis, any length but 0
 lam_mat4 mat4_look_at(lam_vec3 eye, lam_vec3 target, lam_vec3 up); // world to eye space
 // OpenGL's projections: z from −1 at the near plane to 1 at the far one, distances positive.
 lam_mat4 mat4_perspective(double fovy_rad, double aspect, double near_plane, double far_plane);

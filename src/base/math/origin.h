@@ -1,9 +1,8 @@
 // origin.h: when a mesh gets an origin other than zero, and which. One rule for every format.
 //
-// Positions are floats, good to 2⁻²⁴ of their size. A part that lies far from zero (survey coordinates, a car
-// in its factory) would lose its detail, so a mesh carries an `origin` in double, and its positions are
-// rounded to float after the origin was subtracted. Readers whose file holds floats need no origin: those are
-// exact as they are.
+// Positions are floats, good to 2⁻²⁴ of their size. A part that lies far from zero (survey coordinates, a car in its
+// factory) would lose its detail, so a mesh carries an `origin` in double, and its positions are rounded to float after
+// the origin was subtracted. Readers whose file holds floats need no origin: those are exact as they are.
 #ifndef ORIGIN_H
 #define ORIGIN_H
 
@@ -11,15 +10,14 @@
 #include <stdint.h>
 #include <string.h>
 
-// An axis gets an origin when its largest coordinate is more than this many times the model's size (the
-// longest side of its box): below, rounding moves a point by less than a millionth of that size, and the
-// numbers stay the file's own.
+// An axis gets an origin when its largest coordinate is more than this many times the model's size (the longest side of
+// its box): below, rounding moves a point by less than a millionth of that size, and the numbers stay the file's own.
 #define ORIGIN_RATIO 16.0
 
-// Works out the origin from the box of all coordinates, which must be finite: on each axis 0 when none is
-// needed, else the box's middle, rounded to a multiple of the largest power of two that is not above the
-// model's size, so that it is a short number. Returns whether any axis needs one. Values rounded to float
-// will do for the question itself; then call again with doubles for the origin.
+// Works out the origin from the box of all coordinates, which must be finite: on each axis 0 when none is needed, else
+// the box's middle, rounded to a multiple of the largest power of two that is not above the model's size, so that it
+// is a short number. Returns whether any axis needs one. Values rounded to float will do for the question itself; then
+// call again with doubles for the origin.
 static inline bool origin_choose(const double minimum[3], const double maximum[3], double origin[3])
 {
     // Halves, so that the size of a box from −1e308 to 1e308 does not overflow.
@@ -45,8 +43,8 @@ static inline bool origin_choose(const double minimum[3], const double maximum[3
         memcpy(&bits, &size, sizeof bits);
         bits &= UINT64_C(0x7ff0000000000000);
         memcpy(&step, &bits, sizeof step);
-        // Adding and taking away 1.5 · 2⁵² rounds to a whole number below 2⁵¹; from there on the middle is
-        // one already, as it is for a model without size, or one smaller than the smallest normal double.
+        // Adding and taking away 1.5 · 2⁵² rounds to a whole number below 2⁵¹; from there on the middle is one already,
+        // as it is for a model without size, or one smaller than the smallest normal double.
         double steps = step > 0.0 ? middle / step : 0x1p52;
         if (steps > -0x1p51 && steps < 0x1p51)
             middle = ((steps + 0x1.8p52) - 0x1.8p52) * step;

@@ -50,11 +50,10 @@ LANE_FN num quads_apart(const float *const at[LANES], int i)
 #if LANES == 4
 #define SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, OF_QUAD(i, j, k, l, 0))
 #elif LANES == 8
-#define SHUFFLE(a, b, i, j, k, l)                                                                            \
-    __builtin_shufflevector(a, b, OF_QUAD(i, j, k, l, 0), OF_QUAD(i, j, k, l, 1))
+#define SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, OF_QUAD(i, j, k, l, 0), OF_QUAD(i, j, k, l, 1))
 #else
-#define SHUFFLE(a, b, i, j, k, l)                                                                            \
-    __builtin_shufflevector(a, b, OF_QUAD(i, j, k, l, 0), OF_QUAD(i, j, k, l, 1), OF_QUAD(i, j, k, l, 2),    \
+#define SHUFFLE(a, b, i, j, k, l)                                                                                      \
+    __builtin_shufflevector(a, b, OF_QUAD(i, j, k, l, 0), OF_QUAD(i, j, k, l, 1), OF_QUAD(i, j, k, l, 2),              \
                             OF_QUAD(i, j, k, l, 3))
 #endif
 LANE_FN struct triples load_triples(const float *const at[LANES])

@@ -1,4 +1,4 @@
-// reading.c: what reading a model file takes by other means, once, from the page cache, in milliseconds on
+// shader_interface.c: what reading a model file takes by other means, once, from the page cache, in milliseconds on
 // standard output:
 //     reading assimp FILE   Assimp, no post-processing: its own positions and indices
 //     reading touch FILE    mapped, one thread, every cache line looked at: no reader is faster with one

@@ -29,7 +29,7 @@ def sources(machine):
     files = []
     for folder in ("base", "base/math", "image", "scene", "import", "device", "cpu"):
         files += sorted(glob.glob(os.path.join(ROOT, "src", folder, "*.c")))
-    skipped = LEFT_OUT + machine["without"] + ["kernels.c", "fan_lanes.c", "seen_lanes.c"]
+    skipped = LEFT_OUT + machine["without"] + ["kernels.c", "corner_fan_simd.c", "position_simd.c"]
     for_each = [("src/cpu/kernels.c", kernel) for kernel in machine["kernels"]] + [("src/scene/%s_lanes.c" % name, ("plain", 1)) for name in ("fan", "seen")]
     return [(f, []) for f in files if os.path.basename(f) not in skipped] + [
         (os.path.join(ROOT, path), ["-DISA=" + isa, "-DLANES=%d" % lanes]) for path, (isa, lanes) in for_each]

@@ -13,7 +13,7 @@
 #include "base.h"
 #include "camera.h"
 #include "check.h"
-#include "curves.h"
+#include "light_eval.h"
 #include "device.h"
 #include "environment.h"
 #include "explain.h"
@@ -23,8 +23,8 @@
 #include "material.h"
 #include "mesh.h"
 #include "scene.h"
-#include "settings.h"
+#include "scene_file.h"
 #include "shader.h"
-#include "text.h"
+#include "caption.h"
 
 #endif

@@ -6,7 +6,7 @@
 #ifndef ARENA_H
 #define ARENA_H
 
-#include "watch.h"
+#include "call_control.h"
 
 #include <stdarg.h>
 #include <stddef.h>

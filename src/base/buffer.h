@@ -2,7 +2,7 @@
 #ifndef BUFFER_H
 #define BUFFER_H
 
-#include "watch.h"
+#include "call_control.h"
 
 struct buffer {
     void *data; // at least 64-byte aligned

@@ -3,7 +3,7 @@
 #define FILE_H
 
 #include "pool.h"
-#include "watch.h"
+#include "call_control.h"
 
 // Files are read into memory of their own, in parallel pieces, rather than mapped: a mapped file that another program
 // shrinks kills the reader with SIGBUS, and copying from the page cache into huge pages costs no more than the page

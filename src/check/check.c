@@ -1,8 +1,8 @@
 // check.c: a check from beginning to end.
-#include "complete.h"
-#include "hints.h"
-#include "judge.h"
-#include "notes.h"
+#include "default_vertex_shader.h"
+#include "compiler_hints.h"
+#include "fault_search.h"
+#include "diagnostics.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // without_gl.c: in place of what draws, where the headers of EGL and OpenGL were not there to build it.
-#include "model.h"
+#include "fault_shader.h"
 
 #include <stddef.h>
 

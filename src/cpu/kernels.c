@@ -6,17 +6,17 @@
 
 #include <string.h>
 
-#include "project.inc"
+#include "vertex_transform.inc"
 #include "corners.inc"
-#include "hidden.inc"
+#include "occlusion.inc"
 #include "bin.inc"
 #include "cover.inc"
 #include "cover_packet.inc"
 #include "cover_tile.inc"
-#include "gather.inc"
-#include "collect.inc"
-#include "stash.inc"
-#include "light.inc"
+#include "translucent_fragments.inc"
+#include "visibility_resolve.inc"
+#include "fragment_store.inc"
+#include "shade.inc"
 #include "resolve.inc"
 #include "record_pixel.inc"
 

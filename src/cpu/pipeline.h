@@ -1,22 +1,22 @@
 // pipeline.h: what the steps of the CPU device hand to each other.
 //
-//   vertices   positions → pixel x, y and depth key of every vertex           project.inc
+//   vertices   positions → pixel x, y and depth key of every vertex           vertex_transform.inc
 //   triangles  index triples → tile bins                                      bin.inc, clip.c
-//   tiles      bins → depth key and triangle number of every sample           cover*.inc, hidden.inc
-//              translucent triangles → layers over the samples, blended       gather.inc, blend.c
-//              samples → fragments (a pixel and a triangle it shows)          collect.inc, fragments.c
-//              fragments → colours                                            light.inc
+//   tiles      bins → depth key and triangle number of every sample           cover*.inc, occlusion.inc
+//              translucent triangles → layers over the samples, blended       translucent_fragments.inc, blend.c
+//              samples → fragments (a pixel and a triangle it shows)          visibility_resolve.inc, fragments.c
+//              fragments → colours                                            shade.inc
 //              colours → pixels of the picture                                resolve.inc
 #ifndef PIPELINE_H
 #define PIPELINE_H
 
 #include "buffer.h"
 #include "frame.h"
-#include "light_table.h"
+#include "light_bounds.h"
 #include "pool.h"
 #include "samples.h"
-#include "seen_normals.h"
-#include "watch.h"
+#include "visible_normals.h"
+#include "call_control.h"
 
 enum {
     TILE = 64, // pixels on a side; the same on every machine
@@ -61,7 +61,7 @@ struct piece {
 // Bins: for each tile two chains of blocks with triangle numbers, small ones that show their back and all
 // others. Every thread has its own, so no locks are taken; the picture does not depend on the order in which
 // a tile's triangles come. Backs are drawn last, since most are hidden by then, and carry a bound that tells
-// it (hidden.inc).
+// it (occlusion.inc).
 enum {
     TILE_BINS = 2,       // of tile t: 2·t, and 2·t + 1 with backs
     BIN_BLOCK_IDS = 128, // multiples of LANES_MAX: whole packets can be read
@@ -97,7 +97,7 @@ struct rectangle {
 // sets of the processor's cache.
 enum { POINTS_AT_ONCE = 512, POINT_ROW = POINTS_AT_ONCE + 16 };
 
-// Fragments beside each other that show the same triangle are a run: rows of what belongs to the triangle (runs.inc).
+// Fragments beside each other that show the same triangle are a run: rows of what belongs to the triangle (triangle_runs.inc).
 enum { RUN_CORNERS = 0, RUN_SPANNED = 9, RUN_MORE = 18, RUN_ROWS = 21 };
 struct runs {
     int count;
@@ -117,7 +117,7 @@ struct lit_points {
     struct runs runs;
 };
 
-// The lights that some points are lit by (light_lists.inc).
+// The lights that some points are lit by (light_cull.inc).
 struct light_choice {
     uint32_t *numbers; // in the frame, ascending
     int count;
@@ -151,7 +151,7 @@ struct thread_state {
     uint32_t point_count;
     struct lit_points *points;
     struct light_choice choice;
-    int32_t *counts; // triangles that cover each sample; NULL: nobody asks (show.c)
+    int32_t *counts; // triangles that cover each sample; NULL: nobody asks (output.c)
     float *shown;    // the tile's part of the picture, for LAM_SHOW_CLIPPED
     // Sums of a tile's pixels: r, g, b premultiplied, and alpha.
     float *sum[4];

@@ -2,11 +2,11 @@
 //
 //   meshes        arrays of a mesh → vertex buffers, once                        gl_meshes.c
 //   programs      choices → compiled shaders, once (glsl.h has the text)         gl_programs.c
-//   lists         lights and materials × lights → uniform blocks or textures     gl_lists.c
-//   application   colours of vertices from the CPU's equations                   gl_colors.c
+//   lists         lights and materials × lights → uniform blocks or textures     gl_light_buffers.c
+//   application   colours of vertices from the CPU's equations                   gl_vertex_lighting.c
 //   targets       framebuffers of one part of the picture                        gl_targets.c
 //   passes        samples, opaque surfaces, layers of translucent ones           gl_passes.c
-//   reading       linear light → the image                                       gl_reading.c
+//   reading       linear light → the image                                       gl_readback.c
 //
 // Everything is kept from frame to frame and sent again only where it has changed.
 #ifndef GL_DEVICE_H
@@ -250,7 +250,7 @@ struct gl_mesh *mesh_on_device(struct gl_frame *f, const lam_mesh *mesh, enum ve
 void meshes_drop(struct gl_frame *f);
 void meshes_free(struct gl_device *device);
 
-// --- gl_colors.c
+// --- gl_vertex_lighting.c
 // The vertex array of a draw with the colours that the CPU's equations give its vertices. 0: the error tells.
 GLuint colors_on_device(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_error *error);
 void colors_free(struct gl_device *device);
@@ -262,7 +262,7 @@ void program_set_number(struct gl_frame *f, struct gl_program *program, enum uni
 bool program_copy_make(struct gl_device *device, lam_error *error);
 void programs_free(struct gl_device *device);
 
-// --- gl_lists.c
+// --- gl_light_buffers.c
 bool lists_send(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
 enum glsl_storage lists_storage(const struct gl_device *device, const struct glsl_choices *choices);
 bool environment_send(struct gl_frame *f, lam_error *error);
@@ -277,10 +277,10 @@ void targets_free(struct gl_device *device);
 // Draws the part; the framebuffer to read is left bound.
 bool passes_draw(struct gl_frame *f, lam_error *error);
 
-// --- gl_reading.c
+// --- gl_readback.c
 bool reading_part(struct gl_frame *f, lam_error *error);
 
-// --- gl_caller.c: the caller's state, taken before a frame and given back after it
+// --- gl_state_save.c: the caller's state, taken before a frame and given back after it
 struct gl_caller_state {
     GLint program, array, draw_framebuffer, read_framebuffer, active_unit;
     GLint array_buffer, uniform_buffer, unpack_buffer, pack_buffer;

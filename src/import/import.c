@@ -3,7 +3,7 @@
 
 #include "fail.h"
 #include "float_state.h"
-#include "foreign.h"
+#include "unsupported_formats.h"
 
 #include <lambent/image.h>
 

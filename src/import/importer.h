@@ -4,8 +4,8 @@
 
 #include "file.h"
 #include "pool.h"
-#include "scene_store.h"
-#include "watch.h"
+#include "scene_internal.h"
+#include "call_control.h"
 
 struct import_source {
     const char *name;     // for messages: the path as the user gave it

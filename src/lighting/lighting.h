@@ -7,7 +7,7 @@
 
 #include "prelude_c.h"
 #include "lobes.h"
-#include "sources.h"
+#include "lights.h"
 #include "sum.h"
 
 #endif

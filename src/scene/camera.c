@@ -3,7 +3,7 @@
 
 #include "float_state.h"
 #include "linear.h"
-#include "reach.h"
+#include "view_extents.h"
 
 lam_camera lam_camera_default(void)
 {

@@ -1,5 +1,5 @@
 // color_text.c: colours as people write them.
-#include "scene_store.h"
+#include "scene_internal.h"
 
 #include "fail.h"
 #include "number.h"

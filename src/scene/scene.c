@@ -1,5 +1,5 @@
 // scene.c: the scene's storage: what it holds, adding to it, looking into it.
-#include "scene_store.h"
+#include "scene_internal.h"
 
 #include "cube_map.h"
 #include "fail.h"

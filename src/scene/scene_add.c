@@ -1,5 +1,5 @@
 // scene_add.c: adding to a scene by hand, and changing it: everything is checked and copied.
-#include "scene_store.h"
+#include "scene_internal.h"
 
 #include "fail.h"
 #include "float_state.h"

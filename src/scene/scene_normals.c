@@ -1,5 +1,5 @@
 // scene_normals.c: normals of a scene's meshes, made anew.
-#include "scene_store.h"
+#include "scene_internal.h"
 
 #include "fail.h"
 #include "float_state.h"

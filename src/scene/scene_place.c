@@ -1,6 +1,6 @@
 // scene_place.c: where a scene's objects stand as a whole: the sphere around them, moving them, and the lights of a rig
 // about them.
-#include "scene_store.h"
+#include "scene_internal.h"
 
 #include "fail.h"
 #include "float_state.h"

@@ -5,7 +5,7 @@
 // of their triangles' tangents, weighted by the corner's angle as smooth normals are, so that the result does not
 // depend on how a flat face is cut. Corners are listed by vertex with a counting sort and worked through in one order:
 // the same bits on every run.
-#include "scene_store.h"
+#include "scene_internal.h"
 
 #include "fail.h"
 #include "float_state.h"

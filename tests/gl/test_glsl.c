@@ -13,7 +13,7 @@
 
 #include "glsl.h"
 #include "glsl_combinations.h"
-#include "simplify.h"
+#include "specialize.h"
 
 static bool has(const char *text, const char *word) { return strstr(text, word) != NULL; }
 

@@ -1,5 +1,5 @@
 // test_curves.c: the equations at single values, against the conventions' formulas in double.
-#include <lambent/curves.h>
+#include <lambent/light_eval.h>
 
 #include <math.h>
 #include <setjmp.h>

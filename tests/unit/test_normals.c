@@ -16,8 +16,8 @@
 #include "arena.h"
 #include "normals.h"
 #include "pool.h"
-#include "seen_lanes.h"
-#include "seen_normals.h"
+#include "position_simd.h"
+#include "visible_normals.h"
 
 #include <lambent/scene.h>
 

@@ -95,7 +95,7 @@ static void write_file(void)
     assert_int_equal(fclose(file), 0);
 }
 
-// Whether obj_large.c serves the file.
+// Whether obj_stream.c serves the file.
 static bool served(int threads)
 {
     lam_load_params params = {0};

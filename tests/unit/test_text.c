@@ -1,5 +1,5 @@
 // test_text.c: words in pictures: where they land, their widths, UTF-8, and what is missing.
-#include <lambent/text.h>
+#include <lambent/caption.h>
 
 #include <setjmp.h>
 #include <stdarg.h>

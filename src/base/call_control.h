@@ -1,0 +1,38 @@
+// call_control.h: the running side of lam_control: one call's cancel flag, deadline, memory budget and progress.
+#ifndef CALL_CONTROL_H
+#define CALL_CONTROL_H
+
+#include <lambent/base.h>
+
+struct watch {
+    lam_control control; // a copy; zero: no bounds
+    uint64_t start_ns;
+    uint64_t memory_used; // touched atomically
+    int over_memory;      // set once a request was refused by the budget
+    double last_share;
+};
+
+// Starts a call. `control` may be NULL.
+void watch_start(struct watch *watch, const lam_control *control);
+
+// False when the call must end: cancelled or over its time. Cheap enough for every few thousand items (about 25 ns);
+// any thread. `watch` may be NULL.
+bool watch_on(struct watch *watch);
+
+// Fills the error with the reason why watch_on said false, and returns false.
+bool watch_error(struct watch *watch, lam_error *error);
+
+// Charges and gives back memory; false: over the budget. Any thread.
+bool watch_charge(struct watch *watch, size_t bytes);
+void watch_refund(struct watch *watch, size_t bytes);
+
+// The error for an arena_alloc that returned NULL: over the budget, or the machine's memory is out. Returns false.
+bool watch_memory_error(struct watch *watch, size_t bytes, lam_error *error);
+
+// Tells the progress callback; from the calling thread only. Shares never go backwards.
+void watch_progress(struct watch *watch, double share, const char *step);
+
+// Monotonic time.
+uint64_t now_ns(void);
+
+#endif

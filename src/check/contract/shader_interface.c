@@ -1,0 +1,202 @@
+// shader_interface.c: what two shaders declare, against their contract.
+#include "shader_interface.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "fail.h"
+
+static bool has_role(const struct reading *r, enum role role)
+{
+    const struct declarations *sides[] = {&r->vertex, &r->fragment};
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; i < sides[s]->count; i++) {
+            const struct contract_name *n = sides[s]->items[i].kind == DECLARED_UNIFORM
+                                                ? contract_find(r->contract, sides[s]->items[i].name, false, NULL)
+                                                : NULL;
+            if (n && n->role == role)
+                return true;
+        }
+    return false;
+}
+
+static bool is_light(enum role role) { return role >= ROLE_LIGHT_POSITION && role <= ROLE_LIGHT_AMBIENT; }
+
+static bool is_material(enum role role) { return role >= ROLE_AMBIENT && role <= ROLE_SHININESS; }
+
+// Whether a side names a material or a light.
+static bool lights_up(const struct contract *contract, const struct declarations *d)
+{
+    for (int i = 0; i < d->count; i++) {
+        const struct contract_name *n =
+            d->items[i].kind == DECLARED_UNIFORM ? contract_find(contract, d->items[i].name, false, NULL) : NULL;
+        if (n && (is_material(n->role) || is_light(n->role)))
+            return true;
+    }
+    return false;
+}
+
+static void count_lights(struct reading *r)
+{
+    const struct declarations *sides[] = {&r->vertex, &r->fragment};
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; i < sides[s]->count; i++) {
+            const struct declaration *d = &sides[s]->items[i];
+            const struct contract_name *n =
+                d->kind == DECLARED_UNIFORM ? contract_find(r->contract, d->name, false, NULL) : NULL;
+            if (n && is_light(n->role) && d->count > r->light_count)
+                r->light_count = d->count;
+        }
+}
+
+// Whether words follow each other: `text` has them with blanks between, "?" for any.
+static bool says(const struct declarations *d, int at, const char *text)
+{
+    for (; *text; at++) {
+        size_t length = strcspn(text, " ");
+        if (at >= d->word_count || (!(length == 1 && *text == '?') && (strlen(d->words[at].text) != length ||
+                                                                       strncmp(d->words[at].text, text, length) != 0)))
+            return false;
+        text += length + (text[length] == ' ');
+    }
+    return true;
+}
+
+// A shader printed by `lambent shader` loops over the lights of each kind with the kind as a constant: what
+// that says of its lights (study rules); 0: no such shader.
+static unsigned printed_lights(const struct declarations *lit)
+{
+    unsigned rules = 0;
+    int from = 0, to = 0;
+    for (int i = 0; i < lit->word_count; i++) {
+        if (says(lit, i, "for ( int i = ? ; i < ? ;")) {
+            sscanf(lit->words[i + 5].text, "%d", &from);
+            sscanf(lit->words[i + 9].text, "%d", &to);
+        } else if (says(lit, i, "toward_light ( s . p , light , ? , ? )")) {
+            const char *kind = lit->words[i + 8].text;
+            unsigned rule = strcmp(kind, "LIGHT_DIRECTIONAL") == 0   ? RULE_DIRECTIONAL
+                            : strcmp(kind, "LIGHT_SPOT_CUTOFF") == 0 ? RULE_SPOT
+                                                                     : RULE_POINT;
+            if (strcmp(lit->words[i + 10].text, "FALLOFF_NONE") == 0)
+                rule |= RULE_UNATTENUATED;
+            for (int k = from; k < to && k < STUDY_LIGHTS_MOST; k++)
+                rules |= rule << (RULE_FIRST + RULE_BITS * k);
+        }
+    }
+    return rules;
+}
+
+// Printed shaders that ask for what the check has not got.
+static bool can_be_checked(const struct reading *r, lam_error *error)
+{
+    static const struct {
+        enum declared kind;
+        const char *name, *what;
+    } asked[] = {{DECLARED_UNIFORM, "light_list",
+                  "lights in a texture, which the check does not make; print it with --lights-in array or block"},
+                 {DECLARED_INPUT, "provoking_position",
+                  "vertices made for flat shading in GLSL 120, which the check does not make; print it with --glsl "
+                  "330"},
+                 {DECLARED_INPUT, "front_color",
+                  "light that the application has worked out: there is no lighting in it to check"}};
+    for (int i = 0; r->which == LAM_CONTRACT_LAMBENT && i < 3; i++)
+        if (declarations_find(&r->vertex, asked[i].kind, asked[i].name) ||
+            declarations_find(&r->fragment, asked[i].kind, asked[i].name))
+            return fail(error, LAM_UNSUPPORTED, "the shader asks by '%s' for %s", asked[i].name, asked[i].what);
+    return true;
+}
+
+static bool is_flat(const struct declarations *fragment)
+{
+    for (int i = 0; i < fragment->count; i++)
+        if (fragment->items[i].kind == DECLARED_INPUT && fragment->items[i].flat)
+            return true;
+    return false;
+}
+
+static void read_printed(struct reading *r)
+{
+    const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
+    unsigned rules = printed_lights(lit), first = rules >> RULE_FIRST & RULE_KIND;
+    if (r->which != LAM_CONTRACT_LAMBENT || !rules)
+        return;
+    r->offers &= ~(unsigned)(NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT);
+    r->offers |= first == RULE_DIRECTIONAL ? NEED_DIRECTIONAL
+                 : first == RULE_SPOT      ? NEED_POINT | NEED_SPOT
+                                           : NEED_POINT;
+    if (!declarations_use(&r->fragment, "gl_FrontFacing"))
+        r->offers &= ~(unsigned)NEED_TWO_SIDES;
+    r->phong = declarations_use(lit, "phong_lobe");
+    r->offers |= rules;
+    r->offers |= declarations_use(lit, "blinn_phong_lobe") || r->phong ? 0 : RULE_MATT;
+    r->offers |= is_flat(&r->fragment) ? RULE_FLAT : 0;
+}
+
+// A contract that tells a light's kind by what the shader reads of it.
+static unsigned kinds_of(const struct reading *r)
+{
+    if (r->which == LAM_CONTRACT_NYU)
+        return has_role(r, ROLE_LIGHT_POSITION) ? NEED_POINT : NEED_DIRECTIONAL;
+    if (r->which == LAM_CONTRACT_LAMBENT) {
+        const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
+        int cone = 0, attenuation = 0, position = 0;
+        for (int i = 0; i < lit->word_count; i++) // read, not only declared: lights[i].cone
+            if (lit->words[i].after_member) {
+                cone += strcmp(lit->words[i].text, "cone") == 0;
+                attenuation += strcmp(lit->words[i].text, "attenuation") == 0;
+                position += strcmp(lit->words[i].text, "position") == 0;
+            }
+        return cone ? NEED_SPOT | NEED_POINT : attenuation || position ? NEED_POINT : NEED_DIRECTIONAL;
+    }
+    return NEED_POINT | NEED_DIRECTIONAL;
+}
+
+bool reading_make(struct reading *r, const char *vertex, const char *fragment, lam_check_contract which,
+                  lam_error *error)
+{
+    *r = (struct reading){.which = which};
+    if (!declarations_read(&r->vertex, vertex ? vertex : "", error) ||
+        !declarations_read(&r->fragment, fragment, error)) {
+        reading_free(r);
+        return false;
+    }
+    r->contract =
+        which == LAM_CONTRACT_AUTO ? contract_recognise(&r->vertex, &r->fragment, &r->which) : contract_of(which);
+    if (!r->contract) {
+        const struct declarations *sides[] = {&r->vertex, &r->fragment};
+        char found[200] = "";
+        for (int s = 0; s < 2; s++)
+            for (int i = 0; i < sides[s]->count && strlen(found) < 120; i++)
+                if (sides[s]->items[i].kind == DECLARED_UNIFORM)
+                    snprintf(found + strlen(found), sizeof found - strlen(found), "%s%.40s", found[0] ? ", " : "",
+                             sides[s]->items[i].name);
+        reading_free(r);
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "no uniform or attribute of the shader has a name of a known contract (found %s); write "
+                    "--contract lambent, pittsburgh, oregon or nyu, and see `lambent check --list`",
+                    found[0] ? found : "none");
+    }
+    if (!can_be_checked(r, error)) {
+        reading_free(r);
+        return false;
+    }
+    r->vertex_lit = vertex && vertex[0] && !lights_up(r->contract, &r->fragment);
+    count_lights(r);
+    r->offers = r->contract->offers;
+    unsigned kinds = NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT;
+    r->offers = (r->offers & ~kinds) | (r->offers & kinds & kinds_of(r));
+    if (r->light_count < 2)
+        r->offers &= ~(unsigned)NEED_LIGHTS;
+    r->offers |= r->vertex_lit ? NEED_VERTEX_LIT : 0;
+    if (!has_role(r, ROLE_FLAT))
+        r->offers &= ~(unsigned)NEED_FLAT;
+    read_printed(r);
+    return true;
+}
+
+void reading_free(struct reading *r)
+{
+    declarations_free(&r->vertex);
+    declarations_free(&r->fragment);
+    *r = (struct reading){0};
+}

@@ -1,0 +1,230 @@
+// uniform_semantic.c: a reference scene as a contract can say it, and the numbers of each uniform.
+#include "contract.h"
+
+#include <string.h>
+
+#include "linear.h"
+
+// Contracts without colours or strengths of the material: the surface has one colour, and the highlight that
+// of the light. A term is switched off by black.
+static void plain_material(struct study *s)
+{
+    if (s->kd == 0)
+        s->diffuse = (lam_rgb){0, 0, 0};
+    for (int i = 0; i < s->light_count; i++) {
+        lam_rgb *c = &s->lights[i].specular;
+        float on = s->ks > 0 ? 1 : 0;
+        *c = (lam_rgb){c->r * s->specular.r * on, c->g * s->specular.g * on, c->b * s->specular.b * on};
+    }
+    s->specular = (lam_rgb){1, 1, 1};
+    s->kd = s->ks = 1;
+}
+
+static void limit_light(const struct contract *contract, unsigned offers, int index, struct study_light *light)
+{
+    unsigned rule = offers >> (RULE_FIRST + RULE_BITS * index), kind = rule & RULE_KIND;
+    bool directional = kind ? kind == RULE_DIRECTIONAL : !(offers & NEED_POINT);
+    if (rule & RULE_UNATTENUATED)
+        memcpy(light->attenuation, (const float[]){1, 0, 0}, sizeof light->attenuation);
+    if (light->type == LAM_LIGHT_POINT && directional) {
+        light->type = LAM_LIGHT_DIRECTIONAL;
+        light->from = light->position;
+    }
+    if (contract->attenuated_points)
+        memcpy(light->attenuation, contract->attenuation, sizeof light->attenuation);
+    if (!contract->has_attenuation || light->type == LAM_LIGHT_DIRECTIONAL)
+        memcpy(light->attenuation, (const float[]){1, 0, 0}, sizeof light->attenuation);
+    if (!contract->light_colors)
+        light->color = light->specular = light->ambient = (lam_rgb){1, 1, 1};
+}
+
+struct study contract_study(const struct contract *contract, unsigned offers, const struct study *study,
+                            int light_count)
+{
+    struct study s = *study;
+    if (!contract->own_ambient_color)
+        s.ambient = s.diffuse;
+    if (!contract->has_ambient)
+        s.ka = 0;
+    // A list's other lights are black.
+    while (s.light_count < light_count && s.light_count < STUDY_LIGHTS_MOST)
+        s.lights[s.light_count++] = (struct study_light){
+            .type = s.lights[0].type, .position = {1, 2, 3}, .from = {1, 2, 3}, .attenuation = {1, 0, 0}};
+    if (s.light_count > light_count)
+        s.light_count = light_count;
+    for (int i = 0; i < s.light_count; i++)
+        limit_light(contract, offers, i, &s.lights[i]);
+    if (offers & RULE_MATT)
+        s.ks = 0;
+    s.flat |= (offers & RULE_FLAT) != 0;
+    if (!contract->material_strengths && !contract->own_ambient_color)
+        plain_material(&s);
+    if (contract->shininess > 0)
+        s.shininess = contract->shininess;
+    if (!(contract->offers & NEED_ALPHA))
+        s.alpha = 1;
+    return s;
+}
+
+static int put_color(float out[16], lam_rgb c, float strength, float alpha)
+{
+    out[0] = c.r * strength;
+    out[1] = c.g * strength;
+    out[2] = c.b * strength;
+    out[3] = alpha;
+    return 4;
+}
+
+static int put_product(float out[16], lam_rgb c, float strength, lam_rgb light, float alpha)
+{
+    return put_color(out, (lam_rgb){c.r * light.r, c.g * light.g, c.b * light.b}, strength, alpha);
+}
+
+static int put_vector(float out[16], lam_vec3 v, float w)
+{
+    out[0] = (float)v.x;
+    out[1] = (float)v.y;
+    out[2] = (float)v.z;
+    out[3] = w;
+    return 4;
+}
+
+static int put_number(float out[16], float x)
+{
+    out[0] = x;
+    return 1;
+}
+
+static int put_matrix(float out[16], const lam_mat4 *m)
+{
+    for (int c = 0; c < 4; c++)
+        for (int r = 0; r < 4; r++)
+            out[4 * c + r] = (float)m->m[r][c];
+    return 16;
+}
+
+static lam_rgb total_ambient(const struct study *s)
+{
+    lam_rgb sum = {0, 0, 0};
+    for (int i = 0; i < s->light_count; i++)
+        sum = (lam_rgb){sum.r + s->lights[i].ambient.r, sum.g + s->lights[i].ambient.g, sum.b + s->lights[i].ambient.b};
+    return sum;
+}
+
+// From the world's space to the frame that the contract's light positions are in.
+static lam_mat4 light_matrix(lam_light_frame frame, const struct study_matrices *m)
+{
+    lam_mat4 out = lam_mat4_identity();
+    if (frame == LAM_FRAME_OBJECT)
+        mat4_inverse_affine(&m->model, &out);
+    else if (frame == LAM_FRAME_CAMERA)
+        out = m->view;
+    return out;
+}
+
+static int put_light_position(float out[16], const struct study_light *light, const lam_mat4 *to)
+{
+    if (light->type == LAM_LIGHT_DIRECTIONAL)
+        return put_vector(out, mat4_vector(to, light->from), 0);
+    return put_vector(out, mat4_point(to, light->position), 1);
+}
+
+int role_value(enum role role, int index, const struct contract *contract, lam_light_frame light_frame,
+               const struct study *s, const struct study_matrices *m, float out[16])
+{
+    static const struct study_light none = {
+        .type = LAM_LIGHT_POINT, .position = {1, 1, 1}, .from = {0, 0, 1}, .attenuation = {1, 0, 0}};
+    memset(out, 0, 16 * sizeof *out);
+    const struct study_light *light = index < s->light_count ? &s->lights[index] : &none;
+    lam_mat4 to = light_matrix(light_frame, m);
+    lam_rgb one = {1, 1, 1};
+    bool products = contract->products;
+    float place[16];
+    put_light_position(place, light, &to);
+    switch (role) {
+    case ROLE_MODEL_VIEW:
+        return put_matrix(out, &m->model_view);
+    case ROLE_PROJECTION:
+        return put_matrix(out, &m->projection);
+    case ROLE_MODEL_VIEW_PROJECTION:
+        return put_matrix(out, &m->model_view_projection);
+    case ROLE_MODEL:
+        return put_matrix(out, &m->model);
+    case ROLE_VIEW:
+        return put_matrix(out, &m->view);
+    case ROLE_NORMAL_MATRIX:
+        return put_matrix(out, &m->normal4);
+    case ROLE_AMBIENT:
+        return put_product(out, s->ambient, s->ka, products ? total_ambient(s) : one, 1);
+    case ROLE_DIFFUSE:
+        return put_product(out, s->diffuse, s->kd, products ? light->color : one, s->alpha);
+    case ROLE_SPECULAR:
+        return put_product(out, s->specular, s->ks, products ? light->specular : one, 1);
+    case ROLE_AMBIENT_PRODUCT:
+        return put_product(out, s->ambient, s->ka, total_ambient(s), 1);
+    case ROLE_DIFFUSE_PRODUCT:
+        return put_product(out, s->diffuse, s->kd, light->color, s->alpha);
+    case ROLE_SPECULAR_PRODUCT:
+        return put_product(out, s->specular, s->ks, light->specular, 1);
+    case ROLE_KA:
+        return put_number(out, s->ka);
+    case ROLE_KD:
+        return put_number(out, s->kd);
+    case ROLE_KS:
+        return put_number(out, s->ks);
+    case ROLE_COLOR:
+        return put_color(out, s->diffuse, 1, s->alpha);
+    case ROLE_SPECULAR_COLOR:
+        return put_color(out, s->specular, 1, 1);
+    case ROLE_SHININESS:
+        return put_number(out, s->shininess);
+    case ROLE_LIGHT_POSITION:
+        memcpy(out, place, sizeof place);
+        return 4;
+    case ROLE_LIGHT_X:
+        return put_number(out, place[0]);
+    case ROLE_LIGHT_Y:
+        return put_number(out, place[1]);
+    case ROLE_LIGHT_Z:
+        return put_number(out, place[2]);
+    case ROLE_LIGHT_DIRECTION:
+        return put_vector(out, v3_unit(mat4_vector(&to, light->from)), 0);
+    case ROLE_LIGHT_TRAVEL:
+        return put_vector(out, v3_scale(v3_unit(mat4_vector(&to, light->from)), -1), 0);
+    case ROLE_LIGHT_COLOR:
+        return put_color(out, light->color, 1, 1);
+    case ROLE_LIGHT_SPECULAR:
+        return put_color(out, light->specular, 1, 1);
+    case ROLE_LIGHT_AMBIENT:
+        return put_color(out, light->ambient, 1, 1);
+    case ROLE_AMBIENT_LIGHT:
+        return put_color(out, total_ambient(s), 1, 1);
+    case ROLE_ATTENUATION_CONSTANT:
+        return put_number(out, light->attenuation[0]);
+    case ROLE_ATTENUATION_LINEAR:
+        return put_number(out, light->attenuation[1]);
+    case ROLE_ATTENUATION_QUADRATIC:
+        return put_number(out, light->attenuation[2]);
+    case ROLE_ATTENUATION:
+        memcpy(out, light->attenuation, sizeof light->attenuation);
+        return 4;
+    case ROLE_CONE:
+        out[0] = light->cutoff_deg > 0 ? (float)math_cos(math_radians((double)light->cutoff_deg)) : -1.0f;
+        out[1] = light->exponent;
+        out[2] = light->cutoff_deg > 0 ? out[0] : -2.0f; // an edge where the cutoff is, or nowhere
+        out[3] = light->cutoff_deg > 0 ? 1000.0f : 1.0f;
+        return 4;
+    case ROLE_ONE:
+        return put_number(out, 1);
+    case ROLE_LIGHT_COUNT:
+        return put_number(out, (float)s->light_count);
+    case ROLE_FLAT:
+        return put_number(out, s->flat);
+    case ROLE_LIGHT_IN_EYE:
+        return put_light_position(out, light, &m->view);
+    case ROLE_EYE_POSITION:
+        return put_vector(out, (lam_vec3){0, 0, 0}, 1);
+    default:
+        return 16; // ROLE_ZERO and what is no uniform
+    }
+}

@@ -1,0 +1,24 @@
+// fault_fragment.glsl: the fragment's lighting, or the colour that the vertices had.
+
+uniform bool flat_shading, two_sided;
+
+#ifdef IN_VERTEX
+in vec4 vertex_color, vertex_color_back;
+flat in vec4 flat_color;
+#else
+in vec4 point_light, point_eye, point_normal, early_eye;
+in vec4 early[LAMPS];
+in float distances[LAMPS];
+#endif
+
+out vec4 pixel;
+
+void main()
+{
+    bool back = two_sided && !gl_FrontFacing && !is(NO_FLIP);
+#ifdef IN_VERTEX
+    pixel = flat_shading && !is(SMOOTH_FOR_FLAT) ? flat_color : (back ? vertex_color_back : vertex_color);
+#else
+    pixel = shade(back ? -point_normal : point_normal, point_light, point_eye, early, early_eye, distances);
+#endif
+}

@@ -1,0 +1,168 @@
+// offscreen.c: a framebuffer of floats, the reference meshes, and drawing the one into the other.
+#include "offscreen.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "fail.h"
+
+bool target_open(struct target *t, enum gl_profile profile, const char *gl_device, int size, lam_error *error)
+{
+    memset(t, 0, sizeof *t);
+    t->size = size;
+    t->built_ins = profile == GL_PROFILE_COMPATIBILITY;
+    if (!gl_context_make(&t->context, NULL, gl_device, profile, false, error))
+        return false;
+    if (!gl_context_enter(&t->context, &t->previous, error)) {
+        gl_context_free(&t->context);
+        return false;
+    }
+    const struct gl *gl = &t->context.gl;
+    gl->GenFramebuffers(1, &t->framebuffer);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
+    gl->GenRenderbuffers(1, &t->color);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, t->color);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, size, size);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, t->color);
+    gl->GenRenderbuffers(1, &t->depth);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, t->depth);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size, size);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, t->depth);
+    if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        fail(error, LAM_UNSUPPORTED, "%s cannot draw into pictures of floats, expected RGBA32F", t->context.renderer);
+        target_close(t);
+        return false;
+    }
+    gl->GenVertexArrays(1, &t->array);
+    gl->BindVertexArray(t->array);
+    gl->Viewport(0, 0, size, size);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->DepthFunc(GL_LESS);
+    gl->Disable(GL_CULL_FACE);
+    gl->Disable(GL_BLEND);
+    gl->Disable(GL_DITHER);
+    gl->ClearColor(0, 0, 0, 0);
+    gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    return true;
+}
+
+void target_close(struct target *t)
+{
+    if (t->context.context == EGL_NO_CONTEXT)
+        return;
+    const struct gl *gl = &t->context.gl;
+    gl->DeleteBuffers(STUDY_MESHES, t->positions);
+    gl->DeleteBuffers(STUDY_MESHES, t->normals);
+    gl->DeleteVertexArrays(1, &t->array);
+    gl->DeleteFramebuffers(1, &t->framebuffer);
+    gl->DeleteRenderbuffers(1, &t->color);
+    gl->DeleteRenderbuffers(1, &t->depth);
+    gl_context_leave(&t->context, &t->previous);
+    gl_context_free(&t->context);
+    memset(t, 0, sizeof *t);
+}
+
+bool target_mesh(struct target *t, enum study_mesh mesh, lam_error *error)
+{
+    if (t->counts[mesh])
+        return true;
+    struct study_points points;
+    if (!study_points(mesh, &points, error))
+        return false;
+    size_t count = (size_t)points.count;
+    float *four = malloc(count * 4 * sizeof *four);
+    if (!four) {
+        study_points_free(&points);
+        return fail_memory(error, count * 4 * sizeof *four);
+    }
+    for (size_t i = 0; i < count; i++) {
+        memcpy(four + 4 * i, points.normals + 3 * i, 3 * sizeof *four);
+        four[4 * i + 3] = 0;
+    }
+    const struct gl *gl = &t->context.gl;
+    gl->GenBuffers(1, &t->positions[mesh]);
+    gl->BindBuffer(GL_ARRAY_BUFFER, t->positions[mesh]);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * 3 * sizeof(float)), points.positions, GL_STATIC_DRAW);
+    gl->GenBuffers(1, &t->normals[mesh]);
+    gl->BindBuffer(GL_ARRAY_BUFFER, t->normals[mesh]);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * 4 * sizeof(float)), four, GL_STATIC_DRAW);
+    t->counts[mesh] = points.count;
+    free(four);
+    study_points_free(&points);
+    return true;
+}
+
+// Generic attribute `place`, or the built-in array where it is below 0.
+static void point_at(const struct gl *gl, GLuint buffer, int place, int width, bool is_normal)
+{
+    gl->BindBuffer(GL_ARRAY_BUFFER, buffer);
+    if (place >= 0) {
+        gl->EnableVertexAttribArray((GLuint)place);
+        gl->VertexAttribPointer((GLuint)place, width, GL_FLOAT, GL_FALSE, 0, NULL);
+    } else if (is_normal) {
+        gl->EnableClientState(GL_NORMAL_ARRAY);
+        gl->NormalPointer(GL_FLOAT, width * (int)sizeof(float), NULL);
+    } else {
+        gl->EnableClientState(GL_VERTEX_ARRAY);
+        gl->VertexPointer(width, GL_FLOAT, 0, NULL);
+    }
+}
+
+bool target_draw(struct target *t, enum study_mesh mesh, int position, int normal, float *pixels, lam_error *error)
+{
+    const struct gl *gl = &t->context.gl;
+    if (!target_mesh(t, mesh, error))
+        return false;
+    bool built_in = t->built_ins && gl->VertexPointer && gl->NormalPointer && gl->EnableClientState;
+    if (position >= 0 || built_in)
+        point_at(gl, t->positions[mesh], position, 3, false);
+    if (normal >= 0 || built_in)
+        point_at(gl, t->normals[mesh], normal, 4, true);
+    gl->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl->DrawArrays(GL_TRIANGLES, 0, t->counts[mesh]);
+    gl->ReadPixels(0, 0, t->size, t->size, GL_RGBA, GL_FLOAT, pixels);
+    GLenum wrong = gl->GetError();
+    if (wrong)
+        return fail(error, LAM_UNSUPPORTED, "%s reports error 0x%04x while drawing", t->context.renderer, wrong);
+    size_t row = 4 * (size_t)t->size; // OpenGL's first row is the lowest
+    for (int y = 0; y < t->size / 2; y++) {
+        float *a = pixels + (size_t)y * row, *b = pixels + (size_t)(t->size - 1 - y) * row;
+        for (size_t i = 0; i < row; i++) {
+            float kept = a[i];
+            a[i] = b[i];
+            b[i] = kept;
+        }
+    }
+    return true;
+}
+
+GLuint target_compile(struct target *t, GLenum kind, const char *text, char *log, size_t room)
+{
+    const struct gl *gl = &t->context.gl;
+    GLuint shader = gl->CreateShader(kind);
+    GLint good = 0;
+    gl->ShaderSource(shader, 1, &text, NULL);
+    gl->CompileShader(shader);
+    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    gl->GetShaderInfoLog(shader, (GLsizei)room, NULL, log);
+    if (good)
+        return shader;
+    gl->DeleteShader(shader);
+    return 0;
+}
+
+GLuint target_link(struct target *t, GLuint vertex, GLuint fragment, char *log, size_t room)
+{
+    const struct gl *gl = &t->context.gl;
+    GLuint program = gl->CreateProgram();
+    GLint good = 0;
+    gl->AttachShader(program, vertex);
+    gl->AttachShader(program, fragment);
+    gl->LinkProgram(program);
+    gl->GetProgramiv(program, GL_LINK_STATUS, &good);
+    gl->GetProgramInfoLog(program, (GLsizei)room, NULL, log);
+    if (good)
+        return program;
+    gl->DeleteProgram(program);
+    return 0;
+}

@@ -1,0 +1,268 @@
+// reference_scene.c: the table of reference scenes, and a scene made from a row.
+#include "reference_scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "fail.h"
+#include "linear.h"
+
+#define AMBIENT  {0.30f, 0.45f, 0.90f}
+#define DIFFUSE  {0.85f, 0.50f, 0.15f}
+#define SPECULAR {0.55f, 0.75f, 0.95f}
+#define COLORS   .ambient = AMBIENT, .diffuse = DIFFUSE, .specular = SPECULAR
+#define MATTER   COLORS, .alpha = 1
+#define STRETCHED                                                                                                      \
+    .mesh = MESH_TEAPOT, .scale = {1.3, 0.8, 1.1}, .turn_axis = {0.3, 1, 0.2}, .turn_deg = 35,                         \
+    .move = {0.2, -0.1, -0.3}, .eye = {1.1, 1.5, 3.1}, .target = {0.1, -0.1, -0.2}
+#define BALL                                                                                                           \
+    .scale = {0.9, 0.9, 0.9}, .turn_axis = {1, 1, 0}, .turn_deg = 20, .move = {0.3, 0.2, 0.1},                         \
+    .eye = {-0.8, 0.9, 3.2}, .target = {0.2, 0.1, 0}
+#define WHITE .color = {1, 1, 1}, .specular = {1, 1, 1}, .ambient = {1, 1, 1}
+#define LAMP  {.type = LAM_LIGHT_POINT, .position = {1.6, 2.2, 2.4}, WHITE, .attenuation = {0.6f, 0.1f, 0.04f}}
+
+const struct study studies[] = {
+    {"all", "every term together, a stretched model, a light near by", 0, STRETCHED, MATTER, .ka = 0.25f, .kd = 0.8f,
+     .ks = 0.6f, .shininess = 20, .light_count = 1, .lights = {LAMP}},
+    {"ambient", "the ambient term alone", NEED_AMBIENT, STRETCHED, MATTER, .ka = 0.8f, .shininess = 20,
+     .light_count = 1, .lights = {LAMP}},
+    {"diffuse", "the diffuse term alone", 0, STRETCHED, MATTER, .kd = 0.9f, .shininess = 20, .light_count = 1,
+     .lights = {LAMP}},
+    {"specular", "the specular term alone, a wide highlight", 0, STRETCHED, MATTER, .ks = 0.9f, .shininess = 8,
+     .light_count = 1, .lights = {LAMP}},
+    {"highlight", "the specular term alone, a small highlight", NEED_SHININESS, .mesh = MESH_SPHERE, BALL, MATTER,
+     .ks = 1, .shininess = 90, .light_count = 1, .lights = {LAMP}},
+    {"gate", "light from behind: no highlight where n.l is not above 0", 0, .mesh = MESH_SPHERE, BALL, MATTER,
+     .ks = 0.9f, .kd = 0.1f, .shininess = 3, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_POINT, .position = {-1.2, 1.9, -2.4}, WHITE, .attenuation = {1, 0, 0}}}},
+    {"grazing", "a light just below a plane: no highlight, however small", 0, .mesh = MESH_PLANE,
+     .scale = {1.5, 1, 1.6}, .turn_axis = {0, 1, 0}, .eye = {0.3, 0.55, 3.4}, .target = {0, 0, 0}, MATTER, .kd = 0.5f,
+     .ks = 1, .shininess = 40, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_POINT, .position = {0.1, -0.15, -3}, WHITE, .attenuation = {1, 0, 0}}}},
+    {"coarse", "few triangles: interpolated normals are short", 0, .mesh = MESH_COARSE, .scale = {1.1, 0.6, 0.9},
+     .turn_axis = {1, 1, 0}, .turn_deg = 20, .move = {0.3, 0.2, 0.1}, .eye = {-0.8, 0.9, 3.2}, .target = {0.2, 0.1, 0},
+     MATTER, .kd = 0.6f, .ks = 0.6f, .shininess = 12, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_POINT, .position = {0.6, 1.4, 2.2}, WHITE, .attenuation = {0.5f, 0.1f, 0.05f}}}},
+    {"near", "two large triangles and a light close to them", NEED_POINT, .mesh = MESH_PLANE, .scale = {1.6, 1, 1.6},
+     .turn_axis = {1, 0, 0}, .turn_deg = 25, .eye = {0.4, 1.9, 3}, .target = {0, 0, 0}, MATTER, .kd = 1, .ks = 0.3f,
+     .shininess = 10, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_POINT, .position = {0.35, 0.75, 0.3}, WHITE, .attenuation = {0.4f, 0.3f, 0.6f}}}},
+    {"directional", "a light infinitely far away", NEED_DIRECTIONAL, STRETCHED, MATTER, .ka = 0.1f, .kd = 0.7f,
+     .ks = 0.6f, .shininess = 14, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_DIRECTIONAL, .from = {0.9, 1.3, 1.1}, WHITE, .attenuation = {1, 0, 0}}}},
+    {"lights", "three lights of different colours", NEED_LIGHTS, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.15f,
+     .kd = 0.8f, .ks = 0.5f, .shininess = 20, .light_count = 3,
+     .lights = {{.type = LAM_LIGHT_POINT,
+                 .position = {2.2, 1.4, 1.8},
+                 .color = {0.8f, 0.3f, 0.2f},
+                 .specular = {0.3f, 0.6f, 0.9f},
+                 .ambient = {0.3f, 0.3f, 0.3f},
+                 .attenuation = {0.5f, 0.1f, 0.04f}},
+                {.type = LAM_LIGHT_POINT,
+                 .position = {-2.4, 0.6, 1.2},
+                 .color = {0.2f, 0.7f, 0.4f},
+                 .specular = {0.9f, 0.5f, 0.2f},
+                 .ambient = {0.2f, 0.4f, 0.1f},
+                 .attenuation = {0.7f, 0.05f, 0.02f}},
+                {.type = LAM_LIGHT_POINT,
+                 .position = {0.2, -2.2, 1.6},
+                 .color = {0.3f, 0.4f, 0.9f},
+                 .specular = {0.5f, 0.5f, 0.5f},
+                 .ambient = {0.1f, 0.2f, 0.5f},
+                 .attenuation = {0.9f, 0, 0.05f}}}},
+    {"spot", "a cone of light", NEED_SPOT, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.1f, .kd = 0.8f, .ks = 0.5f,
+     .shininess = 10, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_SPOT,
+                 .position = {0.8, 1.2, 2.8},
+                 .from = {0.25, 0.35, 0.9},
+                 WHITE,
+                 .attenuation = {0.6f, 0.1f, 0.02f},
+                 .cutoff_deg = 16,
+                 .exponent = 12}}},
+    {"two sides", "the inside of a bowl: a back face is lit with -n", NEED_TWO_SIDES, .mesh = MESH_BOWL,
+     .scale = {1, 1, 1}, .turn_axis = {1, 0, 0}, .turn_deg = 50, .eye = {0.3, 0.9, 3.3}, .target = {0, -0.1, 0}, MATTER,
+     .ka = 0.1f, .kd = 0.8f, .ks = 0.5f, .shininess = 10, .light_count = 1, .lights = {LAMP}},
+    {"flat", "flat shading", NEED_FLAT, .mesh = MESH_COARSE, BALL, MATTER, .ka = 0.15f, .kd = 0.7f, .ks = 0.5f,
+     .shininess = 8, .flat = true, .light_count = 1, .lights = {LAMP}},
+    {"bright", "colours above 1 at the vertices", NEED_VERTEX_LIT, .mesh = MESH_COARSE, BALL, MATTER, .kd = 1, .ks = 1,
+     .shininess = 6, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_POINT,
+                 .position = {0.6, 1.4, 2.2},
+                 .color = {3, 3, 3},
+                 .specular = {2, 2, 2},
+                 .ambient = {1, 1, 1},
+                 .attenuation = {1, 0, 0}}}},
+    {"alpha", "a translucent material: alpha is the diffuse alpha", NEED_ALPHA, .mesh = MESH_SPHERE, BALL, COLORS,
+     .alpha = 0.4f, .ka = 0.15f, .kd = 0.7f, .ks = 0.4f, .shininess = 10, .light_count = 1, .lights = {LAMP}},
+};
+const int study_count = sizeof studies / sizeof studies[0];
+
+int study_find(const char *name)
+{
+    for (int i = 0; i < study_count; i++)
+        if (strcmp(studies[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+// --- meshes
+
+// The lower half of a sphere, open above; ∂p/∂u × ∂p/∂v points outward.
+static void bowl(void *user, double u, double v, lam_surface_point *out)
+{
+    (void)user;
+    double su = math_sin(u), cu = math_cos(u), sv = math_sin(v), cv = math_cos(v);
+    out->p = v3(-sv * su, cv, sv * cu);
+    out->dp_du = v3(-sv * cu, 0, -sv * su);
+    out->dp_dv = v3(-cv * su, -sv, cv * cu);
+}
+
+static int add_mesh(lam_scene *scene, enum study_mesh mesh, lam_error *error)
+{
+    switch (mesh) {
+    case MESH_TEAPOT:
+        return lam_scene_add_shape(scene, "teapot", &(lam_shape_params){.slices = 16, .stacks = 4}, error);
+    case MESH_SPHERE:
+        return lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 32, .stacks = 16}, error);
+    case MESH_COARSE:
+        return lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 9, .stacks = 6}, error);
+    case MESH_PLANE:
+        return lam_scene_add_shape(scene, "plane", &(lam_shape_params){.slices = 3, .stacks = 1}, error);
+    case MESH_BOWL:
+        return lam_scene_add_parametric(scene,
+                                        &(lam_parametric){.surface = bowl,
+                                                          .u_min = 0,
+                                                          .u_max = 2 * PI,
+                                                          .v_min = PI / 2,
+                                                          .v_max = PI,
+                                                          .u_segments = 24,
+                                                          .v_segments = 8,
+                                                          .u_closed = true},
+                                        NULL, error);
+    }
+    return -1;
+}
+
+bool study_points(enum study_mesh mesh, struct study_points *points, lam_error *error)
+{
+    *points = (struct study_points){0};
+    lam_scene *scene = lam_scene_make(error);
+    int index = scene ? add_mesh(scene, mesh, error) : -1;
+    if (index < 0) {
+        lam_scene_free(scene);
+        return false;
+    }
+    const lam_mesh *m = lam_scene_mesh(scene, index);
+    size_t count = 3 * (size_t)m->triangle_count;
+    points->positions = malloc(count * 3 * sizeof(float));
+    points->normals = malloc(count * 3 * sizeof(float));
+    if (!points->positions || !points->normals) {
+        study_points_free(points);
+        lam_scene_free(scene);
+        return fail_memory(error, count * 6 * sizeof(float));
+    }
+    for (size_t i = 0; i < count; i++) {
+        size_t p = m->indices ? m->indices[i] : i;
+        size_t n = m->normal_indices ? m->normal_indices[i] : p;
+        for (size_t k = 0; k < 3; k++) {
+            points->positions[3 * i + k] = m->positions[3 * p + k] + (float)m->origin[k];
+            points->normals[3 * i + k] = m->normals[3 * n + k];
+        }
+    }
+    points->count = (int)count;
+    lam_scene_free(scene);
+    return true;
+}
+
+void study_points_free(struct study_points *points)
+{
+    free(points->positions);
+    free(points->normals);
+    *points = (struct study_points){0};
+}
+
+// --- matrices and the scene
+
+enum { NEAR_CM = 50, FAR_CM = 1200, FIELD_DEG = 36 };
+
+static lam_mat4 model_matrix(const struct study *s)
+{
+    lam_mat4 scale = mat4_scale(s->scale.x, s->scale.y, s->scale.z),
+             turn = mat4_rotate(math_radians(s->turn_deg), s->turn_axis),
+             move = mat4_translate(s->move.x, s->move.y, s->move.z);
+    lam_mat4 both = mat4_mul(&turn, &scale);
+    return mat4_mul(&move, &both);
+}
+
+static lam_camera camera_of(const struct study *s)
+{
+    return (lam_camera){.eye = s->eye,
+                        .target = s->target,
+                        .up = {0, 1, 0},
+                        .fovy_rad = math_radians(FIELD_DEG),
+                        .near_plane = NEAR_CM / 100.0,
+                        .far_plane = FAR_CM / 100.0};
+}
+
+void study_matrices(const struct study *s, struct study_matrices *out)
+{
+    lam_camera camera = camera_of(s);
+    out->model = model_matrix(s);
+    out->view = lam_camera_view(&camera);
+    out->model_view = mat4_mul(&out->view, &out->model);
+    out->projection = mat4_perspective(camera.fovy_rad, 1, camera.near_plane, camera.far_plane);
+    out->model_view_projection = mat4_mul(&out->projection, &out->model_view);
+    lam_mat4 inverse = lam_mat4_identity();
+    mat4_inverse_affine(&out->model_view, &inverse);
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++) {
+            out->normal4.m[r][c] = inverse.m[c][r];
+            if (r < 3 && c < 3)
+                out->normal[r][c] = inverse.m[c][r];
+        }
+}
+
+static lam_rgb times(lam_rgb a, float s) { return (lam_rgb){a.r * s, a.g * s, a.b * s}; }
+
+static bool add_lights(lam_scene *scene, const struct study *s, lam_error *error)
+{
+    for (int i = 0; i < s->light_count; i++) {
+        const struct study_light *from = &s->lights[i];
+        lam_light light = lam_light_default(from->type);
+        light.position = from->position;
+        light.direction = v3_scale(from->from, -1);
+        light.ambient = from->ambient;
+        light.diffuse = from->color;
+        light.specular = from->specular;
+        light.attenuation = (lam_attenuation){from->attenuation[0], from->attenuation[1], from->attenuation[2]};
+        light.cutoff_rad = (float)math_radians((double)from->cutoff_deg);
+        light.exponent = from->exponent;
+        if (lam_scene_add_light(scene, &light, error) < 0)
+            return false;
+    }
+    return true;
+}
+
+lam_scene *study_scene(const struct study *s, lam_camera *camera, lam_error *error)
+{
+    lam_scene *scene = lam_scene_make(error);
+    if (!scene)
+        return NULL;
+    lam_material material = lam_material_default();
+    lam_rgb kd = times(s->diffuse, s->kd);
+    material.ambient = times(s->ambient, s->ka);
+    material.diffuse = (lam_rgba){kd.r, kd.g, kd.b, s->alpha};
+    material.specular = times(s->specular, s->ks);
+    material.shininess = s->shininess;
+    lam_object object = lam_object_default();
+    object.mesh = add_mesh(scene, s->mesh, error);
+    object.material = object.mesh < 0 ? -1 : lam_scene_add_material(scene, &material, error);
+    object.transform = model_matrix(s);
+    if (object.mesh < 0 || object.material < 0 || lam_scene_add_object(scene, &object, error) < 0 ||
+        !add_lights(scene, s, error)) {
+        lam_scene_free(scene);
+        return NULL;
+    }
+    *camera = camera_of(s);
+    return scene;
+}

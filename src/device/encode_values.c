@@ -1,0 +1,89 @@
+// encode_values.c: pixels that hold numbers of the surfaces in place of colours: their code in 8 bits
+// (lam_show in lambent/device.h says it). Plain C, one code for all devices.
+#include "encode_values.h"
+
+#include <string.h>
+
+static float held(float x, float low, float high) { return x > high ? high : x > low ? x : low; } // NaN: low
+
+static uint8_t byte_of(float x) { return (uint8_t)(held(x, 0, 1) * 255.0f + 0.5f); }
+
+// A colour that tells neighbouring triangles apart; 48 and more, so that it stands out from black.
+static void color_of_ids(const float v[3], uint8_t out[4])
+{
+    uint64_t h = ((uint64_t)v[1] << 40 | (uint64_t)v[2] << 24 | (uint64_t)v[0]) + 1;
+    h *= UINT64_C(0x9e3779b97f4a7c15);
+    h = (h ^ h >> 29) * UINT64_C(0xd6e8feb86659fd93);
+    for (int c = 0; c < 3; c++)
+        out[c] = (uint8_t)(48 + (h >> (40 + 8 * c) & 0xff) * 207 / 255);
+}
+
+// The code of a covered pixel's numbers.
+static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
+{
+    static const uint8_t front[3] = {0, 102, 255}, back[3] = {255, 51, 0};
+    out[3] = 255;
+    switch (frame->show) {
+    case LAM_SHOW_IDS:
+        color_of_ids(v, out);
+        return;
+    case LAM_SHOW_FACING:
+        memcpy(out, v[0] > 0 ? front : back, 3);
+        return;
+    default:
+        break;
+    }
+    for (int c = 0; c < 3; c++)
+        switch (frame->show) {
+        case LAM_SHOW_NORMALS:
+        case LAM_SHOW_TANGENTS:
+            out[c] = byte_of((v[c] + 1.0f) * 0.5f);
+            break;
+        case LAM_SHOW_DEPTH:
+            out[c] = byte_of((frame->far_plane - v[c]) / (frame->far_plane - frame->near_plane));
+            break;
+        case LAM_SHOW_OVERDRAW:
+            out[c] = byte_of(v[c] / (v[c] + 3.0f));
+            break;
+        default: // cosines, coverage
+            out[c] = byte_of(v[c]);
+        }
+}
+
+void shown_put(const struct frame *frame, lam_pixel_format format, const float v[4], void *to)
+{
+    if (format == LAM_RGBA32F)
+        memcpy(to, v, 16);
+    else if (v[3] > 0)
+        encode(frame, v, to);
+    else
+        memset(to, 0, 4);
+}
+
+// How far the picture's pixel leaves 0…1, or its mark in 8 bits.
+void shown_put_clipped(lam_pixel_format format, const float p[4], void *to)
+{
+    float out[4] = {0}, straight[3];
+    bool above = false, below = false;
+    for (int c = 0; c < 3; c++) {
+        straight[c] = p[3] > 0 ? p[c] / p[3] : 0;
+        out[c] = straight[c] - held(straight[c], 0, 1);
+        above |= out[c] > 0;
+        below |= out[c] < 0;
+    }
+    out[3] = p[3] > 0 ? 1 : 0;
+    if (format == LAM_RGBA32F) {
+        memcpy(to, out, 16);
+        return;
+    }
+    uint8_t grey = byte_of((straight[0] + straight[1] + straight[2]) * (0.5f / 3.0f));
+    uint8_t code[4] = {above   ? 255
+                       : below ? 0
+                               : grey,
+                       above || below ? 0 : grey,
+                       above   ? 0
+                       : below ? 255
+                               : grey,
+                       p[3] > 0 ? 255 : 0};
+    memcpy(to, code, 4);
+}

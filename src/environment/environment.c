@@ -1,0 +1,291 @@
+// environment.c: cube maps from pictures: six faces, a cross, or an equirectangular one.
+#include "codec.h"
+#include "cube_map.h"
+#include "fail.h"
+#include "float_state.h"
+#include "linear.h"
+#include "call_control.h"
+
+#include <string.h>
+
+// --- memory
+
+// Takes it from the call's budget; `watch` NULL: none.
+static bool charge(struct watch *watch, size_t bytes, lam_error *error)
+{
+    return !watch || watch_charge(watch, bytes) || watch_memory_error(watch, bytes, error);
+}
+
+static size_t bytes_of(const lam_image *image)
+{
+    return image->pixels ? (size_t)image->width * (size_t)image->height * 4 * sizeof(float) : 0;
+}
+
+static struct lam_environment *cube_within(struct watch *watch, int size, lam_error *error)
+{
+    return charge(watch, cube_bytes(size), error) ? cube_make(size, error) : NULL;
+}
+
+// --- pieces of pictures to faces
+
+// A square of a linear picture that becomes a face; `turned` by 180°.
+struct piece {
+    const lam_image *image;
+    int x, y;
+    bool turned;
+};
+
+static bool copy_face(struct lam_environment *cube, int face, const struct piece *piece, const char *name,
+                      lam_error *error)
+{
+    int n = cube->size;
+    for (int t = 0; t < n; t++) {
+        for (int s = 0; s < n; s++) {
+            int x = piece->x + (piece->turned ? n - 1 - s : s), y = piece->y + (piece->turned ? n - 1 - t : t);
+            const float *from =
+                (const float *)piece->image->pixels + ((size_t)y * (size_t)piece->image->width + (size_t)x) * 4;
+            for (int channel = 0; channel < 3; channel++)
+                if (!(from[channel] >= 0 && from[channel] <= 3e38f))
+                    return fail(error, LAM_BAD_ARGUMENT,
+                                "%s: pixel %d, %d holds %g, expected light of at least 0, finite", name, x, y,
+                                (double)from[channel]);
+            memcpy(cube_texel(cube, face, s, t), from, 3 * sizeof(float));
+        }
+    }
+    return true;
+}
+
+static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE_COUNT],
+                                              const char *const names[LAM_FACE_COUNT], int size, struct watch *watch,
+                                              lam_error *error)
+{
+    if (size > CUBE_SIDE_MOST) {
+        fail(error, LAM_LIMIT, "%s: a face of %d×%d pixels, expected at most %d×%d", names[0], size, size,
+             CUBE_SIDE_MOST, CUBE_SIDE_MOST);
+        return NULL;
+    }
+    struct lam_environment *cube = cube_within(watch, size, error);
+    for (int face = 0; cube && face < LAM_FACE_COUNT; face++) {
+        if (!copy_face(cube, face, &pieces[face], names[face], error)) {
+            lam_environment_free(cube);
+            return NULL;
+        }
+    }
+    if (cube)
+        cube_close(cube);
+    return cube;
+}
+
+static struct lam_environment *cube_of_faces(const lam_image *faces, const char *const names[LAM_FACE_COUNT],
+                                             struct watch *watch, lam_error *error)
+{
+    struct piece pieces[LAM_FACE_COUNT];
+    for (int face = 0; face < LAM_FACE_COUNT; face++) {
+        pieces[face] = (struct piece){.image = &faces[face]};
+        if (faces[face].width == faces[0].width && faces[face].height == faces[0].width)
+            continue;
+        fail(error, LAM_UNSUPPORTED, "%s: %d×%d pixels, expected %d×%d: faces of a cube are squares of one size",
+             names[face], faces[face].width, faces[face].height, faces[0].width, faces[0].width);
+        return NULL;
+    }
+    return cube_of_pieces(pieces, names, faces[0].width, watch, error);
+}
+
+// --- an equirectangular picture
+
+// The pixel at column x, row y: columns go round, rows end.
+static const float *pixel_at(const lam_image *image, int x, int y)
+{
+    x = x < 0 ? x + image->width : x >= image->width ? x - image->width : x;
+    y = y < 0 ? 0 : y >= image->height ? image->height - 1 : y;
+    return (const float *)image->pixels + ((size_t)y * (size_t)image->width + (size_t)x) * 4;
+}
+
+static void sample_sphere(const lam_image *image, const double d[3], float out[3])
+{
+    double x = (0.5 + math_atan2(d[0], -d[2]) / (2 * PI)) * image->width - 0.5;
+    double y = math_atan2(math_sqrt(d[0] * d[0] + d[2] * d[2]), d[1]) / PI * image->height - 0.5;
+    int column = (int)(x + 1) - 1, row = (int)(y + 1) - 1; // both at least −½
+    double s = x - column, t = y - row;
+    const float *a = pixel_at(image, column, row), *b = pixel_at(image, column + 1, row);
+    const float *c = pixel_at(image, column, row + 1), *e = pixel_at(image, column + 1, row + 1);
+    for (int channel = 0; channel < 3; channel++) {
+        double upper = (double)a[channel] * (1 - s) + (double)b[channel] * s;
+        double lower = (double)c[channel] * (1 - s) + (double)e[channel] * s;
+        out[channel] = (float)(upper * (1 - t) + lower * t);
+    }
+}
+
+static bool check_light(const lam_image *image, const char *name, lam_error *error)
+{
+    const float *at = image->pixels;
+    for (int y = 0; y < image->height; y++)
+        for (int x = 0; x < image->width; x++, at += 4)
+            for (int channel = 0; channel < 3; channel++)
+                if (!(at[channel] >= 0 && at[channel] <= 3e38f))
+                    return fail(error, LAM_BAD_ARGUMENT,
+                                "%s: pixel %d, %d holds %g, expected light of at least 0, finite", name, x, y,
+                                (double)at[channel]);
+    return true;
+}
+
+static struct lam_environment *cube_of_sphere(const lam_image *image, const char *name, struct watch *watch,
+                                              lam_error *error)
+{
+    int size = (int)((double)image->width / PI) + 1;
+    if (size > CUBE_SIDE_MOST) {
+        fail(error, LAM_LIMIT, "%s: %d pixels wide, expected at most %d", name, image->width,
+             (int)(CUBE_SIDE_MOST * PI));
+        return NULL;
+    }
+    struct lam_environment *cube = check_light(image, name, error) ? cube_within(watch, size, error) : NULL;
+    if (!cube)
+        return NULL;
+    for (int face = 0; face < LAM_FACE_COUNT; face++) {
+        for (int t = 0; t < size; t++) {
+            for (int s = 0; s < size; s++) {
+                double d[3];
+                cube_direction(face, size, 2 * s + 1 - size, 2 * t + 1 - size, d);
+                sample_sphere(image, d, cube_texel(cube, face, s, t));
+            }
+        }
+    }
+    cube_close(cube);
+    return cube;
+}
+
+// One linear picture, by the ratio of its sides.
+static struct lam_environment *cube_of_image(const lam_image *image, const char *name, struct watch *watch,
+                                             lam_error *error)
+{
+    static const int lying[LAM_FACE_COUNT][2] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}};
+    static const int standing[LAM_FACE_COUNT][2] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {1, 3}};
+    int64_t width = image->width, height = image->height;
+    bool lies = width % 4 == 0 && 3 * width == 4 * height, stands = width % 3 == 0 && 4 * width == 3 * height;
+    if (width == 2 * height)
+        return cube_of_sphere(image, name, watch, error);
+    if (!lies && !stands) {
+        fail(error, LAM_UNSUPPORTED,
+             "%s: %d×%d pixels, expected a cross of six squares (4:3 or 3:4) or an equirectangular picture "
+             "(2:1)",
+             name, image->width, image->height);
+        return NULL;
+    }
+    int size = image->width / (lies ? 4 : 3);
+    struct piece pieces[LAM_FACE_COUNT];
+    const char *names[LAM_FACE_COUNT];
+    for (int face = 0; face < LAM_FACE_COUNT; face++) {
+        const int *at = lies ? lying[face] : standing[face];
+        pieces[face] = (struct piece){image, at[0] * size, at[1] * size, stands && face == LAM_FACE_NZ};
+        names[face] = name;
+    }
+    return cube_of_pieces(pieces, names, size, watch, error);
+}
+
+// --- pictures of the caller
+
+// A linear copy, freed by the caller; the picture itself stays as it is.
+static bool linear_copy(const lam_image *image, lam_color_mode color, lam_image *out, lam_error *error)
+{
+    *out = (lam_image){0};
+    if (!image || !image->pixels || image->width < 1 || image->height < 1)
+        return fail(error, LAM_BAD_ARGUMENT, "environment: a picture is missing");
+    if ((unsigned)color > LAM_COLOR_RAW)
+        return fail(error, LAM_BAD_ARGUMENT, "environment: color mode %d is not one of lam_color_mode", (int)color);
+    if (!lam_image_make(out, image->width, image->height, image->format, error))
+        return false;
+    memcpy(out->pixels, image->pixels,
+           (size_t)image->width * (size_t)image->height * (image->format == LAM_RGBA8 ? 4 : 16));
+    return image_linearize(out, false, color, error);
+}
+
+lam_environment *lam_environment_make(const lam_image *const faces[LAM_FACE_COUNT], lam_color_mode color,
+                                      lam_error *error)
+{
+    static const char *const names[LAM_FACE_COUNT] = {"environment, face +X", "environment, face -X",
+                                                      "environment, face +Y", "environment, face -Y",
+                                                      "environment, face +Z", "environment, face -Z"};
+    uint64_t state = float_state_enter();
+    lam_image linear[LAM_FACE_COUNT] = {{0}};
+    bool ok = faces || fail(error, LAM_BAD_ARGUMENT, "environment: no faces are given");
+    for (int face = 0; ok && face < LAM_FACE_COUNT; face++)
+        ok = linear_copy(faces[face], color, &linear[face], error);
+    struct lam_environment *cube = ok ? cube_of_faces(linear, names, NULL, error) : NULL;
+    for (int face = 0; face < LAM_FACE_COUNT; face++)
+        lam_image_free(&linear[face]);
+    float_state_leave(state);
+    return cube;
+}
+
+lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mode color, lam_error *error)
+{
+    uint64_t state = float_state_enter();
+    lam_image linear;
+    struct lam_environment *cube =
+        linear_copy(image, color, &linear, error) ? cube_of_image(&linear, "environment", NULL, error) : NULL;
+    lam_image_free(&linear);
+    float_state_leave(state);
+    return cube;
+}
+
+// --- files
+
+// A file's picture, linear; its memory is the caller's to refund.
+static bool load_picture(lam_image *image, const char *path, lam_color_mode color, struct watch *watch,
+                         lam_error *error)
+{
+    if (!watch_on(watch))
+        return watch_error(watch, error);
+    if (!lam_image_load_linear(image, path, color, error))
+        return false;
+    if (charge(watch, bytes_of(image), error))
+        return true;
+    lam_image_free(image);
+    return false;
+}
+
+struct lam_environment *environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
+                                               struct watch *watch, lam_error *error)
+{
+    lam_image faces[LAM_FACE_COUNT] = {{0}};
+    bool ok = paths || fail(error, LAM_BAD_ARGUMENT, "environment: no faces are given");
+    for (int face = 0; ok && face < LAM_FACE_COUNT; face++)
+        ok = load_picture(&faces[face], paths[face], color, watch, error);
+    uint64_t state = float_state_enter();
+    struct lam_environment *cube = ok ? cube_of_faces(faces, paths, watch, error) : NULL;
+    float_state_leave(state);
+    for (int face = 0; face < LAM_FACE_COUNT; face++) {
+        watch_refund(watch, bytes_of(&faces[face]));
+        lam_image_free(&faces[face]);
+    }
+    return cube;
+}
+
+struct lam_environment *environment_load(const char *path, lam_color_mode color, struct watch *watch, lam_error *error)
+{
+    lam_image image = {0};
+    if (!load_picture(&image, path, color, watch, error))
+        return NULL;
+    uint64_t state = float_state_enter();
+    struct lam_environment *cube = cube_of_image(&image, path, watch, error);
+    float_state_leave(state);
+    watch_refund(watch, bytes_of(&image));
+    lam_image_free(&image);
+    return cube;
+}
+
+lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
+                                            const lam_control *control, lam_error *error)
+{
+    struct watch watch;
+    watch_start(&watch, control);
+    return environment_load_faces(paths, color, &watch, error);
+}
+
+lam_environment *lam_environment_load(const char *path, lam_color_mode color, const lam_control *control,
+                                      lam_error *error)
+{
+    struct watch watch;
+    watch_start(&watch, control);
+    return environment_load(path, color, &watch, error);
+}

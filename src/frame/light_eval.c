@@ -1,0 +1,67 @@
+// light_eval.c: the equations at single values: what the kernels compute, one lane wide.
+#define LANES 1
+#include "lighting.h"
+
+#include "float_state.h"
+#include "frame.h"
+#include "linear.h"
+
+#include <lambent/light_eval.h>
+
+// The part of a light that attenuation and cone look at.
+static source reach_of(const struct frame_light *light)
+{
+    return (source){
+        .constant = light->attenuation[0],
+        .linear = light->attenuation[1],
+        .quadratic = light->attenuation[2],
+        .inverse_range = light->inverse_range,
+        .cos_cutoff = light->cos_cutoff,
+        .exponent = light->exponent,
+        .cos_outer = light->cos_outer,
+        .inverse_width = light->inverse_width,
+    };
+}
+
+float lam_attenuation_at(const lam_light *light, float distance)
+{
+    if (!light || (light->type != LAM_LIGHT_POINT && light->type != LAM_LIGHT_SPOT))
+        return 1.0f;
+    uint64_t state = float_state_enter();
+    struct frame_light reach;
+    frame_light_reach(&reach, light);
+    float result =
+        attenuation_at(distance, reach_of(&reach), reach.inverse_range > 0 ? FALLOFF_RANGE : FALLOFF_DISTANCE);
+    float_state_leave(state);
+    return result;
+}
+
+float lam_spot_at(const lam_light *light, double angle_rad)
+{
+    if (!light || light->type != LAM_LIGHT_SPOT)
+        return 1.0f;
+    uint64_t state = float_state_enter();
+    struct frame_light reach;
+    frame_light_reach(&reach, light);
+    static const int kinds[] = {[CONE_NONE] = LIGHT_POINT,
+                                [CONE_EXPONENT] = LIGHT_SPOT_EXPONENT,
+                                [CONE_CUTOFF] = LIGHT_SPOT_CUTOFF,
+                                [CONE_SOFT] = LIGHT_SPOT_CONES};
+    float result = spot_at(cosine((float)math_cos(angle_rad)), reach_of(&reach), kinds[reach.cone]);
+    float_state_leave(state);
+    return result;
+}
+
+float lam_highlight_at(lam_reflection reflection, float shininess, double angle_rad)
+{
+    uint64_t state = float_state_enter();
+    surface s = {.n = {0, 0, 1}, .v = {(float)math_sin(angle_rad), 0, (float)math_cos(angle_rad)}};
+    vec3 l = {0, 0, 1};
+    float result = 0.0f;
+    if (reflection == LAM_REFLECTION_PHONG)
+        result = reflect_light(s, l, shininess, MODEL_PHONG, 0).specular;
+    else if (reflection == LAM_REFLECTION_BLINN_PHONG || reflection == LAM_REFLECTION_AUTO)
+        result = reflect_light(s, l, shininess, MODEL_BLINN_PHONG, 0).specular;
+    float_state_leave(state);
+    return result;
+}

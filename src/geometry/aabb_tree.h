@@ -1,0 +1,44 @@
+// aabb_tree.h: boxes around a mesh's vertices, and boxes around those: a search for the farthest vertex in some
+// direction looks into few of them.
+#ifndef AABB_TREE_H
+#define AABB_TREE_H
+
+#include "arena.h"
+#include "pool.h"
+
+#include <lambent/scene.h>
+
+enum {
+    BOX_CHILDREN = 16, // boxes of one level in a box of the next
+    BOX_LEVELS = 8,    // 2³² vertices in blocks of 64, and one to spare
+};
+
+// Minimum and maximum, without the mesh's origin.
+typedef float box_of_six[6];
+
+// Box i of the lowest level holds `block` used vertices from number i · block on, one of the next level
+// BOX_CHILDREN of those below. The topmost level has at most BOX_CHILDREN.
+struct box_tree {
+    const box_of_six *boxes; // level after level from the lowest; NULL: no vertices
+    size_t block;
+    size_t vertices;
+    int levels;
+    size_t first[BOX_LEVELS], count[BOX_LEVELS];
+};
+
+// `used` lists the vertices that count, in order (NULL: the first `count`). False when memory is out.
+bool box_tree_make(struct box_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count, struct arena *arena,
+                   struct pool *pool, lam_error *error);
+
+// The box around everything. Only of a tree with vertices.
+void box_tree_whole(const struct box_tree *tree, box_of_six whole);
+
+static inline const box_of_six *boxes_of_level(const struct box_tree *tree, int level)
+{
+    return tree->boxes + tree->first[level];
+}
+
+// The end of what a box holds that begins at `first`, `each` things in a box, of `all` things.
+static inline size_t box_end(size_t first, size_t each, size_t all) { return all - first < each ? all : first + each; }
+
+#endif

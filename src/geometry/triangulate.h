@@ -1,0 +1,35 @@
+// triangulate.h: polygons of any size, convex or not, into triangles.
+//
+// A triangle stays as it is, a quad is cut along the diagonal that lies inside it, a larger convex polygon
+// becomes a fan; everything else is cut ear by ear in the polygon's dominant plane, snapped to a grid of
+// integers so that every decision is exact. Simple polygons, also with collinear, repeated or touching points
+// (holes joined by a bridge), come out exactly covered; what has no area, or crosses itself, still gives
+// count − 2 triangles. About count·√count steps at worst.
+#ifndef TRIANGULATE_H
+#define TRIANGULATE_H
+
+#include "arena.h"
+#include "call_control.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// Scratch memory, kept from polygon to polygon. One for each thread.
+struct triangulator {
+    struct arena memory;
+    struct watch *watch;
+    void *block;
+    size_t room; // bytes at block
+};
+
+void triangulator_start(struct triangulator *scratch, struct watch *watch); // `watch` may be NULL
+void triangulator_stop(struct triangulator *scratch);
+
+// Cuts the polygon whose corner i lies at positions[3·corners[i] …] (finite numbers), count ≥ 3, and writes
+// count − 2 triples of corner numbers (0 … count − 1, so that every attribute can follow) to `triples`, wound
+// as the polygon is. False when memory is out or the watch says stop (watch_on then tells which); never for
+// up to four corners.
+bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
+                 uint32_t *triples);
+
+#endif

@@ -1,0 +1,49 @@
+// gl_enumerate.c: lam_gl_devices: which devices OpenGL can be had from, each tried.
+#include "context.h"
+
+#include "fail.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void try_place(const struct egl *egl, const struct gl_place *place, int number, lam_gl_device *out)
+{
+    static const struct {
+        enum gl_profile profile;
+        const char *name;
+    } tries[] = {{GL_PROFILE_CORE, "OpenGL 3.3"}, {GL_PROFILE_ES, "OpenGL ES 3.0"}};
+    *out = (lam_gl_device){.number = number, .software = place->software};
+    snprintf(out->place, sizeof out->place, "%s", place->name);
+    for (int i = 0; i < 2; i++) {
+        struct gl_context context;
+        lam_error why;
+        if (!gl_context_open(&context, egl, place, tries[i].profile, false, &why)) {
+            if (!*out->reason)
+                snprintf(out->reason, sizeof out->reason, "%.190s", why.text);
+            continue;
+        }
+        size_t length = strlen(out->versions);
+        snprintf(out->versions + length, sizeof out->versions - length, "%s%s", length ? ", " : "", tries[i].name);
+        if (!out->usable) {
+            snprintf(out->name, sizeof out->name, "%s", context.renderer);
+            snprintf(out->driver, sizeof out->driver, "%s", context.driver);
+            out->software |= context.software;
+        }
+        out->usable = true;
+        gl_context_free(&context);
+    }
+    if (out->usable)
+        *out->reason = 0;
+}
+
+int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int room, lam_error *error)
+{
+    struct egl egl;
+    struct gl_place places[GL_PLACES_MAX];
+    if (!egl_open(&egl, params ? params->library : NULL, error))
+        return -1;
+    int count = gl_places(&egl, places);
+    for (int i = 0; i < count && i < room; i++)
+        try_place(&egl, &places[i], i, &devices[i]);
+    return count;
+}

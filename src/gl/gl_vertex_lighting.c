@@ -1,0 +1,399 @@
+// gl_vertex_lighting.c: the stage `application`: the CPU works out the colours of vertices by the same equations
+// (src/lighting), and they are sent as attributes, for the front and for the back. Again only when what
+// decides them has changed.
+#include "gl_device.h"
+
+#include "fail.h"
+
+#define LANES 4
+#include "cube_lookup.h"
+#include "cube_map.h"
+#include "lighting.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CHUNK = 4096 }; // vertices lit at once, a multiple of LANES
+
+// One side of one surface.
+struct side {
+    const struct frame *frame;
+    const struct frame_draw *draw;
+    const lam_mesh *mesh;
+    const lam_material *material;
+    bool flip; // the back, lit with −n
+    bool translucent;
+};
+
+LANE_FN vec3 of3(const float *v) { return (vec3){num_of(v[0]), num_of(v[1]), num_of(v[2])}; }
+LANE_FN vec3 product3(const float *a, const float *b)
+{
+    return (vec3){num_of(a[0] * b[0]), num_of(a[1] * b[1]), num_of(a[2] * b[2])};
+}
+LANE_FN num row3(const float row[3], vec3 v) { return (row[0] * v.x + row[1] * v.y) + row[2] * v.z; }
+LANE_FN vec3 turn(const float m[3][3], vec3 v) { return (vec3){row3(m[0], v), row3(m[1], v), row3(m[2], v)}; }
+
+// Attribute `at` floats into LANES vertices.
+LANE_FN vec3 load3(const struct mesh_vertex *from, size_t at)
+{
+    float v[3][LANES];
+    for (int i = 0; i < LANES; i++)
+        for (size_t c = 0; c < 3; c++)
+            v[c][i] = ((const float *)&from[i])[at + c];
+    return (vec3){num_load(v[0]), num_load(v[1]), num_load(v[2])};
+}
+
+LANE_FN source source_of(const struct side *side, const struct frame_light *light)
+{
+    source s;
+    s.position = of3(light->position);
+    s.direction = of3(light->axis);
+    s.constant = num_of(light->attenuation[0]);
+    s.linear = num_of(light->attenuation[1]);
+    s.quadratic = num_of(light->attenuation[2]);
+    s.inverse_range = num_of(light->inverse_range);
+    s.cos_cutoff = num_of(light->cos_cutoff);
+    s.exponent = num_of(light->exponent);
+    s.cos_outer = num_of(light->cos_outer);
+    s.inverse_width = num_of(light->inverse_width);
+    s.diffuse = product3(&side->material->diffuse.r, light->diffuse);
+    s.specular = product3(&side->material->specular.r, light->specular);
+    return s;
+}
+
+LANE_FN vec3 environment_of(const struct frame *frame, surface s)
+{
+    vec3 r = turn(frame->to_environment, mirror3(s.v, s.n));
+    struct cube_color c = cube_look(frame->environment, r.x, r.y, r.z);
+    return pick3(both(present(s.n), present(s.v)), vec3_of(c.r, c.g, c.b), black3());
+}
+
+static int model_of(lam_reflection reflection)
+{
+    static const int models[] = {[LAM_REFLECTION_NONE] = MODEL_NONE,
+                                 [LAM_REFLECTION_LAMBERT] = MODEL_LAMBERT,
+                                 [LAM_REFLECTION_PHONG] = MODEL_PHONG,
+                                 [LAM_REFLECTION_BLINN_PHONG] = MODEL_BLINN_PHONG,
+                                 [LAM_REFLECTION_KAJIYA_KAY] = MODEL_KAJIYA_KAY,
+                                 [LAM_REFLECTION_KAJIYA_KAY_LECTURE] = MODEL_KAJIYA_KAY_LECTURE};
+    return models[reflection];
+}
+
+LANE_FN terms terms_of(const struct side *side, surface s, vec3 color)
+{
+    const struct frame *frame = side->frame;
+    const lam_material *m = side->material;
+    int model = model_of(frame->reflection);
+    if (model == MODEL_NONE)
+        return tint_terms(unlit_terms(of3(&m->diffuse.r)), color);
+    terms sum = start_terms(product3(&m->ambient.r, frame->ambient), of3(&m->emission.r));
+    for (int i = 0; i < frame->hemisphere_count; i++) {
+        const struct frame_hemisphere *h = &frame->hemispheres[i];
+        sum = add_hemisphere(
+            sum, s, (hemisphere){of3(h->up), product3(&m->ambient.r, h->sky), product3(&m->ambient.r, h->ground)});
+    }
+    num shininess = num_of(glsl_products_of(frame, m).shininess);
+    for (int i = 0; i < frame->light_count; i++) {
+        const struct frame_light *l = &frame->lights[i];
+        source light = source_of(side, l);
+        toward t = toward_light(s.p, light, glsl_kind(l), glsl_falloff(l));
+        sum = add_reflected(sum, light, t, reflect_light(s, t.l, shininess, model, m->fibre));
+        if (frame->gl1)
+            sum = add_arriving_ambient(sum, product3(&m->ambient.r, l->ambient), t);
+    }
+    if (frame->environment && (m->reflectivity.r != 0 || m->reflectivity.g != 0 || m->reflectivity.b != 0))
+        sum = add_environment(sum, of3(&m->reflectivity.r), environment_of(frame, s));
+    return tint_terms(sum, color);
+}
+
+LANE_FN vec3 shown_of(const struct frame *frame, terms t)
+{
+    switch (frame->show) {
+    case LAM_SHOW_AMBIENT:
+        return t.ambient;
+    case LAM_SHOW_DIFFUSE:
+        return t.diffuse;
+    case LAM_SHOW_SPECULAR:
+        return t.specular;
+    case LAM_SHOW_EMISSION:
+        return t.emission;
+    case LAM_SHOW_REFLECTION:
+        return t.reflection;
+    case LAM_SHOW_LIGHT:
+        return frame->reflection == LAM_REFLECTION_NONE ? black3() : add3(add3(t.ambient, t.diffuse), t.specular);
+    default:
+        return sum_terms(t);
+    }
+}
+
+static bool shows_vectors(lam_show show)
+{
+    return show == LAM_SHOW_NORMALS || show == LAM_SHOW_TANGENTS || show == LAM_SHOW_N_L || show == LAM_SHOW_N_H;
+}
+
+LANE_FN vec3 vector_of(const struct side *side, surface s)
+{
+    lam_show show = side->frame->show;
+    if (show == LAM_SHOW_NORMALS)
+        return s.n;
+    if (show == LAM_SHOW_TANGENTS)
+        return s.t;
+    const struct frame_light *light = &side->frame->lights[0]; // the only one
+    vec3 l = toward_light(s.p, source_of(side, light), glsl_kind(light), FALLOFF_NONE).l;
+    num c = cosine(dot3(s.n, show == LAM_SHOW_N_L ? l : halfway3(l, s.v)));
+    return vec3_of(c, c, c);
+}
+
+// The direction of meshes without tangents: round the mesh's y axis, along x where the normal is along y.
+LANE_FN vec3 field_tangent(const struct side *side, vec3 n)
+{
+    const float(*m)[3] = side->draw->tangent;
+    vec3 axis = unit3(vec3_of(num_of(m[0][1]), num_of(m[1][1]), num_of(m[2][1])));
+    vec3 x = unit3(vec3_of(num_of(m[0][0]), num_of(m[1][0]), num_of(m[2][0])));
+    vec3 around = cross3(axis, n);
+    return pick3(dot3(around, around) < 1e-8f, x, around);
+}
+
+LANE_FN surface surface_of(const struct side *side, const struct mesh_vertex *from)
+{
+    const struct frame *frame = side->frame;
+    const float(*eye)[4] = side->draw->eye;
+    vec3 p = load3(from, 0);
+    surface s;
+    s.p = (vec3){row3(eye[0], p) + eye[0][3], row3(eye[1], p) + eye[1][3], row3(eye[2], p) + eye[2][3]};
+    vec3 n = unit3(turn(side->draw->normal, load3(from, 3)));
+    s.n = unit3(side->flip ? negate3(n) : n);
+    s.v = to_eye(s.p, frame->distant_viewer ? VIEWER_INFINITE : VIEWER_LOCAL);
+    s.t = black3();
+    if (frame->reflection >= LAM_REFLECTION_KAJIYA_KAY || frame->show == LAM_SHOW_TANGENTS)
+        s.t = perpendicular3(
+            side->mesh->tangents ? unit3(turn(side->draw->tangent, load3(from, 10))) : field_tangent(side, s.n), s.n);
+    return s;
+}
+
+// Colours of vertices, with alpha; `count` is a multiple of LANES.
+static void light_side(const struct side *side, const struct mesh_vertex *from, uint32_t count, float (*out)[4])
+{
+    const struct frame *frame = side->frame;
+    bool whole = frame->show == LAM_SHOW_PICTURE || frame->show == LAM_SHOW_CLIPPED;
+    for (uint32_t first = 0; first < count; first += LANES, from += LANES, out += LANES) {
+        surface s = surface_of(side, from);
+        vec3 white = vec3_of(num_of(1.0f), num_of(1.0f), num_of(1.0f));
+        vec3 color = shows_vectors(frame->show)
+                         ? vector_of(side, s)
+                         : shown_of(frame, terms_of(side, s, side->mesh->colors ? load3(from, 6) : white));
+        if (frame->gl1 && whole)
+            color = vec3_of(saturate(color.x), saturate(color.y), saturate(color.z));
+        for (int i = 0; i < LANES; i++) {
+            out[i][0] = lane(color.x, i);
+            out[i][1] = lane(color.y, i);
+            out[i][2] = lane(color.z, i);
+            out[i][3] = 1;
+            if (side->translucent)
+                out[i][3] = side->material->diffuse.a * (side->mesh->colors ? from[i].color[3] : 1.0f);
+            if (frame->gl1)
+                out[i][3] = out[i][3] > 1 ? 1 : out[i][3];
+        }
+    }
+}
+
+// --- sending them
+
+static bool note(struct gl_frame *f, struct gl_colors *row, size_t *size, const void *bytes, size_t count,
+                 lam_error *error)
+{
+    if (*size + count > row->now.room) {
+        struct buffer grown = {0};
+        if (!buffer_reserve(&grown, 2 * (*size + count), f->watch, error))
+            return false;
+        if (*size)
+            memcpy(grown.data, row->now.data, *size);
+        buffer_free(&row->now);
+        row->now = grown;
+    }
+    memcpy((char *)row->now.data + *size, bytes, count);
+    *size += count;
+    return true;
+}
+
+// Structs are noted without the bytes between their members, which may be anything.
+static bool note_light(struct gl_frame *f, struct gl_colors *row, size_t *size, const struct frame_light *light,
+                       lam_error *error)
+{
+    const int kind[] = {light->directional, (int)light->cone};
+    size_t first = offsetof(struct frame_light, position), end = offsetof(struct frame_light, light);
+    return note(f, row, size, kind, sizeof kind, error) &&
+           note(f, row, size, (const char *)light + first, end - first, error);
+}
+
+static bool note_material(struct gl_frame *f, struct gl_colors *row, size_t *size, const lam_material *m,
+                          lam_error *error)
+{
+    const int fibre = m->fibre;
+    return note(f, row, size, m, offsetof(lam_material, fibre), error) &&
+           note(f, row, size, &fibre, sizeof fibre, error);
+}
+
+static bool note_surface(struct gl_frame *f, struct gl_colors *row, size_t *size, const struct frame_surface *s,
+                         lam_error *error)
+{
+    const uint32_t run[] = {s->first_id, s->count, s->translucent};
+    return note(f, row, size, run, sizeof run, error) &&
+           note_material(f, row, size, f->frame->materials[s->front], error) &&
+           note_material(f, row, size, f->frame->materials[s->back], error);
+}
+
+// All that the colours of a draw depend on, as bytes in row->now.
+static bool note_all(struct gl_frame *f, struct gl_colors *row, const struct gl_mesh *mesh, int number, size_t *size,
+                     lam_error *error)
+{
+    const struct frame *frame = f->frame;
+    const struct frame_draw *draw = &frame->draws[number];
+    const int choices[] = {frame->show,           frame->reflection,       frame->shading,     frame->gl1,
+                           frame->distant_viewer, frame->match_highlights, frame->light_count, frame->hemisphere_count,
+                           draw->one_sided,       frame->flat_normal,      (int)mesh->form,    frame->translucent};
+    const void *places[] = {frame->environment, mesh->mesh.positions, mesh->token};
+    bool ok = note(f, row, size, choices, sizeof choices, error) && note(f, row, size, places, sizeof places, error) &&
+              note(f, row, size, draw->eye, sizeof draw->eye, error) &&
+              note(f, row, size, draw->normal, sizeof draw->normal, error) &&
+              note(f, row, size, draw->tangent, sizeof draw->tangent, error) &&
+              note(f, row, size, frame->ambient, sizeof frame->ambient, error) &&
+              note(f, row, size, frame->to_environment, sizeof frame->to_environment, error);
+    for (int i = 0; ok && i < frame->light_count; i++)
+        ok = note_light(f, row, size, &frame->lights[i], error);
+    for (int i = 0; ok && i < frame->hemisphere_count; i++)
+        ok = note(f, row, size, &frame->hemispheres[i], offsetof(struct frame_hemisphere, light), error);
+    for (int i = 0; ok && i < frame->surface_count; i++)
+        if (frame->surfaces[i].draw == number)
+            ok = note_surface(f, row, size, &frame->surfaces[i], error);
+    return ok;
+}
+
+// Lights the vertices of a run: front and back side by side.
+static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const struct frame_surface *run, uint32_t first,
+                      uint32_t end, float (*lit)[2][4])
+{
+    const struct frame_draw *draw = &f->frame->draws[run->draw];
+    struct side side = {.frame = f->frame, .draw = draw, .mesh = &mesh->mesh, .translucent = run->translucent};
+    struct mesh_vertex *from = f->device->scratch.data;
+    float(*one)[4] = (float(*)[4])(from + CHUNK);
+    for (; first < end; first += CHUNK) {
+        uint32_t some = end - first < CHUNK ? end - first : CHUNK, whole = (some + LANES - 1) / LANES * LANES;
+        if (!watch_on(f->watch))
+            return false;
+        mesh_vertices(f->device, &mesh->mesh, mesh->form, first, some, from);
+        for (uint32_t i = some; i < whole; i++)
+            from[i] = from[some - 1];
+        for (int back = 0; back < 2; back++) {
+            if (!back || !draw->one_sided) { // else the same again
+                side.material = f->frame->materials[back ? run->back : run->front];
+                side.flip = back;
+                light_side(&side, from, whole, one);
+                f->device->base.report.points_lit += some;
+                f->device->base.report.lights_evaluated += (uint64_t)some * (uint64_t)f->frame->light_count;
+            }
+            for (uint32_t i = 0; i < some; i++)
+                memcpy(lit[first + i][back], one[i], sizeof one[i]);
+        }
+    }
+    return true;
+}
+
+static bool send_colors(struct gl_frame *f, struct gl_colors *row, const struct gl_mesh *mesh, int number,
+                        lam_error *error)
+{
+    const struct frame *frame = f->frame;
+    uint64_t start = now_ns();
+    uint32_t count = mesh_vertex_count(&mesh->mesh, mesh->form);
+    uint64_t bytes = (uint64_t)count * 8 * sizeof(float);
+    if (!buffer_reserve(&f->device->scratch, CHUNK * (sizeof(struct mesh_vertex) + 4 * sizeof(float)), f->watch,
+                        error) ||
+        !gl_charge(f, &row->bytes, bytes, error))
+        return false;
+    float(*lit)[2][4] = gl_map_new(f, row->colors, (size_t)bytes, GL_DYNAMIC_DRAW, error);
+    if (!lit)
+        return false;
+    bool on = true;
+    bool shared = mesh->form == FORM_SHARED, done = false; // shared vertices: all runs have one material
+    for (int i = 0; on && !done && i < frame->surface_count; i++) {
+        const struct frame_surface *s = &frame->surfaces[i];
+        uint32_t first = 3 * (s->first_id - frame->draws[number].first_id);
+        if (s->draw != number)
+            continue;
+        on = light_run(f, mesh, s, shared ? 0 : first, shared ? count : first + 3 * s->count, lit);
+        done = shared;
+    }
+    f->gl->UnmapBuffer(GL_ARRAY_BUFFER);
+    f->device->base.report.lighting_ms += (double)(now_ns() - start) * 1e-6;
+    return on || watch_error(f->watch, error);
+}
+
+static bool row_for(struct gl_device *device, int draw, lam_error *error)
+{
+    if (draw < device->color_room)
+        return true;
+    int room = draw + 8;
+    struct gl_colors *grown = realloc(device->colors, (size_t)room * sizeof *grown);
+    if (!grown)
+        return fail_memory(error, (size_t)room * sizeof *grown);
+    memset(grown + device->color_room, 0, (size_t)(room - device->color_room) * sizeof *grown);
+    device->colors = grown;
+    device->color_room = room;
+    return true;
+}
+
+GLuint colors_on_device(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_error *error)
+{
+    struct gl_device *device = f->device;
+    const struct gl *gl = f->gl;
+    size_t size = 0;
+    if (!row_for(device, draw, error) || !note_all(f, &device->colors[draw], mesh, draw, &size, error))
+        return 0;
+    struct gl_colors *row = &device->colors[draw];
+    if (!row->colors) {
+        gl->GenBuffers(1, &row->colors);
+        gl->GenVertexArrays(1, &row->array);
+    }
+    if (size != row->made_size || memcmp(row->now.data, row->made_of.data, size) != 0) {
+        row->made_size = 0;
+        if (!send_colors(f, row, mesh, draw, error))
+            return 0;
+        struct buffer swapped = row->made_of;
+        row->made_of = row->now;
+        row->now = swapped;
+        row->made_size = size;
+        lam_environment_free(row->environment);
+        row->environment = cube_share(f->frame->environment);
+    }
+    if (row->of_vertices != mesh->vertices) {
+        size_t stride = (6 + (mesh->mesh.colors ? 4 : 0) + (mesh->mesh.tangents ? 3 : 0)) * sizeof(float);
+        gl_use_array(device, row->array);
+        gl->BindBuffer(GL_ARRAY_BUFFER, mesh->vertices);
+        gl->EnableVertexAttribArray(0);
+        gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, (GLsizei)stride, NULL);
+        gl->BindBuffer(GL_ARRAY_BUFFER, row->colors);
+        for (GLuint side = 0; side < 2; side++) {
+            gl->EnableVertexAttribArray(4 + side);
+            gl->VertexAttribPointer(4 + side, 4, GL_FLOAT, GL_FALSE, 8 * sizeof(float),
+                                    (const void *)(side * 4 * sizeof(float)));
+        }
+        gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh->elements);
+        row->of_vertices = mesh->vertices;
+    }
+    return row->array;
+}
+
+void colors_free(struct gl_device *device)
+{
+    const struct gl *gl = &device->context.gl;
+    for (int i = 0; i < device->color_room; i++) {
+        struct gl_colors *row = &device->colors[i];
+        gl->DeleteBuffers(1, &row->colors);
+        gl->DeleteVertexArrays(1, &row->array);
+        lam_environment_free(row->environment);
+        buffer_free(&row->made_of);
+        buffer_free(&row->now);
+    }
+    free(device->colors);
+}

@@ -1,0 +1,293 @@
+// equations.c: takes the texts of src/lighting apart, keeps what is called, and writes it as plain GLSL.
+#include "equations.h"
+
+#include "fail.h"
+#include "sources.inc"
+
+#include <stdlib.h>
+#include <string.h>
+
+// A piece of a file: a function, a struct, a #define, with the comment that leads it.
+struct piece {
+    char *lead, *start, *end; // lead == start: no comment
+    const char *name;
+    size_t name_length;
+    int file;
+    bool kept;
+};
+
+enum { PIECES_MAX = 256 };
+
+static bool in_name(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+static char *next_line(const char *at)
+{
+    at += strcspn(at, "\n");
+    return (char *)(*at ? at + 1 : at);
+}
+
+static bool begins(const char *at, const char *with) { return strncmp(at, with, strlen(with)) == 0; }
+
+// The end of a definition: of its first line where that closes what it opens, else of the line that begins
+// with the closing bracket.
+static char *definition_end(char *at)
+{
+    char *end = next_line(at), *last = end;
+    while (last > at && (last[-1] == '\n' || last[-1] == ';'))
+        last--;
+    if (last > at && last[-1] == '}')
+        return end;
+    while (*at && *at != '}')
+        at = next_line(at);
+    return next_line(at);
+}
+
+static void name_piece(struct piece *piece)
+{
+    const char *at = piece->start;
+    if (begins(at, "#define ")) {
+        piece->name = at + 8;
+    } else if (begins(at, "STRUCT(")) {
+        piece->name = at + 7;
+    } else {
+        piece->name = strchr(at, '(');
+        while (piece->name > at && in_name(piece->name[-1]))
+            piece->name--;
+    }
+    while (in_name(piece->name[piece->name_length]))
+        piece->name_length++;
+}
+
+// The lines that only give the dialect its words.
+static bool is_scaffold(const char *at)
+{
+    static const char *const starts[] = {"#ifdef",        "#endif",           "precision",
+                                         "#define FN\n",  "#define STRUCT",   "#define num ",
+                                         "#define mask ", "#define vec3_of ", "#define vec4_of "};
+    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
+        if (begins(at, starts[i]))
+            return true;
+    return begins(at, "float num_of(");
+}
+
+static int take_apart(struct piece *pieces, int count, char *source, int file)
+{
+    char *lead = NULL;
+    for (char *at = source; *at;) {
+        char *next = next_line(at);
+        if (begins(at, "//")) {
+            lead = lead ? lead : at;
+        } else if (*at == '\n' || is_scaffold(at)) {
+            lead = NULL;
+        } else {
+            struct piece *piece = &pieces[count];
+            next = *at == '#' ? next : definition_end(at);
+            *piece = (struct piece){.lead = lead ? lead : at, .start = at, .end = next, .file = file};
+            name_piece(piece);
+            lead = NULL;
+            if (++count == PIECES_MAX)
+                return count;
+        }
+        at = next;
+    }
+    return count;
+}
+
+// Marks what the words of a text name, members (".xyz") left out. True where something was not marked before.
+static bool mark(struct piece *pieces, int count, const char *at, const char *end)
+{
+    bool changed = false;
+    const char *start = at;
+    while (at < end) {
+        if (at[0] == '/' && at[1] == '/') {
+            at = next_line(at);
+        } else if (!in_name(*at)) {
+            at++;
+        } else {
+            size_t length = 1;
+            while (at + length < end && in_name(at[length]))
+                length++;
+            for (int i = 0; i < count && (at == start || at[-1] != '.'); i++) {
+                struct piece *p = &pieces[i];
+                if (!p->kept && p->name_length == length && memcmp(p->name, at, length) == 0)
+                    p->kept = changed = true;
+            }
+            at += length;
+        }
+    }
+    return changed;
+}
+
+// GLSL's own words for those of the dialect.
+static const char *const renamed[][2] = {
+    {"num_of", "float"}, {"num", "float"}, {"mask", "bool"}, {"vec3_of", "vec3"}, {"vec4_of", "vec4"}};
+
+static void write_plain(struct text *text, const char *at, const char *end)
+{
+    bool comment = false;
+    while (at < end) {
+        if (*at == '\n')
+            comment = false;
+        else if (at[0] == '/' && at[1] == '/')
+            comment = true;
+        if (*at == SIMPLIFY_GONE) {
+            at++;
+            continue;
+        }
+        if (comment || !in_name(*at)) {
+            text_add_part(text, at++, 1);
+            continue;
+        }
+        size_t length = 1;
+        while (at + length < end && in_name(at[length]))
+            length++;
+        if (length == 2 && begins(at, "FN ")) {
+            at += 3;
+            continue;
+        }
+        if (length == 6 && begins(at, "STRUCT(")) {
+            size_t name = strcspn(at + 7, ")");
+            text_add(text, "struct ");
+            text_add_part(text, at + 7, name);
+            at += 8 + name;
+            continue;
+        }
+        // Numbers stand without C's f, and without a call round them.
+        if (length == 6 && begins(at, "num_of(") && at[7 + strspn(at + 7, "-.0123456789ef")] == ')') {
+            size_t number = strcspn(at + 7, ")");
+            text_add_part(text, at + 7, number - (at[6 + number] == 'f'));
+            at += 8 + number;
+            continue;
+        }
+        if (*at >= '0' && *at <= '9' && at[length - 1] == 'f') {
+            text_add_part(text, at, length - 1);
+            at += length;
+            continue;
+        }
+        const char *other = NULL;
+        for (size_t i = 0; i < sizeof renamed / sizeof *renamed; i++)
+            if (strlen(renamed[i][0]) == length && memcmp(renamed[i][0], at, length) == 0)
+                other = renamed[i][1];
+        text_add_part(text, other ? other : at, other ? strlen(other) : length);
+        at += length;
+    }
+}
+
+// A definition with the comments of its members in one column: the words are not as long as they were.
+static void write_definition(struct text *text, const struct piece *p)
+{
+    if (!begins(p->start, "STRUCT(")) {
+        write_plain(text, p->lead, p->end);
+        return;
+    }
+    struct text plain = {0};
+    write_plain(text, p->lead, p->start);
+    write_plain(&plain, p->start, p->end);
+    size_t width = 0;
+    for (const char *at = plain.bytes; at && *at; at = next_line(at)) {
+        size_t code = strcspn(at, ";\n");
+        if (*at == ' ' && at[code] == ';' && at[code + 1] == ' ' && code > width)
+            width = code;
+    }
+    for (const char *at = plain.bytes; at && *at; at = next_line(at)) {
+        size_t code = strcspn(at, ";\n");
+        const char *next = next_line(at), *comment = at[code] == ';' ? at + code + 1 : next;
+        comment += strspn(comment, " ");
+        if (*at == ' ' && begins(comment, "//")) {
+            text_add_part(text, at, code + 1);
+            text_print(text, "%*s", (int)(width - code + 1), "");
+            text_add_part(text, comment, (size_t)(next - comment));
+        } else {
+            text_add_part(text, at, (size_t)(next - at));
+        }
+    }
+    text->failed |= plain.failed;
+    free(plain.bytes);
+}
+
+// --- the whole
+
+enum { FILES = 4 };
+
+struct whole {
+    struct text sources[FILES];
+    struct piece pieces[PIECES_MAX];
+    struct stretch stretches[PIECES_MAX + 1];
+    int count;
+};
+
+// Marks what the calls need, and all that those need. Returns the number of stretches, the calls first.
+static int keep(struct whole *w, char *calls)
+{
+    char *calls_end = calls + strlen(calls);
+    for (int i = 0; i < w->count; i++)
+        w->pieces[i].kept = false;
+    mark(w->pieces, w->count, calls, calls_end);
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int i = 0; i < w->count; i++)
+            if (w->pieces[i].kept)
+                changed |= mark(w->pieces, w->count, w->pieces[i].start, w->pieces[i].end);
+    }
+    int count = 0;
+    w->stretches[count++] = (struct stretch){calls, calls_end};
+    for (int i = 0; i < w->count; i++)
+        if (w->pieces[i].kept)
+            w->stretches[count++] = (struct stretch){w->pieces[i].start, w->pieces[i].end};
+    return count;
+}
+
+static void write_kept(struct text *text, const struct whole *w)
+{
+    static const char *const titles[FILES] = {
+        "the words that the equations are written in", "how a point of a surface answers the light of one direction",
+        "what of a light arrives at a point: its direction, distance, attenuation and cone",
+        "the light that leaves a point, as terms and as their sum"};
+    int file = -1;
+    bool define = false;
+    for (int i = 0; i < w->count; i++) {
+        const struct piece *p = &w->pieces[i];
+        if (!p->kept)
+            continue;
+        if (p->file != file)
+            text_print(text, "\n// --- %s\n\n", titles[p->file]);
+        bool is_define = *p->start == '#', one_line = next_line(p->start) == p->end;
+        if (p->file == file && !(define && is_define && p->lead == p->start) && !(p->file == 0 && one_line))
+            text_add(text, "\n");
+        file = p->file;
+        define = is_define;
+        write_definition(text, p);
+    }
+}
+
+void equations_add(struct text *text, char *calls, const struct decided *decided)
+{
+    static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h, text_lights_h, text_sum_h};
+    struct whole *w = calloc(1, sizeof *w);
+    bool ok = w != NULL;
+    for (int i = 0; ok && i < FILES; i++) {
+        simplify_conditions(&w->sources[i], sources[i], decided);
+        ok = !w->sources[i].failed;
+        if (ok)
+            w->count = take_apart(w->pieces, w->count, w->sources[i].bytes, i);
+    }
+    if (ok) {
+        while (simplify_members(w->stretches, keep(w, calls)))
+            ;
+        write_kept(text, w);
+        char *to = calls; // what is gone from the calls is closed up
+        for (const char *from = calls; *from; from++)
+            if (*from != SIMPLIFY_GONE)
+                *to++ = *from;
+        *to = 0;
+    } else {
+        text->failed = true;
+        fail(&text->error, LAM_LIMIT, "out of memory");
+    }
+    for (int i = 0; w && i < FILES; i++)
+        free(w->sources[i].bytes);
+    free(w);
+}

@@ -1,0 +1,152 @@
+// shader_preprocess.c: chooses a text's lines by flags and fills in its values.
+#include "shader_preprocess.h"
+
+#include "fail.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void wrong(struct text *text, const char *what, const char *name, size_t length)
+{
+    if (!text->failed)
+        fail(&text->error, LAM_BAD_ARGUMENT, "shader template: %s '%.*s'", what, (int)length, name);
+    text->failed = true;
+}
+
+void text_add_part(struct text *text, const char *more, size_t length)
+{
+    if (text->failed)
+        return;
+    if (text->length + length + 1 > text->room) {
+        size_t room = 2 * (text->length + length + 1);
+        char *grown = realloc(text->bytes, room);
+        if (!grown) {
+            text->failed = true;
+            fail(&text->error, LAM_LIMIT, "out of memory");
+            return;
+        }
+        text->bytes = grown;
+        text->room = room;
+    }
+    memcpy(text->bytes + text->length, more, length);
+    text->length += length;
+    text->bytes[text->length] = 0;
+}
+
+void text_add(struct text *text, const char *more) { text_add_part(text, more, strlen(more)); }
+
+void text_print(struct text *text, const char *format, ...)
+{
+    char line[512];
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    if (length < 0 || length >= (int)sizeof line)
+        wrong(text, "a line is too long:", line, 40);
+    else
+        text_add_part(text, line, (size_t)length);
+}
+
+static bool flag_is_on(struct text *text, const struct template_words *words, const char *name, size_t length)
+{
+    bool turned = length && *name == '!';
+    name += turned;
+    length -= turned;
+    for (const struct template_flag *f = words->flags; f && f->name; f++)
+        if (strlen(f->name) == length && memcmp(f->name, name, length) == 0)
+            return f->on != turned;
+    wrong(text, "no flag is called", name, length);
+    return false;
+}
+
+// All names of a line of flags: true where one of them is.
+static bool any_flag(struct text *text, const struct template_words *words, const char *at, const char *end)
+{
+    bool any = false;
+    while (at < end) {
+        size_t gap = strspn(at, " ");
+        at += gap;
+        size_t length = strcspn(at, " \n");
+        if (at >= end || !length)
+            break;
+        any |= flag_is_on(text, words, at, length);
+        at += length;
+    }
+    return any;
+}
+
+static const char *value_of(const struct template_words *words, const char *name, size_t length)
+{
+    for (const struct template_value *v = words->values; v && v->name; v++)
+        if (strlen(v->name) == length && memcmp(v->name, name, length) == 0)
+            return v->text;
+    return NULL;
+}
+
+// One line with its places filled.
+static void add_line(struct text *text, const char *at, const char *end, const struct template_words *words)
+{
+    while (at < end) {
+        if (*at == '@') {
+            const char *close = memchr(at + 1, '@', (size_t)(end - at - 1));
+            const char *value = close ? value_of(words, at + 1, (size_t)(close - at - 1)) : NULL;
+            if (!value) {
+                wrong(text, "no value is called", at, close ? (size_t)(close - at + 1) : 20);
+                return;
+            }
+            text_add(text, value);
+            at = close + 1;
+        } else if (at[0] == '$' && at[1] == '(') {
+            const char *inner = at + 2, *close = memchr(inner, ')', (size_t)(end - inner));
+            if (!close) {
+                wrong(text, "an open place", at, 20);
+                return;
+            }
+            int length = (int)(close - inner);
+            if (flag_is_on(text, words, "back_material", 13))
+                text_print(text, "(front ? %.*s : back_%.*s)", length, inner, length, inner);
+            else
+                text_add_part(text, inner, (size_t)length);
+            at = close + 1;
+        } else {
+            text_add_part(text, at++, 1);
+        }
+    }
+}
+
+enum { DEPTH_MOST = 16 };
+
+void template_add(struct text *text, const char *source, const struct template_words *words)
+{
+    // For each open //@if: whether lines stand now, and whether a branch of it has stood.
+    bool on[DEPTH_MOST] = {true}, done[DEPTH_MOST] = {false};
+    int depth = 0;
+    while (*source && !text->failed) {
+        size_t length = strcspn(source, "\n");
+        const char *end = source + length;
+        if (strncmp(source, "//@if ", 6) == 0 && depth + 1 < DEPTH_MOST) {
+            bool is = any_flag(text, words, source + 6, end);
+            depth++;
+            on[depth] = on[depth - 1] && is;
+            done[depth] = is;
+        } else if (strncmp(source, "//@elif ", 8) == 0 && depth > 0) {
+            bool is = any_flag(text, words, source + 8, end);
+            on[depth] = on[depth - 1] && is && !done[depth];
+            done[depth] |= is;
+        } else if (strncmp(source, "//@else", 7) == 0 && depth > 0) {
+            on[depth] = on[depth - 1] && !done[depth];
+        } else if (strncmp(source, "//@end", 6) == 0 && depth > 0) {
+            depth--;
+        } else if (strncmp(source, "//@", 3) == 0) {
+            wrong(text, "a line that is no direction:", source, length);
+        } else if (on[depth]) {
+            add_line(text, source, *end ? end + 1 : end, words);
+        }
+        source = *end ? end + 1 : end;
+    }
+    if (depth)
+        wrong(text, "an //@if is not ended", "", 0);
+}

@@ -1,0 +1,45 @@
+// shader_preprocess.h: text with choices in it: lines that a flag lets through, and places that a value fills.
+//
+//     //@if NAME …  //@elif NAME …  //@else …  //@end    lines that stand only where the flag is true;
+//     "!NAME" turns it; nest freely
+//     @NAME@                                           the value of that name
+//     $(X)       X, or where the flag `back_material` is true (front ? X : back_X)
+//
+// A name that is in no table stops everything: a misspelt flag must not leave lines out in silence.
+#ifndef SHADER_PREPROCESS_H
+#define SHADER_PREPROCESS_H
+
+#include <lambent/base.h>
+
+struct template_flag {
+    const char *name;
+    bool on;
+};
+
+struct template_value {
+    const char *name;
+    const char *text;
+};
+
+// Tables end with a NULL name.
+struct template_words {
+    const struct template_flag *flags;
+    const struct template_value *values;
+};
+
+// Text that grows. Zero is empty. `failed`: memory ran out, or a template is wrong (`error` says which).
+struct text {
+    char *bytes; // ends with 0
+    size_t length, room;
+    bool failed;
+    lam_error error;
+};
+
+void text_add(struct text *text, const char *more);
+void text_add_part(struct text *text, const char *more, size_t length);
+__attribute__((format(printf, 2, 3))) void text_print(struct text *text, const char *format, ...);
+
+// Appends a template's lines.
+void template_add(struct text *text, const char *source, const struct template_words *words);
+
+#endif

@@ -1,0 +1,258 @@
+// caption.c: words in pictures, by FreeType, which is opened (dlopen) with the first font and not before.
+#include "fail.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <lambent/caption.h>
+
+#define NEEDED "captions need the Debian packages libfreetype6 and fonts-dejavu-core, or a font named by LAMBENT_FONT"
+
+// What Debian's packages fonts-dejavu-core, fonts-liberation2, fonts-liberation, fonts-noto-core,
+// fonts-freefont-ttf and fonts-roboto-unhinted install.
+static const char *const places[] = {
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/truetype/liberation2/LiberationSans-Regular.ttf",
+    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+    "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+    "/usr/share/fonts/truetype/freefont/FreeSans.ttf",
+    "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
+};
+
+const char *lam_font_place(int index)
+{
+    return index >= 0 && index < (int)(sizeof places / sizeof *places) ? places[index] : NULL;
+}
+
+#ifdef HAVE_FREETYPE
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <ft2build.h>
+#include FT_FREETYPE_H
+
+// FreeType's functions that are used here, by the types of its own declarations.
+struct freetype {
+    void *handle;
+    __typeof__(&FT_Init_FreeType) init;
+    __typeof__(&FT_Done_FreeType) done;
+    __typeof__(&FT_New_Face) new_face;
+    __typeof__(&FT_Done_Face) done_face;
+    __typeof__(&FT_Set_Char_Size) set_char_size;
+    __typeof__(&FT_Get_Char_Index) get_char_index;
+    __typeof__(&FT_Load_Glyph) load_glyph;
+    __typeof__(&FT_Get_Kerning) get_kerning;
+};
+
+struct lam_font {
+    struct freetype ft;
+    FT_Library library;
+    FT_Face face;
+};
+
+static bool find(void *handle, const char *name, void *function)
+{
+    void *found = dlsym(handle, name);
+    memcpy(function, &found, sizeof found); // a pointer to data becomes one to a function, as POSIX has it
+    return found != NULL;
+}
+
+static bool open_freetype(struct freetype *ft, lam_error *error)
+{
+    ft->handle = dlopen("libfreetype.so.6", RTLD_NOW | RTLD_LOCAL);
+    if (!ft->handle)
+        return fail(error, LAM_UNSUPPORTED, "text: libfreetype.so.6 is not installed; " NEEDED);
+    void *h = ft->handle;
+    if (find(h, "FT_Init_FreeType", &ft->init) && find(h, "FT_Done_FreeType", &ft->done) &&
+        find(h, "FT_New_Face", &ft->new_face) && find(h, "FT_Done_Face", &ft->done_face) &&
+        find(h, "FT_Set_Char_Size", &ft->set_char_size) && find(h, "FT_Get_Char_Index", &ft->get_char_index) &&
+        find(h, "FT_Load_Glyph", &ft->load_glyph) && find(h, "FT_Get_Kerning", &ft->get_kerning))
+        return true;
+    return fail(error, LAM_UNSUPPORTED, "text: libfreetype.so.6 lacks functions that FreeType 2 has; " NEEDED);
+}
+
+static const char *find_font(void)
+{
+    const char *named = getenv("LAMBENT_FONT");
+    if (named && *named)
+        return named;
+    for (int i = 0; lam_font_place(i); i++)
+        if (access(lam_font_place(i), R_OK) == 0)
+            return lam_font_place(i);
+    return NULL;
+}
+
+lam_font *lam_font_open(const char *path, lam_error *error)
+{
+    lam_font *font = calloc(1, sizeof *font);
+    if (!font) {
+        fail_memory(error, sizeof *font);
+        return NULL;
+    }
+    path = path ? path : find_font();
+    bool ok = open_freetype(&font->ft, error);
+    if (ok && !path)
+        ok = fail(error, LAM_UNSUPPORTED, "text: no font is installed where fonts are looked for; " NEEDED);
+    if (ok && access(path, R_OK) != 0)
+        ok = fail(error, LAM_CANNOT_READ, "%s: the font is not there or cannot be read", path);
+    if (ok && font->ft.init(&font->library) != 0)
+        ok = fail(error, LAM_LIMIT, "text: FreeType did not start: memory is out");
+    if (ok && font->ft.new_face(font->library, path, 0, &font->face) != 0)
+        ok = fail(error, LAM_CANNOT_READ, "%s: not a font that FreeType can read", path);
+    if (ok && !FT_IS_SCALABLE(font->face))
+        ok = fail(error, LAM_CANNOT_READ, "%s: a font of fixed sizes, expected one of outlines", path);
+    if (ok)
+        return font;
+    lam_font_free(font);
+    return NULL;
+}
+
+void lam_font_free(lam_font *font)
+{
+    if (!font)
+        return;
+    if (font->face)
+        font->ft.done_face(font->face);
+    if (font->library)
+        font->ft.done(font->library);
+    if (font->ft.handle)
+        dlclose(font->ft.handle);
+    free(font);
+}
+
+// The code point at *text, which moves on; U+FFFD for a byte that does not belong.
+static FT_ULong next_letter(const char **text)
+{
+    const unsigned char *s = (const unsigned char *)*text;
+    int more = s[0] < 0x80                   ? 0
+               : s[0] >= 0xC2 && s[0] < 0xE0 ? 1
+               : (s[0] & 0xF0) == 0xE0       ? 2
+               : s[0] >= 0xF0 && s[0] < 0xF5 ? 3
+                                             : -1;
+    FT_ULong letter = more < 0 ? 0xFFFD : more == 0 ? s[0] : s[0] & (0x3Fu >> more);
+    for (int i = 1; i <= more; i++) {
+        if ((s[i] & 0xC0) != 0x80) {
+            *text += 1;
+            return 0xFFFD;
+        }
+        letter = letter << 6 | (s[i] & 0x3F);
+    }
+    *text += more < 0 ? 1 : more + 1;
+    bool wrong = (more == 2 && letter < 0x800) || (more == 3 && (letter < 0x10000 || letter > 0x10FFFF)) ||
+                 (letter >= 0xD800 && letter < 0xE000);
+    return wrong ? 0xFFFD : letter;
+}
+
+static float clamped(float x) { return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; }
+
+// One colour over one pixel with a share of coverage, both not premultiplied.
+static void blend_bytes(uint8_t *pixel, lam_rgba color, float cover)
+{
+    float from = color.a * cover, under = (float)pixel[3] / 255.0f, alpha = from + under * (1.0f - from);
+    if (!(alpha > 0.0f))
+        return;
+    const float part[3] = {color.r, color.g, color.b};
+    for (int c = 0; c < 3; c++) {
+        float value = (part[c] * from + (float)pixel[c] / 255.0f * under * (1.0f - from)) / alpha;
+        pixel[c] = (uint8_t)(clamped(value) * 255.0f + 0.5f);
+    }
+    pixel[3] = (uint8_t)(clamped(alpha) * 255.0f + 0.5f);
+}
+
+// The same for premultiplied floats.
+static void blend_floats(float *pixel, lam_rgba color, float cover)
+{
+    float from = color.a * cover;
+    const float part[4] = {color.r * from, color.g * from, color.b * from, from};
+    for (int c = 0; c < 4; c++)
+        pixel[c] = part[c] + pixel[c] * (1.0f - from);
+}
+
+static void stamp(lam_image *image, const FT_Bitmap *bitmap, int left, int top, lam_rgba color)
+{
+    for (int row = 0; row < (int)bitmap->rows; row++)
+        for (int column = 0; column < (int)bitmap->width; column++) {
+            int x = left + column, y = top + row;
+            if (x < 0 || y < 0 || x >= image->width || y >= image->height)
+                continue;
+            size_t at = 4 * ((size_t)y * (size_t)image->width + (size_t)x);
+            float cover = (float)bitmap->buffer[row * bitmap->pitch + column] / 255.0f;
+            if (cover > 0.0f && image->format == LAM_RGBA8)
+                blend_bytes((uint8_t *)image->pixels + at, color, cover);
+            else if (cover > 0.0f)
+                blend_floats((float *)image->pixels + at, color, cover);
+        }
+}
+
+// Walks along the line; draws where there is a picture. The pen moves in 1/64 pixel. A letter that the font
+// cannot give is left out.
+static double walk(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
+                   const char *text)
+{
+    if (font->ft.set_char_size(font->face, 0, (FT_F26Dot6)(size_px * 64 + 0.5), 72, 72) != 0)
+        return 0;
+    FT_UInt before = 0;
+    FT_Pos pen = 0;
+    while (*text) {
+        FT_UInt glyph = font->ft.get_char_index(font->face, next_letter(&text));
+        FT_Vector kerning = {0, 0};
+        if (before && glyph && font->ft.get_kerning(font->face, before, glyph, FT_KERNING_UNFITTED, &kerning) == 0)
+            pen += kerning.x;
+        before = glyph;
+        if (font->ft.load_glyph(font->face, glyph, FT_LOAD_TARGET_LIGHT | (image ? FT_LOAD_RENDER : 0)) != 0)
+            continue;
+        FT_GlyphSlot slot = font->face->glyph;
+        if (image && slot->bitmap.pixel_mode == FT_PIXEL_MODE_GRAY)
+            stamp(image, &slot->bitmap, (int)(x + (double)pen / 64 + 0.5) + slot->bitmap_left,
+                  (int)(y + 0.5) - slot->bitmap_top, color);
+        pen += slot->advance.x;
+    }
+    return (double)pen / 64;
+}
+
+double lam_text_width(lam_font *font, double size_px, const char *text)
+{
+    if (!font || !text || !(size_px >= 1 && size_px <= 1000))
+        return 0;
+    return walk(NULL, font, 0, 0, size_px, (lam_rgba){0}, text);
+}
+
+bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
+                   const char *text, lam_error *error)
+{
+    if (!image || !image->pixels || !font || !text)
+        return fail(error, LAM_BAD_ARGUMENT, "text: a picture, a font and a text are needed");
+    if (!(size_px >= 1 && size_px <= 1000))
+        return fail(error, LAM_BAD_ARGUMENT, "text: the size is %g pixels, expected 1 to 1000", size_px);
+    if (!(x > -1e6 && x < 1e6 && y > -1e6 && y < 1e6))
+        return fail(error, LAM_BAD_ARGUMENT, "text: its place is %g, %g, expected pixels of the picture", x, y);
+    walk(image, font, x, y, size_px, color, text);
+    return true;
+}
+
+#else // built without FreeType's headers
+
+lam_font *lam_font_open(const char *path, lam_error *error)
+{
+    (void)path;
+    fail(error, LAM_UNSUPPORTED, "text: this build has no FreeType (libfreetype-dev was missing)");
+    return NULL;
+}
+
+void lam_font_free(lam_font *font) { (void)font; }
+
+double lam_text_width(lam_font *font, double size_px, const char *text)
+{
+    (void)font, (void)size_px, (void)text;
+    return 0;
+}
+
+bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
+                   const char *text, lam_error *error)
+{
+    (void)image, (void)font, (void)x, (void)y, (void)size_px, (void)color, (void)text;
+    return fail(error, LAM_UNSUPPORTED, "text: this build has no FreeType (libfreetype-dev was missing)");
+}
+
+#endif

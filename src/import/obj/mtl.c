@@ -1,0 +1,436 @@
+// mtl.c: MTL, the material files that OBJ files name. docs/formats.md says what each statement becomes.
+#include "mtl.h"
+
+#include "srgb.h"
+#include "number.h"
+#include "text_cursor.h"
+
+#include <string.h>
+#include <strings.h>
+
+// --- materials by name: open addressing
+
+static uint32_t hash(const char *name)
+{
+    uint32_t h = 2166136261u; // FNV-1a
+    for (; *name; name++)
+        h = (h ^ (uint8_t)*name) * 16777619u;
+    return h;
+}
+
+// The entry of a name, or the free one where it belongs.
+static struct mtl_entry *entry_of(const struct mtl_set *set, const char *name)
+{
+    for (uint32_t i = hash(name);; i++) {
+        struct mtl_entry *entry = &set->entries[i & (set->room - 1)];
+        if (!entry->name || strcmp(entry->name, name) == 0)
+            return entry;
+    }
+}
+
+int32_t mtl_find(const struct mtl_set *set, const char *name)
+{
+    if (set->room == 0)
+        return -1;
+    const struct mtl_entry *entry = entry_of(set, name);
+    return entry->name ? entry->material : -1;
+}
+
+static bool remember(struct mtl_set *set, const char *name, int32_t material)
+{
+    if (2 * (set->count + 1) > set->room) {
+        struct mtl_set larger = *set;
+        larger.room = set->room ? 2 * set->room : 64;
+        larger.entries = arena_alloc_zeroed(set->memory, larger.room * sizeof *larger.entries);
+        if (!larger.entries)
+            return false;
+        for (uint32_t i = 0; i < set->room; i++) {
+            if (set->entries[i].name)
+                *entry_of(&larger, set->entries[i].name) = set->entries[i];
+        }
+        *set = larger;
+    }
+    struct mtl_entry *entry = entry_of(set, name);
+    if (!entry->name) {
+        *entry = (struct mtl_entry){name, material};
+        set->count++;
+    }
+    return true;
+}
+
+// --- reading
+
+// One file while it is read.
+struct reader {
+    struct mtl_set *set;
+    struct lam_scene *scene;
+    const char *name; // of the file
+    const uint8_t *begin, *end;
+    const uint8_t *counted_to; // the place whose line number is known (line_of)
+    size_t line;
+    bool raw; // colours are not converted
+    // The material that is being read, and which of its statements were there.
+    lam_material material;
+    bool open, ka, kd, d;
+    // What is told once for each file.
+    const uint8_t *unknown, *stray;
+    size_t unknown_count, stray_count;
+};
+
+// The line that a place is in, for warnings: counted on from the one before, so that a file of mistakes costs one pass.
+static size_t line_of(struct reader *reader, const uint8_t *at)
+{
+    if (at < reader->counted_to || !reader->counted_to) {
+        reader->counted_to = reader->begin;
+        reader->line = 1;
+    }
+    reader->line += text_line(reader->counted_to, at) - 1;
+    reader->counted_to = at;
+    return reader->line;
+}
+
+// Reads `least` to `most` numbers, and says how many there were; fewer are −1, with a warning.
+static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t *end, float *to, int least, int most)
+{
+    int count = 0;
+    while (count < most) {
+        at = text_skip_white(at, end);
+        const uint8_t *behind = number_float(at, end, &to[count]);
+        if (!behind || (behind < end && !text_white(*behind)))
+            break;
+        count++;
+        at = behind;
+    }
+    if (count >= least)
+        return count;
+    char found[TEXT_FOUND_SIZE];
+    scene_warn(reader->scene, "%s:%zu: found %s, expected a number; the statement is left out", reader->name,
+               line_of(reader, at), at < end ? text_found(at, end, found) : "the end of the line");
+    return -1;
+}
+
+// A number brought into a range, with a warning where it was not.
+static float within(struct reader *reader, const uint8_t *at, float x, float low, float high, const char *what)
+{
+    if (x >= low && x <= high)
+        return x;
+    float to = x > high ? high : low; // NaN goes to the lower end
+    scene_warn(reader->scene, "%s:%zu: %s %g is out of range; %g is used", reader->name, line_of(reader, at), what,
+               (double)x, (double)to);
+    return to;
+}
+
+// A colour as linear light. From 1 on, where sRGB ends, numbers are taken as they are.
+static float linear(const struct reader *reader, float c)
+{
+    return reader->raw || c >= 1 ? c : (float)srgb_linear((double)c);
+}
+
+// K… r [g b]; one number stands for three. False: not read.
+static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *end, const char *what, lam_rgb *out)
+{
+    at = text_skip_white(at, end);
+    if (text_is_word(at, end, "spectral") || text_is_word(at, end, "xyz")) {
+        scene_warn(reader->scene, "%s:%zu: %s as a %s is not read, only r g b", reader->name, line_of(reader, at), what,
+                   text_is_word(at, end, "xyz") ? "CIE XYZ colour" : "spectral curve");
+        return false;
+    }
+    float c[3];
+    int count = read_numbers(reader, at, end, c, 1, 3);
+    if (count < 1)
+        return false;
+    if (count < 3)
+        c[1] = c[2] = c[0];
+    for (int i = 0; i < 3; i++)
+        c[i] = within(reader, at, c[i], 0, 1e6f, what);
+    *out = (lam_rgb){linear(reader, c[0]), linear(reader, c[1]), linear(reader, c[2])};
+    return true;
+}
+
+// Ends the material that is open and puts it into the scene.
+static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+
+// A material whose colours are all 0 shows nothing but a hole. Exporters write it where the colours are in textures, or
+// nowhere: the neutral colours are taken, and the file's user is told.
+static void mend_black(struct reader *reader, lam_material *m)
+{
+    lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
+    if (!reader->kd || !is_black(kd) || !is_black(m->ambient) || !is_black(m->specular) || !is_black(m->emission))
+        return;
+    lam_material neutral = lam_material_default();
+    m->ambient = neutral.ambient;
+    m->diffuse = (lam_rgba){neutral.diffuse.r, neutral.diffuse.g, neutral.diffuse.b, m->diffuse.a};
+    scene_warn(reader->scene, "%s: material '%s' is black in every colour; a neutral grey is drawn", reader->name,
+               m->name);
+}
+
+static bool close_material(struct reader *reader, lam_error *error)
+{
+    if (!reader->open)
+        return true;
+    lam_material *m = &reader->material;
+    mend_black(reader, m);
+    // A texture that is not drawn yet multiplies its colour: without one the colour is the texture's own.
+    if (!reader->kd && m->map_names[LAM_MAP_DIFFUSE])
+        m->diffuse.r = m->diffuse.g = m->diffuse.b = 1;
+    if (!reader->ka)
+        m->ambient = (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b};
+    if (m->illum == 0) { // the colour itself, unlit
+        m->emission =
+            (lam_rgb){m->emission.r + m->diffuse.r, m->emission.g + m->diffuse.g, m->emission.b + m->diffuse.b};
+        m->diffuse.r = m->diffuse.g = m->diffuse.b = 0;
+        m->ambient = (lam_rgb){0, 0, 0};
+    }
+    if (m->illum == 0 || m->illum == 1)
+        m->specular = (lam_rgb){0, 0, 0};
+    if (m->diffuse.a == 0)
+        scene_warn(reader->scene, "%s: material '%s' is wholly clear (d 0 or Tr 1)", reader->name, m->name);
+    int index = scene_take_material(reader->scene, m, error);
+    if (index < 0)
+        return false;
+    reader->open = false;
+    return remember(reader->set, m->name, index) ||
+           watch_memory_error(reader->scene->arena.watch, reader->set->room * sizeof(struct mtl_entry), error);
+}
+
+static bool start_material(struct reader *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
+{
+    if (!close_material(reader, error))
+        return false;
+    reader->material = lam_material_default();
+    reader->material.name = text_name(&reader->scene->arena, at, (size_t)(end - at));
+    if (!reader->material.name)
+        return watch_memory_error(reader->scene->arena.watch, (size_t)(end - at), error);
+    reader->material.illum = -1;
+    reader->material.specular = (lam_rgb){0, 0, 0}; // a material without Ks has no highlight
+    reader->open = true;
+    reader->ka = reader->kd = reader->d = false;
+    return true;
+}
+
+// Where a map's options end and its file name begins. Names may hold spaces.
+static const uint8_t *behind_options(const uint8_t *at, const uint8_t *end)
+{
+    static const struct {
+        const char *word;
+        int least, most; // what follows: words, or numbers where the two differ
+    } options[] = {
+        {"-blendu", 1, 1}, {"-blendv", 1, 1},     {"-boost", 1, 1},   {"-bm", 1, 1},   {"-cc", 1, 1},
+        {"-clamp", 1, 1},  {"-colorspace", 1, 1}, {"-imfchan", 1, 1}, {"-mm", 2, 2},   {"-o", 1, 3},
+        {"-s", 1, 3},      {"-t", 1, 3},          {"-texres", 1, 1},  {"-type", 1, 1},
+    };
+    for (;;) {
+        int option = -1;
+        for (int i = 0; i < (int)(sizeof options / sizeof *options); i++) {
+            if (text_is_word(at, end, options[i].word))
+                option = i;
+        }
+        if (option < 0)
+            return at;
+        at = text_skip_white(text_skip_word(at, end), end);
+        for (int i = 0; i < options[option].most && at < end; i++) {
+            float unused;
+            const uint8_t *word = text_skip_word(at, end);
+            // A number that is the last word is the file's name.
+            if (i >= options[option].least &&
+                (number_float(at, end, &unused) != word || text_skip_white(word, end) == end))
+                break;
+            at = text_skip_white(word, end);
+        }
+    }
+}
+
+static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at, const uint8_t *end, lam_error *error)
+{
+    const uint8_t *name = behind_options(at, end), *last = name;
+    if (name == end)
+        return true; // an empty map statement, as exporters write for "none"
+    while (last > at && text_white(last[-1]))
+        last--;
+    struct arena *arena = &reader->scene->arena;
+    reader->material.map_names[map] = text_name(arena, name, (size_t)(end - name));
+    reader->material.map_options[map] = last > at ? text_name(arena, at, (size_t)(last - at)) : NULL;
+    reader->set->maps++;
+    if (!reader->material.map_names[map] || (last > at && !reader->material.map_options[map]))
+        return watch_memory_error(arena->watch, (size_t)(end - at), error);
+    return true;
+}
+
+enum statement {
+    NEWMTL,
+    KA,
+    KD,
+    KS,
+    KE,
+    NS,
+    D,
+    TR,
+    ILLUM,
+    MAP,                           // + enum lam_map
+    NOTHING = MAP + LAM_MAP_COUNT, // known, without a part in the classic models
+    OTHER_MAP,
+    UNKNOWN,
+};
+
+static const struct {
+    const char *word;
+    enum statement statement;
+} words[] = {
+    {"newmtl", NEWMTL},
+    {"ka", KA},
+    {"kd", KD},
+    {"ks", KS},
+    {"ke", KE},
+    {"ns", NS},
+    {"d", D},
+    {"tr", TR},
+    {"illum", ILLUM},
+    {"map_ka", MAP + LAM_MAP_AMBIENT},
+    {"map_kd", MAP + LAM_MAP_DIFFUSE},
+    {"map_ks", MAP + LAM_MAP_SPECULAR},
+    {"map_ke", MAP + LAM_MAP_EMISSION},
+    {"map_ns", MAP + LAM_MAP_SHININESS},
+    {"map_d", MAP + LAM_MAP_OPACITY},
+    {"map_bump", MAP + LAM_MAP_BUMP},
+    {"bump", MAP + LAM_MAP_BUMP},
+    {"norm", MAP + LAM_MAP_NORMAL},
+    {"map_norm", MAP + LAM_MAP_NORMAL},
+    {"disp", MAP + LAM_MAP_DISPLACEMENT},
+    {"map_disp", MAP + LAM_MAP_DISPLACEMENT},
+    {"refl", MAP + LAM_MAP_REFLECTION},
+    {"map_refl", MAP + LAM_MAP_REFLECTION},
+    // Refraction, the transmission filter, sharpness of reflections; and the metallic-roughness additions.
+    {"ni", NOTHING},
+    {"tf", NOTHING},
+    {"kt", NOTHING},
+    {"km", NOTHING},
+    {"kr", NOTHING},
+    {"sharpness", NOTHING},
+    {"pr", NOTHING},
+    {"pm", NOTHING},
+    {"ps", NOTHING},
+    {"pc", NOTHING},
+    {"pcr", NOTHING},
+    {"aniso", NOTHING},
+    {"anisor", NOTHING},
+    {"map_aat", NOTHING},
+};
+
+static enum statement statement_of(const uint8_t *at, const uint8_t *end)
+{
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (text_is_word(at, end, words[i].word))
+            return words[i].statement;
+    }
+    bool map = end - at > 4 && strncasecmp((const char *)at, "map_", 4) == 0;
+    return map || text_is_word(at, end, "decal") ? OTHER_MAP : UNKNOWN;
+}
+
+static bool read_statement(struct reader *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
+{
+    enum statement statement = statement_of(at, end);
+    const uint8_t *word = at;
+    at = text_skip_white(text_skip_word(at, end), end);
+    if (statement == NEWMTL)
+        return start_material(reader, at, end, error);
+    if (statement == UNKNOWN) {
+        if (reader->unknown_count++ == 0)
+            reader->unknown = word;
+        return true;
+    }
+    if (!reader->open) {
+        if (reader->stray_count++ == 0)
+            reader->stray = word;
+        return true;
+    }
+    lam_material *m = &reader->material;
+    float number;
+    lam_rgb color;
+    switch (statement) {
+    case KA:
+        if (read_color(reader, at, end, "Ka", &m->ambient))
+            reader->ka =
+                !(m->ambient.r == 1 && m->ambient.g == 1 && m->ambient.b == 1); // 1 1 1 is a habit, not a choice
+        break;
+    case KD:
+        if (read_color(reader, at, end, "Kd", &color)) {
+            m->diffuse = (lam_rgba){color.r, color.g, color.b, m->diffuse.a};
+            reader->kd = true;
+        }
+        break;
+    case KS:
+        read_color(reader, at, end, "Ks", &m->specular);
+        break;
+    case KE:
+        read_color(reader, at, end, "Ke", &m->emission);
+        break;
+    case NS:
+        if (read_numbers(reader, at, end, &number, 1, 1) == 1)
+            m->shininess = within(reader, at, number, 0, 1e6f, "Ns");
+        break;
+    case D:
+        if (text_is_word(at, end, "-halo"))
+            at = text_skip_white(text_skip_word(at, end), end);
+        if (read_numbers(reader, at, end, &number, 1, 1) == 1) {
+            m->diffuse.a = within(reader, at, number, 0, 1, "d");
+            reader->d = true;
+        }
+        break;
+    case TR: // d decides where both are there, in whatever order
+        if (!reader->d && read_numbers(reader, at, end, &number, 1, 1) == 1)
+            m->diffuse.a = 1 - within(reader, at, number, 0, 1, "Tr");
+        break;
+    case ILLUM: {
+        int64_t model;
+        if (number_int(at, end, &model) && model >= 0 && model <= 10)
+            m->illum = (int)model;
+        else
+            scene_warn(reader->scene, "%s:%zu: illum is not one of the models 0 to 10; it is left out", reader->name,
+                       line_of(reader, word));
+        break;
+    }
+    case NOTHING:
+        break;
+    case OTHER_MAP:
+        reader->set->maps += at < end;
+        break;
+    default:
+        return read_map(reader, (enum lam_map)(statement - MAP), at, end, error);
+    }
+    return true;
+}
+
+bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene, const char *name,
+              const struct file_bytes *file, lam_error *error)
+{
+    struct reader reader = {
+        .set = set,
+        .scene = scene,
+        .name = name,
+        .begin = file->data,
+        .end = file->data + file->size,
+        .raw = source->params->color == LAM_COLOR_RAW,
+    };
+    const uint8_t *at = reader.begin;
+    if (file->size >= 3 && memcmp(at, "\xef\xbb\xbf", 3) == 0) // a byte order mark
+        at += 3;
+    for (size_t line = 0; at < reader.end; line++) {
+        if (line % 4096 == 4095 && !watch_on(source->watch))
+            return watch_error(source->watch, error);
+        const uint8_t *stop = text_line_end(at, reader.end), *last = stop;
+        at = text_skip_white(at, stop);
+        while (last > at && text_white(last[-1]))
+            last--;
+        if (at < last && *at != '#' && !read_statement(&reader, at, last, error))
+            return false;
+        at = stop < reader.end ? stop + 1 : stop;
+    }
+    char found[TEXT_FOUND_SIZE];
+    if (reader.unknown_count)
+        scene_warn(scene, "%s:%zu: the statement %s is not known%s", name, text_line(reader.begin, reader.unknown),
+                   text_found(reader.unknown, reader.end, found), reader.unknown_count > 1 ? ", nor are others" : "");
+    if (reader.stray_count)
+        scene_warn(scene, "%s:%zu: %s stands before any newmtl and is left out", name,
+                   text_line(reader.begin, reader.stray), text_found(reader.stray, reader.end, found));
+    return close_material(&reader, error);
+}

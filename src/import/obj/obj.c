@@ -1,0 +1,218 @@
+// obj.c: OBJ: tells the format by its content, and leads the passes over the file (obj.h has the plan).
+#include "obj.h"
+
+#include "fail.h"
+#include "number.h"
+#include "text_cursor.h"
+
+#include <string.h>
+
+// --- telling the format
+
+static bool first_word_known(const uint8_t *at, const uint8_t *end)
+{
+    static const char *const words[] = {"v", "vt", "vn", "vp", "f", "g", "o", "s", "l", "p", "mtllib", "usemtl"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (text_is_word(at, end, words[i]))
+            return true;
+    }
+    return false;
+}
+
+// Certain when the first statements are all OBJ's and one of them can be nothing else.
+static int obj_probe(const uint8_t *bytes, size_t size)
+{
+    enum { SAMPLE = 64 << 10, STATEMENTS = 32 };
+    const uint8_t *at = bytes, *end = bytes + (size < SAMPLE ? size : SAMPLE);
+    if (memchr(bytes, 0, (size_t)(end - bytes)))
+        return 0;
+    if (end - at >= 3 && memcmp(at, "\xef\xbb\xbf", 3) == 0) // a byte order mark
+        at += 3;
+    int known = 0, unknown = 0;
+    bool typical = false, comments = false;
+    while (at < end && known + unknown < STATEMENTS) {
+        const uint8_t *stop = text_line_end(at, end);
+        at = text_skip_white(at, stop);
+        if (at < stop && *at == '#') {
+            comments = true;
+        } else if (at < stop) {
+            bool is_known = first_word_known(at, stop);
+            known += is_known;
+            unknown += !is_known;
+            float number;
+            const uint8_t *second = text_skip_white(text_skip_word(at, stop), stop);
+            typical |= text_is_word(at, stop, "mtllib") || text_is_word(at, stop, "usemtl") ||
+                       (text_is_word(at, stop, "v") && number_float(second, stop, &number));
+        }
+        at = stop < end ? stop + 1 : stop;
+    }
+    if (unknown == 0)
+        return typical ? 2 : known > 0 || comments;
+    return typical && known > unknown; // an unknown statement among known ones
+}
+
+// --- reading
+
+size_t obj_line(struct obj *obj, const uint8_t *at)
+{
+    if (obj->in_pieces) {
+        obj->line_missed = true;
+        return 0;
+    }
+    size_t lines = 1;
+    for (const uint8_t *c = obj->begin; c < at; c++)
+        lines += *c == '\n';
+    return lines;
+}
+
+static bool take_array(struct obj *obj, struct arena *arena, void *out, uint64_t count, size_t size, lam_error *error)
+{
+    void *array = arena_array(arena, (size_t)count, size);
+    if (!array)
+        return watch_memory_error(obj->source->watch, (size_t)count * size, error);
+    memcpy(out, &array, sizeof array);
+    return true;
+}
+
+static bool take_arrays(struct obj *obj, lam_error *error)
+{
+    struct arena *kept = &obj->scene->arena, *spare = &obj->memory;
+    const struct obj_counts *total = &obj->total;
+    uint64_t corners = 3 * total->triangles;
+    return take_array(obj, kept, &obj->positions, 3 * total->positions, sizeof(float), error) &&
+           take_array(obj, kept, &obj->indices, corners, sizeof(uint32_t), error) &&
+           take_array(obj, spare, &obj->polygons, total->polygons, sizeof *obj->polygons, error) &&
+           take_array(obj, spare, &obj->statements, total->others, sizeof *obj->statements, error) &&
+           (!obj->colors_present || take_array(obj, kept, &obj->colors, 4 * total->positions, sizeof(float), error)) &&
+           (!total->texcoords || (take_array(obj, kept, &obj->texcoords, 2 * total->texcoords, sizeof(float), error) &&
+                                  take_array(obj, kept, &obj->texcoord_indices, corners, sizeof(uint32_t), error))) &&
+           (!total->normals || (take_array(obj, kept, &obj->normals, 3 * total->normals, sizeof(float), error) &&
+                                take_array(obj, kept, &obj->normal_indices, corners, sizeof(uint32_t), error)));
+}
+
+static void warn_faces(struct obj *obj)
+{
+    uint64_t faces = 0, numbers = 0;
+    const uint8_t *face = NULL, *number = NULL;
+    bool texcoords = false, normals = false;
+    for (size_t c = 0; c < obj->chunk_count; c++) {
+        const struct obj_chunk *chunk = &obj->chunks[c];
+        faces += chunk->short_faces;
+        numbers += chunk->odd_numbers;
+        face = face ? face : chunk->short_faces ? chunk->short_face : NULL;
+        number = number ? number : chunk->odd_numbers ? chunk->odd_number : NULL;
+        texcoords |= chunk->texcoord_unknown;
+        normals |= chunk->normal_unknown;
+    }
+    const char *name = obj->source->name;
+    if (faces)
+        scene_warn(obj->scene, "%s:%zu: faces of one or two corners are left out: this is the first of %llu", name,
+                   obj_line(obj, face), (unsigned long long)faces);
+    if (numbers)
+        scene_warn(obj->scene,
+                   "%s:%zu: normals or texture coordinates that are not finite are taken as 0: the first of %llu", name,
+                   obj_line(obj, number), (unsigned long long)numbers);
+    if (texcoords)
+        scene_warn(obj->scene, "%s: faces name texture coordinates, but the file has none", name);
+    if (normals)
+        scene_warn(obj->scene, "%s: faces name normals, but the file has none; smooth ones are made", name);
+}
+
+static bool finish(struct obj *obj, lam_error *error)
+{
+    const struct obj_counts *total = &obj->total;
+    lam_mesh mesh = {
+        .name = obj->object_name,
+        .origin = {obj->origin[0], obj->origin[1], obj->origin[2]},
+        .positions = obj->positions,
+        .vertex_count = (uint32_t)total->positions,
+        .indices = obj->indices,
+        .triangle_count = (uint32_t)total->triangles,
+        .normals = obj->normals,
+        .normal_count = (uint32_t)total->normals,
+        .normal_indices = obj->normal_indices,
+        .texcoords = obj->texcoords,
+        .texcoord_count = (uint32_t)total->texcoords,
+        .texcoord_indices = obj->texcoord_indices,
+        .colors = obj->colors,
+        .color_count = obj->colors ? (uint32_t)total->positions : 0,
+        .colors_format = obj->colors ? LAM_COLORS_LINEAR_F32 : LAM_COLORS_NONE,
+        .smoothing_groups = obj->smoothing_groups,
+        .parts = obj->part_count ? obj->parts : NULL,
+        .part_count = obj->part_count,
+    };
+    lam_object object = lam_object_default();
+    object.name = obj->object_name;
+    object.mesh = scene_take_mesh(obj->scene, &mesh, error);
+    return object.mesh >= 0 && scene_take_object(obj->scene, &object, error) >= 0;
+}
+
+// Files of old Macintosh programs end their lines with '\r' alone: read a copy that ends them with '\n'.
+static bool modern_line_ends(struct obj *obj, lam_error *error)
+{
+    size_t size = (size_t)(obj->end - obj->begin);
+    if (size == 0 || memchr(obj->begin, '\n', size) || !memchr(obj->begin, '\r', size))
+        return true;
+    uint8_t *copy = arena_alloc(&obj->memory, size + FILE_PADDING);
+    if (!copy)
+        return watch_memory_error(obj->source->watch, size, error);
+    for (size_t i = 0; i < size; i++)
+        copy[i] = obj->begin[i] == '\r' ? '\n' : obj->begin[i];
+    memset(copy + size, 0, FILE_PADDING);
+    obj->begin = copy;
+    obj->end = copy + size;
+    return true;
+}
+
+bool obj_complete(struct obj *obj, lam_error *error)
+{
+    watch_progress(obj->source->watch, 0.7, "read");
+    if (!obj_cut_polygons(obj, error) || !obj_read_statements(obj, error) || !obj_complete_texcoords(obj, error) ||
+        !obj_complete_normals(obj, error))
+        return false;
+    warn_faces(obj);
+    return finish(obj, error);
+}
+
+static bool load(struct obj *obj, size_t chunk_bytes, lam_error *error)
+{
+    struct watch *watch = obj->source->watch;
+    if (!modern_line_ends(obj, error) || !obj_cut(obj, chunk_bytes, error) || !obj_scan(obj, error) ||
+        !take_arrays(obj, error))
+        return false;
+    watch_progress(watch, 0.2, "read");
+    if (!obj_parse(obj, error) || !obj_find_origin(obj, error) || !obj_convert_colors(obj, error))
+        return false;
+    return obj_complete(obj, error);
+}
+
+bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes, lam_error *error)
+{
+    struct obj obj = {
+        .source = source,
+        .scene = scene,
+        .begin = source->bytes,
+        .end = source->bytes + source->size,
+    };
+    if (source->size >= 3 && memcmp(obj.begin, "\xef\xbb\xbf", 3) == 0) // a byte order mark
+        obj.begin += 3;
+    arena_start(&obj.memory, source->watch);
+    obj.materials.memory = &obj.memory;
+    bool ok = load(&obj, chunk_bytes, error);
+    arena_free(&obj.memory);
+    return ok;
+}
+
+static bool obj_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+{
+    return obj_load_chunked(source, scene, OBJ_CHUNK, error);
+}
+
+const struct importer importer_obj = {
+    .name = "obj",
+    .extensions = "obj",
+    .up = LAM_UP_Y,
+    .probe = obj_probe,
+    .load = obj_load,
+    .load_parts = obj_load_large,
+};

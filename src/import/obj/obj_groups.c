@@ -1,0 +1,384 @@
+// obj_groups.c: an OBJ file's statements between its vertices and faces, in order: object, group, material,
+// smoothing group, material files; and what is not drawn.
+//
+// A part is a run of triangles of the same object, group and material, named "object/group", or by the one
+// there is. A new object ends the group.
+#include "obj.h"
+
+#include "fail.h"
+#include "number.h"
+#include "text_cursor.h"
+
+#include <string.h>
+
+enum statement {
+    OBJECT,
+    GROUP,
+    MATERIAL,
+    LIBRARY,
+    SMOOTHING,
+    LINES,
+    POINTS,
+    FREE_FORM, // curves and surfaces, with their points and parameters
+    NOTHING,   // known, without meaning for a picture made here
+    UNKNOWN,
+    STATEMENTS,
+};
+
+static const struct {
+    const char *word;
+    enum statement statement;
+} words[] = {
+    {"o", OBJECT},           {"g", GROUP},           {"usemtl", MATERIAL}, {"mtllib", LIBRARY},
+    {"s", SMOOTHING},        {"l", LINES},           {"p", POINTS},        {"vp", FREE_FORM},
+    {"cstype", FREE_FORM},   {"deg", FREE_FORM},     {"bmat", FREE_FORM},  {"step", FREE_FORM},
+    {"curv", FREE_FORM},     {"curv2", FREE_FORM},   {"surf", FREE_FORM},  {"parm", FREE_FORM},
+    {"trim", FREE_FORM},     {"hole", FREE_FORM},    {"scrv", FREE_FORM},  {"sp", FREE_FORM},
+    {"end", FREE_FORM},      {"con", FREE_FORM},     {"ctech", FREE_FORM}, {"stech", FREE_FORM},
+    {"bzp", FREE_FORM},      {"bsp", FREE_FORM},     {"cdc", FREE_FORM},   {"cdp", FREE_FORM},
+    {"res", FREE_FORM},      {"mg", NOTHING},        {"bevel", NOTHING},   {"c_interp", NOTHING},
+    {"d_interp", NOTHING},   {"lod", NOTHING},       {"maplib", NOTHING},  {"usemap", NOTHING},
+    {"shadow_obj", NOTHING}, {"trace_obj", NOTHING},
+};
+
+// What was met while the statements were read.
+struct state {
+    struct obj *obj;
+    const char *object, *group;
+    int32_t material;
+    const char *part_object, *part_group; // of the part that is open
+    const char *part_name;                // made of the two
+    uint32_t smoothing, smoothing_from;   // the group since that triangle
+    uint32_t objects;
+    bool libraries, library_missing;
+    size_t counts[STATEMENTS];
+    const uint8_t *first[STATEMENTS];
+    size_t unknown_materials;
+    const char *unknown_material; // the first one
+    const uint8_t *unknown_material_at;
+};
+
+static bool no_memory(const struct state *state, size_t bytes, lam_error *error)
+{
+    return watch_memory_error(state->obj->source->watch, bytes, error);
+}
+
+static enum statement statement_of(const uint8_t *at, const uint8_t *end)
+{
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (text_is_word(at, end, words[i].word))
+            return words[i].statement;
+    }
+    return UNKNOWN;
+}
+
+// The rest of a statement as a name: without white space around it, a continued line joined by a space. NULL
+// in `*out` for an empty one.
+static bool read_name(struct state *state, const uint8_t *at, const char **out, lam_error *error)
+{
+    const uint8_t *end = obj_line_behind(at, state->obj->end);
+    at = text_skip_word(at, end);
+    at = text_skip_white(at, end);
+    while (end > at && text_white(end[-1]))
+        end--;
+    *out = NULL;
+    if (at == end)
+        return true;
+    char *name = text_name(&state->obj->scene->arena, at, (size_t)(end - at));
+    if (!name)
+        return no_memory(state, (size_t)(end - at), error);
+    // A line end inside was continued: "\\\n" has become "\\?".
+    for (const uint8_t *c = at; c < end; c++) {
+        if (*c == '\n') {
+            for (char *back = name + (c - at); back >= name && (*back == '?' || *back == '\\'); back--)
+                *back = ' ';
+        }
+    }
+    *out = name;
+    return true;
+}
+
+static bool same_name(const char *a, const char *b) { return a == b || (a && b && strcmp(a, b) == 0); }
+
+// --- parts
+
+static bool name_part(struct state *state, lam_error *error)
+{
+    const char *object = state->part_object, *group = state->part_group;
+    if (!object || !group) {
+        state->part_name = object ? object : group;
+        return true;
+    }
+    size_t length = strlen(object), rest = strlen(group);
+    char *name = arena_alloc(&state->obj->scene->arena, length + rest + 2);
+    if (!name)
+        return no_memory(state, length + rest, error);
+    memcpy(name, object, length);
+    name[length] = '/';
+    memcpy(name + length + 1, group, rest + 1);
+    state->part_name = name;
+    return true;
+}
+
+// Ends the run of triangles that the state described up to `triangle`.
+static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
+{
+    struct obj *obj = state->obj;
+    lam_part *last = obj->part_count ? &obj->parts[obj->part_count - 1] : NULL;
+    uint32_t from = last ? last->first_triangle + last->triangle_count : 0;
+    if (triangle == from)
+        return true;
+    bool same = last && same_name(state->object, state->part_object) && same_name(state->group, state->part_group);
+    if (same && last->material == state->material) {
+        last->triangle_count += triangle - from;
+        return true;
+    }
+    if (!same) {
+        state->part_object = state->object;
+        state->part_group = state->group;
+        if (!name_part(state, error))
+            return false;
+    }
+    obj->parts[obj->part_count++] = (lam_part){state->part_name, from, triangle - from, state->material};
+    return true;
+}
+
+static void fill_smoothing(struct state *state, uint32_t triangle)
+{
+    if (state->obj->smoothing_groups) {
+        for (uint32_t t = state->smoothing_from; t < triangle; t++)
+            state->obj->smoothing_groups[t] = state->smoothing;
+    }
+    state->smoothing_from = triangle;
+}
+
+// --- materials
+
+// Opens and reads one material file. False in `*found` with the reason in `why`.
+static bool read_library(struct state *state, const char *name, bool *found, lam_error *why, lam_error *error)
+{
+    struct obj *obj = state->obj;
+    struct file_bytes file = {0};
+    *found = false;
+    if (!obj->source->open(obj->source, name, &file, why)) {
+        if (why->code == LAM_CANCELLED || why->code == LAM_LIMIT) {
+            if (error)
+                *error = *why;
+            return false;
+        }
+        return true;
+    }
+    *found = true;
+    bool ok = mtl_read(&obj->materials, obj->source, obj->scene, name, &file, error);
+    file_release(&file);
+    return ok;
+}
+
+// A mtllib line names one file, perhaps with spaces in its name, or several.
+static bool read_libraries(struct state *state, const uint8_t *at, lam_error *error)
+{
+    struct obj *obj = state->obj;
+    const char *whole;
+    bool found;
+    lam_error why = {0};
+    if (!read_name(state, at, &whole, error))
+        return false;
+    if (!whole)
+        return true;
+    state->libraries = true;
+    if (!read_library(state, whole, &found, &why, error))
+        return false;
+    if (found)
+        return true;
+    char *names = arena_string(&obj->memory, whole);
+    if (!names)
+        return no_memory(state, strlen(whole), error);
+    bool several = strpbrk(names, " \t") != NULL;
+    char *rest;
+    for (char *word = strtok_r(names, " \t", &rest); word; word = strtok_r(NULL, " \t", &rest)) {
+        if (several && !read_library(state, word, &found, &why, error))
+            return false;
+        if (found)
+            continue;
+        state->library_missing = true;
+        scene_warn(obj->scene, "%s; what uses its materials is drawn in neutral grey", why.text);
+    }
+    return true;
+}
+
+static bool use_material(struct state *state, const uint8_t *at, lam_error *error)
+{
+    const char *name;
+    if (!read_name(state, at, &name, error))
+        return false;
+    state->material = name ? mtl_find(&state->obj->materials, name) : -1;
+    if (name && state->material < 0) {
+        if (state->unknown_materials++ == 0) {
+            state->unknown_material = name;
+            state->unknown_material_at = at;
+        }
+    }
+    return true;
+}
+
+// --- the statements in order
+
+// The group of an s statement; 0: off.
+static uint32_t read_smoothing(const struct obj *obj, const uint8_t *at)
+{
+    const uint8_t *end = text_line_end(at, obj->end);
+    int64_t group = 0;
+    at = text_skip_white(text_skip_word(at, end), end);
+    if (text_is_word(at, end, "on"))
+        return 1;
+    return number_int(at, end, &group) ? (uint32_t)group : 0; // "off", or nothing
+}
+
+static bool take_statement(struct state *state, enum statement statement, const struct obj_statement *s,
+                           lam_error *error)
+{
+    if (state->counts[statement]++ == 0)
+        state->first[statement] = s->at;
+    switch (statement) {
+    case OBJECT:
+        if (!end_part(state, s->triangle, error) || !read_name(state, s->at, &state->object, error))
+            return false;
+        state->group = NULL;
+        if (state->objects++ == 0)
+            state->obj->object_name = state->object;
+        else if (!same_name(state->obj->object_name, state->object))
+            state->obj->object_name = NULL;
+        return true;
+    case GROUP:
+        return end_part(state, s->triangle, error) && read_name(state, s->at, &state->group, error);
+    case MATERIAL:
+        return end_part(state, s->triangle, error) && use_material(state, s->at, error);
+    case SMOOTHING:
+        fill_smoothing(state, s->triangle);
+        state->smoothing = read_smoothing(state->obj, s->at);
+        return true;
+    default:
+        return true;
+    }
+}
+
+static void warn_elements(struct state *state)
+{
+    struct obj *obj = state->obj;
+    const char *name = obj->source->name;
+    size_t lines = state->counts[LINES], points = state->counts[POINTS], free_form = state->counts[FREE_FORM];
+    if (lines + points)
+        scene_warn(obj->scene, "%s:%zu: %zu line and %zu point elements are not drawn, only faces are", name,
+                   obj_line(obj, !points || (lines && state->first[LINES] < state->first[POINTS])
+                                     ? state->first[LINES]
+                                     : state->first[POINTS]),
+                   lines, points);
+    char found[TEXT_FOUND_SIZE];
+    if (free_form)
+        scene_warn(obj->scene,
+                   "%s:%zu: free-form curves and surfaces are not drawn: %s is the first of %zu statements "
+                   "that make them",
+                   name, obj_line(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found),
+                   free_form);
+    if (state->counts[UNKNOWN])
+        scene_warn(obj->scene, "%s:%zu: the statement %s is not known; it is the first of %zu that are passed over",
+                   name, obj_line(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found),
+                   state->counts[UNKNOWN]);
+}
+
+// A file without triangles that does hold something to be seen is told what that is. What holds less is
+// everyone's error, made in import.c.
+static bool explain_nothing(struct state *state, lam_error *error)
+{
+    struct obj *obj = state->obj;
+    const char *name = obj->source->name;
+    size_t lines = state->counts[LINES], points = state->counts[POINTS];
+    char found[TEXT_FOUND_SIZE];
+    if (state->counts[FREE_FORM])
+        return fail(error, LAM_UNSUPPORTED,
+                    "%s:%zu: holds no faces, only free-form curves and surfaces (%s), which this version cannot draw",
+                    name, obj_line(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found));
+    if (lines && points)
+        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu line%s and %zu point%s", name, lines,
+                    lines == 1 ? "" : "s", points, points == 1 ? "" : "s");
+    if (lines + points)
+        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu %s%s", name, lines + points,
+                    lines ? "line" : "point", lines + points == 1 ? "" : "s");
+    if (state->counts[UNKNOWN])
+        return fail(error, LAM_CANNOT_READ,
+                    "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file holds no triangles", name,
+                    obj_line(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found));
+    return true;
+}
+
+static void warn_materials(struct state *state)
+{
+    struct obj *obj = state->obj;
+    const char *name = obj->source->name;
+    if (state->unknown_materials && !state->library_missing) {
+        size_t line = obj_line(obj, state->unknown_material_at);
+        if (!state->libraries)
+            scene_warn(obj->scene,
+                       "%s:%zu: uses the material '%s' but names no material file; it is drawn in neutral grey", name,
+                       line, state->unknown_material);
+        else if (state->unknown_materials == 1)
+            scene_warn(obj->scene, "%s:%zu: no material file has the material '%s'; it is drawn in neutral grey", name,
+                       line, state->unknown_material);
+        else
+            scene_warn(obj->scene,
+                       "%s:%zu: no material file has the material '%s', the first of %zu uses of materials "
+                       "that are drawn "
+                       "in neutral grey",
+                       name, line, state->unknown_material, state->unknown_materials);
+    }
+    size_t maps = obj->materials.maps;
+    if (maps)
+        scene_warn(obj->scene, "%s: %zu texture map%s named; this version draws without textures", name, maps,
+                   maps == 1 ? " is" : "s are");
+}
+
+bool obj_read_statements(struct obj *obj, lam_error *error)
+{
+    struct watch *watch = obj->source->watch;
+    struct state state = {.obj = obj, .material = -1};
+    size_t count = (size_t)obj->total.others, parts = 1;
+    bool smoothing = false;
+    uint8_t *kinds = arena_alloc(&obj->memory, count);
+    if (!kinds)
+        return no_memory(&state, count, error);
+    for (size_t i = 0; i < count; i++) {
+        if (i % 4096 == 4095 && !watch_on(watch))
+            return watch_error(watch, error);
+        kinds[i] = (uint8_t)statement_of(obj->statements[i].at, obj->end);
+        parts += kinds[i] == OBJECT || kinds[i] == GROUP || kinds[i] == MATERIAL;
+        // "Off" is how every file begins: one that never says more has no groups.
+        smoothing |= kinds[i] == SMOOTHING && read_smoothing(obj, obj->statements[i].at) != 0;
+        // All material files first: some writers name them behind their first use.
+        if (kinds[i] == LIBRARY && !read_libraries(&state, obj->statements[i].at, error))
+            return false;
+    }
+
+    uint32_t triangles = (uint32_t)obj->total.triangles;
+    obj->parts = arena_array(&obj->scene->arena, parts, sizeof *obj->parts);
+    if (!obj->parts)
+        return no_memory(&state, parts * sizeof *obj->parts, error);
+    if (smoothing) {
+        obj->smoothing_groups = arena_array(&obj->scene->arena, triangles, sizeof(uint32_t));
+        if (!obj->smoothing_groups)
+            return no_memory(&state, triangles * sizeof(uint32_t), error);
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (i % 4096 == 4095 && !watch_on(watch))
+            return watch_error(watch, error);
+        if (!take_statement(&state, (enum statement)kinds[i], &obj->statements[i], error))
+            return false;
+    }
+    fill_smoothing(&state, triangles);
+    if (!end_part(&state, triangles, error))
+        return false;
+    if (triangles == 0)
+        return explain_nothing(&state, error);
+    warn_elements(&state);
+    warn_materials(&state);
+    return true;
+}

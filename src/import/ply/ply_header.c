@@ -1,0 +1,249 @@
+// ply_header.c: the header of a PLY file: which elements with which properties.
+//
+//   ply
+//   format ascii 1.0                    or binary_little_endian, binary_big_endian
+//   comment …                           also obj_info; anywhere
+//   element vertex 8
+//   property float x                    scalars: a type and a name
+//   property list uchar int corners     lists: type of the count, type of the items, name
+//   end_header
+// Lines may be indented, blank, and end in "\n" or "\r\n"; in "\r" if the first one does: the byte behind the
+// last line's end is the body's.
+#include "ply.h"
+#include "fail.h"
+#include "number.h"
+#include "text_cursor.h"
+
+#include <string.h>
+
+static const struct {
+    const char *name, *sized_name;
+    size_t size;
+} types[PLY_TYPE_COUNT] = {
+    [PLY_I8] = {"char", "int8", 1},      [PLY_U8] = {"uchar", "uint8", 1},     [PLY_I16] = {"short", "int16", 2},
+    [PLY_U16] = {"ushort", "uint16", 2}, [PLY_I32] = {"int", "int32", 4},      [PLY_U32] = {"uint", "uint32", 4},
+    [PLY_F32] = {"float", "float32", 4}, [PLY_F64] = {"double", "float64", 8},
+};
+
+size_t ply_type_size(enum ply_type type) { return types[type].size; }
+const char *ply_type_name(enum ply_type type) { return types[type].name; }
+
+int ply_find(const struct ply_element *element, bool list, const char *name)
+{
+    for (int i = 0; i < element->property_count; i++) {
+        if (element->properties[i].list == list && strcmp(element->properties[i].name, name) == 0)
+            return i;
+    }
+    return -1;
+}
+
+struct lines {
+    const struct import_source *source;
+    struct arena *arena;
+    const uint8_t *at, *end; // what is left of the line; the line's end
+    const uint8_t *next;     // the next line
+    size_t number;           // of this line
+    char ending;             // '\n', before which a '\r' is white space; or '\r'
+};
+
+// Goes to the next line; false at the end of the file.
+static bool next_line(struct lines *lines)
+{
+    const uint8_t *end = lines->source->bytes + lines->source->size;
+    lines->at = lines->next;
+    if (lines->at == end)
+        return false;
+    lines->number++;
+    lines->end = memchr(lines->at, lines->ending, (size_t)(end - lines->at));
+    if (!lines->end)
+        lines->end = end;
+    lines->next = lines->end == end ? end : lines->end + 1;
+    return true;
+}
+
+static bool is_word(const uint8_t *word, const uint8_t *end, const char *expected)
+{
+    return (size_t)(end - word) == strlen(expected) && memcmp(word, expected, (size_t)(end - word)) == 0;
+}
+
+// The next word of the line, empty at its end.
+static void take_word(struct lines *lines, const uint8_t **word, const uint8_t **end)
+{
+    *word = text_skip_white(lines->at, lines->end);
+    *end = lines->at = text_skip_word(*word, lines->end);
+}
+
+static bool fail_word(const struct lines *lines, const uint8_t *word, const char *expected, lam_error *error)
+{
+    char found[TEXT_FOUND_SIZE];
+    return fail_line(error, lines->source, lines->number, "found %s, expected %s",
+                     word < lines->end ? text_found(word, lines->end, found) : "the end of the line", expected);
+}
+
+static bool read_type(struct lines *lines, enum ply_type *type, lam_error *error)
+{
+    const uint8_t *word, *end;
+    take_word(lines, &word, &end);
+    for (int i = 0; i < PLY_TYPE_COUNT; i++) {
+        if (is_word(word, end, types[i].name) || is_word(word, end, types[i].sized_name)) {
+            *type = (enum ply_type)i;
+            return true;
+        }
+    }
+    return fail_word(lines, word, "a type (char, uchar, short, ushort, int, uint, float or double)", error);
+}
+
+static bool read_name(struct lines *lines, const char **name, lam_error *error)
+{
+    const uint8_t *word, *end;
+    take_word(lines, &word, &end);
+    if (word == end)
+        return fail_word(lines, word, "a name", error);
+    *name = text_name(lines->arena, word, (size_t)(end - word));
+    return *name || watch_memory_error(lines->source->watch, (size_t)(end - word), error);
+}
+
+static bool read_format(struct lines *lines, enum ply_format *format, lam_error *error)
+{
+    static const char *const names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+    const uint8_t *word, *end;
+    take_word(lines, &word, &end);
+    int found = 0;
+    while (found < 3 && !is_word(word, end, names[found]))
+        found++;
+    if (found == 3)
+        return fail_word(lines, word, "ascii, binary_little_endian or binary_big_endian", error);
+    *format = (enum ply_format)found;
+    take_word(lines, &word, &end);
+    return is_word(word, end, "1.0") || fail_word(lines, word, "version 1.0", error);
+}
+
+static bool read_element(struct lines *lines, struct ply_element *element, lam_error *error)
+{
+    *element = (struct ply_element){.line = lines->number};
+    if (!read_name(lines, &element->name, error))
+        return false;
+    const uint8_t *word, *end;
+    take_word(lines, &word, &end);
+    int64_t count = 0;
+    if (word == end || number_int(word, end, &count) != end || count < 0)
+        return fail_word(lines, word, "the number of rows", error);
+    element->count = (uint64_t)count;
+    return true;
+}
+
+static bool read_property(struct lines *lines, struct ply_element *element, struct ply_property *property,
+                          lam_error *error)
+{
+    *property = (struct ply_property){0};
+    const uint8_t *before = lines->at, *word, *end;
+    take_word(lines, &word, &end);
+    property->list = is_word(word, end, "list");
+    if (property->list) {
+        before = lines->at;
+        if (!read_type(lines, &property->count_type, error))
+            return false;
+        if (!ply_type_is_integer(property->count_type))
+            return fail_word(lines, text_skip_white(before, lines->end), "an integer type for a list's count", error);
+    } else {
+        lines->at = before;
+    }
+    if (!read_type(lines, &property->type, error) || !read_name(lines, &property->name, error))
+        return false;
+    element->property_count++;
+    element->list_count += property->list;
+    element->scalar_bytes += property->list ? 0 : types[property->type].size;
+    element->least_bytes += types[property->list ? property->count_type : property->type].size;
+    return true;
+}
+
+enum keyword { BLANK, REMARK, FORMAT, ELEMENT, PROPERTY, END, UNKNOWN };
+
+// Reads the word that a line begins with; *word is where it stands.
+static enum keyword read_keyword(struct lines *lines, const uint8_t **word)
+{
+    static const struct {
+        const char *word;
+        enum keyword keyword;
+    } keywords[] = {{"comment", REMARK},  {"obj_info", REMARK},   {"format", FORMAT},
+                    {"element", ELEMENT}, {"property", PROPERTY}, {"end_header", END}};
+    const uint8_t *end;
+    take_word(lines, word, &end);
+    if (*word == end)
+        return BLANK;
+    for (size_t i = 0; i < sizeof keywords / sizeof *keywords; i++) {
+        if (is_word(*word, end, keywords[i].word))
+            return keywords[i].keyword;
+    }
+    return UNKNOWN;
+}
+
+// The reader at the line behind the first, "ply".
+static struct lines start(const struct import_source *source, struct arena *arena)
+{
+    struct lines lines = {.source = source, .arena = arena, .next = source->bytes, .ending = '\n'};
+    const uint8_t *end = source->bytes + source->size, *line_end = text_line_end(source->bytes, end);
+    if (line_end + 1 < end && line_end[0] == '\r' && line_end[1] != '\n')
+        lines.ending = '\r';
+    next_line(&lines);
+    return lines;
+}
+
+bool ply_read_header(const struct import_source *source, struct arena *arena, struct ply_header *header,
+                     lam_error *error)
+{
+    // First how many elements and properties there are, then what they are.
+    size_t element_room = 0, property_room = 0;
+    enum keyword keyword = BLANK;
+    const uint8_t *word;
+    struct lines lines = start(source, arena);
+    while (keyword != END && keyword != UNKNOWN && next_line(&lines)) {
+        keyword = read_keyword(&lines, &word);
+        element_room += keyword == ELEMENT;
+        property_room += keyword == PROPERTY;
+    }
+    struct ply_element *elements = arena_array(arena, element_room, sizeof *elements);
+    struct ply_property *properties = arena_array(arena, property_room, sizeof *properties);
+    if (!elements || !properties)
+        return watch_memory_error(source->watch, element_room * sizeof *elements + property_room * sizeof *properties,
+                                  error);
+
+    bool has_format = false;
+    *header = (struct ply_header){.elements = elements};
+    lines = start(source, arena);
+    for (;;) {
+        if (!next_line(&lines))
+            return fail_line(error, source, lines.number, "the file ends in its header, expected \"end_header\"");
+        keyword = read_keyword(&lines, &word);
+        struct ply_element *element = header->element_count > 0 ? &elements[header->element_count - 1] : NULL;
+        switch (keyword) {
+        case BLANK:
+        case REMARK:
+            break;
+        case FORMAT:
+            if (!read_format(&lines, &header->format, error))
+                return false;
+            has_format = true;
+            break;
+        case ELEMENT:
+            element = &elements[header->element_count++];
+            if (!read_element(&lines, element, error))
+                return false;
+            element->properties = properties;
+            break;
+        case PROPERTY:
+            if (!element)
+                return fail_word(&lines, word, "an element before its properties", error);
+            if (!read_property(&lines, element, properties++, error))
+                return false;
+            break;
+        case END:
+            if (!has_format)
+                return fail_word(&lines, word, "a format line before it", error);
+            header->body = (size_t)(lines.next - source->bytes);
+            return true;
+        default:
+            return fail_word(&lines, word, "format, comment, element, property or end_header", error);
+        }
+    }
+}

@@ -1,0 +1,191 @@
+// ply_positions.c: the positions of a PLY table: floats as they are, doubles relative to an origin.
+#include "parallel_rows.h"
+#include "fail.h"
+#include "origin.h"
+#include "ply_load.h"
+
+#include <float.h>
+
+struct positions {
+    const struct import_source *source;
+    const struct ply_table *table;
+    int properties[3];
+    bool together; // side_by_side
+    float *out;
+    struct box {
+        double minimum[3], maximum[3];
+        bool finite;
+    } *boxes; // one for each piece
+    double origin[3];
+};
+
+static bool fail_position(const struct positions *positions, size_t row, int axis, const char *found, lam_error *error)
+{
+    const struct ply_table *table = positions->table;
+    const uint8_t *at = table->rows + row * table->stride + table->offsets[positions->properties[axis]];
+    const struct import_source *source = positions->source;
+    uintptr_t offset = (uintptr_t)at - (uintptr_t)source->bytes;
+    if (offset < source->size) // a binary row where it lies in the file
+        return fail_byte(error, source, offset, "vertex %zu of %zu: found %s as %c, expected a finite number", row + 1,
+                         table->count, found, "xyz"[axis]);
+    return fail(error, LAM_CANNOT_READ, "%s: vertex %zu of %zu: found %s as %c, expected a finite number", source->name,
+                row + 1, table->count, found, "xyz"[axis]);
+}
+
+static double position_at(const struct positions *positions, size_t row, int axis)
+{
+    const struct ply_table *table = positions->table;
+    int property = positions->properties[axis];
+    return ply_load_double(table->rows + row * table->stride + table->offsets[property], table->types[property],
+                           table->swapped);
+}
+
+static bool is_finite(double value) { return value >= -DBL_MAX && value <= DBL_MAX; }
+
+// Floats, and integers that floats hold: as they are.
+static bool copy_piece(void *user, size_t index, lam_error *error)
+{
+    const struct positions *positions = user;
+    const struct ply_table *table = positions->table;
+    size_t first, last;
+    chunk_rows(table->count, index, &first, &last);
+    float *out = positions->out + 3 * first;
+    if (positions->together) {
+        const uint8_t *at = table->rows + first * table->stride + table->offsets[positions->properties[0]];
+        for (size_t row = first; row < last; row++, at += table->stride, out += 3)
+            memcpy(out, at, 3 * sizeof(float));
+    } else {
+        for (int axis = 0; axis < 3; axis++)
+            ply_copy_column(table, positions->properties[axis], first, last, 1.0f, out + axis, 3);
+    }
+
+    uint32_t wrong = 0; // its top bit: an exponent of all ones was met
+    for (size_t i = 3 * first; i < 3 * last; i++) {
+        uint32_t bits;
+        memcpy(&bits, &positions->out[i], sizeof bits);
+        wrong |= (bits & 0x7fffffff) + 0x00800000;
+    }
+    if (positions->boxes) { // of an ASCII file, to tell whether floats will do
+        struct box *box = &positions->boxes[index];
+        box->finite = !(wrong & 0x80000000);
+        for (int axis = 0; axis < 3; axis++) {
+            float minimum = FLT_MAX, maximum = -FLT_MAX;
+            for (size_t row = first; row < last; row++) {
+                float value = positions->out[3 * row + (size_t)axis];
+                minimum = value < minimum ? value : minimum;
+                maximum = value > maximum ? value : maximum;
+            }
+            box->minimum[axis] = (double)minimum;
+            box->maximum[axis] = (double)maximum;
+        }
+        return true;
+    }
+    if (!(wrong & 0x80000000))
+        return true;
+    for (size_t i = 3 * first; i < 3 * last; i++) {
+        double value = position_at(positions, i / 3, (int)(i % 3));
+        if (!is_finite(value))
+            return fail_position(positions, i / 3, (int)(i % 3), value != value ? "NaN" : "infinity", error);
+    }
+    return true;
+}
+
+// Doubles and wide integers: the box first, which decides the origin, then what is left as floats.
+static bool measure_piece(void *user, size_t index, lam_error *error)
+{
+    const struct positions *positions = user;
+    size_t first, last;
+    chunk_rows(positions->table->count, index, &first, &last);
+    struct box box = {{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}, true};
+    for (size_t row = first; row < last; row++) {
+        for (int axis = 0; axis < 3; axis++) {
+            double value = position_at(positions, row, axis);
+            if (!is_finite(value))
+                return fail_position(positions, row, axis, value != value ? "NaN" : "infinity", error);
+            box.minimum[axis] = value < box.minimum[axis] ? value : box.minimum[axis];
+            box.maximum[axis] = value > box.maximum[axis] ? value : box.maximum[axis];
+        }
+    }
+    positions->boxes[index] = box;
+    return true;
+}
+
+static bool round_piece(void *user, size_t index, lam_error *error)
+{
+    const struct positions *positions = user;
+    size_t first, last;
+    chunk_rows(positions->table->count, index, &first, &last);
+    for (size_t row = first; row < last; row++) {
+        for (int axis = 0; axis < 3; axis++) {
+            double value = position_at(positions, row, axis) - positions->origin[axis];
+            if (!(value >= -(double)FLT_MAX && value <= (double)FLT_MAX))
+                return fail_position(positions, row, axis, "a number beyond a float's range", error);
+            positions->out[3 * row + (size_t)axis] = (float)value;
+        }
+    }
+    return true;
+}
+
+// Joins the pieces' boxes and chooses the origin. Returns whether floats are not enough.
+static bool choose_origin(struct positions *positions, size_t pieces)
+{
+    struct box all = positions->boxes[0];
+    for (size_t i = 1; i < pieces; i++) {
+        const struct box *box = &positions->boxes[i];
+        for (int axis = 0; axis < 3; axis++) {
+            if (box->minimum[axis] < all.minimum[axis])
+                all.minimum[axis] = box->minimum[axis];
+            if (box->maximum[axis] > all.maximum[axis])
+                all.maximum[axis] = box->maximum[axis];
+        }
+        all.finite &= box->finite;
+    }
+    return !all.finite || origin_choose(all.minimum, all.maximum, positions->origin);
+}
+
+bool ply_positions(const struct import_source *source, const struct ply_table *table, struct arena *arena,
+                   lam_mesh *mesh, bool *far_out, lam_error *error)
+{
+    static const char *const names[] = {"x", "y", "z"};
+    struct positions positions = {.source = source, .table = table};
+    *far_out = false;
+    if (!ply_find_all(table, names, 3, positions.properties)) {
+        int missing = positions.properties[0] < 0 ? 0 : positions.properties[1] < 0 ? 1 : 2;
+        return fail_line(error, source, table->element->line, "element vertex has no property %s, expected x, y and z",
+                         names[missing]);
+    }
+    if (table->count > UINT32_MAX - 1)
+        return ply_fail_too_many(source, table->element, error);
+    bool exact = false;
+    for (int axis = 0; axis < 3; axis++) {
+        enum ply_type type = table->types[positions.properties[axis]];
+        exact |= type == PLY_I32 || type == PLY_U32 || type == PLY_F64;
+    }
+    size_t pieces = chunk_count(table->count);
+    positions.together = ply_side_by_side(table, positions.properties, 3);
+    positions.out = arena_array(arena, table->count, 3 * sizeof(float));
+    if (!positions.out)
+        return watch_memory_error(source->watch, table->count * 3 * sizeof(float), error);
+
+    struct arena scratch;
+    arena_start(&scratch, source->watch);
+    bool done = true;
+    if (exact || table->positions == PLY_AS_FLOAT) {
+        positions.boxes = arena_array(&scratch, pieces, sizeof *positions.boxes);
+        done = positions.boxes || watch_memory_error(source->watch, pieces * sizeof *positions.boxes, error);
+    }
+    if (exact) {
+        done = done && chunks_run(source, pieces, measure_piece, &positions, error);
+        if (done && pieces > 0)
+            choose_origin(&positions, pieces);
+        done = done && chunks_run(source, pieces, round_piece, &positions, error);
+    } else {
+        done = done && chunks_run(source, pieces, copy_piece, &positions, error);
+        *far_out = done && positions.boxes && pieces > 0 && choose_origin(&positions, pieces);
+    }
+    arena_free(&scratch);
+    memcpy(mesh->origin, positions.origin, sizeof mesh->origin);
+    mesh->positions = positions.out;
+    mesh->vertex_count = (uint32_t)table->count;
+    return done;
+}

@@ -1,0 +1,103 @@
+// stl.c: STL, binary and ASCII, told apart by content. The readers are stl_binary.c and stl_ascii.c.
+#include "stl.h"
+#include "fail.h"
+#include "text_cursor.h"
+
+#include <string.h>
+
+enum kind { NEITHER, ASCII, BINARY_EXACT, BINARY_LOOSE };
+
+static uint32_t facets_promised(const uint8_t *bytes)
+{
+    const uint8_t *at = bytes + STL_HEADER;
+    return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+}
+
+enum { SAMPLE = 1024 }; // bytes that are looked at
+
+// No text holds a zero byte, and no binary STL lacks one: at least the number of facets has one, up to 16 million.
+static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
+
+// ASCII files begin with "solid" (or, carelessly made, "facet"), hold no zero byte, and soon say "facet" or
+// "endsolid". Binary ones often begin with "solid" too, so the word alone proves nothing.
+static bool looks_ascii(const uint8_t *bytes, size_t size)
+{
+    const uint8_t *end = bytes + (size < SAMPLE ? size : SAMPLE), *at = bytes;
+    if (size >= 3 && memcmp(at, "\xef\xbb\xbf", 3) == 0) // a byte order mark
+        at += 3;
+    at = text_skip_white(at, end);
+    if (has_zero(bytes, size))
+        return false;
+    if (text_is_word(at, end, "facet"))
+        return true;
+    return text_is_word(at, end, "solid") &&
+           (size < SAMPLE || text_count_word(at, end, "facet") || text_count_word(at, end, "endsolid"));
+}
+
+// The size decides first: 84 + 50 · count bytes cannot be met by chance in a text, whose count would be above 10⁸.
+static enum kind tell_kind(const uint8_t *bytes, size_t size)
+{
+    bool room = size >= STL_FACETS;
+    uint64_t expected = room ? STL_FACETS + (uint64_t)STL_FACET * facets_promised(bytes) : 0;
+    if (room && size == expected)
+        return BINARY_EXACT;
+    if (looks_ascii(bytes, size))
+        return ASCII;
+    return room && has_zero(bytes, size) ? BINARY_LOOSE : NEITHER;
+}
+
+static int stl_probe(const uint8_t *bytes, size_t size)
+{
+    switch (tell_kind(bytes, size)) {
+    case BINARY_EXACT:
+    case ASCII:
+        return 2;
+    // cut short, or with bytes behind the last facet: the file's name must say that it is STL
+    case BINARY_LOOSE:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error)
+{
+    return fail(error, LAM_LIMIT, "%s: %llu facets, expected at most %d", source->name, (unsigned long long)facets,
+                STL_FACETS_MAX);
+}
+
+static bool stl_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+{
+    char found[TEXT_FOUND_SIZE];
+    lam_mesh mesh = {0};
+    switch (tell_kind(source->bytes, source->size)) {
+    case ASCII:
+        if (!stl_load_ascii(source, scene, &mesh, error))
+            return false;
+        break;
+    case NEITHER:
+        return fail(error, LAM_CANNOT_READ,
+                    "%s: no STL file: found %s at its start and %zu bytes, expected \"solid\" and facets, or "
+                    "a binary "
+                    "header of %d bytes and facets",
+                    source->name, text_found(source->bytes, source->bytes + source->size, found), source->size,
+                    STL_FACETS);
+    default:
+        if (!stl_load_binary(source, scene, &mesh, error))
+            return false;
+    }
+    if (mesh.triangle_count == 0)
+        return true;
+    lam_object object = lam_object_default();
+    object.mesh = scene_take_mesh(scene, &mesh, error);
+    return object.mesh >= 0 && scene_take_object(scene, &object, error) >= 0;
+}
+
+const struct importer importer_stl = {
+    .name = "stl",
+    .extensions = "stl",
+    .up = LAM_UP_Z,
+    .probe = stl_probe,
+    .load = stl_load,
+    .load_parts = stl_load_parts,
+};

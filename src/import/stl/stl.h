@@ -1,0 +1,28 @@
+// stl.h: what the two kinds of STL share.
+#ifndef STL_H
+#define STL_H
+
+#include "importer.h"
+
+// A binary STL is a header of 80 bytes, the number of facets (32 bits, little-endian) and that many facets of
+// 50 bytes: normal and three corners, three floats each, and an attribute of 16 bits.
+enum {
+    STL_HEADER = 80,
+    STL_FACETS = 84,
+    STL_FACET = 50,
+    STL_CORNERS = 12,   // in a facet, behind its normal
+    STL_ATTRIBUTE = 48, // in a facet
+};
+
+// Each fills the mesh but its name; triangle_count stays 0 for a file without facets.
+bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
+bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
+
+// stl_stream.c: the importer's load_parts.
+bool stl_load_parts(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
+
+// More corners than 32-bit numbers can tell apart: LAM_LIMIT.
+bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error);
+enum { STL_FACETS_MAX = 1431655765 }; // (2³² − 1) ÷ 3
+
+#endif

@@ -1,0 +1,78 @@
+// text_cursor.c: words and places in text files: keywords, names, what to show in a message.
+#include "text_cursor.h"
+
+#include <stdio.h>
+
+bool text_is_word(const uint8_t *at, const uint8_t *end, const char *word)
+{
+    for (; *word; word++, at++) {
+        if (at == end || (uint8_t)((unsigned)(*at - 'A') < 26 ? *at + 'a' - 'A' : *at) != (uint8_t)*word)
+            return false;
+    }
+    return at == end || text_white(*at);
+}
+
+size_t text_count_word(const uint8_t *at, const uint8_t *end, const char *word)
+{
+    size_t count = 0;
+    bool white = true; // before `at`
+    for (; at < end; at++) {
+        if (white && (*at | 0x20) == (uint8_t)word[0] && text_is_word(at, end, word))
+            count++;
+        white = text_white(*at);
+    }
+    return count;
+}
+
+size_t text_line(const uint8_t *bytes, const uint8_t *at)
+{
+    size_t line = 1;
+    for (; bytes < at; bytes++)
+        line += *bytes == '\n' || (*bytes == '\r' && bytes[1] != '\n');
+    return line;
+}
+
+const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE])
+{
+    int length = 0;
+    while (at + length < end && length < 33 && !text_white(at[length]))
+        length++;
+    bool cut = length > 32;
+    for (length -= cut; cut && length > 0 && (at[length] & 0xc0) == 0x80;) // never inside a UTF-8 character
+        length--;
+    if (length > 0)
+        snprintf(out, TEXT_FOUND_SIZE, "'%.*s%s'", length, (const char *)at, cut ? "…" : "");
+    else
+        snprintf(out, TEXT_FOUND_SIZE, "%s", at < end ? "white space" : "the end of the file");
+    return out;
+}
+
+// Bytes of the UTF-8 character at `at`, 0 if there is none: no overlong forms, surrogates, or beyond U+10FFFF.
+static size_t utf8_length(const uint8_t *at, size_t length)
+{
+    if (at[0] < 0x80)
+        return at[0] >= 0x20 && at[0] != 0x7f;
+    size_t count = at[0] >= 0xf0 ? 4 : at[0] >= 0xe0 ? 3 : 2;
+    if (at[0] < 0xc2 || at[0] > 0xf4 || count > length)
+        return 0;
+    for (size_t i = 1; i < count; i++) {
+        if ((at[i] & 0xc0) != 0x80)
+            return 0;
+    }
+    if ((at[0] == 0xe0 && at[1] < 0xa0) || (at[0] == 0xed && at[1] > 0x9f) || (at[0] == 0xf0 && at[1] < 0x90) ||
+        (at[0] == 0xf4 && at[1] > 0x8f))
+        return 0;
+    return count;
+}
+
+char *text_name(struct arena *arena, const uint8_t *at, size_t length)
+{
+    char *name = arena_string_of(arena, (const char *)at, length);
+    for (size_t i = 0; name && i < length;) {
+        size_t step = utf8_length((const uint8_t *)name + i, length - i);
+        if (step == 0)
+            name[i] = '?';
+        i += step ? step : 1;
+    }
+    return name;
+}

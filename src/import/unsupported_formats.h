@@ -1,0 +1,17 @@
+// unsupported_formats.h: kinds of files that are told by their content, so that an error can name them.
+#ifndef UNSUPPORTED_FORMATS_H
+#define UNSUPPORTED_FORMATS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct foreign_kind {
+    const char *name; // "a PNG picture"
+    bool is_model;    // a 3D format, which the program could read one day
+};
+
+// NULL: not known.
+const struct foreign_kind *foreign_kind_of(const uint8_t *bytes, size_t size);
+
+#endif

@@ -1,0 +1,120 @@
+// lights.h: what of a light arrives at a point: its direction, distance, attenuation and cone.
+//
+// One text for C and GLSL (prelude_c.h, prelude.glsl). Everything is in eye space, distances in the scene's units.
+
+// Kinds of light that have a direction, told to each function as a uniform number. Ambient and hemisphere light, which
+// come from everywhere, stand in sum.h.
+#define LIGHT_POINT         0 // from a position to all sides
+#define LIGHT_DIRECTIONAL   1 // from infinitely far
+#define LIGHT_SPOT_CUTOFF   2 // a cone with a sharp edge and a power of the cosine inside
+#define LIGHT_SPOT_EXPONENT 3 // a power of the cosine, no edge
+#define LIGHT_SPOT_CONES    4 // full inside an inner cone, nothing outside an outer one, smooth between
+
+// What weakens a light with the distance, also uniform. Directional lights have FALLOFF_NONE.
+#define FALLOFF_NONE     0 // nothing: attenuation 1/0/0 and no range
+#define FALLOFF_DISTANCE 1 // 1 / (constant + linear d + quadratic d^2)
+#define FALLOFF_RANGE    2 // that, and the window that ends at the range
+
+// One light as it acts on one material: the colours are products, formed once for each draw. What the kind of light
+// has no use for is never looked at.
+STRUCT(source)
+{
+    vec3 position;     // point and spot
+    vec3 direction;    // unit: the way a directional light travels, the axis of a spot
+    vec3 diffuse;      // kd * Ld
+    vec3 specular;     // ks * Ls
+    num constant;      // attenuation: a,
+    num linear;        // b per unit of distance,
+    num quadratic;     // c per unit squared; all three >= 0
+    num inverse_range; // 1 / range
+    num cos_cutoff;    // LIGHT_SPOT_CUTOFF: cosine of its half angle
+    num exponent;      // LIGHT_SPOT_CUTOFF, LIGHT_SPOT_EXPONENT: >= 0
+    num cos_outer;     // LIGHT_SPOT_CONES: cosine of the outer half angle,
+    num inverse_width; // 1 / max(0.001, cos inner - cos outer)
+};
+
+STRUCT(toward)
+{
+    vec3 l;          // unit, from the point to the light; 0 where the light is at the point
+    num distance;    // 0 for a directional light
+    num attenuation; // with the range's window
+    num spot;        // the cone's factor, 0...1
+};
+
+// 1 / (a + b d + c d^2), and 0 where that sum is 0. With a range, times the window of glTF's KHR_lights_punctual:
+// max(min(1 - (d / range)^4, 1), 0).
+FN num attenuation_at(num d, source light, int falloff)
+{
+    num sum = light.constant + (light.linear + light.quadratic * d) * d;
+    num attenuation = pick(sum >= 1.17549435e-38f, 1.0f / sum, num_of(0.0f));
+    if (falloff == FALLOFF_RANGE) {
+        num part = d * light.inverse_range;
+        num square = part * part;
+        attenuation = attenuation * saturate(1.0f - square * square);
+    }
+    return attenuation;
+}
+
+// The cone's factor from c, the cosine between the spot's axis and the way from the light to the point:
+//     cutoff:    [c >= cos cutoff] max(c, 0)^exponent
+//     exponent:  max(c, 0)^exponent
+//     cones:     clamp((c - cos outer) / max(0.001, cos inner - cos outer), 0, 1)^2, as in KHR_lights_punctual
+// The sharp edge itself is lit, whichever way c was rounded: hence the 5e-7, the most that c may be off. The cones
+// enlarge that error by 1 / (cos inner - cos outer), the power by its exponent.
+FN num spot_at(num c, source light, int kind)
+{
+    num spot = num_of(1.0f);
+    if (kind == LIGHT_SPOT_CUTOFF) {
+        spot = pick(c >= light.cos_cutoff - 5.0e-7f, unit_power(c, light.exponent), num_of(0.0f));
+    }
+    if (kind == LIGHT_SPOT_EXPONENT) {
+        spot = unit_power(c, light.exponent);
+    }
+    if (kind == LIGHT_SPOT_CONES) {
+        num part = saturate((c - light.cos_outer) * light.inverse_width);
+        spot = part * part;
+    }
+    return spot;
+}
+
+// The light at the end of the way from a point; `square` is the way's length squared, `inverse` 1 by the length.
+FN toward toward_along(vec3 way, num square, num inverse)
+{
+    toward t;
+    t.l = scale3(way, inverse);
+    t.distance = square * inverse;
+    t.attenuation = num_of(1.0f);
+    t.spot = num_of(1.0f);
+    return t;
+}
+
+// What distance and cone leave of it. At the light itself nothing arrives: there is no direction to it.
+FN toward weaken_light(toward t, num square, source light, int kind, int falloff)
+{
+    if (falloff != FALLOFF_NONE) {
+        t.attenuation = attenuation_at(t.distance, light, falloff);
+    }
+    t.attenuation = pick(square > 0.0f, t.attenuation, num_of(0.0f));
+    if (kind >= LIGHT_SPOT_CUTOFF) {
+        t.spot = spot_at(cosine(-dot3(t.l, light.direction)), light, kind);
+    }
+    return t;
+}
+
+// The light as seen from the point p.
+FN toward toward_light(vec3 p, source light, int kind, int falloff)
+{
+    toward t;
+    if (kind == LIGHT_DIRECTIONAL) {
+        t.l = negate3(light.direction);
+        t.distance = num_of(0.0f);
+        t.attenuation = num_of(1.0f);
+        t.spot = num_of(1.0f);
+    } else {
+        vec3 way = sub3(light.position, p);
+        num square = dot3(way, way);
+        t = toward_along(way, square, inverse_root(square));
+        t = weaken_light(t, square, light, kind, falloff);
+    }
+    return t;
+}

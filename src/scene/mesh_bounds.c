@@ -1,0 +1,183 @@
+// mesh_bounds.c: which vertices a mesh's triangles use, the boxes around meshes and scenes, and which colours are
+// translucent.
+#include "scene_internal.h"
+
+#include "linear.h"
+
+#include <string.h>
+
+// Triangles and vertices of one piece of parallel work; fixed, so that nothing depends on the threads.
+enum { PIECE = 1 << 16 };
+
+struct marking {
+    const uint32_t *indices;
+    size_t corners;
+    uint8_t *used;
+};
+
+static void mark_piece(void *user, size_t index, int thread)
+{
+    (void)thread;
+    const struct marking *marking = user;
+    const uint32_t *indices = marking->indices;
+    uint8_t *used = marking->used;
+    size_t first = index * (size_t)PIECE, end = first + PIECE;
+    if (end > marking->corners)
+        end = marking->corners;
+    // Several threads may mark the same vertex, with the same value.
+    for (size_t i = first; i < end; i++)
+        __atomic_store_n(&used[indices[i]], 1, __ATOMIC_RELAXED);
+}
+
+// The list of used vertices where some are not used. False when memory is out.
+static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
+                      lam_error *error)
+{
+    size_t corners = (size_t)mesh->triangle_count * 3;
+    extent->used = NULL;
+    extent->used_count = mesh->indices ? mesh->vertex_count : (uint32_t)corners;
+    if (!mesh->indices)
+        return true;
+    struct arena scratch;
+    arena_start(&scratch, scene->arena.watch);
+    uint8_t *used = arena_alloc_zeroed(&scratch, mesh->vertex_count + 1);
+    bool ok = used || watch_memory_error(scratch.watch, mesh->vertex_count, error);
+    if (ok) {
+        struct marking marking = {mesh->indices, corners, used};
+        pool_run(pool, (corners + PIECE - 1) / PIECE, mark_piece, &marking);
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < mesh->vertex_count; i++)
+            count += used[i];
+        if (count < mesh->vertex_count) {
+            uint32_t *list = arena_array(&scene->arena, count, sizeof *list);
+            ok = list || watch_memory_error(scene->arena.watch, count * sizeof *list, error);
+            for (uint32_t i = 0, n = 0; ok && i < mesh->vertex_count; i++)
+                if (used[i])
+                    list[n++] = i;
+            extent->used = list;
+            extent->used_count = count;
+        }
+    }
+    arena_free(&scratch);
+    return ok;
+}
+
+struct clearing {
+    const lam_mesh *mesh;
+    int found; // touched atomically
+};
+
+static void clear_piece(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct clearing *clearing = user;
+    const lam_mesh *mesh = clearing->mesh;
+    size_t first = index * (size_t)PIECE, end = first + PIECE;
+    if (end > mesh->color_count)
+        end = mesh->color_count;
+    bool found = false;
+    if (mesh->colors_format == LAM_COLORS_LINEAR_F32) {
+        const float *alpha = (const float *)mesh->colors + 3;
+        for (size_t i = first; i < end; i++)
+            found |= alpha[4 * i] < 1;
+    } else {
+        const uint8_t *alpha = (const uint8_t *)mesh->colors + 3;
+        for (size_t i = first; i < end; i++)
+            found |= alpha[4 * i] < 255;
+    }
+    if (found)
+        __atomic_store_n(&clearing->found, 1, __ATOMIC_RELAXED);
+}
+
+// Whether a mesh has a colour that lets light through.
+static bool has_clear_colors(const lam_mesh *mesh, struct pool *pool)
+{
+    struct clearing clearing = {.mesh = mesh};
+    if (mesh->colors)
+        pool_run(pool, ((size_t)mesh->color_count + PIECE - 1) / PIECE, clear_piece, &clearing);
+    return clearing.found;
+}
+
+static bool measure(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
+                    lam_error *error)
+{
+    *extent = (struct scene_extent){.translucent = has_clear_colors(mesh, pool)};
+    if (!find_used(scene, mesh, extent, pool, error))
+        return false;
+    if (!box_tree_make(&extent->boxes, mesh, extent->used, extent->used_count, &scene->arena, pool, error))
+        return false;
+    if (!extent->used_count)
+        return true;
+    box_of_six box;
+    box_tree_whole(&extent->boxes, box);
+    const double *o = mesh->origin;
+    extent->minimum = v3((double)box[0] + o[0], (double)box[1] + o[1], (double)box[2] + o[2]);
+    extent->maximum = v3((double)box[3] + o[0], (double)box[4] + o[1], (double)box[5] + o[2]);
+    return true;
+}
+
+bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error)
+{
+    for (int i = scene->extents.count; i < scene->meshes.count; i++) {
+        struct scene_extent extent;
+        if (!measure(scene, scene_mesh(scene, i), &extent, pool, error) ||
+            scene_append(scene, &scene->extents, &extent, sizeof extent, error) < 0)
+            return false;
+    }
+    return true;
+}
+
+static lam_vec3 lower(lam_vec3 a, lam_vec3 b)
+{
+    return v3(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
+}
+
+static lam_vec3 upper(lam_vec3 a, lam_vec3 b)
+{
+    return v3(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+}
+
+// True where the box of a transformed mesh is the transformed box: the matrix only scales and swaps axes.
+static bool keeps_boxes(const lam_mat4 *m)
+{
+    for (int i = 0; i < 3; i++)
+        if ((m->m[i][0] != 0) + (m->m[i][1] != 0) + (m->m[i][2] != 0) != 1)
+            return false;
+    return true;
+}
+
+bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec3 *maximum)
+{
+    lam_vec3 low = v3(1e308, 1e308, 1e308), high = v3(-1e308, -1e308, -1e308);
+    bool any = false;
+    for (int i = 0; i < lam_scene_object_count(scene); i++) {
+        const lam_object *object = scene_object(scene, i);
+        const lam_mesh *mesh = scene_mesh(scene, object->mesh);
+        const struct scene_extent *extent = scene_extent(scene, object->mesh);
+        if (!extent->used_count)
+            continue;
+        any = true;
+        if (keeps_boxes(&object->transform)) {
+            lam_vec3 a = mat4_point(&object->transform, extent->minimum);
+            lam_vec3 b = mat4_point(&object->transform, extent->maximum);
+            low = lower(low, lower(a, b));
+            high = upper(high, upper(a, b));
+            continue;
+        }
+        for (uint32_t v = 0; v < extent->used_count; v++) {
+            const float *p = mesh->positions + 3 * (size_t)(extent->used ? extent->used[v] : v);
+            lam_vec3 w =
+                mat4_point(&object->transform, v3((double)p[0] + mesh->origin[0], (double)p[1] + mesh->origin[1],
+                                                  (double)p[2] + mesh->origin[2]));
+            low = lower(low, w);
+            high = upper(high, w);
+        }
+    }
+    if (!any)
+        low = high = v3(0, 0, 0);
+    if (minimum)
+        *minimum = low;
+    if (maximum)
+        *maximum = high;
+    return any;
+}

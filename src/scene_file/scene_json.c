@@ -1,0 +1,318 @@
+// scene_json.c: scene files: the JSON around it all, the picture's settings, and the row in the table of formats.
+#include "scene_reader.h"
+
+#include "cube_map.h"
+#include "fail.h"
+#include "linear.h"
+
+#include <string.h>
+
+// --- is it one?
+
+// An object whose first kilobytes hold the key "lambent".
+static int scene_probe(const uint8_t *bytes, size_t size)
+{
+    static const char key[] = "\"lambent\"";
+    size_t at = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0, end = size < 65536 ? size : 65536;
+    while (at < end && (bytes[at] == ' ' || bytes[at] == '\t' || bytes[at] == '\r' || bytes[at] == '\n'))
+        at++;
+    if (at >= end || bytes[at] != '{')
+        return 0;
+    return memmem(bytes + at, end - at, key, sizeof key - 1) ? 2 : 0;
+}
+
+// --- the picture
+
+static bool read_image(struct scene_reader *r, const json_t *root)
+{
+    static const char *const keys[] = {"size", "samples", "background", "color", "exposure", NULL};
+    const json_t *image = json_object_get(root, "image");
+    const struct place *place = KEY_OF(NULL, "image");
+    lam_settings *s = r->settings;
+    int color = LAM_COLOR_SRGB;
+    if (!image)
+        return true;
+    // The colour mode first: it says how the others are read.
+    if (!check_keys(r, place, image, keys) || !take_word(r, place, image, "color", color_words, &color))
+        return false;
+    if (json_object_get(image, "color")) {
+        s->given |= LAM_GIVEN_COLOR;
+        s->draw.color = (lam_color_mode)color;
+        if (!r->source->params->color_decides)
+            r->color = (lam_color_mode)color;
+    }
+    const json_t *size = json_object_get(image, "size");
+    if (size) {
+        double sides[2];
+        const struct place *here = KEY_OF(place, "size");
+        if (!numbers_of(r, here, size, 2, 2, sides, NULL))
+            return false;
+        for (size_t i = 0; i < 2; i++)
+            if (!(sides[i] >= 1 && sides[i] <= 65535) || sides[i] != (double)(int)sides[i])
+                return fail_place(r, ELEMENT_OF(here, i), "found %.10g, expected pixels from 1 to 65535", sides[i]);
+        s->width = (int)sides[0];
+        s->height = (int)sides[1];
+        s->given |= LAM_GIVEN_SIZE;
+    }
+    if (json_object_get(image, "samples")) {
+        int n = 0;
+        if (!take_whole(r, place, image, "samples", 1, 16, &n))
+            return false;
+        if (n & (n - 1))
+            return fail_place(r, KEY_OF(place, "samples"), "found %d, expected 1, 2, 4, 8 or 16", n);
+        s->draw.samples = n;
+        s->given |= LAM_GIVEN_SAMPLES;
+    }
+    s->draw.background.a = 0;
+    if (!take_rgba(r, place, image, "background", &s->draw.background) ||
+        !take_number(r, place, image, "exposure", -100, 100, &s->draw.exposure))
+        return false;
+    s->given |= json_object_get(image, "background") ? LAM_GIVEN_BACKGROUND : 0;
+    s->given |= json_object_get(image, "exposure") ? LAM_GIVEN_EXPOSURE : 0;
+    return true;
+}
+
+static bool read_camera(struct scene_reader *r, const json_t *root)
+{
+    static const char *const keys[] = {"eye", "target", "up", "fovy", "ortho_half_height", "near", "far", NULL};
+    const json_t *value = json_object_get(root, "camera");
+    const struct place *place = KEY_OF(NULL, "camera");
+    lam_camera camera = lam_camera_default();
+    if (!value)
+        return true;
+    double fovy = math_degrees(camera.fovy_rad);
+    bool has_fovy = json_object_get(value, "fovy"), ortho = json_object_get(value, "ortho_half_height");
+    bool near = json_object_get(value, "near"), far = json_object_get(value, "far");
+    if (!check_keys(r, place, value, keys) || !take_vector(r, place, value, "eye", &camera.eye) ||
+        !take_vector(r, place, value, "target", &camera.target) || !take_direction(r, place, value, "up", &camera.up) ||
+        !take_number(r, place, value, "fovy", 0, 180, &fovy) ||
+        !take_number(r, place, value, "ortho_half_height", 0, 1e30, &camera.ortho_half_height) ||
+        !take_number(r, place, value, "near", -1e30, 1e30, &camera.near_plane) ||
+        !take_number(r, place, value, "far", -1e30, 1e30, &camera.far_plane))
+        return false;
+    if (has_fovy && ortho)
+        return fail_place(r, place, "has both fovy and ortho_half_height, expected one of them");
+    if (has_fovy && !(fovy > 0 && fovy < 180))
+        return fail_place(r, KEY_OF(place, "fovy"), "found %.10g, expected degrees above 0 and below 180", fovy);
+    if (ortho && camera.ortho_half_height == 0)
+        return fail_place(r, KEY_OF(place, "ortho_half_height"), "found 0, expected a number above 0");
+    if (near != far)
+        return fail_place(r, place, "has only %s, expected both of near and far, or neither", near ? "near" : "far");
+    if (near && !(camera.near_plane < camera.far_plane && (ortho || camera.near_plane > 0)))
+        return fail_place(r, place, "near is %.10g and far is %.10g, expected %snear < far", camera.near_plane,
+                          camera.far_plane, ortho ? "" : "0 < ");
+    if (v3_length(v3_sub(camera.eye, camera.target)) == 0)
+        return fail_place(r, place, "eye and target are the same point");
+    if (has_fovy)
+        camera.fovy_rad = math_radians(fovy);
+    r->settings->camera = camera;
+    r->settings->given |= LAM_GIVEN_CAMERA;
+    return true;
+}
+
+// Words and switches at the top of the file.
+static bool read_methods(struct scene_reader *r, const json_t *root)
+{
+    lam_draw_params *draw = &r->settings->draw;
+    int shading = 0, reflection = 0, stage = 0, viewer = 0, flat_normal = 0, up = LAM_UP_Y;
+    lam_rgb ambient = {0, 0, 0};
+    double cutoff = 0;
+    if (!take_word(r, NULL, root, "shading", shading_words, &shading) ||
+        !take_word(r, NULL, root, "reflection", reflection_words, &reflection) ||
+        !take_word(r, NULL, root, "stage", stage_words, &stage) ||
+        !take_word(r, NULL, root, "viewer", viewer_words, &viewer) ||
+        !take_word(r, NULL, root, "flat_normal", flat_normal_words, &flat_normal) ||
+        !take_bool(r, NULL, root, "match_highlights", &draw->match_highlights) ||
+        !take_bool(r, NULL, root, "gl1", &draw->gl1) || !take_number(r, NULL, root, "light_cutoff", 0, 1, &cutoff) ||
+        !take_word(r, NULL, root, "up", up_words, &up) || !take_rgb(r, NULL, root, "ambient", &ambient))
+        return false;
+    if (json_object_get(root, "light_cutoff"))
+        draw->light_cutoff = cutoff > 0 ? (float)cutoff : -1;
+    draw->shading = (lam_shading)shading;
+    draw->reflection = (lam_reflection)reflection;
+    draw->stage = (lam_stage)stage;
+    draw->viewer = (lam_viewer)viewer;
+    draw->flat_normal = (lam_flat_normal)flat_normal;
+    r->scene->ambient = ambient;
+    if (r->source->params->up == LAM_UP_AUTO)
+        r->scene->up = (lam_up)up;
+    static const struct {
+        const char *key;
+        unsigned bit;
+    } bits[] = {{"shading", LAM_GIVEN_SHADING},
+                {"reflection", LAM_GIVEN_REFLECTION},
+                {"stage", LAM_GIVEN_STAGE},
+                {"viewer", LAM_GIVEN_VIEWER},
+                {"flat_normal", LAM_GIVEN_FLAT_NORMAL},
+                {"match_highlights", LAM_GIVEN_MATCH_HIGHLIGHTS},
+                {"gl1", LAM_GIVEN_GL1},
+                {"light_cutoff", LAM_GIVEN_LIGHT_CUTOFF}};
+    for (size_t i = 0; i < sizeof bits / sizeof *bits; i++)
+        r->settings->given |= json_object_get(root, bits[i].key) ? bits[i].bit : 0;
+    bool by_vertex = draw->stage == LAM_STAGE_APPLICATION || draw->stage == LAM_STAGE_VERTEX;
+    if (by_vertex && !json_object_get(root, "shading")) {
+        draw->shading = LAM_SHADING_GOURAUD;
+        r->settings->given |= LAM_GIVEN_SHADING;
+    }
+    if (by_vertex && draw->shading == LAM_SHADING_PHONG)
+        return fail_place(r, KEY_OF(NULL, "stage"),
+                          "Phong shading has the stage fragment; application and vertex go with flat "
+                          "and gouraud");
+    if (draw->stage == LAM_STAGE_FRAGMENT && draw->shading == LAM_SHADING_GOURAUD)
+        return fail_place(r, KEY_OF(NULL, "stage"),
+                          "Gouraud shading has the stages application and vertex; fragment goes with "
+                          "flat and phong");
+    return true;
+}
+
+// A picture's name, relative to the scene file, as it can be opened from here.
+static const char *picture_path(struct scene_reader *r, const char *name)
+{
+    const char *scene = r->source->path;
+    size_t folder = scene && name[0] != '/' ? (size_t)(path_name(scene) - scene) : 0, length = strlen(name);
+    char *path = arena_alloc(&r->scene->arena, folder + length + 1);
+    if (!path) {
+        watch_memory_error(r->source->watch, folder + length + 1, r->error);
+        return NULL;
+    }
+    if (folder)
+        memcpy(path, scene, folder);
+    memcpy(path + folder, name, length + 1);
+    return path;
+}
+
+static bool read_faces(struct scene_reader *r, const struct place *place, const json_t *faces)
+{
+    char kind[32];
+    if (!json_is_array(faces) || json_array_size(faces) != 6)
+        return fail_place(r, place, "found %s, expected six names of pictures: +x, -x, +y, -y, +z, -z",
+                          json_kind(faces, kind));
+    for (size_t i = 0; i < 6; i++) {
+        const json_t *face = json_array_get(faces, i);
+        if (!json_is_string(face) || !json_string_length(face))
+            return fail_place(r, ELEMENT_OF(place, i), "found %s, expected a picture's name", json_kind(face, kind));
+        if (!(r->settings->faces[i] = picture_path(r, json_string_value(face))))
+            return false;
+    }
+    return true;
+}
+
+static bool read_built_in(struct scene_reader *r, const struct place *place, const char **name)
+{
+    const char *known[8];
+    int count = 0;
+    while (count < 8 && (known[count] = lam_environment_name(count))) {
+        if (strcmp(known[count], *name) == 0) {
+            *name = known[count];
+            return true;
+        }
+        count++;
+    }
+    const char *near_word = nearest_word(*name, known, count);
+    return fail_place(r, place, "found '%.60s', expected sky or studio%s%s%s", *name,
+                      near_word ? "; did you mean '" : "", near_word ? near_word : "", near_word ? "'?" : "");
+}
+
+static struct lam_environment *load_environment(const struct scene_reader *r)
+{
+    const lam_settings *s = r->settings;
+    struct watch *watch = r->source->watch;
+    if (s->built_in)
+        return lam_environment_built_in(s->built_in, r->error);
+    return s->equirectangular ? environment_load(s->equirectangular, r->color, watch, r->error)
+                              : environment_load_faces((const char *const *)s->faces, r->color, watch, r->error);
+}
+
+static bool read_environment(struct scene_reader *r, const json_t *root)
+{
+    static const char *const keys[] = {"faces", "equirectangular", "builtin", "rotation", NULL};
+    const json_t *value = json_object_get(root, "environment");
+    const struct place *place = KEY_OF(NULL, "environment");
+    lam_settings *s = r->settings;
+    double rotation = 0;
+    if (!value)
+        return true;
+    if (!check_keys(r, place, value, keys) || !take_text(r, place, value, "equirectangular", &s->equirectangular) ||
+        !take_text(r, place, value, "builtin", &s->built_in) ||
+        !take_number(r, place, value, "rotation", -360000, 360000, &rotation))
+        return false;
+    const json_t *faces = json_object_get(value, "faces");
+    if ((faces != NULL) + (s->equirectangular != NULL) + (s->built_in != NULL) != 1)
+        return fail_place(r, place, "expected one of faces, equirectangular and builtin");
+    if (faces && !read_faces(r, KEY_OF(place, "faces"), faces))
+        return false;
+    if (s->built_in && !read_built_in(r, KEY_OF(place, "builtin"), &s->built_in))
+        return false;
+    if (s->equirectangular && !(s->equirectangular = picture_path(r, s->equirectangular)))
+        return false;
+    s->environment_rotation_rad = math_radians(rotation);
+    s->given |= LAM_GIVEN_ENVIRONMENT;
+    lam_environment *environment = load_environment(r);
+    bool ok = environment && lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->error);
+    lam_environment_free(environment);
+    return ok;
+}
+
+// --- the whole
+
+static bool read_root(struct scene_reader *r, const json_t *root)
+{
+    static const char *const keys[] = {"lambent",          "image",        "camera", "ambient",   "environment",
+                                       "shading",          "reflection",   "viewer", "stage",     "flat_normal",
+                                       "match_highlights", "gl1",          "up",     "materials", "objects",
+                                       "lights",           "light_cutoff", NULL};
+    int version = 0;
+    if (!check_keys(r, NULL, root, keys) || !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
+        return false;
+    if (!json_object_get(root, "lambent"))
+        return fail_place(r, NULL, "'lambent' is missing, expected the format's version, 1");
+    if (version != 1)
+        return fail(r->error, LAM_UNSUPPORTED, "%s: lambent: the format's version is %d, this program reads version 1",
+                    r->source->name, version);
+    r->has_lights = json_object_get(root, "lights");
+    // The order matters: the colour mode before colours, objects before the lights that stand on them.
+    return read_image(r, root) && read_camera(r, root) && read_methods(r, root) && read_environment(r, root) &&
+           read_materials(r, root) && read_objects(r, root) && read_lights(r, root);
+}
+
+// What Jansson takes for a file of this size at the worst: one small value for each two bytes ("1,1,1").
+static size_t tree_bytes(size_t size) { return size > SIZE_MAX / 32 ? SIZE_MAX : size * 32; }
+
+static bool scene_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+{
+    lam_settings *settings = arena_alloc_zeroed(&scene->arena, sizeof *settings);
+    lam_error unwanted;
+    size_t charge = tree_bytes(source->size),
+           skip = source->size >= 3 && memcmp(source->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    if (!settings || !watch_charge(source->watch, charge))
+        return watch_memory_error(source->watch, charge, error);
+    struct scene_reader reader = {.source = source,
+                                  .scene = scene,
+                                  .settings = settings,
+                                  .color = source->params->color,
+                                  .error = error ? error : &unwanted};
+    json_error_t wrong;
+    json_t *root = json_loadb((const char *)source->bytes + skip, source->size - skip, JSON_REJECT_DUPLICATES, &wrong);
+    bool ok;
+    if (root) {
+        ok = read_root(&reader, root);
+        json_decref(root);
+    } else if (json_error_code(&wrong) == json_error_out_of_memory) {
+        ok = fail_memory(error, charge);
+    } else {
+        ok = fail_line(error, source, (size_t)(wrong.line > 0 ? wrong.line : 1), "column %d: %s", wrong.column,
+                       wrong.text);
+    }
+    watch_refund(source->watch, charge);
+    scene->settings = settings;
+    scene->color = reader.color;
+    return ok;
+}
+
+const struct importer importer_scene = {
+    .name = "scene",
+    .extensions = "json",
+    .up = LAM_UP_Y,
+    .probe = scene_probe,
+    .load = scene_load,
+};

@@ -1,0 +1,119 @@
+// scene_materials.c: the materials of a scene file.
+#include "scene_reader.h"
+
+#include "fail.h"
+
+#include <string.h>
+
+static const char *const keys[] = {"ambient",      "diffuse", "specular", "emission", "shininess",
+                                   "reflectivity", "opacity", "fibre",    NULL};
+
+bool read_material_keys(struct scene_reader *r, const struct place *place, const json_t *value, bool whole,
+                        lam_material *material)
+{
+    lam_material *m = material;
+    double shininess = (double)m->shininess, opacity = -1;
+    if (!check_keys(r, place, value, keys) || !take_rgba(r, place, value, "diffuse", &m->diffuse))
+        return false;
+    if (whole) // a surface answers light from all around as it answers any light
+        m->ambient = (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b};
+    if (!take_rgb(r, place, value, "ambient", &m->ambient) || !take_rgb(r, place, value, "specular", &m->specular) ||
+        !take_rgb(r, place, value, "emission", &m->emission) ||
+        !take_number(r, place, value, "shininess", 0, 1e30, &shininess) ||
+        !take_rgb(r, place, value, "reflectivity", &m->reflectivity) ||
+        !take_number(r, place, value, "opacity", 0, 1, &opacity) || !take_bool(r, place, value, "fibre", &m->fibre))
+        return false;
+    m->shininess = (float)shininess;
+    if (opacity >= 0)
+        m->diffuse.a *= (float)opacity;
+    return true;
+}
+
+// A material of the file by its name: −1 where there is none.
+static int named(const struct scene_reader *r, const char *name)
+{
+    const char *key;
+    json_t *value;
+    int i = 0;
+    json_object_foreach(r->materials, key, value)
+    {
+        if (strcmp(key, name) == 0)
+            return r->material_at[i];
+        i++;
+    }
+    return -1;
+}
+
+static bool unknown_name(struct scene_reader *r, const struct place *place, const char *name)
+{
+    const char *nearest = NULL, *key;
+    json_t *value;
+    if (strlen(name) > 60)
+        return fail_place(r, place, "no material has this name");
+    json_object_foreach(r->materials, key, value)
+    {
+        const char *two[2] = {nearest, key};
+        if (strlen(key) <= 60)
+            nearest = nearest ? nearest_word(name, two, 2) : nearest_word(name, two + 1, 1);
+    }
+    for (int i = 0; !nearest && i < LAM_MATERIAL_COUNT; i++) {
+        const char *classic = lam_material_name((lam_material_id)i);
+        nearest = nearest_word(name, &classic, 1);
+    }
+    return nearest
+               ? fail_place(r, place, "no material is named '%s'; did you mean '%s'?", name, nearest)
+               : fail_place(r, place, "no material is named '%s', neither in \"materials\" nor a classic one", name);
+}
+
+bool read_material_value(struct scene_reader *r, const struct place *place, const json_t *value,
+                         const lam_material *base, int *index)
+{
+    lam_material material = base ? *base : lam_material_default();
+    if (json_is_string(value)) {
+        const char *name = json_string_value(value);
+        *index = named(r, name);
+        if (*index >= 0)
+            return true;
+        lam_material_id id = lam_material_find(name);
+        if (id == LAM_MATERIAL_COUNT)
+            return unknown_name(r, place, name);
+        material = lam_material_named(id);
+    } else if (!read_material_keys(r, place, value, !base, &material)) {
+        return false;
+    }
+    *index = scene_take_material(r->scene, &material, r->error);
+    return *index >= 0;
+}
+
+bool read_materials(struct scene_reader *r, const json_t *root)
+{
+    json_t *list = json_object_get(root, "materials");
+    const struct place *place = KEY_OF(NULL, "materials");
+    if (!list)
+        return true;
+    if (!json_is_object(list)) {
+        char kind[32];
+        return fail_place(r, place, "found %s, expected an object of named materials", json_kind(list, kind));
+    }
+    r->material_at = arena_array(&r->scene->arena, json_object_size(list), sizeof *r->material_at);
+    if (!r->material_at)
+        return watch_memory_error(r->source->watch, json_object_size(list) * sizeof *r->material_at, r->error);
+    const char *key;
+    json_t *value;
+    int i = 0;
+    json_object_foreach(list, key, value)
+    {
+        if (!json_is_object(value)) {
+            char kind[32];
+            return fail_place(r, KEY_OF(place, key), "found %s, expected an object, { … }", json_kind(value, kind));
+        }
+        if (!read_material_value(r, KEY_OF(place, key), value, NULL, &r->material_at[i]))
+            return false;
+        lam_material *material = (lam_material *)r->scene->materials.items + r->material_at[i++];
+        material->name = arena_string(&r->scene->arena, key);
+        if (!material->name)
+            return watch_memory_error(r->source->watch, strlen(key), r->error);
+    }
+    r->materials = list;
+    return true;
+}

@@ -1,0 +1,88 @@
+// scene_reader.h: what the readers of a scene file share: places in it, and values that are checked as they are taken.
+// docs/scene-file.md is the format for people, docs/scene.schema.json for programs.
+#ifndef SCENE_READER_H
+#define SCENE_READER_H
+
+#include "importer.h"
+
+#include <jansson.h>
+
+struct scene_reader {
+    const struct import_source *source;
+    struct lam_scene *scene;
+    lam_settings *settings; // in the scene's arena
+    bool has_lights;        // the file lists its lights: the models' own are left out
+    lam_color_mode color;   // what colours in this file and its models are read as
+    json_t *materials;      // the file's named materials; NULL: none
+    int *material_at;       // of each, in the file's order: its index in the scene
+    lam_error *error;
+};
+
+// A value's place in the file: objects[1].material.shininess, from its end to its beginning.
+struct place {
+    const struct place *within; // NULL: the file itself
+    const char *key;            // NULL: an element of a list
+    size_t index;
+};
+#define KEY_OF(parent, name)       (&(struct place){.within = (parent), .key = (name)})
+#define ELEMENT_OF(parent, number) (&(struct place){.within = (parent), .index = (number)})
+
+// LAM_CANNOT_READ with "NAME: PLACE: sentence". Returns false.
+bool fail_place(struct scene_reader *r, const struct place *place, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+// "a number", "a text", "a list of 3", …, as found; for sentences.
+const char *json_kind(const json_t *value, char out[32]);
+
+// Keys that may stand in an object; another one is an error that names the nearest. The list ends with NULL.
+bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys);
+
+// The value of a key of `object`, checked; *out stays as it is where the key is missing. False: it is wrong.
+// Numbers lie in [least, most].
+bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double least,
+                 double most, double *out);
+bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int least,
+                int most, int *out);
+bool take_bool(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, bool *out);
+bool take_vector(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+                 lam_vec3 *out);
+bool take_direction(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+                    lam_vec3 *out);
+// A text, copied into the scene's arena; not empty.
+bool take_text(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+               const char **out);
+// "#rrggbb", a name of a colour, or linear numbers; the alpha is taken only where `alpha` is true.
+bool take_rgb(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgb *out);
+bool take_rgba(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgba *out);
+
+struct scene_word {
+    const char *name;
+    int value;
+};
+// One of some words; the list ends with a NULL name.
+bool take_word(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
+               const struct scene_word *words, int *out);
+extern const struct scene_word color_words[], shading_words[], reflection_words[], stage_words[], viewer_words[],
+    flat_normal_words[], normals_words[], cull_words[], up_words[], frame_words[], light_type_words[], tangent_words[];
+
+// Numbers of a list, which has from `least` to `most` of them. *count may be NULL.
+bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t least, size_t most,
+                double *out, size_t *count);
+
+// The parts of the file. Each fills the scene.
+bool read_materials(struct scene_reader *r, const json_t *root);
+bool read_objects(struct scene_reader *r, const json_t *root);
+bool read_lights(struct scene_reader *r, const json_t *root);
+
+// A material by name (of the file, or a classic one) or written out; what it leaves out is `base`'s (NULL: each key has
+// its own default). *index: in the scene.
+bool read_material_value(struct scene_reader *r, const struct place *place, const json_t *value,
+                         const lam_material *base, int *index);
+// The keys of a material over what `material` holds.
+bool read_material_keys(struct scene_reader *r, const struct place *place, const json_t *value, bool whole,
+                        lam_material *material);
+
+// A list of steps, or 16 numbers.
+bool read_transform(struct scene_reader *r, const struct place *place, const json_t *value, lam_mat4 *out);
+
+#endif

@@ -10,15 +10,17 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-INCLUDES = ["include", "src/base", "src/base/math", "src/lighting", "src/image", "src/scene", "src/import", "src/device", "src/cpu"]
+ROOMS = ["base", "image", "geometry", "environment", "scene", "shapes", "import", "scene_file", "frame", "device", "cpu"]
+INCLUDES = ["include", "src/lighting"] + [os.path.relpath(path, ROOT) for room in ROOMS
+                                         for path, _, _ in os.walk(os.path.join(ROOT, "src", room))]
 FLAGS = ["-std=gnu11", "-O2", "-D_GNU_SOURCE", "-DNDEBUG", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Werror", "-Wno-psabi", "-c"]
 MACHINES = {
     "arm64": {"flags": ["--target=aarch64-linux-gnu", "-isystem", "/usr/aarch64-linux-gnu/include"],
               "needs": "/usr/aarch64-linux-gnu/include/stdio.h", "package": "libc6-dev-arm64-cross",
-              "kernels": [("plain", 1), ("neon", 4)], "without": []},
+              "kernels": [("scalar", 1), ("neon", 4)], "without": []},
     "wasm": {"flags": ["--target=wasm32-wasi", "-isystem", "/usr/include/wasm32-wasi", "-msimd128", "-D_WASI_EMULATED_MMAN"],
              "needs": "/usr/include/wasm32-wasi/stdio.h", "package": "wasi-libc",
-             "kernels": [("plain", 1), ("wasm", 4)],
+             "kernels": [("scalar", 1), ("wasm", 4)],
              # What the page does not use: files come from its memory.
              "without": ["file.c", "scene_write.c"]},
 }
@@ -27,10 +29,11 @@ LEFT_OUT = ["png_read.c", "jpeg.c"]  # libspng's and libjpeg's own headers are t
 
 def sources(machine):
     files = []
-    for folder in ("base", "base/math", "image", "scene", "import", "device", "cpu"):
-        files += sorted(glob.glob(os.path.join(ROOT, "src", folder, "*.c")))
+    for room in ROOMS:
+        files += sorted(glob.glob(os.path.join(ROOT, "src", room, "**", "*.c"), recursive=True))
     skipped = LEFT_OUT + machine["without"] + ["kernels.c", "corner_fan_simd.c", "position_simd.c"]
-    for_each = [("src/cpu/kernels.c", kernel) for kernel in machine["kernels"]] + [("src/scene/%s_lanes.c" % name, ("plain", 1)) for name in ("fan", "seen")]
+    for_each = [("src/cpu/kernels.c", kernel) for kernel in machine["kernels"]]
+    for_each += [("src/geometry/normals/%s_simd.c" % name, ("scalar", 1)) for name in ("corner_fan", "position")]
     return [(f, []) for f in files if os.path.basename(f) not in skipped] + [
         (os.path.join(ROOT, path), ["-DISA=" + isa, "-DLANES=%d" % lanes]) for path, (isa, lanes) in for_each]
 

@@ -18,7 +18,7 @@ typedef struct lam_device lam_device;
 // Instruction sets of the CPU device. Every one gives the same bytes.
 typedef enum lam_isa {
     LAM_ISA_AUTO = 0, // the widest that the processor and this build have
-    LAM_ISA_PLAIN,    // C without vectors
+    LAM_ISA_SCALAR,   // C without vectors
     LAM_ISA_SSE4,     // SSE4.2, 4 lanes
     LAM_ISA_AVX2,     // 8 lanes
     LAM_ISA_AVX512,   // AVX-512 F, BW, DQ and VL, 16 lanes
@@ -26,7 +26,7 @@ typedef enum lam_isa {
     LAM_ISA_COUNT
 } lam_isa;
 
-LAM_API const char *lam_isa_name(lam_isa isa); // "plain", "sse4", …; NULL out of range
+LAM_API const char *lam_isa_name(lam_isa isa); // "scalar", "sse4", …; NULL out of range
 LAM_API bool lam_isa_usable(lam_isa isa);      // in this build and on this processor
 
 typedef struct lam_cpu_params {
@@ -85,45 +85,45 @@ typedef enum lam_flat_normal {
 } lam_flat_normal;
 
 // What a frame shows: the picture, one part of its light, or a number of its surfaces. Light is drawn as the picture
-// is: over the background, and sRGB-encoded in 8 bits (lam_show_is_light). The numbers are neither: a float picture
+// is: over the background, and sRGB-encoded in 8 bits (lam_output_is_light). The numbers are neither: a float picture
 // holds the number itself, an 8-bit one the code that stands behind it here, and what no triangle covers is 0 with
 // alpha 0, however the background. A number is not averaged: it is that of the triangle at the covered sample nearest
 // to the pixel's centre.
-typedef enum lam_show {
-    LAM_SHOW_PICTURE = 0,
+typedef enum lam_output {
+    LAM_OUTPUT_PICTURE = 0,
     // Terms of the sum: the five add up to the picture (unlit, the colour is the diffuse term). A background would
     // count five times. With gl1, terms are not clamped.
-    LAM_SHOW_AMBIENT,
-    LAM_SHOW_DIFFUSE,
-    LAM_SHOW_SPECULAR,
-    LAM_SHOW_EMISSION,
-    LAM_SHOW_REFLECTION, // of the environment
+    LAM_OUTPUT_AMBIENT,
+    LAM_OUTPUT_DIFFUSE,
+    LAM_OUTPUT_SPECULAR,
+    LAM_OUTPUT_EMISSION,
+    LAM_OUTPUT_REFLECTION, // of the environment
     // All that one light gives: ambient, diffuse and specular. Those of all lights, the scene's ambient light, emission
     // and reflection add up to the picture. Black for a frame that is not lit.
-    LAM_SHOW_LIGHT,
+    LAM_OUTPUT_LIGHT,
     // As the lighting sees them, in eye space: x right, y up, z to the viewer; seen from behind, turned. 8 bits: (x +
     // 1)/2.
-    LAM_SHOW_NORMALS,
-    LAM_SHOW_TANGENTS, // the file's, or the direction field, perpendicular to the normal
-    LAM_SHOW_DEPTH,    // distance in front of the eye along the view, model units; 8 bits: near white, far black
-    LAM_SHOW_N_L,      // cosine between normal and light; 8 bits: max(n·l, 0)
-    LAM_SHOW_N_H,      // cosine between normal and half vector; 8 bits: max(n·h, 0)
-    LAM_SHOW_FACING,   // 1: front, −1: back; 8 bits: front blue (0, 102, 255), back red (255, 51, 0)
+    LAM_OUTPUT_NORMALS,
+    LAM_OUTPUT_TANGENTS, // the file's, or the direction field, perpendicular to the normal
+    LAM_OUTPUT_DEPTH,    // distance in front of the eye along the view, model units; 8 bits: near white, far black
+    LAM_OUTPUT_N_L,      // cosine between normal and light; 8 bits: max(n·l, 0)
+    LAM_OUTPUT_N_H,      // cosine between normal and half vector; 8 bits: max(n·h, 0)
+    LAM_OUTPUT_FACING,   // 1: front, −1: back; 8 bits: front blue (0, 102, 255), back red (255, 51, 0)
     // Triangle number in its mesh modulo 2²⁴, object number, the rest of the triangle number; 8 bits: a colour for each
     // triangle of each object, no channel below 48.
-    LAM_SHOW_IDS,
-    LAM_SHOW_COVERAGE, // share of the pixel's samples that are covered; alpha 1 everywhere
+    LAM_OUTPUT_IDS,
+    LAM_OUTPUT_COVERAGE, // share of the pixel's samples that are covered; alpha 1 everywhere
     // Triangles that cover a sample before the depth test, mean over the pixel's samples, culled ones not counted;
     // alpha 1 everywhere; 8 bits: c/(c + 3).
-    LAM_SHOW_OVERDRAW,
+    LAM_OUTPUT_OVERDRAW,
     // By how much each channel of the picture leaves 0…1 (negative: below); 8 bits: red where one is above, blue where
     // one is below, else the picture in dark grey.
-    LAM_SHOW_CLIPPED,
-    LAM_SHOW_COUNT,
-} lam_show;
+    LAM_OUTPUT_CLIPPED,
+    LAM_OUTPUT_COUNT,
+} lam_output;
 
-LAM_API const char *lam_show_name(lam_show show); // "picture", "ambient", … "n.l", …; NULL out of range
-LAM_API bool lam_show_is_light(lam_show show);    // the picture, the terms and a light
+LAM_API const char *lam_output_name(lam_output show); // "picture", "ambient", … "n.l", …; NULL out of range
+LAM_API bool lam_output_is_light(lam_output show);    // the picture, the terms and a light
 
 // How a frame is drawn. All zero is the plain default.
 typedef struct lam_draw_params {
@@ -149,8 +149,8 @@ typedef struct lam_draw_params {
     // picture's encoded channels. 0: ½/255, so that no byte is off by more than 1; less than 0: every light
     // is evaluated everywhere; at most 1. The OpenGL device always evaluates every light.
     float light_cutoff;
-    lam_show show;
-    int show_light; // LAM_SHOW_LIGHT, LAM_SHOW_N_L, LAM_SHOW_N_H: which, by its number in lam_draw_lights
+    lam_output show;
+    int show_light; // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: which, by its number in lam_draw_lights
 } lam_draw_params;
 
 // What a frame took. Milliseconds, and counts.

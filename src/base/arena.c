@@ -35,11 +35,11 @@ static bool fails_now(void)
     return fail_countdown-- == 0;
 }
 
-void arena_start(struct arena *arena, struct watch *watch) { *arena = (struct arena){.watch = watch}; }
+void arena_start(struct arena *arena, struct call_control *call) { *arena = (struct arena){.call = call}; }
 
-void arena_start_large(struct arena *arena, struct watch *watch)
+void arena_start_large(struct arena *arena, struct call_control *call)
 {
-    *arena = (struct arena){.watch = watch, .large = true};
+    *arena = (struct arena){.call = call, .large = true};
 }
 
 void arena_free(struct arena *arena)
@@ -49,8 +49,8 @@ void arena_free(struct arena *arena)
         struct arena_block *next = block->next;
         if (block->held)
             pages_free(block->memory, block->held);
-        if (arena->watch)
-            watch_refund(arena->watch, block->charged);
+        if (arena->call)
+            call_refund(arena->call, block->charged);
         free(block);
         block = next;
     }
@@ -73,15 +73,15 @@ static void link_block(struct arena *arena, struct arena_block *block)
 
 static void *own_pages(struct arena *arena, size_t bytes)
 {
-    if (arena->watch && !watch_charge(arena->watch, bytes))
+    if (arena->call && !call_charge(arena->call, bytes))
         return NULL;
     struct arena_block *block = calloc(1, sizeof *block);
     if (block)
         block->memory = pages_get(bytes, &block->held);
     if (!block || !block->memory) {
         free(block);
-        if (arena->watch)
-            watch_refund(arena->watch, bytes);
+        if (arena->call)
+            call_refund(arena->call, bytes);
         return NULL;
     }
     block->room = block->used = block->held;
@@ -100,7 +100,7 @@ static struct arena_block *new_block(struct arena *arena, size_t bytes)
         room = BLOCK_LARGEST;
     if (room < bytes + 64)
         room = bytes + 64;
-    if (arena->watch && !watch_charge(arena->watch, room))
+    if (arena->call && !call_charge(arena->call, room))
         return NULL;
     const bool pages = room >= BLOCK_LARGEST;
     struct arena_block *block = malloc(sizeof *block + (pages ? 0 : room));
@@ -111,8 +111,8 @@ static struct arena_block *new_block(struct arena *arena, size_t bytes)
     }
     if (!block || !block->memory) {
         free(block);
-        if (arena->watch)
-            watch_refund(arena->watch, room);
+        if (arena->call)
+            call_refund(arena->call, room);
         return NULL;
     }
     link_block(arena, block);
@@ -198,7 +198,7 @@ bool arena_adopt(struct arena *arena, struct file_bytes *bytes)
                                   .used = bytes->held,
                                   .held = bytes->held,
                                   .whole = true,
-                                  .charged = bytes->watch == arena->watch ? bytes->size + FILE_PADDING : 0};
+                                  .charged = bytes->call == arena->call ? bytes->size + FILE_PADDING : 0};
     link_block(arena, block);
     bytes->held = 0;
     return true;

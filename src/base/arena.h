@@ -14,17 +14,17 @@
 struct arena_block;
 struct arena {
     struct arena_block *blocks;
-    struct watch *watch; // charged for what is allocated; may be NULL
-    size_t total;        // bytes held
-    bool large;          // the first block is one of the largest
+    struct call_control *call; // charged for what is allocated; may be NULL
+    size_t total;              // bytes held
+    bool large;                // the first block is one of the largest
 };
 
-void arena_start(struct arena *arena, struct watch *watch);
-void arena_start_large(struct arena *arena, struct watch *watch); // where some megabytes will be needed
+void arena_start(struct arena *arena, struct call_control *call);
+void arena_start_large(struct arena *arena, struct call_control *call); // where some megabytes will be needed
 void arena_free(struct arena *arena); // frees everything; the arena is empty and usable again
 
 // Aligned to 64 bytes for 64 bytes and more, else to 16. NULL when memory or the watch's budget is out (the reason is
-// found by watch_memory_error). Size 0 gives a valid pointer.
+// found by call_memory_error). Size 0 gives a valid pointer.
 void *arena_alloc(struct arena *arena, size_t bytes);
 void *arena_alloc_zeroed(struct arena *arena, size_t bytes);
 

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-bool buffer_reserve(struct buffer *buffer, size_t bytes, struct watch *watch, lam_error *error)
+bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *call, lam_error *error)
 {
     if (bytes <= buffer->room)
         return true;
@@ -13,19 +13,19 @@ bool buffer_reserve(struct buffer *buffer, size_t bytes, struct watch *watch, la
     // Grow by half again at least, so that slowly growing frames do not allocate each time.
     size_t room = bytes > old + old / 2 ? bytes : old + old / 2;
     buffer_free(buffer);
-    if (watch)
-        watch_refund(watch, old);
-    if (watch && !watch_charge(watch, room))
-        return watch_memory_error(watch, room, error);
+    if (call)
+        call_refund(call, old);
+    if (call && !call_charge(call, room))
+        return call_memory_error(call, room, error);
     buffer->data = pages_get(room, &buffer->room);
     if (!buffer->data) {
-        if (watch)
-            watch_refund(watch, room);
+        if (call)
+            call_refund(call, room);
         buffer->room = 0;
-        return watch_memory_error(watch, room, error);
+        return call_memory_error(call, room, error);
     }
-    if (watch)
-        watch_charge(watch, buffer->room - room);
+    if (call)
+        call_charge(call, buffer->room - room);
     return true;
 }
 

@@ -11,7 +11,7 @@ struct buffer {
 
 // Makes sure of `bytes`; the old contents are lost when it grows. Charges the watch for the growth. False: fills the
 // error.
-bool buffer_reserve(struct buffer *buffer, size_t bytes, struct watch *watch, lam_error *error);
+bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *call, lam_error *error);
 void buffer_free(struct buffer *buffer);
 
 #endif

@@ -24,64 +24,64 @@ void lam_cancel_clear(lam_cancel *cancel)
         __atomic_store_n(&cancel->raised, 0, __ATOMIC_RELEASE);
 }
 
-void watch_start(struct watch *watch, const lam_control *control)
+void call_start(struct call_control *call, const lam_control *control)
 {
-    *watch = (struct watch){0};
+    *call = (struct call_control){0};
     if (control)
-        watch->control = *control;
-    watch->start_ns = now_ns();
+        call->control = *control;
+    call->start_ns = now_ns();
 }
 
-static bool cancelled(const struct watch *watch)
+static bool cancelled(const struct call_control *call)
 {
-    return watch->control.cancel && __atomic_load_n(&watch->control.cancel->raised, __ATOMIC_ACQUIRE);
+    return call->control.cancel && __atomic_load_n(&call->control.cancel->raised, __ATOMIC_ACQUIRE);
 }
 
-static bool over_time(const struct watch *watch)
+static bool over_time(const struct call_control *call)
 {
-    return watch->control.time_limit_s > 0 && (double)(now_ns() - watch->start_ns) * 1e-9 > watch->control.time_limit_s;
+    return call->control.time_limit_s > 0 && (double)(now_ns() - call->start_ns) * 1e-9 > call->control.time_limit_s;
 }
 
-bool watch_on(struct watch *watch) { return !watch || (!cancelled(watch) && !over_time(watch)); }
+bool call_should_continue(struct call_control *call) { return !call || (!cancelled(call) && !over_time(call)); }
 
-bool watch_error(struct watch *watch, lam_error *error)
+bool call_error(struct call_control *call, lam_error *error)
 {
-    if (cancelled(watch))
+    if (cancelled(call))
         return fail(error, LAM_CANCELLED, "cancelled");
-    return fail(error, LAM_LIMIT, "the time limit of %g s is over", watch->control.time_limit_s);
+    return fail(error, LAM_LIMIT, "the time limit of %g s is over", call->control.time_limit_s);
 }
 
-bool watch_charge(struct watch *watch, size_t bytes)
+bool call_charge(struct call_control *call, size_t bytes)
 {
-    uint64_t limit = watch->control.memory_limit_bytes;
-    uint64_t used = __atomic_add_fetch(&watch->memory_used, bytes, __ATOMIC_RELAXED);
+    uint64_t limit = call->control.memory_limit_bytes;
+    uint64_t used = __atomic_add_fetch(&call->memory_used, bytes, __ATOMIC_RELAXED);
     if (!limit || used <= limit)
         return true;
-    __atomic_sub_fetch(&watch->memory_used, bytes, __ATOMIC_RELAXED);
-    __atomic_store_n(&watch->over_memory, 1, __ATOMIC_RELAXED);
+    __atomic_sub_fetch(&call->memory_used, bytes, __ATOMIC_RELAXED);
+    __atomic_store_n(&call->over_memory, 1, __ATOMIC_RELAXED);
     return false;
 }
 
-void watch_refund(struct watch *watch, size_t bytes)
+void call_refund(struct call_control *call, size_t bytes)
 {
-    __atomic_sub_fetch(&watch->memory_used, bytes, __ATOMIC_RELAXED);
+    __atomic_sub_fetch(&call->memory_used, bytes, __ATOMIC_RELAXED);
 }
 
-bool watch_memory_error(struct watch *watch, size_t bytes, lam_error *error)
+bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error)
 {
-    if (watch && __atomic_load_n(&watch->over_memory, __ATOMIC_RELAXED))
+    if (call && __atomic_load_n(&call->over_memory, __ATOMIC_RELAXED))
         return fail(error, LAM_LIMIT, "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed",
-                    (double)watch->control.memory_limit_bytes / 1e6, (double)watch->memory_used / 1e6,
+                    (double)call->control.memory_limit_bytes / 1e6, (double)call->memory_used / 1e6,
                     (double)bytes / 1e6);
     return fail_memory(error, bytes);
 }
 
-void watch_progress(struct watch *watch, double share, const char *step)
+void call_progress(struct call_control *call, double share, const char *step)
 {
-    if (!watch || !watch->control.progress)
+    if (!call || !call->control.progress)
         return;
-    if (share < watch->last_share)
-        share = watch->last_share;
-    watch->last_share = share;
-    watch->control.progress(watch->control.user, share, step);
+    if (share < call->last_share)
+        share = call->last_share;
+    call->last_share = share;
+    call->control.progress(call->control.user, share, step);
 }

@@ -4,7 +4,7 @@
 
 #include <lambent/base.h>
 
-struct watch {
+struct call_control {
     lam_control control; // a copy; zero: no bounds
     uint64_t start_ns;
     uint64_t memory_used; // touched atomically
@@ -13,24 +13,24 @@ struct watch {
 };
 
 // Starts a call. `control` may be NULL.
-void watch_start(struct watch *watch, const lam_control *control);
+void call_start(struct call_control *call, const lam_control *control);
 
 // False when the call must end: cancelled or over its time. Cheap enough for every few thousand items (about 25 ns);
-// any thread. `watch` may be NULL.
-bool watch_on(struct watch *watch);
+// any thread. `call` may be NULL.
+bool call_should_continue(struct call_control *call);
 
-// Fills the error with the reason why watch_on said false, and returns false.
-bool watch_error(struct watch *watch, lam_error *error);
+// Fills the error with the reason why call_should_continue said false, and returns false.
+bool call_error(struct call_control *call, lam_error *error);
 
 // Charges and gives back memory; false: over the budget. Any thread.
-bool watch_charge(struct watch *watch, size_t bytes);
-void watch_refund(struct watch *watch, size_t bytes);
+bool call_charge(struct call_control *call, size_t bytes);
+void call_refund(struct call_control *call, size_t bytes);
 
 // The error for an arena_alloc that returned NULL: over the budget, or the machine's memory is out. Returns false.
-bool watch_memory_error(struct watch *watch, size_t bytes, lam_error *error);
+bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error);
 
 // Tells the progress callback; from the calling thread only. Shares never go backwards.
-void watch_progress(struct watch *watch, double share, const char *step);
+void call_progress(struct call_control *call, double share, const char *step);
 
 // Monotonic time.
 uint64_t now_ns(void);

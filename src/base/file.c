@@ -34,20 +34,20 @@ static bool fail_system(lam_error *error, lam_code code, const char *path, const
     return fail(error, code, "%s: cannot %s: %s", path, action, text);
 }
 
-static bool hold(size_t size, struct watch *watch, struct file_bytes *out, lam_error *error)
+static bool hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error)
 {
     *out = (struct file_bytes){0};
     size_t wanted = size + FILE_PADDING;
-    if (watch && !watch_charge(watch, wanted))
-        return watch_memory_error(watch, wanted, error);
+    if (call && !call_charge(call, wanted))
+        return call_memory_error(call, wanted, error);
     out->data = pages_get(wanted, &out->held);
     if (!out->data) {
-        if (watch)
-            watch_refund(watch, wanted);
+        if (call)
+            call_refund(call, wanted);
         return fail_memory(error, wanted);
     }
     out->size = size;
-    out->watch = watch;
+    out->call = call;
     return true;
 }
 
@@ -55,15 +55,15 @@ void file_release(struct file_bytes *bytes)
 {
     if (bytes->held) {
         pages_free((void *)(uintptr_t)bytes->data, bytes->held);
-        if (bytes->watch)
-            watch_refund(bytes->watch, bytes->size + FILE_PADDING);
+        if (bytes->call)
+            call_refund(bytes->call, bytes->size + FILE_PADDING);
     }
     *bytes = (struct file_bytes){0};
 }
 
-bool file_copy(const void *bytes, size_t size, struct watch *watch, struct file_bytes *out, lam_error *error)
+bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error)
 {
-    if (!hold(size, watch, out, error))
+    if (!hold(size, call, out, error))
         return false;
     if (size)
         memcpy((void *)(uintptr_t)out->data, bytes, size);
@@ -76,7 +76,7 @@ struct reading {
     int file;
     uint8_t *to;
     size_t size;
-    struct watch *watch;
+    struct call_control *call;
     int failed;     // an errno; −1: the file ended early
     size_t reached; // where it ended
 };
@@ -87,7 +87,7 @@ static void read_piece(void *user, size_t index, int thread)
     struct reading *reading = user;
     size_t at = index * (size_t)PIECE;
     size_t end = at + PIECE < reading->size ? at + PIECE : reading->size;
-    if (!watch_on(reading->watch))
+    if (!call_should_continue(reading->call))
         return;
     while (at < end && !__atomic_load_n(&reading->failed, __ATOMIC_RELAXED)) {
         ssize_t got = pread(reading->file, reading->to + at, end - at, (off_t)at);
@@ -102,16 +102,16 @@ static void read_piece(void *user, size_t index, int thread)
     }
 }
 
-static bool read_sized(int file, const char *path, size_t size, struct pool *pool, struct watch *watch,
+static bool read_sized(int file, const char *path, size_t size, struct pool *pool, struct call_control *call,
                        struct file_bytes *out, lam_error *error)
 {
-    if (!hold(size, watch, out, error))
+    if (!hold(size, call, out, error))
         return false;
-    struct reading reading = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .watch = watch};
+    struct reading reading = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .call = call};
     pool_run(pool, (size + PIECE - 1) / PIECE, read_piece, &reading);
     bool ok = true;
-    if (!watch_on(watch)) {
-        ok = watch_error(watch, error);
+    if (!call_should_continue(call)) {
+        ok = call_error(call, error);
     } else if (reading.failed == -1) {
         ok = fail(error, LAM_CANNOT_READ, "%s: became shorter while it was read: ended at byte %zu of %zu", path,
                   reading.reached, size);
@@ -126,9 +126,9 @@ static bool read_sized(int file, const char *path, size_t size, struct pool *poo
 
 // Waits until a stream can be read; false once the watch says stop. A pipe whose writer has not come yet is waited for
 // too.
-static bool wait_readable(int file, struct watch *watch)
+static bool wait_readable(int file, struct call_control *call)
 {
-    while (watch_on(watch)) {
+    while (call_should_continue(call)) {
         struct pollfd ready = {.fd = file, .events = POLLIN};
         int count = poll(&ready, 1, 50);
         if (count > 0 || (count < 0 && errno != EINTR))
@@ -138,10 +138,10 @@ static bool wait_readable(int file, struct watch *watch)
 }
 
 // Twice the room, with what was read so far.
-static bool grow(struct file_bytes *bytes, size_t used, struct watch *watch, lam_error *error)
+static bool grow(struct file_bytes *bytes, size_t used, struct call_control *call, lam_error *error)
 {
     struct file_bytes larger;
-    if (!hold(bytes->size * 2, watch, &larger, error))
+    if (!hold(bytes->size * 2, call, &larger, error))
         return false;
     memcpy((void *)(uintptr_t)larger.data, bytes->data, used);
     file_release(bytes);
@@ -150,18 +150,18 @@ static bool grow(struct file_bytes *bytes, size_t used, struct watch *watch, lam
 }
 
 // A pipe, a terminal, a device: read until it ends. It may have no end (/dev/zero).
-static bool read_stream(int file, const char *path, struct watch *watch, struct file_bytes *out, lam_error *error)
+static bool read_stream(int file, const char *path, struct call_control *call, struct file_bytes *out, lam_error *error)
 {
     size_t used = 0, most = pages_of_machine() / 4;
-    bool ok = hold(1 << 20, watch, out, error), ended = false;
+    bool ok = hold(1 << 20, call, out, error), ended = false;
     while (ok && !ended) {
         if (used == out->size)
             ok = used >= most
                      ? fail(error, LAM_LIMIT, "%s: has no end within %.1f GB, a quarter of this machine's memory", path,
                             (double)most / 1e9)
-                     : grow(out, used, watch, error);
-        if (ok && !wait_readable(file, watch))
-            ok = watch_error(watch, error);
+                     : grow(out, used, call, error);
+        if (ok && !wait_readable(file, call))
+            ok = call_error(call, error);
         if (!ok)
             break;
         ssize_t got = read(file, (uint8_t *)(uintptr_t)out->data + used, out->size - used);
@@ -176,17 +176,17 @@ static bool read_stream(int file, const char *path, struct watch *watch, struct 
         return false;
     }
     // What is behind the last byte stays zero; what was charged for it is given back.
-    if (watch)
-        watch_refund(watch, out->size - used);
+    if (call)
+        call_refund(call, out->size - used);
     out->size = used;
     return true;
 }
 
-bool file_read(const char *path, struct pool *pool, struct watch *watch, struct file_bytes *out, lam_error *error)
+bool file_read(const char *path, struct pool *pool, struct call_control *call, struct file_bytes *out, lam_error *error)
 {
     *out = (struct file_bytes){0};
     if (strcmp(path, "-") == 0)
-        return read_stream(STDIN_FILENO, "standard input", watch, out, error);
+        return read_stream(STDIN_FILENO, "standard input", call, out, error);
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0)
         return fail_system(error, LAM_CANNOT_READ, path, "open");
@@ -197,9 +197,9 @@ bool file_read(const char *path, struct pool *pool, struct watch *watch, struct 
     else if (S_ISDIR(about.st_mode))
         ok = fail(error, LAM_CANNOT_READ, "%s: is a directory, expected a file", path);
     else if (S_ISREG(about.st_mode) && about.st_size > 0)
-        ok = read_sized(file, path, (size_t)about.st_size, pool, watch, out, error);
+        ok = read_sized(file, path, (size_t)about.st_size, pool, call, out, error);
     else
-        ok = read_stream(file, path, watch, out, error);
+        ok = read_stream(file, path, call, out, error);
     close(file);
     return ok;
 }

@@ -13,13 +13,14 @@ enum { FILE_PADDING = 64 };
 struct file_bytes {
     const uint8_t *data;
     size_t size;
-    size_t held;         // bytes of address space behind data; 0: not owned
-    struct watch *watch; // was charged for them, and is refunded; may be NULL
+    size_t held;               // bytes of address space behind data; 0: not owned
+    struct call_control *call; // was charged for them, and is refunded; may be NULL
 };
 
-// Reads a file, or standard input for "-". `pool` and `watch` may be NULL. Errors: LAM_CANNOT_READ (no such file, a
+// Reads a file, or standard input for "-". `pool` and `call` may be NULL. Errors: LAM_CANNOT_READ (no such file, a
 // directory, a read error, it became shorter meanwhile), LAM_LIMIT, LAM_CANCELLED.
-bool file_read(const char *path, struct pool *pool, struct watch *watch, struct file_bytes *out, lam_error *error);
+bool file_read(const char *path, struct pool *pool, struct call_control *call, struct file_bytes *out,
+               lam_error *error);
 
 // A large file that is read in parts, by any thread.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
@@ -33,7 +34,7 @@ bool file_read_part(const struct file_parts *parts, size_t offset, void *to, siz
 void file_close_parts(struct file_parts *parts);
 
 // A padded copy of memory, as file_read would give it.
-bool file_copy(const void *bytes, size_t size, struct watch *watch, struct file_bytes *out, lam_error *error);
+bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 
 void file_release(struct file_bytes *bytes);
 

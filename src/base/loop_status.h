@@ -4,28 +4,28 @@
 
 #include "call_control.h"
 
-struct halt {
-    struct watch *watch;        // may be NULL
+struct loop_status {
+    struct call_control *call;  // may be NULL
     int stopped, out_of_memory; // set by any thread
 };
 
 // False once the call was cancelled, its time is over, or memory is out; every piece of work asks first.
-static inline bool goes_on(struct halt *halt)
+static inline bool should_continue(struct loop_status *loop)
 {
-    if (__atomic_load_n(&halt->stopped, __ATOMIC_RELAXED) || __atomic_load_n(&halt->out_of_memory, __ATOMIC_RELAXED))
+    if (__atomic_load_n(&loop->stopped, __ATOMIC_RELAXED) || __atomic_load_n(&loop->out_of_memory, __ATOMIC_RELAXED))
         return false;
-    if (watch_on(halt->watch))
+    if (call_should_continue(loop->call))
         return true;
-    __atomic_store_n(&halt->stopped, 1, __ATOMIC_RELAXED);
+    __atomic_store_n(&loop->stopped, 1, __ATOMIC_RELAXED);
     return false;
 }
 
-static inline void no_memory(struct halt *halt) { __atomic_store_n(&halt->out_of_memory, 1, __ATOMIC_RELAXED); }
+static inline void no_memory(struct loop_status *loop) { __atomic_store_n(&loop->out_of_memory, 1, __ATOMIC_RELAXED); }
 
 // Fills the error with the reason and returns false. `bytes`: about what could not be had.
-static inline bool halt_error(struct halt *halt, size_t bytes, lam_error *error)
+static inline bool loop_error(struct loop_status *loop, size_t bytes, lam_error *error)
 {
-    return halt->out_of_memory ? watch_memory_error(halt->watch, bytes, error) : watch_error(halt->watch, error);
+    return loop->out_of_memory ? call_memory_error(loop->call, bytes, error) : call_error(loop->call, error);
 }
 
 #endif

@@ -15,8 +15,8 @@ struct run {
     const lam_check_params *params;
     lam_check_report *report;
     struct arena *arena;
-    struct notes notes;
-    struct reading reading;
+    struct diagnostics notes;
+    struct shader_interface reading;
     int size;
     double tolerance;
     lam_light_frame frame;
@@ -34,23 +34,23 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;
     *scenes = 0;
-    for (int i = 0; i < study_count; i++) {
+    for (int i = 0; i < reference_scene_count; i++) {
         bool asked = p->scenes == NULL;
         for (int k = 0; p->scenes && k < p->scene_count; k++)
-            asked |= strcmp(p->scenes[k], studies[i].name) == 0;
-        if (asked && (studies[i].needs & ~r->reading.offers) == 0)
+            asked |= strcmp(p->scenes[k], reference_scenes[i].name) == 0;
+        if (asked && (reference_scenes[i].needs & ~r->reading.offers) == 0)
             *scenes |= 1u << i;
         else if (asked && p->scenes)
             return fail(error, LAM_BAD_ARGUMENT,
-                        "scene '%s': the shader has no names of the contract %s for what it needs", studies[i].name,
-                        r->reading.contract->name);
+                        "scene '%s': the shader has no names of the contract %s for what it needs",
+                        reference_scenes[i].name, r->reading.contract->name);
     }
     for (int k = 0; p->scenes && k < p->scene_count; k++)
-        if (study_find(p->scenes[k]) < 0) {
+        if (reference_scene_find(p->scenes[k]) < 0) {
             const char *names[32];
-            for (int i = 0; i < study_count; i++)
-                names[i] = studies[i].name;
-            const char *near = nearest_word(p->scenes[k], names, study_count);
+            for (int i = 0; i < reference_scene_count; i++)
+                names[i] = reference_scenes[i].name;
+            const char *near = nearest_word(p->scenes[k], names, reference_scene_count);
             return fail(error, LAM_BAD_ARGUMENT,
                         "there is no scene '%.60s'%s%s%s; `lambent check --list` has their names", p->scenes[k],
                         near ? ", is '" : "", near ? near : "", near ? "' meant?" : "");
@@ -67,7 +67,7 @@ static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
     if (r->size < 32 || r->size > 1024)
         return fail(error, LAM_BAD_ARGUMENT, "check: pictures of %d pixels, expected 32 to 1024", r->size);
     r->tolerance = p->tolerance > 0 ? p->tolerance : 2.0 / 255;
-    if (!reading_make(&r->reading, p->vertex, p->fragment, p->contract, error))
+    if (!shader_interface_make(&r->reading, p->vertex, p->fragment, p->contract, error))
         return false;
     r->frame = p->light_frame == LAM_FRAME_WORLD ? r->reading.contract->light_frame : p->light_frame;
     r->reflection = p->reflection != LAM_REFLECTION_AUTO ? p->reflection
@@ -77,16 +77,16 @@ static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "check: the highlight can be phong or blinn-phong");
     if (!p->vertex) {
         char unknown[256];
-        r->vertex = complete_vertex(&r->reading, unknown, error);
+        r->vertex = default_vertex_shader(&r->reading, unknown, error);
         if (!r->vertex)
             return false;
         r->report->made_vertex = true;
         if (unknown[0])
-            notes_add(&r->notes, LAM_CHECK_NOTE_HINT, p->fragment_name, 0,
-                      "no vertex shader is given, and what %s should hold cannot be told from the names: "
-                      "zero; give yours "
-                      "with --vertex",
-                      unknown);
+            diagnostics_add(&r->notes, LAM_CHECK_NOTE_HINT, p->fragment_name, 0,
+                            "no vertex shader is given, and what %s should hold cannot be told from the names: "
+                            "zero; give yours "
+                            "with --vertex",
+                            unknown);
     }
     return choose_scenes(r, scenes, error);
 }
@@ -102,12 +102,12 @@ static bool draw_here(struct run *r, const lam_bytes *job, lam_error *error)
 static bool draw(struct run *r, unsigned scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;
-    struct check_job job = {.contract = r->reading.which,
-                            .light_frame = r->frame,
-                            .size = r->size,
-                            .scenes = scenes,
-                            .vertex = p->vertex ? p->vertex : r->vertex,
-                            .fragment = p->fragment};
+    struct draw_request job = {.contract = r->reading.which,
+                               .light_frame = r->frame,
+                               .size = r->size,
+                               .scenes = scenes,
+                               .vertex = p->vertex ? p->vertex : r->vertex,
+                               .fragment = p->fragment};
     lam_bytes bytes = {0};
     if (!job_write(&job, &bytes, error))
         return false;
@@ -136,13 +136,13 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
     snprintf(r->report->driver, sizeof r->report->driver, "%s", r->drawn.driver);
     if (r->drawn.state == DRAWN_SLOW) {
         r->report->verdict = LAM_CHECK_ENDLESS;
-        notes_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
-                  "scene '%.30s' took %.2g s of the processor, where a right shader takes some milliseconds: a "
-                  "loop without an end? Some drivers leave it after many turns, others stand still",
-                  r->drawn.log, r->drawn.seconds);
+        diagnostics_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
+                        "scene '%.30s' took %.2g s of the processor, where a right shader takes some milliseconds: a "
+                        "loop without an end? Some drivers leave it after many turns, others stand still",
+                        r->drawn.log, r->drawn.seconds);
     } else if (r->drawn.state != DRAWN_PICTURES) {
         r->report->verdict = LAM_CHECK_REFUSED;
-        notes_of_refusal(&r->notes, &r->drawn, &r->reading, p);
+        diagnostics_of_refusal(&r->notes, &r->drawn, &r->reading, p);
     }
     return true;
 }
@@ -166,18 +166,19 @@ static void find_inside(struct judged *scene, int size)
 static bool draw_reference(struct run *r, lam_device *device, struct judged *scene, lam_error *error)
 {
     lam_camera camera;
-    struct study opaque = scene->study; // what stands behind a translucent surface is no matter of its shader
+    struct reference_scene opaque =
+        scene->reference_scene; // what stands behind a translucent surface is no matter of its shader
     opaque.alpha = 1;
-    lam_scene *world = study_scene(&opaque, &camera, error);
+    lam_scene *world = reference_to_scene(&opaque, &camera, error);
     lam_image image = {0};
     bool two_sides = (r->reading.offers & NEED_TWO_SIDES) != 0;
     lam_draw_params draw = {
         .samples = 1,
         .rig = LAM_RIG_NONE,
         .reflection = r->reflection,
-        .shading = scene->study.flat       ? LAM_SHADING_FLAT
-                   : r->reading.vertex_lit ? LAM_SHADING_GOURAUD
-                                           : LAM_SHADING_PHONG,
+        .shading = scene->reference_scene.flat ? LAM_SHADING_FLAT
+                   : r->reading.vertex_lit     ? LAM_SHADING_GOURAUD
+                                               : LAM_SHADING_PHONG,
         .flat_normal = LAM_FLAT_NORMAL_VERTEX,
     };
     if (world && !two_sides) {
@@ -190,7 +191,7 @@ static bool draw_reference(struct run *r, lam_device *device, struct judged *sce
     if (ok) {
         scene->reference = image.pixels; // kept by the report
         for (size_t i = 0; i < (size_t)r->size * (size_t)r->size; i++)
-            scene->reference[4 * i + 3] *= scene->study.alpha;
+            scene->reference[4 * i + 3] *= scene->reference_scene.alpha;
         find_inside(scene, r->size);
     } else {
         lam_image_free(&image);
@@ -204,17 +205,18 @@ static bool make_scenes(struct run *r, unsigned scenes, lam_error *error)
     size_t pixels = (size_t)r->size * (size_t)r->size, at = 0;
     int lights = r->drawn.has_list ? r->drawn.light_count : 1;
     lam_device *device = lam_device_cpu(NULL, error);
-    r->scenes = arena_alloc_zeroed(r->arena, (size_t)study_count * sizeof *r->scenes);
-    r->report->scenes = arena_alloc_zeroed(r->arena, (size_t)study_count * sizeof *r->report->scenes);
+    r->scenes = arena_alloc_zeroed(r->arena, (size_t)reference_scene_count * sizeof *r->scenes);
+    r->report->scenes = arena_alloc_zeroed(r->arena, (size_t)reference_scene_count * sizeof *r->report->scenes);
     bool ok = device && r->scenes && r->report->scenes;
-    for (int i = 0; ok && i < study_count; i++) {
+    for (int i = 0; ok && i < reference_scene_count; i++) {
         if (!(scenes >> i & 1))
             continue;
         struct judged *scene = &r->scenes[r->scene_count++];
-        scene->row = &studies[i];
-        scene->study = contract_study(r->reading.contract, r->reading.offers, &studies[i], lights);
+        scene->row = &reference_scenes[i];
+        scene->reference_scene =
+            contract_reference_scene(r->reading.contract, r->reading.offers, &reference_scenes[i], lights);
         scene->theirs = r->drawn.pixels + at;
-        scene->alpha = studies[i].needs & NEED_ALPHA;
+        scene->alpha = reference_scenes[i].needs & NEED_ALPHA;
         scene->inside = arena_array(r->arena, pixels, sizeof *scene->inside);
         scene->gathered = arena_array(r->arena, pixels, 4 * sizeof *scene->gathered);
         ok = scene->inside && scene->gathered && draw_reference(r, device, scene, error);
@@ -277,9 +279,9 @@ static void measure(struct run *r, bool writes, float *numbers)
     lam_check_report *report = r->report;
     for (int i = 0; i < r->scene_count; i++) {
         lam_check_scene *out = &report->scenes[i];
-        judge_gather(&r->scenes[i], r->scenes[i].theirs, r->scenes[i].gathered);
-        judge_gather(&r->scenes[i], r->scenes[i].reference, numbers);
-        struct distance d = judge_distance(&r->scenes[i], numbers, r->tolerance);
+        fault_search_gather(&r->scenes[i], r->scenes[i].theirs, r->scenes[i].gathered);
+        fault_search_gather(&r->scenes[i], r->scenes[i].reference, numbers);
+        struct distance d = fault_search_distance(&r->scenes[i], numbers, r->tolerance);
         r->scenes[i].apart = d.mean;
         r->scenes[i].passes = d.fits;
         out->maximum = d.maximum;
@@ -295,10 +297,10 @@ static void measure(struct run *r, bool writes, float *numbers)
             report->verdict = LAM_CHECK_NOT_NUMBER;
     }
     if (report->verdict == LAM_CHECK_NOT_NUMBER && writes)
-        notes_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
-                  "NaN or infinity reaches the picture: pow() of a negative base, normalize() of a zero "
-                  "vector and a division "
-                  "by 0 give it; pow(max(x, 0.0), shininess) does not");
+        diagnostics_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
+                        "NaN or infinity reaches the picture: pow() of a negative base, normalize() of a zero "
+                        "vector and a division "
+                        "by 0 give it; pow(max(x, 0.0), shininess) does not");
 }
 
 // The share of the pixels that are compared where the shader leaves nothing or no number.
@@ -327,9 +329,9 @@ static bool is_searchable(struct run *r, bool writes)
         spoilt = spoilt || here > 0.25;
     }
     if (writes && clear > 0.02)
-        notes_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
-                  "%.0f %% of the model is not drawn: the shader discards it, or gl_Position puts it elsewhere",
-                  clear * 100);
+        diagnostics_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
+                        "%.0f %% of the model is not drawn: the shader discards it, or gl_Position puts it elsewhere",
+                        clear * 100);
     return writes && clear < 0.9 && no_number < 0.5 && !spoilt;
 }
 
@@ -360,22 +362,22 @@ static bool explain(struct run *r, lam_error *error)
     for (int i = 0; i < r->scene_count; i++)
         s.needs |= r->scenes[i].row->needs;
     for (int i = 0; i < r->scene_count; i++) // plain scenes show more than they need
-        s.needs |= (r->scenes[i].study.ka > 0 ? NEED_AMBIENT : 0) |
+        s.needs |= (r->scenes[i].reference_scene.ka > 0 ? NEED_AMBIENT : 0) |
                    (r->reading.contract->has_attenuation && (r->reading.offers & NEED_POINT) ? NEED_ATTENUATION : 0);
     s.alone = arena_alloc_zeroed(r->arena, (size_t)r->scene_count * sizeof *s.alone + 1);
     if (!s.alone)
         return fail_memory(error, 1);
-    if (!judge_search(&s, error))
+    if (!fault_search_run(&s, error))
         return false;
     if (s.unset)
-        notes_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
-                  "a name that the contract does not know holds 0, which may be all that is wrong: put the "
-                  "names right first");
+        diagnostics_add(&r->notes, LAM_CHECK_NOTE_HINT, NULL, 0,
+                        "a name that the contract does not know holds 0, which may be all that is wrong: put the "
+                        "names right first");
     report->findings = arena_alloc_zeroed(r->arena, FOUND_MOST * sizeof *report->findings);
     for (int i = 0; report->findings && i < s.count; i++) {
         char says[400], write[400];
-        mistake_write(s.found[i]->says, &r->reading, r->frame, r->reflection, says, sizeof says);
-        mistake_write(s.found[i]->write, &r->reading, r->frame, r->reflection, write, sizeof write);
+        fault_write(s.found[i]->says, &r->reading, r->frame, r->reflection, says, sizeof says);
+        fault_write(s.found[i]->write, &r->reading, r->frame, r->reflection, write, sizeof write);
         report->findings[report->finding_count++] = (lam_check_finding){.mistake = s.found[i]->id,
                                                                         .says = arena_string(r->arena, says),
                                                                         .write = arena_string(r->arena, write),
@@ -403,7 +405,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     if (ok) {
         report->contract = r.reading.which;
         report->vertex_lit = r.reading.vertex_lit;
-        notes_of_names(&r.notes, &r.drawn, &r.reading, params);
+        diagnostics_of_names(&r.notes, &r.drawn, &r.reading, params);
     }
     if (ok && report->verdict == LAM_CHECK_PASSES) {
         ok = make_scenes(&r, scenes, error);
@@ -411,7 +413,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
             ok = decode_all(&r);
         float *numbers = ok ? arena_array(r.arena, (size_t)r.size * (size_t)r.size, 4 * sizeof *numbers) : NULL;
         ok = ok && (numbers || fail_memory(error, 1));
-        bool writes = !ok || hints_of_output(&r.notes, &r.reading.fragment, params->fragment_name);
+        bool writes = !ok || compiler_hints_of_output(&r.notes, &r.reading.fragment, params->fragment_name);
         if (ok)
             measure(&r, writes, numbers);
         if (ok && report->verdict != LAM_CHECK_PASSES && is_searchable(&r, writes) && has_differences(&r))
@@ -421,7 +423,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
         ok = fail_memory(error, 1);
     report->notes = r.notes.items;
     report->note_count = r.notes.count;
-    reading_free(&r.reading);
+    shader_interface_free(&r.reading);
     free(r.vertex);
     lam_bytes_free(&r.bytes);
     if (!ok)
@@ -447,6 +449,12 @@ const char *lam_check_verdict_name(lam_check_verdict verdict)
     return verdict >= LAM_CHECK_PASSES && verdict <= LAM_CHECK_NOT_NUMBER ? names[verdict] : NULL;
 }
 
-const char *lam_check_scene_name(int index) { return index >= 0 && index < study_count ? studies[index].name : NULL; }
+const char *lam_check_scene_name(int index)
+{
+    return index >= 0 && index < reference_scene_count ? reference_scenes[index].name : NULL;
+}
 
-const char *lam_check_scene_shows(int index) { return index >= 0 && index < study_count ? studies[index].shows : NULL; }
+const char *lam_check_scene_shows(int index)
+{
+    return index >= 0 && index < reference_scene_count ? reference_scenes[index].shows : NULL;
+}

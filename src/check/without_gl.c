@@ -19,18 +19,20 @@ bool lam_check_draw(const void *job, size_t size, const char *gl_device, lam_byt
     return left_out(error);
 }
 
-struct model *model_open(const char *gl_device, int size, lam_error *error)
+struct fault_shader *fault_shader_open(const char *gl_device, int size, lam_error *error)
 {
     (void)gl_device, (void)size;
     left_out(error);
     return NULL;
 }
 
-void model_close(struct model *model) { (void)model; }
+void fault_shader_close(struct fault_shader *model) { (void)model; }
 
-bool model_draw(struct model *model, const struct study *study, const struct reading *reading, int room,
-                lam_light_frame frame, lam_reflection reflection, mistake_set set, float *pixels, lam_error *error)
+bool fault_shader_draw(struct fault_shader *model, const struct reference_scene *reference_scene,
+                       const struct shader_interface *reading, int room, lam_light_frame frame,
+                       lam_reflection reflection, fault_set set, float *pixels, lam_error *error)
 {
-    (void)model, (void)study, (void)reading, (void)room, (void)frame, (void)reflection, (void)set, (void)pixels;
+    (void)model, (void)reference_scene, (void)reading, (void)room, (void)frame, (void)reflection, (void)set,
+        (void)pixels;
     return left_out(error);
 }

@@ -21,7 +21,7 @@ struct cpu_device {
     struct buffer lists;    // pieces, first vertices
     struct buffer products; // material × light
     struct buffer lights;   // their table
-    struct light_table light_table;
+    struct light_bounds light_bounds;
     struct buffer bins; // heads of all threads' bins
     struct seeing_room seeing;
     float decode_srgb[256], decode_linear[256];
@@ -29,7 +29,7 @@ struct cpu_device {
 
 // --- instruction sets
 
-static const char *const isa_names[LAM_ISA_COUNT] = {"auto", "plain", "sse4", "avx2", "avx512", "neon"};
+static const char *const isa_names[LAM_ISA_COUNT] = {"auto", "scalar", "sse4", "avx2", "avx512", "neon"};
 
 const char *lam_isa_name(lam_isa isa) { return (unsigned)isa < LAM_ISA_COUNT ? isa_names[isa] : NULL; }
 
@@ -39,8 +39,8 @@ static const struct kernels *kernels_of(lam_isa isa)
     unsigned have = cpu_features();
     (void)have;
     switch (isa) {
-    case LAM_ISA_PLAIN:
-        return &kernels_plain;
+    case LAM_ISA_SCALAR:
+        return &kernels_scalar;
 #if defined(__x86_64__)
     case LAM_ISA_SSE4:
         return have & CPU_SSE4 ? &kernels_sse4 : NULL;
@@ -64,7 +64,7 @@ static lam_isa widest_isa(void)
     for (int isa = LAM_ISA_COUNT - 1; isa > LAM_ISA_AUTO; isa--)
         if (kernels_of((lam_isa)isa))
             return (lam_isa)isa;
-    return LAM_ISA_PLAIN;
+    return LAM_ISA_SCALAR;
 }
 
 // --- memory
@@ -75,72 +75,72 @@ struct carving {
     size_t used;
 };
 
-static void *carve(struct carving *carving, size_t bytes)
+static void *suballocate(struct carving *carving, size_t bytes)
 {
     void *part = carving->at ? carving->at + carving->used : NULL;
     carving->used += (bytes + 63) & ~(size_t)63;
     return part;
 }
 
-static void carve_thread(struct carving *carving, struct thread_state *thread, const struct frame *frame)
+static void suballocate_thread(struct carving *carving, struct thread_state *thread, const struct frame *frame)
 {
     int samples = frame->samples;
     size_t entries = (size_t)TILE * TILE * (size_t)samples;
     size_t opaque = (size_t)fragments_of_tile(samples), points = 3 * (opaque + LANES_MAX);
     size_t fragments = (frame->translucent && opaque < LAYERS_MAX ? (size_t)LAYERS_MAX : opaque) + LANES_MAX;
-    thread->keys = carve(carving, entries * sizeof(float));
-    thread->ids = carve(carving, entries * sizeof(uint32_t));
-    thread->fragment_id = carve(carving, fragments * sizeof(uint32_t));
-    thread->fragment_pixel = carve(carving, fragments * sizeof(uint16_t));
-    thread->fragment_weight = carve(carving, fragments);
-    thread->fragment_sample = carve(carving, fragments);
-    thread->fragment_group = carve(carving, fragments * sizeof(uint32_t));
-    thread->order = carve(carving, fragments * sizeof(uint32_t));
-    thread->fragment_point = carve(carving, 3 * fragments * sizeof(uint32_t));
+    thread->keys = suballocate(carving, entries * sizeof(float));
+    thread->ids = suballocate(carving, entries * sizeof(uint32_t));
+    thread->fragment_id = suballocate(carving, fragments * sizeof(uint32_t));
+    thread->fragment_pixel = suballocate(carving, fragments * sizeof(uint16_t));
+    thread->fragment_weight = suballocate(carving, fragments);
+    thread->fragment_sample = suballocate(carving, fragments);
+    thread->fragment_group = suballocate(carving, fragments * sizeof(uint32_t));
+    thread->order = suballocate(carving, fragments * sizeof(uint32_t));
+    thread->fragment_point = suballocate(carving, 3 * fragments * sizeof(uint32_t));
     for (int c = 0; c < 4; c++) {
-        thread->fragment_color[c] = carve(carving, fragments * sizeof(float));
-        thread->sum[c] = carve(carving, (TILE * TILE + LANES_MAX) * sizeof(float));
+        thread->fragment_color[c] = suballocate(carving, fragments * sizeof(float));
+        thread->sum[c] = suballocate(carving, (TILE * TILE + LANES_MAX) * sizeof(float));
     }
     size_t slots = 64;
     while (slots < 2 * points)
         slots *= 2;
-    thread->point_table = carve(carving, slots * sizeof(uint32_t));
-    thread->point_color = carve(carving, points * sizeof *thread->point_color);
-    thread->point_key = carve(carving, points * sizeof *thread->point_key);
-    thread->points = carve(carving, sizeof *thread->points);
+    thread->point_table = suballocate(carving, slots * sizeof(uint32_t));
+    thread->point_color = suballocate(carving, points * sizeof *thread->point_color);
+    thread->point_key = suballocate(carving, points * sizeof *thread->point_key);
+    thread->points = suballocate(carving, sizeof *thread->points);
     if (light_lists_wanted(frame)) {
         size_t lights = (size_t)frame->light_count;
-        thread->choice.numbers = carve(carving, lights * sizeof *thread->choice.numbers);
-        thread->choice.most = carve(carving, lights * sizeof *thread->choice.most);
-        thread->choice.bits = carve(carving, (lights + 63) / 64 * sizeof *thread->choice.bits);
+        thread->choice.numbers = suballocate(carving, lights * sizeof *thread->choice.numbers);
+        thread->choice.most = suballocate(carving, lights * sizeof *thread->choice.most);
+        thread->choice.bits = suballocate(carving, (lights + 63) / 64 * sizeof *thread->choice.bits);
     }
-    thread->counts = frame->show == LAM_SHOW_OVERDRAW ? carve(carving, entries * sizeof(int32_t)) : NULL;
-    thread->shown = frame->show == LAM_SHOW_CLIPPED ? carve(carving, TILE * TILE * 4 * sizeof(float)) : NULL;
+    thread->counts = frame->show == LAM_OUTPUT_OVERDRAW ? suballocate(carving, entries * sizeof(int32_t)) : NULL;
+    thread->shown = frame->show == LAM_OUTPUT_CLIPPED ? suballocate(carving, TILE * TILE * 4 * sizeof(float)) : NULL;
     if (!frame->translucent)
         return;
-    thread->layer_samples = carve(carving, LAYERS_MAX * sizeof(uint16_t));
-    thread->layer_keys = carve(carving, (size_t)LAYERS_MAX * (size_t)samples * sizeof(float));
-    thread->layer_order = carve(carving, LAYERS_MAX * sizeof(uint32_t));
-    thread->layer_start = carve(carving, (TILE * TILE + 1) * sizeof(uint32_t));
-    thread->layers = carve(carving, LAYERS_MAX * sizeof *thread->layers);
-    thread->clear = carve(carving, opaque * sizeof(float));
+    thread->layer_samples = suballocate(carving, LAYERS_MAX * sizeof(uint16_t));
+    thread->layer_keys = suballocate(carving, (size_t)LAYERS_MAX * (size_t)samples * sizeof(float));
+    thread->layer_order = suballocate(carving, LAYERS_MAX * sizeof(uint32_t));
+    thread->layer_start = suballocate(carving, (TILE * TILE + 1) * sizeof(uint32_t));
+    thread->layers = suballocate(carving, LAYERS_MAX * sizeof *thread->layers);
+    thread->clear = suballocate(carving, opaque * sizeof(float));
 }
 
 static bool make_threads_ready(struct cpu_device *device, struct cpu_frame *cpu, lam_error *error)
 {
     size_t of_thread = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down * TILE_BINS;
     size_t bins = of_thread * (size_t)device->thread_count * sizeof(struct bin_block *);
-    if (!buffer_reserve(&device->bins, bins, cpu->watch, error))
+    if (!buffer_reserve(&device->bins, bins, cpu->call, error))
         return false;
     memset(device->bins.data, 0, bins);
     for (int i = 0; i < device->thread_count; i++) {
         struct thread_state *thread = &device->threads[i];
         struct carving carving = {0};
-        carve_thread(&carving, thread, cpu->frame);
-        if (!buffer_reserve(&thread->scratch, carving.used, cpu->watch, error))
+        suballocate_thread(&carving, thread, cpu->frame);
+        if (!buffer_reserve(&thread->scratch, carving.used, cpu->call, error))
             return false;
         carving = (struct carving){.at = thread->scratch.data};
-        carve_thread(&carving, thread, cpu->frame);
+        suballocate_thread(&carving, thread, cpu->frame);
         thread->bins = (struct bin_block **)device->bins.data + of_thread * (size_t)i;
         thread->blocks.current = thread->pieces.current = 0;
         thread->blocks.used = thread->pieces.used = 0;
@@ -156,7 +156,7 @@ static uint64_t cpu_memory(const struct lam_device *base)
     const struct cpu_device *device = (const struct cpu_device *)base;
     const struct seeing_room *seeing = &device->seeing;
     uint64_t bytes = device->vertices.room + device->lists.room + device->products.room + device->lights.room +
-                     device->bins.room + seeing->sets.room + seeing->normals.room + seeing->stashes.room;
+                     device->bins.room + seeing->sets.room + seeing->normals.room + seeing->fragment_stores.room;
     for (int i = 0; i < device->thread_count; i++) {
         const struct thread_state *thread = &device->threads[i];
         bytes += thread->scratch.room + slabs_bytes(&thread->blocks) + slabs_bytes(&thread->pieces);
@@ -181,7 +181,7 @@ static void cpu_free(struct lam_device *base)
     buffer_free(&device->bins);
     buffer_free(&device->seeing.sets);
     buffer_free(&device->seeing.normals);
-    buffer_free(&device->seeing.stashes);
+    buffer_free(&device->seeing.fragment_stores);
     free(device);
 }
 
@@ -219,9 +219,9 @@ static bool make_lists(struct cpu_device *device, struct cpu_frame *cpu, size_t 
                     (unsigned long long)vertices, INT32_MAX);
     size_t pieces = *vertex_pieces + *triangle_pieces;
     if (!buffer_reserve(&device->lists,
-                        pieces * sizeof(struct piece) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t), cpu->watch,
+                        pieces * sizeof(struct piece) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t), cpu->call,
                         error) ||
-        !buffer_reserve(&device->vertices, ((size_t)vertices * 3 + 1) * sizeof(float), cpu->watch, error))
+        !buffer_reserve(&device->vertices, ((size_t)vertices * 3 + 1) * sizeof(float), cpu->call, error))
         return false;
     cpu->vertices = device->vertices.data;
     struct piece *list = device->lists.data;
@@ -256,7 +256,7 @@ static bool make_products(struct cpu_device *device, struct cpu_frame *cpu, lam_
     size_t bytes;
     if (__builtin_mul_overflow(materials, each + sizeof(struct material_products), &bytes))
         return fail(error, LAM_LIMIT, "%zu materials under %zu lights are too many", materials, lights);
-    if (!buffer_reserve(&device->products, bytes, cpu->watch, error))
+    if (!buffer_reserve(&device->products, bytes, cpu->call, error))
         return false;
     struct material_products *products = device->products.data;
     char *at = (char *)(products + materials);
@@ -294,15 +294,15 @@ static bool make_products(struct cpu_device *device, struct cpu_frame *cpu, lam_
     cpu->materials = products;
     if (!light_lists_wanted(frame))
         return true;
-    cpu->lights = &device->light_table;
-    return light_table_make(&device->light_table, &device->lights, frame, products, cpu->watch, error);
+    cpu->lights = &device->light_bounds;
+    return light_bounds_make(&device->light_bounds, &device->lights, frame, products, cpu->call, error);
 }
 
 // --- the steps
 
 static bool still_on(const struct cpu_frame *cpu)
 {
-    return !__atomic_load_n(&cpu->failed, __ATOMIC_RELAXED) && watch_on(cpu->watch);
+    return !__atomic_load_n(&cpu->failed, __ATOMIC_RELAXED) && call_should_continue(cpu->call);
 }
 
 static void vertex_task(void *user, size_t index, int thread)
@@ -343,13 +343,14 @@ static void tile_task(void *user, size_t index, int number)
     if (!still_on(cpu))
         return;
     int tile_x = (int)(index % (size_t)cpu->tiles_across), tile_y = (int)(index / (size_t)cpu->tiles_across);
-    if ((cpu->stashes ? cpu->stashes[index].count > 0 : tile_has_triangles(cpu, index)) || cpu->recorder) {
+    if ((cpu->fragment_stores ? cpu->fragment_stores[index].count > 0 : tile_has_triangles(cpu, index)) ||
+        cpu->recorder) {
         int width = cpu->image->width - tile_x * TILE, height = cpu->image->height - tile_y * TILE;
         width = width < TILE ? width : TILE;
         height = height < TILE ? height : TILE;
         uint64_t start = now_ns();
-        if (cpu->stashes) {
-            cpu->kernels->take_stash(&cpu->stashes[index], thread, cpu->frame->samples);
+        if (cpu->fragment_stores) {
+            cpu->kernels->load_fragment_store(&cpu->fragment_stores[index], thread, cpu->frame->samples);
         } else {
             cpu->kernels->cover(cpu, thread, tile_x, tile_y);
             if (thread->translucent_triangles) {
@@ -361,11 +362,11 @@ static void tile_task(void *user, size_t index, int number)
         }
         group_fragments(cpu->frame, thread);
         uint64_t covered = now_ns();
-        lam_show show = cpu->frame->show;
-        if (show != LAM_SHOW_COVERAGE && show != LAM_SHOW_OVERDRAW)
+        lam_output show = cpu->frame->show;
+        if (show != LAM_OUTPUT_COVERAGE && show != LAM_OUTPUT_OVERDRAW)
             cpu->kernels->light(cpu, thread, tile_x, tile_y);
         uint64_t lit = now_ns();
-        if (lam_show_is_light(show))
+        if (lam_output_is_light(show))
             cpu->kernels->resolve(cpu, thread, tile_x, tile_y);
         else
             show_tile(cpu, thread, tile_x, tile_y, width, height);
@@ -376,7 +377,7 @@ static void tile_task(void *user, size_t index, int number)
         fill_empty_tile(cpu, tile_x, tile_y);
     }
     if (number == 0)
-        watch_progress(cpu->watch, (double)index / ((double)cpu->tiles_across * cpu->tiles_down), "frame");
+        call_progress(cpu->call, (double)index / ((double)cpu->tiles_across * cpu->tiles_down), "frame");
 }
 
 // Draws the one tile that holds the recorder's pixel, with the kernels that keep its numbers.
@@ -398,8 +399,8 @@ static bool step_done(const struct cpu_frame *cpu, lam_error *error)
                     "more than %d translucent triangles lie over one pixel: so many can be put in order, no more",
                     LAYERS_MAX);
     if (failed)
-        return watch_memory_error(cpu->watch, 2 << 20, error);
-    return watch_on(cpu->watch) || watch_error(cpu->watch, error);
+        return call_memory_error(cpu->call, 2 << 20, error);
+    return call_should_continue(cpu->call) || call_error(cpu->call, error);
 }
 
 static double milliseconds_since(uint64_t *start)
@@ -431,7 +432,7 @@ static void fill_report(lam_frame_report *report, const struct cpu_device *devic
     }
 }
 
-static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct watch *watch,
+static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct call_control *call,
                      lam_error *error)
 {
     struct cpu_device *device = (struct cpu_device *)base;
@@ -439,7 +440,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
                             .kernels = device->kernels,
                             .pattern = sample_pattern(frame->samples),
                             .image = image,
-                            .watch = watch,
+                            .call = call,
                             .pool = device->pool,
                             .threads = device->threads,
                             .decode_srgb = device->decode_srgb,
@@ -453,7 +454,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         !make_threads_ready(device, &cpu, error))
         return false;
     cpu.kernels->resolve_empty(&cpu);
-    if (!lam_show_is_light(frame->show))
+    if (!lam_output_is_light(frame->show))
         show_empty(&cpu);
 
     uint64_t clock = now_ns();
@@ -474,7 +475,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     else if (ok)
         pool_run(device->pool, (size_t)cpu.tiles_across * (size_t)cpu.tiles_down, tile_task, &cpu);
     seeing_room_empty(&device->seeing, device->thread_count);
-    base->report.tiles_ms = milliseconds_since(&clock) + (cpu.stashes ? device->seeing.search_ms : 0);
+    base->report.tiles_ms = milliseconds_since(&clock) + (cpu.fragment_stores ? device->seeing.search_ms : 0);
     fill_report(&base->report, device);
     return ok && step_done(&cpu, error);
 }

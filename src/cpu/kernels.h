@@ -1,5 +1,5 @@
 // kernels.h: the table of hot functions. One text, compiled once for each instruction set (kernels.c); every one gives
-// the same bits as `plain`.
+// the same bits as `scalar`.
 #ifndef KERNELS_H
 #define KERNELS_H
 
@@ -20,11 +20,11 @@ struct kernels {
                           const struct rectangle *rectangle);
     // Lists the opaque fragments of a tile: width × height pixels of it are in the picture.
     void (*collect)(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height);
-    // Keeps a tile's fragments, of triangles from stash->lowest to `highest`, in memory of the arena (false:
+    // Keeps a tile's fragments, of triangles from fragment_store->lowest to `highest`, in memory of the arena (false:
     // there is none), and takes them out again.
-    bool (*keep_stash)(struct stash *stash, const struct thread_state *thread, int samples, uint32_t highest,
-                       struct arena *arena);
-    void (*take_stash)(const struct stash *stash, struct thread_state *thread, int samples);
+    bool (*save_fragment_store)(struct fragment_store *fragment_store, const struct thread_state *thread, int samples,
+                                uint32_t highest, struct arena *arena);
+    void (*load_fragment_store)(const struct fragment_store *fragment_store, struct thread_state *thread, int samples);
     // Colours the thread's fragments.
     void (*light)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
     // Sums the fragments of a tile into its pixels, under the blended layers where there are any, and writes those into
@@ -34,9 +34,9 @@ struct kernels {
     void (*resolve_empty)(struct cpu_frame *cpu);
 };
 
-// Those of `plain`, which also keep the numbers of one pixel (record.inc).
+// Those of `scalar`, which also keep the numbers of one pixel (record.inc).
 extern const struct kernels kernels_recording;
 
-extern const struct kernels kernels_plain, kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon, kernels_wasm;
+extern const struct kernels kernels_scalar, kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon, kernels_wasm;
 
 #endif

@@ -107,7 +107,7 @@ struct runs {
     float row[RUN_ROWS][POINTS_AT_ONCE + LANES_MAX];
 };
 
-struct lit_points {
+struct shading_batch {
     float p[3][POINT_ROW], n[3][POINT_ROW], v[3][POINT_ROW], t[3][POINT_ROW];
     float color[3][POINT_ROW], alpha[POINT_ROW];    // of the vertices, then as seen
     uint32_t triangle[POINT_ROW];                   // of the mesh
@@ -149,10 +149,10 @@ struct thread_state {
     uint32_t *fragment_point; // 3 per run of fragments
     float (*point_color)[4];  // r, g, b, a of each
     uint32_t point_count;
-    struct lit_points *points;
+    struct shading_batch *points;
     struct light_choice choice;
     int32_t *counts; // triangles that cover each sample; NULL: nobody asks (output.c)
-    float *shown;    // the tile's part of the picture, for LAM_SHOW_CLIPPED
+    float *shown;    // the tile's part of the picture, for LAM_OUTPUT_CLIPPED
     // Sums of a tile's pixels: r, g, b premultiplied, and alpha.
     float *sum[4];
 
@@ -191,7 +191,7 @@ struct material_products {
 struct kernels;
 
 // What is kept of a tile's fragments while normals are made for all that is seen.
-struct stash {
+struct fragment_store {
     int count;
     uint32_t lowest; // of their triangles' numbers
     bool narrow;     // the others follow within 23 bits
@@ -203,7 +203,7 @@ struct cpu_frame {
     const struct kernels *kernels;
     const struct sample_pattern *pattern;
     lam_image *image;
-    struct watch *watch;
+    struct call_control *call;
     struct pool *pool;
     int tiles_across, tiles_down;
     // |x|, |y| of a vertex up to which the fast path takes it, in multiples of w, about the window's middle
@@ -212,14 +212,14 @@ struct cpu_frame {
     const uint32_t *first_vertex; // of each draw
     const struct piece *vertex_pieces, *triangle_pieces;
     const struct material_products *materials;
-    const struct light_table *lights; // NULL: every light is evaluated everywhere
+    const struct light_bounds *lights; // NULL: every light is evaluated everywhere
     struct thread_state *threads;
     const float *decode_srgb, *decode_linear; // 256 entries each: what a colour byte stands for
     struct recorder *recorder; // of the one pixel that is explained (recorder.h), in the recording kernels; else NULL
     struct seen_normals seen;  // of draws whose meshes have none; its set is of the frame's triangle numbers
-    struct stash *stashes;     // of each tile; NULL: tiles are drawn in one go
-    uint8_t empty_pixel[16];   // what a pixel without fragments holds
-    int failed;                // enum failure, set atomically by a worker
+    struct fragment_store *fragment_stores; // of each tile; NULL: tiles are drawn in one go
+    uint8_t empty_pixel[16];                // what a pixel without fragments holds
+    int failed;                             // enum failure, set atomically by a worker
 };
 
 enum failure {
@@ -286,15 +286,15 @@ void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const str
 // For frames that make normals (frame.h): finds the triangles that the frame shows, and makes the normals of
 // those. Where the opaque ones are all there is, each tile's fragments are found on the way and kept; else
 // every triangle that is in a bin counts. The memory is the device's, and lasts from frame to frame but for
-// the stashes.
+// the fragment_stores.
 struct seeing_room {
-    struct buffer sets, normals, stashes;
+    struct buffer sets, normals, fragment_stores;
     struct buffer *vertices; // of the device: normals may lie there once the tiles are searched
-    struct arena *arenas;    // of each thread, for the stashes
+    struct arena *arenas;    // of each thread, for the fragment_stores
     double search_ms;        // of the last frame: finding what the tiles show
 };
 bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error);
-void seeing_room_empty(struct seeing_room *room, int threads); // ends the stashes
+void seeing_room_empty(struct seeing_room *room, int threads); // ends the fragment_stores
 
 // Finds the groups of the listed fragments, and their order by group.
 void group_fragments(const struct frame *frame, struct thread_state *thread);
@@ -303,7 +303,7 @@ void group_fragments(const struct frame *frame, struct thread_state *thread);
 // sums (premultiplied) and `clear`.
 void blend_tile(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height);
 
-// What the picture holds where it shows numbers (lam_show): the pixels of a tile, in place of the kernels' resolve, and
+// What the picture holds where it shows numbers (lam_output): the pixels of a tile, in place of the kernels' resolve, and
 // a pixel without fragments.
 void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height);
 void show_empty(struct cpu_frame *cpu);

@@ -27,29 +27,29 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
         return fail(error, LAM_BAD_ARGUMENT, "lam_draw: %s is NULL", !device ? "device" : !scene ? "scene" : "camera");
     if (!check_image(image, error))
         return false;
-    struct watch watch;
-    watch_start(&watch, control);
+    struct call_control call;
+    call_start(&call, control);
     // What the device holds already counts towards the budget.
     uint64_t held = device->type->memory(device) + device->frame.storage.room;
     memset(&device->report, 0, sizeof device->report);
-    if (!watch_charge(&watch, held))
-        return watch_memory_error(&watch, held, error);
+    if (!call_charge(&call, held))
+        return call_memory_error(&call, held, error);
     uint64_t state = float_state_enter();
-    bool ok = frame_build(&device->frame, scene, camera, params ? params : &plain, image->width, image->height, &watch,
-                          error);
-    device->report.frame_ms = (double)(now_ns() - watch.start_ns) * 1e-6;
+    bool ok =
+        frame_build(&device->frame, scene, camera, params ? params : &plain, image->width, image->height, &call, error);
+    device->report.frame_ms = (double)(now_ns() - call.start_ns) * 1e-6;
     device->report.triangles = device->frame.triangle_count;
     if (ok && device->frame.makes_normals && !device->type->makes_normals)
         ok = fail(error, LAM_UNSUPPORTED,
                   "lam_draw: meshes of the scene have no normals (normals_when_drawn), which this device "
                   "does not make; "
                   "lam_scene_make_normals does");
-    ok = ok && device->type->draw(device, &device->frame, image, &watch, error);
-    device->report.total_ms = (double)(now_ns() - watch.start_ns) * 1e-6;
+    ok = ok && device->type->draw(device, &device->frame, image, &call, error);
+    device->report.total_ms = (double)(now_ns() - call.start_ns) * 1e-6;
     device->report.memory_bytes = device->type->memory(device) + device->frame.storage.room;
     float_state_leave(state);
     if (ok)
-        watch_progress(&watch, 1, "frame");
+        call_progress(&call, 1, "frame");
     return ok;
 }
 

@@ -1,5 +1,5 @@
 // encode_values.c: pixels that hold numbers of the surfaces in place of colours: their code in 8 bits
-// (lam_show in lambent/device.h says it). Plain C, one code for all devices.
+// (lam_output in lambent/device.h says it). Plain C, one code for all devices.
 #include "encode_values.h"
 
 #include <string.h>
@@ -24,10 +24,10 @@ static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
     static const uint8_t front[3] = {0, 102, 255}, back[3] = {255, 51, 0};
     out[3] = 255;
     switch (frame->show) {
-    case LAM_SHOW_IDS:
+    case LAM_OUTPUT_IDS:
         color_of_ids(v, out);
         return;
-    case LAM_SHOW_FACING:
+    case LAM_OUTPUT_FACING:
         memcpy(out, v[0] > 0 ? front : back, 3);
         return;
     default:
@@ -35,14 +35,14 @@ static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
     }
     for (int c = 0; c < 3; c++)
         switch (frame->show) {
-        case LAM_SHOW_NORMALS:
-        case LAM_SHOW_TANGENTS:
+        case LAM_OUTPUT_NORMALS:
+        case LAM_OUTPUT_TANGENTS:
             out[c] = byte_of((v[c] + 1.0f) * 0.5f);
             break;
-        case LAM_SHOW_DEPTH:
+        case LAM_OUTPUT_DEPTH:
             out[c] = byte_of((frame->far_plane - v[c]) / (frame->far_plane - frame->near_plane));
             break;
-        case LAM_SHOW_OVERDRAW:
+        case LAM_OUTPUT_OVERDRAW:
             out[c] = byte_of(v[c] / (v[c] + 3.0f));
             break;
         default: // cosines, coverage

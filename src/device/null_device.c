@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool null_draw(struct lam_device *device, const struct frame *frame, lam_image *image, struct watch *watch,
+static bool null_draw(struct lam_device *device, const struct frame *frame, lam_image *image, struct call_control *call,
                       lam_error *error)
 {
     (void)device;
     (void)frame;
     size_t bytes = (size_t)image->width * (size_t)image->height * (image->format == LAM_RGBA8 ? 4 : 16);
     memset(image->pixels, 0, bytes);
-    return watch_on(watch) || watch_error(watch, error);
+    return call_should_continue(call) || call_error(call, error);
 }
 
 static uint64_t null_memory(const struct lam_device *device)

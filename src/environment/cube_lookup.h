@@ -31,8 +31,8 @@ LANE_FN struct cube_place cube_place(num x, num y, num z, int size)
     struct cube_place place;
     place.face = wrap_add(axis, ipick(minus, inum_of(1), inum_of(0)));
     // Clamped with NaN, 0/0, to the middle of the border.
-    place.s = lesser(greater(across / major * half + middle, least), most);
-    place.t = lesser(greater(down / major * half + middle, least), most);
+    place.s = min_of(max_of(across / major * half + middle, least), most);
+    place.t = min_of(max_of(down / major * half + middle, least), most);
     return place;
 }
 

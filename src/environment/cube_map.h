@@ -34,10 +34,11 @@ static inline size_t cube_bytes(int size)
 }
 
 // lam_environment_load_faces and lam_environment_load within a call that has its watch already.
-struct watch;
+struct call_control;
 struct lam_environment *environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
-                                               struct watch *watch, lam_error *error);
-struct lam_environment *environment_load(const char *path, lam_color_mode color, struct watch *watch, lam_error *error);
+                                               struct call_control *call, lam_error *error);
+struct lam_environment *environment_load(const char *path, lam_color_mode color, struct call_control *call,
+                                         lam_error *error);
 
 // Fills the borders from the faces.
 void cube_close(struct lam_environment *cube);

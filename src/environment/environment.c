@@ -10,10 +10,10 @@
 
 // --- memory
 
-// Takes it from the call's budget; `watch` NULL: none.
-static bool charge(struct watch *watch, size_t bytes, lam_error *error)
+// Takes it from the call's budget; `call` NULL: none.
+static bool charge(struct call_control *call, size_t bytes, lam_error *error)
 {
-    return !watch || watch_charge(watch, bytes) || watch_memory_error(watch, bytes, error);
+    return !call || call_charge(call, bytes) || call_memory_error(call, bytes, error);
 }
 
 static size_t bytes_of(const lam_image *image)
@@ -21,9 +21,9 @@ static size_t bytes_of(const lam_image *image)
     return image->pixels ? (size_t)image->width * (size_t)image->height * 4 * sizeof(float) : 0;
 }
 
-static struct lam_environment *cube_within(struct watch *watch, int size, lam_error *error)
+static struct lam_environment *cube_within(struct call_control *call, int size, lam_error *error)
 {
-    return charge(watch, cube_bytes(size), error) ? cube_make(size, error) : NULL;
+    return charge(call, cube_bytes(size), error) ? cube_make(size, error) : NULL;
 }
 
 // --- pieces of pictures to faces
@@ -56,15 +56,15 @@ static bool copy_face(struct lam_environment *cube, int face, const struct piece
 }
 
 static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE_COUNT],
-                                              const char *const names[LAM_FACE_COUNT], int size, struct watch *watch,
-                                              lam_error *error)
+                                              const char *const names[LAM_FACE_COUNT], int size,
+                                              struct call_control *call, lam_error *error)
 {
     if (size > CUBE_SIDE_MOST) {
         fail(error, LAM_LIMIT, "%s: a face of %d×%d pixels, expected at most %d×%d", names[0], size, size,
              CUBE_SIDE_MOST, CUBE_SIDE_MOST);
         return NULL;
     }
-    struct lam_environment *cube = cube_within(watch, size, error);
+    struct lam_environment *cube = cube_within(call, size, error);
     for (int face = 0; cube && face < LAM_FACE_COUNT; face++) {
         if (!copy_face(cube, face, &pieces[face], names[face], error)) {
             lam_environment_free(cube);
@@ -77,7 +77,7 @@ static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE
 }
 
 static struct lam_environment *cube_of_faces(const lam_image *faces, const char *const names[LAM_FACE_COUNT],
-                                             struct watch *watch, lam_error *error)
+                                             struct call_control *call, lam_error *error)
 {
     struct piece pieces[LAM_FACE_COUNT];
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
@@ -88,7 +88,7 @@ static struct lam_environment *cube_of_faces(const lam_image *faces, const char 
              names[face], faces[face].width, faces[face].height, faces[0].width, faces[0].width);
         return NULL;
     }
-    return cube_of_pieces(pieces, names, faces[0].width, watch, error);
+    return cube_of_pieces(pieces, names, faces[0].width, call, error);
 }
 
 // --- an equirectangular picture
@@ -129,7 +129,7 @@ static bool check_light(const lam_image *image, const char *name, lam_error *err
     return true;
 }
 
-static struct lam_environment *cube_of_sphere(const lam_image *image, const char *name, struct watch *watch,
+static struct lam_environment *cube_of_sphere(const lam_image *image, const char *name, struct call_control *call,
                                               lam_error *error)
 {
     int size = (int)((double)image->width / PI) + 1;
@@ -138,7 +138,7 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
              (int)(CUBE_SIDE_MOST * PI));
         return NULL;
     }
-    struct lam_environment *cube = check_light(image, name, error) ? cube_within(watch, size, error) : NULL;
+    struct lam_environment *cube = check_light(image, name, error) ? cube_within(call, size, error) : NULL;
     if (!cube)
         return NULL;
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
@@ -155,7 +155,7 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
 }
 
 // One linear picture, by the ratio of its sides.
-static struct lam_environment *cube_of_image(const lam_image *image, const char *name, struct watch *watch,
+static struct lam_environment *cube_of_image(const lam_image *image, const char *name, struct call_control *call,
                                              lam_error *error)
 {
     static const int lying[LAM_FACE_COUNT][2] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}};
@@ -163,7 +163,7 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
     int64_t width = image->width, height = image->height;
     bool lies = width % 4 == 0 && 3 * width == 4 * height, stands = width % 3 == 0 && 4 * width == 3 * height;
     if (width == 2 * height)
-        return cube_of_sphere(image, name, watch, error);
+        return cube_of_sphere(image, name, call, error);
     if (!lies && !stands) {
         fail(error, LAM_UNSUPPORTED,
              "%s: %d×%d pixels, expected a cross of six squares (4:3 or 3:4) or an equirectangular picture "
@@ -179,7 +179,7 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
         pieces[face] = (struct piece){image, at[0] * size, at[1] * size, stands && face == LAM_FACE_NZ};
         names[face] = name;
     }
-    return cube_of_pieces(pieces, names, size, watch, error);
+    return cube_of_pieces(pieces, names, size, call, error);
 }
 
 // --- pictures of the caller
@@ -231,45 +231,46 @@ lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mo
 // --- files
 
 // A file's picture, linear; its memory is the caller's to refund.
-static bool load_picture(lam_image *image, const char *path, lam_color_mode color, struct watch *watch,
+static bool load_picture(lam_image *image, const char *path, lam_color_mode color, struct call_control *call,
                          lam_error *error)
 {
-    if (!watch_on(watch))
-        return watch_error(watch, error);
+    if (!call_should_continue(call))
+        return call_error(call, error);
     if (!lam_image_load_linear(image, path, color, error))
         return false;
-    if (charge(watch, bytes_of(image), error))
+    if (charge(call, bytes_of(image), error))
         return true;
     lam_image_free(image);
     return false;
 }
 
 struct lam_environment *environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
-                                               struct watch *watch, lam_error *error)
+                                               struct call_control *call, lam_error *error)
 {
     lam_image faces[LAM_FACE_COUNT] = {{0}};
     bool ok = paths || fail(error, LAM_BAD_ARGUMENT, "environment: no faces are given");
     for (int face = 0; ok && face < LAM_FACE_COUNT; face++)
-        ok = load_picture(&faces[face], paths[face], color, watch, error);
+        ok = load_picture(&faces[face], paths[face], color, call, error);
     uint64_t state = float_state_enter();
-    struct lam_environment *cube = ok ? cube_of_faces(faces, paths, watch, error) : NULL;
+    struct lam_environment *cube = ok ? cube_of_faces(faces, paths, call, error) : NULL;
     float_state_leave(state);
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
-        watch_refund(watch, bytes_of(&faces[face]));
+        call_refund(call, bytes_of(&faces[face]));
         lam_image_free(&faces[face]);
     }
     return cube;
 }
 
-struct lam_environment *environment_load(const char *path, lam_color_mode color, struct watch *watch, lam_error *error)
+struct lam_environment *environment_load(const char *path, lam_color_mode color, struct call_control *call,
+                                         lam_error *error)
 {
     lam_image image = {0};
-    if (!load_picture(&image, path, color, watch, error))
+    if (!load_picture(&image, path, color, call, error))
         return NULL;
     uint64_t state = float_state_enter();
-    struct lam_environment *cube = cube_of_image(&image, path, watch, error);
+    struct lam_environment *cube = cube_of_image(&image, path, call, error);
     float_state_leave(state);
-    watch_refund(watch, bytes_of(&image));
+    call_refund(call, bytes_of(&image));
     lam_image_free(&image);
     return cube;
 }
@@ -277,15 +278,15 @@ struct lam_environment *environment_load(const char *path, lam_color_mode color,
 lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
                                             const lam_control *control, lam_error *error)
 {
-    struct watch watch;
-    watch_start(&watch, control);
-    return environment_load_faces(paths, color, &watch, error);
+    struct call_control call;
+    call_start(&call, control);
+    return environment_load_faces(paths, color, &call, error);
 }
 
 lam_environment *lam_environment_load(const char *path, lam_color_mode color, const lam_control *control,
                                       lam_error *error)
 {
-    struct watch watch;
-    watch_start(&watch, control);
-    return environment_load(path, color, &watch, error);
+    struct call_control call;
+    call_start(&call, control);
+    return environment_load(path, color, &call, error);
 }

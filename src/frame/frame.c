@@ -54,7 +54,7 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
     if (!(params->light_cutoff >= -3e38f && params->light_cutoff <= 1))
         return fail(error, LAM_BAD_ARGUMENT, "light_cutoff is %g, expected at most 1", (double)params->light_cutoff);
-    if ((unsigned)params->show >= LAM_SHOW_COUNT || params->show_light < 0)
+    if ((unsigned)params->show >= LAM_OUTPUT_COUNT || params->show_light < 0)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: show or show_light is out of its range");
     if (params->shading == LAM_SHADING_PHONG &&
         (params->stage == LAM_STAGE_APPLICATION || params->stage == LAM_STAGE_VERTEX))
@@ -280,9 +280,9 @@ static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig ri
     if (only >= scene->lights.count + count)
         return fail(error, LAM_BAD_ARGUMENT, "show_light is %d, but the frame has %d lights, counted from 0", only,
                     scene->lights.count + count);
-    if (only >= 0 && frame->show != LAM_SHOW_LIGHT && !frame->light_count)
+    if (only >= 0 && frame->show != LAM_OUTPUT_LIGHT && !frame->light_count)
         return fail(error, LAM_BAD_ARGUMENT, "%s: light %d comes from everywhere, expected one with a direction",
-                    lam_show_name(frame->show), only);
+                    lam_output_name(frame->show), only);
     return true;
 }
 
@@ -299,7 +299,7 @@ static void build_surfaces(struct frame *frame, const lam_scene *scene, int draw
             continue;
         int front = material_index(object->material >= 0 ? object->material : part->material);
         int back = object->back_material >= 0 ? material_index(object->back_material) : front;
-        struct frame_surface *last = frame->surface_count ? &frame->surfaces[frame->surface_count - 1] : NULL;
+        struct frame_draw_range *last = frame->surface_count ? &frame->surfaces[frame->surface_count - 1] : NULL;
         if (last && last->draw == draw_index && last->front == front && last->back == back) {
             last->count += part->triangle_count;
             continue;
@@ -307,13 +307,13 @@ static void build_surfaces(struct frame *frame, const lam_scene *scene, int draw
         bool translucent = scene_extent(scene, object->mesh)->translucent || frame->materials[front]->diffuse.a < 1 ||
                            (!draw->one_sided && frame->materials[back]->diffuse.a < 1);
         frame->translucent |= translucent;
-        frame->surfaces[frame->surface_count++] = (struct frame_surface){
+        frame->surfaces[frame->surface_count++] = (struct frame_draw_range){
             draw->first_id + part->first_triangle, part->triangle_count, draw_index, front, back, translucent};
     }
 }
 
 // Cuts the frame's arrays out of its storage.
-static bool make_room(struct frame *frame, const lam_scene *scene, struct watch *watch, lam_error *error)
+static bool make_room(struct frame *frame, const lam_scene *scene, struct call_control *call, lam_error *error)
 {
     size_t objects = (size_t)scene->objects.count, surfaces = 0,
            lights = (size_t)scene->lights.count + LAM_RIG_LIGHTS_MAX;
@@ -325,7 +325,7 @@ static bool make_room(struct frame *frame, const lam_scene *scene, struct watch 
     size_t bytes = objects * sizeof *frame->draws + surfaces * sizeof *frame->surfaces +
                    lights * sizeof *frame->lights + lights * sizeof *frame->hemispheres +
                    materials * sizeof *frame->materials + 64;
-    if (!buffer_reserve(&frame->storage, bytes, watch, error))
+    if (!buffer_reserve(&frame->storage, bytes, call, error))
         return false;
     char *at = frame->storage.data;
     frame->materials = (void *)at; // pointers first, for their alignment
@@ -359,9 +359,9 @@ static void build_environment(struct frame *frame, const lam_scene *scene, const
 }
 
 bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
-                 int width, int height, struct watch *watch, lam_error *error)
+                 int width, int height, struct call_control *call, lam_error *error)
 {
-    if (!check_camera(camera, error) || !check_params(params, error) || !make_room(frame, scene, watch, error))
+    if (!check_camera(camera, error) || !check_params(params, error) || !make_room(frame, scene, call, error))
         return false;
     frame->token = scene->token;
     frame->width = width;
@@ -420,12 +420,12 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     }
     frame->triangle_count = (uint32_t)next;
     // Faces have their own normals, and counts of triangles ask for none.
-    if (lam_show_is_light(frame->show)
+    if (lam_output_is_light(frame->show)
             ? frame->shading == LAM_SHADING_FLAT && frame->flat_normal == LAM_FLAT_NORMAL_FACE
-            : frame->show == LAM_SHOW_COVERAGE || frame->show == LAM_SHOW_OVERDRAW)
+            : frame->show == LAM_OUTPUT_COVERAGE || frame->show == LAM_OUTPUT_OVERDRAW)
         frame->makes_normals = false;
     // Numbers are those of the nearest surface, however clear it is.
-    if (!lam_show_is_light(frame->show) && frame->show != LAM_SHOW_CLIPPED)
+    if (!lam_output_is_light(frame->show) && frame->show != LAM_OUTPUT_CLIPPED)
         frame->translucent = false;
     return build_lights(frame, scene, params->rig, shows_one_light(frame->show) ? params->show_light : -1, &view,
                         error);

@@ -28,7 +28,7 @@ struct frame_draw {
 };
 
 // A run of triangles of one draw with the same materials.
-struct frame_surface {
+struct frame_draw_range {
     uint32_t first_id, count;
     int draw;
     int front, back;  // indices into materials
@@ -81,7 +81,7 @@ struct frame {
     lam_reflection reflection; // never AUTO
     lam_flat_normal flat_normal;
     bool match_highlights, gl1;
-    lam_show show;
+    lam_output show;
     // share of the encoded range that lights left out may be worth together; 0: none is left out
     float light_cutoff;
     bool distant_viewer; // v = +z for every point: an orthographic camera, or asked for
@@ -93,7 +93,7 @@ struct frame {
 
     struct frame_draw *draws;
     int draw_count;
-    struct frame_surface *surfaces; // in the order of first_id, covering all numbers
+    struct frame_draw_range *surfaces; // in the order of first_id, covering all numbers
     int surface_count;
     uint32_t triangle_count;
     const lam_material **materials; // 0: the default material; 1 + i: the scene's
@@ -113,19 +113,19 @@ struct frame {
 };
 
 // Whether lights but one are left out.
-static inline bool shows_one_light(lam_show show)
+static inline bool shows_one_light(lam_output show)
 {
-    return show == LAM_SHOW_LIGHT || show == LAM_SHOW_N_L || show == LAM_SHOW_N_H;
+    return show == LAM_OUTPUT_LIGHT || show == LAM_OUTPUT_N_L || show == LAM_OUTPUT_N_H;
 }
 
 // Builds the frame; keeps its storage from call to call. Errors: LAM_BAD_ARGUMENT (camera or parameters out of range),
 // LAM_LIMIT (memory, too many triangles).
 bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
-                 int width, int height, struct watch *watch, lam_error *error);
+                 int width, int height, struct call_control *call, lam_error *error);
 void frame_free(struct frame *frame);
 
 // The surface that a triangle number belongs to.
-static inline int frame_surface_of(const struct frame *frame, uint32_t id)
+static inline int frame_draw_range_of(const struct frame *frame, uint32_t id)
 {
     int low = 0, high = frame->surface_count - 1;
     while (low < high) {

@@ -9,9 +9,9 @@
 #include <lambent/light_eval.h>
 
 // The part of a light that attenuation and cone look at.
-static source reach_of(const struct frame_light *light)
+static light_source reach_of(const struct frame_light *light)
 {
-    return (source){
+    return (light_source){
         .constant = light->attenuation[0],
         .linear = light->attenuation[1],
         .quadratic = light->attenuation[2],

@@ -14,7 +14,7 @@ enum {
 };
 
 struct boxing {
-    struct box_tree *tree;
+    struct aabb_tree *tree;
     box_of_six *boxes;
     const float *positions;
     const uint32_t *used;
@@ -42,8 +42,8 @@ static void box_of_row(const float *p, size_t count, box_of_six box)
     for (size_t i = 0; i < fours; i++, p += 12)
         for (int k = 0; k < 3; k++) {
             num four = num_load(p + 4 * k);
-            low[k] = lesser(four, low[k]);
-            high[k] = greater(four, high[k]);
+            low[k] = min_of(four, low[k]);
+            high[k] = max_of(four, high[k]);
         }
     float lows[12], highs[12];
     memcpy(lows, low, sizeof lows);
@@ -78,7 +78,7 @@ static void box_of_boxes(const box_of_six *below, size_t count, box_of_six box)
 // The boxes `first` to `end` of a level from those below it.
 static void box_level(const struct boxing *boxing, int level, size_t first, size_t end)
 {
-    const struct box_tree *tree = boxing->tree;
+    const struct aabb_tree *tree = boxing->tree;
     for (size_t i = first; i < end; i++) {
         size_t child = i * BOX_CHILDREN;
         box_of_boxes((const box_of_six *)boxing->boxes + tree->first[level - 1] + child,
@@ -91,7 +91,7 @@ static void box_piece(void *user, size_t index, int thread)
 {
     (void)thread;
     const struct boxing *boxing = user;
-    const struct box_tree *tree = boxing->tree;
+    const struct aabb_tree *tree = boxing->tree;
     size_t each = PIECE / tree->block, first = index * each, end = box_end(first, each, tree->count[0]);
     for (size_t i = first; i < end; i++) {
         size_t vertex = i * tree->block;
@@ -101,10 +101,10 @@ static void box_piece(void *user, size_t index, int thread)
         box_level(boxing, 1, first / BOX_CHILDREN, (end + BOX_CHILDREN - 1) / BOX_CHILDREN);
 }
 
-bool box_tree_make(struct box_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count, struct arena *arena,
-                   struct pool *pool, lam_error *error)
+bool box_tree_make(struct aabb_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count,
+                   struct arena *arena, struct pool *pool, lam_error *error)
 {
-    *tree = (struct box_tree){.block = mesh->indices ? BLOCK_SHARED : BLOCK_CORNERS, .vertices = count};
+    *tree = (struct aabb_tree){.block = mesh->indices ? BLOCK_SHARED : BLOCK_CORNERS, .vertices = count};
     if (!count)
         return true;
     size_t boxes = 0, each = tree->block, below = count;
@@ -117,7 +117,7 @@ bool box_tree_make(struct box_tree *tree, const lam_mesh *mesh, const uint32_t *
     } while (below > BOX_CHILDREN);
     struct boxing boxing = {tree, arena_array(arena, boxes, sizeof *boxing.boxes), mesh->positions, used};
     if (!boxing.boxes)
-        return watch_memory_error(arena->watch, boxes * sizeof *boxing.boxes, error);
+        return call_memory_error(arena->call, boxes * sizeof *boxing.boxes, error);
     pool_run(pool, (count + PIECE - 1) / PIECE, box_piece, &boxing);
     for (int level = 2; level < tree->levels; level++)
         box_level(&boxing, level, 0, tree->count[level]);
@@ -125,7 +125,7 @@ bool box_tree_make(struct box_tree *tree, const lam_mesh *mesh, const uint32_t *
     return true;
 }
 
-void box_tree_whole(const struct box_tree *tree, box_of_six whole)
+void box_tree_whole(const struct aabb_tree *tree, box_of_six whole)
 {
     box_of_boxes(boxes_of_level(tree, tree->levels - 1), tree->count[tree->levels - 1], whole);
 }

@@ -18,7 +18,7 @@ typedef float box_of_six[6];
 
 // Box i of the lowest level holds `block` used vertices from number i · block on, one of the next level
 // BOX_CHILDREN of those below. The topmost level has at most BOX_CHILDREN.
-struct box_tree {
+struct aabb_tree {
     const box_of_six *boxes; // level after level from the lowest; NULL: no vertices
     size_t block;
     size_t vertices;
@@ -27,13 +27,13 @@ struct box_tree {
 };
 
 // `used` lists the vertices that count, in order (NULL: the first `count`). False when memory is out.
-bool box_tree_make(struct box_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count, struct arena *arena,
-                   struct pool *pool, lam_error *error);
+bool box_tree_make(struct aabb_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count,
+                   struct arena *arena, struct pool *pool, lam_error *error);
 
 // The box around everything. Only of a tree with vertices.
-void box_tree_whole(const struct box_tree *tree, box_of_six whole);
+void box_tree_whole(const struct aabb_tree *tree, box_of_six whole);
 
-static inline const box_of_six *boxes_of_level(const struct box_tree *tree, int level)
+static inline const box_of_six *boxes_of_level(const struct aabb_tree *tree, int level)
 {
     return tree->boxes + tree->first[level];
 }

@@ -50,10 +50,10 @@ struct clip {
     uint32_t leaves;   // a power of two; 0: no points
 };
 
-void triangulator_start(struct triangulator *scratch, struct watch *watch)
+void triangulator_start(struct triangulator *scratch, struct call_control *call)
 {
-    *scratch = (struct triangulator){.watch = watch};
-    arena_start(&scratch->memory, watch);
+    *scratch = (struct triangulator){.call = call};
+    arena_start(&scratch->memory, call);
 }
 
 void triangulator_stop(struct triangulator *scratch)
@@ -376,11 +376,11 @@ static void cut(struct clip *clip, uint32_t i)
 }
 
 // Cuts off corner after corner. False: the watch said stop.
-static bool clip_ears(struct clip *clip, uint32_t count, struct watch *watch, uint32_t *triples)
+static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *call, uint32_t *triples)
 {
     uint32_t left = count;
     for (uint64_t looks = 0; left > 3; looks++) {
-        if (looks % 1024 == 1023 && !watch_on(watch))
+        if (looks % 1024 == 1023 && !call_should_continue(call))
             return false;
         int level = LEVEL_EAR;
         while (level < LEVEL_ANY && clip->first[level] == NONE)
@@ -470,5 +470,5 @@ bool triangulate(struct triangulator *scratch, const float *positions, const uin
     for (uint32_t slot = points; slot < clip.leaves * LEAF; slot++)
         clip.points[slot] = NONE;
     build_tree(&clip, points);
-    return clip_ears(&clip, count, scratch->watch, triples);
+    return clip_ears(&clip, count, scratch->call, triples);
 }

@@ -17,17 +17,17 @@
 // Scratch memory, kept from polygon to polygon. One for each thread.
 struct triangulator {
     struct arena memory;
-    struct watch *watch;
+    struct call_control *call;
     void *block;
     size_t room; // bytes at block
 };
 
-void triangulator_start(struct triangulator *scratch, struct watch *watch); // `watch` may be NULL
+void triangulator_start(struct triangulator *scratch, struct call_control *call); // `call` may be NULL
 void triangulator_stop(struct triangulator *scratch);
 
 // Cuts the polygon whose corner i lies at positions[3·corners[i] …] (finite numbers), count ≥ 3, and writes
 // count − 2 triples of corner numbers (0 … count − 1, so that every attribute can follow) to `triples`, wound
-// as the polygon is. False when memory is out or the watch says stop (watch_on then tells which); never for
+// as the polygon is. False when memory is out or the watch says stop (call_should_continue then tells which); never for
 // up to four corners.
 bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
                  uint32_t *triples);

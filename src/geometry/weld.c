@@ -34,7 +34,7 @@ struct welding {
     uint32_t *position_of;
     uint32_t positions;
     struct pool *pool;
-    struct halt halt;
+    struct loop_status loop;
 
     size_t chunks, chunk;
     unsigned partitions, partition_shift;
@@ -60,7 +60,7 @@ static void count_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     struct welding *w = user;
-    if (!goes_on(&w->halt))
+    if (!should_continue(&w->loop))
         return;
     uint32_t *counts = w->starts + index * w->partitions, bits[3];
     memset(counts, 0, w->partitions * sizeof *counts);
@@ -72,7 +72,7 @@ static void spread_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     struct welding *w = user;
-    if (!goes_on(&w->halt))
+    if (!should_continue(&w->loop))
         return;
     uint32_t *places = w->starts + index * w->partitions, bits[3];
     for (size_t v = index * w->chunk; v < chunk_end(w, index); v++)
@@ -131,10 +131,10 @@ static int compare_vertices(const void *left, const void *right)
 static void weld_by_sorting(struct welding *w, const uint32_t *vertices, size_t count)
 {
     struct arena scratch;
-    arena_start(&scratch, w->halt.watch);
+    arena_start(&scratch, w->loop.call);
     struct sorted_vertex *sorted = arena_array(&scratch, count, sizeof *sorted);
     if (!sorted) {
-        no_memory(&w->halt);
+        no_memory(&w->loop);
         return;
     }
     for (size_t i = 0; i < count; i++) {
@@ -154,7 +154,7 @@ static void weld_partition(void *user, size_t index, int thread)
 {
     enum { AHEAD = 16 };
     struct welding *w = user;
-    if (!goes_on(&w->halt))
+    if (!should_continue(&w->loop))
         return;
     // After spreading, a partition's place in the last chunk is its end, which is where the next one begins.
     const uint32_t *ends = w->starts + (w->chunks - 1) * w->partitions;
@@ -168,17 +168,17 @@ static void weld_partition(void *user, size_t index, int thread)
     while (room < 2 * count && room < 4 * usual)
         room *= 2;
     if (!table_clear(table, arena, room)) {
-        no_memory(&w->halt);
+        no_memory(&w->loop);
         return;
     }
     for (size_t i = 0; i < count; i++) {
         if (i + AHEAD < count)
             __builtin_prefetch(w->points + 3 * (size_t)vertices[i + AHEAD]);
         if (2 * used >= room) {
-            if (!goes_on(&w->halt))
+            if (!should_continue(&w->loop))
                 return;
             if (!table_double(table, arena, room)) {
-                no_memory(&w->halt);
+                no_memory(&w->loop);
                 return;
             }
             room *= 2;
@@ -236,10 +236,10 @@ static void cut(struct welding *w)
 }
 
 bool weld_positions(const float *points, size_t count, uint32_t *position_of, uint32_t *positions, struct pool *pool,
-                    struct watch *watch, lam_error *error)
+                    struct call_control *call, lam_error *error)
 {
     struct welding welding = {
-        .points = points, .vertices = count, .position_of = position_of, .pool = pool, .halt = {.watch = watch}};
+        .points = points, .vertices = count, .position_of = position_of, .pool = pool, .loop = {.call = call}};
     struct welding *w = &welding;
     *positions = 0;
     if (count == 0)
@@ -247,16 +247,16 @@ bool weld_positions(const float *points, size_t count, uint32_t *position_of, ui
     cut(w);
     size_t threads = (size_t)pool_threads(pool);
     struct arena scratch;
-    arena_start(&scratch, watch);
+    arena_start(&scratch, call);
     w->starts = arena_array(&scratch, w->chunks * w->partitions, sizeof *w->starts);
     w->spread = arena_array(&scratch, count, sizeof *w->spread);
     w->tables = arena_alloc_zeroed(&scratch, threads * sizeof *w->tables);
     w->thread_arenas = arena_array(&scratch, threads, sizeof *w->thread_arenas);
     if (!w->starts || !w->spread || !w->tables || !w->thread_arenas)
-        no_memory(&w->halt);
-    if (goes_on(&w->halt)) {
+        no_memory(&w->loop);
+    if (should_continue(&w->loop)) {
         for (size_t i = 0; i < threads; i++)
-            arena_start(&w->thread_arenas[i], watch);
+            arena_start(&w->thread_arenas[i], call);
         pool_run(pool, w->chunks, count_chunk, w);
         place_partitions(w);
         pool_run(pool, w->chunks, spread_chunk, w);
@@ -265,8 +265,8 @@ bool weld_positions(const float *points, size_t count, uint32_t *position_of, ui
             arena_free(&w->thread_arenas[i]);
     }
     arena_free(&scratch);
-    if (!goes_on(&w->halt))
-        return halt_error(&w->halt, count * 8, error);
+    if (!should_continue(&w->loop))
+        return loop_error(&w->loop, count * 8, error);
     number_positions(w);
     *positions = w->positions;
     return true;

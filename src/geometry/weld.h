@@ -7,9 +7,9 @@
 
 // Numbers the different positions among `count` points (3 floats each) without gaps, in the order of their
 // first points, and writes each point's number into position_of. Equal is bit-equal after −0 → 0. count < 2³²
-// − 1. `pool` and `watch` may be NULL. Takes time in proportion to count, count·log(count) at worst.
+// − 1. `pool` and `call` may be NULL. Takes time in proportion to count, count·log(count) at worst.
 bool weld_positions(const float *points, size_t count, uint32_t *position_of, uint32_t *positions, struct pool *pool,
-                    struct watch *watch, lam_error *error);
+                    struct call_control *call, lam_error *error);
 
 // The bits of a position, with −0 as 0, so that equal positions have equal bits.
 static inline void position_bits(const float *position, uint32_t bits[3])

@@ -140,7 +140,7 @@ bool gl_context_open(struct gl_context *context, const struct egl *egl, const st
     struct gl_previous previous;
     bool ok = start(context, place, profile, error);
     if (ok && (ok = gl_context_enter(context, &previous, error))) {
-        ok = gl_load(&context->gl, from_egl, &context->egl, error) && gl_context_look(context, error);
+        ok = gl_load(&context->gl, from_egl, &context->egl, error) && gl_context_probe(context, error);
         gl_context_leave(context, &previous);
     }
     if (!ok)
@@ -236,5 +236,5 @@ void gl_context_free(struct gl_context *context)
 bool gl_context_adopt(struct gl_context *context, lam_gl_get_proc *get, void *user, bool debug, lam_error *error)
 {
     *context = (struct gl_context){.debug = debug};
-    return gl_load(&context->gl, get, user, error) && gl_context_look(context, error);
+    return gl_load(&context->gl, get, user, error) && gl_context_probe(context, error);
 }

@@ -78,6 +78,6 @@ bool gl_has(const struct gl *gl, const char *extension);
 bool gl_messages_clean(const struct gl_context *context, const char *doing, lam_error *error);
 
 // Finds what the current context is: version, names; starts collecting messages.
-bool gl_context_look(struct gl_context *context, lam_error *error);
+bool gl_context_probe(struct gl_context *context, lam_error *error);
 
 #endif

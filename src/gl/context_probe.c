@@ -70,7 +70,7 @@ static bool is_software(const char *renderer)
     return false;
 }
 
-bool gl_context_look(struct gl_context *context, lam_error *error)
+bool gl_context_probe(struct gl_context *context, lam_error *error)
 {
     const struct gl *gl = &context->gl;
     const char *version = (const char *)gl->GetString(GL_VERSION);

@@ -91,8 +91,8 @@ void gl_forget(struct gl_device *device)
 bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *error)
 {
     uint64_t more = bytes > *held ? bytes - *held : 0;
-    if (more && !watch_charge(f->watch, more))
-        return watch_memory_error(f->watch, more, error);
+    if (more && !call_charge(f->call, more))
+        return call_memory_error(f->call, more, error);
     *held = bytes > *held ? bytes : *held;
     return true;
 }
@@ -114,15 +114,15 @@ void *gl_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, 
 
 // --- a frame
 
-static bool shows_place(lam_show show)
+static bool shows_place(lam_output show)
 {
-    return show == LAM_SHOW_DEPTH || show == LAM_SHOW_FACING || show == LAM_SHOW_IDS || show == LAM_SHOW_COVERAGE ||
-           show == LAM_SHOW_OVERDRAW;
+    return show == LAM_OUTPUT_DEPTH || show == LAM_OUTPUT_FACING || show == LAM_OUTPUT_IDS ||
+           show == LAM_OUTPUT_COVERAGE || show == LAM_OUTPUT_OVERDRAW;
 }
 
 // What the frame asks for, without what its programs do not look at: so that one program serves all that look
 // alike. Field by field into zeroed memory: the whole is compared as bytes.
-static void choices_of(const struct gl_frame *f, const struct frame_surface *surface, struct glsl_choices *c)
+static void choices_of(const struct gl_frame *f, const struct frame_draw_range *surface, struct glsl_choices *c)
 {
     struct glsl_choices asked = glsl_choose(f->frame, surface, f->stage);
     memset(c, 0, sizeof *c);
@@ -142,7 +142,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_surface *sur
         return;
     }
     if (c->stage == LAM_STAGE_APPLICATION) {
-        c->show = LAM_SHOW_PICTURE;
+        c->show = LAM_OUTPUT_PICTURE;
         return;
     }
     c->reflection = asked.reflection;
@@ -164,7 +164,7 @@ static enum vertex_form form_of(const struct gl_frame *f, const struct frame_dra
     if (frame->shading == LAM_SHADING_FLAT && !shows_place(frame->show))
         return frame->flat_normal == LAM_FLAT_NORMAL_VERTEX && draw->mesh->normals ? FORM_FLAT_VERTEX : FORM_FLAT_FACE;
     // Triangles are numbered by their corners; a vertex of two materials has two colours.
-    bool counts = f->layered || frame->show == LAM_SHOW_IDS;
+    bool counts = f->layered || frame->show == LAM_OUTPUT_IDS;
     bool two = f->stage == LAM_STAGE_APPLICATION && draw_surfaces > 1;
     return counts || two || !mesh_can_share(draw->mesh) ? FORM_CORNERS : FORM_SHARED;
 }
@@ -174,17 +174,17 @@ static bool lists_are_read(const struct glsl_choices *c)
     return c->stage != LAM_STAGE_APPLICATION && !shows_place(c->show);
 }
 
-static bool same_call(const struct frame_surface *a, const struct frame_surface *b)
+static bool same_call(const struct frame_draw_range *a, const struct frame_draw_range *b)
 {
     return a->front == b->front && a->back == b->back && a->translucent == b->translucent;
 }
 
 // The draw calls of one draw, one for all of its surfaces that have the same materials: added to f->surfaces. Returns
 // the number of runs where these do not lie side by side, in device->runs; 0: they do. −1: the error tells.
-static int add_calls(struct gl_frame *f, const struct frame_surface *list, int count, lam_error *error)
+static int add_calls(struct gl_frame *f, const struct frame_draw_range *list, int count, lam_error *error)
 {
     const struct frame_draw *draw = &f->frame->draws[list->draw];
-    if (!buffer_reserve(&f->device->runs, (size_t)count * sizeof(struct mesh_run), f->watch, error))
+    if (!buffer_reserve(&f->device->runs, (size_t)count * sizeof(struct mesh_run), f->call, error))
         return -1;
     struct mesh_run *runs = f->device->runs.data;
     struct gl_surface *calls = f->surfaces + f->surface_count;
@@ -205,7 +205,7 @@ static int add_calls(struct gl_frame *f, const struct frame_surface *list, int c
 }
 
 // The buffers of one draw's calls.
-static bool set_up_draw(struct gl_frame *f, const struct frame_surface *list, int count, lam_error *error)
+static bool set_up_draw(struct gl_frame *f, const struct frame_draw_range *list, int count, lam_error *error)
 {
     const struct frame *frame = f->frame;
     int first = f->surface_count, runs = add_calls(f, list, count, error);
@@ -249,7 +249,7 @@ static bool set_up(struct gl_frame *f, lam_error *error)
     for (int i = 0; i < frame->surface_count; i++) { // compiled first: the list of programs may move
         struct glsl_choices c;
         choices_of(f, &frame->surfaces[i], &c);
-        if (!program_for(f, &c, error) || !(watch_on(f->watch) || watch_error(f->watch, error)))
+        if (!program_for(f, &c, error) || !(call_should_continue(f->call) || call_error(f->call, error)))
             return false;
     }
     for (int first = 0, end; first < frame->surface_count; first = end) {
@@ -313,8 +313,7 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
         ;
     if (device->callers)
         gl_forget(device);
-    if (!buffer_reserve(&device->surfaces, (size_t)(f->frame->surface_count + 1) * sizeof *f->surfaces, f->watch,
-                        error))
+    if (!buffer_reserve(&device->surfaces, (size_t)(f->frame->surface_count + 1) * sizeof *f->surfaces, f->call, error))
         return false;
     f->surfaces = device->surfaces.data;
     meshes_drop(f);
@@ -324,17 +323,17 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
     return draw_parts(f, error) && check_errors(f, error);
 }
 
-static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct watch *watch,
+static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct call_control *call,
                     lam_error *error)
 {
     struct gl_device *device = (struct gl_device *)base;
     struct gl_previous previous;
-    struct gl_caller_state state;
+    struct gl_saved_state state;
     if (!gl_context_enter(&device->context, &previous, error))
         return false;
-    struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .watch = watch, .image = image};
+    struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .call = call, .image = image};
     f.stage = frame->stage;
-    f.layered = frame->translucent && frame->show != LAM_SHOW_COVERAGE;
+    f.layered = frame->translucent && frame->show != LAM_OUTPUT_COVERAGE;
     caller_save(device, &state);
     device->frame_number++;
     bool ok = draw_frame(&f, error);
@@ -433,7 +432,7 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
         free(device);
         return NULL;
     }
-    struct gl_caller_state state;
+    struct gl_saved_state state;
     caller_save(device, &state);
     ok = find_limits(device, error);
     caller_restore(device, &state);

@@ -192,8 +192,8 @@ struct gl_device {
 
 // One surface as it is drawn: a draw call.
 struct gl_surface {
-    const struct frame_surface *surface; // the first of its runs
-    uint32_t first, count;               // vertices or elements
+    const struct frame_draw_range *surface; // the first of its runs
+    uint32_t first, count;                  // vertices or elements
     const struct frame_draw *draw;
     struct gl_program *program;
     GLuint array;
@@ -206,7 +206,7 @@ struct gl_frame {
     struct gl_device *device;
     const struct gl *gl;
     const struct frame *frame;
-    struct watch *watch;
+    struct call_control *call;
     lam_image *image;
     struct gl_surface *surfaces; // draw calls
     int surface_count;
@@ -281,7 +281,7 @@ bool passes_draw(struct gl_frame *f, lam_error *error);
 bool reading_part(struct gl_frame *f, lam_error *error);
 
 // --- gl_state_save.c: the caller's state, taken before a frame and given back after it
-struct gl_caller_state {
+struct gl_saved_state {
     GLint program, array, draw_framebuffer, read_framebuffer, active_unit;
     GLint array_buffer, uniform_buffer, unpack_buffer, pack_buffer;
     GLint texture_2d[UNIT_COUNT], texture_array[UNIT_COUNT], sampler[UNIT_COUNT];
@@ -290,7 +290,7 @@ struct gl_caller_state {
     GLint unpack[6], pack[4], polygon_mode[2];
     GLboolean color_mask[4], depth_mask, enabled[16];
 };
-void caller_save(const struct gl_device *device, struct gl_caller_state *state);
-void caller_restore(const struct gl_device *device, const struct gl_caller_state *state);
+void caller_save(const struct gl_device *device, struct gl_saved_state *state);
+void caller_restore(const struct gl_device *device, const struct gl_saved_state *state);
 
 #endif

@@ -109,7 +109,7 @@ static bool send(struct gl_frame *f, struct gl_list *list, size_t size, enum tex
 static bool next_room(struct gl_frame *f, struct gl_list *list, size_t size, lam_error *error)
 {
     size_t row = GLSL_LIST_WIDTH * TEXEL, bytes = (size + row - 1) / row * row;
-    if (!buffer_reserve(&list->next, bytes, f->watch, error))
+    if (!buffer_reserve(&list->next, bytes, f->call, error))
         return false;
     memset(list->next.data, 0, bytes);
     return true;

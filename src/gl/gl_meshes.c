@@ -106,7 +106,7 @@ static bool send_vertices(struct gl_frame *f, const struct gl_mesh *row, lam_err
     uint32_t count = mesh_vertex_count(mesh, row->form);
     if (!count)
         return true;
-    if (!buffer_reserve(&device->scratch, CHUNK * sizeof(struct mesh_vertex), f->watch, error))
+    if (!buffer_reserve(&device->scratch, CHUNK * sizeof(struct mesh_vertex), f->call, error))
         return false;
     struct mesh_vertex *from = device->scratch.data;
     float *to = gl_map_new(f, row->vertices, count * each, GL_STATIC_DRAW, error);
@@ -115,7 +115,7 @@ static bool send_vertices(struct gl_frame *f, const struct gl_mesh *row, lam_err
     bool on = true;
     for (uint32_t first = 0; on && first < count; first += CHUNK) {
         uint32_t some = count - first < CHUNK ? count - first : CHUNK;
-        on = watch_on(f->watch);
+        on = call_should_continue(f->call);
         mesh_vertices(device, mesh, row->form, first, some, from);
         for (uint32_t i = 0; i < some; i++, to += floats) {
             memcpy(to, from[i].position, sizeof from[i].position);
@@ -127,7 +127,7 @@ static bool send_vertices(struct gl_frame *f, const struct gl_mesh *row, lam_err
         }
     }
     f->gl->UnmapBuffer(GL_ARRAY_BUFFER);
-    return on || watch_error(f->watch, error);
+    return on || call_error(f->call, error);
 }
 
 // Attributes as glsl.h numbers them: 0 position, 1 normal, 2 color, 3 tangent.
@@ -211,7 +211,7 @@ static bool send_elements(struct gl_frame *f, const struct gl_mesh *row, lam_err
         f->gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)bytes, mesh->indices, GL_STATIC_DRAW);
         return true;
     }
-    if (!buffer_reserve(&f->device->scratch, bytes, f->watch, error))
+    if (!buffer_reserve(&f->device->scratch, bytes, f->call, error))
         return false;
     uint32_t *to = f->device->scratch.data;
     int calls = 0;

@@ -190,8 +190,8 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
     clear_target(f, &t->layers[1], PLACE_FRONT); // the layer before the first
     GLuint any = 1;
     for (int layer = 0; any; layer++) {
-        if (!watch_on(f->watch))
-            return watch_error(f->watch, error);
+        if (!call_should_continue(f->call))
+            return call_error(f->call, error);
         const struct gl_target *here = &t->layers[layer % 2];
         clear_target(f, here, PLACE_END); // pixels without this layer have no more
         gl_use_texture(device, UNIT_NEARER, GL_TEXTURE_2D, t->layers[1 - layer % 2].place);
@@ -208,10 +208,10 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
 }
 
 // A number is that of the covered sample nearest to the centre, not an average.
-static bool is_number(lam_show show)
+static bool is_number(lam_output show)
 {
-    return !lam_show_is_light(show) && show != LAM_SHOW_CLIPPED && show != LAM_SHOW_COVERAGE &&
-           show != LAM_SHOW_OVERDRAW;
+    return !lam_output_is_light(show) && show != LAM_OUTPUT_CLIPPED && show != LAM_OUTPUT_COVERAGE &&
+           show != LAM_OUTPUT_OVERDRAW;
 }
 
 bool passes_draw(struct gl_frame *f, lam_error *error)
@@ -225,12 +225,12 @@ bool passes_draw(struct gl_frame *f, lam_error *error)
         clear_target(f, &t->picture, PLACE_FRONT);
     for (int i = 0; i < pattern->count; i++) {
         int s = pattern->by_distance[i];
-        if (!watch_on(f->watch))
-            return watch_error(f->watch, error);
+        if (!call_should_continue(f->call))
+            return call_error(f->call, error);
         f->sample_x = (float)pattern->x[s] * 0.0625f;
         f->sample_y = (float)pattern->y[s] * 0.0625f;
         clear_target(f, &t->sample, PLACE_FRONT);
-        draw_surfaces(f, false, f->frame->show == LAM_SHOW_OVERDRAW ? BLENDING_ADD : BLENDING_NEAREST);
+        draw_surfaces(f, false, f->frame->show == LAM_OUTPUT_OVERDRAW ? BLENDING_ADD : BLENDING_NEAREST);
         if (f->layered && !draw_layers(f, error))
             return false;
         bool number = is_number(f->frame->show);

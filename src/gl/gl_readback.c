@@ -21,7 +21,7 @@ static void store_light(const struct gl_frame *f, const float *from, int count, 
             for (int c = 0; c < 4; c++)
                 lanes[c][i] = from[4 * (x + i) + c];
         struct pixel_lanes p = {num_load(lanes[0]), num_load(lanes[1]), num_load(lanes[2]),
-                                lesser(num_load(lanes[3]), num_of(1.0f))}; // sums may be over by a rounding
+                                min_of(num_load(lanes[3]), num_of(1.0f))}; // sums may be over by a rounding
         write_pixels(f->frame, p, f->image->format, to + (size_t)x * size, some);
     }
 }
@@ -37,9 +37,9 @@ static void store_clipped(const struct gl_frame *f, const float *from, void *to)
 
 static void store_number(const struct gl_frame *f, const float *from, void *to)
 {
-    lam_show show = f->frame->show;
-    if (show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW) {
-        float share = show == LAM_SHOW_COVERAGE ? from[3] : from[0];
+    lam_output show = f->frame->show;
+    if (show == LAM_OUTPUT_COVERAGE || show == LAM_OUTPUT_OVERDRAW) {
+        float share = show == LAM_OUTPUT_COVERAGE ? from[3] : from[0];
         shown_put(f->frame, f->image->format, (float[4]){share, share, share, 1}, to);
         return;
     }
@@ -53,11 +53,11 @@ bool reading_part(struct gl_frame *f, lam_error *error)
 {
     const struct gl *gl = f->gl;
     size_t bytes = (size_t)f->width * (size_t)f->height * 4 * sizeof(float);
-    if (!buffer_reserve(&f->device->pixels, bytes, f->watch, error))
+    if (!buffer_reserve(&f->device->pixels, bytes, f->call, error))
         return false;
     gl->ReadPixels(0, 0, f->width, f->height, GL_RGBA, GL_FLOAT, f->device->pixels.data);
     size_t size = f->image->format == LAM_RGBA8 ? 4 : 16;
-    lam_show show = f->frame->show;
+    lam_output show = f->frame->show;
     uint64_t covered = 0;
     for (int y = 0; y < f->height; y++) {
         const float *from = (const float *)f->device->pixels.data + (size_t)y * (size_t)f->width * 4;
@@ -65,16 +65,16 @@ bool reading_part(struct gl_frame *f, lam_error *error)
                    (((size_t)f->top + (size_t)y) * (size_t)f->image->width + (size_t)f->left) * size;
         for (int x = 0; x < f->width; x++)
             covered += from[4 * x + 3] > 0;
-        if (lam_show_is_light(show)) {
+        if (lam_output_is_light(show)) {
             store_light(f, from, f->width, to);
             continue;
         }
         for (int x = 0; x < f->width; x++, from += 4, to += size)
-            if (show == LAM_SHOW_CLIPPED)
+            if (show == LAM_OUTPUT_CLIPPED)
                 store_clipped(f, from, to);
             else
                 store_number(f, from, to);
     }
     f->device->base.report.pixels_covered += covered;
-    return watch_on(f->watch) || watch_error(f->watch, error);
+    return call_should_continue(f->call) || call_error(f->call, error);
 }

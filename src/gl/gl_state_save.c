@@ -46,7 +46,7 @@ static void plain_state(const struct gl_device *device)
     gl->BlendEquation(GL_FUNC_ADD);
 }
 
-void caller_save(const struct gl_device *device, struct gl_caller_state *s)
+void caller_save(const struct gl_device *device, struct gl_saved_state *s)
 {
     const struct gl *gl = &device->context.gl;
     if (device->callers) {
@@ -98,7 +98,7 @@ void caller_save(const struct gl_device *device, struct gl_caller_state *s)
         plain_state(device);
 }
 
-void caller_restore(const struct gl_device *device, const struct gl_caller_state *s)
+void caller_restore(const struct gl_device *device, const struct gl_saved_state *s)
 {
     const struct gl *gl = &device->context.gl;
     if (!device->callers)

@@ -44,9 +44,9 @@ LANE_FN vec3 load3(const struct mesh_vertex *from, size_t at)
     return (vec3){num_load(v[0]), num_load(v[1]), num_load(v[2])};
 }
 
-LANE_FN source source_of(const struct side *side, const struct frame_light *light)
+LANE_FN light_source source_of(const struct side *side, const struct frame_light *light)
 {
-    source s;
+    light_source s;
     s.position = of3(light->position);
     s.direction = of3(light->axis);
     s.constant = num_of(light->attenuation[0]);
@@ -96,8 +96,8 @@ LANE_FN terms terms_of(const struct side *side, surface s, vec3 color)
     num shininess = num_of(glsl_products_of(frame, m).shininess);
     for (int i = 0; i < frame->light_count; i++) {
         const struct frame_light *l = &frame->lights[i];
-        source light = source_of(side, l);
-        toward t = toward_light(s.p, light, glsl_kind(l), glsl_falloff(l));
+        light_source light = source_of(side, l);
+        light_sample t = toward_light(s.p, light, glsl_kind(l), glsl_falloff(l));
         sum = add_reflected(sum, light, t, reflect_light(s, t.l, shininess, model, m->fibre));
         if (frame->gl1)
             sum = add_arriving_ambient(sum, product3(&m->ambient.r, l->ambient), t);
@@ -110,38 +110,39 @@ LANE_FN terms terms_of(const struct side *side, surface s, vec3 color)
 LANE_FN vec3 shown_of(const struct frame *frame, terms t)
 {
     switch (frame->show) {
-    case LAM_SHOW_AMBIENT:
+    case LAM_OUTPUT_AMBIENT:
         return t.ambient;
-    case LAM_SHOW_DIFFUSE:
+    case LAM_OUTPUT_DIFFUSE:
         return t.diffuse;
-    case LAM_SHOW_SPECULAR:
+    case LAM_OUTPUT_SPECULAR:
         return t.specular;
-    case LAM_SHOW_EMISSION:
+    case LAM_OUTPUT_EMISSION:
         return t.emission;
-    case LAM_SHOW_REFLECTION:
+    case LAM_OUTPUT_REFLECTION:
         return t.reflection;
-    case LAM_SHOW_LIGHT:
+    case LAM_OUTPUT_LIGHT:
         return frame->reflection == LAM_REFLECTION_NONE ? black3() : add3(add3(t.ambient, t.diffuse), t.specular);
     default:
         return sum_terms(t);
     }
 }
 
-static bool shows_vectors(lam_show show)
+static bool shows_vectors(lam_output show)
 {
-    return show == LAM_SHOW_NORMALS || show == LAM_SHOW_TANGENTS || show == LAM_SHOW_N_L || show == LAM_SHOW_N_H;
+    return show == LAM_OUTPUT_NORMALS || show == LAM_OUTPUT_TANGENTS || show == LAM_OUTPUT_N_L ||
+           show == LAM_OUTPUT_N_H;
 }
 
 LANE_FN vec3 vector_of(const struct side *side, surface s)
 {
-    lam_show show = side->frame->show;
-    if (show == LAM_SHOW_NORMALS)
+    lam_output show = side->frame->show;
+    if (show == LAM_OUTPUT_NORMALS)
         return s.n;
-    if (show == LAM_SHOW_TANGENTS)
+    if (show == LAM_OUTPUT_TANGENTS)
         return s.t;
     const struct frame_light *light = &side->frame->lights[0]; // the only one
     vec3 l = toward_light(s.p, source_of(side, light), glsl_kind(light), FALLOFF_NONE).l;
-    num c = cosine(dot3(s.n, show == LAM_SHOW_N_L ? l : halfway3(l, s.v)));
+    num c = cosine(dot3(s.n, show == LAM_OUTPUT_N_L ? l : halfway3(l, s.v)));
     return vec3_of(c, c, c);
 }
 
@@ -166,7 +167,7 @@ LANE_FN surface surface_of(const struct side *side, const struct mesh_vertex *fr
     s.n = unit3(side->flip ? negate3(n) : n);
     s.v = to_eye(s.p, frame->distant_viewer ? VIEWER_INFINITE : VIEWER_LOCAL);
     s.t = black3();
-    if (frame->reflection >= LAM_REFLECTION_KAJIYA_KAY || frame->show == LAM_SHOW_TANGENTS)
+    if (frame->reflection >= LAM_REFLECTION_KAJIYA_KAY || frame->show == LAM_OUTPUT_TANGENTS)
         s.t = perpendicular3(
             side->mesh->tangents ? unit3(turn(side->draw->tangent, load3(from, 10))) : field_tangent(side, s.n), s.n);
     return s;
@@ -176,7 +177,7 @@ LANE_FN surface surface_of(const struct side *side, const struct mesh_vertex *fr
 static void light_side(const struct side *side, const struct mesh_vertex *from, uint32_t count, float (*out)[4])
 {
     const struct frame *frame = side->frame;
-    bool whole = frame->show == LAM_SHOW_PICTURE || frame->show == LAM_SHOW_CLIPPED;
+    bool whole = frame->show == LAM_OUTPUT_PICTURE || frame->show == LAM_OUTPUT_CLIPPED;
     for (uint32_t first = 0; first < count; first += LANES, from += LANES, out += LANES) {
         surface s = surface_of(side, from);
         vec3 white = vec3_of(num_of(1.0f), num_of(1.0f), num_of(1.0f));
@@ -205,7 +206,7 @@ static bool note(struct gl_frame *f, struct gl_colors *row, size_t *size, const 
 {
     if (*size + count > row->now.room) {
         struct buffer grown = {0};
-        if (!buffer_reserve(&grown, 2 * (*size + count), f->watch, error))
+        if (!buffer_reserve(&grown, 2 * (*size + count), f->call, error))
             return false;
         if (*size)
             memcpy(grown.data, row->now.data, *size);
@@ -235,7 +236,7 @@ static bool note_material(struct gl_frame *f, struct gl_colors *row, size_t *siz
            note(f, row, size, &fibre, sizeof fibre, error);
 }
 
-static bool note_surface(struct gl_frame *f, struct gl_colors *row, size_t *size, const struct frame_surface *s,
+static bool note_surface(struct gl_frame *f, struct gl_colors *row, size_t *size, const struct frame_draw_range *s,
                          lam_error *error)
 {
     const uint32_t run[] = {s->first_id, s->count, s->translucent};
@@ -271,8 +272,8 @@ static bool note_all(struct gl_frame *f, struct gl_colors *row, const struct gl_
 }
 
 // Lights the vertices of a run: front and back side by side.
-static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const struct frame_surface *run, uint32_t first,
-                      uint32_t end, float (*lit)[2][4])
+static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const struct frame_draw_range *run,
+                      uint32_t first, uint32_t end, float (*lit)[2][4])
 {
     const struct frame_draw *draw = &f->frame->draws[run->draw];
     struct side side = {.frame = f->frame, .draw = draw, .mesh = &mesh->mesh, .translucent = run->translucent};
@@ -280,7 +281,7 @@ static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const stru
     float(*one)[4] = (float(*)[4])(from + CHUNK);
     for (; first < end; first += CHUNK) {
         uint32_t some = end - first < CHUNK ? end - first : CHUNK, whole = (some + LANES - 1) / LANES * LANES;
-        if (!watch_on(f->watch))
+        if (!call_should_continue(f->call))
             return false;
         mesh_vertices(f->device, &mesh->mesh, mesh->form, first, some, from);
         for (uint32_t i = some; i < whole; i++)
@@ -307,7 +308,7 @@ static bool send_colors(struct gl_frame *f, struct gl_colors *row, const struct 
     uint64_t start = now_ns();
     uint32_t count = mesh_vertex_count(&mesh->mesh, mesh->form);
     uint64_t bytes = (uint64_t)count * 8 * sizeof(float);
-    if (!buffer_reserve(&f->device->scratch, CHUNK * (sizeof(struct mesh_vertex) + 4 * sizeof(float)), f->watch,
+    if (!buffer_reserve(&f->device->scratch, CHUNK * (sizeof(struct mesh_vertex) + 4 * sizeof(float)), f->call,
                         error) ||
         !gl_charge(f, &row->bytes, bytes, error))
         return false;
@@ -317,7 +318,7 @@ static bool send_colors(struct gl_frame *f, struct gl_colors *row, const struct 
     bool on = true;
     bool shared = mesh->form == FORM_SHARED, done = false; // shared vertices: all runs have one material
     for (int i = 0; on && !done && i < frame->surface_count; i++) {
-        const struct frame_surface *s = &frame->surfaces[i];
+        const struct frame_draw_range *s = &frame->surfaces[i];
         uint32_t first = 3 * (s->first_id - frame->draws[number].first_id);
         if (s->draw != number)
             continue;
@@ -326,7 +327,7 @@ static bool send_colors(struct gl_frame *f, struct gl_colors *row, const struct 
     }
     f->gl->UnmapBuffer(GL_ARRAY_BUFFER);
     f->device->base.report.lighting_ms += (double)(now_ns() - start) * 1e-6;
-    return on || watch_error(f->watch, error);
+    return on || call_error(f->call, error);
 }
 
 static bool row_for(struct gl_device *device, int draw, lam_error *error)

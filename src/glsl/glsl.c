@@ -15,9 +15,9 @@ static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_
     if (c->version == GLSL_120 && c->storage != GLSL_ARRAY)
         return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no %s: its lights stand in an array",
                     c->storage == GLSL_BLOCK ? "uniform blocks" : "texelFetch");
-    if (c->version == GLSL_120 && (c->environment == GLSL_FACES || c->show == LAM_SHOW_IDS))
+    if (c->version == GLSL_120 && (c->environment == GLSL_FACES || c->show == LAM_OUTPUT_IDS))
         return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no %s",
-                    c->show == LAM_SHOW_IDS ? "gl_VertexID" : "array textures: its environment is a cube map");
+                    c->show == LAM_OUTPUT_IDS ? "gl_VertexID" : "array textures: its environment is a cube map");
     if (c->version == GLSL_120 && c->layer != GLSL_NO_LAYERS)
         return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no integers in textures: nothing is peeled");
     if (f->shading == LAM_SHADING_PHONG && !f->per_fragment)
@@ -69,8 +69,8 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
     for (int i = 0; f->lights && i < c->group_count; i++) {
         const struct glsl_group *group = &c->groups[i];
         text_print(text, "    for (int i = %d; i < %d; i++) {\n", first, first + group->count);
-        text_print(text, "        source light = light_of(i%s);\n", list_argument(f));
-        text_print(text, "        toward t = toward_light(s.p, light, %s, %s);\n", kind_words[group->kind],
+        text_print(text, "        light_source light = light_of(i%s);\n", list_argument(f));
+        text_print(text, "        light_sample t = toward_light(s.p, light, %s, %s);\n", kind_words[group->kind],
                    falloff_words[group->falloff]);
         text_print(text, "        sum = add_reflected(sum, light, t, reflected_of(%s, %s));\n", lobe_call(c),
                    exponent_of(f));
@@ -84,17 +84,17 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
 static const char *shown_term(const struct glsl_choices *c)
 {
     switch (c->show) {
-    case LAM_SHOW_AMBIENT:
+    case LAM_OUTPUT_AMBIENT:
         return "sum.ambient";
-    case LAM_SHOW_DIFFUSE:
+    case LAM_OUTPUT_DIFFUSE:
         return "sum.diffuse";
-    case LAM_SHOW_SPECULAR:
+    case LAM_OUTPUT_SPECULAR:
         return "sum.specular";
-    case LAM_SHOW_EMISSION:
+    case LAM_OUTPUT_EMISSION:
         return "sum.emission";
-    case LAM_SHOW_REFLECTION:
+    case LAM_OUTPUT_REFLECTION:
         return "sum.reflection";
-    case LAM_SHOW_LIGHT:
+    case LAM_OUTPUT_LIGHT:
         return c->reflection == LAM_REFLECTION_NONE ? "black3()" : "add3(add3(sum.ambient, sum.diffuse), sum.specular)";
     default:
         return "sum_terms(sum)";
@@ -105,11 +105,11 @@ static void add_shown_vector(struct text *text, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     if (!f->shows_one_light) {
-        text_print(text, "    return vec4(%s, 1.0);", c->show == LAM_SHOW_TANGENTS ? "s.t" : "s.n");
+        text_print(text, "    return vec4(%s, 1.0);", c->show == LAM_OUTPUT_TANGENTS ? "s.t" : "s.n");
         return;
     }
     bool texture = c->storage == GLSL_TEXTURE;
-    text_add(text, "    source light;\n");
+    text_add(text, "    light_source light;\n");
     text_print(text, "    light.position = %s.xyz;\n",
                texture ? "texelFetch(light_list, ivec2(0, 0), 0)" : "lights[0].position");
     text_print(text, "    light.direction = %s.xyz;\n",
@@ -117,7 +117,7 @@ static void add_shown_vector(struct text *text, const struct glsl_facts *f)
     text_print(text, "    vec3 l = toward_light(s.p, light, %s, FALLOFF_NONE).l;\n",
                kind_words[c->group_count ? c->groups[0].kind == 1 : 0]);
     text_print(text, "    float c = cosine(dot3(s.n, %s));\n    return vec4(c, c, c, 1.0);",
-               c->show == LAM_SHOW_N_L ? "l" : "halfway3(l, s.v)");
+               c->show == LAM_OUTPUT_N_L ? "l" : "halfway3(l, s.v)");
 }
 
 // Texels of a light, of its products, of a hemisphere in the lists.
@@ -137,11 +137,11 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
     bool flat = f->shading == LAM_SHADING_FLAT, surface = !f->paints && f->lit;
     bool passes_tangent = f->threads && c->tangents, field = f->threads && !c->tangents;
     bool clamps =
-        c->gl1 && f->shading != LAM_SHADING_PHONG && (c->show == LAM_SHOW_PICTURE || c->show == LAM_SHOW_CLIPPED);
+        c->gl1 && f->shading != LAM_SHADING_PHONG && (c->show == LAM_OUTPUT_PICTURE || c->show == LAM_OUTPUT_CLIPPED);
     bool tints = c->colors && f->lit && !f->shows_vector;
-    bool eye = surface || c->show == LAM_SHOW_DEPTH;
-    bool numbers_triangles = c->show == LAM_SHOW_IDS || c->layer != GLSL_NO_LAYERS;
-    const struct template_flag flags[] = {
+    bool eye = surface || c->show == LAM_OUTPUT_DEPTH;
+    bool numbers_triangles = c->show == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS;
+    const struct preprocess_flag flags[] = {
         {"old", old},
         {"array", c->storage == GLSL_ARRAY},
         {"block", c->storage == GLSL_BLOCK},
@@ -176,9 +176,9 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {"highlights", f->highlights},
         {"kajiya_kay", f->kajiya_kay},
         {"provoking", flat && old && eye},
-        {"depth", c->show == LAM_SHOW_DEPTH},
-        {"facing", c->show == LAM_SHOW_FACING},
-        {"ids", c->show == LAM_SHOW_IDS},
+        {"depth", c->show == LAM_OUTPUT_DEPTH},
+        {"facing", c->show == LAM_OUTPUT_FACING},
+        {"ids", c->show == LAM_OUTPUT_IDS},
         {"numbers", numbers_triangles},
         {"places", c->layer != GLSL_NO_LAYERS},
         {"peels", c->layer == GLSL_PEELS},
@@ -226,7 +226,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
     if (f->shows_vector)
         add_shown_vector(&vector, f);
     const char *pixel = old ? "gl_FragColor" : "pixel";
-    const struct template_value values[] = {
+    const struct preprocess_value values[] = {
         {"hemispheres", numbers[1]},
         {"light_texels", numbers[2]},
         {"product_texels", numbers[3]},
@@ -252,7 +252,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {"pixel", pixel},
         {NULL, NULL},
     };
-    const struct template_words words = {flags, values};
+    const struct preprocess_words words = {flags, values};
     const struct text *parts[] = {&groups, &vector, &attributes};
     for (int i = 0; i < 3; i++)
         if (parts[i]->failed) {
@@ -260,9 +260,9 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
             text->error = parts[i]->error;
         }
     if (light_up)
-        template_add(text, text_lighting_glsl, &words);
-    template_add(text, text_interface_glsl, &words);
-    template_add(text, fragment ? text_fragment_glsl : text_vertex_glsl, &words);
+        preprocess_add(text, text_lighting_glsl, &words);
+    preprocess_add(text, text_interface_glsl, &words);
+    preprocess_add(text, fragment ? text_fragment_glsl : text_vertex_glsl, &words);
     free(groups.bytes);
     free(vector.bytes);
     free(attributes.bytes);

@@ -62,7 +62,7 @@ struct glsl_choices {
     lam_stage stage; // never AUTO
     lam_shading shading;
     lam_reflection reflection; // never AUTO
-    lam_show show;             // a term, a vector or a place; COVERAGE and OVERDRAW give 1, CLIPPED the picture
+    lam_output show;           // a term, a vector or a place; COVERAGE and OVERDRAW give 1, CLIPPED the picture
     bool distant_viewer;
     bool gl1;
     bool exposes;       // the fragment multiplies its light by the uniform `exposure`
@@ -80,7 +80,7 @@ struct glsl_choices {
 // What a frame's draw asks for. Left to the caller: version, storage, output, products. `environment` is
 // GLSL_FACES or none (where neither material mirrors). Stage: `stage`, for AUTO fragment, or vertex with
 // Gouraud shading.
-struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_surface *surface, lam_stage stage);
+struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_draw_range *surface, lam_stage stage);
 
 struct glsl_text {
     char *vertex, *fragment; // ASCII

@@ -4,18 +4,18 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool is_place(lam_show show)
+static bool is_place(lam_output show)
 {
-    return show == LAM_SHOW_DEPTH || show == LAM_SHOW_FACING || show == LAM_SHOW_IDS || show == LAM_SHOW_COVERAGE ||
-           show == LAM_SHOW_OVERDRAW;
+    return show == LAM_OUTPUT_DEPTH || show == LAM_OUTPUT_FACING || show == LAM_OUTPUT_IDS ||
+           show == LAM_OUTPUT_COVERAGE || show == LAM_OUTPUT_OVERDRAW;
 }
 
 struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
 {
     struct glsl_facts f = {.choices = c};
     f.shows_place = is_place(c->show);
-    f.shows_one_light = c->show == LAM_SHOW_N_L || c->show == LAM_SHOW_N_H;
-    f.shows_vector = f.shows_one_light || c->show == LAM_SHOW_NORMALS || c->show == LAM_SHOW_TANGENTS;
+    f.shows_one_light = c->show == LAM_OUTPUT_N_L || c->show == LAM_OUTPUT_N_H;
+    f.shows_vector = f.shows_one_light || c->show == LAM_OUTPUT_NORMALS || c->show == LAM_OUTPUT_TANGENTS;
     f.shading = f.shows_place ? LAM_SHADING_PHONG : c->shading;
     f.application = c->stage == LAM_STAGE_APPLICATION && !f.shows_place;
     f.per_vertex = c->stage == LAM_STAGE_VERTEX && !f.shows_place;
@@ -28,7 +28,7 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
     f.environment = c->environment != GLSL_NO_ENVIRONMENT && sums;
     f.kajiya_kay =
         sums && (c->reflection == LAM_REFLECTION_KAJIYA_KAY || c->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE);
-    f.threads = f.kajiya_kay || (f.lit && c->show == LAM_SHOW_TANGENTS);
+    f.threads = f.kajiya_kay || (f.lit && c->show == LAM_OUTPUT_TANGENTS);
     f.highlights = sums && c->light_count > 0 && c->reflection != LAM_REFLECTION_LAMBERT;
     f.back = c->two_sided && c->back_material && f.lit && !f.shows_vector;
     for (int i = 0; i < c->group_count; i++) {
@@ -130,7 +130,7 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
     add(&list, GLSL_MODEL_VIEW_PROJECTION, "mat4", 0, NULL, "model_view_projection");
     mean(&list, "positions of the mesh to clip space");
     bool normals = f->lit && !f->paints;
-    if (normals || c->show == LAM_SHOW_DEPTH) {
+    if (normals || c->show == LAM_OUTPUT_DEPTH) {
         add(&list, GLSL_MODEL_VIEW, "mat4", 0, NULL, "model_view");
         mean(&list, "positions of the mesh to eye space");
     }
@@ -142,7 +142,7 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
         add(&list, GLSL_EXPOSURE, "float", 0, NULL, "exposure");
         mean(&list, "all light is multiplied by it: 2 to the power of the stops");
     }
-    if (c->show == LAM_SHOW_IDS) {
+    if (c->show == LAM_OUTPUT_IDS) {
         add(&list, GLSL_OBJECT, "float", 0, NULL, "object");
         mean(&list, "the object's number");
     }

@@ -40,7 +40,7 @@ static bool mirrors(const lam_material *m)
     return m->reflectivity.r != 0 || m->reflectivity.g != 0 || m->reflectivity.b != 0;
 }
 
-struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_surface *surface, lam_stage stage)
+struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_draw_range *surface, lam_stage stage)
 {
     struct glsl_choices c;
     memset(&c, 0, sizeof c);

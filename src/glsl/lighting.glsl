@@ -47,9 +47,9 @@ vec4 list_texel(sampler2D list, int number)
 //@if has_lights
 
 // Light i, and its products with the material.
-source light_of(int i@list_parameter@)
+light_source light_of(int i@list_parameter@)
 {
-    source light;
+    light_source light;
 //@if texture
     int first = i * @light_texels@;
     light.position = list_texel(light_list, first).xyz;

@@ -37,7 +37,7 @@ struct making {
 
 // --- choices for a whole scene
 
-static bool is_meant(const struct frame *frame, const struct frame_surface *surface, int object)
+static bool is_meant(const struct frame *frame, const struct frame_draw_range *surface, int object)
 {
     return object < 0 || frame->draws[surface->draw].object == object;
 }
@@ -49,7 +49,7 @@ static bool unite(struct making *m, lam_stage stage, int object, lam_error *erro
     const struct frame *frame = &m->frame;
     int first = -1;
     for (int i = 0; i < frame->surface_count; i++) {
-        const struct frame_surface *surface = &frame->surfaces[i];
+        const struct frame_draw_range *surface = &frame->surfaces[i];
         if (!is_meant(frame, surface, object))
             continue;
         struct glsl_choices own = glsl_choose(frame, surface, stage);
@@ -156,7 +156,7 @@ static int put_product(float *out, const float *a, const float *b)
 
 // The numbers of element `index` of a row, of that member of it where the row is of structs. `surface` is
 // NULL for what the whole frame has. Returns how many.
-static int value_of(const struct making *m, const struct frame_surface *surface, const struct glsl_row *row,
+static int value_of(const struct making *m, const struct frame_draw_range *surface, const struct glsl_row *row,
                     const struct glsl_row *member, int index, float out[16])
 {
     const struct frame *frame = &m->frame;
@@ -266,7 +266,7 @@ struct telling {
     bool failed;
 };
 
-static void tell_leaf(const struct making *m, struct telling *t, const struct frame_surface *surface,
+static void tell_leaf(const struct making *m, struct telling *t, const struct frame_draw_range *surface,
                       const struct glsl_row *row, const struct glsl_row *member, int index)
 {
     lam_shader_uniform *u = &t->out[t->count++];
@@ -281,8 +281,8 @@ static void tell_leaf(const struct making *m, struct telling *t, const struct fr
 }
 
 // The uniforms of a draw, or (NULL) of the frame. An element of an array begins at a multiple of 16 in its block.
-static bool tell_uniforms(const struct making *m, const struct frame_surface *surface, const lam_shader_uniform **out,
-                          int *count)
+static bool tell_uniforms(const struct making *m, const struct frame_draw_range *surface,
+                          const lam_shader_uniform **out, int *count)
 {
     struct glsl_row members[GLSL_ROWS_MAX];
     size_t room = 0;
@@ -323,7 +323,7 @@ static bool tell_draws(const struct making *m, int object)
     if (!draws)
         return false;
     for (int i = 0; i < frame->surface_count; i++) {
-        const struct frame_surface *s = &frame->surfaces[i];
+        const struct frame_draw_range *s = &frame->surfaces[i];
         if (!is_meant(frame, s, object))
             continue;
         const struct frame_draw *draw = &frame->draws[s->draw];
@@ -402,9 +402,9 @@ static bool find_order(struct making *m)
 static bool make(struct making *m, const lam_camera *camera, const lam_draw_params *draw, int object,
                  const lam_shader_params *params, lam_error *error)
 {
-    struct watch watch;
-    watch_start(&watch, NULL);
-    if (!frame_build(&m->frame, m->scene, camera, draw, m->width, m->height, &watch, error) ||
+    struct call_control call;
+    call_start(&call, NULL);
+    if (!frame_build(&m->frame, m->scene, camera, draw, m->width, m->height, &call, error) ||
         !choose(m, draw, object, params, error) || !glsl_make(&m->choices, &m->shader->text, error))
         return false;
     static const lam_shader_lights storages[] = {[GLSL_ARRAY] = LAM_SHADER_LIGHTS_ARRAY,
@@ -437,9 +437,9 @@ lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, co
         fail(error, LAM_BAD_ARGUMENT, "lam_shader_make: %d×%d pixels, expected 1 to 65535 each way", width, height);
         return NULL;
     }
-    if (!lam_show_is_light(draw->show)) {
+    if (!lam_output_is_light(draw->show)) {
         fail(error, LAM_UNSUPPORTED, "a shader shows the picture, a term of it or a light; found %s",
-             lam_show_name(draw->show) ? lam_show_name(draw->show) : "a number that is no show");
+             lam_output_name(draw->show) ? lam_output_name(draw->show) : "a number that is no show");
         return NULL;
     }
     struct shader *shader = calloc(1, sizeof *shader);

@@ -50,12 +50,12 @@ void text_print(struct text *text, const char *format, ...)
         text_add_part(text, line, (size_t)length);
 }
 
-static bool flag_is_on(struct text *text, const struct template_words *words, const char *name, size_t length)
+static bool flag_is_on(struct text *text, const struct preprocess_words *words, const char *name, size_t length)
 {
     bool turned = length && *name == '!';
     name += turned;
     length -= turned;
-    for (const struct template_flag *f = words->flags; f && f->name; f++)
+    for (const struct preprocess_flag *f = words->flags; f && f->name; f++)
         if (strlen(f->name) == length && memcmp(f->name, name, length) == 0)
             return f->on != turned;
     wrong(text, "no flag is called", name, length);
@@ -63,7 +63,7 @@ static bool flag_is_on(struct text *text, const struct template_words *words, co
 }
 
 // All names of a line of flags: true where one of them is.
-static bool any_flag(struct text *text, const struct template_words *words, const char *at, const char *end)
+static bool any_flag(struct text *text, const struct preprocess_words *words, const char *at, const char *end)
 {
     bool any = false;
     while (at < end) {
@@ -78,16 +78,16 @@ static bool any_flag(struct text *text, const struct template_words *words, cons
     return any;
 }
 
-static const char *value_of(const struct template_words *words, const char *name, size_t length)
+static const char *value_of(const struct preprocess_words *words, const char *name, size_t length)
 {
-    for (const struct template_value *v = words->values; v && v->name; v++)
+    for (const struct preprocess_value *v = words->values; v && v->name; v++)
         if (strlen(v->name) == length && memcmp(v->name, name, length) == 0)
             return v->text;
     return NULL;
 }
 
 // One line with its places filled.
-static void add_line(struct text *text, const char *at, const char *end, const struct template_words *words)
+static void add_line(struct text *text, const char *at, const char *end, const struct preprocess_words *words)
 {
     while (at < end) {
         if (*at == '@') {
@@ -119,7 +119,7 @@ static void add_line(struct text *text, const char *at, const char *end, const s
 
 enum { DEPTH_MOST = 16 };
 
-void template_add(struct text *text, const char *source, const struct template_words *words)
+void preprocess_add(struct text *text, const char *source, const struct preprocess_words *words)
 {
     // For each open //@if: whether lines stand now, and whether a branch of it has stood.
     bool on[DEPTH_MOST] = {true}, done[DEPTH_MOST] = {false};

@@ -11,20 +11,20 @@
 
 #include <lambent/base.h>
 
-struct template_flag {
+struct preprocess_flag {
     const char *name;
     bool on;
 };
 
-struct template_value {
+struct preprocess_value {
     const char *name;
     const char *text;
 };
 
 // Tables end with a NULL name.
-struct template_words {
-    const struct template_flag *flags;
-    const struct template_value *values;
+struct preprocess_words {
+    const struct preprocess_flag *flags;
+    const struct preprocess_value *values;
 };
 
 // Text that grows. Zero is empty. `failed`: memory ran out, or a template is wrong (`error` says which).
@@ -40,6 +40,6 @@ void text_add_part(struct text *text, const char *more, size_t length);
 __attribute__((format(printf, 2, 3))) void text_print(struct text *text, const char *format, ...);
 
 // Appends a template's lines.
-void template_add(struct text *text, const char *source, const struct template_words *words);
+void preprocess_add(struct text *text, const char *source, const struct preprocess_words *words);
 
 #endif

@@ -115,9 +115,9 @@ bool lam_image_save(const lam_image *image, const char *path, const lam_save_par
     if (!codec || !encode(codec, image, params, &bytes, error))
         return false;
     // The last moment at which nothing has been written.
-    struct watch watch;
-    watch_start(&watch, params ? params->control : NULL);
-    bool ok = watch_on(&watch) ? file_write(path, bytes.data, bytes.size, error) : watch_error(&watch, error);
+    struct call_control call;
+    call_start(&call, params ? params->control : NULL);
+    bool ok = call_should_continue(&call) ? file_write(path, bytes.data, bytes.size, error) : call_error(&call, error);
     lam_bytes_free(&bytes);
     return ok;
 }

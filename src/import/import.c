@@ -119,7 +119,7 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
     if (best == 2)
         return by_content;
     // Known to be something else, whatever its name says.
-    const struct foreign_kind *foreign = foreign_kind_of(file->data, file->size);
+    const struct unsupported_format *foreign = unsupported_format_of(file->data, file->size);
     if (foreign && foreign->is_model) {
         fail(error, LAM_UNSUPPORTED, "%s: this is %s, which this version cannot read yet; it reads %s", name,
              foreign->name, format_list(list));
@@ -177,7 +177,7 @@ static bool open_by_caller(const struct import_source *source, const char *insid
     lam_bytes bytes = {0};
     if (!companions->open(companions->user, inside, &bytes, error))
         return false;
-    bool ok = file_copy(bytes.data, bytes.size, source->watch, out, error);
+    bool ok = file_copy(bytes.data, bytes.size, source->call, out, error);
     lam_bytes_free(&bytes);
     return ok;
 }
@@ -201,7 +201,7 @@ static bool read_regular(const struct import_source *source, const char *path, s
     struct stat about;
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
         return fail(error, LAM_CANNOT_READ, "%s: is not a file", path);
-    return file_read(path, source->pool, source->watch, out, error);
+    return file_read(path, source->pool, source->call, out, error);
 }
 
 static bool confine_or_fail(const struct import_source *source, const char *name, char inside[PATH_LONGEST],
@@ -241,7 +241,7 @@ static bool open_model(const struct import_source *source, const char *name, str
         return false;
     *path = arena_string(arena, at);
     if (!*path)
-        return watch_memory_error(source->watch, strlen(at), error);
+        return call_memory_error(source->call, strlen(at), error);
     return read_regular(source, at, out, error);
 }
 
@@ -280,7 +280,7 @@ static struct lam_scene *start_scene(const struct import_source *source, const s
                                      lam_error *error)
 {
     const lam_load_params *params = source->params;
-    struct lam_scene *scene = scene_make(source->watch, error);
+    struct lam_scene *scene = scene_make(source->call, error);
     if (scene) {
         scene->format = importer->name;
         scene->color = params->color;
@@ -301,21 +301,21 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     if (importer != &importer_scene && source->path) {
         origin.path = arena_string(&scene->arena, source->path);
         if (!origin.path)
-            return watch_memory_error(source->watch, strlen(source->path), error);
+            return call_memory_error(source->call, strlen(source->path), error);
     }
     if (importer != &importer_scene && !scene_note_origin(scene, origin, 0, error))
         return false;
     uint64_t read_ns = now_ns();
     scene->read_ms = (double)(read_ns - start_ns) * 1e-6;
-    watch_progress(source->watch, 0.8, "normals");
+    call_progress(source->call, 0.8, "normals");
     if (params->normals_when_drawn && params->normals != LAM_NORMALS_FACET && importer != &importer_scene)
         scene_defer_normals(scene, params->normals, params->crease_angle_rad);
-    else if (!scene_prepare(scene, params->normals, params->crease_angle_rad, source->pool, source->watch, error))
+    else if (!scene_prepare(scene, params->normals, params->crease_angle_rad, source->pool, source->call, error))
         return false;
     if (!scene_measure(scene, source->pool, error))
         return false;
     scene->prepare_ms = (double)(now_ns() - read_ns) * 1e-6;
-    watch_progress(source->watch, 1, "normals");
+    call_progress(source->call, 1, "normals");
     return true;
 }
 
@@ -366,15 +366,15 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     if (!check_params(params, name, error))
         return NULL;
     uint64_t state = float_state_enter(), start_ns = now_ns();
-    struct watch watch;
-    watch_start(&watch, control);
+    struct call_control call;
+    call_start(&call, control);
     struct companions companions = {.model = path, .open = params->open, .user = params->user};
     struct import_source source = {
         .name = name,
         .path = path && strcmp(path, "-") != 0 ? path : NULL,
         .params = params,
         .pool = pool_make(params->threads),
-        .watch = &watch,
+        .call = &call,
         .open = open_companion,
         .open_model = open_model,
         .open_state = &companions,
@@ -386,12 +386,12 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     if (ok)
         scene = load_parts(&source, &importer);
     ok = ok && (scene  ? true
-                : path ? file_read(path, source.pool, &watch, &file, error)
-                       : file_copy(bytes, size, &watch, &file, error));
+                : path ? file_read(path, source.pool, &call, &file, error)
+                       : file_copy(bytes, size, &call, &file, error));
     if (ok && !scene) {
         source.bytes = file.data;
         source.size = file.size;
-        watch_progress(&watch, 0.05, "read");
+        call_progress(&call, 0.05, "read");
         importer = importer_for(name, &file, params->format, error);
         scene = importer ? start_scene(&source, importer, error) : NULL;
         ok = scene && importer->load(&source, scene, error);

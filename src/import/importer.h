@@ -13,8 +13,8 @@ struct import_source {
     const uint8_t *bytes; // FILE_PADDING zero bytes follow the last one
     size_t size;
     const lam_load_params *params;
-    struct pool *pool;   // may be NULL: no threads
-    struct watch *watch; // never NULL; check it in every long loop
+    struct pool *pool;         // may be NULL: no threads
+    struct call_control *call; // never NULL; check it in every long loop
     // Opens a companion file by the name that the model uses, confined to the model's folder. The caller releases it.
     bool (*open)(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error);
     // Opens a model that a scene file names: as above, or anywhere where the caller allows it. *path is where it lies,

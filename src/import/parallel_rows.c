@@ -3,7 +3,7 @@
 
 struct run {
     const struct import_source *source;
-    chunk_task *task;
+    parallel_rows_task *task;
     void *user;
     size_t first_wrong; // touched atomically; the count while all is well
     int stopped;        // touched atomically; the watch has said no
@@ -17,7 +17,7 @@ static void run_one(void *user, size_t index, int thread)
     size_t wrong = __atomic_load_n(&run->first_wrong, __ATOMIC_RELAXED);
     if (index > wrong || __atomic_load_n(&run->stopped, __ATOMIC_RELAXED))
         return;
-    if (!watch_on(run->source->watch)) {
+    if (!call_should_continue(run->source->call)) {
         __atomic_store_n(&run->stopped, 1, __ATOMIC_RELAXED);
         return;
     }
@@ -28,12 +28,13 @@ static void run_one(void *user, size_t index, int thread)
         ;
 }
 
-bool chunks_run(const struct import_source *source, size_t count, chunk_task *task, void *user, lam_error *error)
+bool parallel_rows_run(const struct import_source *source, size_t count, parallel_rows_task *task, void *user,
+                       lam_error *error)
 {
     struct run run = {.source = source, .task = task, .user = user, .first_wrong = count};
     pool_run(source->pool, count, run_one, &run);
     if (run.stopped)
-        return watch_error(source->watch, error);
+        return call_error(source->call, error);
     // Pieces behind the first wrong one may not have been done: if it goes well now (memory was short, and no
     // longer is), they still have to be.
     for (size_t index = run.first_wrong; index < count; index++) {

@@ -5,7 +5,7 @@
 
 // A file is of the first kind whose `magic` stands at `offset`, and that holds `within` (NULL: nothing more).
 static const struct kind {
-    struct foreign_kind kind;
+    struct unsupported_format kind;
     unsigned offset, length;
     const char *magic;
     const char *within;
@@ -56,7 +56,7 @@ static const struct kind {
 
 // Text formats that begin anyhow: told by a first character behind white space, and a word further on.
 static const struct text_kind {
-    struct foreign_kind kind;
+    struct unsupported_format kind;
     char first;
     const char *within;
 } text_kinds[] = {
@@ -85,9 +85,9 @@ static bool is_3ds(const uint8_t *bytes, size_t size)
 // IGES has cards of 80 columns, the first of them numbered S      1.
 static bool is_iges(const uint8_t *bytes, size_t size) { return size > 80 && memcmp(bytes + 72, "S      1", 8) == 0; }
 
-const struct foreign_kind *foreign_kind_of(const uint8_t *bytes, size_t size)
+const struct unsupported_format *unsupported_format_of(const uint8_t *bytes, size_t size)
 {
-    static const struct foreign_kind studio = {"a 3DS file", true}, iges = {"an IGES file", true};
+    static const struct unsupported_format studio = {"a 3DS file", true}, iges = {"an IGES file", true};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         const struct kind *kind = &kinds[i];
         if (size >= kind->offset + kind->length && memcmp(bytes + kind->offset, kind->magic, kind->length) == 0 &&

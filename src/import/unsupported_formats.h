@@ -6,12 +6,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-struct foreign_kind {
+struct unsupported_format {
     const char *name; // "a PNG picture"
     bool is_model;    // a 3D format, which the program could read one day
 };
 
 // NULL: not known.
-const struct foreign_kind *foreign_kind_of(const uint8_t *bytes, size_t size);
+const struct unsupported_format *unsupported_format_of(const uint8_t *bytes, size_t size);
 
 #endif

@@ -17,7 +17,7 @@
 
 // One light as it acts on one material: the colours are products, formed once for each draw. What the kind of light
 // has no use for is never looked at.
-STRUCT(source)
+STRUCT(light_source)
 {
     vec3 position;     // point and spot
     vec3 direction;    // unit: the way a directional light travels, the axis of a spot
@@ -33,7 +33,7 @@ STRUCT(source)
     num inverse_width; // 1 / max(0.001, cos inner - cos outer)
 };
 
-STRUCT(toward)
+STRUCT(light_sample)
 {
     vec3 l;          // unit, from the point to the light; 0 where the light is at the point
     num distance;    // 0 for a directional light
@@ -43,7 +43,7 @@ STRUCT(toward)
 
 // 1 / (a + b d + c d^2), and 0 where that sum is 0. With a range, times the window of glTF's KHR_lights_punctual:
 // max(min(1 - (d / range)^4, 1), 0).
-FN num attenuation_at(num d, source light, int falloff)
+FN num attenuation_at(num d, light_source light, int falloff)
 {
     num sum = light.constant + (light.linear + light.quadratic * d) * d;
     num attenuation = pick(sum >= 1.17549435e-38f, 1.0f / sum, num_of(0.0f));
@@ -61,7 +61,7 @@ FN num attenuation_at(num d, source light, int falloff)
 //     cones:     clamp((c - cos outer) / max(0.001, cos inner - cos outer), 0, 1)^2, as in KHR_lights_punctual
 // The sharp edge itself is lit, whichever way c was rounded: hence the 5e-7, the most that c may be off. The cones
 // enlarge that error by 1 / (cos inner - cos outer), the power by its exponent.
-FN num spot_at(num c, source light, int kind)
+FN num spot_at(num c, light_source light, int kind)
 {
     num spot = num_of(1.0f);
     if (kind == LIGHT_SPOT_CUTOFF) {
@@ -78,9 +78,9 @@ FN num spot_at(num c, source light, int kind)
 }
 
 // The light at the end of the way from a point; `square` is the way's length squared, `inverse` 1 by the length.
-FN toward toward_along(vec3 way, num square, num inverse)
+FN light_sample toward_along(vec3 way, num square, num inverse)
 {
-    toward t;
+    light_sample t;
     t.l = scale3(way, inverse);
     t.distance = square * inverse;
     t.attenuation = num_of(1.0f);
@@ -89,7 +89,7 @@ FN toward toward_along(vec3 way, num square, num inverse)
 }
 
 // What distance and cone leave of it. At the light itself nothing arrives: there is no direction to it.
-FN toward weaken_light(toward t, num square, source light, int kind, int falloff)
+FN light_sample weaken_light(light_sample t, num square, light_source light, int kind, int falloff)
 {
     if (falloff != FALLOFF_NONE) {
         t.attenuation = attenuation_at(t.distance, light, falloff);
@@ -102,9 +102,9 @@ FN toward weaken_light(toward t, num square, source light, int kind, int falloff
 }
 
 // The light as seen from the point p.
-FN toward toward_light(vec3 p, source light, int kind, int falloff)
+FN light_sample toward_light(vec3 p, light_source light, int kind, int falloff)
 {
-    toward t;
+    light_sample t;
     if (kind == LIGHT_DIRECTIONAL) {
         t.l = negate3(light.direction);
         t.distance = num_of(0.0f);
@@ -113,7 +113,7 @@ FN toward toward_light(vec3 p, source light, int kind, int falloff)
     } else {
         vec3 way = sub3(light.position, p);
         num square = dot3(way, way);
-        t = toward_along(way, square, inverse_root(square));
+        t = toward_along(way, square, rsqrt(square));
         t = weaken_light(t, square, light, kind, falloff);
     }
     return t;

@@ -22,7 +22,7 @@ STRUCT(surface)
 };
 
 // How the surface meets the light of one direction, but for the highlight's power.
-STRUCT(answer)
+STRUCT(lobe_sample)
 {
     num diffuse; // D
     num n_dot_l; // cosine between normal and light, -1...1
@@ -30,7 +30,7 @@ STRUCT(answer)
     mask lit;    // whether there is a highlight: S is 0 elsewhere
 };
 
-STRUCT(reflected)
+STRUCT(lobe_value)
 {
     num diffuse;  // D
     num specular; // S
@@ -39,7 +39,7 @@ STRUCT(reflected)
 };
 
 // x in -1...1: a dot product of unit vectors may be a rounding more.
-FN num cosine(num x) { return lesser(greater(x, num_of(-1.0f)), num_of(1.0f)); }
+FN num cosine(num x) { return min_of(max_of(x, num_of(-1.0f)), num_of(1.0f)); }
 
 // Whether a direction is there at all: not the zero vector.
 FN mask present(vec3 w) { return dot3(w, w) > 0.0f; }
@@ -56,9 +56,9 @@ FN vec3 perpendicular3(vec3 w, vec3 n) { return unit3(sub3(w, scale3(n, dot3(n, 
 
 // Lambert (1760): a matt surface sends the light it takes in evenly to all sides, and takes in the more the steeper the
 // light falls:  D = max(n.l, 0)
-FN answer lambert_lobe(surface s, vec3 l)
+FN lobe_sample lambert_lobe(surface s, vec3 l)
 {
-    answer b;
+    lobe_sample b;
     b.n_dot_l = cosine(dot3(s.n, l));
     b.diffuse = positive(b.n_dot_l);
     b.base = num_of(0.0f);
@@ -75,9 +75,9 @@ FN num phong_base(vec3 n, vec3 l, vec3 v)
     return 1.0f - 0.5f * dot3(apart, apart);
 }
 
-FN answer phong_lobe(surface s, vec3 l)
+FN lobe_sample phong_lobe(surface s, vec3 l)
 {
-    answer b = lambert_lobe(s, l);
+    lobe_sample b = lambert_lobe(s, l);
     b.base = phong_base(s.n, l, s.v);
     return b;
 }
@@ -101,11 +101,11 @@ FN halfway halfway_of(vec3 n, vec3 l, vec3 v)
     return h;
 }
 
-FN answer blinn_phong_lobe(surface s, vec3 l)
+FN lobe_sample blinn_phong_lobe(surface s, vec3 l)
 {
-    answer b = lambert_lobe(s, l);
+    lobe_sample b = lambert_lobe(s, l);
     halfway h = halfway_of(s.n, l, s.v);
-    b.base = h.product * inverse_root(h.square);
+    b.base = h.product * rsqrt(h.square);
     return b;
 }
 
@@ -114,14 +114,14 @@ FN answer blinn_phong_lobe(surface s, vec3 l)
 //                         S = max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)^shininess        `lecture`, as some print it
 // sin(t,l) = |t x l|: the root of 1 - (t.l)^2 would lose half of the digits where l is nearly along t. On a solid
 // surface D and S are gated by n.l > 0; a fibre has no inside, and the lecture's form has no gate.
-FN answer kajiya_kay_lobe(surface s, vec3 l, int lecture, int fibre)
+FN lobe_sample kajiya_kay_lobe(surface s, vec3 l, int lecture, int fibre)
 {
     vec3 across_l = cross3(s.t, l);
     vec3 across_v = cross3(s.t, s.v);
-    num sine_l = lesser(root(dot3(across_l, across_l)), num_of(1.0f));
-    num sine_v = lesser(root(dot3(across_v, across_v)), num_of(1.0f));
+    num sine_l = min_of(square_root(dot3(across_l, across_l)), num_of(1.0f));
+    num sine_v = min_of(square_root(dot3(across_v, across_v)), num_of(1.0f));
     num cosines = dot3(s.t, l) * dot3(s.t, s.v);
-    answer b;
+    lobe_sample b;
     b.n_dot_l = cosine(dot3(s.n, l));
     b.base = sine_l * sine_v - cosines;
     if (lecture != 0) {
@@ -137,9 +137,9 @@ FN answer kajiya_kay_lobe(surface s, vec3 l, int lecture, int fibre)
 }
 
 // The model by its number. MODEL_NONE answers no light: its colour is `unlit` in sum.h.
-FN answer lobe_of(surface s, vec3 l, int model, int fibre)
+FN lobe_sample lobe_of(surface s, vec3 l, int model, int fibre)
 {
-    answer b = lambert_lobe(s, l);
+    lobe_sample b = lambert_lobe(s, l);
     if (model == MODEL_NONE) {
         b.diffuse = num_of(0.0f);
     }
@@ -159,9 +159,9 @@ FN answer lobe_of(surface s, vec3 l, int model, int fibre)
 }
 
 // The highlight to its power.
-FN reflected reflected_of(answer b, num shininess)
+FN lobe_value reflected_of(lobe_sample b, num shininess)
 {
-    reflected r;
+    lobe_value r;
     r.diffuse = b.diffuse;
     r.specular = pick(b.lit, unit_power(b.base, shininess), num_of(0.0f));
     r.n_dot_l = b.n_dot_l;
@@ -169,9 +169,9 @@ FN reflected reflected_of(answer b, num shininess)
     return r;
 }
 
-FN reflected reflect_light(surface s, vec3 l, num shininess, int model, int fibre)
+FN lobe_value reflect_light(surface s, vec3 l, num shininess, int model, int fibre)
 {
-    reflected r = reflected_of(lobe_of(s, l, model, fibre), shininess);
+    lobe_value r = reflected_of(lobe_of(s, l, model, fibre), shininess);
     if (model <= MODEL_LAMBERT) { // and MODEL_NONE: no highlight
         r.specular = num_of(0.0f);
     }

@@ -30,19 +30,19 @@ bool both(bool a, bool b) { return a && b; }
 bool either(bool a, bool b) { return a || b; }
 bool negate(bool a) { return !a; }
 
-float lesser(float a, float b) { return a < b ? a : b; }
-float greater(float a, float b) { return a > b ? a : b; }
+float min_of(float a, float b) { return a < b ? a : b; }
+float max_of(float a, float b) { return a > b ? a : b; }
 float absolute(float x) { return abs(x); }
 float positive(float x) { return x > 0.0 ? x : 0.0; }
-float saturate(float x) { return lesser(positive(x), 1.0); }
+float saturate(float x) { return min_of(positive(x), 1.0); }
 
-float root(float x) { return sqrt(x); }
-float inverse_root(float x) { return inversesqrt(greater(x, 1.0e-37)); }
-float log2_of(float x) { return log2(greater(x, 1.17549435e-38)); }
-float exp2_of(float y) { return y >= -126.0 ? exp2(lesser(y, 127.5)) : 0.0; }
+float square_root(float x) { return sqrt(x); }
+float rsqrt(float x) { return inversesqrt(max_of(x, 1.0e-37)); }
+float log2_of(float x) { return log2(max_of(x, 1.17549435e-38)); }
+float exp2_of(float y) { return y >= -126.0 ? exp2(min_of(y, 127.5)) : 0.0; }
 float power(float base, float exponent)
 {
     return base >= 1.17549435e-38 ? exp2_of(exponent * log2(base)) : (exponent > 0.0 ? 0.0 : 1.0);
 }
-float unit_power(float base, float exponent) { return power(lesser(base, 1.0), exponent); }
-vec3 unit3(vec3 a) { return a * inverse_root(dot(a, a)); }
+float unit_power(float base, float exponent) { return power(min_of(base, 1.0), exponent); }
+vec3 unit3(vec3 a) { return a * rsqrt(dot(a, a)); }

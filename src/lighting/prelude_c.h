@@ -31,6 +31,6 @@ FN vec3 mix3(vec3 a, vec3 b, num t) { return add3(a, scale3(sub3(b, a), t)); } /
 FN vec3 pick3(mask m, vec3 a, vec3 b) { return (vec3){pick(m, a.x, b.x), pick(m, a.y, b.y), pick(m, a.z, b.z)}; }
 
 // Length 1, for lengths from 1e-15 to 1e15; the zero vector stays zero.
-FN vec3 unit3(vec3 a) { return scale3(a, inverse_root(dot3(a, a))); }
+FN vec3 unit3(vec3 a) { return scale3(a, rsqrt(dot3(a, a))); }
 
 #endif

@@ -76,7 +76,7 @@ FN terms add_hemisphere(terms sum, surface s, hemisphere h)
 }
 
 // Adds spot * attenuation * (kd * Ld D + ks * Ls S), both known already.
-FN terms add_reflected(terms sum, source light, toward t, reflected r)
+FN terms add_reflected(terms sum, light_source light, light_sample t, lobe_value r)
 {
     num arriving = t.attenuation * t.spot;
     sum.diffuse = add3(sum.diffuse, scale3(light.diffuse, arriving * r.diffuse));
@@ -85,17 +85,17 @@ FN terms add_reflected(terms sum, source light, toward t, reflected r)
 }
 
 // Adds a light's ambient share as OpenGL 1 did: weakened by distance and cone like the rest of it.
-FN terms add_arriving_ambient(terms sum, vec3 ambient, toward t)
+FN terms add_arriving_ambient(terms sum, vec3 ambient, light_sample t)
 {
     sum.ambient = add3(sum.ambient, scale3(ambient, t.attenuation * t.spot));
     return sum;
 }
 
 // Adds one point, directional or spot light.
-FN terms add_light(terms sum, surface s, source light, num shininess, int kind, int falloff, int model, int fibre)
+FN terms add_light(terms sum, surface s, light_source light, num shininess, int kind, int falloff, int model, int fibre)
 {
-    toward t = toward_light(s.p, light, kind, falloff);
-    reflected r = reflect_light(s, t.l, shininess, model, fibre);
+    light_sample t = toward_light(s.p, light, kind, falloff);
+    lobe_value r = reflect_light(s, t.l, shininess, model, fibre);
     return add_reflected(sum, light, t, r);
 }
 

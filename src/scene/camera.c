@@ -50,7 +50,7 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view)
 static lam_camera fit_orthographic(const lam_scene *scene, const struct view_axes *axes, double aspect, double fill)
 {
     struct reach box = {0};
-    reach_find(scene, axes, &box);
+    view_extents_find(scene, axes, &box);
     double right = box.value[REACH_RIGHT], left = box.value[REACH_LEFT], top = box.value[REACH_TOP],
            bottom = box.value[REACH_BOTTOM];
     double half_width = (right + left) / 2, half_height = (top + bottom) / 2;
@@ -73,7 +73,7 @@ static lam_camera fit_perspective(const lam_scene *scene, const struct view_axes
 {
     struct reach reach = {.ky = math_tan(fovy / 2) * fill};
     reach.kx = reach.ky * aspect;
-    reach_find(scene, axes, &reach);
+    view_extents_find(scene, axes, &reach);
     const double *at = reach.value, front = at[REACH_FRONT];
     double ez_x = (at[REACH_RIGHT] + at[REACH_LEFT]) / (2 * reach.kx),
            ez_y = (at[REACH_TOP] + at[REACH_BOTTOM]) / (2 * reach.ky);

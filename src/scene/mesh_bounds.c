@@ -39,9 +39,9 @@ static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scen
     if (!mesh->indices)
         return true;
     struct arena scratch;
-    arena_start(&scratch, scene->arena.watch);
+    arena_start(&scratch, scene->arena.call);
     uint8_t *used = arena_alloc_zeroed(&scratch, mesh->vertex_count + 1);
-    bool ok = used || watch_memory_error(scratch.watch, mesh->vertex_count, error);
+    bool ok = used || call_memory_error(scratch.call, mesh->vertex_count, error);
     if (ok) {
         struct marking marking = {mesh->indices, corners, used};
         pool_run(pool, (corners + PIECE - 1) / PIECE, mark_piece, &marking);
@@ -50,7 +50,7 @@ static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scen
             count += used[i];
         if (count < mesh->vertex_count) {
             uint32_t *list = arena_array(&scene->arena, count, sizeof *list);
-            ok = list || watch_memory_error(scene->arena.watch, count * sizeof *list, error);
+            ok = list || call_memory_error(scene->arena.call, count * sizeof *list, error);
             for (uint32_t i = 0, n = 0; ok && i < mesh->vertex_count; i++)
                 if (used[i])
                     list[n++] = i;

@@ -3,18 +3,18 @@
 
 #include <lambent/device.h>
 
-static const char *const names[LAM_SHOW_COUNT] = {
-    [LAM_SHOW_PICTURE] = "picture",   [LAM_SHOW_AMBIENT] = "ambient",   [LAM_SHOW_DIFFUSE] = "diffuse",
-    [LAM_SHOW_SPECULAR] = "specular", [LAM_SHOW_EMISSION] = "emission", [LAM_SHOW_REFLECTION] = "reflection",
-    [LAM_SHOW_LIGHT] = "light",       [LAM_SHOW_NORMALS] = "normals",   [LAM_SHOW_TANGENTS] = "tangents",
-    [LAM_SHOW_DEPTH] = "depth",       [LAM_SHOW_N_L] = "n.l",           [LAM_SHOW_N_H] = "n.h",
-    [LAM_SHOW_FACING] = "facing",     [LAM_SHOW_IDS] = "ids",           [LAM_SHOW_COVERAGE] = "coverage",
-    [LAM_SHOW_OVERDRAW] = "overdraw", [LAM_SHOW_CLIPPED] = "clipped",
+static const char *const names[LAM_OUTPUT_COUNT] = {
+    [LAM_OUTPUT_PICTURE] = "picture",   [LAM_OUTPUT_AMBIENT] = "ambient",   [LAM_OUTPUT_DIFFUSE] = "diffuse",
+    [LAM_OUTPUT_SPECULAR] = "specular", [LAM_OUTPUT_EMISSION] = "emission", [LAM_OUTPUT_REFLECTION] = "reflection",
+    [LAM_OUTPUT_LIGHT] = "light",       [LAM_OUTPUT_NORMALS] = "normals",   [LAM_OUTPUT_TANGENTS] = "tangents",
+    [LAM_OUTPUT_DEPTH] = "depth",       [LAM_OUTPUT_N_L] = "n.l",           [LAM_OUTPUT_N_H] = "n.h",
+    [LAM_OUTPUT_FACING] = "facing",     [LAM_OUTPUT_IDS] = "ids",           [LAM_OUTPUT_COVERAGE] = "coverage",
+    [LAM_OUTPUT_OVERDRAW] = "overdraw", [LAM_OUTPUT_CLIPPED] = "clipped",
 };
 
-const char *lam_show_name(lam_show show) { return (unsigned)show < LAM_SHOW_COUNT ? names[show] : NULL; }
+const char *lam_output_name(lam_output show) { return (unsigned)show < LAM_OUTPUT_COUNT ? names[show] : NULL; }
 
-bool lam_show_is_light(lam_show show) { return (unsigned)show <= LAM_SHOW_LIGHT; }
+bool lam_output_is_light(lam_output show) { return (unsigned)show <= LAM_OUTPUT_LIGHT; }
 
 int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int room)
 {

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct lam_scene *scene_make(struct watch *watch, lam_error *error)
+struct lam_scene *scene_make(struct call_control *call, lam_error *error)
 {
     struct lam_scene *scene = calloc(1, sizeof *scene);
     if (!scene) {
@@ -23,7 +23,7 @@ struct lam_scene *scene_make(struct watch *watch, lam_error *error)
         return NULL;
     }
     *scene->token = (struct scene_token){.references = 1};
-    arena_start(&scene->arena, watch);
+    arena_start(&scene->arena, call);
     scene->up = LAM_UP_Y;
     scene->placement = lam_mat4_identity();
     scene->format = "";
@@ -31,7 +31,7 @@ struct lam_scene *scene_make(struct watch *watch, lam_error *error)
     return scene;
 }
 
-void scene_built(struct lam_scene *scene) { scene->arena.watch = NULL; }
+void scene_built(struct lam_scene *scene) { scene->arena.call = NULL; }
 
 lam_scene *lam_scene_make(lam_error *error) { return scene_make(NULL, error); }
 
@@ -65,7 +65,7 @@ int scene_append(struct lam_scene *scene, struct scene_list *list, const void *i
         int room = list->room ? list->room * 2 : 8;
         void *items = list->room > INT32_MAX / 4 ? NULL : arena_array(&scene->arena, (size_t)room, size);
         if (!items) {
-            watch_memory_error(scene->arena.watch, (size_t)room * size, error);
+            call_memory_error(scene->arena.call, (size_t)room * size, error);
             return -1;
         }
         if (list->count)
@@ -123,7 +123,7 @@ bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int 
         origin.part_count += (int)scene_mesh(scene, i)->part_count;
     int *parts = arena_array(&scene->arena, (size_t)origin.part_count, sizeof *parts);
     if (!materials || !objects || !parts)
-        return watch_memory_error(scene->arena.watch, 0, error);
+        return call_memory_error(scene->arena.call, 0, error);
     if (origin.material_count)
         memcpy(materials, (lam_material *)scene->materials.items + origin.first_material,
                (size_t)origin.material_count * sizeof *materials);
@@ -140,7 +140,7 @@ bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int 
 }
 
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,
-                   struct watch *watch, lam_error *error)
+                   struct call_control *call, lam_error *error)
 {
     for (int i = 0; normals != LAM_NORMALS_FILE && i < scene->origins.count; i++) {
         struct scene_origin *origin = (struct scene_origin *)scene->origins.items + i;
@@ -155,8 +155,8 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
         if (mesh->normals && normals == LAM_NORMALS_FILE)
             continue;
         bool ok = normals == LAM_NORMALS_FACET
-                      ? normals_facet(mesh, &scene->arena, pool, watch, error)
-                      : normals_smooth(mesh, crease_angle_rad, &scene->arena, pool, watch, error);
+                      ? normals_facet(mesh, &scene->arena, pool, call, error)
+                      : normals_smooth(mesh, crease_angle_rad, &scene->arena, pool, call, error);
         if (!ok)
             return false;
     }

@@ -149,7 +149,7 @@ int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error)
     lam_mesh copy = *mesh;
     bool ok = check_mesh(scene, mesh, error);
     if (ok && !copy_mesh(scene, &copy))
-        ok = watch_memory_error(scene->arena.watch, 0, error);
+        ok = call_memory_error(scene->arena.call, 0, error);
     if (ok && !copy.normals)
         ok = normals_smooth(&copy, math_radians(40), &scene->arena, NULL, NULL, error);
     int index = ok ? scene_take_mesh(scene, &copy, error) : -1;
@@ -180,7 +180,7 @@ static bool own_material(lam_scene *scene, const lam_material *material, lam_mat
     bool ok = copy_text(scene, &out->name);
     for (int i = 0; ok && i < LAM_MAP_COUNT; i++)
         ok = copy_text(scene, &out->map_names[i]) && copy_text(scene, &out->map_options[i]);
-    return ok || watch_memory_error(scene->arena.watch, 0, error);
+    return ok || call_memory_error(scene->arena.call, 0, error);
 }
 
 int lam_scene_add_material(lam_scene *scene, const lam_material *material, lam_error *error)
@@ -230,7 +230,7 @@ static bool own_light(lam_scene *scene, const lam_light *light, lam_light *out, 
         return false;
     *out = *light;
     return (copy_text(scene, &out->name) && copy_text(scene, &out->object)) ||
-           watch_memory_error(scene->arena.watch, 0, error);
+           call_memory_error(scene->arena.call, 0, error);
 }
 
 int lam_scene_add_light(lam_scene *scene, const lam_light *light, lam_error *error)
@@ -288,7 +288,7 @@ static bool own_object(lam_scene *scene, const lam_object *object, lam_object *o
     if (!check_object(scene, object, error))
         return false;
     *out = *object;
-    return copy_text(scene, &out->name) || watch_memory_error(scene->arena.watch, 0, error);
+    return copy_text(scene, &out->name) || call_memory_error(scene->arena.call, 0, error);
 }
 
 int lam_scene_add_object(lam_scene *scene, const lam_object *object, lam_error *error)

@@ -21,7 +21,7 @@ struct scene_extent {
     lam_vec3 minimum, maximum; // mesh coordinates, origin included
     const uint32_t *used;
     uint32_t used_count;
-    struct box_tree boxes; // of those vertices
+    struct aabb_tree boxes; // of those vertices
     bool translucent;
 };
 
@@ -73,8 +73,8 @@ struct lam_scene {
     double deferred_crease_rad;
 };
 
-// As lam_scene_make, charging `watch` (may be NULL) while the scene is being built; scene_built ends that.
-struct lam_scene *scene_make(struct watch *watch, lam_error *error);
+// As lam_scene_make, charging `call` (may be NULL) while the scene is being built; scene_built ends that.
+struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
 struct scene_token *scene_token_hold(struct scene_token *token);
@@ -98,12 +98,12 @@ void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__(
 bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error);
 
 // A built-in shape as a new mesh, charged to the scene's own watch. Its index, −1 on failure.
-int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params, struct watch *watch,
-                    lam_error *error);
+int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params,
+                    struct call_control *call, lam_error *error);
 
 // Makes every mesh ready to draw: normals where they are missing or asked for, degenerate ones told.
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,
-                   struct watch *watch, lam_error *error);
+                   struct call_control *call, lam_error *error);
 // The same, but leaves smooth normals to the device.
 void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad);
 

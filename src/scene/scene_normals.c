@@ -17,11 +17,11 @@ bool lam_scene_make_normals(lam_scene *scene, lam_normals normals, double crease
     struct pool *pool = pool_make(threads);
     if (!pool)
         return fail_memory(error, 0);
-    struct watch watch;
-    watch_start(&watch, control);
+    struct call_control call;
+    call_start(&call, control);
     uint64_t state = float_state_enter();
-    scene->arena.watch = &watch;
-    bool ok = scene_prepare(scene, normals, crease_angle_rad, pool, &watch, error);
+    scene->arena.call = &call;
+    bool ok = scene_prepare(scene, normals, crease_angle_rad, pool, &call, error);
     scene_built(scene);
     float_state_leave(state);
     pool_free(pool);

@@ -163,7 +163,8 @@ static uint32_t list_corners(struct making *m, uint32_t vertices)
     return most;
 }
 
-static bool make(struct lam_scene *scene, lam_mesh *mesh, struct arena *scratch, struct watch *watch, lam_error *error)
+static bool make(struct lam_scene *scene, lam_mesh *mesh, struct arena *scratch, struct call_control *call,
+                 lam_error *error)
 {
     struct making m = {.mesh = mesh, .corners = (size_t)mesh->triangle_count * 3};
     uint32_t vertices = mesh->indices ? mesh->vertex_count : (uint32_t)m.corners;
@@ -174,24 +175,24 @@ static bool make(struct lam_scene *scene, lam_mesh *mesh, struct arena *scratch,
     float *tangents = arena_array(scratch, m.corners, 4 * sizeof *tangents);
     m.indices = arena_array(&scene->arena, m.corners, sizeof *m.indices);
     if (!m.faces || !m.first || !m.list || !tangents || !m.indices)
-        return watch_memory_error(watch, m.corners * 4 * sizeof *tangents, error);
+        return call_memory_error(call, m.corners * 4 * sizeof *tangents, error);
     m.tangents = tangents;
     for (size_t i = 0; i < mesh->triangle_count; i++) {
-        if (i % LOOK == 0 && !watch_on(watch))
-            return watch_error(watch, error);
+        if (i % LOOK == 0 && !call_should_continue(call))
+            return call_error(call, error);
         face_tangent(mesh, i, m.faces[i]);
     }
     m.shared = arena_array(scratch, list_corners(&m, vertices), sizeof *m.shared);
     if (!m.shared)
-        return watch_memory_error(watch, 0, error);
+        return call_memory_error(call, 0, error);
     for (uint32_t v = 0; v < vertices; v++) {
-        if (v % LOOK == 0 && !watch_on(watch))
-            return watch_error(watch, error);
+        if (v % LOOK == 0 && !call_should_continue(call))
+            return call_error(call, error);
         share_vertex(&m, v);
     }
     float *kept = arena_array(&scene->arena, m.count, 4 * sizeof *kept);
     if (!kept)
-        return watch_memory_error(watch, (size_t)m.count * 4 * sizeof *kept, error);
+        return call_memory_error(call, (size_t)m.count * 4 * sizeof *kept, error);
     memcpy(kept, tangents, (size_t)m.count * 4 * sizeof *kept);
     mesh->tangents = kept;
     mesh->tangent_count = m.count;
@@ -203,18 +204,18 @@ bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_e
 {
     if (!scene)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_make_tangents: the scene is NULL");
-    struct watch watch;
-    watch_start(&watch, control);
+    struct call_control call;
+    call_start(&call, control);
     uint64_t state = float_state_enter();
-    scene->arena.watch = &watch;
-    bool ok = scene->deferred_crease_rad <= 0 || scene_prepare(scene, LAM_NORMALS_FILE, 0, NULL, &watch, error);
+    scene->arena.call = &call;
+    bool ok = scene->deferred_crease_rad <= 0 || scene_prepare(scene, LAM_NORMALS_FILE, 0, NULL, &call, error);
     for (int i = 0; ok && i < scene->meshes.count; i++) {
         lam_mesh *mesh = (lam_mesh *)scene->meshes.items + i;
         if (mesh->tangents || !mesh->texcoords || !mesh->normals || !mesh->triangle_count)
             continue;
         struct arena scratch;
-        arena_start(&scratch, &watch);
-        ok = make(scene, mesh, &scratch, &watch, error);
+        arena_start(&scratch, &call);
+        ok = make(scene, mesh, &scratch, &call, error);
         arena_free(&scratch);
     }
     scene_built(scene);

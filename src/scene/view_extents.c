@@ -67,7 +67,7 @@ static void reach_for(const struct search *s, lam_vec3 q)
 // Most vertices are told by their limit, which takes fewer operations than their values.
 static void look_into(const struct search *s, size_t block, int d)
 {
-    const struct box_tree *tree = &s->extent->boxes;
+    const struct aabb_tree *tree = &s->extent->boxes;
     size_t first = block * tree->block, end = box_end(first, tree->block, tree->vertices);
     const lam_vec3 axis = s->axis[d];
     const double offset = s->offset[d];
@@ -91,7 +91,7 @@ static double limit_of(const struct search *s, const box_of_six box, int d)
 // From the topmost level down to the box that promises most: with what is found there, most others cannot matter.
 static void look_at_most_promising(const struct search *s, int d)
 {
-    const struct box_tree *tree = &s->extent->boxes;
+    const struct aabb_tree *tree = &s->extent->boxes;
     size_t first = 0, best = 0;
     for (int level = tree->levels - 1; level >= 0; level--, first = best * BOX_CHILDREN) {
         const box_of_six *boxes = boxes_of_level(tree, level);
@@ -111,7 +111,7 @@ static void look_at_most_promising(const struct search *s, int d)
 
 static void look_at_level(const struct search *s, int level, size_t first)
 {
-    const struct box_tree *tree = &s->extent->boxes;
+    const struct aabb_tree *tree = &s->extent->boxes;
     const box_of_six *boxes = boxes_of_level(tree, level);
     size_t end = box_end(first, BOX_CHILDREN, tree->count[level]);
     for (size_t i = first; i < end; i++)
@@ -161,7 +161,7 @@ static void search(const lam_scene *scene, const struct view_axes *axes, struct 
         search_object(scene, scene_object(scene, i), axes, reach, first, end);
 }
 
-void reach_find(const lam_scene *scene, const struct view_axes *axes, struct reach *reach)
+void view_extents_find(const lam_scene *scene, const struct view_axes *axes, struct reach *reach)
 {
     search(scene, axes, reach, 0, REACH_DIRECTIONS);
 }

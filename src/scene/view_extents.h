@@ -19,7 +19,7 @@ struct reach {
 };
 
 // All of a reach, for its kx and ky.
-void reach_find(const lam_scene *scene, const struct view_axes *axes, struct reach *reach);
+void view_extents_find(const lam_scene *scene, const struct view_axes *axes, struct reach *reach);
 
 // The same for another kx (ky): what depends on it.
 void reach_across(const lam_scene *scene, const struct view_axes *axes, double kx, struct reach *reach);

@@ -172,7 +172,7 @@ static const char *picture_path(struct scene_reader *r, const char *name)
     size_t folder = scene && name[0] != '/' ? (size_t)(path_name(scene) - scene) : 0, length = strlen(name);
     char *path = arena_alloc(&r->scene->arena, folder + length + 1);
     if (!path) {
-        watch_memory_error(r->source->watch, folder + length + 1, r->error);
+        call_memory_error(r->source->call, folder + length + 1, r->error);
         return NULL;
     }
     if (folder)
@@ -216,11 +216,11 @@ static bool read_built_in(struct scene_reader *r, const struct place *place, con
 static struct lam_environment *load_environment(const struct scene_reader *r)
 {
     const lam_settings *s = r->settings;
-    struct watch *watch = r->source->watch;
+    struct call_control *call = r->source->call;
     if (s->built_in)
         return lam_environment_built_in(s->built_in, r->error);
-    return s->equirectangular ? environment_load(s->equirectangular, r->color, watch, r->error)
-                              : environment_load_faces((const char *const *)s->faces, r->color, watch, r->error);
+    return s->equirectangular ? environment_load(s->equirectangular, r->color, call, r->error)
+                              : environment_load_faces((const char *const *)s->faces, r->color, call, r->error);
 }
 
 static bool read_environment(struct scene_reader *r, const json_t *root)
@@ -284,8 +284,8 @@ static bool scene_load(const struct import_source *source, struct lam_scene *sce
     lam_error unwanted;
     size_t charge = tree_bytes(source->size),
            skip = source->size >= 3 && memcmp(source->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-    if (!settings || !watch_charge(source->watch, charge))
-        return watch_memory_error(source->watch, charge, error);
+    if (!settings || !call_charge(source->call, charge))
+        return call_memory_error(source->call, charge, error);
     struct scene_reader reader = {.source = source,
                                   .scene = scene,
                                   .settings = settings,
@@ -303,7 +303,7 @@ static bool scene_load(const struct import_source *source, struct lam_scene *sce
         ok = fail_line(error, source, (size_t)(wrong.line > 0 ? wrong.line : 1), "column %d: %s", wrong.column,
                        wrong.text);
     }
-    watch_refund(source->watch, charge);
+    call_refund(source->call, charge);
     scene->settings = settings;
     scene->color = reader.color;
     return ok;

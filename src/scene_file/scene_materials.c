@@ -97,7 +97,7 @@ bool read_materials(struct scene_reader *r, const json_t *root)
     }
     r->material_at = arena_array(&r->scene->arena, json_object_size(list), sizeof *r->material_at);
     if (!r->material_at)
-        return watch_memory_error(r->source->watch, json_object_size(list) * sizeof *r->material_at, r->error);
+        return call_memory_error(r->source->call, json_object_size(list) * sizeof *r->material_at, r->error);
     const char *key;
     json_t *value;
     int i = 0;
@@ -112,7 +112,7 @@ bool read_materials(struct scene_reader *r, const json_t *root)
         lam_material *material = (lam_material *)r->scene->materials.items + r->material_at[i++];
         material->name = arena_string(&r->scene->arena, key);
         if (!material->name)
-            return watch_memory_error(r->source->watch, strlen(key), r->error);
+            return call_memory_error(r->source->call, strlen(key), r->error);
     }
     r->materials = list;
     return true;

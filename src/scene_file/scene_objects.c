@@ -79,7 +79,7 @@ static bool import_bytes(struct scene_reader *r, const struct place *place, cons
     struct lam_scene inner = {
         .arena = r->scene->arena, .up = importer->up, .format = importer->name, .color = r->color};
     bool ok = importer->load(source, &inner, r->error) &&
-              scene_prepare(&inner, origin->normals, origin->crease_angle_rad, source->pool, source->watch, r->error);
+              scene_prepare(&inner, origin->normals, origin->crease_angle_rad, source->pool, source->call, r->error);
     r->scene->arena = inner.arena;
     uint64_t triangles = 0;
     for (int i = 0; ok && i < inner.meshes.count; i++)
@@ -241,7 +241,7 @@ static bool add_shape(struct scene_reader *r, const struct place *place, const j
         return false;
     int meshes = r->scene->meshes.count;
     object.name = shape;
-    object.mesh = scene_add_shape(r->scene, shape, &segments, r->source->watch, &reason);
+    object.mesh = scene_add_shape(r->scene, shape, &segments, r->source->call, &reason);
     if (object.mesh < 0) {
         if (r->error)
             *r->error = reason;
@@ -252,7 +252,7 @@ static bool add_shape(struct scene_reader *r, const struct place *place, const j
     lam_mesh *mesh = (lam_mesh *)r->scene->meshes.items + meshes;
     bool ok =
         scene_take_mesh(&one, mesh, r->error) >= 0 &&
-        scene_prepare(&one, origin->normals, origin->crease_angle_rad, r->source->pool, r->source->watch, r->error);
+        scene_prepare(&one, origin->normals, origin->crease_angle_rad, r->source->pool, r->source->call, r->error);
     if (ok)
         *mesh = *scene_mesh(&one, 0);
     r->scene->arena = one.arena;
@@ -314,8 +314,8 @@ bool read_objects(struct scene_reader *r, const json_t *root)
         return fail_place(r, place, "found %s, expected a list of at least one object", json_kind(list, kind));
     }
     for (size_t i = 0; i < json_array_size(list); i++) {
-        if (!watch_on(r->source->watch))
-            return watch_error(r->source->watch, r->error);
+        if (!call_should_continue(r->source->call))
+            return call_error(r->source->call, r->error);
         if (!read_object(r, ELEMENT_OF(place, i), json_array_get(list, i)))
             return false;
     }

@@ -192,7 +192,7 @@ bool take_text(struct scene_reader *r, const struct place *place, const json_t *
     if (!json_is_string(value) || !json_string_length(value))
         return unexpected(r, KEY_OF(place, key), value, "a text that is not empty");
     *out = arena_string(&r->scene->arena, json_string_value(value));
-    return *out || watch_memory_error(r->source->watch, json_string_length(value), r->error);
+    return *out || call_memory_error(r->source->call, json_string_length(value), r->error);
 }
 
 bool take_word(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,

@@ -245,7 +245,7 @@ static bool build_round(const struct shape_request *request, lam_surface_fn *sur
                     least);
     struct segments n = {slices, stacks};
     lam_parametric one = {surface, &n, 0, slices, 0, stacks, slices, stacks, true, v_closed};
-    return tessellate_parametric(&one, 1, request->arena, request->watch, mesh, request->error);
+    return tessellate_parametric(&one, 1, request->arena, request->call, mesh, request->error);
 }
 
 // Segments: with 192 around, the outline at 1024 pixels is nowhere more than a sixteenth of a pixel off the circle.
@@ -269,7 +269,7 @@ static bool plane_build(const struct shape_request *request, lam_mesh *mesh)
     struct square ground = {v3(0, 0, 0), v3(1, 0, 0), v3(0, 0, -1)};
     int slices = request->slices ? request->slices : 1, stacks = request->stacks ? request->stacks : 1;
     lam_parametric one = {square_point, &ground, -1, 1, -1, 1, slices, stacks, false, false};
-    return tessellate_parametric(&one, 1, request->arena, request->watch, mesh, request->error);
+    return tessellate_parametric(&one, 1, request->arena, request->call, mesh, request->error);
 }
 
 // The six faces, each with its texture upright. Edges along X and Z have `slices` segments, along Y `stacks`.
@@ -285,7 +285,7 @@ static bool cube_build(const struct shape_request *request, lam_mesh *mesh)
     for (int i = 0; i < 6; i++)
         surfaces[i] =
             (lam_parametric){square_point, &faces[i], -1, 1, -1, 1, slices, i < 4 ? stacks : slices, false, false};
-    return tessellate_parametric(surfaces, 6, request->arena, request->watch, mesh, request->error);
+    return tessellate_parametric(surfaces, 6, request->arena, request->call, mesh, request->error);
 }
 
 static bool build_turned(const struct shape_request *request, lam_surface_fn *side, bool has_top, lam_mesh *mesh)
@@ -297,7 +297,7 @@ static bool build_turned(const struct shape_request *request, lam_surface_fn *si
         {bottom_disc, &n, 0, slices, 0, 1, slices, 1, true, false},
         {top_disc, &n, 0, slices, 0, 1, slices, 1, true, false},
     };
-    return tessellate_parametric(surfaces, has_top ? 3 : 2, request->arena, request->watch, mesh, request->error);
+    return tessellate_parametric(surfaces, has_top ? 3 : 2, request->arena, request->call, mesh, request->error);
 }
 
 static bool cylinder_build(const struct shape_request *request, lam_mesh *mesh)
@@ -325,7 +325,7 @@ static bool build_implicit(const struct shape_request *request, double (*value)(
                         v3(-side, -side, -side),
                         v3(side, side, side),
                         request->slices ? request->slices : cells};
-    return tessellate_implicit(&one, request->arena, request->watch, mesh, request->error);
+    return tessellate_implicit(&one, request->arena, request->call, mesh, request->error);
 }
 
 static bool gyroid_build(const struct shape_request *request, lam_mesh *mesh)
@@ -387,17 +387,17 @@ static int take(struct lam_scene *scene, bool made, const lam_mesh *mesh, lam_er
 }
 
 // Between begin and end the scene's arena is charged to the call's own watch.
-static uint64_t begin(struct lam_scene *scene, struct watch *watch, const lam_control *control)
+static uint64_t begin(struct lam_scene *scene, struct call_control *call, const lam_control *control)
 {
-    watch_start(watch, control);
-    scene->arena.watch = watch;
+    call_start(call, control);
+    scene->arena.call = call;
     return float_state_enter();
 }
 
 static int end(struct lam_scene *scene, uint64_t state, int index)
 {
     float_state_leave(state);
-    scene->arena.watch = NULL;
+    scene->arena.call = NULL;
     return index;
 }
 
@@ -432,8 +432,8 @@ static bool unknown_shape(const char *name, lam_error *error)
                 nearest ? nearest : "", nearest ? "'" : "");
 }
 
-int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params, struct watch *watch,
-                    lam_error *error)
+int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params,
+                    struct call_control *call, lam_error *error)
 {
     const lam_shape_params plain = {0};
     params = params ? params : &plain;
@@ -444,7 +444,7 @@ int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_
     }
     if (!check_params(shape, params, error))
         return -1;
-    struct shape_request request = {params->slices, params->stacks, &scene->arena, watch, error};
+    struct shape_request request = {params->slices, params->stacks, &scene->arena, call, error};
     lam_mesh mesh = {0};
     bool made = shapes[row].build(&request, &mesh);
     if (made && params->radius > 0)
@@ -468,9 +468,9 @@ int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_par
         fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_shape: %s is NULL", scene ? "shape" : "scene");
         return -1;
     }
-    struct watch watch;
-    uint64_t state = begin(scene, &watch, params ? params->control : NULL);
-    return end(scene, state, scene_add_shape(scene, shape, params, &watch, error));
+    struct call_control call;
+    uint64_t state = begin(scene, &call, params ? params->control : NULL);
+    return end(scene, state, scene_add_shape(scene, shape, params, &call, error));
 }
 
 int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, const lam_control *control,
@@ -480,10 +480,10 @@ int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, co
         fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_parametric: %s is NULL", scene ? "surface" : "scene");
         return -1;
     }
-    struct watch watch;
-    uint64_t state = begin(scene, &watch, control);
+    struct call_control call;
+    uint64_t state = begin(scene, &call, control);
     lam_mesh mesh = {0};
-    bool made = tessellate_parametric(surface, 1, &scene->arena, &watch, &mesh, error);
+    bool made = tessellate_parametric(surface, 1, &scene->arena, &call, &mesh, error);
     return end(scene, state, take(scene, made, &mesh, error));
 }
 
@@ -493,9 +493,9 @@ int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const 
         fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_implicit: %s is NULL", scene ? "surface" : "scene");
         return -1;
     }
-    struct watch watch;
-    uint64_t state = begin(scene, &watch, control);
+    struct call_control call;
+    uint64_t state = begin(scene, &call, control);
     lam_mesh mesh = {0};
-    bool made = tessellate_implicit(surface, &scene->arena, &watch, &mesh, error);
+    bool made = tessellate_implicit(surface, &scene->arena, &call, &mesh, error);
     return end(scene, state, take(scene, made, &mesh, error));
 }

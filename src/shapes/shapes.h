@@ -13,11 +13,11 @@ enum { SHAPE_VERTICES_MAX = 1 << 28 };
 // Tessellates parametric surfaces into one mesh: positions welded within each surface, normals, tangents and
 // texture coordinates (0…1 over each domain) on a grid of their own. shapes_parametric.c says what happens at
 // seams and poles.
-bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct watch *watch,
+bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
                            lam_mesh *mesh, lam_error *error);
 
 // Tessellates an implicit surface: positions and normals.
-bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct watch *watch, lam_mesh *mesh,
+bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct call_control *call, lam_mesh *mesh,
                          lam_error *error);
 
 // The point of the unit circle after `steps` of `around` steps a turn, from (1, 0) towards (0, 1). Exact at
@@ -33,7 +33,7 @@ struct circle_point circle(double steps, double around);
 struct shape_request {
     int slices, stacks;
     struct arena *arena;
-    struct watch *watch;
+    struct call_control *call;
     lam_error *error;
 };
 bool teapot_build(const struct shape_request *request, lam_mesh *mesh);

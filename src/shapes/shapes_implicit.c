@@ -118,7 +118,7 @@ struct march {
     int cells[3];
     double origin[3];
     struct arena *scratch; // growing lists and planes
-    struct watch *watch;
+    struct call_control *call;
     lam_error *error;
 
     double *values[2];       // f at the lattice points of the plane below and above
@@ -209,7 +209,7 @@ static bool grow(struct march *m, void **list, size_t *room, size_t needed, size
     size_t larger = *room ? *room * 2 : 1 << 14;
     void *copy = arena_array(m->scratch, larger, size);
     if (!copy)
-        return watch_memory_error(m->watch, larger * size, m->error);
+        return call_memory_error(m->call, larger * size, m->error);
     if (*room)
         memcpy(copy, *list, *room * size);
     *list = copy;
@@ -274,8 +274,8 @@ static bool evaluate_plane(struct march *m, int z, int plane)
     const lam_implicit *s = m->surface;
     size_t at = 0;
     for (int y = 0; y <= m->cells[1]; y++) {
-        if (!watch_on(m->watch))
-            return watch_error(m->watch, m->error);
+        if (!call_should_continue(m->call))
+            return call_error(m->call, m->error);
         for (int x = 0; x <= m->cells[0]; x++) {
             m->corners[plane][at] = NO_VERTEX;
             m->values[plane][at++] = s->value(s->user, lattice(m, x, y, z));
@@ -434,7 +434,7 @@ static bool march_all(struct march *m)
     m->upright = arena_array(m->scratch, points, sizeof(uint32_t));
     struct cell_case *table = arena_array(m->scratch, 256, sizeof *table);
     if (!ok || !m->upright || !table)
-        return watch_memory_error(m->watch, points * 44, m->error);
+        return call_memory_error(m->call, points * 44, m->error);
     make_table(table);
     if (!evaluate_plane(m, 0, 0) || !cross_plane(m, 0, 0))
         return false;
@@ -465,14 +465,14 @@ static bool check(const lam_implicit *s, lam_error *error)
     return true;
 }
 
-bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct watch *watch, lam_mesh *mesh,
+bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct call_control *call, lam_mesh *mesh,
                          lam_error *error)
 {
     if (!check(surface, error))
         return false;
     struct arena scratch;
-    arena_start(&scratch, watch);
-    struct march m = {.surface = surface, .scratch = &scratch, .watch = watch, .error = error};
+    arena_start(&scratch, call);
+    struct march m = {.surface = surface, .scratch = &scratch, .call = call, .error = error};
     double low[3] = {surface->minimum.x, surface->minimum.y, surface->minimum.z};
     double high[3] = {surface->maximum.x, surface->maximum.y, surface->maximum.z};
     double longest = 0;
@@ -492,7 +492,7 @@ bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struc
         uint32_t *indices = arena_array(arena, m.count, sizeof(uint32_t));
         ok = positions && normals && indices;
         if (!ok)
-            watch_memory_error(watch, m.vertices * 24 + m.count * 4, error);
+            call_memory_error(call, m.vertices * 24 + m.count * 4, error);
         if (ok && m.count) {
             memcpy(positions, m.positions, m.vertices * 3 * sizeof(float));
             memcpy(normals, m.normals, m.vertices * 3 * sizeof(float));

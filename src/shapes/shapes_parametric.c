@@ -277,15 +277,15 @@ static void add_cells(struct tessellation *t, int j, bool pole_before, bool pole
     }
 }
 
-static bool tessellate_one(struct tessellation *t, struct watch *watch, lam_error *error)
+static bool tessellate_one(struct tessellation *t, struct call_control *call, lam_error *error)
 {
     const lam_parametric *s = t->surface;
     t->first_column_pole = !s->u_closed && column_is_pole(t, s->u_min);
     t->last_column_pole = !s->u_closed && column_is_pole(t, s->u_max);
     bool pole_before = false;
     for (int j = 0; j <= s->v_segments; j++) {
-        if (!watch_on(watch))
-            return watch_error(watch, error);
+        if (!call_should_continue(call))
+            return call_error(call, error);
         double v = parameter(s->v_min, s->v_max, j, s->v_segments);
         for (int i = 0; i <= s->u_segments; i++)
             t->row[i] = evaluate(t, parameter(s->u_min, s->u_max, i, s->u_segments), v);
@@ -349,7 +349,7 @@ static bool sample_box(const lam_parametric *surfaces, int count, double low[3],
     return true;
 }
 
-bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct watch *watch,
+bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
                            lam_mesh *mesh, lam_error *error)
 {
     uint64_t attributes = 0, triangles = 0;
@@ -375,7 +375,7 @@ bool tessellate_parametric(const lam_parametric *surfaces, int count, struct are
         t.size = high[a] - low[a] > t.size ? high[a] - low[a] : t.size;
     size_t row = (size_t)widest + 1;
     struct arena scratch;
-    arena_start(&scratch, watch);
+    arena_start(&scratch, call);
     t.row = arena_array(&scratch, row, sizeof *t.row);
     for (int k = 0; k < 3; k++)
         t.ids[k] = arena_array(&scratch, row, sizeof *t.ids[k]);
@@ -388,12 +388,12 @@ bool tessellate_parametric(const lam_parametric *surfaces, int count, struct are
     bool ok = t.row && t.ids[0] && t.ids[1] && t.ids[2] && t.positions && t.normals && t.tangents && t.texcoords &&
               t.indices && t.attributes;
     if (!ok)
-        watch_memory_error(watch, attributes * 48 + triangles * 24, error);
+        call_memory_error(call, attributes * 48 + triangles * 24, error);
     for (int k = 0; ok && k < count; k++) {
         t.surface = &surfaces[k];
         t.u_unit = t.size / (t.surface->u_max - t.surface->u_min);
         t.v_unit = t.size / (t.surface->v_max - t.surface->v_min);
-        ok = tessellate_one(&t, watch, error);
+        ok = tessellate_one(&t, call, error);
     }
     arena_free(&scratch);
     if (!ok)

@@ -134,5 +134,5 @@ bool teapot_build(const struct shape_request *request, lam_mesh *mesh)
         int u = part->u_steps * part->around, v = part->v_steps * part->bands;
         surfaces[i] = (lam_parametric){patch_point, part, 0, u, 0, v, u, v, true, false};
     }
-    return tessellate_parametric(surfaces, 4, request->arena, request->watch, mesh, request->error);
+    return tessellate_parametric(surfaces, 4, request->arena, request->call, mesh, request->error);
 }

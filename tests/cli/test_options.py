@@ -221,7 +221,7 @@ class Work(Case):
 
     def test_every_instruction_set_gives_the_same_bytes(self):
         files, used = set(), []
-        for isa in ("plain", "sse4", "avx2", "avx512", "neon"):
+        for isa in ("scalar", "sse4", "avx2", "avx512", "neon"):
             done = self.run_program("teapot", "-s", 200, "--isa", isa, "-o", "t.png", "--json")
             if done.returncode == 3:
                 self.assertIn(isa.encode(), done.stderr)
@@ -230,7 +230,7 @@ class Work(Case):
             self.assertEqual(json.loads(done.stdout)["device"]["isa"], isa)
             used.append(isa)
             files.add((self.folder / "t.png").read_bytes())
-        self.assertIn("plain", used)
+        self.assertIn("scalar", used)
         self.assertLess(len(used), 5)  # no machine has all of them
         self.assertEqual(len(files), 1)
 
@@ -271,7 +271,7 @@ class CommandLine(Case):
             ("--azimuth", "nan"): "found 'nan'", ("--azimuth", "1,5"): "found '1,5'", ("--elevation", "91"): "to 90",
             ("--zoom", "0"): "from 0.001", ("--zoom", "inf"): "found", ("--background", "blurple"): "expected a colour",
             ("--background", "#12345"): "expected a colour", ("--background", "1/2"): "expected a colour",
-            ("--background", "-1/0/0"): "expected a colour", ("--isa", "mmx"): "expected auto, plain",
+            ("--background", "-1/0/0"): "expected a colour", ("--isa", "mmx"): "expected auto, scalar",
             ("--output", ""): "empty", ("--repeat", "0"): "from 1", ("--time-limit", "0"): "from 0.001",
             ("--json=yes",): "takes no value",
         }.items():

@@ -38,13 +38,13 @@ static void every_light(struct glsl_choices *c)
 // What does not depend on the rest.
 static void single_choices(struct visitor *v, const struct glsl_choices *base)
 {
-    for (int show = LAM_SHOW_PICTURE; show < LAM_SHOW_COUNT; show++) {
+    for (int show = LAM_OUTPUT_PICTURE; show < LAM_OUTPUT_COUNT; show++) {
         struct glsl_choices c = *base;
-        c.show = (lam_show)show;
-        if (show != LAM_SHOW_IDS || c.version != GLSL_120)
+        c.show = (lam_output)show;
+        if (show != LAM_OUTPUT_IDS || c.version != GLSL_120)
             call(v, &c);
         c.reflection = LAM_REFLECTION_NONE;
-        if (show != LAM_SHOW_IDS || c.version != GLSL_120)
+        if (show != LAM_OUTPUT_IDS || c.version != GLSL_120)
             call(v, &c);
     }
     static const int some[] = {0, 1, 2, 4, 8, 16, 32, 63};

@@ -195,7 +195,7 @@ static void draw_lambent(const struct classic_case *k, lam_image *image, lam_ima
     assert_true(lam_scene_settings(scene, &settings));
     lam_image *const images[2] = {image, facing};
     for (int i = 0; i < 2; i++) {
-        settings.draw.show = i ? LAM_SHOW_FACING : LAM_SHOW_PICTURE;
+        settings.draw.show = i ? LAM_OUTPUT_FACING : LAM_OUTPUT_PICTURE;
         assert_true(lam_image_make(images[i], W, H, LAM_RGBA32F, &error));
         if (!lam_draw(device, scene, &settings.camera, &settings.draw, images[i], NULL, &error))
             fail_msg("%s: %s", k->name, error.text);

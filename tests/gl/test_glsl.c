@@ -37,7 +37,7 @@ static void test_only_what_is_needed(void **state)
                              .group_count = 1,
                              .groups = {{0, 1, 2}}};
     struct glsl_text text = make(&c);
-    assert_true(has(text.fragment, "answer phong_lobe(surface s, vec3 l)"));
+    assert_true(has(text.fragment, "lobe_sample phong_lobe(surface s, vec3 l)"));
     assert_true(has(text.fragment, "// Phong (1975)"));
     assert_false(has(text.fragment, "blinn_phong"));
     assert_false(has(text.fragment, "kajiya"));
@@ -53,8 +53,8 @@ static void test_only_what_is_needed(void **state)
     c.shading = LAM_SHADING_FLAT;
     text = make(&c);
     assert_true(has(text.vertex, "flat out vec4 front_light"));
-    assert_true(has(text.vertex, "answer phong_lobe("));
-    assert_false(has(text.fragment, "reflected"));
+    assert_true(has(text.vertex, "lobe_sample phong_lobe("));
+    assert_false(has(text.fragment, "lobe_value"));
     glsl_free(&text);
     c.version = GLSL_120;
     c.storage = GLSL_ARRAY;
@@ -90,19 +90,19 @@ static void test_what_does_not_go_together(void **state)
 static void test_templates_refuse_what_they_do_not_know(void **state)
 {
     (void)state;
-    const struct template_flag flags[] = {{"on", true}, {"off", false}, {"back_material", true}, {NULL, false}};
-    const struct template_value values[] = {{"five", "5"}, {NULL, NULL}};
-    const struct template_words words = {flags, values};
+    const struct preprocess_flag flags[] = {{"on", true}, {"off", false}, {"back_material", true}, {NULL, false}};
+    const struct preprocess_value values[] = {{"five", "5"}, {NULL, NULL}};
+    const struct preprocess_words words = {flags, values};
     static const char *const wrong[] = {"//@if what\n//@end\n", "a @six@ b\n", "//@if on\n", "//@unless on\n//@end\n"};
     for (int i = 0; i < 4; i++) {
         struct text text = {0};
-        template_add(&text, wrong[i], &words);
+        preprocess_add(&text, wrong[i], &words);
         assert_true(text.failed);
         free(text.bytes);
     }
     struct text text = {0};
-    template_add(&text, "//@if off\na\n//@elif on\nb @five@ $(x[i]).y\n//@else\nc\n//@end\n//@if !off\nd\n//@end\n",
-                 &words);
+    preprocess_add(&text, "//@if off\na\n//@elif on\nb @five@ $(x[i]).y\n//@else\nc\n//@end\n//@if !off\nd\n//@end\n",
+                   &words);
     assert_false(text.failed);
     assert_string_equal(text.bytes, "b 5 (front ? x[i] : back_x[i]).y\nd\n");
     free(text.bytes);

@@ -69,7 +69,7 @@ static void draw(lam_device *device, const struct demo *demo, const lam_draw_par
 }
 
 // What the CPU device shows in floats: four for each pixel.
-static lam_image numbers(const struct demo *demo, lam_show show, int light)
+static lam_image numbers(const struct demo *demo, lam_output show, int light)
 {
     lam_draw_params params = demo->params;
     params.samples = 1;
@@ -165,11 +165,11 @@ static struct mask mask_of(const struct demo *demo)
 {
     struct mask mask = {.width = demo->width, .height = demo->height};
     mask.out = calloc((size_t)mask.width * (size_t)mask.height, 1);
-    lam_image image = numbers(demo, LAM_SHOW_IDS, 0);
+    lam_image image = numbers(demo, LAM_OUTPUT_IDS, 0);
     mask_where(&mask, &image, apart_object, 0);
-    image = numbers(demo, LAM_SHOW_FACING, 0);
+    image = numbers(demo, LAM_OUTPUT_FACING, 0);
     mask_where(&mask, &image, apart_first, 0);
-    image = numbers(demo, LAM_SHOW_DEPTH, 0);
+    image = numbers(demo, LAM_OUTPUT_DEPTH, 0);
     double size = pixel_size(demo, &image);
     mask_steps(&mask, &image, 4 * size);
     bool translucent = false;
@@ -178,7 +178,7 @@ static struct mask mask_of(const struct demo *demo)
     for (int i = 0; lam_scene_mesh(demo->scene, i); i++)
         translucent |= lam_scene_mesh(demo->scene, i)->colors_format == LAM_COLORS_LINEAR_F32;
     if (translucent) {
-        image = numbers(demo, LAM_SHOW_OVERDRAW, 0);
+        image = numbers(demo, LAM_OUTPUT_OVERDRAW, 0);
         mask_where(&mask, &image, apart_first, 0);
     }
     static lam_light lights[4096];
@@ -186,7 +186,7 @@ static struct mask mask_of(const struct demo *demo)
     for (int i = 0; i < count && count <= 16 && demo->params.reflection != LAM_REFLECTION_NONE; i++) {
         if (lights[i].type != LAM_LIGHT_SPOT)
             continue;
-        image = numbers(demo, LAM_SHOW_LIGHT, i);
+        image = numbers(demo, LAM_OUTPUT_LIGHT, i);
         mask_where(&mask, &image, apart_dark, 0);
     }
     return mask;
@@ -290,7 +290,7 @@ static void check_scene(void **state)
     demo.height *= SCALE;
     lam_draw_params params = demo.params;
     params.samples = 1;
-    struct reference drawn = {.mask = mask_of(&demo), .ids = numbers(&demo, LAM_SHOW_IDS, 0)};
+    struct reference drawn = {.mask = mask_of(&demo), .ids = numbers(&demo, LAM_OUTPUT_IDS, 0)};
     draw(cpu, &demo, &params, LAM_RGBA8, &drawn.bytes);
     draw(cpu, &demo, &params, LAM_RGBA32F, &drawn.floats);
     bool good = true;

@@ -177,7 +177,7 @@ static void check(struct soup *soup, bool exact)
     if (exact)
         memset(reference.close, 0, sizeof reference.close);
     lam_scene *scene = scene_of(soup, LAM_CULL_NONE);
-    for (int isa = LAM_ISA_PLAIN; isa < LAM_ISA_COUNT; isa++)
+    for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
         if (lam_isa_usable((lam_isa)isa)) {
             draw(scene, (lam_isa)isa, 1, drawn);
             compare(&reference, (lam_isa)isa, drawn);

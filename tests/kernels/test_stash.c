@@ -50,9 +50,9 @@ static void comes_back(const struct kernels *kernels, int samples, int count, ui
     struct arena arena;
     arena_start(&arena, NULL);
     struct thread_state from = thread_of(in, count), to = thread_of(out, 0);
-    struct stash stash = {.lowest = lowest};
-    assert_true(kernels->keep_stash(&stash, &from, samples, highest, &arena));
-    kernels->take_stash(&stash, &to, samples);
+    struct fragment_store fragment_store = {.lowest = lowest};
+    assert_true(kernels->save_fragment_store(&fragment_store, &from, samples, highest, &arena));
+    kernels->load_fragment_store(&fragment_store, &to, samples);
     assert_int_equal(to.fragment_count, count);
     assert_memory_equal(out, in, sizeof *in);
     arena_free(&arena);
@@ -64,7 +64,7 @@ static void stashes_come_back(void **state)
 {
     (void)state;
     const struct kernels *all[] = {
-        &kernels_plain,
+        &kernels_scalar,
 #if defined(__x86_64__)
         cpu_features() & CPU_SSE4 ? &kernels_sse4 : NULL,
         cpu_features() & CPU_AVX2 ? &kernels_avx2 : NULL,
@@ -90,5 +90,5 @@ static void stashes_come_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(stashes_come_back)};
-    return cmocka_run_group_tests_name("stash", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("fragment_store", tests, NULL, NULL);
 }

@@ -283,13 +283,13 @@ static void check(const struct soup *soup, const int *order, int samples, lam_rg
     static float first[SIZE * SIZE * 4], other[SIZE * SIZE * 4];
     static struct reference reference;
     lam_scene *scene = scene_of(soup, order);
-    struct way way = {.isa = LAM_ISA_PLAIN,
+    struct way way = {.isa = LAM_ISA_SCALAR,
                       .threads = 1,
                       .format = LAM_RGBA32F,
                       .params = {.samples = samples, .reflection = LAM_REFLECTION_NONE, .background = background}};
     draw(scene, &way, first);
     static const int threads[] = {1, 2, 5};
-    for (int isa = LAM_ISA_PLAIN; isa < LAM_ISA_COUNT; isa++)
+    for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
         for (int t = 0; t < 3 && lam_isa_usable((lam_isa)isa); t++) {
             way.isa = (lam_isa)isa;
             way.threads = threads[t];
@@ -468,7 +468,7 @@ static void test_many_layers(void **state)
     static float first[SIZE * SIZE * 4], other[SIZE * SIZE * 4];
     static struct reference reference;
     lam_scene *scene = scene_of(&soup, NULL);
-    struct way way = {.isa = LAM_ISA_PLAIN,
+    struct way way = {.isa = LAM_ISA_SCALAR,
                       .threads = 1,
                       .format = LAM_RGBA32F,
                       .params = {.samples = 4, .reflection = LAM_REFLECTION_NONE}};

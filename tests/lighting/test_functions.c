@@ -170,7 +170,7 @@ static void test_exp2_and_log2(void **state)
                 of(FUNCTION_LOG2, NAN, 0) == -126);
 }
 
-static void test_inverse_root(void **state)
+static void test_rsqrt(void **state)
 {
     (void)state;
     static float x[BLOCK], out[BLOCK];
@@ -237,8 +237,8 @@ static void test_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_power),         cmocka_unit_test(test_power_edges),  cmocka_unit_test(test_no_denormals),
-        cmocka_unit_test(test_exp2_and_log2), cmocka_unit_test(test_inverse_root), cmocka_unit_test(test_srgb),
+        cmocka_unit_test(test_power),         cmocka_unit_test(test_power_edges), cmocka_unit_test(test_no_denormals),
+        cmocka_unit_test(test_exp2_and_log2), cmocka_unit_test(test_rsqrt),       cmocka_unit_test(test_srgb),
         cmocka_unit_test(test_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -175,7 +175,7 @@ static void write_shader(FILE *file, const char *version)
         free(text);
     }
     fputs("uniform int kind, falloff, model, fibre, viewer;\nuniform float a, b;\nuniform vec3 p, q;\n"
-          "uniform source light;\nuniform hemisphere dome;\n",
+          "uniform light_source light;\nuniform hemisphere dome;\n",
           file);
     fputs(old ? "#define result gl_FragColor\n" : "out vec4 result;\n", file);
     fputs("void main()\n{\n    float sum = 0.0;\n", file);

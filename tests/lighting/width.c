@@ -18,9 +18,9 @@ static num apply_one(enum function function, num a, num b)
     case FUNCTION_UNIT_POWER:
         return unit_power(a, b);
     case FUNCTION_INVERSE_ROOT:
-        return inverse_root(a);
+        return rsqrt(a);
     case FUNCTION_ROOT:
-        return root(a);
+        return square_root(a);
     case FUNCTION_SRGB_ENCODE:
         return srgb_encode(a);
     case FUNCTION_SRGB_DECODE:
@@ -30,9 +30,9 @@ static num apply_one(enum function function, num a, num b)
     case FUNCTION_SATURATE:
         return saturate(a);
     case FUNCTION_LESSER:
-        return lesser(a, b);
+        return min_of(a, b);
     case FUNCTION_GREATER:
-        return greater(a, b);
+        return max_of(a, b);
     case FUNCTION_COUNT:
         break;
     }
@@ -62,7 +62,7 @@ static void light(const struct modes *modes, const float *const in[INPUTS], floa
     for (int i = 0; i < count; i += LANES) {
         surface s =
             surface_at(load3(in, IN_POINT, i), load3(in, IN_NORMAL, i), load3(in, IN_TANGENT, i), modes->viewer);
-        source l;
+        light_source l;
         l.position = load3(in, IN_POSITION, i);
         l.direction = load3(in, IN_DIRECTION, i);
         l.diffuse = load3(in, IN_DIFFUSE, i);
@@ -78,8 +78,8 @@ static void light(const struct modes *modes, const float *const in[INPUTS], floa
         num shininess = num_load(in[IN_SHININESS] + i);
         hemisphere h = {load3(in, IN_UP, i), load3(in, IN_SKY, i), load3(in, IN_GROUND, i)};
 
-        toward t = toward_light(s.p, l, modes->kind, modes->falloff);
-        reflected r = reflect_light(s, t.l, shininess, modes->model, modes->fibre);
+        light_sample t = toward_light(s.p, l, modes->kind, modes->falloff);
+        lobe_value r = reflect_light(s, t.l, shininess, modes->model, modes->fibre);
         store3(out, OUT_L, i, t.l);
         num_store(out[OUT_DISTANCE] + i, t.distance);
         num_store(out[OUT_ATTENUATION] + i, t.attenuation);

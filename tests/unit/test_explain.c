@@ -239,7 +239,7 @@ static const int sample_counts[] = {1, 4, 16};
 static void test_scenes(void **state)
 {
     (void)state;
-    lam_device *widest = make_device(LAM_ISA_AUTO), *plain = make_device(LAM_ISA_PLAIN);
+    lam_device *widest = make_device(LAM_ISA_AUTO), *plain = make_device(LAM_ISA_SCALAR);
     for (int i = 0; i < demo_count; i++) {
         struct demo demo;
         lam_error error = {0};

@@ -216,14 +216,14 @@ static void test_bound(void **state)
                     most, fabs((double)((const float *)picture.pixels)[i] - (double)((const float *)whole.pixels)[i]));
             if (!(most > 0 && most <= (double)cutoffs[c] + 1e-5))
                 fail_msg("way %d: with a cutoff of %g the picture is off by %g", way, (double)cutoffs[c], most);
-            for (int show = LAM_SHOW_AMBIENT; show <= LAM_SHOW_REFLECTION; show++) {
-                params.show = (lam_show)show;
+            for (int show = LAM_OUTPUT_AMBIENT; show <= LAM_OUTPUT_REFLECTION; show++) {
+                params.show = (lam_output)show;
                 lam_image term = draw(scene, &params, LAM_RGBA32F, &report);
                 for (int i = 0; i < CHANNELS; i++)
                     sums[i] += ((const float *)term.pixels)[i];
                 lam_image_free(&term);
             }
-            params.show = LAM_SHOW_PICTURE;
+            params.show = LAM_OUTPUT_PICTURE;
             for (int i = 0; i < CHANNELS; i++)
                 if (i % 4 != 3)
                     assert_true(fabs((double)sums[i] - (double)((const float *)picture.pixels)[i]) < 2e-5);
@@ -243,8 +243,8 @@ static void test_same_everywhere(void **state)
         lam_draw_params params = {.rig = LAM_RIG_NONE, .light_cutoff = 0.02f, .samples = way & 2 ? 16 : 4};
         params.shading = way >= 4 ? LAM_SHADING_GOURAUD : LAM_SHADING_PHONG;
         lam_frame_report first, other;
-        lam_image expected = draw_with(LAM_ISA_PLAIN, 1, scene, &params, LAM_RGBA8, &first);
-        for (int isa = LAM_ISA_PLAIN; isa < LAM_ISA_COUNT; isa++)
+        lam_image expected = draw_with(LAM_ISA_SCALAR, 1, scene, &params, LAM_RGBA8, &first);
+        for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
             for (int threads = 1; threads <= 3 && lam_isa_usable((lam_isa)isa); threads++) {
                 lam_image picture = draw_with((lam_isa)isa, threads, scene, &params, LAM_RGBA8, &other);
                 assert_memory_equal(picture.pixels, expected.pixels, CHANNELS);

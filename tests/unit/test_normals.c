@@ -647,26 +647,26 @@ static void test_controls(void **state)
     const lam_mesh mesh = *lam_scene_mesh(scene, index);
     lam_cancel cancel = {0};
     lam_cancel_raise(&cancel);
-    struct watch watch;
+    struct call_control call;
     struct arena arena;
     lam_error error;
-    watch_start(&watch, &(lam_control){.cancel = &cancel});
-    arena_start(&arena, &watch);
+    call_start(&call, &(lam_control){.cancel = &cancel});
+    arena_start(&arena, &call);
     lam_mesh copy = mesh;
-    assert_false(normals_smooth(&copy, 0.7, &arena, NULL, &watch, &error));
+    assert_false(normals_smooth(&copy, 0.7, &arena, NULL, &call, &error));
     assert_int_equal(error.code, LAM_CANCELLED);
-    assert_false(normals_facet(&copy, &arena, NULL, &watch, &error));
+    assert_false(normals_facet(&copy, &arena, NULL, &call, &error));
     assert_int_equal(error.code, LAM_CANCELLED);
     assert_memory_equal(&copy, &mesh, sizeof mesh);
     arena_free(&arena);
 
-    watch_start(&watch, &(lam_control){.memory_limit_bytes = 100000});
-    arena_start(&arena, &watch);
-    assert_false(normals_smooth(&copy, 0.7, &arena, NULL, &watch, &error));
+    call_start(&call, &(lam_control){.memory_limit_bytes = 100000});
+    arena_start(&arena, &call);
+    assert_false(normals_smooth(&copy, 0.7, &arena, NULL, &call, &error));
     assert_int_equal(error.code, LAM_LIMIT);
     assert_non_null(strstr(error.text, "memory limit"));
     arena_free(&arena);
-    assert_int_equal(watch.memory_used, 0);
+    assert_int_equal(call.memory_used, 0);
 
     // Each allocation failing in turn.
     bool done = false;

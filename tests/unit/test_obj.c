@@ -505,9 +505,9 @@ static bool no_companion(const struct import_source *source, const char *name, s
 static struct lam_scene *load_chunked(const char *text, size_t size, size_t chunk_bytes, struct pool *pool,
                                       lam_error *error)
 {
-    struct watch watch;
+    struct call_control call;
     static const lam_load_params params;
-    watch_start(&watch, NULL);
+    call_start(&call, NULL);
     struct file_bytes file;
     assert_true(file_copy(text, size, NULL, &file, error));
     struct import_source source = {.name = "t.obj",
@@ -515,7 +515,7 @@ static struct lam_scene *load_chunked(const char *text, size_t size, size_t chun
                                    .size = file.size,
                                    .params = &params,
                                    .pool = pool,
-                                   .watch = &watch,
+                                   .call = &call,
                                    .open = no_companion};
     struct lam_scene *scene = scene_make(NULL, error);
     if (scene && !obj_load_chunked(&source, scene, chunk_bytes, error)) {

@@ -99,19 +99,19 @@ static void write_file(void)
 static bool served(int threads)
 {
     lam_load_params params = {0};
-    struct watch watch;
+    struct call_control call;
     struct pool *pool = pool_make(threads);
     uint8_t *head = calloc(1, FILE_HEAD + FILE_PADDING);
     struct file_parts file;
-    watch_start(&watch, NULL);
+    call_start(&call, NULL);
     assert_true(head && pool && file_open_parts(path, head, &file));
     struct import_source source = {
-        .name = path, .path = path, .bytes = head, .size = FILE_HEAD, .params = &params, .pool = pool, .watch = &watch};
-    struct lam_scene *scene = scene_make(&watch, NULL);
+        .name = path, .path = path, .bytes = head, .size = FILE_HEAD, .params = &params, .pool = pool, .call = &call};
+    struct lam_scene *scene = scene_make(&call, NULL);
     assert_non_null(scene);
     bool done = importer_obj.load_parts(&source, &file, scene);
     lam_scene_free(scene);
-    assert_int_equal(watch.memory_used, 0); // all that was charged came back
+    assert_int_equal(call.memory_used, 0); // all that was charged came back
     file_close_parts(&file);
     pool_free(pool);
     free(head);

@@ -22,7 +22,7 @@ static uint64_t next_random(void)
 
 static int readers(obj_lines_reader *out[2])
 {
-    out[0] = obj_read_lines_plain;
+    out[0] = obj_read_lines_scalar;
 #if defined(__x86_64__)
     if (cpu_features() & CPU_AVX512 && __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("bmi2")) {
         out[1] = obj_read_lines_avx512;

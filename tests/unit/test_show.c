@@ -36,11 +36,11 @@ static lam_image draw(const lam_scene *scene, const lam_camera *camera, const la
     lam_error error = {0};
     assert_true(lam_image_make(&image, width, height, format, &error));
     if (!lam_draw(device, scene, camera, params, &image, NULL, &error))
-        fail_msg("%s: %s", lam_show_name(params->show), error.text);
+        fail_msg("%s: %s", lam_output_name(params->show), error.text);
     return image;
 }
 
-static lam_image draw_show(const lam_scene *scene, const lam_camera *camera, lam_draw_params params, lam_show show,
+static lam_image draw_show(const lam_scene *scene, const lam_camera *camera, lam_draw_params params, lam_output show,
                            int light)
 {
     params.show = show;
@@ -84,10 +84,10 @@ static void check_scene(const char *name, lam_scene *scene, const lam_camera *ca
 {
     static double sums[CHANNELS];
     params.background = (lam_rgba){0};
-    lam_image picture = draw_show(scene, camera, params, LAM_SHOW_PICTURE, 0);
+    lam_image picture = draw_show(scene, camera, params, LAM_OUTPUT_PICTURE, 0);
     memset(sums, 0, sizeof sums);
-    for (int show = LAM_SHOW_AMBIENT; show <= LAM_SHOW_REFLECTION; show++)
-        add(sums, draw_show(scene, camera, params, (lam_show)show, 0));
+    for (int show = LAM_OUTPUT_AMBIENT; show <= LAM_OUTPUT_REFLECTION; show++)
+        add(sums, draw_show(scene, camera, params, (lam_output)show, 0));
     check_sums(name, sums, &picture);
     if (params.reflection == LAM_REFLECTION_NONE) {
         lam_image_free(&picture);
@@ -96,9 +96,9 @@ static void check_scene(const char *name, lam_scene *scene, const lam_camera *ca
     memset(sums, 0, sizeof sums);
     int lights = lam_draw_lights(scene, params.rig, NULL, 0);
     for (int i = 0; i < lights; i++)
-        add(sums, draw_show(scene, camera, params, LAM_SHOW_LIGHT, i));
-    add(sums, draw_show(scene, camera, params, LAM_SHOW_EMISSION, 0));
-    add(sums, draw_show(scene, camera, params, LAM_SHOW_REFLECTION, 0));
+        add(sums, draw_show(scene, camera, params, LAM_OUTPUT_LIGHT, i));
+    add(sums, draw_show(scene, camera, params, LAM_OUTPUT_EMISSION, 0));
+    add(sums, draw_show(scene, camera, params, LAM_OUTPUT_REFLECTION, 0));
     // What is left is the scene's own ambient light: that of a scene without others.
     lam_light ambient = lam_light_default(LAM_LIGHT_AMBIENT);
     ambient.ambient = lam_scene_ambient(scene);
@@ -106,7 +106,7 @@ static void check_scene(const char *name, lam_scene *scene, const lam_camera *ca
     params.rig = params.rig == LAM_RIG_AUTO && lights && !lam_scene_light_count(scene) ? LAM_RIG_STUDIO : params.rig;
     int added = lam_scene_add_light(scene, &ambient, NULL);
     assert_true(added >= 0);
-    add(sums, draw_show(scene, camera, params, LAM_SHOW_LIGHT, added));
+    add(sums, draw_show(scene, camera, params, LAM_OUTPUT_LIGHT, added));
     char title[100];
     snprintf(title, sizeof title, "%s, by lights", name);
     check_sums(title, sums, &picture);
@@ -205,19 +205,19 @@ static void test_one_light(void **state)
     (void)state;
     lam_scene *scene = full_scene(false);
     lam_camera camera = lam_camera_fit(scene, NULL);
-    lam_draw_params params = {.samples = 1, .show = LAM_SHOW_LIGHT, .show_light = 4};
+    lam_draw_params params = {.samples = 1, .show = LAM_OUTPUT_LIGHT, .show_light = 4};
     lam_image image = {0};
     lam_error error;
     assert_true(lam_image_make(&image, 16, 16, LAM_RGBA8, NULL));
     assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     assert_non_null(strstr(error.text, "has 4 lights"));
-    params = (lam_draw_params){.show = LAM_SHOW_N_L};
+    params = (lam_draw_params){.show = LAM_OUTPUT_N_L};
     assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     assert_non_null(strstr(error.text, "n.l: light 0 comes from everywhere"));
-    params = (lam_draw_params){.show = LAM_SHOW_COUNT};
+    params = (lam_draw_params){.show = LAM_OUTPUT_COUNT};
     assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
-    params = (lam_draw_params){.show = LAM_SHOW_LIGHT, .show_light = -1};
+    params = (lam_draw_params){.show = LAM_OUTPUT_LIGHT, .show_light = -1};
     assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     lam_light lights[4];
     assert_int_equal(lam_draw_lights(scene, LAM_RIG_AUTO, lights, 2), 4);
@@ -256,7 +256,7 @@ static lam_scene *two_sheets(lam_camera *camera)
 }
 
 struct expected {
-    lam_show show;
+    lam_output show;
     float left[4], right[4], outside[4]; // floats at a pixel of each
     uint8_t left_code[4], right_code[4], outside_code[4];
 };
@@ -265,24 +265,24 @@ static void test_numbers(void **state)
 {
     (void)state;
     static const struct expected all[] = {
-        {LAM_SHOW_NORMALS, {0, 0, 1, 1}, {0, 0, 1, 1}, {0}, {128, 128, 255, 255}, {128, 128, 255, 255}, {0}},
-        {LAM_SHOW_DEPTH, {4, 4, 4, 1}, {4, 4, 4, 1}, {0}, {128, 128, 128, 255}, {128, 128, 128, 255}, {0}},
-        {LAM_SHOW_N_L,
+        {LAM_OUTPUT_NORMALS, {0, 0, 1, 1}, {0, 0, 1, 1}, {0}, {128, 128, 255, 255}, {128, 128, 255, 255}, {0}},
+        {LAM_OUTPUT_DEPTH, {4, 4, 4, 1}, {4, 4, 4, 1}, {0}, {128, 128, 128, 255}, {128, 128, 128, 255}, {0}},
+        {LAM_OUTPUT_N_L,
          {0.8f, 0.8f, 0.8f, 1},
          {0.8f, 0.8f, 0.8f, 1},
          {0},
          {204, 204, 204, 255},
          {204, 204, 204, 255},
          {0}},
-        {LAM_SHOW_N_H,
+        {LAM_OUTPUT_N_H,
          {0.94868330f, 0.94868330f, 0.94868330f, 1},
          {0.94868330f, 0.94868330f, 0.94868330f, 1},
          {0},
          {242, 242, 242, 255},
          {242, 242, 242, 255},
          {0}}, // 0.9/√0.9
-        {LAM_SHOW_FACING, {-1, -1, -1, 1}, {1, 1, 1, 1}, {0}, {255, 51, 0, 255}, {0, 102, 255, 255}, {0}},
-        {LAM_SHOW_COVERAGE,
+        {LAM_OUTPUT_FACING, {-1, -1, -1, 1}, {1, 1, 1, 1}, {0}, {255, 51, 0, 255}, {0, 102, 255, 255}, {0}},
+        {LAM_OUTPUT_COVERAGE,
          {1, 1, 1, 1},
          {1, 1, 1, 1},
          {0, 0, 0, 1},
@@ -290,7 +290,7 @@ static void test_numbers(void **state)
          {255, 255, 255, 255},
          {0, 0, 0, 255}},
         // two sheets below, one above: left is asked for below
-        {LAM_SHOW_OVERDRAW,
+        {LAM_OUTPUT_OVERDRAW,
          {2, 2, 2, 1},
          {1, 1, 1, 1},
          {0, 0, 0, 1},
@@ -315,11 +315,11 @@ static void test_numbers(void **state)
                 for (int c = 0; c < 4; c++) {
                     float found = ((float *)floats.pixels)[4 * at[p] + c];
                     if (!(fabsf(found - values[p][c]) <= 1e-6f * (1 + fabsf(found))))
-                        fail_msg("%s, place %d, channel %d: %g, expected %g", lam_show_name(e->show), p, c,
+                        fail_msg("%s, place %d, channel %d: %g, expected %g", lam_output_name(e->show), p, c,
                                  (double)found, (double)values[p][c]);
                     int code = ((uint8_t *)bytes.pixels)[4 * at[p] + c];
                     if (code != codes[p][c])
-                        fail_msg("%s, place %d, channel %d: byte %d, expected %d", lam_show_name(e->show), p, c, code,
+                        fail_msg("%s, place %d, channel %d: byte %d, expected %d", lam_output_name(e->show), p, c, code,
                                  codes[p][c]);
                 }
             lam_image_free(&floats);
@@ -334,7 +334,7 @@ static void test_ids(void **state)
     lam_camera camera;
     lam_scene *scene = two_sheets(&camera);
     camera.eye.z = -4; // from behind: the lower half shows object 1
-    lam_draw_params params = {.show = LAM_SHOW_IDS, .samples = 4};
+    lam_draw_params params = {.show = LAM_OUTPUT_IDS, .samples = 4};
     lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F),
               bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
     bool seen[2][4] = {{0}};
@@ -370,7 +370,7 @@ static void test_clipped(void **state)
     lam_scene *scene = two_sheets(&camera);
     lam_draw_params params = {.samples = 4};
     lam_image picture = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
-    params.show = LAM_SHOW_CLIPPED;
+    params.show = LAM_OUTPUT_CLIPPED;
     lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F),
               bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
     int marked = 0;
@@ -401,12 +401,12 @@ static void test_relations(void **state)
     lam_scene *scene = full_scene(false);
     lam_camera camera = lam_camera_fit(scene, NULL);
     lam_draw_params params = {.samples = 8};
-    lam_image picture = draw_show(scene, &camera, params, LAM_SHOW_PICTURE, 0);
-    lam_image coverage = draw_show(scene, &camera, params, LAM_SHOW_COVERAGE, 0);
-    lam_image normals = draw_show(scene, &camera, params, LAM_SHOW_NORMALS, 0);
-    lam_image tangents = draw_show(scene, &camera, params, LAM_SHOW_TANGENTS, 0);
-    lam_image n_h = draw_show(scene, &camera, params, LAM_SHOW_N_H, 1),
-              n_l = draw_show(scene, &camera, params, LAM_SHOW_N_L, 1);
+    lam_image picture = draw_show(scene, &camera, params, LAM_OUTPUT_PICTURE, 0);
+    lam_image coverage = draw_show(scene, &camera, params, LAM_OUTPUT_COVERAGE, 0);
+    lam_image normals = draw_show(scene, &camera, params, LAM_OUTPUT_NORMALS, 0);
+    lam_image tangents = draw_show(scene, &camera, params, LAM_OUTPUT_TANGENTS, 0);
+    lam_image n_h = draw_show(scene, &camera, params, LAM_OUTPUT_N_H, 1),
+              n_l = draw_show(scene, &camera, params, LAM_OUTPUT_N_L, 1);
     int partly = 0;
     for (int i = 0; i < CHANNELS; i += 4) {
         const float *p = (float *)picture.pixels + i, *c = (float *)coverage.pixels + i,
@@ -437,14 +437,14 @@ static void test_relations(void **state)
 static void test_names(void **state)
 {
     (void)state;
-    for (int i = 0; i < LAM_SHOW_COUNT; i++) {
-        assert_non_null(lam_show_name((lam_show)i));
+    for (int i = 0; i < LAM_OUTPUT_COUNT; i++) {
+        assert_non_null(lam_output_name((lam_output)i));
         for (int k = 0; k < i; k++)
-            assert_string_not_equal(lam_show_name((lam_show)i), lam_show_name((lam_show)k));
+            assert_string_not_equal(lam_output_name((lam_output)i), lam_output_name((lam_output)k));
     }
-    assert_null(lam_show_name(LAM_SHOW_COUNT));
-    assert_true(lam_show_is_light(LAM_SHOW_PICTURE) && lam_show_is_light(LAM_SHOW_LIGHT));
-    assert_false(lam_show_is_light(LAM_SHOW_NORMALS) || lam_show_is_light(LAM_SHOW_CLIPPED));
+    assert_null(lam_output_name(LAM_OUTPUT_COUNT));
+    assert_true(lam_output_is_light(LAM_OUTPUT_PICTURE) && lam_output_is_light(LAM_OUTPUT_LIGHT));
+    assert_false(lam_output_is_light(LAM_OUTPUT_NORMALS) || lam_output_is_light(LAM_OUTPUT_CLIPPED));
 }
 
 int main(void)

@@ -218,7 +218,7 @@ static bool write_output(struct job *job, lam_error *error)
                               .threads = o->threads,
                               .control = &control,
                               .compress = (lam_compress)o->compress,
-                              .raw = o->color == LAM_COLOR_RAW || !lam_show_is_light(show_option_what(o->show))};
+                              .raw = o->color == LAM_COLOR_RAW || !lam_output_is_light(show_option_what(o->show))};
     lam_bytes bytes = {0};
     bool ok;
     if (output_is_stream(job->output)) {

@@ -16,8 +16,8 @@ bool show_all_check(const struct job *job, lam_error *error)
                     "option '--show': all terms need a picture with layers; name one with -o FILE.exr");
 }
 
-static const lam_show terms[] = {LAM_SHOW_AMBIENT, LAM_SHOW_DIFFUSE, LAM_SHOW_SPECULAR, LAM_SHOW_EMISSION,
-                                 LAM_SHOW_REFLECTION};
+static const lam_output terms[] = {LAM_OUTPUT_AMBIENT, LAM_OUTPUT_DIFFUSE, LAM_OUTPUT_SPECULAR, LAM_OUTPUT_EMISSION,
+                                   LAM_OUTPUT_REFLECTION};
 enum { TERMS = sizeof terms / sizeof terms[0], NAME_ROOM = 96 };
 
 struct layers {
@@ -28,7 +28,7 @@ struct layers {
 };
 
 // Draws one layer more, as the picture was drawn but for what is shown.
-static bool add(struct layers *layers, struct job *job, lam_show show, int light, const lam_control *control,
+static bool add(struct layers *layers, struct job *job, lam_output show, int light, const lam_control *control,
                 lam_error *error)
 {
     int i = layers->count;
@@ -48,7 +48,7 @@ static bool draw_all(struct layers *layers, struct job *job, const lam_light *li
     layers->list[layers->count++] = (lam_layer){.image = &job->image};
     bool ok = true;
     for (int i = 0; ok && i < TERMS; i++) {
-        snprintf(layers->names[layers->count], NAME_ROOM, "%s", lam_show_name(terms[i]));
+        snprintf(layers->names[layers->count], NAME_ROOM, "%s", lam_output_name(terms[i]));
         ok = add(layers, job, terms[i], 0, control, error);
     }
     for (int i = 0; ok && i < light_count; i++) {
@@ -58,7 +58,7 @@ static bool draw_all(struct layers *layers, struct job *job, const lam_light *li
                  lights[i].name ? lights[i].name : "");
         for (char *c = name + strlen("light."); *c; c++)
             *c = *c == '.' ? '_' : *c;
-        ok = add(layers, job, LAM_SHOW_LIGHT, i, control, error);
+        ok = add(layers, job, LAM_OUTPUT_LIGHT, i, control, error);
     }
     return ok;
 }

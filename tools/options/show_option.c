@@ -9,37 +9,37 @@
 #include "options.h"
 #include "suggest.h"
 
-static bool takes_light(lam_show show)
+static bool takes_light(lam_output show)
 {
-    return show == LAM_SHOW_LIGHT || show == LAM_SHOW_N_L || show == LAM_SHOW_N_H;
+    return show == LAM_OUTPUT_LIGHT || show == LAM_OUTPUT_N_L || show == LAM_OUTPUT_N_H;
 }
 
-// The show with this name; LAM_SHOW_COUNT: none. `light` becomes what stands behind the colon, NULL without one.
-static lam_show split(const char *text, const char **light)
+// The show with this name; LAM_OUTPUT_COUNT: none. `light` becomes what stands behind the colon, NULL without one.
+static lam_output split(const char *text, const char **light)
 {
     *light = NULL;
     const char *colon = strchr(text, ':');
     size_t length = colon ? (size_t)(colon - text) : strlen(text);
-    for (int i = LAM_SHOW_PICTURE; i < LAM_SHOW_COUNT; i++) {
-        const char *name = lam_show_name((lam_show)i);
-        if (strlen(name) != length || memcmp(name, text, length) != 0 || (colon && !takes_light((lam_show)i)))
+    for (int i = LAM_OUTPUT_PICTURE; i < LAM_OUTPUT_COUNT; i++) {
+        const char *name = lam_output_name((lam_output)i);
+        if (strlen(name) != length || memcmp(name, text, length) != 0 || (colon && !takes_light((lam_output)i)))
             continue;
         *light = colon ? colon + 1 : NULL;
-        return (lam_show)i;
+        return (lam_output)i;
     }
-    return LAM_SHOW_COUNT;
+    return LAM_OUTPUT_COUNT;
 }
 
 bool store_show(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     const char *light;
-    lam_show show = split(value, &light);
-    if (show == LAM_SHOW_LIGHT && !light)
+    lam_output show = split(value, &light);
+    if (show == LAM_OUTPUT_LIGHT && !light)
         return complain(error, LAM_BAD_ARGUMENT, "found 'light', expected light:NAME, the light's name or its number");
     if (light && !*light)
         return complain(error, LAM_BAD_ARGUMENT,
                         "found '%.100s', expected a light's name or its number behind the colon", value);
-    if (show < LAM_SHOW_COUNT || strcmp(value, "all") == 0) {
+    if (show < LAM_OUTPUT_COUNT || strcmp(value, "all") == 0) {
         options->show = value;
         return true;
     }
@@ -54,10 +54,10 @@ bool store_show(const struct option *option, const char *value, struct options *
                     nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
 }
 
-lam_show show_option_what(const char *text)
+lam_output show_option_what(const char *text)
 {
     const char *light;
-    return text && strcmp(text, "all") != 0 ? split(text, &light) : LAM_SHOW_PICTURE;
+    return text && strcmp(text, "all") != 0 ? split(text, &light) : LAM_OUTPUT_PICTURE;
 }
 
 static bool has_direction(const lam_light *light)
@@ -102,7 +102,7 @@ static void list(const lam_light *lights, int count, bool directed, char *out, s
 bool show_option_apply(const char *text, const lam_scene *scene, lam_draw_params *params, lam_error *error)
 {
     const char *wanted = NULL;
-    params->show = text && strcmp(text, "all") != 0 ? split(text, &wanted) : LAM_SHOW_PICTURE;
+    params->show = text && strcmp(text, "all") != 0 ? split(text, &wanted) : LAM_OUTPUT_PICTURE;
     if (!takes_light(params->show))
         return true;
     int count = lam_draw_lights(scene, params->rig, NULL, 0);
@@ -111,7 +111,7 @@ bool show_option_apply(const char *text, const lam_scene *scene, lam_draw_params
         return complain(error, LAM_LIMIT, "out of memory");
     lam_draw_lights(scene, params->rig, lights, count);
     params->show_light = find(wanted, lights, count);
-    bool directed = params->show != LAM_SHOW_LIGHT;
+    bool directed = params->show != LAM_OUTPUT_LIGHT;
     bool ok = params->show_light >= 0 && (!directed || has_direction(&lights[params->show_light]));
     if (!ok) {
         char known[300];

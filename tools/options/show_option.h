@@ -5,7 +5,7 @@
 #include <lambent/lambent.h>
 
 // What the option's text asks for, which was checked when the option was read; NULL: the picture.
-lam_show show_option_what(const char *text);
+lam_output show_option_what(const char *text);
 
 // Fills params->show and params->show_light from the text; the rig is taken from `params`. LAM_BAD_ARGUMENT where the
 // scene has no such light: the sentence names those that there are.

@@ -55,15 +55,15 @@ LANE_FN struct whole_power whole_power_of(num y)
 // log₂ x within 1.2e-7 absolute and 2e-7 relative. Below the smallest normal number, and for NaN: −126.
 LANE_FN num log2_of(num x)
 {
-    struct binary_parts b = binary_parts_of(greater(x, num_of(SMALLEST_NORMAL)));
+    struct binary_parts b = binary_parts_of(max_of(x, num_of(SMALLEST_NORMAL)));
     return b.exponent + (1.5f * b.rest + log2_remainder(b.rest));
 }
 
 // 2^y within 2.5e-7 relative. 0 below −126 and for NaN; what is above 127.5 counts as 127.5.
 LANE_FN num exp2_of(num y)
 {
-    num x = lesser(y, num_of(127.5f));
-    struct whole_power w = whole_power_of(lesser(x, num_of(127.0f)));
+    num x = min_of(y, num_of(127.5f));
+    struct whole_power w = whole_power_of(min_of(x, num_of(127.0f)));
     return pick(y >= -126.0f, exp2_fraction(x - w.whole) * w.power, num_of(0.0f));
 }
 
@@ -100,7 +100,7 @@ LANE_FN num least_base(num exponent)
 //
 // In three steps, so that loops over many powers need not wait for each one's end: the base's parts, its
 // logarithm, with a head of −∞ where the result is 0, and the power of two.
-LANE_FN struct binary_parts unit_parts_of(num base) { return binary_parts_of(lesser(base, num_of(1.0f))); }
+LANE_FN struct binary_parts unit_parts_of(num base) { return binary_parts_of(min_of(base, num_of(1.0f))); }
 
 LANE_FN struct two_parts unit_power_logarithm(num base, struct binary_parts parts, num exponent)
 {
@@ -125,31 +125,31 @@ LANE_FN num unit_power(num base, num exponent)
 // As unit_power, for any base ≥ 0. Results above 2^127.5 become about that.
 LANE_FN num power(num base, num exponent)
 {
-    struct two_parts y = scaled_log2(binary_parts_of(base), lesser(exponent, num_of(1.0e30f)));
+    struct two_parts y = scaled_log2(binary_parts_of(base), min_of(exponent, num_of(1.0e30f)));
     num sum = y.head + y.tail;
-    struct whole_power w = whole_power_of(lesser(sum, num_of(127.0f)));
-    num fraction = lesser((y.head - w.whole) + y.tail, num_of(0.51f)); // a little over ½: sum was rounded
+    struct whole_power w = whole_power_of(min_of(sum, num_of(127.0f)));
+    num fraction = min_of((y.head - w.whole) + y.tail, num_of(0.51f)); // a little over ½: sum was rounded
     mask some = both(base >= least_base(exponent), sum >= -126.0f);
     return pick(some, exp2_fraction(fraction) * w.power, num_of(0.0f));
 }
 
-// 1/√x for normal x > 0 within 9e-8 relative; about 3.6e19 at 0, so that 0 · inverse_root(0) = 0. A start from the bits
+// 1/√x for normal x > 0 within 9e-8 relative; about 3.6e19 at 0, so that 0 · rsqrt(0) = 0. A start from the bits
 // (the halved, negated exponent), a first step whose constants were fitted to come out a little low, which makes the
 // rounding of x·y² finer, and one step of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2 + 3e²/8 + …).
 //
 // In two steps for loops over many, as above: what is near it, and the rest of the way.
-LANE_FN num inverse_root_near(num x)
+LANE_FN num rsqrt_near(num x)
 {
     num y = num_of_bits(wrap_sub(inum_of(0x5f1ffff9), shift_right(bits_of(x), 1)));
     return y * (1.6808f - 0.7035f * ((x * y) * y));
 }
 
-LANE_FN num inverse_root_from(num x, num y)
+LANE_FN num rsqrt_from(num x, num y)
 {
     num e = 1.0f - (x * y) * y;
     return y + (y * e) * (0.5f + 0.375f * e);
 }
 
-LANE_FN num inverse_root(num x) { return inverse_root_from(x, inverse_root_near(x)); }
+LANE_FN num rsqrt(num x) { return rsqrt_from(x, rsqrt_near(x)); }
 
 #endif

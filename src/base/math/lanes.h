@@ -101,7 +101,7 @@ LANE_FN inum wrap_sub(inum a, inum b) { return (int32_t)((uint32_t)a - (uint32_t
 LANE_FN inum wrap_mul(inum a, inum b) { return (int32_t)((uint32_t)a * (uint32_t)b); }
 LANE_FN inum shift_left(inum i, int n) { return (int32_t)((uint32_t)i << n); }
 LANE_FN inum shift_right(inum i, int n) { return i >> n; } // keeps the sign
-LANE_FN num root(num x) { return __builtin_sqrtf(x); }
+LANE_FN num square_root(num x) { return __builtin_sqrtf(x); }
 LANE_FN float lane(num x, int i)
 {
     (void)i;
@@ -151,7 +151,7 @@ LANE_FN unsigned mask_bits(mask m)
 LANE_FN int any_lane(mask m) { return mask_bits(m) != 0; }
 LANE_FN int all_lanes(mask m) { return mask_bits(m) == (1u << LANES) - 1; }
 // √, correctly rounded. Clang turns the loop into scalar code for AVX-512, hence the lines.
-LANE_FN num root(num x)
+LANE_FN num square_root(num x)
 {
 #if LANES == 16 && defined(__AVX512F__)
     return (num)_mm512_sqrt_ps((__m512)x);
@@ -171,26 +171,26 @@ LANE_FN num root(num x)
 // The smaller and the larger; b where either is NaN. −0 and 0 count as equal (b is taken). That is what x86's
 // own instructions do; a comparison and a choice would take them twice as long.
 #if LANES == 16 && defined(__AVX512F__)
-LANE_FN num lesser(num a, num b) { return (num)_mm512_min_ps((__m512)a, (__m512)b); }
-LANE_FN num greater(num a, num b) { return (num)_mm512_max_ps((__m512)a, (__m512)b); }
+LANE_FN num min_of(num a, num b) { return (num)_mm512_min_ps((__m512)a, (__m512)b); }
+LANE_FN num max_of(num a, num b) { return (num)_mm512_max_ps((__m512)a, (__m512)b); }
 #elif LANES == 8 && defined(__AVX__)
-LANE_FN num lesser(num a, num b) { return (num)_mm256_min_ps((__m256)a, (__m256)b); }
-LANE_FN num greater(num a, num b) { return (num)_mm256_max_ps((__m256)a, (__m256)b); }
+LANE_FN num min_of(num a, num b) { return (num)_mm256_min_ps((__m256)a, (__m256)b); }
+LANE_FN num max_of(num a, num b) { return (num)_mm256_max_ps((__m256)a, (__m256)b); }
 #elif LANES == 4 && defined(__SSE2__)
-LANE_FN num lesser(num a, num b) { return (num)_mm_min_ps((__m128)a, (__m128)b); }
-LANE_FN num greater(num a, num b) { return (num)_mm_max_ps((__m128)a, (__m128)b); }
+LANE_FN num min_of(num a, num b) { return (num)_mm_min_ps((__m128)a, (__m128)b); }
+LANE_FN num max_of(num a, num b) { return (num)_mm_max_ps((__m128)a, (__m128)b); }
 #else
-LANE_FN num lesser(num a, num b) { return pick(a < b, a, b); }
-LANE_FN num greater(num a, num b) { return pick(a > b, a, b); }
+LANE_FN num min_of(num a, num b) { return pick(a < b, a, b); }
+LANE_FN num max_of(num a, num b) { return pick(a > b, a, b); }
 #endif
-LANE_FN inum ilesser(inum a, inum b) { return ipick(a < b, a, b); }
-LANE_FN inum igreater(inum a, inum b) { return ipick(a > b, a, b); }
+LANE_FN inum imin_of(inum a, inum b) { return ipick(a < b, a, b); }
+LANE_FN inum imax_of(inum a, inum b) { return ipick(a > b, a, b); }
 // |x|; the sign bit goes, NaN stays.
 LANE_FN num absolute(num x) { return num_of_bits(bits_of(x) & 0x7fffffff); }
 // max(x, 0); NaN gives 0.
-LANE_FN num positive(num x) { return greater(x, num_of(0.0f)); }
+LANE_FN num positive(num x) { return max_of(x, num_of(0.0f)); }
 // x clamped to 0…1; NaN gives 0.
-LANE_FN num saturate(num x) { return lesser(positive(x), num_of(1.0f)); }
+LANE_FN num saturate(num x) { return min_of(positive(x), num_of(1.0f)); }
 
 // Writes x where m, to where `old` lies.
 LANE_FN void num_store_where(float *at, mask m, num x, num old)
@@ -327,7 +327,7 @@ LANE_FN num lanes_at(num x, inum at)
 LANE_FN float least_lane(num x)
 {
     for (int apart = 1; apart < LANES; apart *= 2)
-        x = lesser(x, lanes_at(x, lane_numbers() ^ apart));
+        x = min_of(x, lanes_at(x, lane_numbers() ^ apart));
     return lane(x, 0);
 }
 

@@ -332,8 +332,8 @@ const struct contract *contract_recognise(const struct declarations *vertex, con
     return found;
 }
 
-const char *contract_name_used(const struct contract *contract, enum role role, const struct declarations *vertex,
-                               const struct declarations *fragment)
+const char *contract_name_used(const struct contract *contract, enum uniform_semantic role,
+                               const struct declarations *vertex, const struct declarations *fragment)
 {
     const struct declarations *sides[] = {vertex, fragment};
     const char *own = NULL;

@@ -6,7 +6,7 @@
 #include "reference_scene.h"
 
 // What a uniform or attribute holds.
-enum role {
+enum uniform_semantic {
     ROLE_NONE,
     ROLE_POSITION, // attributes
     ROLE_NORMAL,
@@ -57,7 +57,7 @@ enum role {
 
 struct contract_name {
     const char *name; // "lights[].lightPosition" for members of a list
-    enum role role;
+    enum uniform_semantic role;
     bool attribute;
     const char *type;     // as the course has it
     const char *meaning;  // for docs and messages
@@ -114,17 +114,18 @@ const struct contract_varying *contract_varying(const struct contract *contract,
 const char *contract_nearest(const struct contract *contract, const char *name);
 
 // The name that the shaders use for a role: their own, else the contract's, else NULL.
-const char *contract_name_used(const struct contract *contract, enum role role, const struct declarations *vertex,
-                               const struct declarations *fragment);
+const char *contract_name_used(const struct contract *contract, enum uniform_semantic role,
+                               const struct declarations *vertex, const struct declarations *fragment);
 
 // The study as the contract can say it: what it has no names for takes the contract's fixed values.
 // `offers`: of the contract's, what the shaders have names for, and study rules (shader_interface.h); `light_count`:
 // the lights that they have room for.
-struct study contract_study(const struct contract *contract, unsigned offers, const struct study *study,
-                            int light_count);
+struct reference_scene contract_reference_scene(const struct contract *contract, unsigned offers,
+                                                const struct reference_scene *reference_scene, int light_count);
 
 // Up to 16 numbers of a uniform, matrices by columns; a role has as many as its nature: returns the count.
-int role_value(enum role role, int light, const struct contract *contract, lam_light_frame light_frame,
-               const struct study *study, const struct study_matrices *m, float out[16]);
+int uniform_semantic_value(enum uniform_semantic role, int light, const struct contract *contract,
+                           lam_light_frame light_frame, const struct reference_scene *reference_scene,
+                           const struct reference_matrices *m, float out[16]);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "fail.h"
 
-static bool has_role(const struct reading *r, enum role role)
+static bool has_semantic(const struct shader_interface *r, enum uniform_semantic role)
 {
     const struct declarations *sides[] = {&r->vertex, &r->fragment};
     for (int s = 0; s < 2; s++)
@@ -20,9 +20,9 @@ static bool has_role(const struct reading *r, enum role role)
     return false;
 }
 
-static bool is_light(enum role role) { return role >= ROLE_LIGHT_POSITION && role <= ROLE_LIGHT_AMBIENT; }
+static bool is_light(enum uniform_semantic role) { return role >= ROLE_LIGHT_POSITION && role <= ROLE_LIGHT_AMBIENT; }
 
-static bool is_material(enum role role) { return role >= ROLE_AMBIENT && role <= ROLE_SHININESS; }
+static bool is_material(enum uniform_semantic role) { return role >= ROLE_AMBIENT && role <= ROLE_SHININESS; }
 
 // Whether a side names a material or a light.
 static bool lights_up(const struct contract *contract, const struct declarations *d)
@@ -36,7 +36,7 @@ static bool lights_up(const struct contract *contract, const struct declarations
     return false;
 }
 
-static void count_lights(struct reading *r)
+static void count_lights(struct shader_interface *r)
 {
     const struct declarations *sides[] = {&r->vertex, &r->fragment};
     for (int s = 0; s < 2; s++)
@@ -87,7 +87,7 @@ static unsigned printed_lights(const struct declarations *lit)
 }
 
 // Printed shaders that ask for what the check has not got.
-static bool can_be_checked(const struct reading *r, lam_error *error)
+static bool can_be_checked(const struct shader_interface *r, lam_error *error)
 {
     static const struct {
         enum declared kind;
@@ -114,7 +114,7 @@ static bool is_flat(const struct declarations *fragment)
     return false;
 }
 
-static void read_printed(struct reading *r)
+static void read_printed(struct shader_interface *r)
 {
     const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
     unsigned rules = printed_lights(lit), first = rules >> RULE_FIRST & RULE_KIND;
@@ -133,10 +133,10 @@ static void read_printed(struct reading *r)
 }
 
 // A contract that tells a light's kind by what the shader reads of it.
-static unsigned kinds_of(const struct reading *r)
+static unsigned kinds_of(const struct shader_interface *r)
 {
     if (r->which == LAM_CONTRACT_NYU)
-        return has_role(r, ROLE_LIGHT_POSITION) ? NEED_POINT : NEED_DIRECTIONAL;
+        return has_semantic(r, ROLE_LIGHT_POSITION) ? NEED_POINT : NEED_DIRECTIONAL;
     if (r->which == LAM_CONTRACT_LAMBENT) {
         const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
         int cone = 0, attenuation = 0, position = 0;
@@ -151,13 +151,13 @@ static unsigned kinds_of(const struct reading *r)
     return NEED_POINT | NEED_DIRECTIONAL;
 }
 
-bool reading_make(struct reading *r, const char *vertex, const char *fragment, lam_check_contract which,
-                  lam_error *error)
+bool shader_interface_make(struct shader_interface *r, const char *vertex, const char *fragment,
+                           lam_check_contract which, lam_error *error)
 {
-    *r = (struct reading){.which = which};
+    *r = (struct shader_interface){.which = which};
     if (!declarations_read(&r->vertex, vertex ? vertex : "", error) ||
         !declarations_read(&r->fragment, fragment, error)) {
-        reading_free(r);
+        shader_interface_free(r);
         return false;
     }
     r->contract =
@@ -170,14 +170,14 @@ bool reading_make(struct reading *r, const char *vertex, const char *fragment, l
                 if (sides[s]->items[i].kind == DECLARED_UNIFORM)
                     snprintf(found + strlen(found), sizeof found - strlen(found), "%s%.40s", found[0] ? ", " : "",
                              sides[s]->items[i].name);
-        reading_free(r);
+        shader_interface_free(r);
         return fail(error, LAM_BAD_ARGUMENT,
                     "no uniform or attribute of the shader has a name of a known contract (found %s); write "
                     "--contract lambent, pittsburgh, oregon or nyu, and see `lambent check --list`",
                     found[0] ? found : "none");
     }
     if (!can_be_checked(r, error)) {
-        reading_free(r);
+        shader_interface_free(r);
         return false;
     }
     r->vertex_lit = vertex && vertex[0] && !lights_up(r->contract, &r->fragment);
@@ -188,15 +188,15 @@ bool reading_make(struct reading *r, const char *vertex, const char *fragment, l
     if (r->light_count < 2)
         r->offers &= ~(unsigned)NEED_LIGHTS;
     r->offers |= r->vertex_lit ? NEED_VERTEX_LIT : 0;
-    if (!has_role(r, ROLE_FLAT))
+    if (!has_semantic(r, ROLE_FLAT))
         r->offers &= ~(unsigned)NEED_FLAT;
     read_printed(r);
     return true;
 }
 
-void reading_free(struct reading *r)
+void shader_interface_free(struct shader_interface *r)
 {
     declarations_free(&r->vertex);
     declarations_free(&r->fragment);
-    *r = (struct reading){0};
+    *r = (struct shader_interface){0};
 }

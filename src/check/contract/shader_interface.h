@@ -4,7 +4,7 @@
 
 #include "contract.h"
 
-struct reading {
+struct shader_interface {
     struct declarations vertex, fragment;
     const struct contract *contract;
     lam_check_contract which;
@@ -15,8 +15,8 @@ struct reading {
 };
 
 // `vertex` NULL or "": none. `which` AUTO: recognised. LAM_BAD_ARGUMENT: no contract's names are found.
-bool reading_make(struct reading *r, const char *vertex, const char *fragment, lam_check_contract which,
-                  lam_error *error);
-void reading_free(struct reading *r);
+bool shader_interface_make(struct shader_interface *r, const char *vertex, const char *fragment,
+                           lam_check_contract which, lam_error *error);
+void shader_interface_free(struct shader_interface *r);
 
 #endif

@@ -7,7 +7,7 @@
 
 // Contracts without colours or strengths of the material: the surface has one colour, and the highlight that
 // of the light. A term is switched off by black.
-static void plain_material(struct study *s)
+static void plain_material(struct reference_scene *s)
 {
     if (s->kd == 0)
         s->diffuse = (lam_rgb){0, 0, 0};
@@ -20,7 +20,7 @@ static void plain_material(struct study *s)
     s->kd = s->ks = 1;
 }
 
-static void limit_light(const struct contract *contract, unsigned offers, int index, struct study_light *light)
+static void limit_light(const struct contract *contract, unsigned offers, int index, struct reference_light *light)
 {
     unsigned rule = offers >> (RULE_FIRST + RULE_BITS * index), kind = rule & RULE_KIND;
     bool directional = kind ? kind == RULE_DIRECTIONAL : !(offers & NEED_POINT);
@@ -38,17 +38,17 @@ static void limit_light(const struct contract *contract, unsigned offers, int in
         light->color = light->specular = light->ambient = (lam_rgb){1, 1, 1};
 }
 
-struct study contract_study(const struct contract *contract, unsigned offers, const struct study *study,
-                            int light_count)
+struct reference_scene contract_reference_scene(const struct contract *contract, unsigned offers,
+                                                const struct reference_scene *reference_scene, int light_count)
 {
-    struct study s = *study;
+    struct reference_scene s = *reference_scene;
     if (!contract->own_ambient_color)
         s.ambient = s.diffuse;
     if (!contract->has_ambient)
         s.ka = 0;
     // A list's other lights are black.
     while (s.light_count < light_count && s.light_count < STUDY_LIGHTS_MOST)
-        s.lights[s.light_count++] = (struct study_light){
+        s.lights[s.light_count++] = (struct reference_light){
             .type = s.lights[0].type, .position = {1, 2, 3}, .from = {1, 2, 3}, .attenuation = {1, 0, 0}};
     if (s.light_count > light_count)
         s.light_count = light_count;
@@ -103,7 +103,7 @@ static int put_matrix(float out[16], const lam_mat4 *m)
     return 16;
 }
 
-static lam_rgb total_ambient(const struct study *s)
+static lam_rgb total_ambient(const struct reference_scene *s)
 {
     lam_rgb sum = {0, 0, 0};
     for (int i = 0; i < s->light_count; i++)
@@ -112,7 +112,7 @@ static lam_rgb total_ambient(const struct study *s)
 }
 
 // From the world's space to the frame that the contract's light positions are in.
-static lam_mat4 light_matrix(lam_light_frame frame, const struct study_matrices *m)
+static lam_mat4 light_matrix(lam_light_frame frame, const struct reference_matrices *m)
 {
     lam_mat4 out = lam_mat4_identity();
     if (frame == LAM_FRAME_OBJECT)
@@ -122,20 +122,21 @@ static lam_mat4 light_matrix(lam_light_frame frame, const struct study_matrices 
     return out;
 }
 
-static int put_light_position(float out[16], const struct study_light *light, const lam_mat4 *to)
+static int put_light_position(float out[16], const struct reference_light *light, const lam_mat4 *to)
 {
     if (light->type == LAM_LIGHT_DIRECTIONAL)
         return put_vector(out, mat4_vector(to, light->from), 0);
     return put_vector(out, mat4_point(to, light->position), 1);
 }
 
-int role_value(enum role role, int index, const struct contract *contract, lam_light_frame light_frame,
-               const struct study *s, const struct study_matrices *m, float out[16])
+int uniform_semantic_value(enum uniform_semantic role, int index, const struct contract *contract,
+                           lam_light_frame light_frame, const struct reference_scene *s,
+                           const struct reference_matrices *m, float out[16])
 {
-    static const struct study_light none = {
+    static const struct reference_light none = {
         .type = LAM_LIGHT_POINT, .position = {1, 1, 1}, .from = {0, 0, 1}, .attenuation = {1, 0, 0}};
     memset(out, 0, 16 * sizeof *out);
-    const struct study_light *light = index < s->light_count ? &s->lights[index] : &none;
+    const struct reference_light *light = index < s->light_count ? &s->lights[index] : &none;
     lam_mat4 to = light_matrix(light_frame, m);
     lam_rgb one = {1, 1, 1};
     bool products = contract->products;

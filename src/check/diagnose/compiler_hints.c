@@ -111,44 +111,45 @@ static int first_on_line(const struct declarations *d, int line)
     return d->word_count;
 }
 
-void hints_of_message(struct notes *notes, const struct declarations *d, const char *file, int line, const char *words)
+void compiler_hints_of_message(struct diagnostics *notes, const struct declarations *d, const char *file, int line,
+                               const char *words)
 {
     char name[64];
     if ((strstr(words, "undeclared") || strstr(words, "no function") || strstr(words, "undefined")) &&
         quoted_name(words, name) && strncmp(name, "gl_", 3) != 0) {
         const char *near = nearest_declared(d, name);
         if (near)
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, line,
-                      "'%s' is declared nowhere; '%s' is. Is it meant? One name each", name, near);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, line,
+                            "'%s' is declared nowhere; '%s' is. Is it meant? One name each", name, near);
         else
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, line,
-                      "'%s' is declared nowhere: give it a type where it is first used", name);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, line,
+                            "'%s' is declared nowhere: give it a type where it is first used", name);
     }
     if (strstr(words, "no matching function") && (strstr(words, "int") || strstr(words, "(float, int)")))
-        notes_add(notes, LAM_CHECK_NOTE_HINT, file, line,
-                  "a whole number stands where a float is expected: write 0.0 for 0, 2.0 for 2");
+        diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, line,
+                        "a whole number stands where a float is expected: write 0.0 for 0, 2.0 for 2");
     if (strstr(words, "syntax error") && line > 0) {
         int at = first_on_line(d, line);
         if (at > 0 && at < d->word_count) {
             const char *before = d->words[at - 1].text;
             if (d->words[at - 1].line < line &&
                 (is_name(before) || isdigit((unsigned char)before[0]) || strchr(")]", before[0])))
-                notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[at - 1].line,
-                          "does line %d lack its ';' after '%s'?", d->words[at - 1].line, before);
+                diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[at - 1].line,
+                                "does line %d lack its ';' after '%s'?", d->words[at - 1].line, before);
         }
     }
 }
 
-static void hint_main(struct notes *notes, const struct declarations *d, const char *file)
+static void hint_main(struct diagnostics *notes, const struct declarations *d, const char *file)
 {
     for (int i = 0; i + 1 < d->word_count; i++)
         if (strcmp(d->words[i].text, "main") == 0 && strcmp(d->words[i + 1].text, "(") == 0 && d->words[i].depth == 0 &&
             (i == 0 || strcmp(d->words[i - 1].text, "void") != 0))
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
-                      "write `void main()`: a function needs its type");
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
+                            "write `void main()`: a function needs its type");
 }
 
-static void hint_built_ins(struct notes *notes, const struct declarations *d, const char *file)
+static void hint_built_ins(struct diagnostics *notes, const struct declarations *d, const char *file)
 {
     for (int i = 0; i < d->word_count; i++) {
         const char *w = d->words[i].text;
@@ -161,7 +162,7 @@ static void hint_built_ins(struct notes *notes, const struct declarations *d, co
         if (!meant)
             meant = nearest_word(w, built_ins, COUNT(built_ins));
         if (meant)
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line, "'%s' is written %s", w, meant);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line, "'%s' is written %s", w, meant);
     }
     bool core = d->version >= 150 && strcmp(d->profile, "compatibility") != 0;
     if (!core)
@@ -172,20 +173,20 @@ static void hint_built_ins(struct notes *notes, const struct declarations *d, co
                     (const char *const[]){"gl_Vertex", "gl_Normal", "gl_NormalMatrix", "gl_ModelViewMatrix",
                                           "gl_ModelViewProjectionMatrix", "gl_ProjectionMatrix", "gl_FragColor"},
                     7))
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
-                      "%s exists only in old GLSL: write `#version %d compatibility` in the first line, or "
-                      "declare one's own",
-                      w, d->version);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
+                            "%s exists only in old GLSL: write `#version %d compatibility` in the first line, or "
+                            "declare one's own",
+                            w, d->version);
     }
 }
 
-static void hint_reserved(struct notes *notes, const struct declarations *d, const char *file)
+static void hint_reserved(struct diagnostics *notes, const struct declarations *d, const char *file)
 {
     for (int i = 1; i < d->word_count; i++)
         if (in_list(d->words[i].text, reserved, COUNT(reserved)) && in_list(d->words[i - 1].text, types, COUNT(types)))
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
-                      "'%s' is a reserved word of GLSL; take another name (for the half vector: H or halfway)",
-                      d->words[i].text);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
+                            "'%s' is a reserved word of GLSL; take another name (for the half vector: H or halfway)",
+                            d->words[i].text);
 }
 
 static bool is_struct(const struct declarations *d, const char *name)
@@ -196,7 +197,7 @@ static bool is_struct(const struct declarations *d, const char *name)
     return false;
 }
 
-static void hint_types(struct notes *notes, const struct declarations *d, const char *file)
+static void hint_types(struct diagnostics *notes, const struct declarations *d, const char *file)
 {
     for (int i = 0; i < d->count; i++) {
         const struct declaration *item = &d->items[i];
@@ -211,14 +212,16 @@ static void hint_types(struct notes *notes, const struct declarations *d, const 
         char shorter[32];
         snprintf(shorter, sizeof shorter, "%.*s", (int)known - 1, item->type);
         if (in_list(shorter, types, COUNT(types)))
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, item->line, "'%s %s' is no declaration; is `%s %c%s` meant?",
-                      item->type, item->name, shorter, item->type[known - 1], item->name);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, item->line,
+                            "'%s %s' is no declaration; is `%s %c%s` meant?", item->type, item->name, shorter,
+                            item->type[known - 1], item->name);
         else if (near)
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, item->line, "'%s' is no type; is %s meant?", item->type, near);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, item->line, "'%s' is no type; is %s meant?", item->type,
+                            near);
     }
 }
 
-static void hint_version(struct notes *notes, const struct declarations *d, const char *file, bool vertex)
+static void hint_version(struct diagnostics *notes, const struct declarations *d, const char *file, bool vertex)
 {
     if (d->version >= 130)
         return;
@@ -227,15 +230,15 @@ static void hint_version(struct notes *notes, const struct declarations *d, cons
             (strcmp(d->words[i].text, "in") == 0 || strcmp(d->words[i].text, "out") == 0 ||
              strcmp(d->words[i].text, "flat") == 0) &&
             (i == 0 || strchr(";})", d->words[i - 1].text[0]))) {
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
-                      "'%s' needs GLSL 1.30 or later: write `#version 330 compatibility` in the first line, "
-                      "or %s here",
-                      d->words[i].text, strcmp(d->words[i].text, "in") == 0 && vertex ? "attribute" : "varying");
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
+                            "'%s' needs GLSL 1.30 or later: write `#version 330 compatibility` in the first line, "
+                            "or %s here",
+                            d->words[i].text, strcmp(d->words[i].text, "in") == 0 && vertex ? "attribute" : "varying");
             return;
         }
 }
 
-static void hint_globals(struct notes *notes, const struct declarations *d, const char *file)
+static void hint_globals(struct diagnostics *notes, const struct declarations *d, const char *file)
 {
     if (strcmp(d->profile, "es") != 0)
         return;
@@ -244,12 +247,12 @@ static void hint_globals(struct notes *notes, const struct declarations *d, cons
             in_list(d->words[i - 2].text, types, COUNT(types)))
             for (int k = i + 1; k < d->word_count && strcmp(d->words[k].text, ";") != 0; k++)
                 if (declarations_find(d, DECLARED_UNIFORM, d->words[k].text))
-                    notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
-                              "GLSL ES starts globals with constants only: give '%s' its value in main()",
-                              d->words[i - 1].text);
+                    diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, d->words[i].line,
+                                    "GLSL ES starts globals with constants only: give '%s' its value in main()",
+                                    d->words[i - 1].text);
 }
 
-void hints_of_text(struct notes *notes, const struct declarations *d, const char *file, bool vertex)
+void compiler_hints_of_text(struct diagnostics *notes, const struct declarations *d, const char *file, bool vertex)
 {
     hint_main(notes, d, file);
     hint_built_ins(notes, d, file);
@@ -259,7 +262,7 @@ void hints_of_text(struct notes *notes, const struct declarations *d, const char
     hint_globals(notes, d, file);
 }
 
-bool hints_of_output(struct notes *notes, const struct declarations *d, const char *file)
+bool compiler_hints_of_output(struct diagnostics *notes, const struct declarations *d, const char *file)
 {
     bool writes = declarations_use(d, "gl_FragColor") || declarations_use(d, "gl_FragData"), used = writes;
     for (int i = 0; i < d->count; i++) {
@@ -270,19 +273,20 @@ bool hints_of_output(struct notes *notes, const struct declarations *d, const ch
         used |= declarations_use(d, item->name);
         writes |= declarations_use(d, item->name) && !whole;
         if (strcmp(item->type, "vec4") != 0)
-            notes_add(notes, LAM_CHECK_NOTE_HINT, file, item->line,
-                      whole ? "the output '%s' is of type %s, and a picture holds floats: write out vec4 %s"
-                            : "the output '%s' is of type %s, which leaves channels undefined: write out vec4 %s",
-                      item->name, item->type, item->name);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, item->line,
+                            whole ? "the output '%s' is of type %s, and a picture holds floats: write out vec4 %s"
+                                  : "the output '%s' is of type %s, which leaves channels undefined: write out vec4 %s",
+                            item->name, item->type, item->name);
     }
     if (!used)
-        notes_add(notes, LAM_CHECK_NOTE_HINT, file, 0,
-                  "it writes no colour, so that the pictures hold what there was: write %s",
-                  d->version >= 150 ? "out vec4 color; and give color its value in main()" : "gl_FragColor = ...;");
+        diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, 0,
+                        "it writes no colour, so that the pictures hold what there was: write %s",
+                        d->version >= 150 ? "out vec4 color; and give color its value in main()"
+                                          : "gl_FragColor = ...;");
     return writes;
 }
 
-void hints_of_link(struct notes *notes, const struct reading *r, const lam_check_params *params)
+void compiler_hints_of_link(struct diagnostics *notes, const struct shader_interface *r, const lam_check_params *params)
 {
     for (int i = 0; i < r->fragment.count; i++) {
         const struct declaration *in = &r->fragment.items[i];
@@ -290,12 +294,12 @@ void hints_of_link(struct notes *notes, const struct reading *r, const lam_check
             continue;
         const struct declaration *out = declarations_find(&r->vertex, DECLARED_OUTPUT, in->name);
         if (out && strcmp(out->type, in->type) != 0)
-            notes_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line,
-                      "'%s' is a %s here and a %s in the vertex shader, line %d", in->name, in->type, out->type,
-                      out->line);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line,
+                            "'%s' is a %s here and a %s in the vertex shader, line %d", in->name, in->type, out->type,
+                            out->line);
         if (out && out->flat != in->flat)
-            notes_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line,
-                      "'%s' is flat in one shader and not in the other", in->name);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line,
+                            "'%s' is flat in one shader and not in the other", in->name);
         if (out)
             continue;
         const char *words[64];
@@ -305,10 +309,10 @@ void hints_of_link(struct notes *notes, const struct reading *r, const lam_check
                 words[count++] = r->vertex.items[k].name;
         const char *near = nearest_word(in->name, words, count);
         if (near)
-            notes_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line,
-                      "the vertex shader writes no '%s'; the nearest that it writes is '%s'", in->name, near);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line,
+                            "the vertex shader writes no '%s'; the nearest that it writes is '%s'", in->name, near);
         else
-            notes_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line, "the vertex shader writes no '%s'",
-                      in->name);
+            diagnostics_add(notes, LAM_CHECK_NOTE_HINT, params->fragment_name, in->line,
+                            "the vertex shader writes no '%s'", in->name);
     }
 }

@@ -5,15 +5,17 @@
 #include "diagnostics.h"
 
 // For one message of the compiler at a line (0: unknown).
-void hints_of_message(struct notes *notes, const struct declarations *d, const char *file, int line, const char *words);
+void compiler_hints_of_message(struct diagnostics *notes, const struct declarations *d, const char *file, int line,
+                               const char *words);
 
 // For the whole text of a shader that does not compile.
-void hints_of_text(struct notes *notes, const struct declarations *d, const char *file, bool vertex);
+void compiler_hints_of_text(struct diagnostics *notes, const struct declarations *d, const char *file, bool vertex);
 
 // For a fragment shader that compiles: what it writes. False where it writes no colour that a picture can hold.
-bool hints_of_output(struct notes *notes, const struct declarations *d, const char *file);
+bool compiler_hints_of_output(struct diagnostics *notes, const struct declarations *d, const char *file);
 
 // For two shaders that compile and do not link.
-void hints_of_link(struct notes *notes, const struct reading *reading, const lam_check_params *params);
+void compiler_hints_of_link(struct diagnostics *notes, const struct shader_interface *reading,
+                            const lam_check_params *params);
 
 #endif

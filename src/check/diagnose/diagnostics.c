@@ -12,7 +12,8 @@
 
 enum { NOTES_MOST = 64, LOG_LINES_MOST = 8 };
 
-void notes_add(struct notes *notes, lam_check_note_kind kind, const char *file, int line, const char *format, ...)
+void diagnostics_add(struct diagnostics *notes, lam_check_note_kind kind, const char *file, int line,
+                     const char *format, ...)
 {
     char text[600];
     va_list arguments;
@@ -52,8 +53,8 @@ static int line_of(const char *text, const char **words)
     return 0;
 }
 
-void notes_of_refusal(struct notes *notes, const struct check_drawn *drawn, const struct reading *reading,
-                      const lam_check_params *params)
+void diagnostics_of_refusal(struct diagnostics *notes, const struct check_drawn *drawn,
+                            const struct shader_interface *reading, const lam_check_params *params)
 {
     bool vertex = drawn->state == DRAWN_REFUSED_VERTEX, link = drawn->state == DRAWN_REFUSED_LINK;
     const struct declarations *d = vertex ? &reading->vertex : &reading->fragment;
@@ -70,17 +71,17 @@ void notes_of_refusal(struct notes *notes, const struct check_drawn *drawn, cons
             continue;
         const char *words;
         int at = line_of(line, &words);
-        notes_add(notes, LAM_CHECK_NOTE_COMPILER, file, at, "%.400s", words);
+        diagnostics_add(notes, LAM_CHECK_NOTE_COMPILER, file, at, "%.400s", words);
         told++;
         if (!link)
-            hints_of_message(notes, d, file, at, words);
+            compiler_hints_of_message(notes, d, file, at, words);
     }
     if (!told)
-        notes_add(notes, LAM_CHECK_NOTE_COMPILER, file, 0, "refused without a word");
+        diagnostics_add(notes, LAM_CHECK_NOTE_COMPILER, file, 0, "refused without a word");
     if (link)
-        hints_of_link(notes, reading, params);
+        compiler_hints_of_link(notes, reading, params);
     else
-        hints_of_text(notes, d, file, vertex);
+        compiler_hints_of_text(notes, d, file, vertex);
 }
 
 static const char *file_of(const lam_check_params *params, bool vertex)
@@ -88,29 +89,30 @@ static const char *file_of(const lam_check_params *params, bool vertex)
     return vertex ? params->vertex_name : params->fragment_name;
 }
 
-static void tell_unknown(struct notes *notes, const struct reading *r, const char *name, const char *kind,
-                         const char *file, int line)
+static void tell_unknown(struct diagnostics *notes, const struct shader_interface *r, const char *name,
+                         const char *kind, const char *file, int line)
 {
     const char *near = contract_nearest(r->contract, name);
     if (near)
-        notes_add(notes, LAM_CHECK_NOTE_UNKNOWN, file, line,
-                  "%s '%.60s' is unknown to the contract %s; the nearest that it knows is '%s'", kind, name,
-                  r->contract->name, near);
+        diagnostics_add(notes, LAM_CHECK_NOTE_UNKNOWN, file, line,
+                        "%s '%.60s' is unknown to the contract %s; the nearest that it knows is '%s'", kind, name,
+                        r->contract->name, near);
     else
-        notes_add(notes, LAM_CHECK_NOTE_UNKNOWN, file, line,
-                  "%s '%.60s' is unknown to the contract %s and gets no value; `lambent check --list` has "
-                  "its names",
-                  kind, name, r->contract->name);
+        diagnostics_add(notes, LAM_CHECK_NOTE_UNKNOWN, file, line,
+                        "%s '%.60s' is unknown to the contract %s and gets no value; `lambent check --list` has "
+                        "its names",
+                        kind, name, r->contract->name);
 }
 
 // Compared without case and underscores: matrix names and the like are declared with their types.
-static void tell_types(struct notes *notes, const struct reading *r, const struct declaration *d, const char *file)
+static void tell_types(struct diagnostics *notes, const struct shader_interface *r, const struct declaration *d,
+                       const char *file)
 {
     const struct contract_name *known = contract_find(r->contract, d->name, false, NULL);
     if (known && ((strncmp(known->type, "mat", 3) == 0) != (strncmp(d->type, "mat", 3) == 0) ||
                   (strncmp(known->type, "vec", 3) == 0) != (strncmp(d->type, "vec", 3) == 0)))
-        notes_add(notes, LAM_CHECK_NOTE_HINT, file, d->line, "uniform %s %s: write uniform %s %s", d->type, d->name,
-                  known->type, d->name);
+        diagnostics_add(notes, LAM_CHECK_NOTE_HINT, file, d->line, "uniform %s %s: write uniform %s %s", d->type,
+                        d->name, known->type, d->name);
 }
 
 // Whether the driver keeps a declared name: "lights[].a" is "lights[0].a" to it, and a block's member "Block.a".
@@ -130,8 +132,8 @@ static bool is_active(const struct check_drawn *drawn, const char *declared)
     return false;
 }
 
-void notes_of_names(struct notes *notes, const struct check_drawn *drawn, const struct reading *r,
-                    const lam_check_params *params)
+void diagnostics_of_names(struct diagnostics *notes, const struct check_drawn *drawn, const struct shader_interface *r,
+                          const lam_check_params *params)
 {
     const struct declarations *sides[] = {&r->vertex, &r->fragment};
     for (int s = 0; s < 2; s++)
@@ -160,5 +162,5 @@ void notes_of_names(struct notes *notes, const struct check_drawn *drawn, const 
             tell_unknown(notes, r, drawn->unknown[i], "uniform", NULL, 0);
     }
     for (int i = 0; i < drawn->types_count; i++)
-        notes_add(notes, LAM_CHECK_NOTE_HINT, NULL, 0, "%s; it gets no value", drawn->types[i]);
+        diagnostics_add(notes, LAM_CHECK_NOTE_HINT, NULL, 0, "%s; it gets no value", drawn->types[i]);
 }

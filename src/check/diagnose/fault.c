@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define B(name) ((mistake_set)1 << BIT_##name)
+#define B(name) ((fault_set)1 << BIT_##name)
 
-const struct mistake mistakes[] = {
+const struct fault mistakes[] = {
     // --- normals
     {"normal-not-unit", B(LONG_NORMAL), WHERE_FRAGMENT, 0,
      "the interpolated normal is not made unit again in the fragment shader: between vertices it is shorter "
@@ -221,10 +221,10 @@ const struct mistake mistakes[] = {
     {"upside-down", B(UPSIDE_DOWN), 0, 0, "the picture is upside down",
      "gl_Position = {projection} * {model_view} * {position};"},
 };
-const int mistake_count = sizeof mistakes / sizeof mistakes[0];
+const int fault_count = sizeof mistakes / sizeof mistakes[0];
 
-bool mistake_applies(const struct mistake *mistake, const struct reading *reading, lam_light_frame frame,
-                     lam_reflection reflection, unsigned needs)
+bool fault_applies(const struct fault *mistake, const struct shader_interface *reading, lam_light_frame frame,
+                   lam_reflection reflection, unsigned needs)
 {
     unsigned here = (reading->vertex_lit ? WHERE_VERTEX : WHERE_FRAGMENT) |
                     (frame == LAM_FRAME_OBJECT ? WHERE_OBJECT_LIGHT : WHERE_EYE_LIGHT) |
@@ -232,18 +232,18 @@ bool mistake_applies(const struct mistake *mistake, const struct reading *readin
     return (mistake->where & ~here) == 0 && (mistake->needs & ~needs) == 0;
 }
 
-const char *lam_check_mistake(int index) { return index >= 0 && index < mistake_count ? mistakes[index].id : NULL; }
+const char *lam_check_mistake(int index) { return index >= 0 && index < fault_count ? mistakes[index].id : NULL; }
 
 const char *lam_check_mistake_says(int index)
 {
-    return index >= 0 && index < mistake_count ? mistakes[index].says : NULL;
+    return index >= 0 && index < fault_count ? mistakes[index].says : NULL;
 }
 
 // --- what to write instead
 
 static const struct {
     const char *place;
-    enum role role;
+    enum uniform_semantic role;
     const char *otherwise;
 } places[] = {
     {"normal_matrix4", ROLE_NORMAL_MATRIX, "normalMatrix"},
@@ -264,7 +264,7 @@ static const struct {
 };
 
 struct line {
-    const struct reading *reading;
+    const struct shader_interface *reading;
     lam_light_frame frame;
     lam_reflection reflection;
     char *out;
@@ -277,12 +277,12 @@ static void put(struct line *line, const char *text)
     line->at = n < 0 || line->at + (size_t)n >= line->room ? line->room - 1 : line->at + (size_t)n;
 }
 
-static const char *own_name(const struct line *line, enum role role)
+static const char *own_name(const struct line *line, enum uniform_semantic role)
 {
     return contract_name_used(line->reading->contract, role, &line->reading->vertex, &line->reading->fragment);
 }
 
-static bool is_wide(const struct line *line, enum role role) // a vec4 or mat4
+static bool is_wide(const struct line *line, enum uniform_semantic role) // a vec4 or mat4
 {
     const char *name = own_name(line, role);
     const struct declarations *sides[] = {&line->reading->vertex, &line->reading->fragment};
@@ -363,8 +363,8 @@ static void put_place(struct line *line, const char *place, size_t length)
     }
 }
 
-void mistake_write(const char *template, const struct reading *reading, lam_light_frame frame,
-                   lam_reflection reflection, char *out, size_t room)
+void fault_write(const char *template, const struct shader_interface *reading, lam_light_frame frame,
+                 lam_reflection reflection, char *out, size_t room)
 {
     struct line line = {.reading = reading, .frame = frame, .reflection = reflection, .out = out, .room = room};
     out[0] = 0;

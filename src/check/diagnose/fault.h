@@ -24,16 +24,16 @@
     X(VERTEX_CLAMPED) X(UPSIDE_DOWN)
 // clang-format on
 
-enum mistake_bit {
+enum fault_bit {
 #define MISTAKE_BIT(name) BIT_##name,
     MISTAKE_BITS(MISTAKE_BIT)
 #undef MISTAKE_BIT
-        MISTAKE_BIT_COUNT
+        FAULT_BIT_COUNT
 };
-typedef uint64_t mistake_set; // bit i: switch i
+typedef uint64_t fault_set; // bit i: switch i
 
 // Where a mistake can be made; 0: everywhere.
-enum mistake_where {
+enum fault_where {
     WHERE_FRAGMENT = 1,     // lighting in the fragment shader
     WHERE_VERTEX = 2,       // in the vertex shader
     WHERE_OBJECT_LIGHT = 4, // contracts whose lights are in the model's space
@@ -42,24 +42,24 @@ enum mistake_where {
     WHERE_BLINN = 32,       // Blinn–Phong's
 };
 
-struct mistake {
+struct fault {
     const char *id;
-    mistake_set set;
+    fault_set set;
     unsigned where;
     unsigned needs;    // study needs: only where one of the scenes in use has it
     const char *says;  // a sentence
-    const char *write; // one line; {role} in braces is the shader's own name of it (mistake_write)
+    const char *write; // one line; {role} in braces is the shader's own name of it (fault_write)
 };
 
-extern const struct mistake mistakes[];
-extern const int mistake_count;
+extern const struct fault mistakes[];
+extern const int fault_count;
 
 // Whether the mistake can be made with these shaders.
-bool mistake_applies(const struct mistake *mistake, const struct reading *reading, lam_light_frame frame,
-                     lam_reflection reflection, unsigned needs);
+bool fault_applies(const struct fault *mistake, const struct shader_interface *reading, lam_light_frame frame,
+                   lam_reflection reflection, unsigned needs);
 
 // A sentence or line of the table, {role} filled in with the names that the shaders use.
-void mistake_write(const char *template, const struct reading *reading, lam_light_frame frame,
-                   lam_reflection reflection, char *out, size_t room);
+void fault_write(const char *template, const struct shader_interface *reading, lam_light_frame frame,
+                 lam_reflection reflection, char *out, size_t room);
 
 #endif

@@ -21,9 +21,9 @@ static float clamped(float x) { return x > 0 ? (x < 1 ? x : 1) : 0; } // NaN: 0
 // Alpha is blended with before anything clamps it, so what is above 1 counts.
 static float bounded(float x) { return x > 0 ? (x < 4 ? x : 4) : 0; }
 
-size_t judge_gathered_count(const struct judged *scene) { return scene->inside_count * (scene->alpha ? 4 : 3); }
+size_t fault_search_gathered_count(const struct judged *scene) { return scene->inside_count * (scene->alpha ? 4 : 3); }
 
-void judge_gather(const struct judged *scene, const float *picture, float *out)
+void fault_search_gather(const struct judged *scene, const float *picture, float *out)
 {
     for (size_t i = 0; i < scene->inside_count; i++) {
         const float *p = picture + 4 * (size_t)scene->inside[i];
@@ -34,7 +34,7 @@ void judge_gather(const struct judged *scene, const float *picture, float *out)
     }
 }
 
-struct distance judge_distance(const struct judged *scene, const float *other, double tolerance)
+struct distance fault_search_distance(const struct judged *scene, const float *other, double tolerance)
 {
     struct distance d = {.pixels = scene->inside_count};
     double sum = 0;
@@ -62,25 +62,25 @@ struct distance judge_distance(const struct judged *scene, const float *other, d
 
 // A set of mistakes that has been tried.
 struct tried {
-    const struct mistake *rows[FOUND_MOST];
+    const struct fault *rows[FOUND_MOST];
     double after[FOUND_MOST];
     int count;
-    mistake_set set;
+    fault_set set;
     double mean;
     bool fits;
 };
 
 // What draws, and room for a picture and its gathered numbers.
 struct desk {
-    struct model *model; // opened when a picture is first needed that is not kept
+    struct fault_shader *model; // opened when a picture is first needed that is not kept
     float *pixels, *gathered;
 };
 
 // The gathered numbers of a scene drawn with a set of mistakes; valid until the next call. NULL: `error`.
-static const float *picture_of(struct search *s, struct desk *desk, int index, mistake_set set, lam_error *error)
+static const float *picture_of(struct search *s, struct desk *desk, int index, fault_set set, lam_error *error)
 {
     const struct judged *scene = &s->scenes[index];
-    struct picture_key key = {.scene = (int)(scene->row - studies),
+    struct picture_key key = {.scene = (int)(scene->row - reference_scenes),
                               .contract = s->reading->which,
                               .light_frame = s->frame,
                               .reflection = s->reflection,
@@ -89,16 +89,17 @@ static const float *picture_of(struct search *s, struct desk *desk, int index, m
                               .room = s->room,
                               .offers = s->reading->offers,
                               .set = set};
-    const float *kept = pictures_find(s->pictures, &key);
+    const float *kept = render_cache_find(s->pictures, &key);
     if (kept)
         return kept;
-    if (!desk->model && !(desk->model = model_open(s->gl_device, s->size, error)))
+    if (!desk->model && !(desk->model = fault_shader_open(s->gl_device, s->size, error)))
         return NULL;
-    if (!model_draw(desk->model, &scene->study, s->reading, s->room, s->frame, s->reflection, set, desk->pixels, error))
+    if (!fault_shader_draw(desk->model, &scene->reference_scene, s->reading, s->room, s->frame, s->reflection, set,
+                           desk->pixels, error))
         return NULL;
-    float *out = pictures_add(s->pictures, &key, judge_gathered_count(scene));
+    float *out = render_cache_add(s->pictures, &key, fault_search_gathered_count(scene));
     out = out ? out : desk->gathered;
-    judge_gather(scene, desk->pixels, out);
+    fault_search_gather(scene, desk->pixels, out);
     return out;
 }
 
@@ -116,7 +117,7 @@ static bool try_set(struct search *s, struct tried *t, double most, struct desk 
         const float *mistaken = picture_of(s, desk, i, t->set, error);
         if (!mistaken)
             return false;
-        struct distance d = judge_distance(&s->scenes[i], mistaken, s->tolerance);
+        struct distance d = fault_search_distance(&s->scenes[i], mistaken, s->tolerance);
         if (each)
             each[i] = d;
         t->mean += d.mean / s->scene_count;
@@ -171,7 +172,7 @@ static void tell_alone(struct search *s, const uint32_t *explained)
     int differ = 0, best = -1;
     for (int i = 0; i < s->scene_count; i++)
         differ += !s->scenes[i].passes;
-    for (int m = 0; m < mistake_count; m++)
+    for (int m = 0; m < fault_count; m++)
         if (2 * count_bits(explained[m]) >= differ &&
             (best < 0 || count_bits(explained[m]) > count_bits(explained[best])))
             best = m;
@@ -204,13 +205,13 @@ static void put_in_order(struct search *s)
     memcpy(s->order, kept, (size_t)count * sizeof *kept);
 }
 
-bool judge_search(struct search *s, lam_error *error)
+bool fault_search_run(struct search *s, lam_error *error)
 {
     put_in_order(s);
     size_t bytes = 4 * (size_t)s->size * (size_t)s->size * sizeof(float), scenes = (size_t)s->scene_count;
     struct desk desk = {.pixels = malloc(bytes), .gathered = malloc(bytes)};
     struct distance *each = malloc(scenes * sizeof *each);
-    uint32_t *explained = calloc((size_t)mistake_count, sizeof *explained);
+    uint32_t *explained = calloc((size_t)fault_count, sizeof *explained);
     bool ok = desk.pixels && desk.gathered && each && explained;
     if (!ok)
         fail_memory(error, bytes);
@@ -221,11 +222,11 @@ bool judge_search(struct search *s, lam_error *error)
         struct tried next[BEAM];
         int count = 0;
         for (int b = 0; ok && b < held; b++)
-            for (int m = 0; ok && m < mistake_count; m++) {
-                const struct mistake *row = &mistakes[m];
+            for (int m = 0; ok && m < fault_count; m++) {
+                const struct fault *row = &mistakes[m];
                 struct tried t = beam[b];
                 if ((t.set & row->set) == row->set ||
-                    !mistake_applies(row, s->reading, s->frame, s->reflection, s->needs))
+                    !fault_applies(row, s->reading, s->frame, s->reflection, s->needs))
                     continue;
                 t.set |= row->set;
                 t.rows[t.count++] = row;
@@ -246,7 +247,7 @@ bool judge_search(struct search *s, lam_error *error)
         memcpy(beam, next, sizeof beam);
         held = count;
     }
-    model_close(desk.model);
+    fault_shader_close(desk.model);
     free(desk.pixels);
     free(desk.gathered);
     free(each);

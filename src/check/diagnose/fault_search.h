@@ -7,12 +7,12 @@
 
 // One scene as it is judged.
 struct judged {
-    const struct study *row; // of the table
-    struct study study;      // as the contract can say it
-    const float *theirs;     // straight RGBA
-    float *reference;        // the CPU device's, straight alpha
+    const struct reference_scene *row;      // of the table
+    struct reference_scene reference_scene; // as the contract can say it
+    const float *theirs;                    // straight RGBA
+    float *reference;                       // the CPU device's, straight alpha
     // Compared are the pixels whose 3×3 neighbours are all covered in the reference: their indices, and what
-    // theirs has there (judge_gather).
+    // theirs has there (fault_search_gather).
     uint32_t *inside;
     size_t inside_count;
     float *gathered;
@@ -29,18 +29,18 @@ struct distance {
 
 // The numbers of the pixels that are compared, one pixel after the other: red, green, blue (clamped to 0…1),
 // and alpha where it counts.
-size_t judge_gathered_count(const struct judged *scene);
-void judge_gather(const struct judged *scene, const float *picture, float *out);
+size_t fault_search_gathered_count(const struct judged *scene);
+void fault_search_gather(const struct judged *scene, const float *picture, float *out);
 
 // Of scene->gathered from another picture's gathered numbers.
-struct distance judge_distance(const struct judged *scene, const float *other, double tolerance);
+struct distance fault_search_distance(const struct judged *scene, const float *other, double tolerance);
 
 enum { FOUND_MOST = 4, ORDER_MOST = 32 };
 
 struct search {
     const char *gl_device;
     lam_check_pictures *pictures; // may be NULL
-    const struct reading *reading;
+    const struct shader_interface *reading;
     lam_light_frame frame;
     lam_reflection reflection;
     struct judged *scenes;
@@ -51,17 +51,17 @@ struct search {
     unsigned needs; // of the scenes together
     bool unset;     // names without a value: only a mistake that explains all by itself counts
     // Results: mistakes in the order found, the mean distance after each, and whether they explain everything.
-    const struct mistake *found[FOUND_MOST];
+    const struct fault *found[FOUND_MOST];
     double after[FOUND_MOST];
     int count;
     bool certain;
     double before;
     // For each scene the one of the found that explains it by itself; where no explanation is certain, the
     // one mistake that explains it and half of the others that differ. NULL: none.
-    const struct mistake **alone;
+    const struct fault **alone;
 };
 
 // Looks for the fewest mistakes that explain the pictures. `alone` has room for scene_count.
-bool judge_search(struct search *search, lam_error *error);
+bool fault_search_run(struct search *search, lam_error *error);
 
 #endif

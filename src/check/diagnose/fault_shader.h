@@ -4,14 +4,15 @@
 
 #include "fault.h"
 
-struct model;
+struct fault_shader;
 
-struct model *model_open(const char *gl_device, int size, lam_error *error);
-void model_close(struct model *model); // NULL is fine
+struct fault_shader *fault_shader_open(const char *gl_device, int size, lam_error *error);
+void fault_shader_close(struct fault_shader *model); // NULL is fine
 
 // Draws a study as the contract can say it; `room`: lights that the shaders have room for. Pixels: size² × 4
 // floats, rows top-down.
-bool model_draw(struct model *model, const struct study *study, const struct reading *reading, int room,
-                lam_light_frame frame, lam_reflection reflection, mistake_set set, float *pixels, lam_error *error);
+bool fault_shader_draw(struct fault_shader *model, const struct reference_scene *reference_scene,
+                       const struct shader_interface *reading, int room, lam_light_frame frame,
+                       lam_reflection reflection, fault_set set, float *pixels, lam_error *error);
 
 #endif

@@ -64,7 +64,7 @@ static bool same(const struct picture_key *a, const struct picture_key *b)
            a->room == b->room && a->offers == b->offers && a->set == b->set;
 }
 
-const float *pictures_find(const lam_check_pictures *pictures, const struct picture_key *key)
+const float *render_cache_find(const lam_check_pictures *pictures, const struct picture_key *key)
 {
     if (!pictures)
         return NULL;
@@ -74,7 +74,7 @@ const float *pictures_find(const lam_check_pictures *pictures, const struct pict
     return NULL;
 }
 
-float *pictures_add(lam_check_pictures *pictures, const struct picture_key *key, size_t count)
+float *render_cache_add(lam_check_pictures *pictures, const struct picture_key *key, size_t count)
 {
     if (!pictures || count > (SIZE_MAX - sizeof(struct picture)) / sizeof(float) ||
         pictures->arena.total + count * sizeof(float) + sizeof(struct picture) > pictures->most)

@@ -10,14 +10,14 @@ struct picture_key {
     int contract, light_frame, reflection, vertex_lit;
     int size, room;  // pixels of a side; lights that the shaders have room for
     unsigned offers; // what the shaders have names for
-    mistake_set set;
+    fault_set set;
 };
 
 // The numbers kept for a key: those of the pixels that are compared. NULL: none.
-const float *pictures_find(const lam_check_pictures *pictures, const struct picture_key *key);
+const float *render_cache_find(const lam_check_pictures *pictures, const struct picture_key *key);
 
 // Room for `count` numbers, to be filled by the caller, kept from now on. NULL where the store is full: then
 // the picture is drawn again when it is wanted again.
-float *pictures_add(lam_check_pictures *pictures, const struct picture_key *key, size_t count);
+float *render_cache_add(lam_check_pictures *pictures, const struct picture_key *key, size_t count);
 
 #endif

@@ -33,7 +33,7 @@ static const char *source_of(enum carried carried, const char **w)
     return "vec3(0.0)";
 }
 
-char *complete_vertex(const struct reading *r, char unknown[256], lam_error *error)
+char *default_vertex_shader(const struct shader_interface *r, char unknown[256], lam_error *error)
 {
     const struct declarations *d = &r->fragment;
     for (int i = 0; i < d->count; i++)

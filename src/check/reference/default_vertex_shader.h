@@ -6,6 +6,6 @@
 
 // The text, from malloc: it writes every varying that the fragment shader reads, told by name and type; what
 // it does not know gets zeros and is named in `unknown` (separated by ", "). NULL: memory is out.
-char *complete_vertex(const struct reading *reading, char unknown[256], lam_error *error);
+char *default_vertex_shader(const struct shader_interface *reading, char unknown[256], lam_error *error);
 
 #endif

@@ -14,7 +14,7 @@ enum { BLOCKS_MOST = 8, BLOCK_BYTES_MOST = 65536 };
 
 // An active uniform that the contract knows, one element of it.
 struct wire {
-    enum role role;
+    enum uniform_semantic role;
     int light;
     GLenum type;
     GLint location; // −1: in a block
@@ -22,9 +22,9 @@ struct wire {
 };
 
 struct bench {
-    struct target target;
-    struct reading reading;
-    struct check_job job;
+    struct offscreen target;
+    struct shader_interface reading;
+    struct draw_request job;
     struct check_drawn drawn;
     GLuint program;
     int position, normal; // attribute locations; −1: built in, or none
@@ -34,7 +34,7 @@ struct bench {
     int block_bytes[BLOCKS_MOST];
 };
 
-static enum gl_profile profile_of(const struct reading *r)
+static enum gl_profile profile_of(const struct shader_interface *r)
 {
     const struct declarations *d = r->vertex.version > r->fragment.version ? &r->vertex : &r->fragment;
     if (strcmp(d->profile, "es") == 0 || d->version == 100)
@@ -252,35 +252,37 @@ static void store_in_block(const struct wire *w, const float *v, int count, unsi
     }
 }
 
-static void set_built_ins(const struct gl *gl, const struct contract *contract, const struct study *study,
-                          const struct study_matrices *m)
+static void set_built_ins(const struct gl *gl, const struct contract *contract,
+                          const struct reference_scene *reference_scene, const struct reference_matrices *m)
 {
     float values[16];
     if (!gl->MatrixMode || !gl->LoadMatrixf)
         return;
-    role_value(ROLE_MODEL_VIEW, 0, contract, contract->light_frame, study, m, values);
+    uniform_semantic_value(ROLE_MODEL_VIEW, 0, contract, contract->light_frame, reference_scene, m, values);
     gl->MatrixMode(GL_MODELVIEW);
     gl->LoadMatrixf(values);
-    role_value(ROLE_PROJECTION, 0, contract, contract->light_frame, study, m, values);
+    uniform_semantic_value(ROLE_PROJECTION, 0, contract, contract->light_frame, reference_scene, m, values);
     gl->MatrixMode(GL_PROJECTION);
     gl->LoadMatrixf(values);
 }
 
-static bool set_values(struct bench *b, const struct study *study, enum gl_profile profile, lam_error *error)
+static bool set_values(struct bench *b, const struct reference_scene *reference_scene, enum gl_profile profile,
+                       lam_error *error)
 {
     const struct gl *gl = &b->target.context.gl;
     const struct contract *contract = b->reading.contract;
-    struct study_matrices m;
-    study_matrices(study, &m);
+    struct reference_matrices m;
+    reference_matrices(reference_scene, &m);
     if (profile == GL_PROFILE_COMPATIBILITY)
-        set_built_ins(gl, contract, study, &m);
+        set_built_ins(gl, contract, reference_scene, &m);
     unsigned char *bytes = calloc(BLOCKS_MOST, BLOCK_BYTES_MOST);
     if (!bytes)
         return fail_memory(error, BLOCKS_MOST * BLOCK_BYTES_MOST);
     for (int i = 0; i < b->wire_count; i++) {
         const struct wire *w = &b->wires[i];
         float values[16], shaped[16];
-        int count = role_value(w->role, w->light, contract, (lam_light_frame)b->job.light_frame, study, &m, values);
+        int count = uniform_semantic_value(w->role, w->light, contract, (lam_light_frame)b->job.light_frame,
+                                           reference_scene, &m, values);
         count = shape_value(w->type, count, values, shaped);
         if (w->block < 0)
             set_uniform(gl, w, shaped);
@@ -334,16 +336,16 @@ static void build(struct bench *b)
 {
     struct check_drawn *d = &b->drawn;
     const struct gl *gl = &b->target.context.gl;
-    GLuint vertex = target_compile(&b->target, GL_VERTEX_SHADER, b->job.vertex, d->log, sizeof d->log);
+    GLuint vertex = offscreen_compile(&b->target, GL_VERTEX_SHADER, b->job.vertex, d->log, sizeof d->log);
     if (!vertex) {
         d->state = DRAWN_REFUSED_VERTEX;
         return;
     }
-    GLuint fragment = target_compile(&b->target, GL_FRAGMENT_SHADER, b->job.fragment, d->log, sizeof d->log);
+    GLuint fragment = offscreen_compile(&b->target, GL_FRAGMENT_SHADER, b->job.fragment, d->log, sizeof d->log);
     if (!fragment) {
         d->state = DRAWN_REFUSED_FRAGMENT;
     } else {
-        b->program = target_link(&b->target, vertex, fragment, d->log, sizeof d->log);
+        b->program = offscreen_link(&b->target, vertex, fragment, d->log, sizeof d->log);
         if (!b->program)
             d->state = DRAWN_REFUSED_LINK;
     }
@@ -364,22 +366,23 @@ static bool draw_scenes(struct bench *b, enum gl_profile profile, float *pixels,
     int lights = b->drawn.has_list ? b->drawn.light_count : 1;
     size_t at = 0, each = 4 * (size_t)b->job.size * (size_t)b->job.size;
     double longest = longest_s(b->job.size);
-    for (int i = 0; i < study_count; i++)
+    for (int i = 0; i < reference_scene_count; i++)
         if (b->job.scenes >> i & 1) {
-            struct study study = contract_study(b->reading.contract, b->reading.offers, &studies[i], lights);
-            if (!set_values(b, &study, profile, error))
+            struct reference_scene reference_scene =
+                contract_reference_scene(b->reading.contract, b->reading.offers, &reference_scenes[i], lights);
+            if (!set_values(b, &reference_scene, profile, error))
                 return false;
             double taken = 0;
             for (int turn = 0; turn == 0 || (turn == 1 && taken > longest); turn++) { // the first may compile
                 double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
-                if (!target_draw(&b->target, study.mesh, b->position, b->normal, pixels + at, error))
+                if (!offscreen_draw(&b->target, reference_scene.mesh, b->position, b->normal, pixels + at, error))
                     return false;
                 taken = seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
             }
             if (taken > longest) {
                 b->drawn.state = DRAWN_SLOW;
                 b->drawn.seconds = taken;
-                snprintf(b->drawn.log, sizeof b->drawn.log, "%s", studies[i].name);
+                snprintf(b->drawn.log, sizeof b->drawn.log, "%s", reference_scenes[i].name);
                 return true;
             }
             at += each;
@@ -394,17 +397,17 @@ bool lam_check_draw(const void *job, size_t size, const char *gl_device, lam_byt
     if (!b)
         return fail_memory(error, sizeof *b);
     float *pixels = NULL;
-    bool ok = job_read(job, size, &b->job, error) &&
-              reading_make(&b->reading, b->job.vertex, b->job.fragment, (lam_check_contract)b->job.contract, error);
+    bool ok = job_read(job, size, &b->job, error) && shader_interface_make(&b->reading, b->job.vertex, b->job.fragment,
+                                                                           (lam_check_contract)b->job.contract, error);
     bool open = false;
     if (ok) {
         enum gl_profile profile = profile_of(&b->reading);
-        ok = open = target_open(&b->target, profile, gl_device, b->job.size, error);
+        ok = open = offscreen_open(&b->target, profile, gl_device, b->job.size, error);
         size_t count = 0;
         if (ok) {
             snprintf(b->drawn.driver, sizeof b->drawn.driver, "%s", b->target.context.renderer);
             b->drawn.scenes = b->job.scenes;
-            for (int i = 0; i < study_count; i++)
+            for (int i = 0; i < reference_scene_count; i++)
                 count += b->job.scenes >> i & 1;
             count *= 4 * (size_t)b->job.size * (size_t)b->job.size;
             pixels = malloc(count * sizeof *pixels + 1);
@@ -421,9 +424,9 @@ bool lam_check_draw(const void *job, size_t size, const char *gl_device, lam_byt
         if (b->program)
             gl->DeleteProgram(b->program);
         gl->DeleteBuffers(BLOCKS_MOST, b->blocks);
-        target_close(&b->target);
+        offscreen_close(&b->target);
     }
-    reading_free(&b->reading);
+    shader_interface_free(&b->reading);
     free(pixels);
     free(b->wires);
     free(b);

@@ -22,7 +22,7 @@ struct drawn_head {
     struct check_drawn drawn;
 };
 
-bool job_write(const struct check_job *job, lam_bytes *out, lam_error *error)
+bool job_write(const struct draw_request *job, lam_bytes *out, lam_error *error)
 {
     struct job_head head = {.contract = job->contract,
                             .light_frame = job->light_frame,
@@ -41,7 +41,7 @@ bool job_write(const struct check_job *job, lam_bytes *out, lam_error *error)
     return true;
 }
 
-bool job_read(const void *bytes, size_t size, struct check_job *job, lam_error *error)
+bool job_read(const void *bytes, size_t size, struct draw_request *job, lam_error *error)
 {
     struct job_head head;
     const char *data = bytes;
@@ -50,15 +50,16 @@ bool job_read(const void *bytes, size_t size, struct check_job *job, lam_error *
     memcpy(&head, data, sizeof head);
     size_t rest = size - sizeof head;
     if (!contract_of((lam_check_contract)head.contract) || head.size < 32 || head.size > 1024 ||
-        head.scenes >> study_count || head.vertex_size < 1 || head.vertex_size > rest || head.fragment_size < 1 ||
-        head.fragment_size != rest - head.vertex_size || data[sizeof head + head.vertex_size - 1] || data[size - 1])
+        head.scenes >> reference_scene_count || head.vertex_size < 1 || head.vertex_size > rest ||
+        head.fragment_size < 1 || head.fragment_size != rest - head.vertex_size ||
+        data[sizeof head + head.vertex_size - 1] || data[size - 1])
         return fail(error, LAM_BAD_ARGUMENT, "the job of a check: its head does not fit its %zu bytes", size);
-    *job = (struct check_job){.contract = head.contract,
-                              .light_frame = head.light_frame,
-                              .size = head.size,
-                              .scenes = head.scenes,
-                              .vertex = data + sizeof head,
-                              .fragment = data + sizeof head + head.vertex_size};
+    *job = (struct draw_request){.contract = head.contract,
+                                 .light_frame = head.light_frame,
+                                 .size = head.size,
+                                 .scenes = head.scenes,
+                                 .vertex = data + sizeof head,
+                                 .fragment = data + sizeof head + head.vertex_size};
     return true;
 }
 
@@ -87,7 +88,7 @@ bool drawn_read(const lam_bytes *bytes, int size, struct check_drawn *drawn, lam
                     bytes->size);
     *drawn = head->drawn;
     size_t pictures = 0;
-    for (int i = 0; i < study_count; i++)
+    for (int i = 0; i < reference_scene_count; i++)
         pictures += drawn->scenes >> i & 1;
     size_t expected = drawn->state == DRAWN_PICTURES ? pictures * (size_t)size * (size_t)size * 4 : 0;
     if (head->floats != expected || bytes->size != sizeof *head + expected * sizeof(float) || drawn->state < 0 ||

@@ -4,7 +4,7 @@
 
 #include "contract.h"
 
-struct check_job {
+struct draw_request {
     int contract;    // lam_check_contract
     int light_frame; // lam_light_frame
     int size;
@@ -30,9 +30,9 @@ struct check_drawn {
     const float *pixels; // RGBA, rows top-down, one picture after the other; inside the bytes that were read
 };
 
-bool job_write(const struct check_job *job, lam_bytes *out, lam_error *error);
+bool job_write(const struct draw_request *job, lam_bytes *out, lam_error *error);
 // Texts point into the bytes.
-bool job_read(const void *bytes, size_t size, struct check_job *job, lam_error *error);
+bool job_read(const void *bytes, size_t size, struct draw_request *job, lam_error *error);
 
 // `pictures`: size² × 4 floats for each scene of the job; NULL where there are none.
 bool drawn_write(const struct check_drawn *drawn, const float *pictures, size_t count, lam_bytes *out,

@@ -6,7 +6,7 @@
 
 #include "fail.h"
 
-bool target_open(struct target *t, enum gl_profile profile, const char *gl_device, int size, lam_error *error)
+bool offscreen_open(struct offscreen *t, enum gl_profile profile, const char *gl_device, int size, lam_error *error)
 {
     memset(t, 0, sizeof *t);
     t->size = size;
@@ -30,7 +30,7 @@ bool target_open(struct target *t, enum gl_profile profile, const char *gl_devic
     gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, t->depth);
     if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
         fail(error, LAM_UNSUPPORTED, "%s cannot draw into pictures of floats, expected RGBA32F", t->context.renderer);
-        target_close(t);
+        offscreen_close(t);
         return false;
     }
     gl->GenVertexArrays(1, &t->array);
@@ -46,7 +46,7 @@ bool target_open(struct target *t, enum gl_profile profile, const char *gl_devic
     return true;
 }
 
-void target_close(struct target *t)
+void offscreen_close(struct offscreen *t)
 {
     if (t->context.context == EGL_NO_CONTEXT)
         return;
@@ -62,17 +62,17 @@ void target_close(struct target *t)
     memset(t, 0, sizeof *t);
 }
 
-bool target_mesh(struct target *t, enum study_mesh mesh, lam_error *error)
+bool offscreen_mesh(struct offscreen *t, enum reference_mesh mesh, lam_error *error)
 {
     if (t->counts[mesh])
         return true;
-    struct study_points points;
-    if (!study_points(mesh, &points, error))
+    struct reference_points points;
+    if (!reference_points(mesh, &points, error))
         return false;
     size_t count = (size_t)points.count;
     float *four = malloc(count * 4 * sizeof *four);
     if (!four) {
-        study_points_free(&points);
+        reference_points_free(&points);
         return fail_memory(error, count * 4 * sizeof *four);
     }
     for (size_t i = 0; i < count; i++) {
@@ -88,7 +88,7 @@ bool target_mesh(struct target *t, enum study_mesh mesh, lam_error *error)
     gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * 4 * sizeof(float)), four, GL_STATIC_DRAW);
     t->counts[mesh] = points.count;
     free(four);
-    study_points_free(&points);
+    reference_points_free(&points);
     return true;
 }
 
@@ -108,10 +108,11 @@ static void point_at(const struct gl *gl, GLuint buffer, int place, int width, b
     }
 }
 
-bool target_draw(struct target *t, enum study_mesh mesh, int position, int normal, float *pixels, lam_error *error)
+bool offscreen_draw(struct offscreen *t, enum reference_mesh mesh, int position, int normal, float *pixels,
+                    lam_error *error)
 {
     const struct gl *gl = &t->context.gl;
-    if (!target_mesh(t, mesh, error))
+    if (!offscreen_mesh(t, mesh, error))
         return false;
     bool built_in = t->built_ins && gl->VertexPointer && gl->NormalPointer && gl->EnableClientState;
     if (position >= 0 || built_in)
@@ -136,7 +137,7 @@ bool target_draw(struct target *t, enum study_mesh mesh, int position, int norma
     return true;
 }
 
-GLuint target_compile(struct target *t, GLenum kind, const char *text, char *log, size_t room)
+GLuint offscreen_compile(struct offscreen *t, GLenum kind, const char *text, char *log, size_t room)
 {
     const struct gl *gl = &t->context.gl;
     GLuint shader = gl->CreateShader(kind);
@@ -151,7 +152,7 @@ GLuint target_compile(struct target *t, GLenum kind, const char *text, char *log
     return 0;
 }
 
-GLuint target_link(struct target *t, GLuint vertex, GLuint fragment, char *log, size_t room)
+GLuint offscreen_link(struct offscreen *t, GLuint vertex, GLuint fragment, char *log, size_t room)
 {
     const struct gl *gl = &t->context.gl;
     GLuint program = gl->CreateProgram();

@@ -5,7 +5,7 @@
 #include "context.h"
 #include "reference_scene.h"
 
-struct target {
+struct offscreen {
     struct gl_context context; // current between open and close; a struct target must not move
     struct gl_previous previous;
     int size;
@@ -15,18 +15,19 @@ struct target {
     int counts[STUDY_MESHES];
 };
 
-bool target_open(struct target *t, enum gl_profile profile, const char *gl_device, int size, lam_error *error);
-void target_close(struct target *t);
+bool offscreen_open(struct offscreen *t, enum gl_profile profile, const char *gl_device, int size, lam_error *error);
+void offscreen_close(struct offscreen *t);
 
 // The mesh's buffers, made when it is first asked for.
-bool target_mesh(struct target *t, enum study_mesh mesh, lam_error *error);
+bool offscreen_mesh(struct offscreen *t, enum reference_mesh mesh, lam_error *error);
 
 // Clears, draws the mesh with the current program, and reads the picture, rows top-down. Where −1 is given,
 // attributes are the built-in ones of compatibility contexts.
-bool target_draw(struct target *t, enum study_mesh mesh, int position, int normal, float *pixels, lam_error *error);
+bool offscreen_draw(struct offscreen *t, enum reference_mesh mesh, int position, int normal, float *pixels,
+                    lam_error *error);
 
 // A shader of `kind`; 0, with the driver's words, where it does not compile.
-GLuint target_compile(struct target *t, GLenum kind, const char *text, char *log, size_t room);
-GLuint target_link(struct target *t, GLuint vertex, GLuint fragment, char *log, size_t room);
+GLuint offscreen_compile(struct offscreen *t, GLenum kind, const char *text, char *log, size_t room);
+GLuint offscreen_link(struct offscreen *t, GLuint vertex, GLuint fragment, char *log, size_t room);
 
 #endif

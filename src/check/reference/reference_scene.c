@@ -21,7 +21,7 @@
 #define WHITE .color = {1, 1, 1}, .specular = {1, 1, 1}, .ambient = {1, 1, 1}
 #define LAMP  {.type = LAM_LIGHT_POINT, .position = {1.6, 2.2, 2.4}, WHITE, .attenuation = {0.6f, 0.1f, 0.04f}}
 
-const struct study studies[] = {
+const struct reference_scene reference_scenes[] = {
     {"all", "every term together, a stretched model, a light near by", 0, STRETCHED, MATTER, .ka = 0.25f, .kd = 0.8f,
      .ks = 0.6f, .shininess = 20, .light_count = 1, .lights = {LAMP}},
     {"ambient", "the ambient term alone", NEED_AMBIENT, STRETCHED, MATTER, .ka = 0.8f, .shininess = 20,
@@ -95,12 +95,12 @@ const struct study studies[] = {
     {"alpha", "a translucent material: alpha is the diffuse alpha", NEED_ALPHA, .mesh = MESH_SPHERE, BALL, COLORS,
      .alpha = 0.4f, .ka = 0.15f, .kd = 0.7f, .ks = 0.4f, .shininess = 10, .light_count = 1, .lights = {LAMP}},
 };
-const int study_count = sizeof studies / sizeof studies[0];
+const int reference_scene_count = sizeof reference_scenes / sizeof reference_scenes[0];
 
-int study_find(const char *name)
+int reference_scene_find(const char *name)
 {
-    for (int i = 0; i < study_count; i++)
-        if (strcmp(studies[i].name, name) == 0)
+    for (int i = 0; i < reference_scene_count; i++)
+        if (strcmp(reference_scenes[i].name, name) == 0)
             return i;
     return -1;
 }
@@ -117,7 +117,7 @@ static void bowl(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = v3(-cv * su, -sv, cv * cu);
 }
 
-static int add_mesh(lam_scene *scene, enum study_mesh mesh, lam_error *error)
+static int add_mesh(lam_scene *scene, enum reference_mesh mesh, lam_error *error)
 {
     switch (mesh) {
     case MESH_TEAPOT:
@@ -143,9 +143,9 @@ static int add_mesh(lam_scene *scene, enum study_mesh mesh, lam_error *error)
     return -1;
 }
 
-bool study_points(enum study_mesh mesh, struct study_points *points, lam_error *error)
+bool reference_points(enum reference_mesh mesh, struct reference_points *points, lam_error *error)
 {
-    *points = (struct study_points){0};
+    *points = (struct reference_points){0};
     lam_scene *scene = lam_scene_make(error);
     int index = scene ? add_mesh(scene, mesh, error) : -1;
     if (index < 0) {
@@ -157,7 +157,7 @@ bool study_points(enum study_mesh mesh, struct study_points *points, lam_error *
     points->positions = malloc(count * 3 * sizeof(float));
     points->normals = malloc(count * 3 * sizeof(float));
     if (!points->positions || !points->normals) {
-        study_points_free(points);
+        reference_points_free(points);
         lam_scene_free(scene);
         return fail_memory(error, count * 6 * sizeof(float));
     }
@@ -174,18 +174,18 @@ bool study_points(enum study_mesh mesh, struct study_points *points, lam_error *
     return true;
 }
 
-void study_points_free(struct study_points *points)
+void reference_points_free(struct reference_points *points)
 {
     free(points->positions);
     free(points->normals);
-    *points = (struct study_points){0};
+    *points = (struct reference_points){0};
 }
 
 // --- matrices and the scene
 
 enum { NEAR_CM = 50, FAR_CM = 1200, FIELD_DEG = 36 };
 
-static lam_mat4 model_matrix(const struct study *s)
+static lam_mat4 model_matrix(const struct reference_scene *s)
 {
     lam_mat4 scale = mat4_scale(s->scale.x, s->scale.y, s->scale.z),
              turn = mat4_rotate(math_radians(s->turn_deg), s->turn_axis),
@@ -194,7 +194,7 @@ static lam_mat4 model_matrix(const struct study *s)
     return mat4_mul(&move, &both);
 }
 
-static lam_camera camera_of(const struct study *s)
+static lam_camera camera_of(const struct reference_scene *s)
 {
     return (lam_camera){.eye = s->eye,
                         .target = s->target,
@@ -204,7 +204,7 @@ static lam_camera camera_of(const struct study *s)
                         .far_plane = FAR_CM / 100.0};
 }
 
-void study_matrices(const struct study *s, struct study_matrices *out)
+void reference_matrices(const struct reference_scene *s, struct reference_matrices *out)
 {
     lam_camera camera = camera_of(s);
     out->model = model_matrix(s);
@@ -224,10 +224,10 @@ void study_matrices(const struct study *s, struct study_matrices *out)
 
 static lam_rgb times(lam_rgb a, float s) { return (lam_rgb){a.r * s, a.g * s, a.b * s}; }
 
-static bool add_lights(lam_scene *scene, const struct study *s, lam_error *error)
+static bool add_lights(lam_scene *scene, const struct reference_scene *s, lam_error *error)
 {
     for (int i = 0; i < s->light_count; i++) {
-        const struct study_light *from = &s->lights[i];
+        const struct reference_light *from = &s->lights[i];
         lam_light light = lam_light_default(from->type);
         light.position = from->position;
         light.direction = v3_scale(from->from, -1);
@@ -243,7 +243,7 @@ static bool add_lights(lam_scene *scene, const struct study *s, lam_error *error
     return true;
 }
 
-lam_scene *study_scene(const struct study *s, lam_camera *camera, lam_error *error)
+lam_scene *reference_to_scene(const struct reference_scene *s, lam_camera *camera, lam_error *error)
 {
     lam_scene *scene = lam_scene_make(error);
     if (!scene)

@@ -8,10 +8,10 @@
 
 enum { STUDY_LIGHTS_MOST = 3, STUDY_MESHES = 5 };
 
-enum study_mesh { MESH_TEAPOT, MESH_SPHERE, MESH_COARSE, MESH_PLANE, MESH_BOWL };
+enum reference_mesh { MESH_TEAPOT, MESH_SPHERE, MESH_COARSE, MESH_PLANE, MESH_BOWL };
 
 // What a contract must be able to say for a study to make sense with it.
-enum study_need {
+enum reference_need {
     NEED_AMBIENT = 1,
     NEED_ATTENUATION = 2,
     NEED_DIRECTIONAL = 4,
@@ -27,7 +27,7 @@ enum study_need {
 
 // What a shader says of itself besides, in the same bits: of each light, whether it has a kind of its own and
 // no attenuation; of the whole, that it has no highlight or is flat.
-enum study_rule {
+enum reference_rule {
     RULE_POINT = 1,
     RULE_DIRECTIONAL = 2,
     RULE_SPOT = 3, // with a cutoff
@@ -40,7 +40,7 @@ enum study_rule {
 };
 
 // A light, in the world's space.
-struct study_light {
+struct reference_light {
     lam_light_type type; // point, directional, spot
     lam_vec3 position;
     lam_vec3 from;        // directional: the direction to the light; spot: minus its axis
@@ -51,10 +51,10 @@ struct study_light {
     float cutoff_deg, exponent;
 };
 
-struct study {
+struct reference_scene {
     const char *name, *shows; // "gate": "light from behind, a wide highlight"
     unsigned needs;
-    enum study_mesh mesh;
+    enum reference_mesh mesh;
     lam_vec3 scale, turn_axis, move; // of the model: scaled, turned, moved
     double turn_deg;
     lam_vec3 eye, target;
@@ -64,31 +64,31 @@ struct study {
     float shininess;
     bool flat;
     int light_count;
-    struct study_light lights[STUDY_LIGHTS_MOST];
+    struct reference_light lights[STUDY_LIGHTS_MOST];
 };
 
-extern const struct study studies[];
-extern const int study_count;
+extern const struct reference_scene reference_scenes[];
+extern const int reference_scene_count;
 
-int study_find(const char *name); // −1: none
+int reference_scene_find(const char *name); // −1: none
 
 // Three vertices for each triangle: positions and normals, three floats each. From malloc.
-struct study_points {
+struct reference_points {
     float *positions, *normals;
     int count;
 };
-bool study_points(enum study_mesh mesh, struct study_points *points, lam_error *error);
-void study_points_free(struct study_points *points);
+bool reference_points(enum reference_mesh mesh, struct reference_points *points, lam_error *error);
+void reference_points_free(struct reference_points *points);
 
 // Column vectors, m[row][column].
-struct study_matrices {
+struct reference_matrices {
     lam_mat4 model, view, model_view, projection, model_view_projection;
     double normal[3][3]; // inverse transpose of the model-view's 3×3
     lam_mat4 normal4;    // inverse transpose of all of it, as some host programs send it
 };
-void study_matrices(const struct study *study, struct study_matrices *out);
+void reference_matrices(const struct reference_scene *reference_scene, struct reference_matrices *out);
 
 // The scene and camera that the CPU device draws.
-lam_scene *study_scene(const struct study *study, lam_camera *camera, lam_error *error);
+lam_scene *reference_to_scene(const struct reference_scene *reference_scene, lam_camera *camera, lam_error *error);
 
 #endif

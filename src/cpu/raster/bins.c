@@ -24,13 +24,13 @@ static void *slab_take(struct cpu_frame *cpu, struct slab_list *list, size_t byt
                 list->slabs = slabs;
                 list->room = room;
             }
-            if (!watch_charge(cpu->watch, SLAB))
+            if (!call_charge(cpu->call, SLAB))
                 goto out_of_memory;
             size_t held;
             bool filled = next > 0 || cpu->frame->triangle_count > FILLED; // rather than a part of it
             void *slab = filled ? pages_get(SLAB, &held) : pages_get_sparse(SLAB, &held);
             if (!slab) {
-                watch_refund(cpu->watch, SLAB);
+                call_refund(cpu->call, SLAB);
                 goto out_of_memory;
             }
             list->slabs[list->count++] = slab;

@@ -54,7 +54,7 @@ void group_fragments(const struct frame *frame, struct thread_state *thread)
     for (int i = 0; i < thread->fragment_count; i++) {
         uint32_t id = thread->fragment_id[i] & ~BACK_SIDE;
         if (id - low >= count) {
-            surface = frame_surface_of(frame, id);
+            surface = frame_draw_range_of(frame, id);
             low = frame->surfaces[surface].first_id;
             count = frame->surfaces[surface].count;
         }

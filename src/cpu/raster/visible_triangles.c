@@ -5,9 +5,9 @@
 
 #include <string.h>
 
-static bool goes_on(const struct cpu_frame *cpu)
+static bool should_continue(const struct cpu_frame *cpu)
 {
-    return !__atomic_load_n(&cpu->failed, __ATOMIC_RELAXED) && watch_on(cpu->watch);
+    return !__atomic_load_n(&cpu->failed, __ATOMIC_RELAXED) && call_should_continue(cpu->call);
 }
 
 // --- every triangle in a bin
@@ -16,7 +16,7 @@ static void mark_bins(void *user, size_t index, int number)
 {
     (void)number;
     struct cpu_frame *cpu = user;
-    if (!goes_on(cpu))
+    if (!should_continue(cpu))
         return;
     for (int i = 0; i < pool_threads(cpu->pool) * TILE_BINS; i++) {
         const struct thread_state *thread = &cpu->threads[i / TILE_BINS];
@@ -68,7 +68,7 @@ static void search_tile(void *user, size_t index, int number)
     struct tile_search *search = user;
     struct cpu_frame *cpu = search->cpu;
     struct thread_state *thread = &cpu->threads[number];
-    if (!goes_on(cpu))
+    if (!should_continue(cpu))
         return;
     if (!tile_has_triangles(cpu, index))
         return;
@@ -77,10 +77,11 @@ static void search_tile(void *user, size_t index, int number)
     int width = cpu->image->width - tile_x * TILE, height = cpu->image->height - tile_y * TILE;
     cpu->kernels->cover(cpu, thread, tile_x, tile_y);
     cpu->kernels->collect(cpu, thread, width < TILE ? width : TILE, height < TILE ? height : TILE);
-    struct stash *stash = &cpu->stashes[index];
+    struct fragment_store *fragment_store = &cpu->fragment_stores[index];
     uint32_t highest;
-    add_shown(&cpu->seen.triangles, thread, &stash->lowest, &highest);
-    if (!cpu->kernels->keep_stash(stash, thread, cpu->frame->samples, highest, &search->arenas[number]))
+    add_shown(&cpu->seen.triangles, thread, &fragment_store->lowest, &highest);
+    if (!cpu->kernels->save_fragment_store(fragment_store, thread, cpu->frame->samples, highest,
+                                           &search->arenas[number]))
         __atomic_store_n(&cpu->failed, FAILED_MEMORY, __ATOMIC_RELAXED);
     thread->coverage_ns += now_ns() - start;
 }
@@ -88,14 +89,14 @@ static void search_tile(void *user, size_t index, int number)
 static bool search_tiles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
 {
     size_t tiles = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down, threads = (size_t)pool_threads(cpu->pool);
-    if (!buffer_reserve(&room->stashes, tiles * sizeof(struct stash) + threads * sizeof(struct arena), cpu->watch,
-                        error))
+    if (!buffer_reserve(&room->fragment_stores, tiles * sizeof(struct fragment_store) + threads * sizeof(struct arena),
+                        cpu->call, error))
         return false;
-    cpu->stashes = room->stashes.data;
-    memset(cpu->stashes, 0, tiles * sizeof(struct stash));
-    room->arenas = (struct arena *)(cpu->stashes + tiles);
+    cpu->fragment_stores = room->fragment_stores.data;
+    memset(cpu->fragment_stores, 0, tiles * sizeof(struct fragment_store));
+    room->arenas = (struct arena *)(cpu->fragment_stores + tiles);
     for (size_t i = 0; i < threads; i++)
-        (tiles > LARGE_PICTURE ? arena_start_large : arena_start)(&room->arenas[i], cpu->watch);
+        (tiles > LARGE_PICTURE ? arena_start_large : arena_start)(&room->arenas[i], cpu->call);
     uint64_t start = now_ns();
     pool_run(cpu->pool, tiles, search_tile, &(struct tile_search){cpu, room->arenas});
     room->search_ms = (double)(now_ns() - start) * 1e-6;
@@ -109,7 +110,7 @@ static void release_bins(struct cpu_frame *cpu)
     for (int i = 0; i < pool_threads(cpu->pool); i++) {
         struct thread_state *thread = &cpu->threads[i];
         memset(thread->bins, 0, tiles * TILE_BINS * sizeof(struct bin_block *));
-        watch_refund(cpu->watch, slabs_free(&thread->blocks));
+        call_refund(cpu->call, slabs_free(&thread->blocks));
     }
 }
 
@@ -119,7 +120,7 @@ static bool make_set(struct cpu_frame *cpu, struct seeing_room *room, lam_error 
 {
     struct number_set *set = &cpu->seen.triangles;
     size_t words = number_set_words(cpu->frame->triangle_count);
-    if (!buffer_reserve(&room->sets, words * (sizeof *set->bits + sizeof *set->before), cpu->watch, error))
+    if (!buffer_reserve(&room->sets, words * (sizeof *set->bits + sizeof *set->before), cpu->call, error))
         return false;
     set->size = cpu->frame->triangle_count;
     set->bits = room->sets.data;
@@ -131,12 +132,12 @@ static bool make_set(struct cpu_frame *cpu, struct seeing_room *room, lam_error 
 // Finds memory for the elements and normals of so many corners: in the spare one where that is large, else of
 // their own, of which fewer pages are touched: corners share normals.
 static bool place_normals(struct seeing_room *room, struct seen_normals *seen, size_t corners, struct spare *spare,
-                          struct watch *watch, lam_error *error)
+                          struct call_control *call, lam_error *error)
 {
     size_t elements = (corners * sizeof *seen->elements + 63) / 64 * 64,
            normals = (corners * sizeof *seen->normals + 63) / 64 * 64;
     bool lies_there = elements + normals <= spare->room / 4;
-    if (!lies_there && !buffer_reserve(&room->normals, elements + normals, watch, error))
+    if (!lies_there && !buffer_reserve(&room->normals, elements + normals, call, error))
         return false;
     char *memory = lies_there ? spare->memory : room->normals.data;
     seen->elements = (uint32_t *)memory;
@@ -153,17 +154,17 @@ bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *e
     room->search_ms = 0;
     if (!make_set(cpu, room, error))
         return false;
-    if (!frame->translucent && !cpu->recorder && lam_show_is_light(frame->show)) {
+    if (!frame->translucent && !cpu->recorder && lam_output_is_light(frame->show)) {
         if (!search_tiles(cpu, room, error))
             return false;
     } else {
         pool_run(cpu->pool, (size_t)cpu->tiles_across * (size_t)cpu->tiles_down, mark_bins, cpu);
     }
-    if (!goes_on(cpu))
+    if (!should_continue(cpu))
         return true; // the caller asks why
     // The vertices are done with too; what is made may lie where they did.
     struct spare spare = {0};
-    if (cpu->stashes) {
+    if (cpu->fragment_stores) {
         release_bins(cpu);
         spare = (struct spare){.memory = room->vertices->data, .room = room->vertices->room};
         cpu->vertices = NULL;
@@ -172,12 +173,12 @@ bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *e
     size_t corners = 3 * (size_t)seen->triangles.count;
     if (corners == 0)
         return true; // no triangle is seen
-    if (!place_normals(room, seen, corners, &spare, cpu->watch, error))
+    if (!place_normals(room, seen, corners, &spare, cpu->call, error))
         return false;
     for (int i = 0; i < frame->draw_count; i++)
         if (frame->draws[i].crease_rad > 0 &&
             !normals_seen(frame->draws[i].mesh, frame->draws[i].first_id, frame->draws[i].crease_rad, seen, spare,
-                          cpu->kernels->lanes, cpu->pool, cpu->watch, error))
+                          cpu->kernels->lanes, cpu->pool, cpu->call, error))
             return false;
     return true;
 }

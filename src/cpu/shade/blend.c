@@ -185,7 +185,7 @@ static bool bare(const uint32_t *ids, int samples)
 static void blend_rectangle(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y,
                             const struct rectangle *area)
 {
-    if (__atomic_load_n(&cpu->failed, __ATOMIC_RELAXED) || !watch_on(cpu->watch))
+    if (__atomic_load_n(&cpu->failed, __ATOMIC_RELAXED) || !call_should_continue(cpu->call))
         return;
     uint64_t start = now_ns();
     if (!cpu->kernels->gather_layers(cpu, thread, tile_x, tile_y, area)) {

@@ -209,15 +209,15 @@ static void fill_materials(const struct written *w, int count, int room, const s
     }
 }
 
-bool light_table_make(struct light_table *table, struct buffer *storage, const struct frame *frame,
-                      const struct material_products *materials, struct watch *watch, lam_error *error)
+bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const struct frame *frame,
+                       const struct material_products *materials, struct call_control *call, lam_error *error)
 {
     int count = frame->light_count;
     int group_count = (count + LIGHTS_IN_GROUP - 1) / LIGHTS_IN_GROUP, room = group_count * LIGHTS_IN_GROUP;
     int group_room = (group_count + LANES_MAX - 1) / LANES_MAX * LANES_MAX;
     struct rows rows = {0};
     cut_rows(&rows, room, group_room, frame->material_count);
-    if (!buffer_reserve(storage, rows.used * sizeof(float), watch, error))
+    if (!buffer_reserve(storage, rows.used * sizeof(float), call, error))
         return false;
     rows = (struct rows){.at = storage->data};
     struct written w = cut_rows(&rows, room, group_room, frame->material_count);
@@ -241,23 +241,23 @@ bool light_table_make(struct light_table *table, struct buffer *storage, const s
     fill_materials(&w, count, room, frame, materials);
     float slope = (frame->color == LAM_COLOR_RAW ? 1.0f : SRGB_SLOPE) * frame->exposure;
     *table =
-        (struct light_table){.count = count,
-                             .room = room,
-                             .number = w.number,
-                             .position = {w.position[0], w.position[1], w.position[2]},
-                             .far = w.far,
-                             .axis = {w.axis[0], w.axis[1], w.axis[2]},
-                             .least_cosine = w.least_cosine,
-                             .attenuation = {w.attenuation[0], w.attenuation[1], w.attenuation[2]},
-                             .inverse_range = w.inverse_range,
-                             .most_diffuse = w.most_diffuse,
-                             .most_specular = w.most_specular,
-                             .group_count = group_count,
-                             .group_room = group_room,
-                             .group_low = {w.group_low[0], w.group_low[1], w.group_low[2]},
-                             .group_high = {w.group_high[0], w.group_high[1], w.group_high[2]},
-                             .group_reach = w.group_reach,
-                             .all = w.all,
-                             .cutoff = count > LIGHTS_ALL_SUMMED ? (slope > 0 ? frame->light_cutoff / slope : 0) : 0};
+        (struct light_bounds){.count = count,
+                              .room = room,
+                              .number = w.number,
+                              .position = {w.position[0], w.position[1], w.position[2]},
+                              .far = w.far,
+                              .axis = {w.axis[0], w.axis[1], w.axis[2]},
+                              .least_cosine = w.least_cosine,
+                              .attenuation = {w.attenuation[0], w.attenuation[1], w.attenuation[2]},
+                              .inverse_range = w.inverse_range,
+                              .most_diffuse = w.most_diffuse,
+                              .most_specular = w.most_specular,
+                              .group_count = group_count,
+                              .group_room = group_room,
+                              .group_low = {w.group_low[0], w.group_low[1], w.group_low[2]},
+                              .group_high = {w.group_high[0], w.group_high[1], w.group_high[2]},
+                              .group_reach = w.group_reach,
+                              .all = w.all,
+                              .cutoff = count > LIGHTS_ALL_SUMMED ? (slope > 0 ? frame->light_cutoff / slope : 0) : 0};
     return true;
 }

@@ -15,7 +15,7 @@ enum {
 
 // Lights by place: those with a range first, in Morton's order (1966), then the others. Rows are filled up to
 // a multiple of LIGHTS_IN_GROUP with lights that reach nothing.
-struct light_table {
+struct light_bounds {
     int count, room;           // lights; with what fills the last group
     const uint32_t *number;    // in the frame
     const float *position[3];  // eye space; for a directional light the way to it
@@ -36,8 +36,8 @@ struct light_table {
 };
 
 // Fills the table; the storage keeps its rows. False: out of memory.
-bool light_table_make(struct light_table *table, struct buffer *storage, const struct frame *frame,
-                      const struct material_products *materials, struct watch *watch, lam_error *error);
+bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const struct frame *frame,
+                       const struct material_products *materials, struct call_control *call, lam_error *error);
 
 // Lists of lights are made for frames with more lights than this.
 static inline bool light_lists_wanted(const struct frame *frame)

@@ -1,4 +1,4 @@
-// output.c: pixels that hold numbers of the surfaces in place of colours: what stands for a pixel (lam_show in
+// output.c: pixels that hold numbers of the surfaces in place of colours: what stands for a pixel (lam_output in
 // lambent/device.h). Plain C: every instruction set has the same.
 #include "kernels.h"
 #include "encode_values.h"
@@ -52,16 +52,16 @@ static void resolve_apart(const struct cpu_frame *cpu, struct thread_state *thre
 
 void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height)
 {
-    lam_show show = cpu->frame->show;
-    bool of_pixels = show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW;
-    if (show == LAM_SHOW_CLIPPED) {
+    lam_output show = cpu->frame->show;
+    bool of_pixels = show == LAM_OUTPUT_COVERAGE || show == LAM_OUTPUT_OVERDRAW;
+    if (show == LAM_OUTPUT_CLIPPED) {
         resolve_apart(cpu, thread, width, height);
     } else {
         for (int c = 0; c < 4; c++)
             memset(thread->sum[c], 0, TILE * TILE * sizeof(float));
-        if (show == LAM_SHOW_COVERAGE)
+        if (show == LAM_OUTPUT_COVERAGE)
             sum_coverage(cpu, thread);
-        else if (show == LAM_SHOW_OVERDRAW)
+        else if (show == LAM_OUTPUT_OVERDRAW)
             sum_overdraw(cpu, thread, width, height);
         else
             pick_fragments(thread);
@@ -74,7 +74,7 @@ void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int til
         for (int x = 0; x < width; x++, row += size) {
             int at = y * TILE + x;
             float first = thread->sum[0][at];
-            if (show == LAM_SHOW_CLIPPED)
+            if (show == LAM_OUTPUT_CLIPPED)
                 shown_put_clipped(cpu->image->format, thread->shown + 4 * ((size_t)y * (size_t)width + (size_t)x), row);
             else if (of_pixels)
                 shown_put(cpu->frame, cpu->image->format, (float[4]){first, first, first, 1}, row);
@@ -87,14 +87,14 @@ void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int til
 
 void show_empty(struct cpu_frame *cpu)
 {
-    lam_show show = cpu->frame->show;
-    if (show == LAM_SHOW_CLIPPED) {
+    lam_output show = cpu->frame->show;
+    if (show == LAM_OUTPUT_CLIPPED) {
         const lam_rgba *b = &cpu->frame->background;
         shown_put_clipped(cpu->image->format, (float[4]){b->r * b->a, b->g * b->a, b->b * b->a, b->a},
                           cpu->empty_pixel);
         return;
     }
     shown_put(cpu->frame, cpu->image->format,
-              (float[4]){0, 0, 0, show == LAM_SHOW_COVERAGE || show == LAM_SHOW_OVERDRAW ? 1.0f : 0.0f},
+              (float[4]){0, 0, 0, show == LAM_OUTPUT_COVERAGE || show == LAM_OUTPUT_OVERDRAW ? 1.0f : 0.0f},
               cpu->empty_pixel);
 }

@@ -45,10 +45,10 @@ void fan_sort(uint32_t *corners, uint32_t count)
     }
 }
 
-void fan_room_start(struct fan_room *room, struct watch *watch)
+void fan_room_start(struct fan_room *room, struct call_control *call)
 {
     *room = (struct fan_room){0};
-    arena_start(&room->arena, watch);
+    arena_start(&room->arena, call);
 }
 
 void fan_room_free(struct fan_room *room) { arena_free(&room->arena); }

@@ -28,7 +28,7 @@ struct fan_room {
     float (*normals)[3]; // of the fans
     uint32_t room;
 };
-void fan_room_start(struct fan_room *room, struct watch *watch);
+void fan_room_start(struct fan_room *room, struct call_control *call);
 void fan_room_free(struct fan_room *room);
 // Makes room for `count` corners, keeping `corners`. False when memory is out.
 bool fan_room_reserve(struct fan_room *room, uint32_t count);

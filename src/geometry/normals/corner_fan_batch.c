@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-extern const struct fan_lanes fan_lanes_plain;
+extern const struct fan_lanes fan_lanes_scalar;
 #if defined(__x86_64__)
 extern const struct fan_lanes fan_lanes_avx2, fan_lanes_avx512;
 #endif
@@ -20,7 +20,7 @@ const struct fan_lanes *fan_lanes_of(int lanes)
         return &fan_lanes_avx2;
 #endif
     (void)lanes;
-    return &fan_lanes_plain;
+    return &fan_lanes_scalar;
 }
 
 bool fan_batch_take(struct fan_batch *batch, uint32_t count)

@@ -33,7 +33,7 @@ struct smoothing {
     double least_cosine;
     struct arena *scratch;
     struct pool *pool;
-    struct halt halt;
+    struct loop_status loop;
     size_t corners;
     uint32_t *position_of; // vertex → number of its position
     uint32_t positions;
@@ -61,7 +61,7 @@ static void link_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     struct smoothing *s = user;
-    if (!goes_on(&s->halt))
+    if (!should_continue(&s->loop))
         return;
     for (size_t c = index * CHUNK; c < chunk_end(index, s->corners); c++) {
         uint32_t position = s->position_of[corner_vertex(s->mesh, c)];
@@ -100,7 +100,7 @@ static bool gather(const struct smoothing *s, uint32_t position, struct fan_room
 static void fan_piece(void *user, size_t index, int thread)
 {
     struct smoothing *s = user;
-    if (!goes_on(&s->halt))
+    if (!should_continue(&s->loop))
         return;
     struct fan_room *room = &s->rooms[thread];
     struct piece *piece = &s->pieces[index];
@@ -111,7 +111,7 @@ static void fan_piece(void *user, size_t index, int thread)
     for (size_t position = first; position < end; position++) {
         uint32_t count;
         if (!gather(s, (uint32_t)position, room, &count)) {
-            no_memory(&s->halt);
+            no_memory(&s->loop);
             return;
         }
         uint32_t fans = count ? fan_normals(s->mesh, s->least_cosine, room, count) : 0;
@@ -121,7 +121,7 @@ static void fan_piece(void *user, size_t index, int thread)
             larger = larger < piece->count + fans ? piece->count + fans : larger;
             float(*copy)[3] = arena_array(arena, larger, sizeof *copy);
             if (!copy) {
-                no_memory(&s->halt);
+                no_memory(&s->loop);
                 return;
             }
             if (piece->count)
@@ -144,7 +144,7 @@ static void shift_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     struct smoothing *s = user;
-    if (!goes_on(&s->halt))
+    if (!should_continue(&s->loop))
         return;
     for (size_t c = index * CHUNK; c < chunk_end(index, s->corners); c++)
         s->indices[c] += s->pieces[s->position_of[corner_vertex(s->mesh, c)] / PIECE].before;
@@ -167,42 +167,42 @@ static bool make_fans(struct smoothing *s, struct arena *arena)
     s->pieces = arena_alloc_zeroed(s->scratch, pieces * sizeof *s->pieces);
     s->rooms = arena_array(s->scratch, (size_t)threads, sizeof *s->rooms);
     if (!s->pieces || !s->rooms) {
-        no_memory(&s->halt);
+        no_memory(&s->loop);
         return false;
     }
     for (int i = 0; i < threads; i++)
-        fan_room_start(&s->rooms[i], s->halt.watch);
+        fan_room_start(&s->rooms[i], s->loop.call);
     pool_run(s->pool, pieces, fan_piece, s);
     uint64_t total = 0; // at most one for each corner, and there are fewer than 2³² of those
     for (size_t i = 0; i < pieces; i++) {
         s->pieces[i].before = (uint32_t)total;
         total += s->pieces[i].count;
     }
-    if (goes_on(&s->halt)) {
+    if (should_continue(&s->loop)) {
         s->normals = arena_array(arena, total, sizeof *s->normals);
         if (s->normals) {
             pool_run(s->pool, pieces, copy_piece, s);
             pool_run(s->pool, chunks_of(s->corners), shift_chunk, s);
             s->normal_count = (uint32_t)total;
         } else
-            no_memory(&s->halt);
+            no_memory(&s->loop);
     }
     for (int i = 0; i < threads; i++)
         fan_room_free(&s->rooms[i]);
-    return goes_on(&s->halt);
+    return should_continue(&s->loop);
 }
 
 bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena, struct pool *pool,
-                    struct watch *watch, lam_error *error)
+                    struct call_control *call, lam_error *error)
 {
     struct arena scratch;
-    arena_start(&scratch, watch);
+    arena_start(&scratch, call);
     struct smoothing s = {
         .mesh = mesh,
         .least_cosine = fan_least_cosine(crease_angle_rad),
         .scratch = &scratch,
         .pool = pool,
-        .halt = {.watch = watch},
+        .loop = {.call = call},
         .corners = (size_t)mesh->triangle_count * 3,
     };
     size_t vertices = mesh->indices ? mesh->vertex_count : s.corners;
@@ -210,16 +210,16 @@ bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena
     s.position_of = arena_array(&scratch, vertices, sizeof *s.position_of);
     bool ok = s.indices && s.position_of;
     if (!ok)
-        watch_memory_error(watch, (s.corners + vertices) * 4, error);
-    ok = ok && weld_positions(mesh->positions, vertices, s.position_of, &s.positions, pool, watch, error);
+        call_memory_error(call, (s.corners + vertices) * 4, error);
+    ok = ok && weld_positions(mesh->positions, vertices, s.position_of, &s.positions, pool, call, error);
     if (ok) {
         s.heads = arena_array(&scratch, s.positions, sizeof *s.heads);
         if (s.heads) {
             memset(s.heads, 0xff, s.positions * sizeof *s.heads);
             pool_run(pool, chunks_of(s.corners), link_chunk, &s);
         } else
-            no_memory(&s.halt);
-        ok = (goes_on(&s.halt) && make_fans(&s, arena)) || halt_error(&s.halt, s.corners * 4, error);
+            no_memory(&s.loop);
+        ok = (should_continue(&s.loop) && make_fans(&s, arena)) || loop_error(&s.loop, s.corners * 4, error);
     }
     if (ok) {
         mesh->normals = &s.normals[0][0];
@@ -234,7 +234,7 @@ bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena
 
 struct facets {
     const lam_mesh *mesh;
-    struct halt halt;
+    struct loop_status loop;
     float (*normals)[3];
     uint32_t *indices;
 };
@@ -243,7 +243,7 @@ static void facet_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     struct facets *f = user;
-    if (!goes_on(&f->halt))
+    if (!should_continue(&f->loop))
         return;
     for (size_t t = index * CHUNK; t < chunk_end(index, f->mesh->triangle_count); t++) {
         lam_vec3 p[3];
@@ -259,17 +259,17 @@ static void facet_chunk(void *user, size_t index, int thread)
     }
 }
 
-bool normals_facet(lam_mesh *mesh, struct arena *arena, struct pool *pool, struct watch *watch, lam_error *error)
+bool normals_facet(lam_mesh *mesh, struct arena *arena, struct pool *pool, struct call_control *call, lam_error *error)
 {
-    struct facets f = {.mesh = mesh, .halt = {.watch = watch}};
+    struct facets f = {.mesh = mesh, .loop = {.call = call}};
     size_t count = mesh->triangle_count;
     f.normals = arena_array(arena, count, sizeof *f.normals);
     f.indices = arena_array(arena, count * 3, sizeof *f.indices);
     if (!f.normals || !f.indices)
-        return watch_memory_error(watch, count * 24, error);
+        return call_memory_error(call, count * 24, error);
     pool_run(pool, chunks_of(count), facet_chunk, &f);
-    if (!goes_on(&f.halt))
-        return halt_error(&f.halt, count * 24, error);
+    if (!should_continue(&f.loop))
+        return loop_error(&f.loop, count * 24, error);
     mesh->normals = &f.normals[0][0];
     mesh->normal_count = mesh->triangle_count;
     mesh->normal_indices = f.indices;

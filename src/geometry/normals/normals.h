@@ -16,9 +16,9 @@
 // common edge in the same direction (inconsistent winding) are never joined.
 // Fills mesh->normals, normal_count and normal_indices from `arena`. The result does not depend on the pool.
 bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena, struct pool *pool,
-                    struct watch *watch, lam_error *error);
+                    struct call_control *call, lam_error *error);
 
 // Facet normals: each triangle's own at its three corners; a triangle without area gets zero.
-bool normals_facet(lam_mesh *mesh, struct arena *arena, struct pool *pool, struct watch *watch, lam_error *error);
+bool normals_facet(lam_mesh *mesh, struct arena *arena, struct pool *pool, struct call_control *call, lam_error *error);
 
 #endif

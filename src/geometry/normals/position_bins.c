@@ -79,7 +79,7 @@ static uint32_t look_up(const struct seeing *s, uint32_t first, uint32_t count, 
 static void bin_chunk(void *user, size_t index, int thread)
 {
     struct seeing *s = user;
-    if (!goes_on(&s->halt))
+    if (!should_continue(&s->loop))
         return;
     const uint32_t *indices = s->mesh->indices, *position_of = s->position_of;
     uint32_t end = (uint32_t)piece_end(index, s->corners, CHUNK), count;
@@ -114,12 +114,12 @@ bool bin_corners(struct seeing *s)
     for (int i = 0; i < pool_threads(s->pool); i++) {
         s->lists[i].bins = seeing_take_zeroed(s, s->ranges * sizeof *s->lists[i].bins);
         if (!s->lists[i].bins) {
-            no_memory(&s->halt);
+            no_memory(&s->loop);
             return false;
         }
     }
     pool_run(s->pool, pieces_of(s->corners, CHUNK), bin_chunk, s);
-    return goes_on(&s->halt) && (s->position_of || !s->crowded);
+    return should_continue(&s->loop) && (s->position_of || !s->crowded);
 }
 
 size_t corners_in_range(const struct seeing *s, size_t range)

@@ -13,7 +13,7 @@ enum {
     PART_BITS = 12, // at most
 };
 
-extern const struct seen_lanes seen_lanes_plain;
+extern const struct seen_lanes seen_lanes_scalar;
 #if defined(__x86_64__)
 extern const struct seen_lanes seen_lanes_avx2, seen_lanes_avx512;
 #endif
@@ -28,7 +28,7 @@ const struct seen_lanes *seen_lanes_of(int lanes)
         return &seen_lanes_avx2;
 #endif
     (void)lanes;
-    return &seen_lanes_plain;
+    return &seen_lanes_scalar;
 }
 
 void seen_table_plan(struct seen_table *table, size_t vertices)

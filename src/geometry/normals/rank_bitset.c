@@ -39,7 +39,7 @@ struct seen_block *seen_block_new(struct seen_lists *lists, struct seen_block *b
             lists->slab = spare_take(lists->spare, &lists->arena, 1, lists->slab_bytes);
             lists->slab_left = lists->slab ? lists->slab_bytes : 0;
             if (!lists->slab) {
-                no_memory(lists->halt);
+                no_memory(lists->loop);
                 return NULL;
             }
         }

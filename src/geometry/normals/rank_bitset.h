@@ -39,8 +39,8 @@ _Static_assert(sizeof(struct seen_block) <= BLOCK_BYTES, "blocks lie side by sid
 // One thread's.
 struct seen_lists {
     struct arena arena;
-    struct spare *spare; // all threads'
-    struct halt *halt;   // told when memory is out
+    struct spare *spare;      // all threads'
+    struct loop_status *loop; // told when memory is out
     size_t slab_bytes;
     char *slab;
     size_t slab_left;

@@ -78,7 +78,7 @@ static void show_words(void *user, size_t index, int thread)
 {
     (void)thread;
     struct seeing *s = user;
-    if (!goes_on(&s->halt))
+    if (!should_continue(&s->loop))
         return;
     for (size_t w = index * WORDS; w < piece_end(index, triangle_words(s), WORDS); w++)
         for (uint64_t bits = seen_word(s, first_word(s) + w); bits; bits &= bits - 1) {
@@ -128,7 +128,7 @@ static inline bool spread(struct seeing *s, int thread, size_t vertex)
 static void spread_vertices(void *user, size_t index, int thread)
 {
     struct seeing *s = user;
-    if (!goes_on(&s->halt))
+    if (!should_continue(&s->loop))
         return;
     for (size_t w = index * WORDS; w < piece_end(index, number_set_words(s->vertices), WORDS); w++)
         for (uint64_t bits = s->shown.bits[w]; bits; bits &= bits - 1)
@@ -139,7 +139,7 @@ static void spread_vertices(void *user, size_t index, int thread)
 static void spread_corners(void *user, size_t index, int thread)
 {
     struct seeing *s = user;
-    if (!goes_on(&s->halt))
+    if (!should_continue(&s->loop))
         return;
     size_t end = piece_end(index, triangle_words(s), WORDS);
     for (size_t w = index * WORDS, ahead = w; w < end; w++) {
@@ -161,8 +161,8 @@ static void spread_corners(void *user, size_t index, int thread)
 static void fill_part(void *user, size_t index, int thread)
 {
     struct seeing *s = user;
-    if (goes_on(&s->halt) && !seen_table_fill(&s->table, (uint32_t)index, s->lists, pool_threads(s->pool),
-                                              &s->lists[thread], s->mesh->indices != NULL))
+    if (should_continue(&s->loop) && !seen_table_fill(&s->table, (uint32_t)index, s->lists, pool_threads(s->pool),
+                                                      &s->lists[thread], s->mesh->indices != NULL))
         __atomic_store_n(&s->crowded, 1, __ATOMIC_RELAXED);
 }
 
@@ -176,8 +176,8 @@ static bool start_lists(struct seeing *s)
     s->lists = seeing_take_zeroed(s, threads * sizeof *s->lists);
     for (size_t i = 0; s->lists && i < threads; i++) {
         struct seen_lists *lists = &s->lists[i];
-        *lists = (struct seen_lists){.spare = &s->spare, .halt = &s->halt, .slab_bytes = slab};
-        arena_start(&lists->arena, s->halt.watch);
+        *lists = (struct seen_lists){.spare = &s->spare, .loop = &s->loop, .slab_bytes = slab};
+        arena_start(&lists->arena, s->loop.call);
         lists->bins = seeing_take_zeroed(s, (size_t)seen_table_parts(&s->table) * sizeof *lists->bins);
         if (!lists->bins)
             return false;
@@ -286,7 +286,7 @@ static void place_words(void *user, size_t index, int thread)
 {
     (void)thread;
     struct seeing *s = user;
-    if (!goes_on(&s->halt))
+    if (!should_continue(&s->loop))
         return;
     size_t steps = 0, end = piece_end(index, number_set_words(s->vertices), WORDS);
     for (size_t w = index * WORDS; w < end && few_steps(s, steps, WORD * WORDS); w += TOGETHER)
@@ -322,12 +322,12 @@ bool weld_all(struct seeing *s, lam_error *error)
     if (!s->position_of)
         s->position_of = seeing_take(s, &s->scratch, s->vertices, sizeof *s->position_of);
     if (!s->position_of)
-        return watch_memory_error(s->halt.watch, s->vertices * 4, error);
-    if (!weld_positions(s->mesh->positions, s->vertices, s->position_of, &positions, s->pool, s->halt.watch, error))
+        return call_memory_error(s->loop.call, s->vertices * 4, error);
+    if (!weld_positions(s->mesh->positions, s->vertices, s->position_of, &positions, s->pool, s->loop.call, error))
         return false;
     uint8_t *shown = seeing_take_zeroed(s, positions);
     if (!shown)
-        return watch_memory_error(s->halt.watch, positions, error);
+        return call_memory_error(s->loop.call, positions, error);
     for (size_t w = 0; w < triangle_words(s); w++)
         for (uint64_t bits = seen_word(s, first_word(s) + w); bits; bits &= bits - 1) {
             size_t triangle = 64 * (first_word(s) + w) + (size_t)__builtin_ctzll(bits) - s->first;
@@ -352,6 +352,6 @@ bool find_positions(struct seeing *s, lam_error *error)
         forget_answers(s);
     }
     if (!ok)
-        return watch_memory_error(s->halt.watch, s->vertices / 4, error);
+        return call_memory_error(s->loop.call, s->vertices / 4, error);
     return !s->crowded || weld_all(s, error);
 }

@@ -28,7 +28,7 @@ struct seeing {
     const struct seen_lanes *search;
     struct seen_normals *seen;
     struct pool *pool;
-    struct halt halt;
+    struct loop_status loop;
     struct arena scratch;
     struct spare spare;
     struct spare until_fans[2]; // where the mesh's elements and further normals will lie

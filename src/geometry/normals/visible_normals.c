@@ -117,7 +117,7 @@ static bool make_room(struct seeing *s, struct seen_worker *worker, size_t range
 static void fan_range(void *user, size_t index, int thread)
 {
     struct seeing *s = user;
-    if (!goes_on(&s->halt))
+    if (!should_continue(&s->loop))
         return;
     struct seen_worker *worker = &s->workers[thread];
     bool ok = make_room(s, worker, index);
@@ -130,7 +130,7 @@ static void fan_range(void *user, size_t index, int thread)
         if (starts[i + 1] > starts[i])
             ok = add_position(s, worker, worker->sorted + starts[i], starts[i + 1] - starts[i]);
     if (!ok)
-        no_memory(&s->halt);
+        no_memory(&s->loop);
 }
 
 // What waits still with a worker.
@@ -138,9 +138,9 @@ static void fan_rest(void *user, size_t index, int thread)
 {
     (void)thread;
     struct seeing *s = user;
-    for (uint32_t count = 1; count <= FAN_FEW && goes_on(&s->halt); count++)
+    for (uint32_t count = 1; count <= FAN_FEW && should_continue(&s->loop); count++)
         if (!make_block(s, &s->workers[index], count))
-            no_memory(&s->halt);
+            no_memory(&s->loop);
 }
 
 static bool start_workers(struct seeing *s)
@@ -151,8 +151,8 @@ static bool start_workers(struct seeing *s)
         return false;
     for (size_t i = 0; i < threads; i++) {
         struct seen_worker *worker = &s->workers[i];
-        arena_start(&worker->arena, s->halt.watch);
-        fan_room_start(&worker->room, s->halt.watch);
+        arena_start(&worker->arena, s->loop.call);
+        fan_room_start(&worker->room, s->loop.call);
         worker->starts = seeing_take(s, &s->scratch, ((size_t)1 << s->range_shift) + 1, sizeof *worker->starts);
         worker->batch = seeing_take(s, &s->scratch, 1, sizeof *worker->batch);
         if (!worker->starts || !worker->batch)
@@ -189,7 +189,7 @@ static void lend_normals(struct seeing *s)
 }
 
 bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad, struct seen_normals *seen,
-                  struct spare spare, int lanes, struct pool *pool, struct watch *watch, lam_error *error)
+                  struct spare spare, int lanes, struct pool *pool, struct call_control *call, lam_error *error)
 {
     size_t corners = 3 * (size_t)mesh->triangle_count;
     struct seeing s = {.mesh = mesh,
@@ -200,27 +200,27 @@ bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad,
                        .seen = seen,
                        .spare = spare,
                        .pool = pool,
-                       .halt = {.watch = watch},
+                       .loop = {.call = call},
                        .vertices = mesh->indices ? mesh->vertex_count : corners,
                        .corners = corners};
-    arena_start(&s.scratch, watch);
+    arena_start(&s.scratch, call);
     s.seen_before = seen_triangles_before(&s, 0);
     lend_normals(&s);
     bool ok = find_positions(&s, error);
-    if (ok && !bin_corners(&s) && goes_on(&s.halt)) {
+    if (ok && !bin_corners(&s) && should_continue(&s.loop)) {
         ok = weld_all(&s, error);
         if (ok)
             bin_corners(&s);
     }
     spare_give_back(&s.spare);
-    if (ok && goes_on(&s.halt)) {
+    if (ok && should_continue(&s.loop)) {
         if (!start_workers(&s))
-            no_memory(&s.halt);
+            no_memory(&s.loop);
         pool_run(pool, s.ranges, fan_range, &s);
         pool_run(pool, (size_t)pool_threads(pool), fan_rest, &s);
     }
     if (ok)
-        ok = goes_on(&s.halt) || halt_error(&s.halt, corners * 8, error);
+        ok = should_continue(&s.loop) || loop_error(&s.loop, corners * 8, error);
     stop_workers(&s);
     stop_lists(&s);
     arena_free(&s.scratch);

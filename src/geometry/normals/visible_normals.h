@@ -79,6 +79,6 @@ struct spare {
 // memory of the mesh's elements and of the normals from `used` on, before they are there. Works on no more
 // than `lanes` floats at a time. Errors: LAM_LIMIT, LAM_CANCELLED.
 bool normals_seen(const lam_mesh *mesh, uint32_t first, double crease_angle_rad, struct seen_normals *seen,
-                  struct spare spare, int lanes, struct pool *pool, struct watch *watch, lam_error *error);
+                  struct spare spare, int lanes, struct pool *pool, struct call_control *call, lam_error *error);
 
 #endif

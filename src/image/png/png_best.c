@@ -89,7 +89,7 @@ static void choose_way(void *user, size_t index, int thread)
     const int rows = png_strip_rows(encoding, (int)index), top = (int)index * encoding->rows;
     const size_t each = row_bytes(encoding);
     uint64_t least = UINT64_MAX;
-    for (int way = 0; way < WAYS && watch_on(&encoding->watch); way++) {
+    for (int way = 0; way < WAYS && call_should_continue(&encoding->call); way++) {
         for (int y = 0; y < rows; y++)
             put_row(encoding, best, top + y, way, NULL, best->bytes + (size_t)y * each);
         uint64_t bits = squeeze_estimate(best->squeeze, best->bytes, (size_t)rows * each, each);
@@ -118,7 +118,7 @@ bool png_best_start(struct png_encoding *encoding, struct pool *pool, struct are
     if (!ok)
         return fail_memory(error, threads * (room + (8 << 20)));
     pool_run(pool, strips, choose_way, encoding);
-    return watch_on(&encoding->watch) || watch_error(&encoding->watch, error);
+    return call_should_continue(&encoding->call) || call_error(&encoding->call, error);
 }
 
 size_t png_best_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out)

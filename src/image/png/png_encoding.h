@@ -29,10 +29,10 @@ struct png_encoding {
     uint8_t *filters;        // of the small kind: how each strip is filtered
     int translucent;         // touched atomically: set once a pixel was found that is not opaque
 
-    struct watch watch;     // over the whole call
-    int first;              // strip of this batch
-    uint8_t *out;           // of this batch, `room` bytes for each strip
-    struct png_strip *done; // one for each strip of a batch
+    struct call_control call; // over the whole call
+    int first;                // strip of this batch
+    uint8_t *out;             // of this batch, `room` bytes for each strip
+    struct png_strip *done;   // one for each strip of a batch
 };
 
 // Completes a chunk whose `size` bytes of data already stand at out + 8. Returns the chunk's size.

@@ -156,7 +156,7 @@ static void encode_strip(void *user, size_t index, int thread)
     uint8_t *out = encoding->out + index * encoding->room;
     done->adler = (struct adler_part){0};
     done->size = 0;
-    if (!watch_on(&encoding->watch))
+    if (!call_should_continue(&encoding->call))
         return;
     size_t size = 0;
     if (strip == 0) {
@@ -227,9 +227,9 @@ static bool encode_strips(struct png_encoding *encoding, bool raw, struct pool *
     for (encoding->first = 0; encoding->first < encoding->strips; encoding->first += BATCH_STRIPS) {
         int left = encoding->strips - encoding->first, count = left < BATCH_STRIPS ? left : BATCH_STRIPS;
         size_t wanted = (size ? size : HEAD_ROOM) + (size_t)count * encoding->room + TAIL_ROOM;
-        if (!watch_on(&encoding->watch)) {
+        if (!call_should_continue(&encoding->call)) {
             free(bytes);
-            return watch_error(&encoding->watch, error);
+            return call_error(&encoding->call, error);
         }
         uint8_t *more = realloc(bytes, wanted);
         if (!more) {
@@ -247,9 +247,9 @@ static bool encode_strips(struct png_encoding *encoding, bool raw, struct pool *
             adler_join(&adler, &encoding->done[i].adler);
         }
     }
-    if (!watch_on(&encoding->watch)) {
+    if (!call_should_continue(&encoding->call)) {
         free(bytes);
-        return watch_error(&encoding->watch, error);
+        return call_error(&encoding->call, error);
     }
     size += put_tail(encoding, &adler, bytes + size);
     uint8_t *fitted = realloc(bytes, size);
@@ -261,7 +261,7 @@ bool png_write(const lam_image *image, const lam_save_params *params, struct poo
                lam_error *error)
 {
     struct png_encoding encoding = {.image = image, .bytes_per_pixel = 4, .mask = 0xFFFFFFFFu};
-    watch_start(&encoding.watch, params->control);
+    call_start(&encoding.call, params->control);
     const bool best = params->compress == LAM_COMPRESS_BEST;
     encoding.rows = (best ? PNG_BEST_PIXELS : STRIP_PIXELS) / image->width;
     if (encoding.rows < 1)

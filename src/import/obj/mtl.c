@@ -190,7 +190,7 @@ static bool close_material(struct reader *reader, lam_error *error)
         return false;
     reader->open = false;
     return remember(reader->set, m->name, index) ||
-           watch_memory_error(reader->scene->arena.watch, reader->set->room * sizeof(struct mtl_entry), error);
+           call_memory_error(reader->scene->arena.call, reader->set->room * sizeof(struct mtl_entry), error);
 }
 
 static bool start_material(struct reader *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
@@ -200,7 +200,7 @@ static bool start_material(struct reader *reader, const uint8_t *at, const uint8
     reader->material = lam_material_default();
     reader->material.name = text_name(&reader->scene->arena, at, (size_t)(end - at));
     if (!reader->material.name)
-        return watch_memory_error(reader->scene->arena.watch, (size_t)(end - at), error);
+        return call_memory_error(reader->scene->arena.call, (size_t)(end - at), error);
     reader->material.illum = -1;
     reader->material.specular = (lam_rgb){0, 0, 0}; // a material without Ks has no highlight
     reader->open = true;
@@ -252,7 +252,7 @@ static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at,
     reader->material.map_options[map] = last > at ? text_name(arena, at, (size_t)(last - at)) : NULL;
     reader->set->maps++;
     if (!reader->material.map_names[map] || (last > at && !reader->material.map_options[map]))
-        return watch_memory_error(arena->watch, (size_t)(end - at), error);
+        return call_memory_error(arena->call, (size_t)(end - at), error);
     return true;
 }
 
@@ -415,8 +415,8 @@ bool mtl_read(struct mtl_set *set, const struct import_source *source, struct la
     if (file->size >= 3 && memcmp(at, "\xef\xbb\xbf", 3) == 0) // a byte order mark
         at += 3;
     for (size_t line = 0; at < reader.end; line++) {
-        if (line % 4096 == 4095 && !watch_on(source->watch))
-            return watch_error(source->watch, error);
+        if (line % 4096 == 4095 && !call_should_continue(source->call))
+            return call_error(source->call, error);
         const uint8_t *stop = text_line_end(at, reader.end), *last = stop;
         at = text_skip_white(at, stop);
         while (last > at && text_white(last[-1]))

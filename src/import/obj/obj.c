@@ -69,7 +69,7 @@ static bool take_array(struct obj *obj, struct arena *arena, void *out, uint64_t
 {
     void *array = arena_array(arena, (size_t)count, size);
     if (!array)
-        return watch_memory_error(obj->source->watch, (size_t)count * size, error);
+        return call_memory_error(obj->source->call, (size_t)count * size, error);
     memcpy(out, &array, sizeof array);
     return true;
 }
@@ -95,7 +95,7 @@ static void warn_faces(struct obj *obj)
     uint64_t faces = 0, numbers = 0;
     const uint8_t *face = NULL, *number = NULL;
     bool texcoords = false, normals = false;
-    for (size_t c = 0; c < obj->chunk_count; c++) {
+    for (size_t c = 0; c < obj->parallel_rows_count; c++) {
         const struct obj_chunk *chunk = &obj->chunks[c];
         faces += chunk->short_faces;
         numbers += chunk->odd_numbers;
@@ -155,7 +155,7 @@ static bool modern_line_ends(struct obj *obj, lam_error *error)
         return true;
     uint8_t *copy = arena_alloc(&obj->memory, size + FILE_PADDING);
     if (!copy)
-        return watch_memory_error(obj->source->watch, size, error);
+        return call_memory_error(obj->source->call, size, error);
     for (size_t i = 0; i < size; i++)
         copy[i] = obj->begin[i] == '\r' ? '\n' : obj->begin[i];
     memset(copy + size, 0, FILE_PADDING);
@@ -166,7 +166,7 @@ static bool modern_line_ends(struct obj *obj, lam_error *error)
 
 bool obj_complete(struct obj *obj, lam_error *error)
 {
-    watch_progress(obj->source->watch, 0.7, "read");
+    call_progress(obj->source->call, 0.7, "read");
     if (!obj_cut_polygons(obj, error) || !obj_read_statements(obj, error) || !obj_complete_texcoords(obj, error) ||
         !obj_complete_normals(obj, error))
         return false;
@@ -176,11 +176,11 @@ bool obj_complete(struct obj *obj, lam_error *error)
 
 static bool load(struct obj *obj, size_t chunk_bytes, lam_error *error)
 {
-    struct watch *watch = obj->source->watch;
+    struct call_control *call = obj->source->call;
     if (!modern_line_ends(obj, error) || !obj_cut(obj, chunk_bytes, error) || !obj_scan(obj, error) ||
         !take_arrays(obj, error))
         return false;
-    watch_progress(watch, 0.2, "read");
+    call_progress(call, 0.2, "read");
     if (!obj_parse(obj, error) || !obj_find_origin(obj, error) || !obj_convert_colors(obj, error))
         return false;
     return obj_complete(obj, error);
@@ -196,7 +196,7 @@ bool obj_load_chunked(const struct import_source *source, struct lam_scene *scen
     };
     if (source->size >= 3 && memcmp(obj.begin, "\xef\xbb\xbf", 3) == 0) // a byte order mark
         obj.begin += 3;
-    arena_start(&obj.memory, source->watch);
+    arena_start(&obj.memory, source->call);
     obj.materials.memory = &obj.memory;
     bool ok = load(&obj, chunk_bytes, error);
     arena_free(&obj.memory);

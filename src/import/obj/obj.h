@@ -67,7 +67,7 @@ struct obj {
     const uint8_t *begin, *end;
 
     struct obj_chunk *chunks;
-    size_t chunk_count;
+    size_t parallel_rows_count;
     struct obj_counts total;
     bool colors_present;
     bool in_pieces;   // of the text only the chunk at hand is there: nothing is known of what stands above it
@@ -110,7 +110,7 @@ struct obj_reader {
 // obj_lines.c, compiled for several instruction sets: reads lines up to the first that is continued. Returns
 // the place behind them, at most `end`, where a line begins; NULL: something is wrong.
 typedef const uint8_t *obj_lines_reader(struct obj_reader *reader, const uint8_t *line, const uint8_t *end);
-obj_lines_reader obj_read_lines_plain, obj_read_lines_avx512;
+obj_lines_reader obj_read_lines_scalar, obj_read_lines_avx512;
 
 // obj_parse.c Any line: returns the place behind it, which is behind a later line's end where it is
 // continued; NULL: wrong.

@@ -63,7 +63,7 @@ static void cut_piece(void *user, size_t index, int thread)
     uint64_t last = (index + 1) * OBJ_POLYGONS_A_PIECE;
     if (last > obj->total.polygons)
         last = obj->total.polygons;
-    if (!watch_on(obj->source->watch))
+    if (!call_should_continue(obj->source->call))
         return;
     for (uint64_t i = index * OBJ_POLYGONS_A_PIECE; i < last; i++) {
         if (__atomic_load_n(&cutting->failed, __ATOMIC_RELAXED))
@@ -77,16 +77,16 @@ bool obj_cut_polygons(struct obj *obj, lam_error *error)
 {
     if (obj->total.polygons == 0)
         return true;
-    struct watch *watch = obj->source->watch;
+    struct call_control *call = obj->source->call;
     size_t threads = (size_t)pool_threads(obj->source->pool);
     struct cutting cutting = {.obj = obj};
     cutting.scratch = arena_array(&obj->memory, threads, sizeof *cutting.scratch);
     cutting.spare = arena_array(&obj->memory, threads, sizeof *cutting.spare);
     if (!cutting.scratch || !cutting.spare)
-        return watch_memory_error(watch, threads * sizeof *cutting.scratch, error);
+        return call_memory_error(call, threads * sizeof *cutting.scratch, error);
     for (size_t t = 0; t < threads; t++) {
-        triangulator_start(&cutting.scratch[t], watch);
-        arena_start(&cutting.spare[t], watch);
+        triangulator_start(&cutting.scratch[t], call);
+        arena_start(&cutting.spare[t], call);
     }
     pool_run(obj->source->pool, (obj->total.polygons + OBJ_POLYGONS_A_PIECE - 1) / OBJ_POLYGONS_A_PIECE, cut_piece,
              &cutting);
@@ -94,10 +94,10 @@ bool obj_cut_polygons(struct obj *obj, lam_error *error)
         triangulator_stop(&cutting.scratch[t]);
         arena_free(&cutting.spare[t]);
     }
-    if (!watch_on(watch))
-        return watch_error(watch, error);
+    if (!call_should_continue(call))
+        return call_error(call, error);
     if (cutting.failed)
-        return watch_memory_error(watch, obj->polygons[0].count * sizeof(uint32_t), error);
+        return call_memory_error(call, obj->polygons[0].count * sizeof(uint32_t), error);
     return true;
 }
 
@@ -108,7 +108,7 @@ static float *grow(struct obj *obj, const float *array, size_t count, size_t mor
 {
     float *larger = arena_array(&obj->scene->arena, count + more, width * sizeof *larger);
     if (!larger) {
-        watch_memory_error(obj->source->watch, (count + more) * width * sizeof *larger, error);
+        call_memory_error(obj->source->call, (count + more) * width * sizeof *larger, error);
         return NULL;
     }
     memcpy(larger, array, count * width * sizeof *larger);
@@ -119,7 +119,7 @@ static float *grow(struct obj *obj, const float *array, size_t count, size_t mor
 bool obj_complete_texcoords(struct obj *obj, lam_error *error)
 {
     bool used = false, missing = false;
-    for (size_t c = 0; c < obj->chunk_count; c++) {
+    for (size_t c = 0; c < obj->parallel_rows_count; c++) {
         used |= obj->chunks[c].texcoord_used;
         missing |= obj->chunks[c].texcoord_missing;
     }
@@ -161,7 +161,7 @@ static bool make_missing(struct obj *obj, lam_error *error)
     uint32_t *indices = arena_array(&obj->memory, 3 * lacking, sizeof *indices);
     uint32_t *groups = obj->smoothing_groups ? arena_array(&obj->memory, lacking, sizeof *groups) : NULL;
     if (!indices || (obj->smoothing_groups && !groups))
-        return watch_memory_error(source->watch, 3 * lacking * sizeof *indices, error);
+        return call_memory_error(source->call, 3 * lacking * sizeof *indices, error);
     for (size_t t = 0, to = 0; t < triangles; t++) {
         if (!lacks_normal(obj->normal_indices + 3 * t))
             continue;
@@ -178,8 +178,7 @@ static bool make_missing(struct obj *obj, lam_error *error)
         .smoothing_groups = groups,
     };
     double crease = source->params->crease_angle_rad;
-    if (!normals_smooth(&part, crease > 0 ? crease : math_radians(40), &obj->memory, source->pool, source->watch,
-                        error))
+    if (!normals_smooth(&part, crease > 0 ? crease : math_radians(40), &obj->memory, source->pool, source->call, error))
         return false;
     size_t own = (size_t)obj->total.normals;
     float *normals = grow(obj, obj->normals, own, part.normal_count, 3, error);
@@ -205,7 +204,7 @@ static bool make_missing(struct obj *obj, lam_error *error)
 bool obj_complete_normals(struct obj *obj, lam_error *error)
 {
     bool used = false, missing = false;
-    for (size_t c = 0; c < obj->chunk_count; c++) {
+    for (size_t c = 0; c < obj->parallel_rows_count; c++) {
         used |= obj->chunks[c].normal_used;
         missing |= obj->chunks[c].normal_missing;
     }

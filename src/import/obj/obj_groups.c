@@ -60,7 +60,7 @@ struct state {
 
 static bool no_memory(const struct state *state, size_t bytes, lam_error *error)
 {
-    return watch_memory_error(state->obj->source->watch, bytes, error);
+    return call_memory_error(state->obj->source->call, bytes, error);
 }
 
 static enum statement statement_of(const uint8_t *at, const uint8_t *end)
@@ -339,7 +339,7 @@ static void warn_materials(struct state *state)
 
 bool obj_read_statements(struct obj *obj, lam_error *error)
 {
-    struct watch *watch = obj->source->watch;
+    struct call_control *call = obj->source->call;
     struct state state = {.obj = obj, .material = -1};
     size_t count = (size_t)obj->total.others, parts = 1;
     bool smoothing = false;
@@ -347,8 +347,8 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
     if (!kinds)
         return no_memory(&state, count, error);
     for (size_t i = 0; i < count; i++) {
-        if (i % 4096 == 4095 && !watch_on(watch))
-            return watch_error(watch, error);
+        if (i % 4096 == 4095 && !call_should_continue(call))
+            return call_error(call, error);
         kinds[i] = (uint8_t)statement_of(obj->statements[i].at, obj->end);
         parts += kinds[i] == OBJECT || kinds[i] == GROUP || kinds[i] == MATERIAL;
         // "Off" is how every file begins: one that never says more has no groups.
@@ -368,8 +368,8 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
             return no_memory(&state, triangles * sizeof(uint32_t), error);
     }
     for (size_t i = 0; i < count; i++) {
-        if (i % 4096 == 4095 && !watch_on(watch))
-            return watch_error(watch, error);
+        if (i % 4096 == 4095 && !call_should_continue(call))
+            return call_error(call, error);
         if (!take_statement(&state, (enum statement)kinds[i], &obj->statements[i], error))
             return false;
     }

@@ -6,7 +6,7 @@
 #include "obj.h"
 
 #if !defined(ISA)
-#define ISA plain
+#define ISA scalar
 #endif
 #define JOIN_(a, b) a##b
 #define JOIN(a, b)  JOIN_(a, b)

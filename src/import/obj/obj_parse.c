@@ -314,7 +314,7 @@ static obj_lines_reader *lines_reader(void)
     if (cpu_features() & CPU_AVX512 && __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("bmi2"))
         return obj_read_lines_avx512;
 #endif
-    return obj_read_lines_plain;
+    return obj_read_lines_scalar;
 }
 
 bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error)
@@ -357,7 +357,7 @@ static bool parse_chunk(void *user, size_t index, lam_error *error)
 
 bool obj_parse(struct obj *obj, lam_error *error)
 {
-    return chunks_run(obj->source, obj->chunk_count, parse_chunk, obj, error);
+    return parallel_rows_run(obj->source, obj->parallel_rows_count, parse_chunk, obj, error);
 }
 
 // --- positions far from zero: read again, as doubles
@@ -435,7 +435,7 @@ bool obj_find_origin(struct obj *obj, lam_error *error)
     double low[3], high[3];
     for (int pass = 0; pass < 2; pass++) {
         bool any = false;
-        for (size_t c = 0; c < obj->chunk_count; c++) {
+        for (size_t c = 0; c < obj->parallel_rows_count; c++) {
             const struct obj_chunk *chunk = &obj->chunks[c];
             if (chunk->holds.positions == 0)
                 continue;
@@ -449,10 +449,10 @@ bool obj_find_origin(struct obj *obj, lam_error *error)
         }
         if (!any || !origin_choose(low, high, obj->origin))
             return true;
-        if (pass == 0 && !chunks_run(obj->source, obj->chunk_count, box_chunk, obj, error))
+        if (pass == 0 && !parallel_rows_run(obj->source, obj->parallel_rows_count, box_chunk, obj, error))
             return false;
     }
-    return chunks_run(obj->source, obj->chunk_count, move_chunk, obj, error);
+    return parallel_rows_run(obj->source, obj->parallel_rows_count, move_chunk, obj, error);
 }
 
 // --- colours
@@ -462,7 +462,7 @@ static bool convert_piece(void *user, size_t index, lam_error *error)
     (void)error;
     struct obj *obj = user;
     size_t first, last;
-    chunk_rows(obj->total.positions, index, &first, &last);
+    parallel_rows_range(obj->total.positions, index, &first, &last);
     bool raw = obj->source->params->color == LAM_COLOR_RAW;
     for (size_t v = first; v < last; v++) {
         float *color = obj->colors + 4 * v;
@@ -480,11 +480,11 @@ bool obj_convert_colors(struct obj *obj, lam_error *error)
     if (!obj->colors)
         return true;
     float brightest = 0;
-    for (size_t c = 0; c < obj->chunk_count; c++)
+    for (size_t c = 0; c < obj->parallel_rows_count; c++)
         brightest = obj->chunks[c].brightest > brightest ? obj->chunks[c].brightest : brightest;
     obj->color_scale = brightest > 1 ? 1.0f / 255.0f : 1.0f;
     if (brightest > 1)
         scene_warn(obj->scene, "%s: vertex colours go up to %g: they are taken as 0 to 255, not 0 to 1",
                    obj->source->name, (double)brightest);
-    return chunks_run(obj->source, chunk_count(obj->total.positions), convert_piece, obj, error);
+    return parallel_rows_run(obj->source, parallel_rows_count(obj->total.positions), convert_piece, obj, error);
 }

@@ -51,7 +51,7 @@ struct large_statement {
 struct large {
     struct obj *obj;
     const struct file_parts *file;
-    struct halt halt;
+    struct loop_status loop;
     int wrong; // touched atomically
     struct room *rooms;
     uint8_t *arrays[ARRAYS];
@@ -68,7 +68,7 @@ struct large {
 
 static bool still_right(struct large *large)
 {
-    return !__atomic_load_n(&large->wrong, __ATOMIC_RELAXED) && goes_on(&large->halt);
+    return !__atomic_load_n(&large->wrong, __ATOMIC_RELAXED) && should_continue(&large->loop);
 }
 
 static uint64_t count_of(const struct obj_counts *counts, enum array kind)
@@ -214,7 +214,7 @@ static bool count_piece(struct large *large, struct room *room, size_t index, co
             return false;
         bytes += (size_t)count_of(holds, kind) * kinds[kind].row;
     }
-    if (!watch_charge(large->halt.watch, bytes))
+    if (!call_charge(large->loop.call, bytes))
         return false;
     large->charged += bytes;
     for (int i = 0; i < 3; i++) {
@@ -337,11 +337,11 @@ static void *hand_over(struct large *large, enum array kind, struct arena *arena
 {
     size_t bytes = (size_t)count_of(&large->total, kind) * kinds[kind].row;
     pages_trim(large->arrays[kind], &large->held[kind], bytes);
-    struct file_bytes block = {large->arrays[kind], bytes, large->held[kind], large->halt.watch};
-    if (!watch_charge(large->halt.watch, bytes + FILE_PADDING))
+    struct file_bytes block = {large->arrays[kind], bytes, large->held[kind], large->loop.call};
+    if (!call_charge(large->loop.call, bytes + FILE_PADDING))
         return NULL;
     if (!arena_adopt(arena, &block)) {
-        watch_refund(large->halt.watch, bytes + FILE_PADDING);
+        call_refund(large->loop.call, bytes + FILE_PADDING);
         return NULL;
     }
     large->held[kind] = 0;
@@ -353,7 +353,7 @@ static bool hand_over_all(struct large *large)
     struct obj *obj = large->obj;
     struct arena *kept = &obj->scene->arena;
     bool texcoords = (large->layout - 1) & 1, normals = (large->layout - 1) & 2;
-    watch_refund(large->halt.watch, large->charged);
+    call_refund(large->loop.call, large->charged);
     large->charged = 0;
     obj->total = large->total;
     obj->positions = hand_over(large, POSITIONS, kept);
@@ -412,22 +412,22 @@ static bool load(struct large *large)
         .normal_used = obj->normals != NULL,
     };
     obj->chunks = &whole;
-    obj->chunk_count = 1;
+    obj->parallel_rows_count = 1;
     return obj_complete(obj, NULL) && !obj->line_missed;
 }
 
 bool obj_load_large(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)
 {
     struct obj obj = {.source = source, .scene = scene, .in_pieces = true};
-    struct large large = {.obj = &obj, .file = file, .halt = {.watch = source->watch}};
-    arena_start(&obj.memory, source->watch);
+    struct large large = {.obj = &obj, .file = file, .loop = {.call = source->call}};
+    arena_start(&obj.memory, source->call);
     obj.materials.memory = &obj.memory;
     bool done = load(&large);
     for (enum array kind = 0; kind < ARRAYS; kind++) {
         if (large.held[kind])
             pages_free(large.arrays[kind], large.held[kind]);
     }
-    watch_refund(source->watch, large.charged);
+    call_refund(source->call, large.charged);
     arena_free(&obj.memory);
     return done;
 }

@@ -180,7 +180,7 @@ static bool build(struct reading *reading, lam_error *error)
 static bool ply_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
 {
     struct arena scratch;
-    arena_start(&scratch, source->watch);
+    arena_start(&scratch, source->call);
     struct reading reading = {.source = source, .scene = scene, .scratch = &scratch};
     bool done = build(&reading, error);
     arena_free(&scratch);

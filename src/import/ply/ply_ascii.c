@@ -110,11 +110,11 @@ static bool walk(struct reading *reading, bool *threes, const uint8_t **at, lam_
     uint64_t total = 0;
     *threes = true;
     for (size_t row = 0; row < element->count && element->property_count > 0; row++) {
-        if (row % CHUNK_ROWS == 0) {
+        if (row % PARALLEL_ROWS == 0) {
             if (reading->pieces)
-                reading->pieces[row / CHUNK_ROWS] = word;
-            if (!watch_on(reading->source->watch))
-                return watch_error(reading->source->watch, error);
+                reading->pieces[row / PARALLEL_ROWS] = word;
+            if (!call_should_continue(reading->source->call))
+                return call_error(reading->source->call, error);
         }
         if (reading->starts)
             reading->starts[row] = (uint32_t)total;
@@ -156,7 +156,7 @@ static bool read_piece(void *user, size_t index, lam_error *error)
     const struct reading *reading = user;
     const struct ply_element *element = reading->element;
     size_t first, last;
-    chunk_rows(reading->table->count, index, &first, &last);
+    parallel_rows_range(reading->table->count, index, &first, &last);
     const uint8_t *at = reading->pieces[index], *end = reading->end;
     for (size_t row = first; row < last; row++) {
         for (int i = 0; i < element->property_count; i++) {
@@ -191,17 +191,17 @@ static bool read_rows(struct reading *reading, struct arena *keep, struct arena 
 {
     struct ply_table *table = reading->table;
     const struct ply_request *request = reading->request;
-    struct watch *watch = reading->source->watch;
-    size_t pieces = chunk_count(table->count);
+    struct call_control *call = reading->source->call;
+    size_t pieces = parallel_rows_count(table->count);
     if (!ply_plan_rows(reading->source, request, scratch, table, error))
         return false;
     reading->pieces = arena_array(scratch, pieces, sizeof *reading->pieces);
     if (!reading->pieces)
-        return watch_memory_error(watch, pieces * sizeof *reading->pieces, error);
+        return call_memory_error(call, pieces * sizeof *reading->pieces, error);
     if (request->list >= 0) {
         reading->starts = arena_array(scratch, table->count + 1, sizeof *reading->starts);
         if (!reading->starts)
-            return watch_memory_error(watch, table->count * sizeof *reading->starts, error);
+            return call_memory_error(call, table->count * sizeof *reading->starts, error);
     }
     bool threes;
     if (!walk(reading, &threes, at, error))
@@ -211,14 +211,14 @@ static bool read_rows(struct reading *reading, struct arena *keep, struct arena 
         size_t total = reading->starts[table->count];
         reading->items = arena_array(threes ? keep : scratch, total, sizeof *reading->items);
         if (!reading->items)
-            return watch_memory_error(watch, total * sizeof *reading->items, error);
+            return call_memory_error(call, total * sizeof *reading->items, error);
     }
     if (request->scalars) {
         reading->rows = arena_array(scratch, table->count, table->stride);
         if (!reading->rows)
-            return watch_memory_error(watch, table->count * table->stride, error);
+            return call_memory_error(call, table->count * table->stride, error);
     }
-    if (!chunks_run(reading->source, pieces, read_piece, reading, error))
+    if (!parallel_rows_run(reading->source, pieces, read_piece, reading, error))
         return false;
     table->rows = reading->rows;
     table->items = reading->items;

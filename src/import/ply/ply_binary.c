@@ -30,7 +30,7 @@ bool ply_plan_rows(const struct import_source *source, const struct ply_request 
     uint32_t *offsets = arena_array(scratch, count, sizeof *offsets);
     enum ply_type *types = arena_array(scratch, count, sizeof *types);
     if (!offsets || !types)
-        return watch_memory_error(source->watch, count * (sizeof *offsets + sizeof *types), error);
+        return call_memory_error(source->call, count * (sizeof *offsets + sizeof *types), error);
     table->stride = 0;
     for (size_t i = 0; i < count; i++) {
         const struct ply_property *property = &element->properties[i];
@@ -97,7 +97,7 @@ static bool read_threes(void *user, size_t index, lam_error *error)
     struct reading *reading = user;
     const struct ply_property *list = &reading->element->properties[reading->request->list];
     size_t first, last, count_size = ply_type_size(list->count_type);
-    chunk_rows(reading->table->count, index, &first, &last);
+    parallel_rows_range(reading->table->count, index, &first, &last);
     const uint8_t *at = reading->first + first * reading->stride + reading->list_offset;
     uint32_t *items = reading->items + 3 * first, limit = reading->request->item_limit;
     bool swapped = reading->table->swapped;
@@ -162,12 +162,12 @@ static bool try_threes(struct reading *reading, struct arena *keep, struct arena
     reading->items = arena_array(keep, count, 3 * sizeof *reading->items);
     uint32_t *offsets = arena_array(scratch, property_count, sizeof *offsets);
     if (!reading->items || !offsets)
-        return watch_memory_error(reading->source->watch, count * 3 * sizeof *reading->items, error);
+        return call_memory_error(reading->source->call, count * 3 * sizeof *reading->items, error);
     reading->list_offset = reading->table->offsets[list];
     reading->stride = element->scalar_bytes + list_bytes;
 
     lam_error wrong;
-    bool good = chunks_run(reading->source, chunk_count(count), read_threes, reading, &wrong);
+    bool good = parallel_rows_run(reading->source, parallel_rows_count(count), read_threes, reading, &wrong);
     if (reading->mixed)
         return true; // what was wrong is judged again, with the rows where they are
     if (!good) {
@@ -193,11 +193,11 @@ static bool walk(struct reading *reading, bool *threes, const uint8_t **end, lam
     uint64_t total = 0;
     *threes = true;
     for (size_t row = 0; row < element->count; row++) {
-        if (row % CHUNK_ROWS == 0) {
+        if (row % PARALLEL_ROWS == 0) {
             if (reading->pieces)
-                reading->pieces[row / CHUNK_ROWS] = at;
-            if (!watch_on(reading->source->watch))
-                return watch_error(reading->source->watch, error);
+                reading->pieces[row / PARALLEL_ROWS] = at;
+            if (!call_should_continue(reading->source->call))
+                return call_error(reading->source->call, error);
         }
         if (reading->starts)
             reading->starts[row] = (uint32_t)total;
@@ -238,7 +238,7 @@ static bool read_piece(void *user, size_t index, lam_error *error)
     const struct reading *reading = user;
     const struct ply_element *element = reading->element;
     size_t first, last;
-    chunk_rows(reading->table->count, index, &first, &last);
+    parallel_rows_range(reading->table->count, index, &first, &last);
     const uint8_t *at = reading->pieces[index];
     for (size_t row = first; row < last; row++) {
         for (int i = 0; i < element->property_count; i++) {
@@ -265,14 +265,14 @@ static bool read_lists(struct reading *reading, struct arena *keep, struct arena
 {
     struct ply_table *table = reading->table;
     const struct ply_request *request = reading->request;
-    size_t pieces = chunk_count(table->count);
+    size_t pieces = parallel_rows_count(table->count);
     reading->pieces = arena_array(scratch, pieces, sizeof *reading->pieces);
     if (!reading->pieces)
-        return watch_memory_error(reading->source->watch, pieces * sizeof *reading->pieces, error);
+        return call_memory_error(reading->source->call, pieces * sizeof *reading->pieces, error);
     if (request->list >= 0) {
         reading->starts = arena_array(scratch, table->count + 1, sizeof *reading->starts);
         if (!reading->starts)
-            return watch_memory_error(reading->source->watch, table->count * sizeof *reading->starts, error);
+            return call_memory_error(reading->source->call, table->count * sizeof *reading->starts, error);
     }
     bool threes;
     if (!walk(reading, &threes, end, error))
@@ -282,14 +282,14 @@ static bool read_lists(struct reading *reading, struct arena *keep, struct arena
         size_t total = reading->starts[table->count];
         reading->items = arena_array(threes ? keep : scratch, total, sizeof *reading->items);
         if (!reading->items)
-            return watch_memory_error(reading->source->watch, total * sizeof *reading->items, error);
+            return call_memory_error(reading->source->call, total * sizeof *reading->items, error);
     }
     if (request->scalars) {
         reading->rows = arena_array(scratch, table->count, table->stride);
         if (!reading->rows)
-            return watch_memory_error(reading->source->watch, table->count * table->stride, error);
+            return call_memory_error(reading->source->call, table->count * table->stride, error);
     }
-    if (!chunks_run(reading->source, pieces, read_piece, reading, error))
+    if (!parallel_rows_run(reading->source, pieces, read_piece, reading, error))
         return false;
     table->rows = reading->rows;
     table->items = reading->items;

@@ -101,7 +101,7 @@ static bool vector_piece(void *user, size_t index, lam_error *error)
     const struct vectors *vectors = user;
     const struct ply_table *table = vectors->table;
     size_t first, last, width = (size_t)vectors->width;
-    chunk_rows(table->count, index, &first, &last);
+    parallel_rows_range(table->count, index, &first, &last);
     float *out = vectors->out + width * first;
     if (vectors->together) {
         const uint8_t *at = table->rows + first * table->stride + table->offsets[vectors->properties[0]];
@@ -138,9 +138,9 @@ static bool read_vectors(const struct import_source *source, struct vectors *vec
     vectors->together = whole && ply_side_by_side(vectors->table, vectors->properties, vectors->width);
     vectors->out = arena_alloc(arena, bytes);
     if (!vectors->out)
-        return watch_memory_error(source->watch, bytes, error);
+        return call_memory_error(source->call, bytes, error);
     *out = vectors->out;
-    return chunks_run(source, chunk_count(vectors->table->count), vector_piece, vectors, error);
+    return parallel_rows_run(source, parallel_rows_count(vectors->table->count), vector_piece, vectors, error);
 }
 
 bool ply_normals(const struct import_source *source, const struct ply_table *table, struct arena *arena,
@@ -195,7 +195,7 @@ static bool byte_piece(void *user, size_t index, lam_error *error)
     const struct bytes *bytes = user;
     const struct ply_table *table = bytes->table;
     size_t first, last;
-    chunk_rows(table->count, index, &first, &last);
+    parallel_rows_range(table->count, index, &first, &last);
     uint32_t red = table->offsets[bytes->properties[0]], green = table->offsets[bytes->properties[1]];
     uint32_t blue = table->offsets[bytes->properties[2]];
     bool has_alpha = bytes->properties[3] >= 0;
@@ -239,10 +239,10 @@ bool ply_colors(const struct import_source *source, const struct ply_table *tabl
         struct bytes bytes = {.table = table, .out = arena_array(arena, table->count, 4)};
         memcpy(bytes.properties, found, sizeof found);
         if (!bytes.out)
-            return watch_memory_error(source->watch, 4 * table->count, error);
+            return call_memory_error(source->call, 4 * table->count, error);
         *out = bytes.out;
         *format = raw ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
-        return chunks_run(source, chunk_count(table->count), byte_piece, &bytes, error);
+        return parallel_rows_run(source, parallel_rows_count(table->count), byte_piece, &bytes, error);
     }
 
     struct vectors vectors = {.table = table, .kind = raw ? COLORS_RAW : COLORS, .width = 4};

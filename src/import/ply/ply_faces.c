@@ -33,9 +33,9 @@ static bool cut_piece(void *user, size_t index, lam_error *error)
     const struct polygons *polygons = user;
     const struct ply_table *faces = polygons->faces;
     size_t first, last, triangle = polygons->first_triangles[index];
-    chunk_rows(faces->count, index, &first, &last);
+    parallel_rows_range(faces->count, index, &first, &last);
     struct triangulator cutter;
-    triangulator_start(&cutter, polygons->source->watch);
+    triangulator_start(&cutter, polygons->source->call);
     bool done = true;
     for (size_t face = first; done && face < last; face++) {
         uint32_t count = corners_of(faces, face);
@@ -55,9 +55,9 @@ static bool cut_piece(void *user, size_t index, lam_error *error)
     triangulator_stop(&cutter);
     if (done)
         return true;
-    if (!watch_on(polygons->source->watch))
-        return watch_error(polygons->source->watch, error);
-    return watch_memory_error(polygons->source->watch, 0, error);
+    if (!call_should_continue(polygons->source->call))
+        return call_error(polygons->source->call, error);
+    return call_memory_error(polygons->source->call, 0, error);
 }
 
 // Polygons of any size: mesh->indices and triangle_count, and each triangle's face where asked.
@@ -66,14 +66,14 @@ static bool cut_polygons(struct polygons *polygons, bool want_faces, struct lam_
 {
     const struct import_source *source = polygons->source;
     const struct ply_table *faces = polygons->faces;
-    size_t pieces = chunk_count(faces->count), poor = 0;
+    size_t pieces = parallel_rows_count(faces->count), poor = 0;
     polygons->first_triangles = arena_array(scratch, pieces, sizeof *polygons->first_triangles);
     if (!polygons->first_triangles)
-        return watch_memory_error(source->watch, pieces * sizeof *polygons->first_triangles, error);
+        return call_memory_error(source->call, pieces * sizeof *polygons->first_triangles, error);
     uint64_t triangles = 0;
     for (size_t face = 0; face < faces->count; face++) {
-        if (face % CHUNK_ROWS == 0)
-            polygons->first_triangles[face / CHUNK_ROWS] = (uint32_t)triangles;
+        if (face % PARALLEL_ROWS == 0)
+            polygons->first_triangles[face / PARALLEL_ROWS] = (uint32_t)triangles;
         uint32_t count = corners_of(faces, face);
         poor += count < 3;
         triangles += count < 3 ? 0 : count - 2;
@@ -87,8 +87,8 @@ static bool cut_polygons(struct polygons *polygons, bool want_faces, struct lam_
     if (want_faces)
         polygons->face_of = arena_array(&scene->arena, triangles, sizeof *polygons->face_of);
     if (!polygons->indices || (want_faces && !polygons->face_of))
-        return watch_memory_error(source->watch, triangles * 4 * sizeof *polygons->indices, error);
-    if (!chunks_run(source, pieces, cut_piece, polygons, error))
+        return call_memory_error(source->call, triangles * 4 * sizeof *polygons->indices, error);
+    if (!parallel_rows_run(source, pieces, cut_piece, polygons, error))
         return false;
     mesh->indices = polygons->indices;
     mesh->triangle_count = (uint32_t)triangles;
@@ -108,7 +108,7 @@ static bool face_normals(const struct import_source *source, const struct ply_ta
         return true;
     uint32_t *indices = arena_array(&scene->arena, mesh->triangle_count, 3 * sizeof *indices);
     if (!indices)
-        return watch_memory_error(source->watch, mesh->triangle_count * 3 * sizeof *indices, error);
+        return call_memory_error(source->call, mesh->triangle_count * 3 * sizeof *indices, error);
     for (size_t t = 0; t < mesh->triangle_count; t++) {
         for (size_t c = 0; c < 3; c++)
             indices[3 * t + c] = face_of ? face_of[t] : (uint32_t)t;
@@ -135,7 +135,7 @@ static bool face_colors(const struct import_source *source, const struct ply_tab
         size_t size = format == LAM_COLORS_LINEAR_F32 ? 4 * sizeof(float) : 4;
         uint8_t *repeated = arena_array(&scene->arena, mesh->triangle_count, size);
         if (!repeated)
-            return watch_memory_error(source->watch, mesh->triangle_count * size, error);
+            return call_memory_error(source->call, mesh->triangle_count * size, error);
         for (size_t t = 0; t < mesh->triangle_count; t++)
             memcpy(repeated + size * t, (const uint8_t *)colors + size * face_of[t], size);
         colors = repeated;
@@ -170,7 +170,7 @@ bool ply_faces(const struct import_source *source, const struct ply_table *faces
                lam_mesh *mesh, lam_error *error)
 {
     struct arena scratch;
-    arena_start(&scratch, source->watch);
+    arena_start(&scratch, source->call);
     bool done = load_faces(source, faces, scene, &scratch, mesh, error);
     arena_free(&scratch);
     return done;
@@ -210,7 +210,7 @@ bool ply_strips(const struct import_source *source, const struct ply_table *stri
         return fail_too_many(source, triangles, error);
     uint32_t *indices = arena_array(&scene->arena, triangles, 3 * sizeof *indices), *out = indices;
     if (!indices)
-        return watch_memory_error(source->watch, triangles * 3 * sizeof *indices, error);
+        return call_memory_error(source->call, triangles * 3 * sizeof *indices, error);
     for (size_t row = 0; row < strips->count; row++)
         out += 3 * strip_triangles(strips->items + strips->starts[row], corners_of(strips, row), out);
     mesh->indices = indices;

@@ -100,7 +100,7 @@ static bool read_name(struct lines *lines, const char **name, lam_error *error)
     if (word == end)
         return fail_word(lines, word, "a name", error);
     *name = text_name(lines->arena, word, (size_t)(end - word));
-    return *name || watch_memory_error(lines->source->watch, (size_t)(end - word), error);
+    return *name || call_memory_error(lines->source->call, (size_t)(end - word), error);
 }
 
 static bool read_format(struct lines *lines, enum ply_format *format, lam_error *error)
@@ -205,8 +205,8 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
     struct ply_element *elements = arena_array(arena, element_room, sizeof *elements);
     struct ply_property *properties = arena_array(arena, property_room, sizeof *properties);
     if (!elements || !properties)
-        return watch_memory_error(source->watch, element_room * sizeof *elements + property_room * sizeof *properties,
-                                  error);
+        return call_memory_error(source->call, element_room * sizeof *elements + property_room * sizeof *properties,
+                                 error);
 
     bool has_format = false;
     *header = (struct ply_header){.elements = elements};

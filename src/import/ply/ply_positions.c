@@ -48,7 +48,7 @@ static bool copy_piece(void *user, size_t index, lam_error *error)
     const struct positions *positions = user;
     const struct ply_table *table = positions->table;
     size_t first, last;
-    chunk_rows(table->count, index, &first, &last);
+    parallel_rows_range(table->count, index, &first, &last);
     float *out = positions->out + 3 * first;
     if (positions->together) {
         const uint8_t *at = table->rows + first * table->stride + table->offsets[positions->properties[0]];
@@ -95,7 +95,7 @@ static bool measure_piece(void *user, size_t index, lam_error *error)
 {
     const struct positions *positions = user;
     size_t first, last;
-    chunk_rows(positions->table->count, index, &first, &last);
+    parallel_rows_range(positions->table->count, index, &first, &last);
     struct box box = {{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}, true};
     for (size_t row = first; row < last; row++) {
         for (int axis = 0; axis < 3; axis++) {
@@ -114,7 +114,7 @@ static bool round_piece(void *user, size_t index, lam_error *error)
 {
     const struct positions *positions = user;
     size_t first, last;
-    chunk_rows(positions->table->count, index, &first, &last);
+    parallel_rows_range(positions->table->count, index, &first, &last);
     for (size_t row = first; row < last; row++) {
         for (int axis = 0; axis < 3; axis++) {
             double value = position_at(positions, row, axis) - positions->origin[axis];
@@ -161,26 +161,26 @@ bool ply_positions(const struct import_source *source, const struct ply_table *t
         enum ply_type type = table->types[positions.properties[axis]];
         exact |= type == PLY_I32 || type == PLY_U32 || type == PLY_F64;
     }
-    size_t pieces = chunk_count(table->count);
+    size_t pieces = parallel_rows_count(table->count);
     positions.together = ply_side_by_side(table, positions.properties, 3);
     positions.out = arena_array(arena, table->count, 3 * sizeof(float));
     if (!positions.out)
-        return watch_memory_error(source->watch, table->count * 3 * sizeof(float), error);
+        return call_memory_error(source->call, table->count * 3 * sizeof(float), error);
 
     struct arena scratch;
-    arena_start(&scratch, source->watch);
+    arena_start(&scratch, source->call);
     bool done = true;
     if (exact || table->positions == PLY_AS_FLOAT) {
         positions.boxes = arena_array(&scratch, pieces, sizeof *positions.boxes);
-        done = positions.boxes || watch_memory_error(source->watch, pieces * sizeof *positions.boxes, error);
+        done = positions.boxes || call_memory_error(source->call, pieces * sizeof *positions.boxes, error);
     }
     if (exact) {
-        done = done && chunks_run(source, pieces, measure_piece, &positions, error);
+        done = done && parallel_rows_run(source, pieces, measure_piece, &positions, error);
         if (done && pieces > 0)
             choose_origin(&positions, pieces);
-        done = done && chunks_run(source, pieces, round_piece, &positions, error);
+        done = done && parallel_rows_run(source, pieces, round_piece, &positions, error);
     } else {
-        done = done && chunks_run(source, pieces, copy_piece, &positions, error);
+        done = done && parallel_rows_run(source, pieces, copy_piece, &positions, error);
         *far_out = done && positions.boxes && pieces > 0 && choose_origin(&positions, pieces);
     }
     arena_free(&scratch);

@@ -16,7 +16,7 @@ enum {
 struct parts {
     const struct import_source *source;
     const struct file_parts *file;
-    struct halt halt;
+    struct loop_status loop;
     int wrong;     // touched atomically
     size_t begin;  // of the element in the file
     uint8_t *room; // PART_FACES · FACE bytes for each thread
@@ -31,7 +31,7 @@ struct parts {
 
 static bool still_right(struct parts *parts)
 {
-    return !__atomic_load_n(&parts->wrong, __ATOMIC_RELAXED) && goes_on(&parts->halt);
+    return !__atomic_load_n(&parts->wrong, __ATOMIC_RELAXED) && should_continue(&parts->loop);
 }
 
 static void found_wrong(struct parts *parts) { __atomic_store_n(&parts->wrong, 1, __ATOMIC_RELAXED); }
@@ -168,8 +168,8 @@ static bool load(struct parts *parts, struct lam_scene *scene, struct arena *scr
 bool ply_load_parts(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)
 {
     struct arena scratch;
-    arena_start(&scratch, source->watch);
-    struct parts parts = {.source = source, .file = file, .halt = {.watch = source->watch}};
+    arena_start(&scratch, source->call);
+    struct parts parts = {.source = source, .file = file, .loop = {.call = source->call}};
     bool done = load(&parts, scene, &scratch);
     arena_free(&scratch);
     return done;

@@ -142,7 +142,7 @@ static bool begin_part(struct reading *reading, const uint8_t *name, size_t leng
     if (length == 0)
         return true;
     part->name = text_name(&reading->scene->arena, name, length);
-    return part->name || watch_memory_error(reading->source->watch, length, error);
+    return part->name || call_memory_error(reading->source->call, length, error);
 }
 
 static bool read_all(struct reading *reading, lam_error *error)
@@ -160,8 +160,8 @@ static bool read_all(struct reading *reading, lam_error *error)
             inside = true;
             if (!read_facet(reading, error))
                 return false;
-            if (reading->facets % LOOK == 0 && !watch_on(reading->source->watch))
-                return watch_error(reading->source->watch, error);
+            if (reading->facets % LOOK == 0 && !call_should_continue(reading->source->call))
+                return call_error(reading->source->call, error);
         } else if (take(reading, "solid")) {
             take_name(reading, &name, &length);
             if (!begin_part(reading, name, length, error))
@@ -191,7 +191,7 @@ static bool read_far_out(struct reading *reading, struct arena *scratch, double 
     size_t numbers = 9 * (size_t)reading->facets;
     reading->exact = arena_array(scratch, numbers, sizeof(double));
     if (!reading->exact)
-        return watch_memory_error(reading->source->watch, numbers * sizeof(double), error);
+        return call_memory_error(reading->source->call, numbers * sizeof(double), error);
     if (!read_all(reading, error))
         return false;
     double minimum[3] = {DBL_MAX, DBL_MAX, DBL_MAX}, maximum[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
@@ -232,7 +232,7 @@ bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene,
     reading.positions = arena_array(&scene->arena, corners, 3 * sizeof(float));
     reading.parts = arena_array(&scene->arena, parts, sizeof(lam_part));
     if (!reading.positions || !reading.parts)
-        return watch_memory_error(source->watch, corners * 3 * sizeof(float) + parts * sizeof(lam_part), error);
+        return call_memory_error(source->call, corners * 3 * sizeof(float) + parts * sizeof(lam_part), error);
     if (!read_all(&reading, error))
         return false;
     if (reading.facets == 0)
@@ -245,7 +245,7 @@ bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene,
     }
     if (reading.far_out || origin_choose(minimum, maximum, mesh->origin)) {
         struct arena scratch;
-        arena_start(&scratch, source->watch);
+        arena_start(&scratch, source->call);
         bool done = read_far_out(&reading, &scratch, mesh->origin, error);
         arena_free(&scratch);
         if (!done)

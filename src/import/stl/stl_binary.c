@@ -74,7 +74,7 @@ static bool read_piece(void *user, size_t index, lam_error *error)
 {
     const struct reading *reading = user;
     size_t first, last;
-    chunk_rows(reading->count, index, &first, &last);
+    parallel_rows_range(reading->count, index, &first, &last);
     struct words words = {0};
     uint32_t wrong = 0; // its top bit: an exponent of all ones was met
     const uint8_t *facet = reading->facets + first * STL_FACET;
@@ -98,7 +98,7 @@ static bool color_piece(void *user, size_t index, lam_error *error)
     (void)error;
     const struct reading *reading = user;
     size_t first, last;
-    chunk_rows(reading->count, index, &first, &last);
+    parallel_rows_range(reading->count, index, &first, &last);
     for (size_t i = first; i < last; i++) {
         unsigned word = word_of(reading->facets + i * STL_FACET);
         bool own = (word >> 15) != (unsigned)reading->magics;
@@ -133,7 +133,7 @@ static bool colors_of(struct reading *reading, const struct words *words, bool *
 static bool read_colors(struct reading *reading, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
     struct words all = {0};
-    for (size_t i = 0; i < chunk_count(reading->count); i++) {
+    for (size_t i = 0; i < parallel_rows_count(reading->count); i++) {
         const struct words *piece = &reading->words[i];
         all.any |= piece->any;
         all.marked |= piece->marked;
@@ -147,11 +147,11 @@ static bool read_colors(struct reading *reading, struct lam_scene *scene, lam_me
         return true;
     reading->colors = arena_array(&scene->arena, reading->count, 4);
     if (!reading->colors)
-        return watch_memory_error(reading->source->watch, 4 * reading->count, error);
+        return call_memory_error(reading->source->call, 4 * reading->count, error);
     if (uniform) {
         for (size_t i = 0; i < reading->count; i++)
             memcpy(reading->colors + 4 * i, reading->fallback, 4);
-    } else if (!chunks_run(reading->source, chunk_count(reading->count), color_piece, reading, error)) {
+    } else if (!parallel_rows_run(reading->source, parallel_rows_count(reading->count), color_piece, reading, error)) {
         return false;
     }
     mesh->colors = reading->colors;
@@ -180,15 +180,16 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
         return true;
 
     struct arena scratch;
-    arena_start(&scratch, source->watch);
+    arena_start(&scratch, source->call);
     struct reading reading = {.source = source, .facets = source->bytes + STL_FACETS, .count = promised};
-    size_t pieces = chunk_count(promised);
+    size_t pieces = parallel_rows_count(promised);
     reading.positions = arena_array(&scene->arena, promised, 9 * sizeof(float));
     reading.words = arena_array(&scratch, pieces, sizeof *reading.words);
     bool done = reading.positions && reading.words;
     if (!done)
-        watch_memory_error(source->watch, promised * 9 * sizeof(float), error);
-    done = done && chunks_run(source, pieces, read_piece, &reading, error) && read_colors(&reading, scene, mesh, error);
+        call_memory_error(source->call, promised * 9 * sizeof(float), error);
+    done = done && parallel_rows_run(source, pieces, read_piece, &reading, error) &&
+           read_colors(&reading, scene, mesh, error);
     arena_free(&scratch);
     if (!done)
         return false;

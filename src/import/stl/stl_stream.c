@@ -11,7 +11,7 @@ enum { PART_FACETS = 4096 };
 
 struct parts {
     const struct file_parts *file;
-    struct halt halt;
+    struct loop_status loop;
     int wrong;     // touched atomically
     uint8_t *room; // PART_FACETS · STL_FACET bytes for each thread
     float *positions;
@@ -21,7 +21,7 @@ struct parts {
 static void read_facets(void *user, size_t index, int thread)
 {
     struct parts *parts = user;
-    if (__atomic_load_n(&parts->wrong, __ATOMIC_RELAXED) || !goes_on(&parts->halt))
+    if (__atomic_load_n(&parts->wrong, __ATOMIC_RELAXED) || !should_continue(&parts->loop))
         return;
     size_t first = index * PART_FACETS, count = parts->count - first;
     count = count < PART_FACETS ? count : PART_FACETS;
@@ -61,14 +61,14 @@ bool stl_load_parts(const struct import_source *source, const struct file_parts 
     if (file->size != STL_FACETS + (uint64_t)STL_FACET * count || count > STL_FACETS_MAX || has_color(source->bytes))
         return false;
     struct arena scratch;
-    arena_start(&scratch, source->watch);
-    struct parts parts = {.file = file, .halt = {.watch = source->watch}, .count = count};
+    arena_start(&scratch, source->call);
+    struct parts parts = {.file = file, .loop = {.call = source->call}, .count = count};
     parts.positions = arena_array(&scene->arena, count, 9 * sizeof(float));
     parts.room = arena_array(&scratch, (size_t)pool_threads(source->pool), PART_FACETS * STL_FACET);
     bool done = parts.positions && parts.room;
     if (done) {
         pool_run(source->pool, (parts.count + PART_FACETS - 1) / PART_FACETS, read_facets, &parts);
-        done = !parts.wrong && goes_on(&parts.halt);
+        done = !parts.wrong && should_continue(&parts.loop);
     }
     arena_free(&scratch);
     if (!done)

@@ -96,6 +96,14 @@ LAM_API lam_mat4 lam_mat4_identity(void);
 LAM_API const char *lam_version(void);
 LAM_API const char *lam_build_info(void);
 
+// Bytes of the well-formed UTF-8 character (RFC 3629) that begins at `bytes`, of which `size` may be read: 1..4. 0: none
+// begins there, or it is cut.
+LAM_API int lam_utf8_length(const void *bytes, size_t size);
+
+// Edit distance between two words: the number of letters inserted, deleted, replaced or swapped with their neighbour
+// (optimal string alignment). Words of more than 63 bytes count as 63 apart.
+LAM_API int lam_edit_distance(const char *a, const char *b);
+
 #ifdef __cplusplus
 }
 #endif

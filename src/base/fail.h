@@ -9,10 +9,7 @@
 // file cannot play with a terminal. A sentence that is too long is cut at a character's boundary, ending in "…".
 bool fail(lam_error *error, lam_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-// The sentence for memory that could not be had.
+// Out of memory: LAM_LIMIT, naming the size of the request.
 bool fail_memory(lam_error *error, size_t bytes);
-
-// Of `count` words the one nearest to `word` (edit distance, at most a third of its length); NULL: none is near.
-const char *nearest_word(const char *word, const char *const *words, int count);
 
 #endif

@@ -10,6 +10,7 @@
 
 #include "fail.h"
 #include "srgb.h"
+#include "spelling.h"
 
 struct run {
     const lam_check_params *params;

@@ -2,9 +2,9 @@
 // starts and draws on a machine without any of it.
 #include "loader.h"
 
+#include "dynamic_library.h"
 #include "fail.h"
 
-#include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,15 +14,13 @@ bool egl_open(struct egl *egl, const char *library, lam_error *error)
 {
     memset(egl, 0, sizeof *egl);
     snprintf(egl->library, sizeof egl->library, "%s", library ? library : "libEGL.so.1");
-    void *opened = dlopen(egl->library, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    if (!opened) {
-        const char *why = dlerror();
+    const char *reason = NULL;
+    void *opened = library_open(egl->library, true, &reason);
+    if (!opened)
         return fail(error, LAM_UNSUPPORTED, "OpenGL: the library %s cannot be opened (%.150s); " TO_INSTALL,
-                    egl->library, why ? why : "no reason told");
-    }
+                    egl->library, reason);
 #define FIND(name)                                                                                                     \
-    *(void **)&egl->name = dlsym(opened, "egl" #name);                                                                 \
-    if (!egl->name)                                                                                                    \
+    if (!library_find(opened, "egl" #name, &egl->name))                                                                \
         return fail(error, LAM_UNSUPPORTED,                                                                            \
                     "OpenGL: the library %s has no function egl" #name ", expected EGL 1.4 or newer; " TO_INSTALL,     \
                     egl->library);
@@ -42,7 +40,7 @@ const char *egl_reason(const struct egl *egl)
 {
     switch (egl->GetError()) {
     case EGL_SUCCESS:
-        return "no reason told";
+        return "EGL reports no error";
     case EGL_NOT_INITIALIZED:
         return "the driver cannot be started (EGL_NOT_INITIALIZED)";
     case EGL_BAD_ACCESS:

@@ -3,9 +3,6 @@
 
 #include "fail.h"
 
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void wrong(struct text *text, const char *what, const char *name, size_t length)
@@ -13,41 +10,6 @@ static void wrong(struct text *text, const char *what, const char *name, size_t 
     if (!text->failed)
         fail(&text->error, LAM_BAD_ARGUMENT, "shader template: %s '%.*s'", what, (int)length, name);
     text->failed = true;
-}
-
-void text_add_part(struct text *text, const char *more, size_t length)
-{
-    if (text->failed)
-        return;
-    if (text->length + length + 1 > text->room) {
-        size_t room = 2 * (text->length + length + 1);
-        char *grown = realloc(text->bytes, room);
-        if (!grown) {
-            text->failed = true;
-            fail(&text->error, LAM_LIMIT, "out of memory");
-            return;
-        }
-        text->bytes = grown;
-        text->room = room;
-    }
-    memcpy(text->bytes + text->length, more, length);
-    text->length += length;
-    text->bytes[text->length] = 0;
-}
-
-void text_add(struct text *text, const char *more) { text_add_part(text, more, strlen(more)); }
-
-void text_print(struct text *text, const char *format, ...)
-{
-    char line[512];
-    va_list arguments;
-    va_start(arguments, format);
-    int length = vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    if (length < 0 || length >= (int)sizeof line)
-        wrong(text, "a line is too long:", line, 40);
-    else
-        text_add_part(text, line, (size_t)length);
 }
 
 static bool flag_is_on(struct text *text, const struct preprocess_words *words, const char *name, size_t length)

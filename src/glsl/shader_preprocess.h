@@ -9,7 +9,7 @@
 #ifndef SHADER_PREPROCESS_H
 #define SHADER_PREPROCESS_H
 
-#include <lambent/base.h>
+#include "text_builder.h"
 
 struct preprocess_flag {
     const char *name;
@@ -26,18 +26,6 @@ struct preprocess_words {
     const struct preprocess_flag *flags;
     const struct preprocess_value *values;
 };
-
-// Text that grows. Zero is empty. `failed`: memory ran out, or a template is wrong (`error` says which).
-struct text {
-    char *bytes; // ends with 0
-    size_t length, room;
-    bool failed;
-    lam_error error;
-};
-
-void text_add(struct text *text, const char *more);
-void text_add_part(struct text *text, const char *more, size_t length);
-__attribute__((format(printf, 2, 3))) void text_print(struct text *text, const char *format, ...);
 
 // Appends a template's lines.
 void preprocess_add(struct text *text, const char *source, const struct preprocess_words *words);

@@ -1,4 +1,5 @@
 // caption.c: words in pictures, by FreeType, which is opened (dlopen) with the first font and not before.
+#include "dynamic_library.h"
 #include "fail.h"
 
 #include <stdlib.h>
@@ -26,7 +27,6 @@ const char *lam_font_place(int index)
 
 #ifdef HAVE_FREETYPE
 
-#include <dlfcn.h>
 #include <unistd.h>
 
 #include <ft2build.h>
@@ -51,23 +51,17 @@ struct lam_font {
     FT_Face face;
 };
 
-static bool find(void *handle, const char *name, void *function)
-{
-    void *found = dlsym(handle, name);
-    memcpy(function, &found, sizeof found); // a pointer to data becomes one to a function, as POSIX has it
-    return found != NULL;
-}
-
 static bool open_freetype(struct freetype *ft, lam_error *error)
 {
-    ft->handle = dlopen("libfreetype.so.6", RTLD_NOW | RTLD_LOCAL);
+    ft->handle = library_open("libfreetype.so.6", false, NULL);
     if (!ft->handle)
         return fail(error, LAM_UNSUPPORTED, "text: libfreetype.so.6 is not installed; " NEEDED);
     void *h = ft->handle;
-    if (find(h, "FT_Init_FreeType", &ft->init) && find(h, "FT_Done_FreeType", &ft->done) &&
-        find(h, "FT_New_Face", &ft->new_face) && find(h, "FT_Done_Face", &ft->done_face) &&
-        find(h, "FT_Set_Char_Size", &ft->set_char_size) && find(h, "FT_Get_Char_Index", &ft->get_char_index) &&
-        find(h, "FT_Load_Glyph", &ft->load_glyph) && find(h, "FT_Get_Kerning", &ft->get_kerning))
+    if (library_find(h, "FT_Init_FreeType", &ft->init) && library_find(h, "FT_Done_FreeType", &ft->done) &&
+        library_find(h, "FT_New_Face", &ft->new_face) && library_find(h, "FT_Done_Face", &ft->done_face) &&
+        library_find(h, "FT_Set_Char_Size", &ft->set_char_size) &&
+        library_find(h, "FT_Get_Char_Index", &ft->get_char_index) &&
+        library_find(h, "FT_Load_Glyph", &ft->load_glyph) && library_find(h, "FT_Get_Kerning", &ft->get_kerning))
         return true;
     return fail(error, LAM_UNSUPPORTED, "text: libfreetype.so.6 lacks functions that FreeType 2 has; " NEEDED);
 }
@@ -117,7 +111,7 @@ void lam_font_free(lam_font *font)
     if (font->library)
         font->ft.done(font->library);
     if (font->ft.handle)
-        dlclose(font->ft.handle);
+        library_close(font->ft.handle);
     free(font);
 }
 

@@ -3,6 +3,7 @@
 #include "fail.h"
 #include "file.h"
 #include "float_state.h"
+#include "spelling.h"
 
 #include <fcntl.h>
 #include <stdlib.h>

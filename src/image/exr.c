@@ -3,6 +3,7 @@
 // channels are R, G, B, A, linear and premultiplied as OpenEXR has it; a layer's are NAME.R and so on. No time and no
 // place is written down: the same picture gives the same bytes with the same library.
 #include "codec.h"
+#include "dynamic_library.h"
 #include "fail.h"
 
 #include <stdlib.h>
@@ -17,7 +18,6 @@ static bool exr_probe(const uint8_t *bytes, size_t size)
 
 #ifdef HAVE_OPENEXR
 
-#include <dlfcn.h>
 #include <openexr.h>
 
 #define LIBRARY "libOpenEXRCore-3_1.so.30"
@@ -40,25 +40,18 @@ struct core {
     FUNCTIONS(MEMBER)
 };
 
-static bool find(void *handle, const char *name, void *function)
-{
-    void *found = dlsym(handle, name);
-    memcpy(function, &found, sizeof found); // a pointer to data becomes one to a function, as POSIX has it
-    return found != NULL;
-}
-
 static bool open_core(struct core *core, lam_error *error)
 {
-    *core = (struct core){.handle = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL)};
+    *core = (struct core){.handle = library_open(LIBRARY, false, NULL)};
     if (!core->handle)
         return fail(error, LAM_UNSUPPORTED,
                     "EXR: " LIBRARY " is not installed; the Debian package libopenexr-3-1-30 has it");
     bool all = true;
-#define LOOK_UP(name) all = all && find(core->handle, #name, &core->name);
+#define LOOK_UP(name) all = all && library_find(core->handle, #name, &core->name);
     FUNCTIONS(LOOK_UP)
     if (all)
         return true;
-    dlclose(core->handle);
+    library_close(core->handle);
     return fail(error, LAM_UNSUPPORTED,
                 "EXR: " LIBRARY " lacks functions that OpenEXR 3.1 has; the Debian package "
                 "libopenexr-3-1-30 has them");
@@ -234,7 +227,7 @@ static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam
         fail(error, LAM_LIMIT, "EXR: the picture could not be encoded: %s", core.exr_get_default_error_message(result));
     if (!ok)
         free(sink.bytes);
-    dlclose(core.handle);
+    library_close(core.handle);
     return ok;
 }
 
@@ -371,7 +364,7 @@ static bool exr_read(const uint8_t *bytes, size_t size, const char *name, lam_im
     ok = ok && read_part(&core, file, name, image, error);
     if (file)
         core.exr_finish(&file);
-    dlclose(core.handle);
+    library_close(core.handle);
     return ok;
 }
 

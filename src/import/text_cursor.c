@@ -47,32 +47,14 @@ const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUN
     return out;
 }
 
-// Bytes of the UTF-8 character at `at`, 0 if there is none: no overlong forms, surrogates, or beyond U+10FFFF.
-static size_t utf8_length(const uint8_t *at, size_t length)
-{
-    if (at[0] < 0x80)
-        return at[0] >= 0x20 && at[0] != 0x7f;
-    size_t count = at[0] >= 0xf0 ? 4 : at[0] >= 0xe0 ? 3 : 2;
-    if (at[0] < 0xc2 || at[0] > 0xf4 || count > length)
-        return 0;
-    for (size_t i = 1; i < count; i++) {
-        if ((at[i] & 0xc0) != 0x80)
-            return 0;
-    }
-    if ((at[0] == 0xe0 && at[1] < 0xa0) || (at[0] == 0xed && at[1] > 0x9f) || (at[0] == 0xf0 && at[1] < 0x90) ||
-        (at[0] == 0xf4 && at[1] > 0x8f))
-        return 0;
-    return count;
-}
-
 char *text_name(struct arena *arena, const uint8_t *at, size_t length)
 {
     char *name = arena_string_of(arena, (const char *)at, length);
     for (size_t i = 0; name && i < length;) {
-        size_t step = utf8_length((const uint8_t *)name + i, length - i);
-        if (step == 0)
+        int step = lam_utf8_length(name + i, length - i);
+        if (step == 0 || (unsigned char)name[i] < 0x20 || name[i] == 0x7f)
             name[i] = '?';
-        i += step ? step : 1;
+        i += step ? (size_t)step : 1;
     }
     return name;
 }

@@ -2,38 +2,15 @@
 #include "scene_write.h"
 
 #include "fail.h"
+#include "text_builder.h"
 
 #include <stdlib.h>
-#include <string.h>
-
-struct text {
-    char *at;
-    size_t size, room;
-    bool ok;
-};
-
-static void add_bytes(struct text *text, const char *bytes, size_t size)
-{
-    if (text->ok && text->size + size > text->room) {
-        size_t room = (text->size + size) * 2;
-        char *larger = realloc(text->at, room);
-        text->ok = larger != NULL;
-        text->at = larger ? larger : text->at;
-        text->room = larger ? room : text->room;
-    }
-    if (!text->ok)
-        return;
-    memcpy(text->at + text->size, bytes, size);
-    text->size += size;
-}
-
-static void add(struct text *text, const char *string) { add_bytes(text, string, strlen(string)); }
 
 static int take_chunk(const char *bytes, size_t size, void *user)
 {
     struct text *text = user;
-    add_bytes(text, bytes, size);
-    return text->ok ? 0 : -1;
+    text_add_part(text, bytes, size);
+    return text->failed ? -1 : 0;
 }
 
 static size_t flags(int digits) { return JSON_ENCODE_ANY | JSON_REAL_PRECISION(digits); }
@@ -44,10 +21,10 @@ static void add_line(struct text *text, const json_t *value)
 {
     if (json_is_array(value)) {
         for (size_t i = 0; i < json_array_size(value); i++) {
-            add(text, i ? ", " : "[");
+            text_add(text, i ? ", " : "[");
             add_line(text, json_array_get(value, i));
         }
-        add(text, json_array_size(value) ? "]" : "[]");
+        text_add(text, json_array_size(value) ? "]" : "[]");
     } else if (json_is_object(value)) {
         const char *key;
         json_t *item;
@@ -55,55 +32,55 @@ static void add_line(struct text *text, const json_t *value)
         json_object_foreach((json_t *)(uintptr_t)value, key, item)
         {
             json_t *quoted = json_string(key);
-            add(text, count++ ? ", " : "{ ");
-            text->ok &= json_dump_callback(quoted, take_chunk, text, flags(17)) == 0;
+            text_add(text, count++ ? ", " : "{ ");
+            text->failed |= json_dump_callback(quoted, take_chunk, text, flags(17)) != 0;
             json_decref(quoted);
-            add(text, ": ");
+            text_add(text, ": ");
             add_line(text, item);
         }
-        add(text, count ? " }" : "{}");
+        text_add(text, count ? " }" : "{}");
     } else {
-        for (int digits = 15; digits <= 17 && text->ok; digits++) {
-            size_t start = text->size;
-            text->ok &= json_dump_callback(value, take_chunk, text, flags(digits)) == 0;
-            json_t *back = text->ok && digits < 17 && json_is_real(value)
-                               ? json_loadb(text->at + start, text->size - start, JSON_DECODE_ANY, NULL)
+        for (int digits = 15; digits <= 17 && !text->failed; digits++) {
+            size_t start = text->length;
+            text->failed |= json_dump_callback(value, take_chunk, text, flags(digits)) != 0;
+            json_t *back = !text->failed && digits < 17 && json_is_real(value)
+                               ? json_loadb(text->bytes + start, text->length - start, JSON_DECODE_ANY, NULL)
                                : NULL;
             bool same = digits == 17 || !json_is_real(value) || (back && json_equal(back, value));
             json_decref(back);
             if (same)
                 return;
-            text->size = start;
+            text->length = start;
         }
     }
 }
 
 bool scene_print(const json_t *root, lam_bytes *out, lam_error *error)
 {
-    struct text text = {.ok = true};
+    struct text text = {0};
     const char *key;
     json_t *value;
     int count = 0;
     json_object_foreach((json_t *)(uintptr_t)root, key, value)
     {
-        add(&text, count++ ? ",\n  \"" : "{\n  \"");
-        add(&text, key); // of this format's own, nothing to quote
-        add(&text, "\": ");
+        text_add(&text, count++ ? ",\n  \"" : "{\n  \"");
+        text_add(&text, key); // of this format's own, nothing to quote
+        text_add(&text, "\": ");
         bool long_list = json_is_array(value) && json_is_object(json_array_get(value, 0));
         for (size_t i = 0; long_list && i < json_array_size(value); i++) {
-            add(&text, i ? ",\n    " : "[\n    ");
+            text_add(&text, i ? ",\n    " : "[\n    ");
             add_line(&text, json_array_get(value, i));
         }
         if (long_list)
-            add(&text, "\n  ]");
+            text_add(&text, "\n  ]");
         else
             add_line(&text, value);
     }
-    add(&text, "\n}\n");
-    if (!text.ok) {
-        free(text.at);
-        return fail_memory(error, text.size);
+    text_add(&text, "\n}\n");
+    if (text.failed) {
+        free(text.bytes);
+        return fail_memory(error, text.length);
     }
-    *out = (lam_bytes){text.at, text.size};
+    *out = (lam_bytes){text.bytes, text.length};
     return true;
 }

@@ -4,6 +4,7 @@
 #include "cube_map.h"
 #include "fail.h"
 #include "linear.h"
+#include "spelling.h"
 
 #include <string.h>
 

@@ -2,6 +2,7 @@
 #include "scene_reader.h"
 
 #include "fail.h"
+#include "spelling.h"
 
 #include <string.h>
 

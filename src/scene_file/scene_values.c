@@ -3,6 +3,7 @@
 
 #include "fail.h"
 #include "linear.h"
+#include "spelling.h"
 
 #include <stdio.h>
 #include <string.h>

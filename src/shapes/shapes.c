@@ -9,6 +9,7 @@
 #include "float_state.h"
 #include "linear.h"
 #include "scene_internal.h"
+#include "spelling.h"
 
 #include <string.h>
 

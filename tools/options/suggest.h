@@ -13,7 +13,4 @@ struct suggestion {
 struct suggestion suggest_start(const char *typed);
 void suggest_try(struct suggestion *suggestion, const char *word);
 
-// How many single letters must be left out, put in, changed or swapped with their neighbour to come from a to b.
-int edit_distance(const char *a, const char *b);
-
 #endif

@@ -3,31 +3,15 @@
 
 #include <inttypes.h>
 #include <stdlib.h>
-#include <string.h>
+#include <lambent/base.h>
 
-// How many bytes of well-formed UTF-8 (RFC 3629) begin here; 0: none.
-static int utf8_length(const unsigned char *s)
-{
-    int length = s[0] < 0x80                   ? 1
-                 : s[0] >= 0xC2 && s[0] < 0xE0 ? 2
-                 : s[0] >= 0xE0 && s[0] < 0xF0 ? 3
-                 : s[0] >= 0xF0 && s[0] < 0xF5 ? 4
-                                               : 0;
-    for (int i = 1; i < length; i++)
-        if ((s[i] & 0xC0) != 0x80)
-            return 0;
-    if ((s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xED && s[1] > 0x9F)) // too long, surrogates
-        return 0;
-    if ((s[0] == 0xF0 && s[1] < 0x90) || (s[0] == 0xF4 && s[1] > 0x8F)) // too long, beyond U+10FFFF
-        return 0;
-    return length;
-}
+#include <string.h>
 
 static void quoted(FILE *file, const char *text)
 {
     putc('"', file);
     for (const unsigned char *s = (const unsigned char *)text; *s;) {
-        int length = utf8_length(s);
+        int length = lam_utf8_length(s, strnlen((const char *)s, 4));
         if (length == 0) {
             fputs("\\ufffd", file);
             length = 1;

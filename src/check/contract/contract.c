@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "fail.h"
+#include "spelling.h"
 
 #define END {.name = NULL}
 

@@ -7,6 +7,7 @@
 #include <strings.h>
 
 #include "fail.h"
+#include "spelling.h"
 
 #define COUNT(list) (int)(sizeof(list) / sizeof *(list))
 

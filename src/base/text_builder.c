@@ -1,0 +1,47 @@
+// text_builder.c: text that grows.
+#include "text_builder.h"
+
+#include "fail.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void text_add_part(struct text *text, const char *more, size_t length)
+{
+    if (text->failed)
+        return;
+    if (text->length + length + 1 > text->capacity) {
+        size_t capacity = 2 * (text->length + length + 1);
+        char *grown = realloc(text->bytes, capacity);
+        if (!grown) {
+            text->failed = true;
+            fail_memory(&text->error, capacity);
+            return;
+        }
+        text->bytes = grown;
+        text->capacity = capacity;
+    }
+    memcpy(text->bytes + text->length, more, length);
+    text->length += length;
+    text->bytes[text->length] = 0;
+}
+
+void text_add(struct text *text, const char *more) { text_add_part(text, more, strlen(more)); }
+
+void text_print(struct text *text, const char *format, ...)
+{
+    char line[512];
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    if (length >= 0 && length < (int)sizeof line) {
+        text_add_part(text, line, (size_t)length);
+    } else if (!text->failed) {
+        text->failed = true;
+        fail(&text->error, LAM_BAD_ARGUMENT, "a line of generated text is longer than %zu bytes: '%.40s…'",
+             sizeof line - 1, line);
+    }
+}

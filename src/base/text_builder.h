@@ -1,0 +1,19 @@
+// text_builder.h: text that grows.
+#ifndef TEXT_BUILDER_H
+#define TEXT_BUILDER_H
+
+#include <lambent/base.h>
+
+// Zero is empty. After a failure nothing more is added, and `error` has the reason. The owner frees `bytes`.
+struct text {
+    char *bytes; // ends with 0; NULL while nothing was added
+    size_t length, capacity;
+    bool failed;
+    lam_error error;
+};
+
+void text_add(struct text *text, const char *more);
+void text_add_part(struct text *text, const char *more, size_t length);
+__attribute__((format(printf, 2, 3))) void text_print(struct text *text, const char *format, ...); // up to 511 bytes
+
+#endif

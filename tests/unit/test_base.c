@@ -1,0 +1,102 @@
+// test_base.c: small parts of the base: growing text, UTF-8, edit distance, libraries opened when used.
+#include "dynamic_library.h"
+#include "spelling.h"
+#include "text_builder.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void test_text(void **state)
+{
+    (void)state;
+    struct text text = {0};
+    for (int i = 0; i < 1000; i++)
+        text_print(&text, "%d,", i % 10);
+    text_add(&text, "end");
+    text_add_part(&text, "not all", 3);
+    assert_false(text.failed);
+    assert_int_equal(text.length, 2006);
+    assert_string_equal(text.bytes + 1996, "8,9,endnot");
+    char line[600];
+    memset(line, 'x', sizeof line);
+    line[sizeof line - 1] = 0;
+    text_print(&text, "%s", line);
+    assert_true(text.failed);
+    assert_int_equal(text.error.code, LAM_BAD_ARGUMENT);
+    text_add(&text, "more");
+    assert_int_equal(text.length, 2006);
+    free(text.bytes);
+}
+
+static void test_utf8(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *bytes;
+        int length;
+    } cases[] = {
+        {"a", 1},
+        {"\n", 1},
+        {"é", 2},
+        {"€", 3},
+        {"\xf0\x9f\x98\x80", 4},
+        {"\x80", 0},
+        {"\xc3", 0},
+        {"\xc3(", 0},
+        {"\xc0\xaf", 0},
+        {"\xe0\x80\xaf", 0},
+        {"\xed\xa0\x80", 0},
+        {"\xe2\x82", 0},
+        {"\xff", 0},
+        {"\xf5\x80\x80\x80", 0},
+        {"\xf4\x90\x80\x80", 0},
+        {"\xf4\x8f\xbf\xbf", 4},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_int_equal(lam_utf8_length(cases[i].bytes, strlen(cases[i].bytes)), cases[i].length);
+    assert_int_equal(lam_utf8_length("é", 1), 0);
+    assert_int_equal(lam_utf8_length("", 0), 0);
+}
+
+static void test_edit_distance(void **state)
+{
+    (void)state;
+    assert_int_equal(lam_edit_distance("phong", "phong"), 0);
+    assert_int_equal(lam_edit_distance("phogn", "phong"), 1); // neighbours swapped
+    assert_int_equal(lam_edit_distance("kitten", "sitting"), 3);
+    assert_int_equal(lam_edit_distance("", "abc"), 3);
+    static const char *const words[] = {"ambient", "diffuse", "specular"};
+    assert_string_equal(nearest_word("difuse", words, 3), "diffuse");
+    assert_null(nearest_word("shadow", words, 3));
+}
+
+static void test_libraries(void **state)
+{
+    (void)state;
+    const char *reason = NULL;
+    assert_null(library_open("libno-such-library.so.9", false, &reason));
+    assert_non_null(reason);
+    void *library = library_open("libm.so.6", false, NULL);
+    assert_non_null(library);
+    double (*square_root)(double) = NULL;
+    assert_true(library_find(library, "sqrt", &square_root));
+    assert_true(square_root(9.0) == 3.0);
+    assert_false(library_find(library, "no_such_function", &square_root));
+    library_close(library);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_text),
+        cmocka_unit_test(test_utf8),
+        cmocka_unit_test(test_edit_distance),
+        cmocka_unit_test(test_libraries),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

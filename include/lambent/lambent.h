@@ -17,6 +17,7 @@
 #include "device.h"
 #include "environment.h"
 #include "explain.h"
+#include "fields.h"
 #include "gl.h"
 #include "image.h"
 #include "light.h"

@@ -1,32 +1,22 @@
 // light.c: default lights, their checks, and the ready-made rigs.
 #include "fail.h"
+#include "fields.h"
 #include "linear.h"
 
 #include <lambent/light.h>
 
+// Fields that the type does not have get a default too: a program may change the type afterwards.
 lam_light lam_light_default(lam_light_type type)
 {
-    lam_light light = {
-        .type = type,
-        .direction = {0.0, 0.0, -1.0},
-        .diffuse = {1.0f, 1.0f, 1.0f},
-        .specular = {1.0f, 1.0f, 1.0f},
-        .attenuation = {1.0f, 0.0f, 0.0f},
-    };
-    if (type == LAM_LIGHT_AMBIENT)
-        light.ambient = (lam_rgb){0.2f, 0.2f, 0.2f};
-    if (type == LAM_LIGHT_HEMISPHERE) {
-        light.sky = (lam_rgb){0.4f, 0.4f, 0.4f};
-        light.ground = (lam_rgb){0.1f, 0.1f, 0.1f};
-    }
-    if (type == LAM_LIGHT_SPOT)
-        light.cutoff_rad = (float)(PI / 4);
+    lam_light light = {.type = type};
+    for (int own = 0; own <= 1; own++)
+        for (int i = 0; lam_light_field(i); i++)
+            if (field_is_of(lam_light_field(i), type) == own)
+                field_set_standard(lam_light_field(i), &light);
     return light;
 }
 
-// --- Checks. Floats that stand for π and π/2 lie some 1e-7 beside them.
-
-static const double HALF_TURN = PI + 1e-6, QUARTER_TURN = PI / 2 + 1e-6;
+// --- Checks
 
 static const char *const type_words[] = {"ambient", "hemisphere", "point", "directional", "spot"};
 
@@ -37,64 +27,13 @@ static bool bad(lam_error *error, const lam_light *light, const char *field, dou
                 expected);
 }
 
-static bool at_least_zero(const lam_light *light, const char *field, double value, lam_error *error)
-{
-    if (math_finite(value) && value >= 0)
-        return true;
-    return bad(error, light, field, value, "a finite number of 0 or more");
-}
-
-static bool color_fits(const lam_light *light, const char *r, const char *g, const char *b, lam_rgb color,
-                       lam_error *error)
-{
-    return at_least_zero(light, r, (double)color.r, error) && at_least_zero(light, g, (double)color.g, error) &&
-           at_least_zero(light, b, (double)color.b, error);
-}
-#define COLOR_FITS(light, field, error) color_fits(light, #field ".r", #field ".g", #field ".b", (light)->field, error)
-
-static bool vector_fits(const lam_light *light, const char *x, const char *y, const char *z, lam_vec3 v,
-                        lam_error *error)
-{
-    const char *finite = "a finite number";
-    if (!math_finite(v.x))
-        return bad(error, light, x, v.x, finite);
-    if (!math_finite(v.y))
-        return bad(error, light, y, v.y, finite);
-    return math_finite(v.z) || bad(error, light, z, v.z, finite);
-}
-#define VECTOR_FITS(light, field, error)                                                                               \
-    vector_fits(light, #field ".x", #field ".y", #field ".z", (light)->field, error)
-
-static bool direction_fits(const lam_light *light, lam_error *error)
-{
-    if (!VECTOR_FITS(light, direction, error))
-        return false;
-    lam_vec3 d = light->direction;
-    return d.x != 0 || d.y != 0 || d.z != 0 || bad(error, light, "direction", 0, "a vector that is not zero");
-}
-
-static bool reach_fits(const lam_light *light, lam_error *error)
-{
-    return at_least_zero(light, "attenuation.constant", (double)light->attenuation.constant, error) &&
-           at_least_zero(light, "attenuation.linear", (double)light->attenuation.linear, error) &&
-           at_least_zero(light, "attenuation.quadratic", (double)light->attenuation.quadratic, error) &&
-           at_least_zero(light, "range", (double)light->range, error);
-}
-
+// Between the angles of a spot, whose own ranges are right.
 static bool cone_fits(const lam_light *light, lam_error *error)
 {
-    double inner = (double)light->inner_rad, outer = (double)light->outer_rad;
-    double cutoff = (double)light->cutoff_rad;
-    if (!at_least_zero(light, "inner_rad", inner, error) || !at_least_zero(light, "outer_rad", outer, error) ||
-        !at_least_zero(light, "cutoff_rad", cutoff, error) ||
-        !at_least_zero(light, "exponent", (double)light->exponent, error))
-        return false;
-    if (outer > QUARTER_TURN)
-        return bad(error, light, "outer_rad", outer, "a half angle of at most π/2");
+    double inner = (double)light->inner_rad, outer = (double)light->outer_rad, cutoff = (double)light->cutoff_rad;
     if ((outer > 0 || inner > 0) && inner >= outer)
         return bad(error, light, "inner_rad", inner, "less than outer_rad");
-    bool whole_sphere = cutoff > PI - 1e-6 && cutoff <= HALF_TURN;
-    if (cutoff > QUARTER_TURN && !whole_sphere)
+    if (cutoff > PI / 2 + 1e-6 && cutoff <= PI - 1e-6)
         return bad(error, light, "cutoff_rad", cutoff, "a half angle in 0 to π/2, or π");
     return true;
 }
@@ -108,19 +47,11 @@ bool lam_light_check(const lam_light *light, lam_error *error)
                     (int)LAM_LIGHT_SPOT);
     if ((unsigned)light->frame > LAM_FRAME_MODEL)
         return bad(error, light, "frame", (double)light->frame, "0 (world), 1 (camera), 2 (object) or 3 (model)");
-    if (light->type == LAM_LIGHT_HEMISPHERE)
-        return COLOR_FITS(light, sky, error) && COLOR_FITS(light, ground, error) && VECTOR_FITS(light, up, error);
-    if (!COLOR_FITS(light, ambient, error))
-        return false;
-    if (light->type == LAM_LIGHT_AMBIENT)
-        return true;
-    if (!COLOR_FITS(light, diffuse, error) || !COLOR_FITS(light, specular, error))
-        return false;
-    if (light->type == LAM_LIGHT_DIRECTIONAL)
-        return direction_fits(light, error);
-    if (!VECTOR_FITS(light, position, error) || !reach_fits(light, error))
-        return false;
-    return light->type == LAM_LIGHT_POINT || (direction_fits(light, error) && cone_fits(light, error));
+    struct field_fault fault;
+    for (int i = 0; lam_light_field(i); i++)
+        if (field_is_of(lam_light_field(i), light->type) && !field_fits(lam_light_field(i), light, &fault))
+            return bad(error, light, fault.name, fault.found, fault.expected);
+    return light->type != LAM_LIGHT_SPOT || cone_fits(light, error);
 }
 
 // --- Rigs

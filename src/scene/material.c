@@ -1,7 +1,7 @@
 // material.c: the neutral default and the classic named materials.
-#include <lambent/material.h>
+#include "fields.h"
 
-#include <stddef.h>
+#include <lambent/material.h>
 
 struct named_material {
     const char *name;
@@ -103,13 +103,10 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
 // highlight that shows the form without looking like metal or wet clay.
 lam_material lam_material_default(void)
 {
-    return (lam_material){
-        .ambient = {0.72f, 0.72f, 0.72f},
-        .diffuse = {0.72f, 0.72f, 0.72f, 1.0f},
-        .specular = {0.12f, 0.12f, 0.12f},
-        .shininess = 32.0f,
-        .illum = -1,
-    };
+    lam_material material = {.illum = -1};
+    for (int i = 0; lam_material_field(i); i++)
+        field_set_standard(lam_material_field(i), &material);
+    return material;
 }
 
 static bool known(lam_material_id id) { return (unsigned)id < LAM_MATERIAL_COUNT; }

@@ -2,6 +2,7 @@
 #include "scene_internal.h"
 
 #include "fail.h"
+#include "fields.h"
 #include "float_state.h"
 #include "linear.h"
 #include "normals.h"
@@ -161,21 +162,16 @@ int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error)
     return index;
 }
 
-// Checks a material and copies what it points to. False: the error tells why.
+// Checks a material and copies what it points to. False: the error says why.
 static bool own_material(lam_scene *scene, const lam_material *material, lam_material *out, lam_error *error)
 {
     if (!scene || !material)
         return fail(error, LAM_BAD_ARGUMENT, "material: the %s is NULL", scene ? "material" : "scene");
-    const lam_material *m = material;
-    if (!finite_floats(&m->ambient.r, 3) || !finite_floats(&m->diffuse.r, 4) || !finite_floats(&m->specular.r, 3) ||
-        !finite_floats(&m->emission.r, 3) || !finite_floats(&m->reflectivity.r, 3))
-        return fail(error, LAM_BAD_ARGUMENT, "material: a colour is not finite");
-    if (!(m->shininess >= 0) || !finite_floats(&m->shininess, 1))
-        return fail(error, LAM_BAD_ARGUMENT, "material: shininess is %g, expected a finite number of at least 0",
-                    (double)m->shininess);
-    if (!(m->diffuse.a >= 0 && m->diffuse.a <= 1))
-        return fail(error, LAM_BAD_ARGUMENT, "material: the diffuse alpha is %g, expected 0 to 1",
-                    (double)m->diffuse.a);
+    struct field_fault fault;
+    for (int i = 0; lam_material_field(i); i++)
+        if (!field_fits(lam_material_field(i), material, &fault))
+            return fail(error, LAM_BAD_ARGUMENT, "material: %s is %g, expected %s", fault.name, fault.found,
+                        fault.expected);
     *out = *material;
     bool ok = copy_text(scene, &out->name);
     for (int i = 0; ok && i < LAM_MAP_COUNT; i++)

@@ -6,32 +6,45 @@
 
 #include <string.h>
 
-#define EVERY_LIGHT "name", "type", "frame", "object"
-#define REACHING    EVERY_LIGHT, "color", "intensity", "ambient", "diffuse", "specular"
-#define PLACED      REACHING, "position", "attenuation", "range"
-static const char *const ambient_keys[] = {EVERY_LIGHT, "color", "intensity", "ambient", NULL};
-static const char *const hemisphere_keys[] = {EVERY_LIGHT, "sky", "ground", "up", NULL};
-static const char *const point_keys[] = {PLACED, NULL};
-static const char *const directional_keys[] = {REACHING, "position", "direction", NULL};
-static const char *const spot_keys[] = {PLACED, "direction", "target", "cutoff", "exponent", "inner", "outer", NULL};
-static const char *const *const keys_of[] = {[LAM_LIGHT_AMBIENT] = ambient_keys,
-                                             [LAM_LIGHT_HEMISPHERE] = hemisphere_keys,
-                                             [LAM_LIGHT_POINT] = point_keys,
-                                             [LAM_LIGHT_DIRECTIONAL] = directional_keys,
-                                             [LAM_LIGHT_SPOT] = spot_keys};
+// Keys that are not fields, or stand for some.
+static const struct {
+    const char *name;
+    unsigned light_types;
+} other_keys[] = {
+    {"name", ~0u},
+    {"type", ~0u},
+    {"frame", ~0u},
+    {"object", ~0u},
+    {"color", ~(1u << LAM_LIGHT_HEMISPHERE)},
+    {"intensity", ~(1u << LAM_LIGHT_HEMISPHERE)},
+    {"position", 1u << LAM_LIGHT_DIRECTIONAL},
+    {"target", 1u << LAM_LIGHT_SPOT},
+};
+enum { OTHER_KEYS = sizeof other_keys / sizeof *other_keys };
+
+static bool check_light_keys(struct scene_reader *r, const struct place *place, const json_t *value,
+                             lam_light_type type)
+{
+    const char *keys[OTHER_KEYS + FIELDS_MAX + 1];
+    int count = 0;
+    for (int i = 0; i < OTHER_KEYS; i++)
+        if (other_keys[i].light_types >> type & 1)
+            keys[count++] = other_keys[i].name;
+    for (int i = 0; lam_light_field(i); i++)
+        if (field_is_of(lam_light_field(i), type))
+            keys[count++] = lam_light_field(i)->key;
+    keys[count] = NULL;
+    return check_keys(r, place, value, keys);
+}
 
 static lam_rgb scaled(lam_rgb c, double s)
 {
     return (lam_rgb){(float)((double)c.r * s), (float)((double)c.g * s), (float)((double)c.b * s)};
 }
 
-// `color` times `intensity` is the ambient light of an ambient light, else diffuse and specular; a given `ambient`,
-// `diffuse` or `specular` wins.
-static bool read_colors(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
+// `color` times `intensity` is the ambient light of an ambient light, else diffuse and specular.
+static bool read_color(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
-    if (light->type == LAM_LIGHT_HEMISPHERE)
-        return take_rgb(r, place, value, "sky", &light->sky) && take_rgb(r, place, value, "ground", &light->ground) &&
-               take_direction(r, place, value, "up", &light->up);
     bool ambient = light->type == LAM_LIGHT_AMBIENT;
     lam_rgb color = ambient ? light->ambient : light->diffuse;
     double intensity = 1;
@@ -42,9 +55,19 @@ static bool read_colors(struct scene_reader *r, const struct place *place, const
         light->ambient = color;
     else
         light->diffuse = light->specular = color;
-    return take_rgb(r, place, value, "ambient", &light->ambient) &&
-           take_rgb(r, place, value, "diffuse", &light->diffuse) &&
-           take_rgb(r, place, value, "specular", &light->specular);
+    return true;
+}
+
+// The fields by themselves. A position has a reader of its own.
+static bool read_fields(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
+{
+    for (int i = 0; lam_light_field(i); i++) {
+        const lam_field *field = lam_light_field(i);
+        if (field_is_of(field, light->type) && field->offset != offsetof(lam_light, position) &&
+            !take_field(r, place, value, field, light))
+            return false;
+    }
+    return true;
 }
 
 // Three numbers, or four: a homogeneous point, with w = 0 a direction from there.
@@ -78,11 +101,11 @@ static bool read_position(struct scene_reader *r, const struct place *place, con
     return true;
 }
 
-static bool read_direction(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
+static bool read_target(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
     lam_vec3 target;
     if (!json_object_get(value, "target"))
-        return take_direction(r, place, value, "direction", &light->direction);
+        return true;
     if (json_object_get(value, "direction"))
         return fail_place(r, KEY_OF(place, "target"), "stands beside direction, expected one of them");
     if (!take_vector(r, place, value, "target", &target))
@@ -91,52 +114,33 @@ static bool read_direction(struct scene_reader *r, const struct place *place, co
     return v3_length(light->direction) > 0 || fail_place(r, KEY_OF(place, "target"), "is the light's position");
 }
 
-static bool read_reach(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
+static bool check_attenuation(struct scene_reader *r, const struct place *place, const lam_attenuation *a)
 {
-    const json_t *attenuation = json_object_get(value, "attenuation");
-    const struct place *here = KEY_OF(place, "attenuation");
-    double a[3] = {1, 0, 0}, range = 0;
-    if (attenuation && !numbers_of(r, here, attenuation, 3, 3, a, NULL))
-        return false;
-    for (size_t i = 0; i < 3; i++)
-        if (a[i] < 0)
-            return fail_place(r, ELEMENT_OF(here, i), "found %.10g, expected a number of at least 0", a[i]);
-    light->attenuation = (lam_attenuation){(float)a[0], (float)a[1], (float)a[2]};
-    if (light->attenuation.constant == 0 && light->attenuation.linear == 0 && light->attenuation.quadratic == 0)
-        return fail_place(r, here, "all three numbers are 0, expected a + b d + c d^2 to be more than 0");
-    if (!take_number(r, place, value, "range", 0, 1e30, &range))
-        return false;
-    light->range = (float)range;
-    return true;
+    return a->constant != 0 || a->linear != 0 || a->quadratic != 0 ||
+           fail_place(r, KEY_OF(place, "attenuation"),
+                      "all three numbers are 0, expected a + b d + c d^2 to be more than 0");
 }
 
-// Half angles in degrees. By one of two laws: cutoff and exponent, or inner and outer.
-static bool read_cone(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
+// One of two laws: cutoff and exponent, or inner and outer.
+static bool check_cone(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
-    double cutoff = -1, exponent = 0, inner = 0, outer = 0;
-    bool soft = json_object_get(value, "inner") || json_object_get(value, "outer");
-    if (!take_number(r, place, value, "cutoff", 0, 180, &cutoff) ||
-        !take_number(r, place, value, "exponent", 0, 1e30, &exponent) ||
-        !take_number(r, place, value, "inner", 0, 90, &inner) || !take_number(r, place, value, "outer", 0, 90, &outer))
-        return false;
-    if (soft && (json_object_get(value, "cutoff") || json_object_get(value, "exponent")))
+    const json_t *inner = json_object_get(value, "inner"), *outer = json_object_get(value, "outer"),
+                 *cutoff = json_object_get(value, "cutoff"), *exponent = json_object_get(value, "exponent");
+    bool soft = inner || outer;
+    if (soft && (cutoff || exponent))
         return fail_place(r, place, "inner and outer stand beside cutoff or exponent, expected one pair of them");
-    if (soft && !json_object_get(value, "outer"))
+    if (soft && !outer)
         return fail_place(r, place, "inner is given without outer, expected both");
-    if (soft && !((float)math_radians(inner) < (float)math_radians(outer)))
-        return fail_place(r, KEY_OF(place, "inner"), "found %.10g, expected less than outer, which is %.10g", inner,
-                          outer);
-    if (cutoff == 0 || (cutoff > 90 && cutoff < 180))
+    if (soft && !(light->inner_rad < light->outer_rad))
+        return fail_place(r, KEY_OF(place, "inner"), "found %.10g, expected less than outer, which is %.10g",
+                          json_number_value(inner), json_number_value(outer));
+    double degrees = cutoff ? json_number_value(cutoff) : 45;
+    if (degrees == 0 || (degrees > 90 && degrees < 180))
         return fail_place(r, KEY_OF(place, "cutoff"), "found %.10g, expected degrees above 0 and up to 90, or 180",
-                          cutoff);
-    light->inner_rad = (float)math_radians(inner);
-    light->outer_rad = (float)math_radians(outer);
-    light->exponent = (float)exponent;
+                          degrees);
     // With an exponent and no cutoff the cone has no edge.
-    if (soft || (cutoff < 0 && json_object_get(value, "exponent")))
+    if (soft || (exponent && !cutoff))
         light->cutoff_rad = 0;
-    else if (cutoff > 0)
-        light->cutoff_rad = (float)math_radians(cutoff);
     return true;
 }
 
@@ -177,18 +181,16 @@ static bool read_light(struct scene_reader *r, const struct place *place, const 
     int type = LAM_LIGHT_POINT;
     if (!json_object_get(value, "type"))
         return fail_place(r, place, "'type' is missing, expected ambient, hemisphere, point, directional or spot");
-    if (!take_word(r, place, value, "type", light_type_words, &type) || !check_keys(r, place, value, keys_of[type]))
+    if (!take_word(r, place, value, "type", light_type_words, &type) ||
+        !check_light_keys(r, place, value, (lam_light_type)type))
         return false;
     lam_light light = lam_light_default((lam_light_type)type);
     if (!take_text(r, place, value, "name", &light.name) || !read_frame(r, place, value, &light) ||
-        !read_colors(r, place, value, &light) || !read_position(r, place, value, &light))
+        !read_color(r, place, value, &light) || !read_fields(r, place, value, &light) ||
+        !read_position(r, place, value, &light) || !read_target(r, place, value, &light) ||
+        !check_attenuation(r, place, &light.attenuation))
         return false;
-    bool aimed = type == LAM_LIGHT_SPOT || (type == LAM_LIGHT_DIRECTIONAL && !json_object_get(value, "position"));
-    if (aimed && !read_direction(r, place, value, &light))
-        return false;
-    if ((light.type == LAM_LIGHT_POINT || type == LAM_LIGHT_SPOT) && !read_reach(r, place, value, &light))
-        return false;
-    if (type == LAM_LIGHT_SPOT && !read_cone(r, place, value, &light))
+    if (type == LAM_LIGHT_SPOT && !check_cone(r, place, value, &light))
         return false;
     lam_error reason;
     if (!lam_light_check(&light, &reason)) // what the keys could not say by themselves

@@ -6,27 +6,25 @@
 
 #include <string.h>
 
-static const char *const keys[] = {"ambient",      "diffuse", "specular", "emission", "shininess",
-                                   "reflectivity", "opacity", "fibre",    NULL};
-
 bool read_material_keys(struct scene_reader *r, const struct place *place, const json_t *value, bool whole,
                         lam_material *material)
 {
-    lam_material *m = material;
-    double shininess = (double)m->shininess, opacity = -1;
-    if (!check_keys(r, place, value, keys) || !take_rgba(r, place, value, "diffuse", &m->diffuse))
+    const char *keys[FIELDS_MAX + 1];
+    int count = 0;
+    for (; lam_material_field(count); count++)
+        keys[count] = lam_material_field(count)->key;
+    keys[count] = NULL;
+    if (!check_keys(r, place, value, keys))
         return false;
-    if (whole) // a surface answers light from all around as it answers any light
-        m->ambient = (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b};
-    if (!take_rgb(r, place, value, "ambient", &m->ambient) || !take_rgb(r, place, value, "specular", &m->specular) ||
-        !take_rgb(r, place, value, "emission", &m->emission) ||
-        !take_number(r, place, value, "shininess", 0, 1e30, &shininess) ||
-        !take_rgb(r, place, value, "reflectivity", &m->reflectivity) ||
-        !take_number(r, place, value, "opacity", 0, 1, &opacity) || !take_bool(r, place, value, "fibre", &m->fibre))
+    for (int i = 0; i < count; i++)
+        if (material_field(i)->reader != FIELD_NEVER && !take_field(r, place, value, lam_material_field(i), material))
+            return false;
+    if (whole && !json_object_get(value, "ambient")) // a surface answers light from all around as it answers any light
+        material->ambient = (lam_rgb){material->diffuse.r, material->diffuse.g, material->diffuse.b};
+    double opacity = 1;
+    if (!take_number(r, place, value, "opacity", 0, 1, &opacity))
         return false;
-    m->shininess = (float)shininess;
-    if (opacity >= 0)
-        m->diffuse.a *= (float)opacity;
+    material->diffuse.a *= (float)opacity;
     return true;
 }
 

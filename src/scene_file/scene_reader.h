@@ -3,6 +3,7 @@
 #ifndef SCENE_READER_H
 #define SCENE_READER_H
 
+#include "fields.h"
 #include "importer.h"
 
 #include <jansson.h>
@@ -64,6 +65,10 @@ bool take_word(struct scene_reader *r, const struct place *place, const json_t *
                const struct scene_word *words, int *out);
 extern const struct scene_word color_words[], shading_words[], reflection_words[], stage_words[], viewer_words[],
     flat_normal_words[], normals_words[], cull_words[], up_words[], frame_words[], light_type_words[], tangent_words[];
+
+// The key of a field, set in a material or light.
+bool take_field(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,
+                void *out);
 
 // Numbers of a list, which has from `least` to `most` of them. *count may be NULL.
 bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t least, size_t most,

@@ -297,3 +297,52 @@ bool take_rgb(struct scene_reader *r, const struct place *place, const json_t *o
     *out = (lam_rgb){color.r, color.g, color.b};
     return true;
 }
+
+// --- fields of materials and lights
+
+static bool take_triple(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,
+                        double numbers[4])
+{
+    const json_t *list = json_object_get(object, field->key);
+    const struct place *here = KEY_OF(place, field->key);
+    if (!list)
+        return true;
+    if (!numbers_of(r, here, list, 3, 3, numbers, NULL))
+        return false;
+    for (size_t i = 0; i < 3; i++)
+        if (!number_of(r, ELEMENT_OF(here, i), json_array_get(list, i), field->min, 1e30, &numbers[i]))
+            return false;
+    return true;
+}
+
+bool take_field(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,
+                void *out)
+{
+    void *at = (char *)out + field->offset;
+    double numbers[4], min = field->min > -1e30 ? field->min : -1e30, max = field->max < 1e30 ? field->max : 1e30;
+    if (!json_object_get(object, field->key))
+        return true;
+    switch (field->type) {
+    case LAM_FIELD_FLAG:
+        return take_bool(r, place, object, field->key, at);
+    case LAM_FIELD_RGB:
+        return take_rgb(r, place, object, field->key, at);
+    case LAM_FIELD_RGBA:
+        return take_rgba(r, place, object, field->key, at);
+    case LAM_FIELD_POINT:
+        return take_vector(r, place, object, field->key, at);
+    case LAM_FIELD_DIRECTION:
+        return take_direction(r, place, object, field->key, at);
+    case LAM_FIELD_TRIPLE:
+        if (!take_triple(r, place, object, field, numbers))
+            return false;
+        break;
+    case LAM_FIELD_NUMBER:
+    case LAM_FIELD_ANGLE:
+        if (!take_number(r, place, object, field->key, min, max, numbers))
+            return false;
+        break;
+    }
+    field_set_written(field, out, numbers);
+    return true;
+}

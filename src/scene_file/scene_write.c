@@ -144,33 +144,55 @@ static bool put_path(struct scene_writer *w, json_t *object, const char *key, co
     return true;
 }
 
-// --- materials
+// --- fields of materials and lights
 
-static json_t *material_json(struct scene_writer *w, const lam_material *m)
+static void put_field(struct scene_writer *w, json_t *out, const lam_field *field, const void *object)
 {
-    json_t *out = json_object();
-    put(w, out, "ambient", color(w, &m->ambient.r, 3));
-    put(w, out, "diffuse", color(w, &m->diffuse.r, m->diffuse.a == 1 ? 3 : 4));
-    put(w, out, "specular", color(w, &m->specular.r, 3));
-    put(w, out, "emission", color(w, &m->emission.r, 3));
-    put(w, out, "shininess", number_float(m->shininess));
-    put(w, out, "reflectivity", color(w, &m->reflectivity.r, 3));
-    if (m->fibre)
-        put(w, out, "fibre", json_true());
-    return out;
+    double numbers[4];
+    int count = lam_field_get(field, object, numbers);
+    const float *floats = (const float *)((const char *)object + field->offset);
+    switch (field->type) {
+    case LAM_FIELD_NUMBER:
+        put(w, out, field->key, number_float(*floats));
+        break;
+    case LAM_FIELD_ANGLE:
+        put(w, out, field->key, degrees(numbers[0], true));
+        break;
+    case LAM_FIELD_FLAG:
+        put(w, out, field->key, json_boolean(numbers[0] != 0));
+        break;
+    case LAM_FIELD_POINT:
+    case LAM_FIELD_DIRECTION:
+        put(w, out, field->key, list_of(w, numbers, count));
+        break;
+    case LAM_FIELD_RGB:
+    case LAM_FIELD_RGBA:
+    case LAM_FIELD_TRIPLE:
+        put(w, out, field->key, color(w, floats, count));
+        break;
+    }
 }
 
-static bool same_floats(const float *a, const float *b, int count)
+// `whole`: what is left out would be another material's, so that every field is written; else its default.
+static json_t *material_json(struct scene_writer *w, const lam_material *m, bool whole)
 {
-    return memcmp(a, b, (size_t)count * sizeof *a) == 0;
+    json_t *out = json_object();
+    for (int i = 0; material_field(i); i++) {
+        const struct material_field *row = material_field(i);
+        if (row->reader != FIELD_NEVER && (whole || !row->optional || !field_is_zero(&row->field, m)))
+            put_field(w, out, &row->field, m);
+    }
+    if (!whole && m->diffuse.a == 1)
+        put(w, out, "diffuse", color(w, &m->diffuse.r, 3));
+    return out;
 }
 
 static bool same_material(const lam_material *a, const lam_material *b)
 {
-    return same_floats(&a->ambient.r, &b->ambient.r, 3) && same_floats(&a->diffuse.r, &b->diffuse.r, 4) &&
-           same_floats(&a->specular.r, &b->specular.r, 3) && same_floats(&a->emission.r, &b->emission.r, 3) &&
-           same_floats(&a->reflectivity.r, &b->reflectivity.r, 3) && a->shininess == b->shininess &&
-           a->fibre == b->fibre;
+    for (int i = 0; lam_material_field(i); i++)
+        if (!field_equal(lam_material_field(i), a, b))
+            return false;
+    return true;
 }
 
 // What has become of the model's own materials since it was read.
@@ -187,12 +209,8 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
                         "%s: a material of '%.200s' was changed, but has no name to be called by", w->path,
                         origin->path);
         changes = changes ? changes : json_object();
-        json_t *all = material_json(w, now);
-        if (now->diffuse.a == 1 && origin->materials[i].diffuse.a != 1)
-            put(w, all, "diffuse", color(w, &now->diffuse.r, 4));
-        if (!now->fibre && origin->materials[i].fibre)
-            put(w, all, "fibre", json_false());
-        put(w, changes, name, all);
+        bool whole = origin->materials[i].diffuse.a != 1 || origin->materials[i].fibre;
+        put(w, changes, name, material_json(w, now, whole));
     }
     if (changes)
         put(w, entry, "materials", changes);
@@ -211,7 +229,7 @@ static void put_parts(struct scene_writer *w, json_t *entry, const struct scene_
             bool own = material == origin->part_materials[n];
             lam_material plain = lam_material_default();
             const lam_material *shown = material >= 0 ? lam_scene_material(w->scene, material) : &plain;
-            append(w, list, own ? json_null() : material_json(w, shown));
+            append(w, list, own ? json_null() : material_json(w, shown, false));
             changed |= !own;
         }
     }
@@ -282,13 +300,9 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
         put(w, entry, "tangents", json_string("field"));
     put_transform(w, entry, object, own);
     if (object->material >= 0 && object->material != own->material)
-        put(w, entry, "material", material_json(w, lam_scene_material(w->scene, object->material)));
-    if (object->back_material >= 0 && object->back_material != own->back_material) {
-        json_t *back = material_json(w, lam_scene_material(w->scene, object->back_material));
-        put(w, back, "diffuse", color(w, &lam_scene_material(w->scene, object->back_material)->diffuse.r, 4));
-        put(w, back, "fibre", json_boolean(lam_scene_material(w->scene, object->back_material)->fibre));
-        put(w, entry, "back_material", back);
-    }
+        put(w, entry, "material", material_json(w, lam_scene_material(w->scene, object->material), false));
+    if (object->back_material >= 0 && object->back_material != own->back_material)
+        put(w, entry, "back_material", material_json(w, lam_scene_material(w->scene, object->back_material), true));
     if (object->one_sided != own->one_sided)
         put(w, entry, "two_sided", json_boolean(!object->one_sided));
     if (object->cull != own->cull)
@@ -322,18 +336,6 @@ static bool put_objects(struct scene_writer *w, json_t *root)
 
 // --- lights
 
-static void put_cone(struct scene_writer *w, json_t *out, const lam_light *l)
-{
-    if (l->outer_rad > 0) {
-        put(w, out, "inner", degrees((double)l->inner_rad, true));
-        put(w, out, "outer", degrees((double)l->outer_rad, true));
-        return;
-    }
-    if (l->cutoff_rad > 0)
-        put(w, out, "cutoff", degrees((double)l->cutoff_rad, true));
-    put(w, out, "exponent", number_float(l->exponent));
-}
-
 static json_t *light_json(struct scene_writer *w, const lam_light *given)
 {
     lam_light placed_light = *given, *l = &placed_light;
@@ -352,32 +354,15 @@ static json_t *light_json(struct scene_writer *w, const lam_light *given)
         put(w, out, "frame", word(frame_words, (int)l->frame));
     if (l->frame == LAM_FRAME_OBJECT)
         put_name(w, out, "object", l->object);
-    if (l->type == LAM_LIGHT_HEMISPHERE) {
-        put(w, out, "sky", color(w, &l->sky.r, 3));
-        put(w, out, "ground", color(w, &l->ground.r, 3));
-        if (l->up.x != 0 || l->up.y != 0 || l->up.z != 0)
-            put(w, out, "up", vector(w, l->up));
-        return out;
+    if (l->attenuation.constant == 0 && l->attenuation.linear == 0 && l->attenuation.quadratic == 0)
+        l->attenuation.constant = 1; // what three zeros stand for
+    int cone = l->outer_rad > 0 ? SOFT_CONE : HARD_CONE;
+    for (int i = 0; light_field(i); i++) {
+        const struct light_field *row = light_field(i);
+        if (field_is_of(&row->field, l->type) && (row->cone == ANY_CONE || (int)row->cone == cone) &&
+            !(row->optional && field_is_zero(&row->field, l)))
+            put_field(w, out, &row->field, l);
     }
-    bool placed = l->type == LAM_LIGHT_POINT || l->type == LAM_LIGHT_SPOT;
-    if (placed)
-        put(w, out, "position", vector(w, l->position));
-    if (l->type == LAM_LIGHT_DIRECTIONAL || l->type == LAM_LIGHT_SPOT)
-        put(w, out, "direction", vector(w, l->direction));
-    put(w, out, "ambient", color(w, &l->ambient.r, 3));
-    if (l->type == LAM_LIGHT_AMBIENT)
-        return out;
-    put(w, out, "diffuse", color(w, &l->diffuse.r, 3));
-    put(w, out, "specular", color(w, &l->specular.r, 3));
-    if (!placed)
-        return out;
-    const lam_attenuation *a = &l->attenuation;
-    bool none = a->constant == 0 && a->linear == 0 && a->quadratic == 0;
-    put(w, out, "attenuation", none ? list_of(w, (double[]){1, 0, 0}, 3) : color(w, &a->constant, 3));
-    if (l->range > 0)
-        put(w, out, "range", number_float(l->range));
-    if (l->type == LAM_LIGHT_SPOT)
-        put_cone(w, out, l);
     return out;
 }
 

@@ -10,8 +10,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <lambent/fields.h>
 #include <lambent/light.h>
 #include <lambent/material.h>
+#include <lambent/scene.h>
 
 // The published table again, as it is printed: ambient, diffuse, specular, share of 128. Typed apart from the
 // library's.
@@ -281,6 +283,60 @@ static void test_studio_range(void **state)
     assert_true(most > 8 * least); // and the form shows
 }
 
+// Of each number of a row: the default passes, and numbers outside of the range are refused by the field's name.
+static void check_material_field(lam_scene *scene, const lam_field *field)
+{
+    const double wrong[] = {field->min - 1, field->max + 1, NAN};
+    for (size_t i = 0; i < 3; i++) {
+        lam_material m = lam_material_default();
+        double numbers[4];
+        int count = lam_field_get(field, &m, numbers);
+        for (int k = 0; k < count; k++)
+            assert_true((float)numbers[k] == (float)field->standard[k]);
+        assert_true(lam_scene_add_material(scene, &m, NULL) >= 0);
+        if (field->type == LAM_FIELD_FLAG)
+            continue;
+        numbers[count - 1] = wrong[i];
+        lam_field_set(field, &m, numbers);
+        lam_error error = {0};
+        assert_int_equal(lam_scene_add_material(scene, &m, &error), -1);
+        assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+        assert_non_null(strstr(error.text, field->name));
+    }
+}
+
+static void test_fields(void **state)
+{
+    (void)state;
+    lam_scene *scene = lam_scene_make(NULL);
+    assert_non_null(scene);
+    int count = 0;
+    for (; lam_material_field(count); count++)
+        check_material_field(scene, lam_material_field(count));
+    lam_scene_free(scene);
+    assert_true(count >= 8);
+    assert_null(lam_material_field(-1));
+    // A light of a type has each key once.
+    for (int type = LAM_LIGHT_AMBIENT; type <= LAM_LIGHT_SPOT; type++) {
+        lam_light light = lam_light_default((lam_light_type)type);
+        for (int i = 0; lam_light_field(i); i++) {
+            const lam_field *field = lam_light_field(i);
+            if (!(field->light_types >> type & 1))
+                continue;
+            for (int k = 0; k < i; k++)
+                assert_true(strcmp(lam_light_field(k)->key, field->key) != 0 ||
+                            !(lam_light_field(k)->light_types >> type & 1));
+            lam_light wrong = light;
+            double numbers[4];
+            lam_field_get(field, &light, numbers);
+            numbers[0] = NAN;
+            lam_field_set(field, &wrong, numbers);
+            assert_false(lam_light_check(&wrong, NULL));
+        }
+        assert_true(lam_light_check(&light, NULL));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -291,6 +347,7 @@ int main(void)
         cmocka_unit_test(test_light_checks),
         cmocka_unit_test(test_rigs),
         cmocka_unit_test(test_studio_range),
+        cmocka_unit_test(test_fields),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -280,7 +280,7 @@ static void test_errors(void **unused)
         LIGHT("\"name\": \"x\"", ": 'type' is missing, expected ambient, hemisphere, point, directional or spot"),
         LIGHT("\"type\": \"point\", \"cutoff\": 4",
               ".cutoff: unknown key; expected name, type, frame, object, color, "
-              "intensity, ambient, diffuse, specular, position, attenuation, range"),
+              "intensity, position, ambient, diffuse, specular, attenuation, range"),
         LIGHT("\"type\": \"point\", \"attenuation\": [0, 0, 0]",
               ".attenuation: all three numbers are 0, expected a + b d + c d^2 to be more than 0"),
         LIGHT("\"type\": \"point\", \"attenuation\": [1, -2, 0]",

@@ -1,0 +1,49 @@
+// lambent/fields.h: the fields of lam_material and lam_light as tables: keys, ranges, defaults and meanings. Scene files,
+// options, reports and shaders are made from them.
+#ifndef LAMBENT_FIELDS_H
+#define LAMBENT_FIELDS_H
+
+#include "base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum lam_field_type {
+    LAM_FIELD_NUMBER,    // float
+    LAM_FIELD_ANGLE,     // float, radians; degrees in scene files and options
+    LAM_FIELD_FLAG,      // bool
+    LAM_FIELD_RGB,       // lam_rgb
+    LAM_FIELD_RGBA,      // lam_rgba; the alpha lies in 0..1
+    LAM_FIELD_POINT,     // lam_vec3
+    LAM_FIELD_DIRECTION, // lam_vec3 of any length but 0; a default of 0 stands for a direction that the scene decides
+    LAM_FIELD_TRIPLE,    // three floats
+} lam_field_type;
+
+typedef struct lam_field {
+    const char *name;    // of the struct's member: "cutoff_rad"
+    const char *key;     // in scene files and options: "cutoff"
+    const char *symbol;  // in formulas: "kr"; NULL: none
+    const char *source;  // the MTL statement that is read into it: "Ks"; NULL: none
+    const char *unit;    // NULL: none
+    const char *summary; // one line
+    lam_field_type type;
+    // The range of each number, INFINITY where there is no bound, and the default. Angles in degrees.
+    double min, max, standard[4];
+    size_t offset;        // in lam_material or lam_light
+    unsigned light_types; // bits 1 << lam_light_type: the lights that have it. 0: a material's
+} lam_field;
+
+// A row of a table; NULL past the end. Of lights a key may have several rows, with different defaults for different types.
+LAM_API const lam_field *lam_material_field(int index);
+LAM_API const lam_field *lam_light_field(int index);
+
+// Reads the numbers of a field (angles in radians, a flag as 0 or 1) and returns how many there are: 1, 3 or 4.
+LAM_API int lam_field_get(const lam_field *field, const void *object, double numbers[4]);
+// Sets them, whatever their range.
+LAM_API void lam_field_set(const lam_field *field, void *object, const double numbers[4]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,51 @@
+// fields.h: the tables of lambent/fields.h with the columns that only the library reads.
+#ifndef FIELDS_H
+#define FIELDS_H
+
+#include <lambent/device.h>
+#include <lambent/fields.h>
+
+// What of a shader reads a field of the material.
+enum field_reader {
+    FIELD_ALWAYS,
+    FIELD_LIT,         // whatever is lit
+    FIELD_ENVIRONMENT, // the mirrored environment
+    FIELD_LOBE,        // the reflection models of `lobes`
+    FIELD_NEVER,       // it is part of another field
+};
+
+struct material_field {
+    lam_field field;    // first
+    const char *shader; // its comment there
+    // Its name where materials come multiplied with the lights; NULL: its own, "": it stands in the lights' products alone.
+    const char *product;
+    enum field_reader reader;
+    unsigned lobes; // bits 1 << lam_reflection
+    bool optional;  // a scene file leaves it out where it is 0, which is the default
+};
+const struct material_field *material_field(int index); // NULL past the end
+
+struct light_field {
+    lam_field field;                              // first
+    bool optional;                                // a scene file leaves it out where it is 0
+    enum { ANY_CONE, HARD_CONE, SOFT_CONE } cone; // a spot has the fields of one law: soft where outer_rad > 0
+};
+const struct light_field *light_field(int index);
+static inline bool field_is_of(const lam_field *field, lam_light_type type) { return field->light_types >> type & 1; }
+
+enum { FIELDS_MAX = 24 }; // of either table
+
+// The number of a field that lies outside of its range, its name and the range, as words for a sentence.
+struct field_fault {
+    char name[48], expected[48];
+    double found;
+};
+bool field_fits(const lam_field *field, const void *object, struct field_fault *fault);
+
+bool field_equal(const lam_field *field, const void *a, const void *b);
+bool field_is_zero(const lam_field *field, const void *object);
+// Sets the default, and any numbers whose angles are in degrees.
+void field_set_standard(const lam_field *field, void *object);
+void field_set_written(const lam_field *field, void *object, const double numbers[4]);
+
+#endif

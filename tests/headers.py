@@ -73,12 +73,38 @@ def examples(folder, environment):
     check("example render is under 25 lines (%d)" % lines, lines < 25)
 
 
+def check_library(folder, environment):
+    """liblambent-check: a program built with its pkg-config file alone checks a shader, and saves a picture with liblambent."""
+    flags = run(["pkg-config", "--cflags", "--libs", "lambent-check"], env=environment)
+    check("pkg-config knows lambent-check", flags.returncode == 0, flags.stdout)
+    program, picture = os.path.join(folder, "check"), os.path.join(folder, "check.pfm")
+    built = run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", os.path.join(ROOT, "examples", "check.c"), "-o", program] +
+                flags.stdout.split(), env=environment)
+    check("example check compiles", built.returncode == 0, built.stdout)
+    if built.returncode:
+        return
+    shader = os.path.join(ROOT, "tests", "check", "oregon-no-gate.frag")
+    ran = run([program, shader, picture], env=environment)
+    if ran.returncode == 3 and "OpenGL" in ran.stdout:
+        print("ok %d - example check # SKIP %s" % (len(results) + 1, ran.stdout.strip()))
+        results.append(True)
+        return
+    good = ran.returncode == 0 and "no-gate: " in ran.stdout and open(picture, "rb").read(3) == b"PF\n"
+    check("example check names the mistake and saves a picture", good, ran.stdout)
+
+
+def exported(name):
+    library = glob.glob(os.path.join(BUILD, "src", name + ".so.*.*.*"))
+    lines = run(["nm", "-D", "--defined-only", library[0]]).stdout.split("\n") if library else []
+    return [line.split()[2] for line in lines if len(line.split()) == 3]
+
+
 def symbols():
-    library = glob.glob(os.path.join(BUILD, "src", "liblambent.so.*.*.*"))
-    shown = run(["nm", "-D", "--defined-only", library[0]]).stdout.split("\n") if library else []
-    names = [line.split()[2] for line in shown if len(line.split()) == 3]
-    strange = [n for n in names if not n.startswith("lam_")]
-    check("the shared library shows lam_ names only", bool(names) and not strange, " ".join(strange))
+    names, of_check = exported("liblambent"), exported("liblambent-check")
+    strange = [n for n in names if not n.startswith("lam_") or n.startswith("lam_check")]
+    check("liblambent exports lam_ names only, and none of lam_check", bool(names) and not strange, " ".join(strange))
+    strange = [n for n in of_check if not n.startswith("lam_check_")]
+    check("liblambent-check exports lam_check_ names only", bool(of_check) and not strange, " ".join(strange))
 
 
 def main():
@@ -87,6 +113,7 @@ def main():
         environment = installed(folder)
         if environment:
             examples(folder, environment)
+            check_library(folder, environment)
         symbols()
     print("1..%d" % len(results))
     return 0 if all(results) else 1

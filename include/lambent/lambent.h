@@ -1,4 +1,4 @@
-// lambent/lambent.h: the whole public interface.
+// lambent/lambent.h: the whole interface of liblambent. (liblambent-check has its own header, check.h.)
 //
 //   lam_scene *scene = lam_scene_load("bunny.obj", NULL, NULL, &error);
 //   lam_camera camera = lam_camera_fit(scene, NULL);
@@ -12,7 +12,6 @@
 
 #include "base.h"
 #include "camera.h"
-#include "check.h"
 #include "light_eval.h"
 #include "device.h"
 #include "environment.h"

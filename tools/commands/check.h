@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include <lambent/lambent.h>
+#include <lambent/check.h>
 
 #include "options.h"
 

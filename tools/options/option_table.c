@@ -2,6 +2,8 @@
 // made from these rows (help.c, manual.c, completions.c).
 #include "options.h"
 
+#include <lambent/check.h>
+
 #define FIELD(name) .field = offsetof(struct options, name)
 
 const char *const group_titles[GROUP_COUNT] = {

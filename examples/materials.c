@@ -3,7 +3,7 @@
 #include <lambent/lambent.h>
 #include <stdio.h>
 
-enum { COLUMNS = 6 };
+enum { COLUMNS = 6, WIDTH = 960, HEIGHT = 640 };
 
 int main(int argc, char **argv)
 {
@@ -27,11 +27,11 @@ int main(int argc, char **argv)
     light.ambient = (lam_rgb){0.2f, 0.2f, 0.2f};
     ok = ok && lam_scene_add_light(scene, &light, &error) >= 0;
 
-    lam_view view = {.from_angles = true, .orthographic = true, .aspect = 1.5, .fill = 0.96};
-    lam_camera camera = lam_camera_fit(scene, &view); // azimuth and elevation 0: from the front
+    lam_view view = {.from_angles = true, .orthographic = true, .fill = 0.96};
+    lam_camera camera = lam_camera_fit(scene, WIDTH, HEIGHT, &view); // azimuth and elevation 0: from the front
     lam_device *device = ok ? lam_device_cpu(NULL, &error) : NULL;
     lam_image image = {0};
-    ok = device && lam_image_make(&image, 960, 640, LAM_RGBA8, &error) &&
+    ok = device && lam_image_make(&image, WIDTH, HEIGHT, LAM_RGBA8, &error) &&
          lam_draw(device, scene, &camera, NULL, &image, NULL, &error) && lam_image_save(&image, argv[1], NULL, &error);
     if (!ok)
         fprintf(stderr, "materials: %s\n", error.text);

@@ -51,7 +51,7 @@ int main(int argc, char **argv)
     bool ok = device && lam_image_make(&image, 512, 512, LAM_RGBA8, &error);
     for (int frame = 0; ok && frame < 8; frame++) { // around the model: it is sent with the first frame only
         lam_view view = {.from_angles = true, .azimuth_rad = frame * 0.1, .elevation_rad = 0.3};
-        lam_camera camera = lam_camera_fit(scene, &view);
+        lam_camera camera = lam_camera_fit(scene, image.width, image.height, &view);
         lam_frame_report report;
         ok = lam_draw(device, scene, &camera, &params, &image, NULL, &error);
         lam_device_report(device, &report);

@@ -2,14 +2,16 @@
 #include <lambent/lambent.h>
 #include <stdio.h>
 
+enum { WIDTH = 1024, HEIGHT = 1024 };
+
 int main(int argc, char **argv)
 {
     lam_error error = {LAM_BAD_ARGUMENT, "usage: render MODEL PICTURE"};
     lam_scene *scene = argc == 3 ? lam_scene_load(argv[1], NULL, NULL, &error) : NULL;
     lam_device *device = scene ? lam_device_cpu(NULL, &error) : NULL;
     lam_image image = {0};
-    lam_camera camera = lam_camera_fit(scene, NULL);
-    bool ok = device && lam_image_make(&image, 1024, 1024, LAM_RGBA8, &error) &&
+    lam_camera camera = lam_camera_fit(scene, WIDTH, HEIGHT, NULL);
+    bool ok = device && lam_image_make(&image, WIDTH, HEIGHT, LAM_RGBA8, &error) &&
               lam_draw(device, scene, &camera, NULL, &image, NULL, &error) &&
               lam_image_save(&image, argv[2], NULL, &error);
     if (!ok)

@@ -56,11 +56,7 @@ static void look(struct demo *d, lam_vec3 eye, lam_vec3 target, double fovy_deg)
     d->camera.fovy_rad = fovy_deg * 3.14159265358979323846 / 180;
 }
 
-static void fit(struct demo *d)
-{
-    lam_view view = {.aspect = (double)d->width / d->height};
-    d->camera = lam_camera_fit(d->scene, &view);
-}
+static void fit(struct demo *d) { d->camera = lam_camera_fit(d->scene, d->width, d->height, NULL); }
 
 static bool point_light(struct demo *d, lam_vec3 position, lam_rgb color, lam_attenuation attenuation, lam_error *error)
 {
@@ -238,8 +234,7 @@ static bool orthographic(struct demo *d, lam_error *error)
     bool ok = place(d, mesh, named(d, LAM_MATERIAL_JADE, error), (lam_vec3){1, 1, 1}, (lam_vec3){-0.7, 0, 0}, error) &&
               place(d, mesh, named(d, LAM_MATERIAL_RUBY, error), (lam_vec3){0.8, 0.8, 0.8}, (lam_vec3){0.3, 0.35, 0.4},
                     error);
-    lam_view view = {.orthographic = true, .aspect = (double)d->width / d->height};
-    d->camera = lam_camera_fit(d->scene, &view);
+    d->camera = lam_camera_fit(d->scene, d->width, d->height, &(lam_view){.orthographic = true});
     return ok;
 }
 
@@ -437,8 +432,7 @@ static bool mirror_gouraud(struct demo *d, lam_error *error)
     bool ok = put(d, shape(d, "torus-knot", 160, 24, error), mirror(d, (lam_rgb){1, 1, 1}, error), error) &&
               surround(d, "sky", -2, error);
     lam_scene_set_up(d->scene, LAM_UP_Z);
-    lam_view view = {.orthographic = true, .aspect = (double)d->width / d->height};
-    d->camera = lam_camera_fit(d->scene, &view);
+    d->camera = lam_camera_fit(d->scene, d->width, d->height, &(lam_view){.orthographic = true});
     return ok;
 }
 

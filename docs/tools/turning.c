@@ -84,7 +84,7 @@ int main(int argc, char **argv)
     lam_scene *scene = ok ? scene_of(name, &error) : NULL;
     lam_image image = {0};
     ok = scene && lam_image_make(&image, size, size, LAM_RGBA8, &error);
-    lam_camera camera = lam_camera_fit(scene, NULL);
+    lam_camera camera = lam_camera_fit(scene, size, size, NULL);
     static const struct {
         const char *name;
         lam_stage stage;

@@ -29,14 +29,15 @@ typedef struct lam_view {
     double elevation_rad; // 0: level, π/2: from above; −π/2..π/2
     double fovy_rad;      // 0: 30°
     bool orthographic;
-    double zoom;   // > 0; 2 shows the model twice as large; 0: 1
-    double aspect; // width/height of the picture; 0: 1
-    double fill;   // share of the tighter side that the projected vertices take, 0..1; 0: 0.92
+    double zoom; // > 0; 2 shows the model twice as large; 0: 1
+    double fill; // share of the tighter side that the projected vertices take, 0..1; 0: 0.92
 } lam_view;
 
-// Places a camera so that the scene's projected vertices fill the picture (not their bounding box: the vertices
-// themselves) and are centred in it. The scene's up axis turns the view. An empty scene gives the default camera.
-LAM_API lam_camera lam_camera_fit(const lam_scene *scene, const lam_view *view);
+// Places a camera so that the scene's projected vertices fill a picture of width × height pixels and are centred in it:
+// the vertices themselves, not their bounding box. A fit for one shape cuts off or shrinks the model in a picture of
+// another. The scene's up axis turns the view. A side below 1 counts as 1. `view` NULL: the three-quarter view. A scene
+// without triangles gives the default camera.
+LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view);
 
 #ifdef __cplusplus
 }

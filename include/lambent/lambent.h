@@ -1,7 +1,7 @@
 // lambent/lambent.h: the whole interface of liblambent. (liblambent-check has its own header, check.h.)
 //
 //   lam_scene *scene = lam_scene_load("bunny.obj", NULL, NULL, &error);
-//   lam_camera camera = lam_camera_fit(scene, NULL);
+//   lam_camera camera = lam_camera_fit(scene, 1024, 1024, NULL);
 //   lam_device *device = lam_device_cpu(NULL, &error);
 //   lam_image image = { 0 };
 //   lam_image_make(&image, 1024, 1024, LAM_RGBA8, &error);

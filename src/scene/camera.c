@@ -98,7 +98,7 @@ static lam_camera fit_perspective(const lam_scene *scene, const struct view_axes
                         .fovy_rad = fovy};
 }
 
-lam_camera lam_camera_fit(const lam_scene *scene, const lam_view *view)
+lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view)
 {
     static const lam_view plain = {0};
     if (!view)
@@ -108,7 +108,7 @@ lam_camera lam_camera_fit(const lam_scene *scene, const lam_view *view)
         return lam_camera_default();
     uint64_t state = float_state_enter();
     struct view_axes axes = axes_of(scene, view);
-    double aspect = view->aspect > 0 ? view->aspect : 1;
+    double aspect = (double)(width > 1 ? width : 1) / (height > 1 ? height : 1);
     double fill = view->fill > 0 ? view->fill : 0.92;
     double fovy = view->fovy_rad > 0 && view->fovy_rad < PI ? view->fovy_rad : math_radians(30);
     double zoom = view->zoom > 0 ? view->zoom : 1;

@@ -110,8 +110,8 @@ static void test_one_call(void **state)
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_mesh(demo.scene, &mesh, &error);
     assert_true(lam_scene_add_object(demo.scene, &object, &error) >= 0);
-    lam_view view = {.from_angles = true, .aspect = 1};
-    demo.camera = lam_camera_fit(demo.scene, &view);
+    lam_view view = {.from_angles = true};
+    demo.camera = lam_camera_fit(demo.scene, 64, 64, &view);
     lam_device *cpu = lam_device_cpu(NULL, &error);
     for (int way = 0; way < 5; way++) {
         lam_draw_params params = {.samples = 1};

@@ -273,7 +273,7 @@ static void test_fit(void **state)
         for (int wide = 0; wide < 2; wide++) {
             struct demo demo = make_demo(names[n]);
             int width = wide ? 1000 : 400, height = wide ? 400 : 1000;
-            lam_camera camera = lam_camera_fit(demo.scene, &(lam_view){.aspect = (double)width / height});
+            lam_camera camera = lam_camera_fit(demo.scene, width, height, NULL);
             lam_device *device = make_device(2);
             lam_image image = make_image(width, height);
             assert_true(lam_draw(device, demo.scene, &camera, NULL, &image, NULL, NULL));
@@ -342,7 +342,7 @@ static void test_normals_when_drawn(void **state)
         params.show = i / 12 == 0 ? LAM_OUTPUT_PICTURE : i / 12 == 1 ? LAM_OUTPUT_NORMALS : LAM_OUTPUT_DEPTH;
         lam_image images[3];
         lam_scene *scenes[2] = {load_sheet(false, clear), load_sheet(true, clear)};
-        lam_camera camera = lam_camera_fit(scenes[0], NULL);
+        lam_camera camera = lam_camera_fit(scenes[0], 1, 1, NULL);
         camera.fovy_rad *= 0.6; // some triangles are outside, some cross the edge
         lam_device *device = make_device(2);
         for (int k = 0; k < 3; k++) { // twice by the same device

@@ -276,7 +276,7 @@ static void test_models(void **state)
         if (!demo.scene)
             continue;
         found++;
-        demo.camera = lam_camera_fit(demo.scene, &(lam_view){.aspect = 1.5});
+        demo.camera = lam_camera_fit(demo.scene, demo.width, demo.height, NULL);
         for (int s = 0; s < 9; s++) {
             demo.params = (lam_draw_params){.shading = shadings[s % 3],
                                             .samples = sample_counts[s / 3],

@@ -92,9 +92,9 @@ static void camera_does_not_depend_on_the_order(void **state)
             lam_view view = {.from_angles = true,
                              .azimuth_rad = 0.5 * turn,
                              .elevation_rad = 0.3 * turn - 1.5,
-                             .aspect = turn % 2 ? 1.7 : 0.6,
                              .orthographic = turn % 4 == 3};
-            cameras[order] = lam_camera_fit(scene, &view);
+            int width = turn % 2 ? 340 : 120, height = 200;
+            cameras[order] = lam_camera_fit(scene, width, height, &view);
             // And every point is inside the picture, touching it somewhere.
             lam_mat4 look = lam_camera_view(&cameras[order]);
             double farthest = 0;
@@ -107,7 +107,7 @@ static void camera_does_not_depend_on_the_order(void **state)
                     e[k] = look.m[k][0] * w[0] + look.m[k][1] * w[1] + look.m[k][2] * w[2] + look.m[k][3];
                 double half =
                     view.orthographic ? cameras[order].ortho_half_height : -e[2] * tan(cameras[order].fovy_rad / 2);
-                double x = fabs(e[0]) / (half * view.aspect), y = fabs(e[1]) / half;
+                double x = fabs(e[0]) / (half * width / height), y = fabs(e[1]) / half;
                 farthest = fmax(farthest, fmax(x, y));
             }
             near(farthest, 0.92, 1e-5);
@@ -116,6 +116,60 @@ static void camera_does_not_depend_on_the_order(void **state)
         for (int order = 1; order < ORDERS; order++)
             assert_memory_equal(&cameras[0], &cameras[order], sizeof cameras[0]);
     }
+}
+
+// A scene of the given corners, as a triangle strip of loose triangles.
+static lam_scene *scene_of_points(const float *points, uint32_t count)
+{
+    lam_scene *scene = lam_scene_make(NULL);
+    lam_mesh mesh = {.positions = points, .vertex_count = count, .triangle_count = count / 3};
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_mesh(scene, &mesh, NULL);
+    assert_true(object.mesh >= 0 && lam_scene_add_object(scene, &object, NULL) >= 0);
+    return scene;
+}
+
+// The smallest and largest projected coordinate on each axis, −1 to 1 being the picture.
+static void projected(const lam_camera *camera, int width, int height, const float *points, int count, double low[2],
+                      double high[2])
+{
+    lam_mat4 view = lam_camera_view(camera);
+    low[0] = low[1] = (double)INFINITY;
+    high[0] = high[1] = -(double)INFINITY;
+    for (int i = 0; i < count; i++) {
+        const float *p = points + 3 * i;
+        double e[3];
+        for (int k = 0; k < 3; k++)
+            e[k] =
+                view.m[k][0] * (double)p[0] + view.m[k][1] * (double)p[1] + view.m[k][2] * (double)p[2] + view.m[k][3];
+        double half = camera->ortho_half_height > 0 ? camera->ortho_half_height : -e[2] * tan(camera->fovy_rad / 2);
+        const double at[2] = {e[0] / (half * width / height), e[1] / half};
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], at[k]);
+            high[k] = fmax(high[k], at[k]);
+        }
+    }
+}
+
+// Every vertex lies inside the picture, whatever its shape, and those of the tighter side take 92 % of it.
+static void camera_fits_the_picture(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{300, 600}, {600, 300}, {1, 1000}, {1000, 1}, {256, 256}};
+    static const float points[] = {-1, 0, 0.5f, 2, 0.25f, -1, 0, 1.5f, 0, 0.5f, -0.75f, 1, 1, 1, 1, -0.5f, 0.5f, -2};
+    lam_scene *scene = scene_of_points(points, 6);
+    for (size_t i = 0; i < 2 * sizeof sizes / sizeof *sizes; i++) {
+        int width = sizes[i / 2][0], height = sizes[i / 2][1];
+        lam_camera camera = lam_camera_fit(scene, width, height, &(lam_view){.orthographic = i % 2});
+        double low[2], high[2];
+        projected(&camera, width, height, points, 6, low, high);
+        near(fmax(high[0] - low[0], high[1] - low[1]) / 2, 0.92, 1e-9);
+        for (int k = 0; k < 2; k++)
+            assert_true(low[k] >= -0.92 - 1e-9 && high[k] <= 0.92 + 1e-9);
+    }
+    lam_camera none = lam_camera_fit(scene, 0, -5, NULL), one = lam_camera_fit(scene, 1, 1, NULL);
+    assert_memory_equal(&none, &one, sizeof one);
+    lam_scene_free(scene);
 }
 
 static void turning_and_moving(void **state)
@@ -359,11 +413,17 @@ static void tangents_can_be_bounded(void **state)
 int main(void)
 {
     const struct CMUnitTest all[] = {
-        cmocka_unit_test(sphere_is_the_models),        cmocka_unit_test(camera_does_not_depend_on_the_order),
-        cmocka_unit_test(turning_and_moving),          cmocka_unit_test(rigs_stand_about_the_scene),
-        cmocka_unit_test(lights_go_with_the_model),    cmocka_unit_test(view_matrix),
-        cmocka_unit_test(parts_change_their_material), cmocka_unit_test(tangents_of_a_square),
-        cmocka_unit_test(tangents_of_a_torus),         cmocka_unit_test(tangents_can_be_bounded),
+        cmocka_unit_test(sphere_is_the_models),
+        cmocka_unit_test(camera_does_not_depend_on_the_order),
+        cmocka_unit_test(camera_fits_the_picture),
+        cmocka_unit_test(turning_and_moving),
+        cmocka_unit_test(rigs_stand_about_the_scene),
+        cmocka_unit_test(lights_go_with_the_model),
+        cmocka_unit_test(view_matrix),
+        cmocka_unit_test(parts_change_their_material),
+        cmocka_unit_test(tangents_of_a_square),
+        cmocka_unit_test(tangents_of_a_torus),
+        cmocka_unit_test(tangents_can_be_bounded),
     };
     return cmocka_run_group_tests(all, NULL, NULL);
 }

@@ -187,7 +187,7 @@ static void test_every_method(void **state)
                                               .samples = gl1 ? 1 : 4,
                                               .gl1 = gl1 && shading == LAM_SHADING_PHONG};
                     lam_scene *scene = full_scene(colors);
-                    lam_camera camera = lam_camera_fit(scene, NULL);
+                    lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
                     char name[80];
                     snprintf(name, sizeof name, "colours %d, shading %d, model %d, gl1 %d", colors, shading, model,
                              gl1);
@@ -204,7 +204,7 @@ static void test_one_light(void **state)
 {
     (void)state;
     lam_scene *scene = full_scene(false);
-    lam_camera camera = lam_camera_fit(scene, NULL);
+    lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
     lam_draw_params params = {.samples = 1, .show = LAM_OUTPUT_LIGHT, .show_light = 4};
     lam_image image = {0};
     lam_error error;
@@ -399,7 +399,7 @@ static void test_relations(void **state)
 {
     (void)state;
     lam_scene *scene = full_scene(false);
-    lam_camera camera = lam_camera_fit(scene, NULL);
+    lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
     lam_draw_params params = {.samples = 8};
     lam_image picture = draw_show(scene, &camera, params, LAM_OUTPUT_PICTURE, 0);
     lam_image coverage = draw_show(scene, &camera, params, LAM_OUTPUT_COVERAGE, 0);

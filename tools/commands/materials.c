@@ -155,12 +155,8 @@ static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_imag
                               .background = background,
                               .color = (lam_color_mode)o->color,
                               .viewer = LAM_VIEWER_INFINITE};
-    lam_view view = {.from_angles = true,
-                     .orthographic = true,
-                     .elevation_rad = 0.2,
-                     .aspect = (double)image->width / image->height,
-                     .fill = 0.97};
-    lam_camera camera = lam_camera_fit(scene, &view);
+    lam_view view = {.from_angles = true, .orthographic = true, .elevation_rad = 0.2, .fill = 0.97};
+    lam_camera camera = lam_camera_fit(scene, image->width, image->height, &view);
     lam_device *device = lam_device_cpu(NULL, error);
     lam_control control = {.cancel = interrupt_flag()};
     bool ok = device && lam_draw(device, scene, &camera, &params, image, &control, error);

@@ -35,7 +35,6 @@ static lam_view view_of(const struct options *o)
         .elevation_rad = radians(o->has_elevation ? o->elevation_deg : angles[o->view][1]),
         .orthographic = o->projection == 1,
         .zoom = o->zoom,
-        .aspect = (double)o->width / o->height,
     };
 }
 
@@ -165,7 +164,7 @@ static void place_camera(struct job *job)
         job->camera = job->settings.camera;
     } else {
         lam_view view = view_of(o);
-        job->camera = lam_camera_fit(job->scene, &view);
+        job->camera = lam_camera_fit(job->scene, o->width, o->height, &view);
     }
     job->times.camera = clock_ms() - start;
 }

@@ -1,8 +1,31 @@
 // dynamic_library.c: dlopen and dlsym.
 #include "dynamic_library.h"
 
-#include <dlfcn.h>
+#include <stddef.h>
 #include <string.h>
+
+#if defined(__wasm__)
+
+// WebAssembly opens no libraries.
+void *library_open(const char *name, bool resident, const char **reason)
+{
+    (void)name, (void)resident;
+    if (reason)
+        *reason = "WebAssembly opens no libraries";
+    return NULL;
+}
+
+void library_close(void *library) { (void)library; }
+
+bool library_find(void *library, const char *name, void *function)
+{
+    (void)library, (void)name, (void)function;
+    return false;
+}
+
+#else
+
+#include <dlfcn.h>
 
 void *library_open(const char *name, bool resident, const char **reason)
 {
@@ -26,3 +49,5 @@ bool library_find(void *library, const char *name, void *function)
     memcpy(function, &found, sizeof found); // POSIX lets a data pointer stand for a function pointer here
     return found != NULL;
 }
+
+#endif

@@ -1,11 +1,13 @@
-// importer.h: what a model format is to the rest of the program. One format, one file, one row in import.c.
+// importer.h: the interface of a model format. One format, one file, one row in load/formats.c.
 #ifndef IMPORTER_H
 #define IMPORTER_H
 
+#include "call_control.h"
 #include "file.h"
 #include "pool.h"
 #include "scene_internal.h"
-#include "call_control.h"
+
+struct importer;
 
 struct import_source {
     const char *name;     // for messages: the path as the user gave it
@@ -21,13 +23,17 @@ struct import_source {
     // as it can be opened from here, in `arena`; NULL: not on disk.
     bool (*open_model)(const struct import_source *source, const char *name, struct arena *arena, const char **path,
                        struct file_bytes *out, lam_error *error);
-    void *open_state;
+    // Which importer reads a model that a scene file names: formats.h.
+    const struct importer *(*importer_for)(const char *name, const struct file_bytes *file, const char *wanted,
+                                           lam_error *error);
+    void *open_state; // struct companions
 };
 
 struct importer {
     const char *name;       // "obj"
     const char *extensions; // "obj", several with spaces
     lam_up up;              // the format's up axis
+    bool is_scene_file;     // names other models, whose normals and origins it prepares itself
     // How sure the format is of these bytes: 0 no, 1 could be (then the name's ending decides), 2 certain.
     int (*probe)(const uint8_t *bytes, size_t size);
     // Fills an empty scene: meshes, materials, one object a mesh. The arena is the scene's; on failure the caller frees
@@ -40,15 +46,6 @@ struct importer {
 };
 
 extern const struct importer importer_obj, importer_stl, importer_ply, importer_scene;
-
-// The importer for these bytes: by content, else by the name's ending; `wanted`: by this name of a format. NULL and the
-// reason where there is none.
-const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
-                                    lam_error *error);
-
-// A name that stays within a folder: as the file has it, with slashes for backslashes; only its last part where it
-// begins at a root or drive, or climbs. False: there is no room for it.
-bool confine(const char *name, char *out, size_t room);
 
 // LAM_CANNOT_READ with "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". Return false.
 bool fail_line(lam_error *error, const struct import_source *source, size_t line, const char *format, ...)

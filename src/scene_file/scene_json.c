@@ -311,6 +311,7 @@ static bool scene_load(const struct import_source *source, struct lam_scene *sce
 }
 
 const struct importer importer_scene = {
+    .is_scene_file = true,
     .name = "scene",
     .extensions = "json",
     .up = LAM_UP_Y,

@@ -1,4 +1,5 @@
 // scene_objects.c: the objects of a scene file: built-in shapes, and models read by the other importers.
+#include "companion.h"
 #include "scene_reader.h"
 
 #include "fail.h"
@@ -70,10 +71,10 @@ static bool merge(struct scene_reader *r, struct lam_scene *inner)
 static bool import_bytes(struct scene_reader *r, const struct place *place, const struct import_source *source,
                          const struct file_bytes *file, struct scene_origin *origin)
 {
-    const struct importer *importer = importer_for(source->name, file, NULL, r->error);
+    const struct importer *importer = source->importer_for(source->name, file, NULL, r->error);
     if (!importer)
         return false;
-    if (importer == &importer_scene)
+    if (importer->is_scene_file)
         return fail_place(r, place, "'%.200s' is a scene file, expected a model", source->name);
     // The inner scene lives in the outer one's arena.
     struct lam_scene inner = {

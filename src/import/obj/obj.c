@@ -53,18 +53,6 @@ static int obj_probe(const uint8_t *bytes, size_t size)
 
 // --- reading
 
-size_t obj_line(struct obj *obj, const uint8_t *at)
-{
-    if (obj->in_pieces) {
-        obj->line_missed = true;
-        return 0;
-    }
-    size_t lines = 1;
-    for (const uint8_t *c = obj->begin; c < at; c++)
-        lines += *c == '\n';
-    return lines;
-}
-
 static bool take_array(struct obj *obj, struct arena *arena, void *out, uint64_t count, size_t size, lam_error *error)
 {
     void *array = arena_array(arena, (size_t)count, size);
@@ -90,63 +78,6 @@ static bool take_arrays(struct obj *obj, lam_error *error)
                                 take_array(obj, kept, &obj->normal_indices, corners, sizeof(uint32_t), error)));
 }
 
-static void warn_faces(struct obj *obj)
-{
-    uint64_t faces = 0, numbers = 0;
-    const uint8_t *face = NULL, *number = NULL;
-    bool texcoords = false, normals = false;
-    for (size_t c = 0; c < obj->parallel_rows_count; c++) {
-        const struct obj_chunk *chunk = &obj->chunks[c];
-        faces += chunk->short_faces;
-        numbers += chunk->odd_numbers;
-        face = face ? face : chunk->short_faces ? chunk->short_face : NULL;
-        number = number ? number : chunk->odd_numbers ? chunk->odd_number : NULL;
-        texcoords |= chunk->texcoord_unknown;
-        normals |= chunk->normal_unknown;
-    }
-    const char *name = obj->source->name;
-    if (faces)
-        scene_warn(obj->scene, "%s:%zu: faces of one or two corners are left out: this is the first of %llu", name,
-                   obj_line(obj, face), (unsigned long long)faces);
-    if (numbers)
-        scene_warn(obj->scene,
-                   "%s:%zu: normals or texture coordinates that are not finite are taken as 0: the first of %llu", name,
-                   obj_line(obj, number), (unsigned long long)numbers);
-    if (texcoords)
-        scene_warn(obj->scene, "%s: faces name texture coordinates, but the file has none", name);
-    if (normals)
-        scene_warn(obj->scene, "%s: faces name normals, but the file has none; smooth ones are made", name);
-}
-
-static bool finish(struct obj *obj, lam_error *error)
-{
-    const struct obj_counts *total = &obj->total;
-    lam_mesh mesh = {
-        .name = obj->object_name,
-        .origin = {obj->origin[0], obj->origin[1], obj->origin[2]},
-        .positions = obj->positions,
-        .vertex_count = (uint32_t)total->positions,
-        .indices = obj->indices,
-        .triangle_count = (uint32_t)total->triangles,
-        .normals = obj->normals,
-        .normal_count = (uint32_t)total->normals,
-        .normal_indices = obj->normal_indices,
-        .texcoords = obj->texcoords,
-        .texcoord_count = (uint32_t)total->texcoords,
-        .texcoord_indices = obj->texcoord_indices,
-        .colors = obj->colors,
-        .color_count = obj->colors ? (uint32_t)total->positions : 0,
-        .colors_format = obj->colors ? LAM_COLORS_LINEAR_F32 : LAM_COLORS_NONE,
-        .smoothing_groups = obj->smoothing_groups,
-        .parts = obj->part_count ? obj->parts : NULL,
-        .part_count = obj->part_count,
-    };
-    lam_object object = lam_object_default();
-    object.name = obj->object_name;
-    object.mesh = scene_take_mesh(obj->scene, &mesh, error);
-    return object.mesh >= 0 && scene_take_object(obj->scene, &object, error) >= 0;
-}
-
 // Files of old Macintosh programs end their lines with '\r' alone: read a copy that ends them with '\n'.
 static bool modern_line_ends(struct obj *obj, lam_error *error)
 {
@@ -162,16 +93,6 @@ static bool modern_line_ends(struct obj *obj, lam_error *error)
     obj->begin = copy;
     obj->end = copy + size;
     return true;
-}
-
-bool obj_complete(struct obj *obj, lam_error *error)
-{
-    call_progress(obj->source->call, 0.7, "read");
-    if (!obj_cut_polygons(obj, error) || !obj_read_statements(obj, error) || !obj_complete_texcoords(obj, error) ||
-        !obj_complete_normals(obj, error))
-        return false;
-    warn_faces(obj);
-    return finish(obj, error);
 }
 
 static bool load(struct obj *obj, size_t chunk_bytes, lam_error *error)

@@ -67,7 +67,7 @@ struct obj {
     const uint8_t *begin, *end;
 
     struct obj_chunk *chunks;
-    size_t parallel_rows_count;
+    size_t chunk_count;
     struct obj_counts total;
     bool colors_present;
     bool in_pieces;   // of the text only the chunk at hand is there: nothing is known of what stands above it
@@ -112,9 +112,10 @@ struct obj_reader {
 typedef const uint8_t *obj_lines_reader(struct obj_reader *reader, const uint8_t *line, const uint8_t *end);
 obj_lines_reader obj_read_lines_scalar, obj_read_lines_avx512;
 
-// obj_parse.c Any line: returns the place behind it, which is behind a later line's end where it is
+// obj_line.c Any line: returns the place behind it, which is behind a later line's end where it is
 // continued; NULL: wrong.
 const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at);
+// obj_parse.c
 bool obj_parse(struct obj *obj, lam_error *error); // pass two
 // One chunk: from before on, at most what it holds. `error` may be NULL.
 bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error);
@@ -132,7 +133,7 @@ bool obj_read_statements(struct obj *obj, lam_error *error);
 // obj_stream.c: the importer's load_parts.
 bool obj_load_large(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 
-// obj.c: what follows once positions and faces are read.
+// obj_mesh.c: completes the mesh once positions and faces are read.
 bool obj_complete(struct obj *obj, lam_error *error);
 
 // For tests: loads with chunks of that many bytes.
@@ -173,6 +174,18 @@ static inline enum obj_kind obj_kind_of(const uint8_t *at)
     if (*at == 'f' && at[1] <= ' ')
         return OBJ_FACE;
     return *at == '\n' || *at == '#' || *at == 0 ? OBJ_EMPTY : OBJ_OTHER;
+}
+
+// Behind the statement: steps over words that mean nothing to us.
+static inline const uint8_t *obj_finish_line(const uint8_t *at, const uint8_t *end)
+{
+    while (!obj_over(at, end)) {
+        while (at < end && !obj_word_over(at))
+            at++;
+        const uint8_t *next = obj_next(at, end);
+        at = next == at && !obj_over(at, end) ? at + 1 : next; // a zero byte
+    }
+    return at < end ? at + 1 : end;
 }
 
 #endif

@@ -119,7 +119,7 @@ static float *grow(struct obj *obj, const float *array, size_t count, size_t mor
 bool obj_complete_texcoords(struct obj *obj, lam_error *error)
 {
     bool used = false, missing = false;
-    for (size_t c = 0; c < obj->parallel_rows_count; c++) {
+    for (size_t c = 0; c < obj->chunk_count; c++) {
         used |= obj->chunks[c].texcoord_used;
         missing |= obj->chunks[c].texcoord_missing;
     }
@@ -204,7 +204,7 @@ static bool make_missing(struct obj *obj, lam_error *error)
 bool obj_complete_normals(struct obj *obj, lam_error *error)
 {
     bool used = false, missing = false;
-    for (size_t c = 0; c < obj->parallel_rows_count; c++) {
+    for (size_t c = 0; c < obj->chunk_count; c++) {
         used |= obj->chunks[c].normal_used;
         missing |= obj->chunks[c].normal_missing;
     }

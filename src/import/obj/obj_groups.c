@@ -287,7 +287,7 @@ static void warn_elements(struct state *state)
 }
 
 // A file without triangles that does hold something to be seen is told what that is. What holds less is
-// everyone's error, made in import.c.
+// reported by load.c as for every format.
 static bool explain_nothing(struct state *state, lam_error *error)
 {
     struct obj *obj = state->obj;

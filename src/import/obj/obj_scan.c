@@ -50,12 +50,12 @@ const uint8_t *obj_next_slowly(const uint8_t *at, const uint8_t *end)
 bool obj_cut(struct obj *obj, size_t chunk_bytes, lam_error *error)
 {
     size_t size = (size_t)(obj->end - obj->begin);
-    obj->parallel_rows_count = size / chunk_bytes + 1;
-    obj->chunks = arena_array(&obj->memory, obj->parallel_rows_count, sizeof *obj->chunks);
+    obj->chunk_count = size / chunk_bytes + 1;
+    obj->chunks = arena_array(&obj->memory, obj->chunk_count, sizeof *obj->chunks);
     if (!obj->chunks)
-        return call_memory_error(obj->source->call, obj->parallel_rows_count * sizeof *obj->chunks, error);
+        return call_memory_error(obj->source->call, obj->chunk_count * sizeof *obj->chunks, error);
     const uint8_t *at = obj->begin;
-    for (size_t i = 0; i < obj->parallel_rows_count; i++) {
+    for (size_t i = 0; i < obj->chunk_count; i++) {
         obj->chunks[i] = (struct obj_chunk){.begin = at};
         size_t nominal = (i + 1) * chunk_bytes;
         if (nominal >= size)
@@ -198,11 +198,11 @@ static bool scan_chunk(void *user, size_t index, lam_error *error)
 
 bool obj_scan(struct obj *obj, lam_error *error)
 {
-    if (!parallel_rows_run(obj->source, obj->parallel_rows_count, scan_chunk, obj, error))
+    if (!parallel_rows_run(obj->source, obj->chunk_count, scan_chunk, obj, error))
         return false;
     struct obj_counts sum = {0};
     bool slashes = false;
-    for (size_t i = 0; i < obj->parallel_rows_count; i++) {
+    for (size_t i = 0; i < obj->chunk_count; i++) {
         struct obj_chunk *chunk = &obj->chunks[i];
         chunk->before = sum;
         sum.positions += chunk->holds.positions;

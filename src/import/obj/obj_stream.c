@@ -412,7 +412,7 @@ static bool load(struct large *large)
         .normal_used = obj->normals != NULL,
     };
     obj->chunks = &whole;
-    obj->parallel_rows_count = 1;
+    obj->chunk_count = 1;
     return obj_complete(obj, NULL) && !obj->line_missed;
 }
 

@@ -1,6 +1,6 @@
 // stl.c: STL, binary and ASCII, told apart by content. The readers are stl_binary.c and stl_ascii.c.
 #include "stl.h"
-#include "fail.h"
+
 #include "text_cursor.h"
 
 #include <string.h>
@@ -58,12 +58,6 @@ static int stl_probe(const uint8_t *bytes, size_t size)
     default:
         return 0;
     }
-}
-
-bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error)
-{
-    return fail(error, LAM_LIMIT, "%s: %llu facets, expected at most %d", source->name, (unsigned long long)facets,
-                STL_FACETS_MAX);
 }
 
 static bool stl_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)

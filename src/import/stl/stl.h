@@ -2,6 +2,7 @@
 #ifndef STL_H
 #define STL_H
 
+#include "fail.h"
 #include "importer.h"
 
 // A binary STL is a header of 80 bytes, the number of facets (32 bits, little-endian) and that many facets of
@@ -21,8 +22,13 @@ bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene,
 // stl_stream.c: the importer's load_parts.
 bool stl_load_parts(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 
-// More corners than 32-bit numbers can tell apart: LAM_LIMIT.
-bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error);
-enum { STL_FACETS_MAX = 1431655765 }; // (2³² − 1) ÷ 3
+enum { STL_FACETS_MAX = 1431655765 }; // (2³² − 1) ÷ 3: corners are numbered with 32 bits
+
+// LAM_LIMIT: more facets than that. Returns false.
+static inline bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error)
+{
+    return fail(error, LAM_LIMIT, "%s: %llu facets, expected at most %d", source->name, (unsigned long long)facets,
+                STL_FACETS_MAX);
+}
 
 #endif

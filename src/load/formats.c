@@ -1,0 +1,107 @@
+// formats.c: the table of model formats, and which of them a file has.
+#include "formats.h"
+
+#include "fail.h"
+#include "unsupported_formats.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+static const struct importer *const importers[] = {&importer_obj, &importer_stl, &importer_ply, &importer_scene};
+enum { IMPORTERS = sizeof importers / sizeof *importers };
+
+const char *lam_format_name(int format) { return format >= 0 && format < IMPORTERS ? importers[format]->name : NULL; }
+
+const char *lam_format_extensions(int format)
+{
+    return format >= 0 && format < IMPORTERS ? importers[format]->extensions : NULL;
+}
+
+// "obj, stl and ply"
+static const char *format_list(char out[128])
+{
+    size_t used = 0;
+    for (int i = 0; i < IMPORTERS; i++) {
+        const char *between = i == 0 ? "" : i == IMPORTERS - 1 ? " and " : ", ";
+        used += (size_t)snprintf(out + used, 128 - used, "%s%s", between, importers[i]->name);
+    }
+    return out;
+}
+
+static bool has_ending(const struct importer *importer, const char *ending)
+{
+    const char *word = importer->extensions;
+    size_t length = strlen(ending);
+    while (*word && length) {
+        size_t end = strcspn(word, " ");
+        if (end == length && strncasecmp(word, ending, length) == 0)
+            return true;
+        word += end;
+        word += strspn(word, " ");
+    }
+    return false;
+}
+
+// Content decides. Where it leaves a choice, or says nothing, the name's ending does.
+const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
+                                    lam_error *error)
+{
+    char list[128];
+    if (wanted) {
+        for (int i = 0; i < IMPORTERS; i++) {
+            if (strcasecmp(importers[i]->name, wanted) == 0 || has_ending(importers[i], wanted))
+                return importers[i];
+        }
+        fail(error, LAM_UNSUPPORTED, "%s: the format '%s' cannot be read; this version reads %s", name, wanted,
+             format_list(list));
+        return NULL;
+    }
+    if (file->size == 0) {
+        fail(error, LAM_CANNOT_READ, "%s: the file is empty", name);
+        return NULL;
+    }
+    const char *ending = path_ending(name);
+    const struct importer *by_content = NULL, *by_ending = NULL;
+    int best = 0;
+    for (int i = 0; i < IMPORTERS; i++) {
+        int sure = importers[i]->probe(file->data, file->size);
+        bool named = has_ending(importers[i], ending);
+        if (named)
+            by_ending = importers[i];
+        if (sure > best || (sure == best && sure > 0 && named)) {
+            best = sure;
+            by_content = importers[i];
+        }
+    }
+    if (best == 2)
+        return by_content;
+    // Known to be something else, whatever its name says.
+    const struct unsupported_format *foreign = unsupported_format_of(file->data, file->size);
+    if (foreign && foreign->is_model) {
+        fail(error, LAM_UNSUPPORTED, "%s: this is %s, which this version cannot read yet; it reads %s", name,
+             foreign->name, format_list(list));
+        return NULL;
+    }
+    if (foreign) {
+        fail(error, LAM_CANNOT_READ, "%s: this is %s, not a 3D model; expected %s", name, foreign->name,
+             format_list(list));
+        return NULL;
+    }
+    if (by_ending)
+        return by_ending; // its reader says what is wrong
+    fail(error, LAM_CANNOT_READ, "%s: this is no model format known here; expected %s", name, format_list(list));
+    return NULL;
+}
+
+const struct importer *importer_for_stream(const char *name, const uint8_t *head, size_t size, const char *wanted)
+{
+    if (wanted) {
+        const struct importer *importer = importer_for(name, NULL, wanted, NULL);
+        return importer && importer->load_parts ? importer : NULL;
+    }
+    for (int i = 0; i < IMPORTERS; i++) // those that have load_parts look at no more than the head
+        if (importers[i]->probe(head, importers[i]->load_parts ? size : FILE_HEAD) == 2)
+            return importers[i]->load_parts ? importers[i] : NULL;
+    return NULL;
+}

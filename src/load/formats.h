@@ -1,0 +1,16 @@
+// formats.h: which importer reads a file.
+#ifndef FORMATS_H
+#define FORMATS_H
+
+#include "importer.h"
+
+// The importer for these bytes: by content, else by the name's ending; `wanted`: by this name of a format. NULL and the
+// reason where there is none.
+const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
+                                    lam_error *error);
+
+// The importer that reads a file of this beginning (FILE_HEAD bytes) and size as a stream: the one that importer_for
+// would choose for the whole file. NULL: the file is read as a whole.
+const struct importer *importer_for_stream(const char *name, const uint8_t *head, size_t size, const char *wanted);
+
+#endif

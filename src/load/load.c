@@ -1,0 +1,177 @@
+// load.c: from a file or memory to a scene: the steps that all formats share.
+#include "companion.h"
+#include "fail.h"
+#include "float_state.h"
+#include "formats.h"
+
+#include <lambent/image.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool check_params(const lam_load_params *params, const char *name, lam_error *error)
+{
+    double crease = params->crease_angle_rad;
+    if (!(crease >= 0 && crease <= 3.1415927))
+        return fail(error, LAM_BAD_ARGUMENT, "%s: crease_angle_rad is %g, expected 0 to pi", name, crease);
+    if (params->threads < 0 || params->threads > 1024)
+        return fail(error, LAM_BAD_ARGUMENT, "%s: threads is %d, expected 0 to 1024", name, params->threads);
+    if ((unsigned)params->up > LAM_UP_Z || (unsigned)params->color > LAM_COLOR_RAW ||
+        (unsigned)params->normals > LAM_NORMALS_FACET)
+        return fail(error, LAM_BAD_ARGUMENT, "%s: up, color or normals is not one of its constants", name);
+    return true;
+}
+
+static bool check_not_empty(const struct lam_scene *scene, const char *name, lam_error *error)
+{
+    uint64_t triangles = 0, points = 0;
+    for (int i = 0; i < scene->meshes.count; i++) {
+        const lam_mesh *mesh = (const lam_mesh *)scene->meshes.items + i;
+        triangles += mesh->triangle_count;
+        points += mesh->vertex_count;
+    }
+    if (triangles)
+        return true;
+    if (points)
+        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles (%llu points only)", name,
+                    (unsigned long long)points);
+    return fail(error, LAM_CANNOT_READ, "%s: holds no triangles", name);
+}
+
+static struct lam_scene *start_scene(const struct import_source *source, const struct importer *importer,
+                                     lam_error *error)
+{
+    const lam_load_params *params = source->params;
+    struct lam_scene *scene = scene_make(source->call, error);
+    if (scene) {
+        scene->format = importer->name;
+        scene->color = params->color;
+        scene->up = params->up == LAM_UP_AUTO ? importer->up : params->up;
+    }
+    return scene;
+}
+
+// What follows reading: where it came from, normals, extents.
+static bool finish(struct lam_scene *scene, const struct import_source *source, const struct importer *importer,
+                   uint64_t start_ns, lam_error *error)
+{
+    const lam_load_params *params = source->params;
+    if (!check_not_empty(scene, source->name, error))
+        return false;
+    // A scene file notes where each of its models came from by itself.
+    struct scene_origin origin = {.normals = params->normals, .crease_angle_rad = params->crease_angle_rad};
+    if (!importer->is_scene_file && source->path) {
+        origin.path = arena_string(&scene->arena, source->path);
+        if (!origin.path)
+            return call_memory_error(source->call, strlen(source->path), error);
+    }
+    if (!importer->is_scene_file && !scene_note_origin(scene, origin, 0, error))
+        return false;
+    uint64_t read_ns = now_ns();
+    scene->read_ms = (double)(read_ns - start_ns) * 1e-6;
+    call_progress(source->call, 0.8, "normals");
+    if (params->normals_when_drawn && params->normals != LAM_NORMALS_FACET && !importer->is_scene_file)
+        scene_defer_normals(scene, params->normals, params->crease_angle_rad);
+    else if (!scene_prepare(scene, params->normals, params->crease_angle_rad, source->pool, source->call, error))
+        return false;
+    if (!scene_measure(scene, source->pool, error))
+        return false;
+    scene->prepare_ms = (double)(now_ns() - read_ns) * 1e-6;
+    call_progress(source->call, 1, "normals");
+    return true;
+}
+
+// A large file of a layout that is read part by part; NULL: it is none, and nothing was said.
+static struct lam_scene *load_parts(struct import_source *source, const struct importer **importer)
+{
+    uint8_t *head = malloc(FILE_HEAD + FILE_PADDING);
+    struct file_parts file;
+    struct lam_scene *scene = NULL;
+    if (head && source->path && file_open_parts(source->path, head, &file)) {
+        source->bytes = head;
+        source->size = FILE_HEAD;
+        *importer = importer_for_stream(source->name, head, file.size, source->params->format);
+        if (*importer)
+            scene = start_scene(source, *importer, NULL);
+        if (scene && !(*importer)->load_parts(source, &file, scene)) {
+            lam_scene_free(scene);
+            scene = NULL;
+        }
+        file_close_parts(&file);
+        source->bytes = NULL;
+        source->size = 0;
+    }
+    free(head);
+    return scene;
+}
+
+// `path` or else `bytes`.
+static lam_scene *load(const char *path, const void *bytes, size_t size, const char *name, const lam_load_params *given,
+                       const lam_control *control, lam_error *error)
+{
+    static const lam_load_params defaults;
+    const lam_load_params *params = given ? given : &defaults;
+    if (!check_params(params, name, error))
+        return NULL;
+    uint64_t state = float_state_enter(), start_ns = now_ns();
+    struct call_control call;
+    call_start(&call, control);
+    struct companions companions = {.model = path, .open = params->open, .user = params->user};
+    struct import_source source = {
+        .name = name,
+        .path = path && strcmp(path, "-") != 0 ? path : NULL,
+        .params = params,
+        .pool = pool_make(params->threads),
+        .call = &call,
+        .open = companion_open,
+        .open_model = companion_open_model,
+        .importer_for = importer_for,
+        .open_state = &companions,
+    };
+    struct lam_scene *scene = NULL;
+    struct file_bytes file = {0};
+    const struct importer *importer = NULL;
+    bool ok = source.pool || fail(error, LAM_LIMIT, "%s: out of memory for threads", name);
+    if (ok)
+        scene = load_parts(&source, &importer);
+    ok = ok && (scene  ? true
+                : path ? file_read(path, source.pool, &call, &file, error)
+                       : file_copy(bytes, size, &call, &file, error));
+    if (ok && !scene) {
+        source.bytes = file.data;
+        source.size = file.size;
+        call_progress(&call, 0.05, "read");
+        importer = importer_for(name, &file, params->format, error);
+        scene = importer ? start_scene(&source, importer, error) : NULL;
+        ok = scene && importer->load(&source, scene, error);
+    }
+    ok = ok && finish(scene, &source, importer, start_ns, error);
+    if (ok)
+        scene_built(scene);
+    else
+        lam_scene_free(scene);
+    file_release(&file);
+    pool_free(source.pool);
+    float_state_leave(state);
+    return ok ? scene : NULL;
+}
+
+lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control, lam_error *error)
+{
+    if (!path || !*path) {
+        fail(error, LAM_BAD_ARGUMENT, "no file name given");
+        return NULL;
+    }
+    return load(path, NULL, 0, strcmp(path, "-") == 0 ? "standard input" : path, params, control, error);
+}
+
+lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name, const lam_load_params *params,
+                                 const lam_control *control, lam_error *error)
+{
+    if (!bytes && size) {
+        fail(error, LAM_BAD_ARGUMENT, "no bytes given");
+        return NULL;
+    }
+    return load(NULL, bytes, size, name ? name : "(memory)", params, control, error);
+}

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""structure.py BUILD: which file of the library uses which, read from the symbols of the objects in the build folder.
+
+Two rules hold the house together (docs/architecture.md): no circle between files, and no room that uses one below it in the
+list of rooms. The include paths of the build keep headers to that order; this test keeps the calls to it."""
+import collections
+import os
+import re
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+
+def rooms():
+    """The rooms in their order: the subdir() lines of src/meson.build."""
+    return re.findall(r"^subdir\('(\w+)'\)", open(os.path.join(ROOT, "src", "meson.build")).read(), re.M)
+
+
+def objects(build):
+    for path, _, names in os.walk(os.path.join(build, "src")):
+        yield from (os.path.join(path, name) for name in names if name.endswith(".o"))
+
+
+def source_of(build, path):
+    """src/gl/liblambent-gl.a.p/loader.c.o -> gl/loader; folders within a room are in the object's name, joined by _."""
+    folder = os.path.relpath(os.path.dirname(path), os.path.join(build, "src")).split(os.sep)[0]
+    name = re.sub(r"\.c\.o$", "", os.path.basename(path))
+    for inner in sorted(os.listdir(os.path.join(ROOT, "src", folder))):
+        if name.startswith(inner + "_") and os.path.exists(os.path.join(ROOT, "src", folder, inner, name[len(inner) + 1:] + ".c")):
+            return "%s/%s/%s" % (folder, inner, name[len(inner) + 1:])
+    return "%s/%s" % (folder, name)
+
+
+def graph(build):
+    defined, used = {}, collections.defaultdict(set)
+    for path in objects(build):
+        file = source_of(build, path)
+        for line in subprocess.run(["nm", path], stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines():
+            kind, symbol = line.split()[-2:]
+            if kind in "TDBRV":
+                defined[symbol] = file
+            elif kind == "U":
+                used[file].add(symbol)
+    edges = collections.defaultdict(lambda: collections.defaultdict(list))
+    for file, symbols in used.items():
+        for symbol in symbols:
+            if symbol in defined and defined[symbol] != file:
+                edges[file][defined[symbol]].append(symbol)
+    return edges
+
+
+def circles(edges):
+    """Tarjan's strongly connected components of more than one file."""
+    index, low, stack, on, found, count = {}, {}, [], set(), [], [0]
+
+    def visit(v):
+        index[v] = low[v] = count[0]
+        count[0] += 1
+        stack.append(v)
+        on.add(v)
+        for w in edges.get(v, {}):
+            if w not in index:
+                visit(w)
+                low[v] = min(low[v], low[w])
+            elif w in on:
+                low[v] = min(low[v], index[w])
+        if low[v] == index[v]:
+            part = []
+            while not part or part[-1] != v:
+                part.append(stack.pop())
+                on.discard(part[-1])
+            if len(part) > 1:
+                found.append(sorted(part))
+
+    sys.setrecursionlimit(10000)
+    for v in list(edges):
+        if v not in index:
+            visit(v)
+    return found
+
+
+def main():
+    edges, order = graph(sys.argv[1]), rooms()
+    bad = 0
+    print("1..2")
+    found = circles(edges)
+    print("%s 1 - no circle between files" % ("not ok" if found else "ok"))
+    for part in found:
+        bad += 1
+        print("# a circle of %d files:" % len(part))
+        for a in part:
+            for b in part:
+                if b in edges[a]:
+                    print("#   %s uses %s: %s" % (a, b, ", ".join(sorted(edges[a][b])[:6])))
+    back = [(a, b, edges[a][b]) for a in edges for b in edges[a]
+            if order.index(b.split("/")[0]) > order.index(a.split("/")[0])]
+    print("%s 2 - no room uses one below it" % ("not ok" if back else "ok"))
+    for a, b, symbols in sorted(back):
+        bad += 1
+        print("#   %s uses %s: %s" % (a, b, ", ".join(sorted(symbols)[:6])))
+    if not edges:
+        print("# no objects were found in %s" % sys.argv[1])
+    return 1 if bad or not edges else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -19,7 +19,7 @@ help:
 	@echo 'make bench-check-record  records them anew, where they were meant to change'
 	@echo 'make install    installs to $$(DESTDIR)$$(prefix), prefix=$(prefix)'
 	@echo 'make uninstall  removes what install put there'
-	@echo 'make docs       writes the generated parts of docs/ anew, and the pictures of the README'
+	@echo 'make docs       writes the generated parts of docs/ anew, the pictures of the README, and $(build)/docs/reference.md'
 	@echo 'make gallery    all pictures of docs/: those of make docs, and the known mistakes'
 	@echo 'make clean      removes everything that was built'
 
@@ -71,6 +71,7 @@ uninstall: $(build)/build.ninja
 	@meson introspect --installed $(build) | python3 scripts/uninstall.py '$(DESTDIR)'
 
 docs: $(build)/lambent
+	@ninja -C $(build) docs/reference.md
 	@python3 scripts/docs.py $(build)/lambent
 
 gallery: docs

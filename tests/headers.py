@@ -9,6 +9,7 @@ import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD = sys.argv[1]
+UNDOCUMENTED = ("check.h", "image.h")  # headers whose documentation is not complete yet
 results = []
 
 
@@ -107,6 +108,30 @@ def symbols():
     check("liblambent-check exports lam_check_ names only", bool(of_check) and not strange, " ".join(strange))
 
 
+def documentation(folder):
+    """Every public declaration has a comment, and the reference (scripts/reference.py) has every function of the libraries."""
+    sys.path.insert(0, os.path.join(ROOT, "scripts"))
+    import reference
+    all_headers = reference.headers(os.path.join(ROOT, "include", "lambent"))
+    wrong = list(reference.complaints(h for h in all_headers if h.name not in UNDOCUMENTED))
+    check("every public declaration is documented", not wrong, "\n".join(wrong))
+    functions = {item.name for header in all_headers for item in header.items if item.kind == "function"}
+    names = set(exported("liblambent") + exported("liblambent-check"))
+    check("the reference has the functions that the libraries export", functions == names, " ".join(functions ^ names))
+    sample = os.path.join(folder, "sample.h")
+    with open(sample, "w") as file:
+        file.write("// sample.h: x.\n#ifndef A\n\n// A thing.\ntypedef struct lam_a {\n    int b; // documented\n    int c, *d[2];\n"
+                   "    int e; // %s\n} lam_a;\n\nLAM_API int lam_f(void);\n\n"
+                   "// Two.\nLAM_API int lam_g(int a,\n                  int b);\nLAM_API void lam_h(void);\n" % ("long " * 20))
+    found = [line.partition(": ")[2] for line in reference.complaints([reference.parse(sample)])]
+    check("the absence of documentation is found", [f.split(" ")[:2] for f in found] ==
+          [["lam_a.c", "is"], ["lam_a.d", "is"], ["lam_a", "e:"], ["lam_f", "is"]], "\n".join(found))
+    pages = glob.glob(os.path.join(folder, "stage", "**", "reference.md"), recursive=True)
+    text = open(pages[0], encoding="utf-8").read() if pages else ""
+    missing = [n for n in names if '<a id="%s">' % n not in text]
+    check("the reference is installed and has them all", bool(pages) and not missing, " ".join(missing))
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         headers(folder)
@@ -114,6 +139,7 @@ def main():
         if environment:
             examples(folder, environment)
             check_library(folder, environment)
+            documentation(folder)
         symbols()
     print("1..%d" % len(results))
     return 0 if all(results) else 1

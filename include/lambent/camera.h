@@ -1,4 +1,4 @@
-// lambent/camera.h: where the picture is seen from.
+// lambent/camera.h: the camera, and placing it so that a scene fills the picture.
 #ifndef LAMBENT_CAMERA_H
 #define LAMBENT_CAMERA_H
 
@@ -8,36 +8,81 @@
 extern "C" {
 #endif
 
-// A camera. Right-handed: unrotated it looks along −Z with +Y up.
+// A camera, right-handed: unrotated it looks along −z with +y up.
 typedef struct lam_camera {
-    lam_vec3 eye, target, up;     // eye ≠ target; up not along the view (another axis is taken if it is)
-    double fovy_rad;              // full vertical field of view, in (0, π); used where ortho_half_height is 0
-    double ortho_half_height;     // > 0: orthographic, this many model units from the middle to the top
-    double near_plane, far_plane; // distances along the view, near < far; both 0: fitted to the scene
+    lam_vec3 eye;    // position, world space
+    lam_vec3 target; // a point in the middle of the picture, other than `eye`
+    // Direction of the picture's top, any length but 0. Along the line of sight, another axis takes its place.
+    lam_vec3 up;
+    // Full vertical field of view, radians, in (0, π). Used where `ortho_half_height` is 0.
+    double fovy_rad;
+    // > 0: an orthographic camera that shows this many model units from the middle of the picture to its top.
+    double ortho_half_height;
+    // Distances along the view of what is nearest and farthest drawn; near < far, and near > 0 for perspective. Both 0:
+    // fitted to the scene.
+    double near_plane, far_plane;
 } lam_camera;
 
-// A perspective camera at (0, 0, 4) looking at the origin, 30° high.
+// A perspective camera at (0, 0, 4) that looks at the origin with a field of view of 30°.
 LAM_API lam_camera lam_camera_default(void);
 
-// World to eye space: the eye at the origin, x to the right, y up, looking along −z.
-LAM_API lam_mat4 lam_camera_view(const lam_camera *camera);
+// The matrix from world to eye space: the eye at the origin, x to the right, y up, looking along −z.
+LAM_API lam_mat4 lam_camera_view_matrix(const lam_camera *camera);
 
-// How lam_camera_fit places the camera. All zero: the three-quarter view of a catalogue.
+// The side that lam_camera_fit looks from. All zero: the three-quarter view of a catalogue, 30° to the right of the
+// front and 20° above, in perspective.
 typedef struct lam_view {
-    bool from_angles;     // true: azimuth and elevation below; false: 30° to the right of front, 20° above
-    double azimuth_rad;   // 0: from the front (+Z with Y up), positive: the camera goes to the right (towards +X)
-    double elevation_rad; // 0: level, π/2: from above; −π/2..π/2
-    double fovy_rad;      // 0: 30°
-    bool orthographic;
-    double zoom; // > 0; 2 shows the model twice as large; 0: 1
-    double fill; // share of the tighter side that the projected vertices take, 0..1; 0: 0.92
+    // true: `azimuth_rad` and `elevation_rad` count; false: the three-quarter view.
+    bool from_angles;
+    // Turn about the up axis, radians. 0: the front, which is +z (−y for scenes with z up); π/2: the right side.
+    double azimuth_rad;
+    // Height above the horizon, radians, −π/2..π/2. π/2: from above.
+    double elevation_rad;
+    double fovy_rad;   // full vertical field of view, radians, in (0, π); 0: 30°
+    bool orthographic; // true: parallel projection, `fovy_rad` does not count
+    double zoom;       // > 0; 2 shows the model twice as large; 0: 1
+    // Fraction of the tighter side of the picture that the projected vertices take, in (0, 1]. 0: 0.92.
+    double fill;
 } lam_view;
 
-// Places a camera so that the scene's projected vertices fill a picture of width × height pixels and are centred in it:
-// the vertices themselves, not their bounding box. A fit for one shape cuts off or shrinks the model in a picture of
-// another. The scene's up axis turns the view. A side below 1 counts as 1. `view` NULL: the three-quarter view. A scene
-// without triangles gives the default camera.
+// The named sides of a scene.
+typedef enum lam_side {
+    LAM_SIDE_THREE_QUARTER = 0, // 30° to the right of the front and 20° above
+    LAM_SIDE_FRONT,             // level, from +z (−y with z up)
+    LAM_SIDE_BACK,              // level, from behind
+    LAM_SIDE_LEFT,              // level, from −x
+    LAM_SIDE_RIGHT,             // level, from +x
+    LAM_SIDE_TOP,               // straight down, the front below
+    LAM_SIDE_BOTTOM,            // straight up
+    // Isometric, with an orthographic camera: 45° to the right, atan(1/√2) above.
+    LAM_SIDE_ISO,
+    LAM_SIDE_COUNT
+} lam_side;
+
+// The name of a side: "three-quarter", "front", "iso". A static string; NULL out of range.
+LAM_API const char *lam_side_name(lam_side side);
+
+// The side of a name; LAM_SIDE_COUNT: there is none.
+LAM_API lam_side lam_side_find(const char *name);
+
+// The view of a side, in perspective. Out of range: the three-quarter view.
+LAM_API lam_view lam_view_of_side(lam_side side);
+
+// Places a camera so that the scene's projected vertices (not their bounding box) fill a picture of width × height
+// pixels and are centred in it. A fit for one shape cuts off the model, or shrinks it, in a picture of another. The
+// scene's up axis turns the view. A side below 1 counts as 1. `view` NULL: the three-quarter view. A scene without
+// triangles gives the default camera.
 LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view);
+
+// Reads a camera as people write it: pairs key=value, separated by commas, of
+//   eye=x/y/z     required: its position
+//   target=x/y/z  default: the middle of the scene's box
+//   up=x/y/z      default: the scene's up axis
+//   fovy=degrees  default: 30; or ortho=height, half the height of an orthographic view in model units
+//   near=d,far=d  default: fitted to the scene
+// such as "eye=2/1/4,fovy=40". `scene` NULL: target at the origin, y up. At most 1023 bytes. False: LAM_BAD_ARGUMENT,
+// and the sentence says what was found and what was expected.
+LAM_API bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,7 @@
-// lambent/explain.h: how one pixel of a picture came about: every number on the way from the triangles to the bytes.
+// lambent/explain.h: how one pixel of a picture came about: every number from the triangles to the bytes.
+//
+// Vectors are in eye space unless a name says otherwise (docs/lighting.md, "Vectors"). Vectors and numbers are the
+// floats that the picture was made with; angles are computed from them. Names belong to the scene.
 #ifndef LAMBENT_EXPLAIN_H
 #define LAMBENT_EXPLAIN_H
 
@@ -8,127 +11,144 @@
 extern "C" {
 #endif
 
-// All vectors are in eye space unless a name says otherwise (docs/lighting.md, "Vectors"). Vectors and numbers are the
-// floats that the picture was made with; the angles are worked out from them.
-
 // A point, directional or spot light at a lit point.
 typedef struct lam_explained_light {
-    const char *name; // NULL: unnamed
-    int light;        // index in the scene; −1: of the rig
-    lam_light_type type;
-    lam_light_frame frame;              // that it was given in
-    lam_vec3 position;                  // point and spot
-    lam_vec3 axis;                      // directional and spot: unit, the way the light travels
-    lam_rgb ambient, diffuse, specular; // La, Ld, Ls: the light's matrix
+    const char *name;      // NULL: unnamed
+    int light;             // index in the scene; −1: a light of the rig
+    lam_light_type type;   // point, directional or spot
+    lam_light_frame frame; // the frame of the scene's light
+    lam_vec3 position;     // point, spot
+    // Directional, spot: the direction that the light travels in, unit.
+    lam_vec3 axis;
+    // La, Ld, Ls: the colours of the light.
+    lam_rgb ambient, diffuse, specular;
 
-    lam_vec3 l, r, h;                  // unit; zero where there is none
-    double theta_rad;                  // between n and l; the angles are NaN where one of the two is missing
-    double phi_rad;                    // between r and v
-    double psi_rad;                    // between n and h
+    // Unit vectors, zero where there is none: to the light, its mirror image about n, and halfway between l and v.
+    lam_vec3 l, r, h;
+    // The angles between n and l, between r and v, and between n and h. NaN where one of the two is missing.
+    double theta_rad, phi_rad, psi_rad;
     float distance;                    // model units; 0: directional
-    lam_attenuation attenuation_terms; // a, b, c
-    float range;                       // 0: none
+    lam_attenuation attenuation_terms; // constant, linear, quadratic
+    float range;                       // model units; 0: none
     float attenuation;                 // with the range's window; 1: none
-    float cos_axis;                    // spot: c, the cosine between −l and the axis; else 1
+    float cos_axis;                    // spot: cosine between −l and the axis; else 1
     float spot;                        // the cone's factor; 1: no cone
-    float n_dot_l;
-    float base, power; // of the highlight: S = base^power where it is not gated; base 0…1
-    float D, S;
+    float n_dot_l;                     // cosine between n and l
+    // The highlight is S = base^power where it is not gated; base 0…1.
+    float base, power;
+    float D; // strength of the diffuse term
+    float S; // strength of the specular term
 
-    lam_rgb kd_Ld, ks_Ls;  // products with the material
+    // Products with the material, channel by channel.
+    lam_rgb kd_Ld, ks_Ls;
     lam_rgb diffuse_term;  // spot · attenuation · D · kd ⊙ Ld
     lam_rgb specular_term; // spot · attenuation · S · ks ⊙ Ls
-    // gl1: spot · attenuation · ka ⊙ La; else 0 here, and La is in the point's ambient light
+    // With gl1: spot · attenuation · ka ⊙ La. Otherwise 0, and La is part of the point's ambient light.
     lam_rgb ambient_term;
-    // its terms are not in the sum: too weak in this part of the picture (lam_draw_params.light_cutoff)
-    bool left_out;
+    // The light's terms are not in the sum: they are too weak in this part of the picture
+    // (lam_draw_params.light_cutoff).
+    bool skipped;
 } lam_explained_light;
 
+// A hemisphere light at a lit point.
 typedef struct lam_explained_hemisphere {
-    const char *name;
-    int light;   // index in the scene; −1: of the rig
-    lam_vec3 up; // unit
-    lam_rgb sky, ground;
-    float n_dot_up;
-    lam_rgb term; // ka ⊙ mix(ground, sky, ½ + ½ n·up)
+    const char *name;    // NULL: unnamed
+    int light;           // index in the scene; −1: a light of the rig
+    lam_vec3 up;         // unit, towards the sky
+    lam_rgb sky, ground; // its colours
+    float n_dot_up;      // cosine between n and up
+    lam_rgb term;        // ka ⊙ mix(ground, sky, ½ + ½ n·up)
 } lam_explained_hemisphere;
 
-// A point that was lit: the fragment itself (Phong), a corner (Gouraud), the last corner (flat).
+// A point that was lit: the fragment itself (Phong), a corner (Gouraud), or the last corner (flat).
 typedef struct lam_explained_point {
     int corner; // 0…2; −1: the fragment
+    // The same position in the mesh's space, in the world's and in eye space.
     lam_vec3 mesh_position, world_position, position;
-    lam_vec3 n, v, t;      // unit; t is zero where the reflection model does not look at it
-    lam_rgb color;         // the vertex colour; 1 where the mesh has none
+    // Unit: the normal, the direction to the eye, and the tangent, which is zero where the reflection model has no use
+    // for it.
+    lam_vec3 n, v, t;
+    lam_rgb color;         // vertex colour; 1 where the mesh has none
     lam_rgb ambient_light; // La_global + Σ La
-    lam_rgb ambient_term;  // ka ⊙ that
+    lam_rgb ambient_term;  // ka ⊙ ambient_light
+    // The hemisphere lights of the scene and the rig.
     const lam_explained_hemisphere *hemispheres;
-    int hemisphere_count;
+    int hemisphere_count; // elements of `hemispheres`
+    // The point, directional and spot lights of the scene and the rig.
     const lam_explained_light *lights;
-    int light_count;
-    // Where there is an environment (has_environment), else zero; and zero without n or v:
-    lam_vec3 reflected;             // R = 2 (n·v) n − v, the eye vector's mirror image
-    lam_vec3 environment_direction; // R in the environment's own axes, which it is looked up with
-    lam_rgb environment_light;      // what comes from there; the reflection term is kr ⊙ it
-    // The terms, ambient and diffuse times the vertex colour, and their sum: emission + ambient + diffuse + specular +
-    // reflection.
+    int light_count; // elements of `lights`
+    // The eye vector's mirror image about the normal, R = 2 (n·v) n − v. Zero without an environment, n or v.
+    lam_vec3 reflected;
+    // R in the environment's own axes: the direction that it is sampled with. Zero as `reflected`.
+    lam_vec3 environment_direction;
+    // The environment's light from there; the reflection term is kr ⊙ this.
+    lam_rgb environment_light;
+    // The terms; ambient and diffuse are multiplied by the vertex colour.
     lam_rgb emission, ambient, diffuse, specular, reflection;
-    lam_rgb sum;
-    lam_rgb result; // the sum; with gl1 and one of the vertex methods clamped to 0…1
+    lam_rgb sum;    // emission + ambient + diffuse + specular + reflection
+    lam_rgb result; // the sum; clamped to 0…1 with gl1, flat and Gouraud
 } lam_explained_point;
 
 // A triangle that the pixel shows.
 typedef struct lam_explained_fragment {
-    int object, mesh, part; // indices; part is −1 for a mesh without parts
+    // Indices in the scene; `part` is −1 for a mesh without parts.
+    int object, mesh, part;
+    // Their names; NULL: unnamed.
     const char *object_name, *mesh_name, *part_name;
-    uint32_t triangle;                 // of the mesh
-    bool back;                         // its back side is seen
-    bool flipped;                      // and lit with −n
-    int material;                      // index in the scene; −1: the default material
-    lam_material surface;              // its numbers, and its name
-    float shininess;                   // the power in use (match_highlights and gl1 change it)
-    int samples;                       // that show it
-    int lit_sample;                    // the sample where its values are taken; −1: the pixel's centre
-    double picture_x, picture_y;       // that place, in pixels from the top left corner
-    float weights[3];                  // barycentrics there, perspective-correct
+    uint32_t triangle;    // index in the mesh
+    bool back;            // the back side is seen
+    bool flipped;         // the back side is seen and lit with −n
+    int material;         // index in the scene; −1: the default material
+    lam_material surface; // the material
+    float shininess;      // the power in use; match_highlights and gl1 change it
+    int samples;          // number of samples that show the triangle
+    int lit_sample;       // the sample that it is lit at; −1: the pixel's centre
+    // The place of that sample in the picture, in pixels from the upper left corner.
+    double picture_x, picture_y;
+    float weights[3];                  // perspective-correct barycentric coordinates there
     const lam_explained_point *points; // 1, or the 3 corners with Gouraud shading
-    int point_count;
-    lam_rgba color; // not premultiplied
-    // Bit s: sample s shows it. It counts there with the share of light that translucent triangles before it let
+    int point_count;                   // elements of `points`
+    lam_rgba color;                    // not premultiplied
+    uint16_t sample_mask;              // bit s: sample s shows the triangle
+    // For each sample that shows the triangle, the fraction of its light that the translucent triangles in front let
     // through: 1 where there are none.
-    uint16_t sample_mask;
-    float through[16]; // of each sample that shows it
-    float weight;      // Σ through ÷ samples: its share of the pixel
+    float transmittance[16];
+    // Σ transmittance / samples of a pixel: the fragment's share of the pixel.
+    float weight;
 } lam_explained_fragment;
 
+// One pixel of a picture.
 typedef struct lam_explanation {
-    int x, y, width, height;
-    int samples;
-    lam_pixel_format format;
-    lam_color_mode color;
-    lam_shading shading;
-    lam_reflection reflection; // never AUTO
+    int x, y;                  // the pixel, from the upper left corner
+    int width, height;         // the picture's size, pixels
+    int samples;               // per pixel
+    lam_pixel_format format;   // the picture's
+    lam_color_mode color;      // as in lam_draw_params
+    lam_shading shading;       // as in lam_draw_params
+    lam_reflection reflection; // the one in use, never AUTO
     bool distant_viewer;       // v = (0, 0, 1) for every point
-    bool gl1;
-    bool has_environment;
-    const lam_explained_fragment
-        *fragments;     // in the order of the nearest sample that shows them; translucent ones first, by depth
-    int fragment_count; // 0: the pixel shows the background alone
+    bool gl1;                  // as in lam_draw_params
+    bool has_environment;      // the scene has one
+    // The triangles that the pixel shows, in the order of the nearest sample that shows them; translucent ones first,
+    // by depth.
+    const lam_explained_fragment *fragments;
+    int fragment_count; // of `fragments`; 0: the background alone
 
     lam_rgba sum;        // Σ weight · alpha · color, and Σ weight · alpha
-    double stops;        // the exposure asked for
+    double stops;        // lam_draw_params.exposure
     float exposure;      // 2^stops
     lam_rgba background; // not premultiplied
-    lam_rgba result;     // premultiplied: exposure · sum over the background; what LAM_RGBA32F holds
-    lam_rgb straight;    // result ÷ alpha
-    lam_rgb encoded;     // sRGB curve, or clamped with LAM_COLOR_RAW
-    uint8_t bytes[4];    // what LAM_RGBA8 holds: floor(255·encoded + ½), and alpha
+    // What LAM_RGBA32F holds: exposure · sum over the background, premultiplied.
+    lam_rgba result;
+    lam_rgb straight; // result / alpha
+    lam_rgb encoded;  // `straight` sRGB-encoded, or clamped with LAM_COLOR_RAW
+    uint8_t bytes[4]; // what LAM_RGBA8 holds: floor(255·encoded + ½), and alpha
 } lam_explanation;
 
-// Draws the part of the picture that pixel (x, y) lies in, x from the left, y from the top, and keeps every number of
-// that pixel. It runs the code that draws pictures; the arguments are those of lam_draw, with the picture's size and
-// format in place of the picture. The device's next picture is not affected. Only the CPU device can do it. NULL on
-// failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (another device), LAM_LIMIT, LAM_CANCELLED. Names in it belong to the
-// scene.
+// Draws the part of the picture around pixel (x, y), counted from the upper left corner, and records every number of
+// that pixel. The code that draws pictures runs; the arguments are those of lam_draw, with the picture's size and
+// format in place of the picture. The device's next picture is not affected. The caller frees the result. NULL on
+// failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (not the CPU device), LAM_LIMIT, LAM_CANCELLED.
 LAM_API lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                                      const lam_draw_params *params, int width, int height, lam_pixel_format format,
                                      int x, int y, const lam_control *control, lam_error *error);

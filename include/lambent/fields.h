@@ -1,5 +1,5 @@
-// lambent/fields.h: the fields of lam_material and lam_light as tables: keys, ranges, defaults and meanings. Scene files,
-// options, reports and shaders are made from them.
+// lambent/fields.h: the fields of lam_material and lam_light as tables: keys, ranges, defaults and meanings. Scene
+// files, options, reports and shaders are made from them.
 #ifndef LAMBENT_FIELDS_H
 #define LAMBENT_FIELDS_H
 
@@ -9,17 +9,20 @@
 extern "C" {
 #endif
 
+// The type of a field.
 typedef enum lam_field_type {
-    LAM_FIELD_NUMBER,    // float
-    LAM_FIELD_ANGLE,     // float, radians; degrees in scene files and options
-    LAM_FIELD_FLAG,      // bool
-    LAM_FIELD_RGB,       // lam_rgb
-    LAM_FIELD_RGBA,      // lam_rgba; the alpha lies in 0..1
-    LAM_FIELD_POINT,     // lam_vec3
-    LAM_FIELD_DIRECTION, // lam_vec3 of any length but 0; a default of 0 stands for a direction that the scene decides
-    LAM_FIELD_TRIPLE,    // three floats
+    LAM_FIELD_NUMBER, // float
+    LAM_FIELD_ANGLE,  // float, radians; degrees in scene files and options
+    LAM_FIELD_FLAG,   // bool
+    LAM_FIELD_RGB,    // lam_rgb
+    LAM_FIELD_RGBA,   // lam_rgba; the alpha lies in 0..1
+    LAM_FIELD_POINT,  // lam_vec3
+    // lam_vec3 of any length but 0; a default of 0 stands for a direction that the scene decides.
+    LAM_FIELD_DIRECTION,
+    LAM_FIELD_TRIPLE, // three floats
 } lam_field_type;
 
+// A field of lam_material or lam_light.
 typedef struct lam_field {
     const char *name;    // of the struct's member: "cutoff_rad"
     const char *key;     // in scene files and options: "cutoff"
@@ -27,14 +30,16 @@ typedef struct lam_field {
     const char *source;  // the MTL statement that is read into it: "Ks"; NULL: none
     const char *unit;    // NULL: none
     const char *summary; // one line
-    lam_field_type type;
+    lam_field_type type; // decides how many numbers it has
     // The range of each number, INFINITY where there is no bound, and the default. Angles in degrees.
     double min, max, standard[4];
-    size_t offset;        // in lam_material or lam_light
-    unsigned light_types; // bits 1 << lam_light_type: the lights that have it. 0: a material's
+    size_t offset; // in lam_material or lam_light
+    // Bits 1 << lam_light_type: the lights that have it. 0: a material's.
+    unsigned light_types;
 } lam_field;
 
-// A row of a table; NULL past the end. Of lights a key may have several rows, with different defaults for different types.
+// A row of a table; NULL past the end. Of lights a key may have several rows, with different defaults for
+// different types.
 LAM_API const lam_field *lam_material_field(int index);
 LAM_API const lam_field *lam_light_field(int index);
 

@@ -1,8 +1,6 @@
-// lambent/gl.h: a device that draws with OpenGL: the same picture as the CPU device's within a stated
-// tolerance (docs/opengl.md).
+// lambent/gl.h: a device that draws with OpenGL: the CPU device's picture within a stated tolerance (docs/opengl.md).
 //
-// OpenGL is found at run time: a program that links this library starts and draws on a machine that has none
-// of it.
+// OpenGL is loaded at run time: a program that links this library starts and draws on a machine without it.
 #ifndef LAMBENT_GL_H
 #define LAMBENT_GL_H
 
@@ -12,54 +10,60 @@
 extern "C" {
 #endif
 
+// The interface of OpenGL that a context without a window has.
 typedef enum lam_gl_api {
     LAM_GL_CORE = 0, // OpenGL 3.3, core profile
-    LAM_GL_ES,       // OpenGL ES 3.0, which is what WebGL 2 has
+    LAM_GL_ES,       // OpenGL ES 3.0, the base of WebGL 2
 } lam_gl_api;
 
-// A function of OpenGL by its name ("glDrawArrays"); NULL: there is none. For a window made by SDL, GLFW or
-// GTK it hands on to SDL_GL_GetProcAddress, glfwGetProcAddress, eglGetProcAddress …
+// A pointer to a function of OpenGL; its true type goes by its name.
 typedef void (*lam_gl_function)(void);
+
+// Returns the function of a name ("glDrawArrays"), NULL where there is none. For a window made by SDL, GLFW or GTK it
+// calls SDL_GL_GetProcAddress, glfwGetProcAddress or eglGetProcAddress.
 typedef lam_gl_function lam_gl_get_proc(void *user, const char *name);
 
-// What a device of OpenGL is made of. All zero: OpenGL 3.3 core without a window on the first usable device.
+// Parameters of an OpenGL device. All zero: OpenGL 3.3 core on the first usable device, without a window.
 typedef struct lam_gl_params {
-    lam_gl_api api; // without a window only; the caller's own context says itself which it is
-    // Which device, by its number in lam_gl_devices ("0") or a part of its name or driver ("llvmpipe"), upper
-    // and lower case alike; NULL: the first that can be used, hardware before software.
+    // The interface to use. It does not count in the caller's own context, which has one already.
+    lam_gl_api api;
+    // The device: its number in lam_gl_devices ("0"), or a part of its name or driver ("llvmpipe"), in upper or lower
+    // case. NULL: the first usable one, hardware before software.
     const char *device;
-    // Not NULL: the caller's own context, current on the calling thread now, in each lam_draw and in
-    // lam_device_free; OpenGL 3.3 (core or compatibility) or OpenGL ES 3.0. The device draws into
-    // framebuffers of its own, and gives back all state that it changes.
+    // Not NULL: draw in the caller's own context, which must be current on the calling thread now, in each lam_draw and
+    // in lam_device_free. It has OpenGL 3.3 (core or compatibility) or OpenGL ES 3.0. The device draws into
+    // framebuffers of its own and restores every state that it changes.
     lam_gl_get_proc *get_proc_address;
-    void *user; // handed to get_proc_address
-    // The driver's debug messages are collected (KHR_debug): an error, or a warning about speed, fails the
-    // draw with LAM_UNSUPPORTED and the driver's sentence. For tests; slower.
+    void *user; // passed to `get_proc_address`
+    // Collects the driver's debug messages (KHR_debug): an error, or a warning about speed, fails the draw with
+    // LAM_UNSUPPORTED and the driver's sentence. For tests; slower.
     bool debug;
-    const char *library; // the EGL library; NULL: "libEGL.so.1". Without a window only
+    // Path of the EGL library that is loaded without a window. NULL: "libEGL.so.1".
+    const char *library;
 } lam_gl_params;
 
-// The OpenGL device. NULL and the reason, LAM_UNSUPPORTED, when a library, a driver or a version is missing:
-// the sentence says which, and what to install. `params` may be NULL.
+// Makes an OpenGL device; lam_device_free frees it. `params` may be NULL. NULL on failure: LAM_UNSUPPORTED where a
+// library, a driver or a version is missing (the sentence says which, and what to install), LAM_LIMIT.
 LAM_API lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error);
 
-// One device of this machine that OpenGL can be had from, without a window.
+// A device of this machine that OpenGL may run on without a window. Texts are "" where nothing is known.
 typedef struct lam_gl_device {
-    int number; // as in lam_gl_params.device
-    // the driver's own name of it: "llvmpipe (LLVM 15.0.6, 256 bits)"; "" where it cannot be started
+    int number; // as lam_gl_params.device takes it
+    // The driver's name of it: "llvmpipe (LLVM 15.0.6, 256 bits)".
     char name[128];
-    char driver[128];  // the driver's maker and version: "Mesa, 4.5 (Core Profile) Mesa 22.3.6"
-    char place[64];    // what EGL calls it: "/dev/dri/card0", "software"
-    char versions[64]; // what it can do: "OpenGL 3.3, OpenGL ES 3.0"
+    // The driver's vendor and version: "Mesa, 4.5 (Core Profile) Mesa 22.3.6".
+    char driver[128];
+    char path[64];     // EGL's name of it: "/dev/dri/card0", "software"
+    char versions[64]; // that it has: "OpenGL 3.3, OpenGL ES 3.0"
     bool software;     // the processor does the work
-    bool usable;       // has at least one of the two
-    char reason[192];  // why not, one sentence; "" where it is usable
+    bool usable;       // it has at least one of the versions
+    char reason[192];  // a sentence: why it is not usable
 } lam_gl_device;
 
-// Looks for devices: each is started and let go again, which takes some milliseconds to some hundreds. Writes
-// at most `room` of them and returns how many there are, hardware first; −1 and the reason (LAM_UNSUPPORTED)
-// when OpenGL cannot be had at all. `params` may be NULL; only `library` is looked at.
-LAM_API int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int room, lam_error *error);
+// Finds the devices by starting each, which takes from some milliseconds to some hundreds. Writes the first `capacity`
+// of them, hardware first, and returns how many there are; −1 and LAM_UNSUPPORTED where OpenGL cannot be loaded.
+// `params` may be NULL; only its `library` counts.
+LAM_API int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int capacity, lam_error *error);
 
 #ifdef __cplusplus
 }

@@ -66,8 +66,8 @@ LAM_API bool lam_image_save(const lam_image *image, const char *path, const lam_
 typedef struct lam_layer {
     const char *name;       // "diffuse": channels diffuse.R, …; NULL or "": the picture itself, R, …
     const lam_image *image; // LAM_RGBA32F, of the same size as the others
-    // a letter for each number of a pixel that is written, in their order: "XYZ"; NULL: "RGB", of the picture itself
-    // "RGBA"
+    // a letter for each number of a pixel that is written, in their order: "XYZ"; NULL: "RGB", of the picture
+    // itself "RGBA"
     const char *channels;
 } lam_layer;
 
@@ -95,7 +95,7 @@ LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color
 // Whether the file at `path` says that Lambent wrote it: PNG by its text "Software: lambent", PPM by the comment
 // "# lambent" in its second line. False for PFM, which has no place to say so, and wherever it cannot be told (no such
 // file, not a regular file, not readable). Looks at the file's beginning only.
-LAM_API bool lam_image_is_ours(const char *path);
+LAM_API bool lam_image_is_from_lambent(const char *path);
 
 // How far two pictures of the same size and format are apart, over all channels; a channel's unit is 1 = full
 // range (LAM_RGBA8: 255 steps). Where one picture has a number and the other has NaN or another infinity, they are

@@ -1,5 +1,6 @@
-// lambent/light_eval.h: the equations at single values, for plots and tables. The numbers are those that pixels are lit
-// with: the same code, one value at a time.
+// lambent/light_eval.h: the laws of light at single values, for plots and tables.
+//
+// The numbers are those that pixels are lit with: the same code, one value at a time.
 #ifndef LAMBENT_LIGHT_EVAL_H
 #define LAMBENT_LIGHT_EVAL_H
 
@@ -10,17 +11,20 @@
 extern "C" {
 #endif
 
-// What is left of a point or spot light at this distance (≥ 0, in the light's units), by its attenuation and its range:
-// 0 where the sum of the attenuation is 0. 1 for the other types. The light must pass lam_light_check.
+// Attenuation of a point or spot light at a distance ≥ 0 in model units, its range included:
+//   window(d) / (constant + linear·d + quadratic·d²)
+// 0 where the sum is 0, and 1 for lights of other types. The light must pass lam_light_check.
 LAM_API float lam_attenuation_at(const lam_light *light, float distance);
 
-// The factor of a spot light's cone for a point this far (radians) off its axis, 0..1. 1 for the other types.
+// The cone's factor of a spot light, 0..1, for a point that lies `angle_rad` off its axis. 1 for lights of other types.
 LAM_API float lam_spot_at(const lam_light *light, double angle_rad);
 
-// The strength S of the highlight, 0..1, with the light straight above the surface (l = n) and the eye `angle_rad` away
-// from it, 0..π: the angle between the mirrored light and the eye, φ; half of it lies between normal and half vector,
-// ψ. LAM_REFLECTION_PHONG gives cos(φ)^shininess, LAM_REFLECTION_BLINN_PHONG (or AUTO) cos(φ/2)^shininess; models
-// without a highlight, and Kajiya–Kay, which needs a thread, give 0. `shininess` ≥ 0, finite.
+// The highlight's strength S, 0..1, with the light straight above the surface (l = n) and the eye `angle_rad` away from
+// it, 0..π. That angle φ lies between the mirrored light and the eye, and half of it, ψ, between the normal and the
+// half vector:
+//   LAM_REFLECTION_PHONG                  S = cos(φ)^shininess
+//   LAM_REFLECTION_BLINN_PHONG, …_AUTO    S = cos(φ/2)^shininess
+// 0 for models without a highlight, and for Kajiya–Kay, which needs a tangent. `shininess` ≥ 0, finite.
 LAM_API float lam_highlight_at(lam_reflection reflection, float shininess, double angle_rad);
 
 #ifdef __cplusplus

@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-// Maps that material files name. They are kept as written; drawing does not use them yet.
+// The texture maps that material files name. They are kept as written; drawing does not use them yet.
 typedef enum lam_map {
     LAM_MAP_AMBIENT,      // map_Ka
     LAM_MAP_DIFFUSE,      // map_Kd
@@ -23,49 +23,58 @@ typedef enum lam_map {
     LAM_MAP_COUNT
 } lam_map;
 
-// A material of the classic models. All colours are linear reflectances, 0..1 for surfaces that do not make light;
-// more is allowed. The light that leaves a point is (docs/lighting.md has the terms in full)
-//   emission + ambient ⊙ (ambient light) + Σ over lights of (diffuse ⊙ Ld · D + specular ⊙ Ls · S) + reflectivity ⊙ environment.
-// lam_material_default() gives the neutral grey; a zeroed struct is black and clear.
+// A material of the classic models. Colours are linear reflectances, 0..1 for a surface that returns no more light than
+// arrives; more is allowed. The light that leaves a point is
+//   emission + ambient ⊙ (ambient light) + Σ over lights of (diffuse ⊙ Ld · D + specular ⊙ Ls · S)
+//            + reflectivity ⊙ environment
+// with D and S of the reflection model (docs/lighting.md). lam_material_default() gives a neutral grey; a zeroed struct
+// is black and clear.
 typedef struct lam_material {
-    lam_rgb ambient;  // ka: share of ambient and hemisphere light returned
-    lam_rgba diffuse; // kd: share returned evenly to all sides; a is the opacity, 1 = opaque
+    lam_rgb ambient; // ka: fraction of ambient and hemisphere light returned
+    // kd: fraction of light returned evenly in all directions. `a` is the opacity, 0..1; 1: opaque.
+    lam_rgba diffuse;
     lam_rgb specular; // ks: strength of the highlight
-    lam_rgb emission; // light the surface itself gives
-    float shininess;  // α ≥ 0, finite: exponent of the highlight, used as given by every model
+    lam_rgb emission; // light that the surface itself gives
+    // α: exponent of the highlight, ≥ 0, finite. Every model uses it as given (lam_draw_params.match_highlights).
+    float shininess;
 
-    lam_rgb reflectivity; // kr: share of the environment mirrored; default 0
-    bool fibre;           // Kajiya–Kay without the gate [n·l > 0], for hair and thread; default false
+    lam_rgb reflectivity; // kr: fraction of the environment mirrored
+    // Kajiya–Kay without its gate [n·l > 0], for hair and thread, which light reaches from all sides.
+    bool fibre;
 
     const char *name;                       // UTF-8; NULL: unnamed
     int illum;                              // MTL's illumination model as written; −1: none given
-    const char *map_names[LAM_MAP_COUNT];   // file names as written, NULL: none
-    const char *map_options[LAM_MAP_COUNT]; // MTL's options before the name ("-s 1 1 1"), NULL: none
+    const char *map_names[LAM_MAP_COUNT];   // file names as written; NULL: none
+    const char *map_options[LAM_MAP_COUNT]; // MTL's options before them, "-s 1 1 1"; NULL: none
 } lam_material;
 
-// The material of a model that names none: neutral light grey with a soft highlight.
+// The material of parts that name none: neutral light grey with a soft highlight.
 LAM_API lam_material lam_material_default(void);
 
 // The classic named materials, as published in OpenGL's `teapots.c` demonstration (SGI, 1993/1997).
 typedef enum lam_material_id {
+    // Stones.
     LAM_MATERIAL_EMERALD,
     LAM_MATERIAL_JADE,
     LAM_MATERIAL_OBSIDIAN,
     LAM_MATERIAL_PEARL,
     LAM_MATERIAL_RUBY,
     LAM_MATERIAL_TURQUOISE,
+    // Metals.
     LAM_MATERIAL_BRASS,
     LAM_MATERIAL_BRONZE,
     LAM_MATERIAL_CHROME,
     LAM_MATERIAL_COPPER,
     LAM_MATERIAL_GOLD,
     LAM_MATERIAL_SILVER,
+    // Plastics.
     LAM_MATERIAL_BLACK_PLASTIC,
     LAM_MATERIAL_CYAN_PLASTIC,
     LAM_MATERIAL_GREEN_PLASTIC,
     LAM_MATERIAL_RED_PLASTIC,
     LAM_MATERIAL_WHITE_PLASTIC,
     LAM_MATERIAL_YELLOW_PLASTIC,
+    // Rubbers.
     LAM_MATERIAL_BLACK_RUBBER,
     LAM_MATERIAL_CYAN_RUBBER,
     LAM_MATERIAL_GREEN_RUBBER,
@@ -75,13 +84,13 @@ typedef enum lam_material_id {
     LAM_MATERIAL_COUNT
 } lam_material_id;
 
-// The named material with the published numbers, opaque. Out of range: the default material.
+// A named material with the published numbers, opaque. Out of range: the default material.
 LAM_API lam_material lam_material_named(lam_material_id id);
 
-// Its name in lower case with hyphens ("black-plastic"). Out of range: NULL.
+// The name of a material in lower case with hyphens, "black-plastic". A static string; NULL out of range.
 LAM_API const char *lam_material_name(lam_material_id id);
 
-// The material of a name; LAM_MATERIAL_COUNT: no such name. Case does not matter; space and '_' stand for '-'.
+// The material of a name, in any case, with space and '_' for '-'. LAM_MATERIAL_COUNT: there is none.
 LAM_API lam_material_id lam_material_find(const char *name);
 
 #ifdef __cplusplus

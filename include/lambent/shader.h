@@ -1,5 +1,6 @@
-// lambent/shader.h: the shaders of a scene as text, for programs of your own, and every number that they ask
-// for. docs/shaders.md has the contract.
+// lambent/shader.h: the shaders of a scene as text, for programs of your own, with the value of every uniform.
+//
+// docs/shaders.md has the contract between the shaders and the program that uses them.
 #ifndef LAMBENT_SHADER_H
 #define LAMBENT_SHADER_H
 
@@ -9,6 +10,7 @@
 extern "C" {
 #endif
 
+// The versions of GLSL that shaders are written in.
 typedef enum lam_glsl {
     LAM_GLSL_330 = 0, // OpenGL 3.3, core or compatibility
     LAM_GLSL_120,     // OpenGL 2.1: attribute and varying, no blocks, no `flat`
@@ -16,88 +18,101 @@ typedef enum lam_glsl {
     LAM_GLSL_COUNT
 } lam_glsl;
 
-LAM_API const char *lam_glsl_name(lam_glsl version); // "330", "120", "300es"; NULL out of range
+// The name of a version: "330", "120", "300es". A static string; NULL out of range.
+LAM_API const char *lam_glsl_name(lam_glsl version);
 
-// Where the lists of lights stand. None has a fixed greatest number of lights; what the implementation allows an array
-// (GL_MAX_*_UNIFORM_COMPONENTS) is the least, a block (GL_MAX_UNIFORM_BLOCK_SIZE) more, a texture most.
+// Where the shaders read the lights from. There is no fixed limit to their number; an implementation allows fewest in
+// an array (GL_MAX_*_UNIFORM_COMPONENTS), more in a block (GL_MAX_UNIFORM_BLOCK_SIZE), most in a texture.
 typedef enum lam_shader_lights {
     LAM_SHADER_LIGHTS_AUTO = 0, // an array in GLSL 120, else a block
     LAM_SHADER_LIGHTS_ARRAY,    // plain uniforms, set one by one: lights[0].position
     LAM_SHADER_LIGHTS_BLOCK,    // std140 blocks; not in GLSL 120
-    LAM_SHADER_LIGHTS_TEXTURE,  // textures of floats; not in GLSL 120
+    LAM_SHADER_LIGHTS_TEXTURE,  // float textures; not in GLSL 120
     LAM_SHADER_LIGHTS_COUNT
 } lam_shader_lights;
 
+// How shaders are written. All zero is the default.
 typedef struct lam_shader_params {
-    lam_glsl glsl;
-    lam_shader_lights lights;
-    bool products; // uniforms are ka·La, kd·Ld, ks·Ls, formed before drawing; else materials and lights
+    lam_glsl glsl;            // the version
+    lam_shader_lights lights; // where the lights are
+    // true: the uniforms are the products ka·La, kd·Ld, ks·Ls, formed before drawing. false: materials and lights.
+    bool products;
 } lam_shader_params;
 
 // A vertex attribute.
 typedef struct lam_shader_attribute {
     const char *name, *type; // "position", "vec3"
-    int location;            // stands in the text; in GLSL 120 to be bound before linking (glBindAttribLocation)
-    const char *meaning;     // one line
+    // Its location. The text declares it, except in GLSL 120, where it is bound before linking (glBindAttribLocation).
+    int location;
+    const char *meaning; // one line
 } lam_shader_attribute;
 
-// A uniform with its value. Matrices are column-major, as glUniformMatrix takes them. Samplers have none.
+// A uniform with its value.
 typedef struct lam_shader_uniform {
     const char *name;    // as glGetUniformLocation takes it: "lights[0].position"
     const char *type;    // "vec4", "mat4", "float", "int", "sampler2D"
-    const char *block;   // of a std140 block; NULL: a uniform by itself
-    int offset;          // in the block, bytes; 0 otherwise
+    const char *block;   // the std140 block that it is in; NULL: none
+    int offset;          // in the block, bytes; 0 without one
     const char *meaning; // one line
     int count;           // numbers in `value`; 0: a sampler
-    float value[16];
+    float value[16];     // matrices are column-major, as glUniformMatrix takes them
 } lam_shader_uniform;
 
-// Texels of a float texture (RGBA32F, no filter), 1024 in a row; the last row may be short.
-typedef struct lam_shader_list {
-    const char *name; // of its sampler: "light_list"
-    int texels;
-    const float *values; // 4 for each
-} lam_shader_list;
+// The content of a float texture (RGBA32F, not filtered), 1024 texels to a row; the last row may be short.
+typedef struct lam_shader_texture {
+    const char *name;    // of its sampler: "light_list"
+    int texels;          // number of texels
+    const float *values; // 4 for each texel
+} lam_shader_texture;
 
 // A run of triangles that is drawn with one setting of the uniforms.
 typedef struct lam_shader_draw {
-    int object;              // of the scene
-    const char *object_name; // NULL: unnamed
-    uint32_t first_triangle; // of the object's mesh
-    uint32_t triangle_count;
+    int object;                // index in the scene
+    const char *object_name;   // NULL: unnamed
+    uint32_t first_triangle;   // index in the object's mesh
+    uint32_t triangle_count;   // triangles of the run
     const char *material_name; // NULL: unnamed
-    bool clockwise;            // the front is clockwise in the window (glFrontFace): a mirroring transform
-    lam_cull cull;
-    bool translucent;  // to be blended: over what lies behind it, the farthest first
-    bool has_colors;   // the mesh has colours, tangents; where the shader asks for what it has not, give
-    bool has_tangents; // the attribute the constant value 1, 1, 1, 1
-    double origin[3];  // attribute `position` is the mesh's position minus this
-    const lam_shader_uniform *uniforms;
-    int uniform_count;
+    // The front is clockwise in the window (glFrontFace), because of a mirroring transform.
+    bool clockwise;
+    lam_cull cull; // the object's
+    // To be blended over everything behind it, the farthest triangle first.
+    bool translucent;
+    // The mesh has colours, tangents. Where the shader has that attribute and the mesh has not, give the attribute the
+    // constant value 1, 1, 1, 1.
+    bool has_colors, has_tangents;
+    double origin[3];                   // attribute `position` is the mesh's position minus this
+    const lam_shader_uniform *uniforms; // those of this run
+    int uniform_count;                  // elements of `uniforms`
 } lam_shader_draw;
 
+// The shaders of a scene, the numbers that they need, and the runs to draw.
 typedef struct lam_shader {
-    lam_glsl glsl;
-    lam_shader_lights lights; // never AUTO
-    bool products;
-    const char *vertex, *fragment; // the whole sources, ASCII
-    const lam_shader_attribute *attributes;
-    int attribute_count;
-    const lam_shader_uniform *uniforms; // of the whole frame: lights and surroundings
-    int uniform_count;
-    const lam_shader_draw *draws;
-    int draw_count;
-    const lam_shader_list *lists;
-    int list_count;
-    bool flat; // three vertices of its own for each triangle: with the face normal, or its last vertex's
+    lam_glsl glsl;                          // the version
+    lam_shader_lights lights;               // where the lights are, never AUTO
+    bool products;                          // as in lam_shader_params
+    const char *vertex, *fragment;          // the whole sources, ASCII
+    const lam_shader_attribute *attributes; // of the vertex shader
+    int attribute_count;                    // elements of `attributes`
+    const lam_shader_uniform *uniforms;     // of the whole frame: lights and environment
+    int uniform_count;                      // elements of `uniforms`
+    const lam_shader_draw *draws;           // in the scene's order
+    int draw_count;                         // elements of `draws`
+    const lam_shader_texture *textures;     // LAM_SHADER_LIGHTS_TEXTURE: the lights; else none
+    int texture_count;                      // elements of `textures`
+    // Each triangle needs three vertices of its own, with the face normal or its last vertex's.
+    bool flat;
 } lam_shader;
 
-// Writes the shaders of a scene as lam_draw would draw it at that size, and finds the value of each uniform. One pair
-// of sources serves the whole scene. What the fragments hold is sRGB-encoded, for a plain 8-bit window, or with
-// LAM_COLOR_RAW as it is. `draw` and `params` may be NULL. Not followed are antialiasing and the background, which are
-// the window's. Errors: LAM_BAD_ARGUMENT (as lam_draw; blocks or textures in GLSL 120; objects with one and with two
-// sides, or with and without tangents, of which only one can be in one pair: `object` ≥ 0 chooses one), LAM_UNSUPPORTED
-// (`show` is no light), LAM_LIMIT. Names belong to the scene.
+// Writes the shaders of a scene as lam_draw would draw it at that size, and computes the value of each uniform. One
+// pair of sources serves the whole scene. The fragments are sRGB-encoded for a plain 8-bit window, or with
+// LAM_COLOR_RAW as they are. Antialiasing and the background are left to the window.
+//
+// `draw` and `params` may be NULL. `object` −1: the whole scene; else only that object. Names belong to the scene; the
+// caller frees the result. NULL on failure:
+//   LAM_BAD_ARGUMENT  as lam_draw; blocks or textures in GLSL 120; objects with one and with two sides, or with and
+//                     without tangents, which one pair of shaders cannot serve: choose one by `object`
+//   LAM_UNSUPPORTED   the output is not light
+//   LAM_LIMIT         memory
 LAM_API lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *draw,
                                     int width, int height, int object, const lam_shader_params *params,
                                     lam_error *error);

@@ -32,7 +32,7 @@ void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int
     if (pixel != recorder->pixel || !recorder->layer_slots || !recorder->layer_slots[fragment])
         return;
     lam_explained_fragment *out = &recorder->fragments[recorder->layer_slots[fragment] - 1];
-    out->through[sample] = through;
+    out->transmittance[sample] = through;
     out->weight += through * share;
 }
 
@@ -101,7 +101,7 @@ static bool check_place(const lam_device *device, const lam_draw_params *params,
 {
     if (!device)
         return fail(error, LAM_BAD_ARGUMENT, "lam_explain: device is NULL");
-    if (params && params->show != LAM_OUTPUT_PICTURE)
+    if (params && params->output != LAM_OUTPUT_PICTURE)
         return fail(error, LAM_BAD_ARGUMENT,
                     "explain: show is not the picture; all terms of the picture's pixel are told");
     if (lam_device_isa(device) == LAM_ISA_AUTO)

@@ -102,7 +102,7 @@ void cube_close(struct lam_environment *cube)
     }
 }
 
-lam_rgb lam_environment_look(const lam_environment *cube, lam_vec3 direction)
+lam_rgb lam_environment_sample(const lam_environment *cube, lam_vec3 direction)
 {
     lam_vec3 d = v3_unit(direction);
     if (!cube || !v3_finite(d) || (d.x == 0 && d.y == 0 && d.z == 0))

@@ -90,7 +90,7 @@ static const struct {
 } table[] = {{"sky", sky}, {"studio", studio}};
 enum { COUNT = sizeof table / sizeof *table };
 
-const char *lam_environment_name(int index) { return index >= 0 && index < COUNT ? table[index].name : NULL; }
+const char *lam_environment_built_in_name(int index) { return index >= 0 && index < COUNT ? table[index].name : NULL; }
 
 static struct lam_environment *fill(struct rgb (*light)(lam_vec3 direction), lam_error *error)
 {

@@ -54,8 +54,8 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
     if (!(params->light_cutoff >= -3e38f && params->light_cutoff <= 1))
         return fail(error, LAM_BAD_ARGUMENT, "light_cutoff is %g, expected at most 1", (double)params->light_cutoff);
-    if ((unsigned)params->show >= LAM_OUTPUT_COUNT || params->show_light < 0)
-        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: show or show_light is out of its range");
+    if ((unsigned)params->output >= LAM_OUTPUT_COUNT || params->output_light < 0)
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: output or output_light is out of its range");
     if (params->shading == LAM_SHADING_PHONG &&
         (params->stage == LAM_STAGE_APPLICATION || params->stage == LAM_STAGE_VERTEX))
         return fail(error, LAM_BAD_ARGUMENT,
@@ -380,7 +380,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->flat_normal = params->flat_normal;
     frame->match_highlights = params->match_highlights;
     frame->gl1 = params->gl1;
-    frame->show = params->show;
+    frame->show = params->output;
     frame->light_cutoff = params->light_cutoff > 0    ? params->light_cutoff
                           : params->light_cutoff == 0 ? 0.5f / 255.0f
                                                       : 0;
@@ -427,7 +427,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     // Numbers are those of the nearest surface, however clear it is.
     if (!lam_output_is_light(frame->show) && frame->show != LAM_OUTPUT_CLIPPED)
         frame->translucent = false;
-    return build_lights(frame, scene, params->rig, shows_one_light(frame->show) ? params->show_light : -1, &view,
+    return build_lights(frame, scene, params->rig, shows_one_light(frame->show) ? params->output_light : -1, &view,
                         error);
 }
 

@@ -13,7 +13,7 @@ static void try_place(const struct egl *egl, const struct gl_place *place, int n
         const char *name;
     } tries[] = {{GL_PROFILE_CORE, "OpenGL 3.3"}, {GL_PROFILE_ES, "OpenGL ES 3.0"}};
     *out = (lam_gl_device){.number = number, .software = place->software};
-    snprintf(out->place, sizeof out->place, "%s", place->name);
+    snprintf(out->path, sizeof out->path, "%s", place->name);
     for (int i = 0; i < 2; i++) {
         struct gl_context context;
         lam_error why;

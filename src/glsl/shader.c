@@ -363,10 +363,10 @@ static bool tell_lists(const struct making *m)
 {
     const struct glsl_choices *c = &m->choices;
     lam_shader *told = &m->shader->told;
-    lam_shader_list *lists = arena_array(&m->shader->arena, 2, sizeof *lists);
+    lam_shader_texture *lists = arena_array(&m->shader->arena, 2, sizeof *lists);
     if (!lists)
         return false;
-    told->lists = lists;
+    told->textures = lists;
     if (c->storage != GLSL_TEXTURE || (!m->facts.lights && !m->facts.skies))
         return true;
     size_t bytes = glsl_lights_bytes(c), each = glsl_products_bytes(c), materials = (size_t)m->frame.material_count;
@@ -374,7 +374,7 @@ static bool tell_lists(const struct making *m)
     if (!values)
         return false;
     glsl_pack_lights(c, &m->frame, values);
-    lists[told->list_count++] = (lam_shader_list){"light_list", (int)(bytes / 16), values};
+    lists[told->texture_count++] = (lam_shader_texture){"light_list", (int)(bytes / 16), values};
     if (!c->products)
         return true;
     values = arena_array(&m->shader->arena, materials, each);
@@ -382,7 +382,7 @@ static bool tell_lists(const struct making *m)
         return false;
     for (size_t i = 0; i < materials; i++)
         glsl_pack_products(c, &m->frame, m->frame.materials[i], values + i * (each / sizeof *values));
-    lists[told->list_count++] = (lam_shader_list){"product_list", (int)(materials * each / 16), values};
+    lists[told->texture_count++] = (lam_shader_texture){"product_list", (int)(materials * each / 16), values};
     return true;
 }
 
@@ -437,9 +437,9 @@ lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, co
         fail(error, LAM_BAD_ARGUMENT, "lam_shader_make: %d×%d pixels, expected 1 to 65535 each way", width, height);
         return NULL;
     }
-    if (!lam_output_is_light(draw->show)) {
+    if (!lam_output_is_light(draw->output)) {
         fail(error, LAM_UNSUPPORTED, "a shader shows the picture, a term of it or a light; found %s",
-             lam_output_name(draw->show) ? lam_output_name(draw->show) : "a number that is no show");
+             lam_output_name(draw->output) ? lam_output_name(draw->output) : "a number that is no output");
         return NULL;
     }
     struct shader *shader = calloc(1, sizeof *shader);

@@ -20,7 +20,7 @@ static const char *const places[] = {
     "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
 };
 
-const char *lam_font_place(int index)
+const char *lam_font_path(int index)
 {
     return index >= 0 && index < (int)(sizeof places / sizeof *places) ? places[index] : NULL;
 }
@@ -71,9 +71,9 @@ static const char *find_font(void)
     const char *named = getenv("LAMBENT_FONT");
     if (named && *named)
         return named;
-    for (int i = 0; lam_font_place(i); i++)
-        if (access(lam_font_place(i), R_OK) == 0)
-            return lam_font_place(i);
+    for (int i = 0; lam_font_path(i); i++)
+        if (access(lam_font_path(i), R_OK) == 0)
+            return lam_font_path(i);
     return NULL;
 }
 

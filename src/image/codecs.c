@@ -198,7 +198,7 @@ bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode co
     return ok;
 }
 
-bool lam_image_is_ours(const char *path)
+bool lam_image_is_from_lambent(const char *path)
 {
     if (!path)
         return false;

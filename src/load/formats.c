@@ -11,9 +11,12 @@
 static const struct importer *const importers[] = {&importer_obj, &importer_stl, &importer_ply, &importer_scene};
 enum { IMPORTERS = sizeof importers / sizeof *importers };
 
-const char *lam_format_name(int format) { return format >= 0 && format < IMPORTERS ? importers[format]->name : NULL; }
+const char *lam_model_format_name(int format)
+{
+    return format >= 0 && format < IMPORTERS ? importers[format]->name : NULL;
+}
 
-const char *lam_format_extensions(int format)
+const char *lam_model_format_extensions(int format)
 {
     return format >= 0 && format < IMPORTERS ? importers[format]->extensions : NULL;
 }

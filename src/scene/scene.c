@@ -245,11 +245,11 @@ void lam_scene_add_warning(lam_scene *scene, const char *text)
         scene_warn(scene, "%s", text);
 }
 
-bool lam_scene_settings(const lam_scene *scene, lam_settings *settings)
+bool lam_scene_picture_settings(const lam_scene *scene, lam_picture_settings *settings)
 {
     bool there = scene && scene->settings;
     if (settings)
-        *settings = there ? *scene->settings : (lam_settings){0};
+        *settings = there ? *scene->settings : (lam_picture_settings){0};
     return there;
 }
 

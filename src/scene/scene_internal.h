@@ -52,14 +52,14 @@ struct scene_token {
 struct lam_scene {
     struct arena arena;
     struct scene_token *token;
-    struct scene_list meshes;     // lam_mesh
-    struct scene_list extents;    // struct scene_extent, one for each measured mesh, in the same order
-    struct scene_list materials;  // lam_material
-    struct scene_list objects;    // lam_object
-    struct scene_list lights;     // lam_light
-    struct scene_list warnings;   // const char *
-    struct scene_list origins;    // struct scene_origin, in the order of their meshes
-    const lam_settings *settings; // of a scene file; NULL: none
+    struct scene_list meshes;             // lam_mesh
+    struct scene_list extents;            // struct scene_extent, one for each measured mesh, in the same order
+    struct scene_list materials;          // lam_material
+    struct scene_list objects;            // lam_object
+    struct scene_list lights;             // lam_light
+    struct scene_list warnings;           // const char *
+    struct scene_list origins;            // struct scene_origin, in the order of their meshes
+    const lam_picture_settings *settings; // of a scene file; NULL: none
     lam_up up;
     lam_mat4 placement; // what lam_scene_transform did so far
     lam_rgb ambient;

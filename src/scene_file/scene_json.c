@@ -29,7 +29,7 @@ static bool read_image(struct scene_reader *r, const json_t *root)
     static const char *const keys[] = {"size", "samples", "background", "color", "exposure", NULL};
     const json_t *image = json_object_get(root, "image");
     const struct place *place = KEY_OF(NULL, "image");
-    lam_settings *s = r->settings;
+    lam_picture_settings *s = r->settings;
     int color = LAM_COLOR_SRGB;
     if (!image)
         return true;
@@ -37,9 +37,9 @@ static bool read_image(struct scene_reader *r, const json_t *root)
     if (!check_keys(r, place, image, keys) || !take_word(r, place, image, "color", color_words, &color))
         return false;
     if (json_object_get(image, "color")) {
-        s->given |= LAM_GIVEN_COLOR;
+        s->present |= LAM_SETTING_COLOR;
         s->draw.color = (lam_color_mode)color;
-        if (!r->source->params->color_decides)
+        if (!r->source->params->override_color)
             r->color = (lam_color_mode)color;
     }
     const json_t *size = json_object_get(image, "size");
@@ -53,7 +53,7 @@ static bool read_image(struct scene_reader *r, const json_t *root)
                 return fail_place(r, ELEMENT_OF(here, i), "found %.10g, expected pixels from 1 to 65535", sides[i]);
         s->width = (int)sides[0];
         s->height = (int)sides[1];
-        s->given |= LAM_GIVEN_SIZE;
+        s->present |= LAM_SETTING_SIZE;
     }
     if (json_object_get(image, "samples")) {
         int n = 0;
@@ -62,14 +62,14 @@ static bool read_image(struct scene_reader *r, const json_t *root)
         if (n & (n - 1))
             return fail_place(r, KEY_OF(place, "samples"), "found %d, expected 1, 2, 4, 8 or 16", n);
         s->draw.samples = n;
-        s->given |= LAM_GIVEN_SAMPLES;
+        s->present |= LAM_SETTING_SAMPLES;
     }
     s->draw.background.a = 0;
     if (!take_rgba(r, place, image, "background", &s->draw.background) ||
         !take_number(r, place, image, "exposure", -100, 100, &s->draw.exposure))
         return false;
-    s->given |= json_object_get(image, "background") ? LAM_GIVEN_BACKGROUND : 0;
-    s->given |= json_object_get(image, "exposure") ? LAM_GIVEN_EXPOSURE : 0;
+    s->present |= json_object_get(image, "background") ? LAM_SETTING_BACKGROUND : 0;
+    s->present |= json_object_get(image, "exposure") ? LAM_SETTING_EXPOSURE : 0;
     return true;
 }
 
@@ -107,7 +107,7 @@ static bool read_camera(struct scene_reader *r, const json_t *root)
     if (has_fovy)
         camera.fovy_rad = math_radians(fovy);
     r->settings->camera = camera;
-    r->settings->given |= LAM_GIVEN_CAMERA;
+    r->settings->present |= LAM_SETTING_CAMERA;
     return true;
 }
 
@@ -140,20 +140,20 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
     static const struct {
         const char *key;
         unsigned bit;
-    } bits[] = {{"shading", LAM_GIVEN_SHADING},
-                {"reflection", LAM_GIVEN_REFLECTION},
-                {"stage", LAM_GIVEN_STAGE},
-                {"viewer", LAM_GIVEN_VIEWER},
-                {"flat_normal", LAM_GIVEN_FLAT_NORMAL},
-                {"match_highlights", LAM_GIVEN_MATCH_HIGHLIGHTS},
-                {"gl1", LAM_GIVEN_GL1},
-                {"light_cutoff", LAM_GIVEN_LIGHT_CUTOFF}};
+    } bits[] = {{"shading", LAM_SETTING_SHADING},
+                {"reflection", LAM_SETTING_REFLECTION},
+                {"stage", LAM_SETTING_STAGE},
+                {"viewer", LAM_SETTING_VIEWER},
+                {"flat_normal", LAM_SETTING_FLAT_NORMAL},
+                {"match_highlights", LAM_SETTING_MATCH_HIGHLIGHTS},
+                {"gl1", LAM_SETTING_GL1},
+                {"light_cutoff", LAM_SETTING_LIGHT_CUTOFF}};
     for (size_t i = 0; i < sizeof bits / sizeof *bits; i++)
-        r->settings->given |= json_object_get(root, bits[i].key) ? bits[i].bit : 0;
+        r->settings->present |= json_object_get(root, bits[i].key) ? bits[i].bit : 0;
     bool by_vertex = draw->stage == LAM_STAGE_APPLICATION || draw->stage == LAM_STAGE_VERTEX;
     if (by_vertex && !json_object_get(root, "shading")) {
         draw->shading = LAM_SHADING_GOURAUD;
-        r->settings->given |= LAM_GIVEN_SHADING;
+        r->settings->present |= LAM_SETTING_SHADING;
     }
     if (by_vertex && draw->shading == LAM_SHADING_PHONG)
         return fail_place(r, KEY_OF(NULL, "stage"),
@@ -192,7 +192,7 @@ static bool read_faces(struct scene_reader *r, const struct place *place, const 
         const json_t *face = json_array_get(faces, i);
         if (!json_is_string(face) || !json_string_length(face))
             return fail_place(r, ELEMENT_OF(place, i), "found %s, expected a picture's name", json_kind(face, kind));
-        if (!(r->settings->faces[i] = picture_path(r, json_string_value(face))))
+        if (!(r->settings->environment_faces[i] = picture_path(r, json_string_value(face))))
             return false;
     }
     return true;
@@ -202,7 +202,7 @@ static bool read_built_in(struct scene_reader *r, const struct place *place, con
 {
     const char *known[8];
     int count = 0;
-    while (count < 8 && (known[count] = lam_environment_name(count))) {
+    while (count < 8 && (known[count] = lam_environment_built_in_name(count))) {
         if (strcmp(known[count], *name) == 0) {
             *name = known[count];
             return true;
@@ -216,12 +216,13 @@ static bool read_built_in(struct scene_reader *r, const struct place *place, con
 
 static struct lam_environment *load_environment(const struct scene_reader *r)
 {
-    const lam_settings *s = r->settings;
+    const lam_picture_settings *s = r->settings;
     struct call_control *call = r->source->call;
-    if (s->built_in)
-        return lam_environment_built_in(s->built_in, r->error);
-    return s->equirectangular ? environment_load(s->equirectangular, r->color, call, r->error)
-                              : environment_load_faces((const char *const *)s->faces, r->color, call, r->error);
+    if (s->environment_built_in)
+        return lam_environment_built_in(s->environment_built_in, r->error);
+    return s->environment_picture
+               ? environment_load(s->environment_picture, r->color, call, r->error)
+               : environment_load_faces((const char *const *)s->environment_faces, r->color, call, r->error);
 }
 
 static bool read_environment(struct scene_reader *r, const json_t *root)
@@ -229,25 +230,25 @@ static bool read_environment(struct scene_reader *r, const json_t *root)
     static const char *const keys[] = {"faces", "equirectangular", "builtin", "rotation", NULL};
     const json_t *value = json_object_get(root, "environment");
     const struct place *place = KEY_OF(NULL, "environment");
-    lam_settings *s = r->settings;
+    lam_picture_settings *s = r->settings;
     double rotation = 0;
     if (!value)
         return true;
-    if (!check_keys(r, place, value, keys) || !take_text(r, place, value, "equirectangular", &s->equirectangular) ||
-        !take_text(r, place, value, "builtin", &s->built_in) ||
+    if (!check_keys(r, place, value, keys) || !take_text(r, place, value, "equirectangular", &s->environment_picture) ||
+        !take_text(r, place, value, "builtin", &s->environment_built_in) ||
         !take_number(r, place, value, "rotation", -360000, 360000, &rotation))
         return false;
     const json_t *faces = json_object_get(value, "faces");
-    if ((faces != NULL) + (s->equirectangular != NULL) + (s->built_in != NULL) != 1)
+    if ((faces != NULL) + (s->environment_picture != NULL) + (s->environment_built_in != NULL) != 1)
         return fail_place(r, place, "expected one of faces, equirectangular and builtin");
     if (faces && !read_faces(r, KEY_OF(place, "faces"), faces))
         return false;
-    if (s->built_in && !read_built_in(r, KEY_OF(place, "builtin"), &s->built_in))
+    if (s->environment_built_in && !read_built_in(r, KEY_OF(place, "builtin"), &s->environment_built_in))
         return false;
-    if (s->equirectangular && !(s->equirectangular = picture_path(r, s->equirectangular)))
+    if (s->environment_picture && !(s->environment_picture = picture_path(r, s->environment_picture)))
         return false;
     s->environment_rotation_rad = math_radians(rotation);
-    s->given |= LAM_GIVEN_ENVIRONMENT;
+    s->present |= LAM_SETTING_ENVIRONMENT;
     lam_environment *environment = load_environment(r);
     bool ok = environment && lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->error);
     lam_environment_free(environment);
@@ -281,7 +282,7 @@ static size_t tree_bytes(size_t size) { return size > SIZE_MAX / 32 ? SIZE_MAX :
 
 static bool scene_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
 {
-    lam_settings *settings = arena_alloc_zeroed(&scene->arena, sizeof *settings);
+    lam_picture_settings *settings = arena_alloc_zeroed(&scene->arena, sizeof *settings);
     lam_error unwanted;
     size_t charge = tree_bytes(source->size),
            skip = source->size >= 3 && memcmp(source->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;

@@ -230,7 +230,7 @@ bool read_lights(struct scene_reader *r, const json_t *root)
         char kind[32];
         return fail_place(r, place, "found %s, expected a list of lights, [ … ]", json_kind(list, kind));
     }
-    r->settings->given |= LAM_GIVEN_LIGHTS;
+    r->settings->present |= LAM_SETTING_LIGHTS;
     r->settings->draw.rig = LAM_RIG_NONE;
     for (size_t i = 0; i < json_array_size(list); i++)
         if (!read_light(r, ELEMENT_OF(place, i), json_array_get(list, i)))

@@ -11,11 +11,11 @@
 struct scene_reader {
     const struct import_source *source;
     struct lam_scene *scene;
-    lam_settings *settings; // in the scene's arena
-    bool has_lights;        // the file lists its lights: the models' own are left out
-    lam_color_mode color;   // what colours in this file and its models are read as
-    json_t *materials;      // the file's named materials; NULL: none
-    int *material_at;       // of each, in the file's order: its index in the scene
+    lam_picture_settings *settings; // in the scene's arena
+    bool has_lights;                // the file lists its lights: the models' own are left out
+    lam_color_mode color;           // what colours in this file and its models are read as
+    json_t *materials;              // the file's named materials; NULL: none
+    int *material_at;               // of each, in the file's order: its index in the scene
     lam_error *error;
 };
 

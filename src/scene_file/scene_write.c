@@ -399,18 +399,18 @@ static void put_camera(struct scene_writer *w, json_t *root, const lam_camera *c
     }
 }
 
-static void put_image(struct scene_writer *w, json_t *root, const lam_settings *s)
+static void put_image(struct scene_writer *w, json_t *root, const lam_picture_settings *s)
 {
     json_t *out = json_object();
-    if (s->given & LAM_GIVEN_SIZE)
+    if (s->present & LAM_SETTING_SIZE)
         put(w, out, "size", list_of(w, (double[]){s->width, s->height}, 2));
-    if (s->given & LAM_GIVEN_SAMPLES)
+    if (s->present & LAM_SETTING_SAMPLES)
         put(w, out, "samples", json_integer(s->draw.samples ? s->draw.samples : 4));
-    if (s->given & LAM_GIVEN_BACKGROUND)
+    if (s->present & LAM_SETTING_BACKGROUND)
         put(w, out, "background", color(w, &s->draw.background.r, 4));
-    if (s->given & LAM_GIVEN_COLOR)
+    if (s->present & LAM_SETTING_COLOR)
         put(w, out, "color", word(color_words, (int)s->draw.color));
-    if (s->given & LAM_GIVEN_EXPOSURE)
+    if (s->present & LAM_SETTING_EXPOSURE)
         put(w, out, "exposure", number(s->draw.exposure));
     if (json_object_size(out))
         put(w, root, "image", out);
@@ -418,45 +418,45 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_settings *
         json_decref(out);
 }
 
-static bool put_environment(struct scene_writer *w, json_t *root, const lam_settings *s)
+static bool put_environment(struct scene_writer *w, json_t *root, const lam_picture_settings *s)
 {
-    json_t *out = json_object(), *faces = s->equirectangular || s->built_in ? NULL : json_array();
+    json_t *out = json_object(), *faces = s->environment_picture || s->environment_built_in ? NULL : json_array();
     put(w, root, "environment", out);
-    if (s->built_in)
-        put(w, out, "builtin", json_string(s->built_in));
+    if (s->environment_built_in)
+        put(w, out, "builtin", json_string(s->environment_built_in));
     if (faces)
         put(w, out, "faces", faces);
     for (int i = 0; faces && i < 6; i++)
-        if (!put_path(w, faces, NULL, s->faces[i] ? s->faces[i] : ""))
+        if (!put_path(w, faces, NULL, s->environment_faces[i] ? s->environment_faces[i] : ""))
             return false;
-    if (s->equirectangular && !put_path(w, out, "equirectangular", s->equirectangular))
+    if (s->environment_picture && !put_path(w, out, "equirectangular", s->environment_picture))
         return false;
     put(w, out, "rotation", degrees(s->environment_rotation_rad, false));
     return true;
 }
 
-static bool put_settings(struct scene_writer *w, json_t *root, const lam_settings *s)
+static bool put_settings(struct scene_writer *w, json_t *root, const lam_picture_settings *s)
 {
     put_image(w, root, s);
-    if (s->given & LAM_GIVEN_CAMERA)
+    if (s->present & LAM_SETTING_CAMERA)
         put_camera(w, root, &s->camera);
-    if ((s->given & LAM_GIVEN_ENVIRONMENT) && !put_environment(w, root, s))
+    if ((s->present & LAM_SETTING_ENVIRONMENT) && !put_environment(w, root, s))
         return false;
-    if (s->given & LAM_GIVEN_SHADING)
+    if (s->present & LAM_SETTING_SHADING)
         put(w, root, "shading", word(shading_words, (int)s->draw.shading));
-    if (s->given & LAM_GIVEN_REFLECTION)
+    if (s->present & LAM_SETTING_REFLECTION)
         put(w, root, "reflection", word(reflection_words, (int)s->draw.reflection));
-    if (s->given & LAM_GIVEN_STAGE)
+    if (s->present & LAM_SETTING_STAGE)
         put(w, root, "stage", word(stage_words, (int)s->draw.stage));
-    if (s->given & LAM_GIVEN_VIEWER)
+    if (s->present & LAM_SETTING_VIEWER)
         put(w, root, "viewer", word(viewer_words, (int)s->draw.viewer));
-    if (s->given & LAM_GIVEN_FLAT_NORMAL)
+    if (s->present & LAM_SETTING_FLAT_NORMAL)
         put(w, root, "flat_normal", word(flat_normal_words, (int)s->draw.flat_normal));
-    if ((s->given & LAM_GIVEN_MATCH_HIGHLIGHTS) && s->draw.match_highlights)
+    if ((s->present & LAM_SETTING_MATCH_HIGHLIGHTS) && s->draw.match_highlights)
         put(w, root, "match_highlights", json_true());
-    if ((s->given & LAM_GIVEN_GL1) && s->draw.gl1)
+    if ((s->present & LAM_SETTING_GL1) && s->draw.gl1)
         put(w, root, "gl1", json_true());
-    if ((s->given & LAM_GIVEN_LIGHT_CUTOFF) && s->draw.light_cutoff != 0)
+    if ((s->present & LAM_SETTING_LIGHT_CUTOFF) && s->draw.light_cutoff != 0)
         put(w, root, "light_cutoff", s->draw.light_cutoff > 0 ? number_float(s->draw.light_cutoff) : json_integer(0));
     return true;
 }
@@ -479,9 +479,9 @@ static bool find_folder(struct scene_writer *w, const char *path, char folder[PA
            fail(w->error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%.200s': %s", path, given, strerror(errno));
 }
 
-static bool save(struct scene_writer *w, const lam_settings *settings, const char *path)
+static bool save(struct scene_writer *w, const lam_picture_settings *settings, const char *path)
 {
-    static const lam_settings none;
+    static const lam_picture_settings none;
     char folder[PATH_MAX];
     settings = settings ? settings : &none;
     if (!find_folder(w, path, folder))
@@ -501,7 +501,7 @@ static bool save(struct scene_writer *w, const lam_settings *settings, const cha
     return ok;
 }
 
-bool lam_scene_save(const lam_scene *scene, const lam_settings *settings, const char *path, lam_error *error)
+bool lam_scene_save(const lam_scene *scene, const lam_picture_settings *settings, const char *path, lam_error *error)
 {
     if (!scene || !path || !*path)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_save: the %s is missing", scene ? "path" : "scene");

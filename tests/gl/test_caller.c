@@ -126,7 +126,7 @@ static void test_one_call(void **state)
         assert_int_equal(drawn, 3);
         assert_true(lam_image_compare(&a, &b, &difference, &error));
         assert_true(difference.share_over_1 <= 0.001);
-        params.show = LAM_OUTPUT_IDS;
+        params.output = LAM_OUTPUT_IDS;
         assert_true(lam_draw(cpu, demo.scene, &demo.camera, &params, &a, NULL, &error));
         assert_true(lam_draw(device, demo.scene, &demo.camera, &params, &b, NULL, &error));
         assert_true(lam_image_compare(&a, &b, &difference, &error));

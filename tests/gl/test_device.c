@@ -129,12 +129,12 @@ static void test_shows(void **state)
         params.samples = 1;
         for (int show = 0; show < LAM_OUTPUT_COUNT; show++)
             for (int shading = 0; shading <= (n ? 0 : LAM_SHADING_FLAT); shading++) {
-                params.show = (lam_output)show;
+                params.output = (lam_output)show;
                 params.shading = (lam_shading)shading;
                 double share = compare(gl, &demo, &params).share;
                 if (share > 0.001)
                     fail_msg("%s, %s: shading %d: %g of the pixels are off by more than 1/255", names[n],
-                             lam_output_name(params.show), shading, share);
+                             lam_output_name(params.output), shading, share);
             }
         lam_scene_free(demo.scene);
     }
@@ -216,9 +216,9 @@ static void test_parts_and_samples(void **state)
     // Lit at each sample instead of once for each triangle: not the same, but the same shape (coverage is exact).
     for (int samples = 2; samples <= 16; samples *= 2) {
         params.samples = samples;
-        params.show = LAM_OUTPUT_COVERAGE;
+        params.output = LAM_OUTPUT_COVERAGE;
         assert_true(compare(gl, &demo, &params).share <= 0.001);
-        params.show = LAM_OUTPUT_PICTURE;
+        params.output = LAM_OUTPUT_PICTURE;
         assert_true(compare(gl, &demo, &params).share <= 0.02);
     }
     lam_scene_free(demo.scene);

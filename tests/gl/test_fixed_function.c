@@ -187,15 +187,15 @@ static void draw_lambent(const struct classic_case *k, lam_image *image, lam_ima
     sprintf(at, "]}");
     lam_load_params params = {.threads = 1, .open = open_mesh};
     lam_error error = {0};
-    lam_settings settings;
+    lam_picture_settings settings;
     lam_scene *scene = lam_scene_load_memory(text, strlen(text), "s.json", &params, NULL, &error);
     lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
     if (!scene || !device)
         fail_msg("%s: %s", k->name, error.text);
-    assert_true(lam_scene_settings(scene, &settings));
+    assert_true(lam_scene_picture_settings(scene, &settings));
     lam_image *const images[2] = {image, facing};
     for (int i = 0; i < 2; i++) {
-        settings.draw.show = i ? LAM_OUTPUT_FACING : LAM_OUTPUT_PICTURE;
+        settings.draw.output = i ? LAM_OUTPUT_FACING : LAM_OUTPUT_PICTURE;
         assert_true(lam_image_make(images[i], W, H, LAM_RGBA32F, &error));
         if (!lam_draw(device, scene, &settings.camera, &settings.draw, images[i], NULL, &error))
             fail_msg("%s: %s", k->name, error.text);

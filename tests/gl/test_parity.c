@@ -73,8 +73,8 @@ static lam_image numbers(const struct demo *demo, lam_output show, int light)
 {
     lam_draw_params params = demo->params;
     params.samples = 1;
-    params.show = show;
-    params.show_light = light;
+    params.output = show;
+    params.output_light = light;
     lam_image image;
     draw(cpu, demo, &params, LAM_RGBA32F, &image);
     return image;

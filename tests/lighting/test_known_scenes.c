@@ -281,11 +281,11 @@ static void compare(const struct known *k)
 {
     static struct world w;
     lam_scene *scene = load(k);
-    lam_settings settings;
+    lam_picture_settings settings;
     lam_image image = {0};
     lam_error error = {0};
     lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
-    assert_true(lam_scene_settings(scene, &settings));
+    assert_true(lam_scene_picture_settings(scene, &settings));
     assert_true(lam_image_make(&image, settings.width, settings.height, LAM_RGBA32F, &error));
     if (!lam_draw(device, scene, &settings.camera, &settings.draw, &image, NULL, &error))
         fail_msg("%s: %s", k->name, error.text);

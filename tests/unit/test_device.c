@@ -339,7 +339,7 @@ static void test_normals_when_drawn(void **state)
         bool clear = i % 2;
         lam_draw_params params = {.shading = (lam_shading)(i / 2 % 3), .samples = i / 6 % 2 ? 4 : 1};
         params.flat_normal = i / 6 % 2 ? LAM_FLAT_NORMAL_VERTEX : LAM_FLAT_NORMAL_FACE;
-        params.show = i / 12 == 0 ? LAM_OUTPUT_PICTURE : i / 12 == 1 ? LAM_OUTPUT_NORMALS : LAM_OUTPUT_DEPTH;
+        params.output = i / 12 == 0 ? LAM_OUTPUT_PICTURE : i / 12 == 1 ? LAM_OUTPUT_NORMALS : LAM_OUTPUT_DEPTH;
         lam_image images[3];
         lam_scene *scenes[2] = {load_sheet(false, clear), load_sheet(true, clear)};
         lam_camera camera = lam_camera_fit(scenes[0], 1, 1, NULL);

@@ -146,7 +146,7 @@ static double apart(lam_rgb a, vec b)
     return fmax(r, fmax(g, bl));
 }
 
-static lam_rgb look_at(const lam_environment *e, vec d) { return lam_environment_look(e, (lam_vec3){d.x, d.y, d.z}); }
+static lam_rgb look_at(const lam_environment *e, vec d) { return lam_environment_sample(e, (lam_vec3){d.x, d.y, d.z}); }
 
 static void test_lookup_equals_reference(void **state)
 {
@@ -539,8 +539,8 @@ static void test_built_in(void **state)
 {
     (void)state;
     int count = 0;
-    for (; lam_environment_name(count); count++) {
-        lam_environment *e = lam_environment_built_in(lam_environment_name(count), NULL);
+    for (; lam_environment_built_in_name(count); count++) {
+        lam_environment *e = lam_environment_built_in(lam_environment_built_in_name(count), NULL);
         assert_non_null(e);
         double bright = 0, dark = 1e9;
         for (int i = 0; i < 20000; i++) {
@@ -552,7 +552,7 @@ static void test_built_in(void **state)
         lam_environment_free(e);
     }
     assert_int_equal(count, 2);
-    assert_null(lam_environment_name(-1));
+    assert_null(lam_environment_built_in_name(-1));
 }
 
 // --- what is refused
@@ -598,7 +598,7 @@ static void test_refusals(void **state)
     assert_false(lam_scene_set_environment(scene, NULL, (double)NAN, &error));
     assert_true(lam_scene_set_environment(scene, NULL, 0, &error));
     lam_scene_free(scene);
-    assert_true(apart(lam_environment_look(NULL, (lam_vec3){1, 0, 0}), of(0, 0, 0)) == 0);
+    assert_true(apart(lam_environment_sample(NULL, (lam_vec3){1, 0, 0}), of(0, 0, 0)) == 0);
     lam_image_free(&odd);
     free_cube(&cube);
 }

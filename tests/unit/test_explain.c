@@ -93,7 +93,7 @@ static void check_environment(const lam_explanation *e, const lam_explained_frag
             assert_true(fabs((&p->reflected.x)[c] - (2 * n_v * (&p->n.x)[c] - (&p->v.x)[c])) < 2e-6);
         assert_true(fabs(length - 1) < 1e-5);
         // The public call makes the direction unit once more: the last digits differ.
-        lam_rgb near = lam_environment_look(environment, p->environment_direction);
+        lam_rgb near = lam_environment_sample(environment, p->environment_direction);
         light = p->environment_light;
         for (int c = 0; c < 3; c++)
             assert_true(fabs((double)((&light.r)[c] - (&near.r)[c])) < 1e-4 * (1 + (double)(&near.r)[c]));
@@ -171,7 +171,7 @@ static void check_numbers(const lam_explanation *e, const lam_environment *envir
         layered |= f->color.a < 1;
         double through = 0;
         for (int s = 0; s < e->samples; s++)
-            through += f->sample_mask >> s & 1 ? (double)f->through[s] : 0;
+            through += f->sample_mask >> s & 1 ? (double)f->transmittance[s] : 0;
         assert_true(fabs(through / e->samples - (double)f->weight) < 1e-6);
         assert_int_equal(__builtin_popcount(f->sample_mask), f->samples);
     }

@@ -180,7 +180,7 @@ static void png_comes_back(void **state)
     assert_int_equal(back.format, LAM_RGBA8);
     assert_memory_equal(back.pixels, image.pixels, 61 * 47 * 4);
     assert_int_equal(files_in_folder(), 1);
-    assert_true(lam_image_is_ours(path));
+    assert_true(lam_image_is_from_lambent(path));
     lam_image_free(&image);
     lam_image_free(&back);
 }
@@ -202,7 +202,7 @@ static void pfm_is_exact(void **state)
     assert_true(lam_image_load(&back, path, NULL));
     assert_int_equal(back.format, LAM_RGBA32F);
     assert_memory_equal(back.pixels, image.pixels, 5 * 3 * 16); // the source's alpha is 1 throughout
-    assert_false(lam_image_is_ours(path));
+    assert_false(lam_image_is_from_lambent(path));
     lam_image_free(&image);
     lam_image_free(&back);
 }
@@ -272,7 +272,7 @@ static void ppm_comes_back(void **state)
     for (int i = 0; i < 9 * 4; i++)
         ((uint8_t *)image.pixels)[4 * i + 3] = 255;
     assert_true(lam_image_save(&image, in_folder("a.ppm"), NULL, NULL));
-    assert_true(lam_image_is_ours(in_folder("a.ppm")));
+    assert_true(lam_image_is_from_lambent(in_folder("a.ppm")));
     assert_true(lam_image_load(&back, in_folder("a.ppm"), NULL));
     assert_memory_equal(back.pixels, image.pixels, 9 * 4 * 4);
     lam_image_free(&image);
@@ -300,16 +300,16 @@ static void ours_only_where_it_says_so(void **state)
 {
     (void)state;
     static const char foreign[] = "P6\n1 1\n255\nabc";
-    assert_false(lam_image_is_ours(in_folder("none.png")));
-    assert_false(lam_image_is_ours(folder));
-    assert_false(lam_image_is_ours("/dev/null"));
-    assert_false(lam_image_is_ours(NULL));
+    assert_false(lam_image_is_from_lambent(in_folder("none.png")));
+    assert_false(lam_image_is_from_lambent(folder));
+    assert_false(lam_image_is_from_lambent("/dev/null"));
+    assert_false(lam_image_is_from_lambent(NULL));
     write_file(in_folder("f.ppm"), foreign, sizeof foreign - 1);
-    assert_false(lam_image_is_ours(in_folder("f.ppm")));
+    assert_false(lam_image_is_from_lambent(in_folder("f.ppm")));
     write_file(in_folder("empty.png"), "", 0);
-    assert_false(lam_image_is_ours(in_folder("empty.png")));
+    assert_false(lam_image_is_from_lambent(in_folder("empty.png")));
     assert_int_equal(mkfifo(in_folder("pipe.png"), 0600), 0);
-    assert_false(lam_image_is_ours(in_folder("pipe.png"))); // and does not wait for a writer
+    assert_false(lam_image_is_from_lambent(in_folder("pipe.png"))); // and does not wait for a writer
 
     // A PNG whose Software text is another's, and ours cut at every byte in front of the pixels.
     lam_image image = bytes_picture(4, 4);
@@ -321,11 +321,11 @@ static void ours_only_where_it_says_so(void **state)
     const size_t said = (size_t)(text + 7 - (uint8_t *)out.data);
     for (size_t size = 0; size < said; size++) {
         write_file(in_folder("cut.png"), out.data, size);
-        assert_false(lam_image_is_ours(in_folder("cut.png")));
+        assert_false(lam_image_is_from_lambent(in_folder("cut.png")));
     }
     text[0] = 'L';
     write_file(in_folder("other.png"), out.data, out.size);
-    assert_false(lam_image_is_ours(in_folder("other.png")));
+    assert_false(lam_image_is_from_lambent(in_folder("other.png")));
     lam_bytes_free(&out);
     lam_image_free(&image);
 }
@@ -447,7 +447,7 @@ static void writes_whole_or_not_at_all(void **state)
     // An older file is replaced whole.
     write_file(in_folder("a.png"), "old", 3);
     assert_true(lam_image_save(&image, in_folder("a.png"), NULL, &error));
-    assert_true(lam_image_is_ours(in_folder("a.png")));
+    assert_true(lam_image_is_from_lambent(in_folder("a.png")));
     assert_int_equal(files_in_folder(), 1);
     lam_image_free(&image);
 }

@@ -25,14 +25,14 @@ static void expect_error(const char *bytes, size_t size, const char *name, lam_c
 static void test_formats(void **unused)
 {
     (void)unused;
-    assert_string_equal(lam_format_name(0), "obj");
-    assert_string_equal(lam_format_name(1), "stl");
-    assert_string_equal(lam_format_name(2), "ply");
-    assert_string_equal(lam_format_name(3), "scene");
-    assert_null(lam_format_name(4));
-    assert_null(lam_format_name(-1));
-    assert_string_equal(lam_format_extensions(0), "obj");
-    assert_null(lam_format_extensions(4));
+    assert_string_equal(lam_model_format_name(0), "obj");
+    assert_string_equal(lam_model_format_name(1), "stl");
+    assert_string_equal(lam_model_format_name(2), "ply");
+    assert_string_equal(lam_model_format_name(3), "scene");
+    assert_null(lam_model_format_name(4));
+    assert_null(lam_model_format_name(-1));
+    assert_string_equal(lam_model_format_extensions(0), "obj");
+    assert_null(lam_model_format_extensions(4));
 }
 
 // Content decides; the name only helps.

@@ -217,13 +217,13 @@ static void test_bound(void **state)
             if (!(most > 0 && most <= (double)cutoffs[c] + 1e-5))
                 fail_msg("way %d: with a cutoff of %g the picture is off by %g", way, (double)cutoffs[c], most);
             for (int show = LAM_OUTPUT_AMBIENT; show <= LAM_OUTPUT_REFLECTION; show++) {
-                params.show = (lam_output)show;
+                params.output = (lam_output)show;
                 lam_image term = draw(scene, &params, LAM_RGBA32F, &report);
                 for (int i = 0; i < CHANNELS; i++)
                     sums[i] += ((const float *)term.pixels)[i];
                 lam_image_free(&term);
             }
-            params.show = LAM_OUTPUT_PICTURE;
+            params.output = LAM_OUTPUT_PICTURE;
             for (int i = 0; i < CHANNELS; i++)
                 if (i % 4 != 3)
                     assert_true(fabs((double)sums[i] - (double)((const float *)picture.pixels)[i]) < 2e-5);
@@ -284,8 +284,8 @@ static void test_explained(void **state)
                     float sum = 0;
                     assert_int_equal(point->light_count, 400);
                     for (int i = 0; i < point->light_count; i++) {
-                        left_out += point->lights[i].left_out;
-                        sum += point->lights[i].left_out ? 0 : point->lights[i].diffuse_term.b;
+                        left_out += point->lights[i].skipped;
+                        sum += point->lights[i].skipped ? 0 : point->lights[i].diffuse_term.b;
                     }
                     assert_true(fabsf(sum * point->color.b - point->diffuse.b) < 1e-5f);
                     told++;

@@ -96,7 +96,7 @@ static void camera_does_not_depend_on_the_order(void **state)
             int width = turn % 2 ? 340 : 120, height = 200;
             cameras[order] = lam_camera_fit(scene, width, height, &view);
             // And every point is inside the picture, touching it somewhere.
-            lam_mat4 look = lam_camera_view(&cameras[order]);
+            lam_mat4 look = lam_camera_view_matrix(&cameras[order]);
             double farthest = 0;
             for (int i = 0; i < COUNT; i++) {
                 const float *p = points[0] + 3 * i;
@@ -133,7 +133,7 @@ static lam_scene *scene_of_points(const float *points, uint32_t count)
 static void projected(const lam_camera *camera, int width, int height, const float *points, int count, double low[2],
                       double high[2])
 {
-    lam_mat4 view = lam_camera_view(camera);
+    lam_mat4 view = lam_camera_view_matrix(camera);
     low[0] = low[1] = (double)INFINITY;
     high[0] = high[1] = -(double)INFINITY;
     for (int i = 0; i < count; i++) {
@@ -169,6 +169,70 @@ static void camera_fits_the_picture(void **state)
     }
     lam_camera none = lam_camera_fit(scene, 0, -5, NULL), one = lam_camera_fit(scene, 1, 1, NULL);
     assert_memory_equal(&none, &one, sizeof one);
+    lam_scene_free(scene);
+}
+
+// A named side looks from where its name says, for either up axis.
+static void sides_have_names(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        lam_vec3 y_up, z_up; // from the target to the eye
+    } expected[] = {{"front", {0, 0, 1}, {0, -1, 0}}, {"back", {0, 0, -1}, {0, 1, 0}},
+                    {"left", {-1, 0, 0}, {-1, 0, 0}}, {"right", {1, 0, 0}, {1, 0, 0}},
+                    {"top", {0, 1, 0}, {0, 0, 1}},    {"bottom", {0, -1, 0}, {0, 0, -1}},
+                    {"iso", {1, 1, 1}, {1, -1, 1}}};
+    lam_scene *scene = shape_scene("sphere", 1);
+    for (size_t i = 0; i < 2 * sizeof expected / sizeof *expected; i++) {
+        lam_side side = lam_side_find(expected[i / 2].name);
+        assert_true(side < LAM_SIDE_COUNT);
+        assert_string_equal(lam_side_name(side), expected[i / 2].name);
+        lam_scene_set_up(scene, i % 2 ? LAM_UP_Z : LAM_UP_Y);
+        lam_view view = lam_view_of_side(side);
+        lam_camera camera = lam_camera_fit(scene, 64, 64, &view);
+        lam_vec3 d = {camera.eye.x - camera.target.x, camera.eye.y - camera.target.y, camera.eye.z - camera.target.z};
+        lam_vec3 e = i % 2 ? expected[i / 2].z_up : expected[i / 2].y_up;
+        double scale = sqrt(d.x * d.x + d.y * d.y + d.z * d.z) / sqrt(e.x * e.x + e.y * e.y + e.z * e.z);
+        near(d.x, e.x * scale, 1e-9);
+        near(d.y, e.y * scale, 1e-9);
+        near(d.z, e.z * scale, 1e-9);
+    }
+    lam_view plain = lam_view_of_side(LAM_SIDE_THREE_QUARTER);
+    lam_camera a = lam_camera_fit(scene, 64, 64, &plain), b = lam_camera_fit(scene, 64, 64, NULL);
+    assert_memory_equal(&a, &b, sizeof a);
+    assert_int_equal(lam_side_find("frnt"), LAM_SIDE_COUNT);
+    assert_int_equal(lam_side_find(NULL), LAM_SIDE_COUNT);
+    assert_null(lam_side_name(LAM_SIDE_COUNT));
+    lam_scene_free(scene);
+}
+
+// Cameras in words: what is left out comes from the scene. (tests/cli has every error.)
+static void cameras_in_words(void **state)
+{
+    (void)state;
+    lam_scene *scene = shape_scene("cube", 1);
+    lam_mat4 move = lam_mat4_identity();
+    move.m[1][3] = 10;
+    assert_true(lam_scene_transform(scene, &move, NULL));
+    lam_scene_set_up(scene, LAM_UP_Z);
+    lam_camera camera;
+    lam_error error;
+    assert_true(lam_camera_parse("eye=2/-1.5e1/4", scene, &camera, &error));
+    assert_true(camera.eye.x == 2 && camera.eye.y == -15 && camera.target.y == 10 && camera.up.z == 1);
+    near(camera.fovy_rad, PI_HALF / 3, 1e-15);
+    assert_true(lam_camera_parse("eye=2/1/4,ortho=3,near=-1,far=9,target=1/1/1,up=1/0/0", NULL, &camera, &error));
+    assert_true(camera.ortho_half_height == 3 && camera.near_plane == -1 && camera.target.z == 1 && camera.up.x == 1);
+    lam_camera before = camera;
+    static const char *const wrong[][2] = {{"eye=1/2", "three numbers"},        {"eye=inf/0/0", "three numbers"},
+                                           {"ey=1/2/3", "did you mean 'eye'?"}, {"fovy=20", "'eye' is missing"},
+                                           {"eye=0/0/1e999", "three numbers"},  {"", "key=value"}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_false(lam_camera_parse(wrong[i][0], scene, &camera, &error));
+        assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+        assert_non_null(strstr(error.text, wrong[i][1]));
+        assert_memory_equal(&camera, &before, sizeof camera);
+    }
     lam_scene_free(scene);
 }
 
@@ -273,7 +337,7 @@ static void view_matrix(void **state)
     (void)state;
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){5, 0, 0};
-    lam_mat4 view = lam_camera_view(&camera); // looks along −x: the world's x is the eye's z
+    lam_mat4 view = lam_camera_view_matrix(&camera); // looks along −x: the world's x is the eye's z
     near(view.m[2][0], 1, 1e-15);
     near(view.m[2][3], -5, 1e-15);
     near(view.m[1][1], 1, 1e-15);
@@ -416,6 +480,8 @@ int main(void)
         cmocka_unit_test(sphere_is_the_models),
         cmocka_unit_test(camera_does_not_depend_on_the_order),
         cmocka_unit_test(camera_fits_the_picture),
+        cmocka_unit_test(sides_have_names),
+        cmocka_unit_test(cameras_in_words),
         cmocka_unit_test(turning_and_moving),
         cmocka_unit_test(rigs_stand_about_the_scene),
         cmocka_unit_test(lights_go_with_the_model),

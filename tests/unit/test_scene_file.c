@@ -49,9 +49,9 @@ static void test_defaults(void **unused)
 {
     (void)unused;
     lam_scene *scene = good("{\"lambent\": 1, " BALL "}");
-    lam_settings settings;
-    assert_true(lam_scene_settings(scene, &settings));
-    assert_int_equal(settings.given, 0);
+    lam_picture_settings settings;
+    assert_true(lam_scene_picture_settings(scene, &settings));
+    assert_int_equal(settings.present, 0);
     assert_int_equal(lam_scene_light_count(scene), 0);
     assert_int_equal(lam_scene_up(scene), LAM_UP_Y);
     const lam_object *ball = lam_scene_object(scene, 0);
@@ -61,7 +61,7 @@ static void test_defaults(void **unused)
     assert_string_equal(lam_scene_format(scene), "scene");
     lam_scene_free(scene);
     lam_scene *plain = lam_scene_make(NULL);
-    assert_false(lam_scene_settings(plain, &settings));
+    assert_false(lam_scene_picture_settings(plain, &settings));
     lam_scene_free(plain);
 }
 
@@ -78,9 +78,9 @@ static void test_picture(void **unused)
              "\"flat_normal\": \"vertex\", "
              "\"match_highlights\": true, \"gl1\": true, \"up\": \"z\", \"light_cutoff\": 0.25, \"lights\": "
              "[], " BALL "}");
-    lam_settings s;
-    assert_true(lam_scene_settings(scene, &s));
-    assert_int_equal(s.given, ((LAM_GIVEN_LIGHTS << 1) - 1) | LAM_GIVEN_LIGHT_CUTOFF);
+    lam_picture_settings s;
+    assert_true(lam_scene_picture_settings(scene, &s));
+    assert_int_equal(s.present, ((LAM_SETTING_LIGHTS << 1) - 1) | LAM_SETTING_LIGHT_CUTOFF);
     assert_true(s.draw.light_cutoff == 0.25f);
     assert_true(s.width == 30 && s.height == 20 && s.draw.samples == 8);
     assert_true(s.draw.background.r == (float)(128.0 / 255) && s.draw.background.a == (float)(128.0 / 255));
@@ -96,7 +96,7 @@ static void test_picture(void **unused)
     lam_scene_free(scene);
 
     scene = good("{\"lambent\": 1, \"camera\": {\"fovy\": 60}, \"stage\": \"application\", " BALL "}");
-    lam_scene_settings(scene, &s);
+    lam_scene_picture_settings(scene, &s);
     assert_true(fabs(s.camera.fovy_rad - acos(0.5)) < 1e-15 && s.camera.eye.z == 4 && s.camera.near_plane == 0);
     assert_int_equal(s.draw.shading, LAM_SHADING_GOURAUD);
     lam_scene_free(scene);
@@ -408,10 +408,10 @@ static void test_writing(void **unused)
     for (int i = 0; i < 4; i++)
         assert_true(lam_scene_add_light(scene, &lights[i], &error) == i);
     lam_scene_set_ambient(scene, (lam_rgb){0.1f, 0.7f, 1e-3f});
-    lam_settings s = {.given = ((LAM_GIVEN_LIGHTS << 1) - 1) | LAM_GIVEN_LIGHT_CUTOFF,
-                      .width = 7,
-                      .height = 9,
-                      .camera = lam_camera_default()};
+    lam_picture_settings s = {.present = ((LAM_SETTING_LIGHTS << 1) - 1) | LAM_SETTING_LIGHT_CUTOFF,
+                              .width = 7,
+                              .height = 9,
+                              .camera = lam_camera_default()};
     s.draw = (lam_draw_params){.samples = 2,
                                .background = {0.1f, 0.2f, 0.3f, 0.4f},
                                .color = LAM_COLOR_RAW,
@@ -432,9 +432,9 @@ static void test_writing(void **unused)
     lam_scene *back = lam_scene_load(path, NULL, NULL, &error);
     if (!back)
         fail_msg("%s", error.text);
-    lam_settings t;
-    assert_true(lam_scene_settings(back, &t));
-    assert_int_equal(t.given, s.given);
+    lam_picture_settings t;
+    assert_true(lam_scene_picture_settings(back, &t));
+    assert_int_equal(t.present, s.present);
     assert_memory_equal(&t.draw.samples, &s.draw.samples, sizeof s.draw.samples);
     assert_memory_equal(&t.draw.background, &s.draw.background, sizeof s.draw.background);
     assert_true(t.draw.color == s.draw.color && t.draw.shading == s.draw.shading &&

@@ -36,15 +36,15 @@ static lam_image draw(const lam_scene *scene, const lam_camera *camera, const la
     lam_error error = {0};
     assert_true(lam_image_make(&image, width, height, format, &error));
     if (!lam_draw(device, scene, camera, params, &image, NULL, &error))
-        fail_msg("%s: %s", lam_output_name(params->show), error.text);
+        fail_msg("%s: %s", lam_output_name(params->output), error.text);
     return image;
 }
 
 static lam_image draw_show(const lam_scene *scene, const lam_camera *camera, lam_draw_params params, lam_output show,
                            int light)
 {
-    params.show = show;
-    params.show_light = light;
+    params.output = show;
+    params.output_light = light;
     return draw(scene, camera, &params, 96, 72, LAM_RGBA32F);
 }
 
@@ -205,19 +205,19 @@ static void test_one_light(void **state)
     (void)state;
     lam_scene *scene = full_scene(false);
     lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
-    lam_draw_params params = {.samples = 1, .show = LAM_OUTPUT_LIGHT, .show_light = 4};
+    lam_draw_params params = {.samples = 1, .output = LAM_OUTPUT_LIGHT, .output_light = 4};
     lam_image image = {0};
     lam_error error;
     assert_true(lam_image_make(&image, 16, 16, LAM_RGBA8, NULL));
     assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     assert_non_null(strstr(error.text, "has 4 lights"));
-    params = (lam_draw_params){.show = LAM_OUTPUT_N_L};
+    params = (lam_draw_params){.output = LAM_OUTPUT_N_L};
     assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     assert_non_null(strstr(error.text, "n.l: light 0 comes from everywhere"));
-    params = (lam_draw_params){.show = LAM_OUTPUT_COUNT};
+    params = (lam_draw_params){.output = LAM_OUTPUT_COUNT};
     assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
-    params = (lam_draw_params){.show = LAM_OUTPUT_LIGHT, .show_light = -1};
+    params = (lam_draw_params){.output = LAM_OUTPUT_LIGHT, .output_light = -1};
     assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     lam_light lights[4];
     assert_int_equal(lam_draw_lights(scene, LAM_RIG_AUTO, lights, 2), 4);
@@ -305,7 +305,7 @@ static void test_numbers(void **state)
         for (size_t k = 0; k < 3 * 2; k++) {
             const struct expected *e = &all[i];
             lam_draw_params params = {
-                .show = e->show, .shading = shadings[k / 2], .samples = k % 2 ? 4 : 1, .background = {1, 1, 1, 1}};
+                .output = e->show, .shading = shadings[k / 2], .samples = k % 2 ? 4 : 1, .background = {1, 1, 1, 1}};
             lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
             lam_image bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
             const int at[3] = {40 * 60 + 15, 20 * 60 + 40, 2 * 60 + 2}; // left below, right above, outside
@@ -334,7 +334,7 @@ static void test_ids(void **state)
     lam_camera camera;
     lam_scene *scene = two_sheets(&camera);
     camera.eye.z = -4; // from behind: the lower half shows object 1
-    lam_draw_params params = {.show = LAM_OUTPUT_IDS, .samples = 4};
+    lam_draw_params params = {.output = LAM_OUTPUT_IDS, .samples = 4};
     lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F),
               bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
     bool seen[2][4] = {{0}};
@@ -370,7 +370,7 @@ static void test_clipped(void **state)
     lam_scene *scene = two_sheets(&camera);
     lam_draw_params params = {.samples = 4};
     lam_image picture = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
-    params.show = LAM_OUTPUT_CLIPPED;
+    params.output = LAM_OUTPUT_CLIPPED;
     lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F),
               bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
     int marked = 0;

@@ -132,9 +132,9 @@ static void says_what_is_missing(void **state)
         assert_null(lam_font_open(NULL, &error));
         assert_int_equal(error.code, LAM_UNSUPPORTED);
     }
-    assert_non_null(lam_font_place(0));
-    assert_null(lam_font_place(1000));
-    assert_null(lam_font_place(-1));
+    assert_non_null(lam_font_path(0));
+    assert_null(lam_font_path(1000));
+    assert_null(lam_font_path(-1));
 }
 
 static void follows_the_environment(void **state)

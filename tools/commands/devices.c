@@ -20,7 +20,7 @@ static void tell_json(const char *cpu, const lam_gl_device *list, int count, con
         json_count(&json, "number", (uint64_t)d->number);
         json_text(&json, "name", d->usable ? d->name : NULL);
         json_text(&json, "driver", d->usable ? d->driver : NULL);
-        json_text(&json, "place", d->place);
+        json_text(&json, "place", d->path);
         json_text(&json, "kind", d->software ? "software" : "hardware");
         json_text(&json, "versions", d->usable ? d->versions : NULL);
         json_text(&json, "reason", d->usable ? NULL : d->reason);
@@ -41,7 +41,7 @@ static void tell_text(const char *cpu, const lam_gl_device *list, int count, con
         if (d->usable)
             printf("gl %d  %s; %s\n      %s; %s\n", d->number, d->name, kind, d->versions, d->driver);
         else
-            printf("gl %d  cannot be used (%s)\n      %s\n", d->number, d->place, d->reason);
+            printf("gl %d  cannot be used (%s)\n      %s\n", d->number, d->path, d->reason);
     }
     if (count < 0)
         printf("gl    cannot be used\n      %s\n", error->text);

@@ -94,7 +94,7 @@ static void tell_light(struct json *json, const lam_explained_light *l)
     real(json, "S", l->S);
     color(json, "kd_Ld", l->kd_Ld);
     color(json, "ks_Ls", l->ks_Ls);
-    json_flag(json, "left_out", l->left_out);
+    json_flag(json, "left_out", l->skipped);
     color(json, "ambient_term", l->ambient_term);
     color(json, "diffuse_term", l->diffuse_term);
     color(json, "specular_term", l->specular_term);
@@ -175,7 +175,7 @@ static void tell_fragment(struct json *json, const lam_explained_fragment *f)
         if (f->sample_mask >> s & 1) {
             json_open(json, NULL, '{');
             json_count(json, "sample", (uint64_t)s);
-            real(json, "through", f->through[s]);
+            real(json, "through", f->transmittance[s]);
             json_close(json, '}');
         }
     json_close(json, ']');

@@ -182,9 +182,9 @@ static void tell_lights(const lam_explanation *e, const lam_explained_fragment *
     for (int i = 0; i < p->light_count; i++) {
         const lam_explained_light *l = &p->lights[i];
         bool adds = !is_black(l->ambient_term) || !is_black(l->diffuse_term) || !is_black(l->specular_term);
-        left_out += l->left_out;
+        left_out += l->skipped;
         nothing += !adds;
-        if (p->light_count <= FEW_LIGHTS || (adds && !l->left_out))
+        if (p->light_count <= FEW_LIGHTS || (adds && !l->skipped))
             tell_light(e, f, p, l, i);
     }
     if (p->light_count <= FEW_LIGHTS || nothing + left_out == 0)
@@ -305,12 +305,12 @@ static void tell_fragment(const lam_explanation *e, const lam_explained_fragment
         number(2, "alpha", (double)f->color.a, "opacity · the vertex colour's alpha");
     bool veiled = false;
     for (int s = 0; s < e->samples; s++)
-        veiled |= (f->sample_mask >> s & 1) && f->through[s] < 1;
+        veiled |= (f->sample_mask >> s & 1) && f->transmittance[s] < 1;
     for (int s = 0; veiled && s < e->samples; s++) {
         char name[32];
         snprintf(name, sizeof name, "sample %d", s);
         if (f->sample_mask >> s & 1)
-            number(2, name, (double)f->through[s], "let through by what lies before: Π (1 − alpha)");
+            number(2, name, (double)f->transmittance[s], "let through by what lies before: Π (1 − alpha)");
     }
 }
 

@@ -15,8 +15,8 @@ int run_formats(int operand_count, char **operands, const struct options *option
 {
     (void)operand_count, (void)operands, (void)options;
     printf("Models:\n");
-    for (int i = 0; lam_format_name(i); i++)
-        printf("  %-6s .%s\n", lam_format_name(i), lam_format_extensions(i));
+    for (int i = 0; lam_model_format_name(i); i++)
+        printf("  %-6s .%s\n", lam_model_format_name(i), lam_model_format_extensions(i));
     printf("Pictures:\n"
            "  png    .png  8 bits, sRGB, with alpha\n"
            "  ppm    .ppm  8 bits, sRGB, over the background\n"

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "camera_option.h"
+#include "options.h"
 #include "command.h"
 #include "console.h"
 #include "json.h"

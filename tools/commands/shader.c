@@ -46,9 +46,9 @@ void shader_contract(FILE *file, const lam_shader *s)
         fprintf(file, "// Uniforms of the frame (matrices column by column):\n");
         list_uniforms(file, s->uniforms, s->uniform_count);
     }
-    for (int i = 0; i < s->list_count; i++)
-        fprintf(file, "//   %s holds %d texels; --host c and --json have them.\n", s->lists[i].name,
-                s->lists[i].texels);
+    for (int i = 0; i < s->texture_count; i++)
+        fprintf(file, "//   %s holds %d texels; --host c and --json have them.\n", s->textures[i].name,
+                s->textures[i].texels);
     for (int i = 0; i < s->draw_count; i++) {
         const lam_shader_draw *d = &s->draws[i];
         fprintf(file, "// Uniforms of draw %d, object %d%s%s%s, triangles %u to %u, front %s%s%s:\n", i, d->object,

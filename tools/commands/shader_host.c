@@ -162,8 +162,8 @@ static void tell_block_setter(FILE *file)
 
 static void tell_lists(FILE *file, const lam_shader *s)
 {
-    for (int i = 0; i < s->list_count; i++) {
-        const lam_shader_list *list = &s->lists[i];
+    for (int i = 0; i < s->texture_count; i++) {
+        const lam_shader_texture *list = &s->textures[i];
         fprintf(file, "static const GLsizei %s_texels = %d;\nstatic const GLfloat %s[] = {\n", list->name, list->texels,
                 list->name);
         for (int k = 0; k < list->texels; k++) {
@@ -173,7 +173,7 @@ static void tell_lists(FILE *file, const lam_shader *s)
         }
         fprintf(file, "};\n\n");
     }
-    if (s->list_count)
+    if (s->texture_count)
         fputs("// A list as a texture of floats, 1024 texels in a row. The texture of a unit is made once "
               "and kept.\n"
               "static void set_list(GLuint program, const char *name, GLint unit, const GLfloat *values, "

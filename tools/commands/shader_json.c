@@ -93,11 +93,11 @@ void shader_json(FILE *file, const lam_shader *s, const char *model)
     uniforms(&json, "uniforms", s->uniforms, s->uniform_count);
     draws(&json, s);
     json_open(&json, "lists", '[');
-    for (int i = 0; i < s->list_count; i++) {
+    for (int i = 0; i < s->texture_count; i++) {
         json_open(&json, NULL, '{');
-        json_text(&json, "name", s->lists[i].name);
-        json_count(&json, "texels", (uint64_t)s->lists[i].texels);
-        numbers(&json, "values", s->lists[i].values, 4 * s->lists[i].texels);
+        json_text(&json, "name", s->textures[i].name);
+        json_count(&json, "texels", (uint64_t)s->textures[i].texels);
+        numbers(&json, "values", s->textures[i].values, 4 * s->textures[i].texels);
         json_close(&json, '}');
     }
     json_close(&json, ']');

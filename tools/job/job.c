@@ -6,7 +6,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "camera_option.h"
 #include "command.h"
 #include "console.h"
 #include "environment_option.h"
@@ -23,19 +22,14 @@
 
 static lam_view view_of(const struct options *o)
 {
-    static const double angles[][2] = {
-        [VIEW_DEFAULT] = {30, 20}, [VIEW_FRONT] = {0, 0},
-        [VIEW_BACK] = {180, 0},    [VIEW_LEFT] = {-90, 0},
-        [VIEW_RIGHT] = {90, 0},    [VIEW_TOP] = {0, 90},
-        [VIEW_BOTTOM] = {0, -90},  [VIEW_ISO] = {45, 35.264389682754654}, // atan(1/√2)
-    };
-    return (lam_view){
-        .from_angles = o->view != VIEW_DEFAULT || o->has_azimuth || o->has_elevation,
-        .azimuth_rad = radians(o->has_azimuth ? o->azimuth_deg : angles[o->view][0]),
-        .elevation_rad = radians(o->has_elevation ? o->elevation_deg : angles[o->view][1]),
-        .orthographic = o->projection == 1,
-        .zoom = o->zoom,
-    };
+    lam_view view = lam_view_of_side((lam_side)o->view);
+    if (o->has_azimuth)
+        view.azimuth_rad = radians(o->azimuth_deg);
+    if (o->has_elevation)
+        view.elevation_rad = radians(o->elevation_deg);
+    view.orthographic = o->projection == 1;
+    view.zoom = o->zoom;
+    return view;
 }
 
 // The control of the next call: what is left of the model's time, the memory, the interrupt, the progress bar.
@@ -125,7 +119,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     } else {
         lam_load_params params = {.up = (lam_up)o->up,
                                   .color = (lam_color_mode)o->color,
-                                  .color_decides = option_given(o, "color"),
+                                  .override_color = option_given(o, "color"),
                                   .models_anywhere = true,
                                   .normals = (lam_normals)o->normals,
                                   .crease_angle_rad = crease_of(o),
@@ -156,10 +150,7 @@ static void place_camera(struct job *job)
     const struct options *o = job->options;
     double start = clock_ms();
     if (o->camera) {
-        struct camera_option camera;
-        lam_error unused;
-        camera_option_parse(o->camera, &camera, &unused); // was checked when the option was read
-        job->camera = camera_option_complete(&camera, job->scene);
+        lam_camera_parse(o->camera, job->scene, &job->camera, NULL); // was checked when the option was read
     } else if (scene_settings_has_camera(job)) {
         job->camera = job->settings.camera;
     } else {

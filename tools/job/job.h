@@ -33,9 +33,9 @@ struct job {
     lam_device *device;
     uint64_t bytes; // of the file written
     bool written;
-    struct options own;    // the options with what a scene file says where the command line says nothing
-    lam_settings settings; // of the scene file; nothing given: the model is none
-    lam_draw_params draw;  // as it was drawn
+    struct options own;            // the options with what a scene file says where the command line says nothing
+    lam_picture_settings settings; // of the scene file; nothing given: the model is none
+    lam_draw_params draw;          // as it was drawn
     struct job_times times;
     lam_error error; // code LAM_OK: none
 };

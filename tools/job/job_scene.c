@@ -1,7 +1,7 @@
 // job_scene.c: what the options do to a model between reading and drawing: materials, turns, lights.
 #include "job_scene.h"
 
-#include "camera_option.h"
+#include "options.h"
 #include "console.h"
 #include "key_values.h"
 #include "material_option.h"

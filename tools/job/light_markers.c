@@ -18,7 +18,7 @@ static lam_mat4 to_world(const struct job *job, const lam_light *light)
 {
     lam_mat4 m = lam_mat4_identity();
     if (light->frame == LAM_FRAME_CAMERA) { // a rigid view: its inverse is the transposed rotation about the eye
-        lam_mat4 view = lam_camera_view(&job->camera);
+        lam_mat4 view = lam_camera_view_matrix(&job->camera);
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
                 m.m[i][j] = view.m[j][i];

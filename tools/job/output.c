@@ -74,7 +74,7 @@ bool output_check(const char *path, const char *model, bool named, lam_error *er
             return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
         return true;
     }
-    if (!named && !lam_image_is_ours(path))
+    if (!named && !lam_image_is_from_lambent(path))
         return complain(error, LAM_CANNOT_WRITE,
                         "%s: already exists, and lambent did not write it; -o %s replaces it, -o FILE writes another",
                         path, path);

@@ -33,8 +33,8 @@ static bool add(struct layers *layers, struct job *job, lam_output show, int lig
 {
     int i = layers->count;
     lam_draw_params params = job->draw;
-    params.show = show;
-    params.show_light = light;
+    params.output = show;
+    params.output_light = light;
     if (!lam_image_make(&layers->images[i], job->image.width, job->image.height, LAM_RGBA32F, error))
         return false;
     layers->list[i] = (lam_layer){.name = layers->names[i], .image = &layers->images[i]};

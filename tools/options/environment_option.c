@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "camera_option.h"
+#include "options.h"
 #include "console.h"
 
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error)
@@ -32,9 +32,9 @@ char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUN
 
 const char *environment_option_built_in(const char *name)
 {
-    for (int i = 0; lam_environment_name(i); i++)
-        if (strcmp(name, lam_environment_name(i)) == 0)
-            return lam_environment_name(i);
+    for (int i = 0; lam_environment_built_in_name(i); i++)
+        if (strcmp(name, lam_environment_built_in_name(i)) == 0)
+            return lam_environment_built_in_name(i);
     return NULL;
 }
 

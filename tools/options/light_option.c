@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "camera_option.h"
+#include "options.h"
 #include "console.h"
 #include "key_values.h"
 #include "suggest.h"

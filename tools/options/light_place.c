@@ -40,7 +40,7 @@ static bool sphere_in_frame(const lam_light *light, const struct model_sphere *s
 {
     *out = *sphere;
     if (light->frame == LAM_FRAME_CAMERA) {
-        lam_mat4 view = lam_camera_view(camera);
+        lam_mat4 view = lam_camera_view_matrix(camera);
         double c[3] = {sphere->centre.x, sphere->centre.y, sphere->centre.z}, e[3];
         for (int i = 0; i < 3; i++)
             e[i] = view.m[i][0] * c[0] + view.m[i][1] * c[1] + view.m[i][2] * c[2] + view.m[i][3];

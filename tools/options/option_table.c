@@ -86,13 +86,13 @@ static const struct word lights_in_words[] = {
 static const struct word host_words[] = {{"c", 1, NULL}, {NULL, 0, NULL}};
 
 static const struct word view_words[] = {
-    {"front", VIEW_FRONT, "level, from +Z (with Y up)"},
-    {"back", VIEW_BACK, "level, from behind"},
-    {"left", VIEW_LEFT, "level, from the model's left side in the picture (-X)"},
-    {"right", VIEW_RIGHT, "level, from the right (+X)"},
-    {"top", VIEW_TOP, "straight down"},
-    {"bottom", VIEW_BOTTOM, "straight up"},
-    {"iso", VIEW_ISO, "45 degrees to the right, 35.26 above: all three axes equally long"},
+    {"front", LAM_SIDE_FRONT, "level, from +Z (with Y up)"},
+    {"back", LAM_SIDE_BACK, "level, from behind"},
+    {"left", LAM_SIDE_LEFT, "level, from the model's left side in the picture (-X)"},
+    {"right", LAM_SIDE_RIGHT, "level, from the right (+X)"},
+    {"top", LAM_SIDE_TOP, "straight down"},
+    {"bottom", LAM_SIDE_BOTTOM, "straight up"},
+    {"iso", LAM_SIDE_ISO, "45 degrees to the right, 35.26 above: all three axes equally long"},
     {NULL, 0, NULL}};
 
 static const struct word projection_words[] = {

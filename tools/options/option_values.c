@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "camera_option.h"
 #include "console.h"
 #include "job_scene.h"
 #include "key_values.h"
@@ -62,6 +61,8 @@ bool store_glsl(const struct option *option, const char *value, struct options *
 {
     return store_word(option, strcmp(value, "300 es") == 0 ? "300es" : value, options, error);
 }
+
+double radians(double degrees) { return degrees * (3.14159265358979323846 / 180); }
 
 const char *read_number(const char *text, double *value)
 {
@@ -210,8 +211,8 @@ bool store_reflectivity(const struct option *option, const char *value, struct o
 
 bool store_camera(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
-    struct camera_option camera;
-    if (!camera_option_parse(value, &camera, error))
+    lam_camera camera;
+    if (!lam_camera_parse(value, NULL, &camera, error))
         return false;
     *(const char **)field_of(options, option->field) = value;
     return true;

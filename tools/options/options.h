@@ -29,7 +29,7 @@ struct options {
     const char *save_scene; // a scene file to write as well; NULL: none
 
     // View
-    int view;                          // enum view_name
+    int view;                          // lam_side
     double azimuth_deg, elevation_deg; // valid where the switch below is set
     bool has_azimuth, has_elevation;
     double zoom;        // 0: 1
@@ -119,8 +119,6 @@ enum {
     TAKES_QUIET = 1u << 26,
     TAKES_SIZE = 1u << 27,
 };
-
-enum view_name { VIEW_DEFAULT, VIEW_FRONT, VIEW_BACK, VIEW_LEFT, VIEW_RIGHT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO };
 
 // --rig none: no light but the ambient; beside the values of lam_rig.
 enum { RIG_DARK = 100 };
@@ -229,5 +227,7 @@ bool store_light_color(const struct option *, const char *, struct options *,
 // A plain decimal number at the start of `text` ("-1.5e3"; no hexadecimal, no "inf"). Returns what follows
 // it, NULL if there is none or it is too large.
 const char *read_number(const char *text, double *value);
+
+double radians(double degrees);
 
 #endif

@@ -102,17 +102,17 @@ static void list(const lam_light *lights, int count, bool directed, char *out, s
 bool show_option_apply(const char *text, const lam_scene *scene, lam_draw_params *params, lam_error *error)
 {
     const char *wanted = NULL;
-    params->show = text && strcmp(text, "all") != 0 ? split(text, &wanted) : LAM_OUTPUT_PICTURE;
-    if (!takes_light(params->show))
+    params->output = text && strcmp(text, "all") != 0 ? split(text, &wanted) : LAM_OUTPUT_PICTURE;
+    if (!takes_light(params->output))
         return true;
     int count = lam_draw_lights(scene, params->rig, NULL, 0);
     lam_light *lights = calloc((size_t)count + 1, sizeof *lights);
     if (!lights)
         return complain(error, LAM_LIMIT, "out of memory");
     lam_draw_lights(scene, params->rig, lights, count);
-    params->show_light = find(wanted, lights, count);
-    bool directed = params->show != LAM_OUTPUT_LIGHT;
-    bool ok = params->show_light >= 0 && (!directed || has_direction(&lights[params->show_light]));
+    params->output_light = find(wanted, lights, count);
+    bool directed = params->output != LAM_OUTPUT_LIGHT;
+    bool ok = params->output_light >= 0 && (!directed || has_direction(&lights[params->output_light]));
     if (!ok) {
         char known[300];
         list(lights, count, directed, known, sizeof known);

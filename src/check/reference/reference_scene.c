@@ -208,7 +208,7 @@ void reference_matrices(const struct reference_scene *s, struct reference_matric
 {
     lam_camera camera = camera_of(s);
     out->model = model_matrix(s);
-    out->view = lam_camera_view(&camera);
+    out->view = lam_camera_view_matrix(&camera);
     out->model_view = mat4_mul(&out->view, &out->model);
     out->projection = mat4_perspective(camera.fovy_rad, 1, camera.near_plane, camera.far_plane);
     out->model_view_projection = mat4_mul(&out->projection, &out->model_view);

@@ -1,11 +1,11 @@
-// cpu_features.c: what the processor can do.
+// cpu_features.c: the instruction sets of the processor.
 #include "cpu_features.h"
 
 unsigned cpu_features(void)
 {
     unsigned features = 0;
 #if defined(__x86_64__) || defined(__i386__)
-    __builtin_cpu_init(); // asks the operating system too whether it saves the wide registers
+    __builtin_cpu_init(); // also checks that the operating system saves the wide registers
     if (__builtin_cpu_supports("sse4.2"))
         features |= CPU_SSE4;
     if (__builtin_cpu_supports("avx2"))
@@ -13,6 +13,8 @@ unsigned cpu_features(void)
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl"))
         features |= CPU_AVX512;
+    if (__builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("bmi2"))
+        features |= CPU_AVX512_VBMI;
 #elif defined(__aarch64__)
     features |= CPU_NEON; // every 64-bit Arm has it
 #endif

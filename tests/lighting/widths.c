@@ -18,7 +18,7 @@ int widths_usable(const struct width *usable[], int room)
     };
     int count = 0;
     for (unsigned i = 0; i < sizeof all / sizeof *all && count < room; i++) {
-        if ((all[i]->features & ~(int)cpu_features()) == 0)
+        if (cpu_has((unsigned)all[i]->features))
             usable[count++] = all[i];
     }
     return count;

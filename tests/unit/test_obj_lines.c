@@ -24,7 +24,7 @@ static int readers(obj_lines_reader *out[2])
 {
     out[0] = obj_read_lines_scalar;
 #if defined(__x86_64__)
-    if (cpu_features() & CPU_AVX512 && __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("bmi2")) {
+    if (cpu_has(CPU_AVX512 | CPU_AVX512_VBMI)) {
         out[1] = obj_read_lines_avx512;
         return 2;
     }

@@ -5,7 +5,9 @@
 // With LANES 1 a num is a float and the same text is ordinary C. With more it is a GCC/Clang vector type, which any
 // instruction set can carry (wider than the machine's registers: several of them), so every width runs everywhere and,
 // since only correctly rounded operations occur (+ − × ÷ √, no fused ones), gives the same bits.
-// This is the one file that may hold intrinsics. The words below and + − * / < <= > >= == != are the whole language;
+// All intrinsics for lanes live in this file. (Two others hold intrinsics of their own: src/import/obj reads text by the
+// register, byte_masks.h, and float_state.h sets the floating-point unit's control register.)
+// The words below and + − * / < <= > >= == != are the whole language;
 // vectors take a C float on one side of an operator, but a variable that starts from a float needs num_of().
 #ifndef LANES_H
 #define LANES_H

@@ -5,22 +5,11 @@
 
 #include <string.h>
 
-extern const struct fan_lanes fan_lanes_scalar;
-#if defined(__x86_64__)
-extern const struct fan_lanes fan_lanes_avx2, fan_lanes_avx512;
-#endif
+extern const struct fan_lanes fan_lanes_scalar, fan_lanes_avx2, fan_lanes_avx512;
 
 const struct fan_lanes *fan_lanes_of(int lanes)
 {
-#if defined(__x86_64__)
-    unsigned have = cpu_features();
-    if (lanes >= 16 && have & CPU_AVX512)
-        return &fan_lanes_avx512;
-    if (lanes >= 8 && have & CPU_AVX2)
-        return &fan_lanes_avx2;
-#endif
-    (void)lanes;
-    return &fan_lanes_scalar;
+    return CPU_WIDEST(lanes, &fan_lanes_scalar, &fan_lanes_avx2, &fan_lanes_avx512);
 }
 
 bool fan_batch_take(struct fan_batch *batch, uint32_t count)

@@ -13,22 +13,11 @@ enum {
     PART_BITS = 12, // at most
 };
 
-extern const struct seen_lanes seen_lanes_scalar;
-#if defined(__x86_64__)
-extern const struct seen_lanes seen_lanes_avx2, seen_lanes_avx512;
-#endif
+extern const struct seen_lanes seen_lanes_scalar, seen_lanes_avx2, seen_lanes_avx512;
 
 const struct seen_lanes *seen_lanes_of(int lanes)
 {
-#if defined(__x86_64__)
-    unsigned have = cpu_features();
-    if (lanes >= 16 && have & CPU_AVX512)
-        return &seen_lanes_avx512;
-    if (lanes >= 8 && have & CPU_AVX2)
-        return &seen_lanes_avx2;
-#endif
-    (void)lanes;
-    return &seen_lanes_scalar;
+    return CPU_WIDEST(lanes, &seen_lanes_scalar, &seen_lanes_avx2, &seen_lanes_avx512);
 }
 
 void seen_table_plan(struct seen_table *table, size_t vertices)

@@ -12,7 +12,7 @@
 static obj_lines_reader *lines_reader(void)
 {
 #if defined(OBJ_LINES_AVX512)
-    if (cpu_features() & CPU_AVX512 && __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("bmi2"))
+    if (cpu_has(CPU_AVX512 | CPU_AVX512_VBMI))
         return obj_read_lines_avx512;
 #endif
     return obj_read_lines_scalar;

@@ -1,7 +1,17 @@
-// kernels.c: the template of all kernels, compiled once for each instruction set with LANES and ISA defined
-// (meson.build).
+// kernels.c: the text of all kernels, compiled once for each instruction set with LANES and ISA defined (meson.build).
 #include "kernels.h"
 
+#include "clip.h"
+#include "coverage.h"
+#include "fragment_store.h"
+#include "fragments.h"
+#include "light_bounds.h"
+#include "resolve.h"
+#include "shade_frame.h"
+#include "shading_batch.h"
+#include "translucent_fragments.h"
+
+#include "arena.h"
 #include "triples.h"
 
 #include <string.h>
@@ -9,7 +19,7 @@
 #include "vertex_transform.inc"
 #include "corners.inc"
 #include "occlusion.inc"
-#include "bin.inc"
+#include "bin_triangles.inc"
 #include "cover.inc"
 #include "cover_packet.inc"
 #include "cover_tile.inc"
@@ -28,14 +38,18 @@
 const struct kernels NAME(ISA) = {
     .name = STRING(ISA),
     .lanes = LANES,
-    .project = project,
-    .bin = bin,
-    .cover = cover,
-    .gather_layers = gather_layers,
-    .collect = collect,
-    .save_fragment_store = save_fragment_store,
-    .load_fragment_store = load_fragment_store,
-    .light = light,
-    .resolve = resolve_and_record,
+    .vertex_transform = vertex_transform,
+    .bin_triangles = bin_triangles,
+    .cover_tile = cover_tile,
+    .translucent_fragments = translucent_fragments,
+    .visibility_resolve = visibility_resolve,
+    .save_fragments = save_fragments,
+    .load_fragments = load_fragments,
+    .shade_fragments = shade_fragments,
+    .resolve = resolve,
     .resolve_empty = resolve_empty,
+#ifdef RECORDING
+    .record_fragments = record_fragments,
+    .record_pixel = record_pixel,
+#endif
 };

@@ -1,40 +1,84 @@
 // kernels.h: the table of hot functions. One text, compiled once for each instruction set (kernels.c); every one gives
-// the same bits as `scalar`.
+// the same bits as `scalar`. The parameters of a step are all that it sees: const where it only reads.
 #ifndef KERNELS_H
 #define KERNELS_H
 
-#include "pipeline.h"
+#include <lambent/device.h>
+
+#include <stddef.h>
+
+struct arena;
+struct cpu_frame;
+struct fragment_store;
+struct fragments;
+struct layer_rows;
+struct piece;
+struct pixel_sums;
+struct raster_frame;
+struct rectangle;
+struct resolve_target;
+struct sample_pattern;
+struct shade_frame;
+struct shading;
+struct thread_bins;
+struct thread_state;
+struct tile;
+struct tile_samples;
 
 struct kernels {
     const char *name;
     int lanes;
-    // Projects the vertices of one piece.
-    void (*project)(struct cpu_frame *cpu, const struct piece *piece);
-    // Rejects and bins the triangles of one piece.
-    void (*bin)(struct cpu_frame *cpu, struct thread_state *thread, const struct piece *piece);
-    // Draws one tile's binned opaque triangles into the thread's visibility arrays, and counts the translucent ones.
-    void (*cover)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
-    // Lists the fragments of translucent triangles in a rectangle of the tile, but for what lies behind opaque ones.
-    // False: there are more than LAYERS_MAX.
-    bool (*gather_layers)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y,
-                          const struct rectangle *rectangle);
-    // Lists the opaque fragments of a tile: width × height pixels of it are in the picture.
-    void (*collect)(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height);
-    // Keeps a tile's fragments, of triangles from fragment_store->lowest to `highest`, in memory of the arena (false:
-    // there is none), and takes them out again.
-    bool (*save_fragment_store)(struct fragment_store *fragment_store, const struct thread_state *thread, int samples,
-                                uint32_t highest, struct arena *arena);
-    void (*load_fragment_store)(const struct fragment_store *fragment_store, struct thread_state *thread, int samples);
-    // Colours the thread's fragments.
-    void (*light)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
-    // Sums the fragments of a tile into its pixels, under the blended layers where there are any, and writes those into
-    // the picture.
-    void (*resolve)(struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y);
-    // What a pixel without fragments holds, into cpu->empty_pixel.
-    void (*resolve_empty)(struct cpu_frame *cpu);
+
+    // Writes x, y and depth key of the piece's vertices into raster->vertices. A vertex that needs clipping gets a NaN
+    // that names the planes (clip.h). Pieces may be transformed in any order, by any threads.
+    void (*vertex_transform)(const struct raster_frame *raster, const struct piece *piece);
+
+    // Appends the piece's triangles to the bins of the tiles that they touch, and clips the ones that need it. Drops
+    // triangles that are outside of the window, have no area, are culled or have no sample in their box. All vertices
+    // of the draw must have been transformed.
+    void (*bin_triangles)(const struct raster_frame *raster, struct thread_bins *bins, const struct piece *piece);
+
+    // Clears the tile's samples, then draws the opaque triangles of all threads' bins: for each sample the nearest key,
+    // of equal keys the lowest triangle number. Counts the translucent triangles.
+    void (*cover_tile)(const struct raster_frame *raster, struct tile_samples *samples, const struct tile *tile);
+
+    // Lists the fragments of translucent triangles within `area` of the tile, apart from samples behind an opaque
+    // triangle: id, pixel, sample, and their layer rows. False: there are more than LAYERS_MAX.
+    bool (*translucent_fragments)(const struct raster_frame *raster, const struct tile_samples *samples,
+                                  struct fragments *fragments, struct layer_rows *rows, const struct tile *tile,
+                                  const struct rectangle *area);
+
+    // Lists the opaque fragments of the tile's pixels inside the picture: id, pixel, weight, sample. The fragments of a
+    // pixel are consecutive, in the order of the nearest sample that shows them. Returns how many pixels have any.
+    uint64_t (*visibility_resolve)(const struct sample_pattern *pattern, const struct tile_samples *samples,
+                                   struct fragments *fragments, const struct tile *tile);
+
+    // Stores the fragments that visibility_resolve has listed in memory of the arena. store->lowest and `highest` are
+    // the limits of their triangle numbers. False: out of memory.
+    bool (*save_fragments)(struct fragment_store *store, const struct fragments *fragments, int samples,
+                           uint32_t highest, struct arena *arena);
+    // Lists the stored fragments again: the same id, pixel, weight and sample.
+    void (*load_fragments)(const struct fragment_store *store, struct fragments *fragments, int samples);
+
+    // Fills in the colours of grouped fragments.
+    void (*shade_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct shading *shading,
+                            const struct tile *tile);
+
+    // Sums the fragments' colours into their pixels, weighted by samples, under the blended layers if the tile has any,
+    // and writes the tile to the picture. Pixels without fragments get target->empty_pixel.
+    void (*resolve)(const struct resolve_target *target, const struct fragments *fragments,
+                    const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile);
+
+    // Sets target->empty_pixel to the background, encoded.
+    void (*resolve_empty)(struct resolve_target *target);
+
+    // Only in kernels_recording, else NULL: records the explained pixel's fragments once they are shaded, and the pixel
+    // once it is resolved.
+    void (*record_fragments)(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile);
+    void (*record_pixel)(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile);
 };
 
-// Those of `scalar`, which also keep the numbers of one pixel (record.inc).
+// As `scalar`, and with the numbers of one pixel recorded (record.inc).
 extern const struct kernels kernels_recording;
 
 extern const struct kernels kernels_scalar, kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon, kernels_wasm;

@@ -1,4 +1,4 @@
-// device.c: the front of all devices: checks arguments, builds the frame, keeps the report.
+// device.c: the front of all devices: checks arguments, builds the frame, fills the report.
 #include "device_type.h"
 
 #include "fail.h"
@@ -29,7 +29,7 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
         return false;
     struct call_control call;
     call_start(&call, control);
-    // What the device holds already counts towards the budget.
+    // Memory that the device holds already counts towards the budget.
     uint64_t held = device->type->memory(device) + device->frame.storage.room;
     memset(&device->report, 0, sizeof device->report);
     if (!call_charge(&call, held))

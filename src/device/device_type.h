@@ -1,5 +1,5 @@
-// device_type.h: the interface that a device fills. The front (device.c) checks arguments and builds the frame once for
-// all.
+// device_type.h: the interface that a device implements. The front (device.c) checks arguments and builds the frame for
+// all of them.
 #ifndef DEVICE_TYPE_H
 #define DEVICE_TYPE_H
 
@@ -14,17 +14,17 @@ struct device_type {
     // Bytes held from frame to frame.
     uint64_t (*memory)(const struct lam_device *device);
     void (*free)(struct lam_device *device); // frees the device itself too
-    bool makes_normals;                      // draws frames whose makes_normals is set
+    bool makes_normals;                      // can draw frames whose makes_normals is set
 };
 
-// The head of every device; a device's own struct begins with it.
+// The base of every device; a device's own struct begins with it.
 struct lam_device {
     const struct device_type *type;
     char name[96];
-    lam_isa isa; // what lam_device_isa and lam_device_threads tell; left 0 by devices that have none
+    lam_isa isa; // AUTO and 0 threads for devices to which neither applies
     int threads;
     struct frame frame;
-    struct recorder *recorder; // not NULL: one pixel is to be explained (recorder.h)
+    struct recorder *recorder; // records one pixel (recorder.h); NULL: none
     lam_frame_report report;
 };
 

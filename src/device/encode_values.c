@@ -1,14 +1,14 @@
-// encode_values.c: pixels that hold numbers of the surfaces in place of colours: their code in 8 bits
-// (lam_output in lambent/device.h says it). Plain C, one code for all devices.
+// encode_values.c: pixels that hold values of the surfaces in place of colours, encoded in 8 bits as lam_output in
+// lambent/device.h defines. Plain C, the same code for all devices.
 #include "encode_values.h"
 
 #include <string.h>
 
-static float held(float x, float low, float high) { return x > high ? high : x > low ? x : low; } // NaN: low
+static float clamped(float x, float low, float high) { return x > high ? high : x > low ? x : low; } // NaN: low
 
-static uint8_t byte_of(float x) { return (uint8_t)(held(x, 0, 1) * 255.0f + 0.5f); }
+static uint8_t byte_of(float x) { return (uint8_t)(clamped(x, 0, 1) * 255.0f + 0.5f); }
 
-// A colour that tells neighbouring triangles apart; 48 and more, so that it stands out from black.
+// A colour that distinguishes neighbouring triangles; each channel at least 48, to stand out from black.
 static void color_of_ids(const float v[3], uint8_t out[4])
 {
     uint64_t h = ((uint64_t)v[1] << 40 | (uint64_t)v[2] << 24 | (uint64_t)v[0]) + 1;
@@ -18,7 +18,7 @@ static void color_of_ids(const float v[3], uint8_t out[4])
         out[c] = (uint8_t)(48 + (h >> (40 + 8 * c) & 0xff) * 207 / 255);
 }
 
-// The code of a covered pixel's numbers.
+// Encodes the values of a covered pixel.
 static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
 {
     static const uint8_t front[3] = {0, 102, 255}, back[3] = {255, 51, 0};
@@ -50,7 +50,7 @@ static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
         }
 }
 
-void shown_put(const struct frame *frame, lam_pixel_format format, const float v[4], void *to)
+void encode_values(const struct frame *frame, lam_pixel_format format, const float v[4], void *to)
 {
     if (format == LAM_RGBA32F)
         memcpy(to, v, 16);
@@ -60,14 +60,14 @@ void shown_put(const struct frame *frame, lam_pixel_format format, const float v
         memset(to, 0, 4);
 }
 
-// How far the picture's pixel leaves 0…1, or its mark in 8 bits.
-void shown_put_clipped(lam_pixel_format format, const float p[4], void *to)
+// The excess of the picture's pixel over 0…1, or in 8 bits a colour that marks it.
+void encode_clipped(lam_pixel_format format, const float p[4], void *to)
 {
     float out[4] = {0}, straight[3];
     bool above = false, below = false;
     for (int c = 0; c < 3; c++) {
         straight[c] = p[3] > 0 ? p[c] / p[3] : 0;
-        out[c] = straight[c] - held(straight[c], 0, 1);
+        out[c] = straight[c] - clamped(straight[c], 0, 1);
         above |= out[c] > 0;
         below |= out[c] < 0;
     }

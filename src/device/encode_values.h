@@ -1,13 +1,13 @@
-// encode_values.h: what a picture's pixel holds where it shows numbers in place of colours.
+// encode_values.h: pixels that hold values of the surfaces in place of colours (lam_output).
 #ifndef ENCODE_VALUES_H
 #define ENCODE_VALUES_H
 
 #include "frame.h"
 
-// A pixel with the numbers v, covered where v[3] is above 0.
-void shown_put(const struct frame *frame, lam_pixel_format format, const float v[4], void *to);
+// Writes a pixel with the values v; it is covered if v[3] > 0.
+void encode_values(const struct frame *frame, lam_pixel_format format, const float v[4], void *to);
 
-// How far the picture's pixel p, premultiplied, leaves 0…1, or its mark in 8 bits.
-void shown_put_clipped(lam_pixel_format format, const float p[4], void *to);
+// Writes the excess of the picture's pixel p (premultiplied) over 0…1, or in 8 bits a colour that marks it.
+void encode_clipped(lam_pixel_format format, const float p[4], void *to);
 
 #endif

@@ -1,4 +1,4 @@
-// explain.c: lam_explain: draws one tile with a recorder that listens, and completes what it has heard.
+// explain.c: lam_explain: draws one tile with a recorder, and completes the recorded values.
 #include "device_type.h"
 #include "recorder.h"
 
@@ -11,15 +11,15 @@
 lam_explained_fragment *recorder_add(struct recorder *recorder)
 {
     int count = recorder->out->fragment_count;
-    if (count == recorder->room) {
-        int room = count ? 2 * count : 16;
-        lam_explained_fragment *grown = recorder_alloc(recorder, (size_t)room, sizeof *grown);
+    if (count == recorder->capacity) {
+        int capacity = count ? 2 * count : 16;
+        lam_explained_fragment *grown = recorder_alloc(recorder, (size_t)capacity, sizeof *grown);
         if (!grown)
             return NULL;
         if (count)
             memcpy(grown, recorder->fragments, (size_t)count * sizeof *grown);
         recorder->fragments = grown;
-        recorder->room = room;
+        recorder->capacity = capacity;
         recorder->out->fragments = grown;
     }
     recorder->out->fragment_count++;
@@ -27,13 +27,14 @@ lam_explained_fragment *recorder_add(struct recorder *recorder)
     return &recorder->fragments[count];
 }
 
-void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float through, float share)
+void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float transmittance,
+                    float share)
 {
     if (pixel != recorder->pixel || !recorder->layer_slots || !recorder->layer_slots[fragment])
         return;
     lam_explained_fragment *out = &recorder->fragments[recorder->layer_slots[fragment] - 1];
-    out->transmittance[sample] = through;
-    out->weight += through * share;
+    out->transmittance[sample] = transmittance;
+    out->weight += transmittance * share;
 }
 
 void *recorder_alloc(struct recorder *recorder, size_t count, size_t size)
@@ -46,7 +47,7 @@ void *recorder_alloc(struct recorder *recorder, size_t count, size_t size)
     return memory;
 }
 
-// From the vectors' cross and scalar product: exact for small angles too.
+// By cross and scalar product: accurate for small angles too.
 static double angle_between(lam_vec3 a, lam_vec3 b)
 {
     if (v3_dot(a, a) == 0 || v3_dot(b, b) == 0)
@@ -54,7 +55,7 @@ static double angle_between(lam_vec3 a, lam_vec3 b)
     return math_atan2(v3_length(v3_cross(a, b)), v3_dot(a, b));
 }
 
-// What follows from the numbers that were kept.
+// Adds values that follow from the recorded ones.
 static void complete(struct recorder *recorder, const lam_scene *scene)
 {
     for (int i = 0; i < recorder->out->fragment_count; i++) {
@@ -79,7 +80,7 @@ static void complete(struct recorder *recorder, const lam_scene *scene)
 
 // The explanation and the arena that holds it.
 struct explanation {
-    lam_explanation told; // first
+    lam_explanation values; // first
     struct arena arena;
 };
 
@@ -103,7 +104,7 @@ static bool check_place(const lam_device *device, const lam_draw_params *params,
         return fail(error, LAM_BAD_ARGUMENT, "lam_explain: device is NULL");
     if (params && params->output != LAM_OUTPUT_PICTURE)
         return fail(error, LAM_BAD_ARGUMENT,
-                    "explain: show is not the picture; all terms of the picture's pixel are told");
+                    "explain: show is not the picture; an explanation has all terms of the picture's pixel");
     if (lam_device_isa(device) == LAM_ISA_AUTO)
         return fail(error, LAM_UNSUPPORTED, "the device '%s' cannot explain its pixels, the CPU device can",
                     lam_device_name(device));
@@ -128,7 +129,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
         lam_image_free(&image);
         return NULL;
     }
-    lam_explanation *out = &explanation->told;
+    lam_explanation *out = &explanation->values;
     *out = (lam_explanation){.x = x, .y = y, .width = width, .height = height, .format = format};
     struct recorder recorder = {.out = out};
     arena_start(&recorder.arena, NULL);

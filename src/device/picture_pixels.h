@@ -1,5 +1,5 @@
-// picture_pixels.h: linear light to the pixels of a picture, LANES at a time: over the background, encoded.
-// One code for all devices. Include with LANES defined (lanes.h).
+// picture_pixels.h: linear light to the pixels of a picture, LANES at a time: over the background, encoded. The same
+// code for all devices. Include with LANES defined (lanes.h).
 #ifndef PICTURE_PIXELS_H
 #define PICTURE_PIXELS_H
 
@@ -28,7 +28,7 @@ LANE_FN struct pixel_lanes over_background(const struct frame *frame, struct pix
 LANE_FN num straight_channel(num x, num a) { return pick(a > 0.0f, x / a, num_of(0.0f)); }
 LANE_FN num encoded_channel(num straight, int raw) { return raw ? saturate(straight) : srgb_encode(straight); }
 
-// A premultiplied channel to a byte: colour ÷ alpha, encoded, rounded.
+// A premultiplied channel as a byte: divided by alpha, encoded, rounded.
 LANE_FN inum to_byte(num x, num a, int raw)
 {
     return int_of(encoded_channel(straight_channel(x, a), raw) * 255.0f + 0.5f);
@@ -42,7 +42,7 @@ LANE_FN inum to_rgba8(const struct frame *frame, struct pixel_lanes p)
     return r | shift_left(g, 8) | shift_left(b, 16) | shift_left(a, 24);
 }
 
-// As to_rgba8, of opaque pixels: no background shows, and a colour divided by 1 is itself.
+// to_rgba8 for opaque pixels: no background shows, and division by an alpha of 1 is exact.
 LANE_FN inum opaque_to_rgba8(const struct frame *frame, struct pixel_lanes p)
 {
     int raw = frame->color == LAM_COLOR_RAW;

@@ -1,4 +1,4 @@
-// samples.h: where the samples of a pixel lie.
+// samples.h: the positions of samples in a pixel.
 #ifndef SAMPLES_H
 #define SAMPLES_H
 
@@ -6,11 +6,11 @@
 
 enum { SAMPLES_MAX = 16 };
 
-// Where samples lie in a pixel, in 1/16 pixel from its centre (y down), and in which order they are near to it.
+// Positions of samples, in 1/16 pixel from the pixel's centre (y down), and their order by distance from it.
 struct sample_pattern {
     int count;
     int8_t x[SAMPLES_MAX], y[SAMPLES_MAX];
-    int8_t least, most; // of x, and of y
+    int8_t min, max; // of all x and y
     uint8_t by_distance[SAMPLES_MAX];
 };
 const struct sample_pattern *sample_pattern(int samples);

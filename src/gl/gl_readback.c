@@ -32,7 +32,7 @@ static void store_clipped(const struct gl_frame *f, const float *from, void *to)
     num a = num_of(from[3] < 1 ? from[3] : 1);
     struct pixel_lanes one = {num_of(from[0]), num_of(from[1]), num_of(from[2]), a};
     write_pixels(f->frame, one, LAM_RGBA32F, p, 1);
-    shown_put_clipped(f->image->format, p, to);
+    encode_clipped(f->image->format, p, to);
 }
 
 static void store_number(const struct gl_frame *f, const float *from, void *to)
@@ -40,13 +40,13 @@ static void store_number(const struct gl_frame *f, const float *from, void *to)
     lam_output show = f->frame->show;
     if (show == LAM_OUTPUT_COVERAGE || show == LAM_OUTPUT_OVERDRAW) {
         float share = show == LAM_OUTPUT_COVERAGE ? from[3] : from[0];
-        shown_put(f->frame, f->image->format, (float[4]){share, share, share, 1}, to);
+        encode_values(f->frame, f->image->format, (float[4]){share, share, share, 1}, to);
         return;
     }
     bool covered = from[3] > 0;
-    shown_put(f->frame, f->image->format,
-              (float[4]){covered ? from[0] : 0, covered ? from[1] : 0, covered ? from[2] : 0, covered ? 1.0f : 0.0f},
-              to);
+    encode_values(
+        f->frame, f->image->format,
+        (float[4]){covered ? from[0] : 0, covered ? from[1] : 0, covered ? from[2] : 0, covered ? 1.0f : 0.0f}, to);
 }
 
 bool reading_part(struct gl_frame *f, lam_error *error)

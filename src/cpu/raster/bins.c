@@ -1,5 +1,5 @@
 // bins.c: memory for bins and clipped pieces, and the binning of large triangles.
-#include "pipeline.h"
+#include "bins.h"
 
 #include "pages.h"
 
@@ -7,30 +7,30 @@
 
 enum {
     SLAB = 2 << 20,   // a huge page
-    FILLED = 1 << 18, // triangles that fill the first one of each thread, or nearly
+    FILLED = 1 << 18, // number of triangles that nearly fills the first slab of each thread
 };
 
-// The next `bytes` of a list of slabs; new slabs come from the system and stay for later frames.
-static void *slab_take(struct cpu_frame *cpu, struct slab_list *list, size_t bytes)
+// Takes `bytes` from a list of slabs. New slabs come from the system and stay for later frames.
+static void *slab_take(const struct raster_frame *raster, struct slab_list *list, size_t bytes)
 {
     if (list->count == 0 || list->used + bytes > SLAB) {
         int next = list->count == 0 ? 0 : list->current + 1;
         if (next == list->count) {
-            if (list->count == list->room) {
-                int room = list->room ? list->room * 2 : 16;
-                void **slabs = realloc(list->slabs, (size_t)room * sizeof *slabs);
+            if (list->count == list->capacity) {
+                int capacity = list->capacity ? list->capacity * 2 : 16;
+                void **slabs = realloc(list->slabs, (size_t)capacity * sizeof *slabs);
                 if (!slabs)
                     goto out_of_memory;
                 list->slabs = slabs;
-                list->room = room;
+                list->capacity = capacity;
             }
-            if (!call_charge(cpu->call, SLAB))
+            if (!call_charge(raster->call, SLAB))
                 goto out_of_memory;
             size_t held;
-            bool filled = next > 0 || cpu->frame->triangle_count > FILLED; // rather than a part of it
+            bool filled = next > 0 || raster->frame->triangle_count > FILLED; // its pages will all be used
             void *slab = filled ? pages_get(SLAB, &held) : pages_get_sparse(SLAB, &held);
             if (!slab) {
-                call_refund(cpu->call, SLAB);
+                call_refund(raster->call, SLAB);
                 goto out_of_memory;
             }
             list->slabs[list->count++] = slab;
@@ -43,7 +43,7 @@ static void *slab_take(struct cpu_frame *cpu, struct slab_list *list, size_t byt
     return memory;
 
 out_of_memory:
-    __atomic_store_n(&cpu->failed, FAILED_MEMORY, __ATOMIC_RELAXED);
+    raster_fail(raster, FAILED_MEMORY);
     return NULL;
 }
 
@@ -59,64 +59,65 @@ size_t slabs_free(struct slab_list *list)
     return bytes;
 }
 
-struct bin_block *new_bin_block(struct cpu_frame *cpu, struct thread_state *thread)
+struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread_bins *bins)
 {
-    return slab_take(cpu, &thread->blocks, sizeof(struct bin_block));
+    return slab_take(raster, &bins->blocks, sizeof(struct bin_block));
 }
 
-// A power of two, so that a piece's number tells its slab.
+// A power of two, so that the slab follows from a piece's number.
 enum { PIECES_PER_SLAB = SLAB / 64 };
-_Static_assert(sizeof(struct clipped_piece) <= 64, "a clipped piece has a place of 64 bytes");
+_Static_assert(sizeof(struct clipped_piece) <= 64, "a clipped piece fits 64 bytes");
 
-struct clipped_piece *new_clipped_piece(struct cpu_frame *cpu, struct thread_state *thread, uint32_t *number)
+struct clipped_piece *new_clipped_piece(const struct raster_frame *raster, struct thread_bins *bins, uint32_t *number)
 {
-    struct clipped_piece *piece = slab_take(cpu, &thread->pieces, 64);
+    struct clipped_piece *piece = slab_take(raster, &bins->pieces, 64);
     if (piece)
-        *number = thread->piece_count++;
+        *number = bins->piece_count++;
     return piece;
 }
 
-const struct clipped_piece *clipped_piece(const struct thread_state *thread, uint32_t number)
+const struct clipped_piece *clipped_piece(const struct thread_bins *bins, uint32_t number)
 {
-    const char *slab = thread->pieces.slabs[number / PIECES_PER_SLAB];
+    const char *slab = bins->pieces.slabs[number / PIECES_PER_SLAB];
     return (const struct clipped_piece *)(slab + (size_t)(number % PIECES_PER_SLAB) * 64);
 }
 
-void bin_large(struct cpu_frame *cpu, struct thread_state *thread, const struct snapped *c, uint32_t id)
+void bin_large(const struct raster_frame *raster, struct thread_bins *bins, const struct snapped *c, uint32_t id)
 {
-    int64_t area =
-        (int64_t)(c->x[1] - c->x[0]) * (c->y[2] - c->y[0]) - (int64_t)(c->x[2] - c->x[0]) * (c->y[1] - c->y[0]);
+    int64_t area = snapped_area(c);
     if (area == 0)
         return;
-    int low_x = c->x[0], high_x = c->x[0], low_y = c->y[0], high_y = c->y[0];
+    int min_x = c->x[0], max_x = c->x[0], min_y = c->y[0], max_y = c->y[0];
     for (int k = 1; k < 3; k++) {
-        low_x = c->x[k] < low_x ? c->x[k] : low_x;
-        high_x = c->x[k] > high_x ? c->x[k] : high_x;
-        low_y = c->y[k] < low_y ? c->y[k] : low_y;
-        high_y = c->y[k] > high_y ? c->y[k] : high_y;
+        min_x = c->x[k] < min_x ? c->x[k] : min_x;
+        max_x = c->x[k] > max_x ? c->x[k] : max_x;
+        min_y = c->y[k] < min_y ? c->y[k] : min_y;
+        max_y = c->y[k] > max_y ? c->y[k] : max_y;
     }
     const int shift = SUBPIXEL_SHIFT + TILE_SHIFT;
-    int x0 = low_x >> shift, x1 = high_x >> shift, y0 = low_y >> shift, y1 = high_y >> shift;
+    int x0 = min_x >> shift, x1 = max_x >> shift, y0 = min_y >> shift, y1 = max_y >> shift;
     x0 = x0 < 0 ? 0 : x0;
     y0 = y0 < 0 ? 0 : y0;
-    x1 = x1 >= cpu->tiles_across ? cpu->tiles_across - 1 : x1;
-    y1 = y1 >= cpu->tiles_down ? cpu->tiles_down - 1 : y1;
-    // Edge functions, positive inside; a tile is missed when its most inner corner is outside of an edge.
+    x1 = x1 >= raster->tiles_across ? raster->tiles_across - 1 : x1;
+    y1 = y1 >= raster->tiles_down ? raster->tiles_down - 1 : y1;
+    // Edge functions, positive inside. A tile is missed if even its innermost corner is outside of an edge.
     int64_t sign = area > 0 ? 1 : -1, size = (int64_t)1 << shift;
-    int64_t a[3], b[3], most[3];
+    int64_t a[3], b[3], max[3];
     for (int k = 0; k < 3; k++) {
         int n = (k + 1) % 3;
         a[k] = -sign * (c->y[n] - c->y[k]);
         b[k] = sign * (c->x[n] - c->x[k]);
-        most[k] = (a[k] > 0 ? a[k] * size : 0) + (b[k] > 0 ? b[k] * size : 0);
+        max[k] = (a[k] > 0 ? a[k] * size : 0) + (b[k] > 0 ? b[k] * size : 0);
     }
     for (int ty = y0; ty <= y1; ty++)
         for (int tx = x0; tx <= x1; tx++) {
             int64_t px = (int64_t)tx << shift, py = (int64_t)ty << shift;
             bool missed = false;
             for (int k = 0; k < 3; k++)
-                missed |= a[k] * (px - c->x[k]) + b[k] * (py - c->y[k]) + most[k] < 0;
-            if (!missed)
-                bin_put(cpu, thread, (ty * cpu->tiles_across + tx) * TILE_BINS, id, 0);
+                missed |= a[k] * (px - c->x[k]) + b[k] * (py - c->y[k]) + max[k] < 0;
+            struct bin_block *block =
+                missed ? NULL : bin_reserve(raster, bins, (ty * raster->tiles_across + tx) * TILE_BINS, 1);
+            if (block)
+                block->ids[block->count++] = id;
         }
 }

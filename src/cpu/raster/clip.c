@@ -1,8 +1,8 @@
-// clip.c: triangles that cross the near or far plane or leave the guard band, clipped in homogeneous coordinates.
+// clip.c: clips triangles that cross the near or far plane or leave the guard band, in homogeneous coordinates.
 //
 // Sutherland and Hodgman, "Reentrant polygon clipping", 1974. An edge is always cut from its inner towards its outer
 // end, so that two triangles that share the edge get the same point, bit for bit, and no gap opens between them.
-#include "pipeline.h"
+#include "clip.h"
 
 #include <string.h>
 
@@ -10,38 +10,40 @@ struct corner {
     float x, y, z, w; // pixels·w (y down), clip z, w
 };
 
-// Each plane could at most double the corners, were rounding to fold a thin polygon; a convex one gains one.
+// Each plane adds one corner to a convex polygon, and at most doubles the corners of a thin one that rounding
+// has folded.
 enum { PLANES = 6, CORNERS_MAX = 3 << PLANES };
 
-// Distance to a plane times a positive number; inside is ≥ 0. Near and far first: then w > 0 for the guard planes.
-static float distance(const struct cpu_frame *cpu, const struct corner *c, int plane)
+// The distance to a plane times a positive number; ≥ 0 inside. Near and far come first: w > 0 then holds for the
+// guard band.
+static float distance(const struct raster_frame *raster, const struct corner *c, int plane)
 {
-    float dx = c->x - 0.5f * (float)cpu->frame->width * c->w;
-    float dy = c->y - 0.5f * (float)cpu->frame->height * c->w;
+    float dx = c->x - 0.5f * (float)raster->frame->width * c->w;
+    float dy = c->y - 0.5f * (float)raster->frame->height * c->w;
     switch (plane) {
     case 0:
         return c->z + c->w;
     case 1:
         return c->w - c->z;
     case 2:
-        return cpu->guard[0] * c->w + dx;
+        return raster->guard[0] * c->w + dx;
     case 3:
-        return cpu->guard[0] * c->w - dx;
+        return raster->guard[0] * c->w - dx;
     case 4:
-        return cpu->guard[1] * c->w + dy;
+        return raster->guard[1] * c->w + dy;
     default:
-        return cpu->guard[1] * c->w - dy;
+        return raster->guard[1] * c->w - dy;
     }
 }
 
-static int clip_polygon(const struct cpu_frame *cpu, struct corner polygon[CORNERS_MAX], int count)
+static int clip_polygon(const struct raster_frame *raster, struct corner polygon[CORNERS_MAX], int count)
 {
     struct corner result[CORNERS_MAX];
     for (int plane = 0; plane < PLANES && count >= 3; plane++) {
         int kept = 0;
         for (int i = 0; i < count; i++) {
             const struct corner *a = &polygon[i], *b = &polygon[(i + 1) % count];
-            float da = distance(cpu, a, plane), db = distance(cpu, b, plane);
+            float da = distance(raster, a, plane), db = distance(raster, b, plane);
             if (da >= 0)
                 result[kept++] = *a;
             if ((da >= 0) != (db >= 0)) {
@@ -60,8 +62,8 @@ static int clip_polygon(const struct cpu_frame *cpu, struct corner polygon[CORNE
 
 static float row(const float m[4], const float *p) { return ((m[0] * p[0] + m[1] * p[1]) + m[2] * p[2]) + m[3]; }
 
-// One piece of the fan, if it has an area and is not culled.
-static void bin_piece(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw,
+// Bins one triangle of the clipped polygon's fan, if it has an area and is not culled.
+static void bin_piece(const struct raster_frame *raster, struct thread_bins *bins, const struct frame_draw *draw,
                       const struct clipped_piece *found)
 {
     struct snapped corners;
@@ -69,23 +71,22 @@ static void bin_piece(struct cpu_frame *cpu, struct thread_state *thread, const 
         corners.x[k] = snap(found->x[k]);
         corners.y[k] = snap(found->y[k]);
     }
-    int64_t area = (int64_t)(corners.x[1] - corners.x[0]) * (corners.y[2] - corners.y[0]) -
-                   (int64_t)(corners.x[2] - corners.x[0]) * (corners.y[1] - corners.y[0]);
+    int64_t area = snapped_area(&corners);
     bool back = (area > 0) != draw->mirrored;
     if (area == 0 || (draw->cull == LAM_CULL_BACK && back) || (draw->cull == LAM_CULL_FRONT && !back))
         return;
     uint32_t number;
-    struct clipped_piece *piece = new_clipped_piece(cpu, thread, &number);
+    struct clipped_piece *piece = new_clipped_piece(raster, bins, &number);
     if (!piece)
         return;
     *piece = *found;
     piece->back = back;
-    bin_large(cpu, thread, &corners, number | CLIPPED);
-    thread->triangles_binned++;
+    bin_large(raster, bins, &corners, number | CLIPPED);
+    bins->triangles_binned++;
 }
 
-void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const struct frame_draw *draw, uint32_t t,
-                   uint32_t id)
+void clip_triangle(const struct raster_frame *raster, struct thread_bins *bins, const struct frame_draw *draw,
+                   uint32_t t, uint32_t id)
 {
     const lam_mesh *mesh = draw->mesh;
     struct corner polygon[CORNERS_MAX];
@@ -95,17 +96,18 @@ void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const str
         polygon[k] = (struct corner){row(draw->pixel[0], p), row(draw->pixel[1], p), row(draw->pixel[2], p),
                                      row(draw->pixel[3], p)};
     }
-    int count = clip_polygon(cpu, polygon, 3);
+    int count = clip_polygon(raster, polygon, 3);
     struct clipped_piece piece = {.id = id};
     float x[CORNERS_MAX], y[CORNERS_MAX], key[CORNERS_MAX];
     for (int i = 0; i < count; i++) {
-        // As vertex_transform.inc does it, so that an unclipped corner snaps to the same place in every triangle.
+        // The same operations as in vertex_transform.inc, so that an unclipped corner snaps to the same point in
+        // every triangle.
         float inverse = 1.0f / polygon[i].w;
         if (!(polygon[i].w > 0) || inverse - inverse != 0)
-            return; // the triangle lies in the eye's own plane: nothing of it is seen
+            return; // the triangle lies in the plane of the eye and is invisible
         x[i] = polygon[i].x * inverse;
         y[i] = polygon[i].y * inverse;
-        key[i] = cpu->frame->orthographic ? 0.5f - 0.5f * (polygon[i].z * inverse) : inverse;
+        key[i] = raster->frame->orthographic ? 0.5f - 0.5f * (polygon[i].z * inverse) : inverse;
     }
     for (int i = 1; i + 1 < count; i++) {
         int fan[3] = {0, i, i + 1};
@@ -114,6 +116,6 @@ void clip_triangle(struct cpu_frame *cpu, struct thread_state *thread, const str
             piece.y[k] = y[fan[k]];
             piece.key[k] = key[fan[k]];
         }
-        bin_piece(cpu, thread, draw, &piece);
+        bin_piece(raster, bins, draw, &piece);
     }
 }

@@ -1,14 +1,11 @@
 // visible_triangles.c: for meshes without normals: which triangles the frame shows, and the normals of those.
-#include "kernels.h"
+#include "visible_triangles.h"
+
+#include "cpu_frame.h"
 
 #include "fail.h"
 
 #include <string.h>
-
-static bool should_continue(const struct cpu_frame *cpu)
-{
-    return !__atomic_load_n(&cpu->failed, __ATOMIC_RELAXED) && call_should_continue(cpu->call);
-}
 
 // --- every triangle in a bin
 
@@ -16,17 +13,17 @@ static void mark_bins(void *user, size_t index, int number)
 {
     (void)number;
     struct cpu_frame *cpu = user;
-    if (!should_continue(cpu))
+    if (!raster_should_continue(&cpu->raster))
         return;
     for (int i = 0; i < pool_threads(cpu->pool) * TILE_BINS; i++) {
-        const struct thread_state *thread = &cpu->threads[i / TILE_BINS];
-        const struct bin_block *block = thread->bins[index * TILE_BINS + (size_t)(i % TILE_BINS)];
+        const struct thread_bins *bins = &cpu->bins[i / TILE_BINS];
+        const struct bin_block *block = bins->heads[index * TILE_BINS + (size_t)(i % TILE_BINS)];
         for (; block; block = block->next)
             for (uint32_t k = 0; k < block->count; k++) {
                 uint32_t id = block->ids[k];
                 if (id & CLIPPED)
-                    id = clipped_piece(thread, id & ~CLIPPED)->id;
-                number_set_add(&cpu->seen.triangles, id);
+                    id = clipped_piece(bins, id & ~CLIPPED)->id;
+                number_set_add(&cpu->shade.seen.triangles, id);
             }
     }
 }
@@ -43,13 +40,13 @@ enum { LARGE_PICTURE = 128 };
 
 // Adds the triangles of the fragments, and tells the lowest and the highest of them. Which of them differ
 // from the one before is a coin's toss: that is asked without a branch.
-static void add_shown(struct number_set *set, const struct thread_state *thread, uint32_t *lowest, uint32_t *highest)
+static void add_shown(struct number_set *set, const struct fragments *fragments, uint32_t *lowest, uint32_t *highest)
 {
-    uint32_t *shown = thread->order; // not in use yet
+    uint32_t *shown = fragments->order; // not in use yet
     uint32_t before = NOTHING;
     int count = 0;
-    for (int i = 0; i < thread->fragment_count; i++) {
-        uint32_t id = thread->fragment_id[i] & ~BACK_SIDE;
+    for (int i = 0; i < fragments->count; i++) {
+        uint32_t id = fragments->id[i] & ~BACK_SIDE;
         shown[count] = id;
         count += id != before;
         before = id;
@@ -68,27 +65,27 @@ static void search_tile(void *user, size_t index, int number)
     struct tile_search *search = user;
     struct cpu_frame *cpu = search->cpu;
     struct thread_state *thread = &cpu->threads[number];
-    if (!should_continue(cpu))
+    if (!raster_should_continue(&cpu->raster))
         return;
-    if (!tile_has_triangles(cpu, index))
+    if (!tile_has_triangles(&cpu->raster, index))
         return;
     uint64_t start = now_ns();
-    int tile_x = (int)(index % (size_t)cpu->tiles_across), tile_y = (int)(index / (size_t)cpu->tiles_across);
-    int width = cpu->image->width - tile_x * TILE, height = cpu->image->height - tile_y * TILE;
-    cpu->kernels->cover(cpu, thread, tile_x, tile_y);
-    cpu->kernels->collect(cpu, thread, width < TILE ? width : TILE, height < TILE ? height : TILE);
+    struct tile tile = tile_number(cpu, index);
+    cpu->kernels->cover_tile(&cpu->raster, &thread->samples, &tile);
+    thread->pixels_covered +=
+        cpu->kernels->visibility_resolve(cpu->raster.pattern, &thread->samples, &thread->fragments, &tile);
     struct fragment_store *fragment_store = &cpu->fragment_stores[index];
     uint32_t highest;
-    add_shown(&cpu->seen.triangles, thread, &fragment_store->lowest, &highest);
-    if (!cpu->kernels->save_fragment_store(fragment_store, thread, cpu->frame->samples, highest,
-                                           &search->arenas[number]))
-        __atomic_store_n(&cpu->failed, FAILED_MEMORY, __ATOMIC_RELAXED);
+    add_shown(&cpu->shade.seen.triangles, &thread->fragments, &fragment_store->lowest, &highest);
+    if (!cpu->kernels->save_fragments(fragment_store, &thread->fragments, cpu->raster.frame->samples, highest,
+                                      &search->arenas[number]))
+        raster_fail(&cpu->raster, FAILED_MEMORY);
     thread->coverage_ns += now_ns() - start;
 }
 
 static bool search_tiles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
 {
-    size_t tiles = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down, threads = (size_t)pool_threads(cpu->pool);
+    size_t tiles = tile_count(cpu), threads = (size_t)pool_threads(cpu->pool);
     if (!buffer_reserve(&room->fragment_stores, tiles * sizeof(struct fragment_store) + threads * sizeof(struct arena),
                         cpu->call, error))
         return false;
@@ -106,11 +103,10 @@ static bool search_tiles(struct cpu_frame *cpu, struct seeing_room *room, lam_er
 // The bins are done with.
 static void release_bins(struct cpu_frame *cpu)
 {
-    size_t tiles = (size_t)cpu->tiles_across * (size_t)cpu->tiles_down;
+    size_t tiles = tile_count(cpu);
     for (int i = 0; i < pool_threads(cpu->pool); i++) {
-        struct thread_state *thread = &cpu->threads[i];
-        memset(thread->bins, 0, tiles * TILE_BINS * sizeof(struct bin_block *));
-        call_refund(cpu->call, slabs_free(&thread->blocks));
+        memset(cpu->bins[i].heads, 0, tiles * TILE_BINS * sizeof(struct bin_block *));
+        call_refund(cpu->call, slabs_free(&cpu->bins[i].blocks));
     }
 }
 
@@ -118,11 +114,11 @@ static void release_bins(struct cpu_frame *cpu)
 
 static bool make_set(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
 {
-    struct number_set *set = &cpu->seen.triangles;
-    size_t words = number_set_words(cpu->frame->triangle_count);
+    struct number_set *set = &cpu->shade.seen.triangles;
+    size_t words = number_set_words(cpu->raster.frame->triangle_count);
     if (!buffer_reserve(&room->sets, words * (sizeof *set->bits + sizeof *set->before), cpu->call, error))
         return false;
-    set->size = cpu->frame->triangle_count;
+    set->size = cpu->raster.frame->triangle_count;
     set->bits = room->sets.data;
     set->before = (uint32_t *)(set->bits + words);
     memset(set->bits, 0, words * sizeof *set->bits);
@@ -149,25 +145,25 @@ static bool place_normals(struct seeing_room *room, struct seen_normals *seen, s
 
 bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
 {
-    const struct frame *frame = cpu->frame;
-    struct seen_normals *seen = &cpu->seen;
+    const struct frame *frame = cpu->raster.frame;
+    struct seen_normals *seen = &cpu->shade.seen;
     room->search_ms = 0;
     if (!make_set(cpu, room, error))
         return false;
-    if (!frame->translucent && !cpu->recorder && lam_output_is_light(frame->show)) {
+    if (!frame->translucent && !cpu->shade.recorder && lam_output_is_light(frame->show)) {
         if (!search_tiles(cpu, room, error))
             return false;
     } else {
-        pool_run(cpu->pool, (size_t)cpu->tiles_across * (size_t)cpu->tiles_down, mark_bins, cpu);
+        pool_run(cpu->pool, tile_count(cpu), mark_bins, cpu);
     }
-    if (!should_continue(cpu))
+    if (!raster_should_continue(&cpu->raster))
         return true; // the caller asks why
     // The vertices are done with too; what is made may lie where they did.
     struct spare spare = {0};
     if (cpu->fragment_stores) {
         release_bins(cpu);
         spare = (struct spare){.memory = room->vertices->data, .room = room->vertices->room};
-        cpu->vertices = NULL;
+        cpu->raster.vertices = NULL;
     }
     number_set_count(&seen->triangles);
     size_t corners = 3 * (size_t)seen->triangles.count;

@@ -1,100 +1,86 @@
-// output.c: pixels that hold numbers of the surfaces in place of colours: what stands for a pixel (lam_output in
-// lambent/device.h). Plain C: every instruction set has the same.
-#include "kernels.h"
+// output.c: pixels that hold values of the surfaces in place of colours (lam_output in lambent/device.h). Plain C, the
+// same for every instruction set.
+#include "output.h"
+
 #include "encode_values.h"
 
 #include <string.h>
 
-// Each pixel's number is its first fragment's: the one with the covered sample nearest to the centre (visibility_resolve.inc).
-static void pick_fragments(struct thread_state *thread)
+// A pixel's value is its first fragment's: of the covered sample nearest to the centre (visibility_resolve.inc).
+static void pick_fragments(const struct fragments *fragments, float *const sum[4])
 {
     int before = -1;
-    for (int i = 0; i < thread->fragment_count; i++) {
-        int pixel = thread->fragment_pixel[i];
+    for (int i = 0; i < fragments->count; i++) {
+        int pixel = fragments->pixel[i];
         if (pixel == before)
             continue;
         before = pixel;
         for (int c = 0; c < 3; c++)
-            thread->sum[c][pixel] = thread->fragment_color[c][i];
-        thread->sum[3][pixel] = 1;
+            sum[c][pixel] = fragments->color[c][i];
+        sum[3][pixel] = 1;
     }
 }
 
-static void sum_coverage(const struct cpu_frame *cpu, struct thread_state *thread)
+static void sum_coverage(const struct fragments *fragments, int samples, float *sum)
 {
-    for (int i = 0; i < thread->fragment_count; i++)
-        thread->sum[0][thread->fragment_pixel[i]] += (float)thread->fragment_weight[i] / (float)cpu->frame->samples;
+    for (int i = 0; i < fragments->count; i++)
+        sum[fragments->pixel[i]] += (float)fragments->weight[i] / (float)samples;
 }
 
-static void sum_overdraw(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height)
+static void sum_overdraw(const int32_t *counts, int samples, const struct tile *tile, float *sum)
 {
-    int samples = cpu->frame->samples;
     struct cells cells = cells_of(samples);
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            const int32_t *counts = thread->counts + pixel_place(&cells, x, y);
-            uint64_t sum = 0;
+    for (int y = 0; y < tile->height; y++)
+        for (int x = 0; x < tile->width; x++) {
+            const int32_t *pixel = counts + pixel_index(&cells, x, y);
+            uint64_t total = 0;
             for (int i = 0; i < samples; i++)
-                sum += (uint64_t)counts[i];
-            thread->sum[0][y * TILE + x] = (float)((double)sum / samples);
+                total += (uint64_t)pixel[i];
+            sum[y * TILE + x] = (float)((double)total / samples);
         }
 }
 
-// The tile as the picture would have it, in floats.
-static void resolve_apart(const struct cpu_frame *cpu, struct thread_state *thread, int width, int height)
+void output_tile(const struct resolve_target *target, const struct fragments *fragments,
+                 const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile)
 {
-    lam_image part = {width, height, LAM_RGBA32F, thread->shown};
-    struct cpu_frame copy = *cpu;
-    copy.image = &part;
-    cpu->kernels->resolve_empty(&copy);
-    cpu->kernels->resolve(&copy, thread, 0, 0);
-}
-
-void show_tile(const struct cpu_frame *cpu, struct thread_state *thread, int tile_x, int tile_y, int width, int height)
-{
-    lam_output show = cpu->frame->show;
-    bool of_pixels = show == LAM_OUTPUT_COVERAGE || show == LAM_OUTPUT_OVERDRAW;
-    if (show == LAM_OUTPUT_CLIPPED) {
-        resolve_apart(cpu, thread, width, height);
-    } else {
+    const struct frame *frame = target->frame;
+    lam_output output = frame->show;
+    bool of_pixels = output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW;
+    float *const *sum = sums->sum;
+    if (output != LAM_OUTPUT_CLIPPED)
         for (int c = 0; c < 4; c++)
-            memset(thread->sum[c], 0, TILE * TILE * sizeof(float));
-        if (show == LAM_OUTPUT_COVERAGE)
-            sum_coverage(cpu, thread);
-        else if (show == LAM_OUTPUT_OVERDRAW)
-            sum_overdraw(cpu, thread, width, height);
-        else
-            pick_fragments(thread);
-    }
-    lam_image *image = cpu->image;
-    size_t size = image->format == LAM_RGBA8 ? 4 : 16;
-    for (int y = 0; y < height; y++) {
-        char *row = (char *)image->pixels +
-                    (((size_t)tile_y * TILE + (size_t)y) * (size_t)image->width + (size_t)tile_x * TILE) * size;
-        for (int x = 0; x < width; x++, row += size) {
+            memset(sum[c], 0, TILE * TILE * sizeof(float));
+    if (output == LAM_OUTPUT_COVERAGE)
+        sum_coverage(fragments, frame->samples, sum[0]);
+    else if (output == LAM_OUTPUT_OVERDRAW)
+        sum_overdraw(samples->counts, frame->samples, tile, sum[0]);
+    else if (output != LAM_OUTPUT_CLIPPED)
+        pick_fragments(fragments, sum);
+    lam_pixel_format format = target->image->format;
+    for (int y = 0; y < tile->height; y++) {
+        char *to = tile_row(target->image, tile, y);
+        for (int x = 0; x < tile->width; x++, to += pixel_bytes(target->image)) {
             int at = y * TILE + x;
-            float first = thread->sum[0][at];
-            if (show == LAM_OUTPUT_CLIPPED)
-                shown_put_clipped(cpu->image->format, thread->shown + 4 * ((size_t)y * (size_t)width + (size_t)x), row);
+            float first = sum[0][at];
+            if (output == LAM_OUTPUT_CLIPPED)
+                encode_clipped(format, sums->unclipped + 4 * ((size_t)y * (size_t)tile->width + (size_t)x), to);
             else if (of_pixels)
-                shown_put(cpu->frame, cpu->image->format, (float[4]){first, first, first, 1}, row);
+                encode_values(frame, format, (float[4]){first, first, first, 1}, to);
             else
-                shown_put(cpu->frame, cpu->image->format,
-                          (float[4]){first, thread->sum[1][at], thread->sum[2][at], thread->sum[3][at]}, row);
+                encode_values(frame, format, (float[4]){first, sum[1][at], sum[2][at], sum[3][at]}, to);
         }
     }
 }
 
-void show_empty(struct cpu_frame *cpu)
+void output_empty(struct resolve_target *target)
 {
-    lam_output show = cpu->frame->show;
-    if (show == LAM_OUTPUT_CLIPPED) {
-        const lam_rgba *b = &cpu->frame->background;
-        shown_put_clipped(cpu->image->format, (float[4]){b->r * b->a, b->g * b->a, b->b * b->a, b->a},
-                          cpu->empty_pixel);
+    lam_output output = target->frame->show;
+    lam_pixel_format format = target->image->format;
+    if (output == LAM_OUTPUT_CLIPPED) {
+        const lam_rgba *b = &target->frame->background;
+        encode_clipped(format, (float[4]){b->r * b->a, b->g * b->a, b->b * b->a, b->a}, target->empty_pixel);
         return;
     }
-    shown_put(cpu->frame, cpu->image->format,
-              (float[4]){0, 0, 0, show == LAM_OUTPUT_COVERAGE || show == LAM_OUTPUT_OVERDRAW ? 1.0f : 0.0f},
-              cpu->empty_pixel);
+    bool covered = output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW;
+    encode_values(target->frame, format, (float[4]){0, 0, 0, covered ? 1.0f : 0.0f}, target->empty_pixel);
 }

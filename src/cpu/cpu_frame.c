@@ -1,0 +1,207 @@
+// cpu_frame.c: sets a frame up: memory of the threads, pieces of work, products.
+#include "cpu_frame.h"
+
+#include "fail.h"
+
+#include <string.h>
+
+// --- the arrays of a thread
+
+// Suballocates a block in parts that are aligned to 64 bytes. Without a block it only counts.
+struct suballocator {
+    char *block;
+    size_t used;
+};
+
+static void *suballocate(struct suballocator *from, size_t count, size_t size)
+{
+    void *part = from->block ? from->block + from->used : NULL;
+    from->used += (count * size + 63) & ~(size_t)63;
+    return part;
+}
+
+#define ARRAY(pointer, count) ((pointer) = suballocate(from, count, sizeof *(pointer)))
+
+static void lay_out_shading(struct suballocator *from, struct shading *shading, const struct frame *frame)
+{
+    size_t vertices = 3 * ((size_t)tile_samples_count(frame->samples) + LANES_MAX), slots = 64;
+    while (slots < 2 * vertices)
+        slots *= 2;
+    ARRAY(shading->vertices.table, slots);
+    ARRAY(shading->vertices.color, vertices);
+    ARRAY(shading->vertices.key, vertices);
+    ARRAY(shading->batch, 1);
+    if (!light_culling_wanted(frame))
+        return;
+    size_t lights = (size_t)frame->light_count;
+    ARRAY(shading->lights.numbers, lights);
+    ARRAY(shading->lights.bound, lights);
+    ARRAY(shading->lights.bits, (lights + 63) / 64);
+}
+
+static void lay_out_thread(struct suballocator *from, struct thread_state *thread, const struct frame *frame)
+{
+    size_t samples = (size_t)tile_samples_count(frame->samples);
+    size_t fragments = (frame->translucent && samples < LAYERS_MAX ? (size_t)LAYERS_MAX : samples) + LANES_MAX;
+    ARRAY(thread->samples.keys, samples);
+    ARRAY(thread->samples.ids, samples);
+    thread->samples.counts = NULL;
+    if (frame->show == LAM_OUTPUT_OVERDRAW)
+        ARRAY(thread->samples.counts, samples);
+    ARRAY(thread->fragments.id, fragments);
+    ARRAY(thread->fragments.pixel, fragments);
+    ARRAY(thread->fragments.weight, fragments);
+    ARRAY(thread->fragments.sample, fragments);
+    ARRAY(thread->fragments.group, fragments);
+    ARRAY(thread->fragments.order, fragments);
+    ARRAY(thread->fragments.scratch, 3 * fragments);
+    thread->shading.vertices.run_vertex = thread->fragments.scratch;
+    for (int c = 0; c < 4; c++) {
+        ARRAY(thread->fragments.color[c], fragments);
+        ARRAY(thread->sums.sum[c], TILE * TILE + LANES_MAX);
+    }
+    lay_out_shading(from, &thread->shading, frame);
+    thread->sums.unclipped = NULL;
+    if (frame->show == LAM_OUTPUT_CLIPPED)
+        ARRAY(thread->sums.unclipped, TILE * TILE * 4);
+    if (!frame->translucent)
+        return;
+    ARRAY(thread->layers.samples, LAYERS_MAX);
+    ARRAY(thread->layers.keys, (size_t)LAYERS_MAX * (size_t)frame->samples);
+    ARRAY(thread->blend.order, LAYERS_MAX);
+    ARRAY(thread->blend.start, TILE * TILE + 1);
+    ARRAY(thread->blend.layers, LAYERS_MAX);
+    ARRAY(thread->sums.transmittance, samples);
+}
+
+static bool set_up_thread(struct thread_state *thread, const struct cpu_frame *cpu, lam_error *error)
+{
+    struct suballocator count = {0};
+    lay_out_thread(&count, thread, cpu->raster.frame);
+    if (!buffer_reserve(&thread->storage, count.used, cpu->call, error))
+        return false;
+    lay_out_thread(&(struct suballocator){.block = thread->storage.data}, thread, cpu->raster.frame);
+    thread->coverage_ns = thread->lighting_ns = thread->resolve_ns = thread->pixels_covered = 0;
+    thread->shading.points_lit = thread->shading.lights_evaluated = 0;
+    return true;
+}
+
+static bool set_up_threads(struct cpu_frame *cpu, struct buffer *heads, lam_error *error)
+{
+    size_t of_thread = tile_count(cpu) * TILE_BINS;
+    size_t bytes = of_thread * (size_t)cpu->raster.thread_count * sizeof(struct bin_block *);
+    if (!buffer_reserve(heads, bytes, cpu->call, error))
+        return false;
+    memset(heads->data, 0, bytes);
+    for (int i = 0; i < cpu->raster.thread_count; i++) {
+        if (!set_up_thread(&cpu->threads[i], cpu, error))
+            return false;
+        struct thread_bins *bins = &cpu->bins[i];
+        bins->heads = (struct bin_block **)heads->data + of_thread * (size_t)i;
+        bins->blocks.current = bins->pieces.current = 0;
+        bins->blocks.used = bins->pieces.used = 0;
+        bins->piece_count = 0;
+        bins->triangles_binned = 0;
+    }
+    return true;
+}
+
+uint64_t thread_bytes(const struct thread_state *thread, const struct thread_bins *bins)
+{
+    return thread->storage.room + slabs_bytes(&bins->blocks) + slabs_bytes(&bins->pieces);
+}
+
+void thread_free(struct thread_state *thread, struct thread_bins *bins)
+{
+    slabs_free(&bins->blocks);
+    slabs_free(&bins->pieces);
+    buffer_free(&thread->storage);
+}
+
+// --- pieces of work
+
+static uint32_t vertices_of(const lam_mesh *mesh)
+{
+    return mesh->indices ? mesh->vertex_count : 3 * mesh->triangle_count;
+}
+
+static size_t pieces_of(uint32_t count, uint32_t size) { return ((size_t)count + size - 1) / size; }
+
+static void fill_pieces(struct piece *pieces, size_t *at, int draw, uint32_t count, uint32_t size)
+{
+    for (uint32_t first = 0; first < count; first += size)
+        pieces[(*at)++] = (struct piece){(uint32_t)draw, first, count - first < size ? count - first : size};
+}
+
+// Lists the pieces of work and reserves memory for the vertices.
+static bool list_pieces(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
+{
+    const struct frame *frame = cpu->raster.frame;
+    uint64_t vertices = 0;
+    size_t vertex_pieces = 0, triangle_pieces = 0;
+    for (int i = 0; i < frame->draw_count; i++) {
+        const lam_mesh *mesh = frame->draws[i].mesh;
+        vertices += vertices_of(mesh);
+        vertex_pieces += pieces_of(vertices_of(mesh), VERTEX_PIECE);
+        triangle_pieces += pieces_of(mesh->triangle_count, TRIANGLE_PIECE);
+    }
+    if (vertices > INT32_MAX)
+        return fail(error, LAM_LIMIT, "the scene has %llu vertices, at most %d can be drawn at once",
+                    (unsigned long long)vertices, INT32_MAX);
+    size_t pieces = vertex_pieces + triangle_pieces;
+    if (!buffer_reserve(&memory->pieces,
+                        pieces * sizeof(struct piece) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t), cpu->call,
+                        error) ||
+        !buffer_reserve(&memory->vertices, ((size_t)vertices * 3 + 1) * sizeof(float), cpu->call, error))
+        return false;
+    struct piece *list = memory->pieces.data;
+    uint32_t *first_vertex = (uint32_t *)(list + pieces), next = 0;
+    size_t v = 0, t = vertex_pieces;
+    for (int i = 0; i < frame->draw_count; i++) {
+        const lam_mesh *mesh = frame->draws[i].mesh;
+        first_vertex[i] = next;
+        next += vertices_of(mesh);
+        fill_pieces(list, &v, i, vertices_of(mesh), VERTEX_PIECE);
+        fill_pieces(list, &t, i, mesh->triangle_count, TRIANGLE_PIECE);
+    }
+    cpu->raster.vertices = memory->vertices.data;
+    cpu->raster.first_vertex = first_vertex;
+    cpu->vertex_pieces = list;
+    cpu->vertex_piece_count = vertex_pieces;
+    cpu->triangle_pieces = list + vertex_pieces;
+    cpu->triangle_piece_count = triangle_pieces;
+    return true;
+}
+
+// --- materials and lights
+
+static bool set_up_shading(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
+{
+    const struct frame *frame = cpu->shade.frame;
+    cpu->shade.materials = products_make(&memory->products, frame, cpu->call, error);
+    if (!cpu->shade.materials || !light_culling_wanted(frame))
+        return cpu->shade.materials != NULL;
+    cpu->shade.light_bounds = &memory->light_bounds;
+    return light_bounds_make(&memory->light_bounds, &memory->lights, frame, cpu->shade.materials, cpu->call, error);
+}
+
+bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
+{
+    return list_pieces(cpu, memory, error) && set_up_shading(cpu, memory, error) &&
+           set_up_threads(cpu, &memory->bins, error);
+}
+
+uint64_t frame_memory_bytes(const struct frame_memory *memory)
+{
+    return memory->vertices.room + memory->pieces.room + memory->products.room + memory->lights.room +
+           memory->bins.room;
+}
+
+void frame_memory_free(struct frame_memory *memory)
+{
+    buffer_free(&memory->vertices);
+    buffer_free(&memory->pieces);
+    buffer_free(&memory->products);
+    buffer_free(&memory->lights);
+    buffer_free(&memory->bins);
+}

@@ -1,0 +1,84 @@
+// cpu_frame.h: one frame of the CPU device, and the state of a thread. Seen only by the functions that call the steps;
+// a step sees the parts that it reads and writes (kernels.h).
+//
+//   vertices   positions → pixel x, y and depth key of every vertex        vertex_transform.inc
+//   triangles  index triples → tile bins                                   bin_triangles.inc, clip.c
+//   tiles      bins → depth key and triangle number of every sample        cover*.inc, occlusion.inc
+//              translucent triangles → layers over the samples, blended    translucent_fragments.inc, blend.c
+//              samples → fragments (a pixel and a triangle that it shows)  visibility_resolve.inc, fragments.c
+//              fragments → colours                                         shade.inc
+//              colours → pixels of the picture                             resolve.inc
+#ifndef CPU_FRAME_H
+#define CPU_FRAME_H
+
+#include "bins.h"
+#include "blend.h"
+#include "coverage.h"
+#include "fragment_store.h"
+#include "kernels.h"
+#include "light_bounds.h"
+#include "pool.h"
+#include "resolve.h"
+#include "shade_frame.h"
+#include "shading_batch.h"
+
+// A thread's own state. Only its bins, which all threads read, lie elsewhere (struct raster_frame).
+struct thread_state {
+    struct tile_samples samples;
+    struct fragments fragments; // of the translucent surfaces, then of the opaque ones
+    struct layer_rows layers;   // allocated, like the next, only for frames with translucent surfaces
+    struct blend_scratch blend;
+    struct shading shading;
+    struct pixel_sums sums;
+    struct buffer storage; // holds the arrays
+    uint64_t coverage_ns, lighting_ns, resolve_ns, pixels_covered;
+};
+
+struct cpu_frame {
+    struct raster_frame raster;
+    struct shade_frame shade;
+    struct resolve_target target;
+    const struct kernels *kernels;
+    struct call_control *call;
+    struct pool *pool;
+    struct thread_bins *bins; // of each thread
+    struct thread_state *threads;
+    const struct piece *vertex_pieces, *triangle_pieces;
+    size_t vertex_piece_count, triangle_piece_count;
+    struct fragment_store *fragment_stores; // of each tile; NULL: each tile is drawn in one go
+    enum failure failure;
+};
+
+static inline size_t tile_count(const struct cpu_frame *cpu)
+{
+    return (size_t)cpu->raster.tiles_across * (size_t)cpu->raster.tiles_down;
+}
+
+static inline struct tile tile_number(const struct cpu_frame *cpu, size_t index)
+{
+    size_t across = (size_t)cpu->raster.tiles_across;
+    return tile_at((int)(index % across), (int)(index / across), cpu->target.image->width, cpu->target.image->height);
+}
+
+// Memory that the device keeps from frame to frame.
+struct frame_memory {
+    struct buffer vertices; // x, y and key of all vertices
+    struct buffer pieces;   // and the first vertex of each draw
+    struct buffer products; // materials × lights
+    struct buffer lights;   // the rows of light_bounds
+    struct buffer bins;     // heads of all threads' bins
+    struct light_bounds light_bounds;
+};
+
+// Sets up the lists, products and threads of a frame. False: out of memory, or too many vertices or materials.
+bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error);
+
+uint64_t frame_memory_bytes(const struct frame_memory *memory);
+void frame_memory_free(struct frame_memory *memory);
+uint64_t thread_bytes(const struct thread_state *thread, const struct thread_bins *bins);
+void thread_free(struct thread_state *thread, struct thread_bins *bins);
+
+// Takes a tile through all steps, with the state of one thread.
+void draw_tile(struct cpu_frame *cpu, size_t index, int thread);
+
+#endif

@@ -1,0 +1,126 @@
+// draw_tile.c: one tile through all steps, from its bins to the picture.
+#include "cpu_frame.h"
+
+#include "output.h"
+
+#include <string.h>
+
+static void shade(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile)
+{
+    cpu->kernels->shade_fragments(&cpu->shade, &thread->fragments, &thread->shading, tile);
+    if (cpu->shade.recorder)
+        cpu->kernels->record_fragments(cpu, thread, tile);
+}
+
+// Draws the layers over the pixels of `area`. A thread holds at most LAYERS_MAX fragments: an area with more is drawn in
+// halves, down to single pixels, whose fragments must fit.
+static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile,
+                        const struct rectangle *area)
+{
+    if (!raster_should_continue(&cpu->raster))
+        return;
+    uint64_t start = now_ns();
+    const struct sample_pattern *pattern = cpu->raster.pattern;
+    if (!cpu->kernels->translucent_fragments(&cpu->raster, &thread->samples, &thread->fragments, &thread->layers, tile,
+                                             area)) {
+        thread->coverage_ns += now_ns() - start;
+        int width = area->right - area->left + 1, height = area->bottom - area->top + 1;
+        if (width == 1 && height == 1) {
+            raster_fail(&cpu->raster, FAILED_LAYERS);
+            return;
+        }
+        struct rectangle one = *area, other = *area;
+        if (width > height)
+            other.left = (one.right = area->left + width / 2 - 1) + 1;
+        else
+            other.top = (one.bottom = area->top + height / 2 - 1) + 1;
+        draw_layers(cpu, thread, tile, &one); // at most 12 deep
+        draw_layers(cpu, thread, tile, &other);
+        return;
+    }
+    sort_layers(pattern, &thread->fragments, &thread->layers, &thread->blend);
+    group_fragments(cpu->raster.frame, &thread->fragments);
+    uint64_t covered = now_ns();
+    shade(cpu, thread, tile);
+    uint64_t shaded = now_ns();
+    thread->pixels_covered += blend_layers(pattern, &thread->fragments, &thread->layers, &thread->blend,
+                                           thread->samples.ids, area, &thread->sums, cpu->shade.recorder);
+    thread->coverage_ns += covered - start;
+    thread->lighting_ns += shaded - covered;
+    thread->resolve_ns += now_ns() - shaded;
+}
+
+static void blend_tile(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile)
+{
+    for (int c = 0; c < 4; c++)
+        memset(thread->sums.sum[c], 0, TILE * TILE * sizeof(float));
+    for (int i = 0; i < tile_samples_count(cpu->raster.frame->samples); i++)
+        thread->sums.transmittance[i] = 1;
+    draw_layers(cpu, thread, tile, &(struct rectangle){0, 0, tile->width - 1, tile->height - 1});
+}
+
+static void fill_empty_tile(const struct resolve_target *target, const struct tile *tile)
+{
+    size_t size = pixel_bytes(target->image);
+    char row[TILE * sizeof target->empty_pixel];
+    for (int x = 0; x < tile->width; x++)
+        memcpy(row + (size_t)x * size, target->empty_pixel, size);
+    for (int y = 0; y < tile->height; y++)
+        memcpy(tile_row(target->image, tile, y), row, (size_t)tile->width * size);
+}
+
+static void resolve_tile(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile)
+{
+    const struct kernels *kernels = cpu->kernels;
+    lam_output output = cpu->target.frame->show;
+    if (lam_output_is_light(output)) {
+        kernels->resolve(&cpu->target, &thread->fragments, &thread->samples, &thread->sums, tile);
+        if (cpu->shade.recorder)
+            kernels->record_pixel(cpu, thread, tile);
+        return;
+    }
+    if (output == LAM_OUTPUT_CLIPPED) { // resolved into floats first
+        lam_image image = {tile->width, tile->height, LAM_RGBA32F, thread->sums.unclipped};
+        struct resolve_target apart = {.frame = cpu->target.frame, .image = &image};
+        kernels->resolve_empty(&apart);
+        kernels->resolve(&apart, &thread->fragments, &thread->samples, &thread->sums,
+                         &(struct tile){0, 0, tile->width, tile->height});
+    }
+    output_tile(&cpu->target, &thread->fragments, &thread->samples, &thread->sums, tile);
+}
+
+void draw_tile(struct cpu_frame *cpu, size_t index, int number)
+{
+    const struct kernels *kernels = cpu->kernels;
+    struct thread_state *thread = &cpu->threads[number];
+    struct tile tile = tile_number(cpu, index);
+    const struct fragment_store *store = cpu->fragment_stores ? &cpu->fragment_stores[index] : NULL;
+    if (!cpu->shade.recorder && !(store ? store->count > 0 : tile_has_triangles(&cpu->raster, index))) {
+        fill_empty_tile(&cpu->target, &tile);
+        return;
+    }
+    uint64_t start = now_ns();
+    if (store) {
+        kernels->load_fragments(store, &thread->fragments, cpu->raster.frame->samples);
+        thread->samples.translucent_triangles = 0;
+    } else {
+        kernels->cover_tile(&cpu->raster, &thread->samples, &tile);
+        if (thread->samples.translucent_triangles) {
+            thread->coverage_ns += now_ns() - start;
+            blend_tile(cpu, thread, &tile);
+            start = now_ns();
+        }
+        thread->pixels_covered +=
+            kernels->visibility_resolve(cpu->raster.pattern, &thread->samples, &thread->fragments, &tile);
+    }
+    group_fragments(cpu->raster.frame, &thread->fragments);
+    uint64_t covered = now_ns();
+    lam_output output = cpu->raster.frame->show;
+    if (output != LAM_OUTPUT_COVERAGE && output != LAM_OUTPUT_OVERDRAW)
+        shade(cpu, thread, &tile);
+    uint64_t shaded = now_ns();
+    resolve_tile(cpu, thread, &tile);
+    thread->coverage_ns += covered - start;
+    thread->lighting_ns += shaded - covered;
+    thread->resolve_ns += now_ns() - shaded;
+}

@@ -1,0 +1,94 @@
+// bins.h: the triangles of each tile.
+#ifndef BINS_H
+#define BINS_H
+
+#include "raster_frame.h"
+
+// Each tile has two bins: small triangles that show their back, and all others. A bin is a chain of blocks of triangle
+// numbers. Every thread has bins of its own, so binning takes no locks; the picture does not depend on the order of a
+// tile's triangles. Back faces are drawn last, since most are occluded by then; each carries a depth bound that is
+// tested first (occlusion.inc).
+enum {
+    TILE_BINS = 2,       // of tile t: 2·t, and 2·t + 1 with back faces
+    BIN_BLOCK_IDS = 128, // multiples of LANES_MAX: whole packets can be read
+    BIN_BLOCK_BACK_FACES = 64,
+    SMALL = TILE * SUBPIXEL, // extent up to which a triangle's edge functions fit 32 bits
+};
+#define CLIPPED 0x80000000u // bit of a number in a bin: it numbers a clipped piece, not a triangle
+
+struct bin_block {
+    struct bin_block *next;
+    uint32_t count;
+    uint32_t ids[BIN_BLOCK_IDS]; // of back faces BIN_BLOCK_BACK_FACES, then as many bounds
+};
+
+// A piece of a clipped triangle: its own window coordinates, and the number of the triangle.
+struct clipped_piece {
+    float x[3], y[3], key[3];
+    uint32_t id;
+    bool back;
+};
+
+// Memory in slabs that never move.
+struct slab_list {
+    void **slabs;
+    int count, capacity; // slabs
+    int current;         // the slab being filled
+    size_t used;         // bytes of it
+};
+
+// The bins that one thread fills; all threads read them.
+struct thread_bins {
+    struct bin_block **heads; // first block of each bin, newest first
+    struct slab_list blocks;
+    struct slab_list pieces;
+    uint32_t piece_count;
+    uint64_t triangles_binned;
+};
+
+// A block for one more bin, memory for one more clipped piece; NULL: out of memory, and the frame has failed.
+struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread_bins *bins);
+struct clipped_piece *new_clipped_piece(const struct raster_frame *raster, struct thread_bins *bins, uint32_t *number);
+const struct clipped_piece *clipped_piece(const struct thread_bins *bins, uint32_t number);
+size_t slabs_bytes(const struct slab_list *list);
+size_t slabs_free(struct slab_list *list); // returns how many bytes that were
+
+// Snapped coordinates of a triangle's corners.
+struct snapped {
+    int32_t x[3], y[3];
+};
+
+// Twice the signed area. With y down a positive one is clockwise on the screen.
+static inline int64_t snapped_area(const struct snapped *c)
+{
+    return (int64_t)(c->x[1] - c->x[0]) * (c->y[2] - c->y[0]) - (int64_t)(c->x[2] - c->x[0]) * (c->y[1] - c->y[0]);
+}
+
+// Bins a triangle of any size into the tiles that it can touch.
+void bin_large(const struct raster_frame *raster, struct thread_bins *bins, const struct snapped *corners, uint32_t id);
+
+static inline bool tile_has_triangles(const struct raster_frame *raster, size_t tile)
+{
+    for (int i = 0; i < raster->thread_count; i++)
+        for (size_t b = 0; b < TILE_BINS; b++)
+            if (raster->bins[i].heads[tile * TILE_BINS + b])
+                return true;
+    return false;
+}
+
+// The newest block of a bin, a new one if `count` more numbers do not fit; NULL: out of memory.
+static inline struct bin_block *bin_reserve(const struct raster_frame *raster, struct thread_bins *bins, int bin,
+                                            uint32_t count)
+{
+    struct bin_block *block = bins->heads[bin];
+    if (block && block->count + count <= (bin & 1 ? BIN_BLOCK_BACK_FACES : BIN_BLOCK_IDS))
+        return block;
+    struct bin_block *fresh = new_bin_block(raster, bins);
+    if (!fresh)
+        return NULL;
+    fresh->next = block;
+    fresh->count = 0;
+    return bins->heads[bin] = fresh;
+}
+
+#endif

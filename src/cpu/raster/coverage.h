@@ -1,0 +1,15 @@
+// coverage.h: the visibility buffer of one tile.
+#ifndef COVERAGE_H
+#define COVERAGE_H
+
+#include "tile.h"
+
+// For each sample, in cells (tile.h), the nearest opaque triangle.
+struct tile_samples {
+    float *keys;                    // depth; larger is nearer, −1: NOTHING
+    uint32_t *ids;                  // triangle number with BACK_SIDE, or NOTHING
+    int32_t *counts;                // triangles that cover the sample; NULL except for LAM_OUTPUT_OVERDRAW
+    uint32_t translucent_triangles; // in the tile's bins
+};
+
+#endif

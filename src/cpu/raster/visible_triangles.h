@@ -1,0 +1,23 @@
+// visible_triangles.h: frames that make normals (frame.h): finds the visible triangles, and makes their normals.
+#ifndef VISIBLE_TRIANGLES_H
+#define VISIBLE_TRIANGLES_H
+
+#include "arena.h"
+#include "buffer.h"
+
+struct cpu_frame;
+
+// Memory of the device. It lasts from frame to frame, except for the fragment stores.
+struct seeing_room {
+    struct buffer sets, normals, fragment_stores;
+    struct buffer *vertices; // of the device: normals may lie there once the tiles are searched
+    struct arena *arenas;    // of each thread, for the fragment stores
+    double search_ms;        // of the last frame: finding the visible triangles of each tile
+};
+
+// If all surfaces are opaque, each tile's fragments are found on the way and kept; otherwise every binned triangle
+// counts as visible.
+bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error);
+void seeing_room_empty(struct seeing_room *room, int threads); // frees the fragment stores
+
+#endif

@@ -1,0 +1,37 @@
+// blend.h: translucent fragments blended in order of depth.
+#ifndef BLEND_H
+#define BLEND_H
+
+#include "fragments.h"
+#include "resolve.h"
+#include "samples.h"
+#include "translucent_fragments.h"
+
+struct recorder;
+
+// A pixel's fragment on its way into depth order at one sample: the larger rank is nearer.
+struct layer {
+    uint64_t rank;
+    uint32_t fragment;
+};
+
+// Scratch memory of one thread.
+struct blend_scratch {
+    uint32_t *order;      // fragments in the order of pixels
+    uint32_t *start;      // of each pixel, in `order`; one more at the end
+    struct layer *layers; // of one pixel
+};
+
+// Sorts a tile's translucent fragments by pixel, after joining those that pieces of one clipped triangle have in one
+// pixel. To be called before they are grouped and shaded.
+void sort_layers(const struct sample_pattern *pattern, struct fragments *fragments, struct layer_rows *rows,
+                 struct blend_scratch *scratch);
+
+// Blends the sorted and shaded fragments of the pixels in `area` into their sums and `transmittance`. `ids`: the tile's
+// visibility buffer. Returns how many of the pixels have no opaque fragment. `recorder`: NULL, or gets the numbers of
+// its pixel.
+uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragments *fragments,
+                      const struct layer_rows *rows, struct blend_scratch *scratch, const uint32_t *ids,
+                      const struct rectangle *area, struct pixel_sums *sums, struct recorder *recorder);
+
+#endif

@@ -1,0 +1,17 @@
+// output.h: pixels that hold values of the surfaces in place of colours (lam_output in lambent/device.h).
+#ifndef OUTPUT_H
+#define OUTPUT_H
+
+#include "coverage.h"
+#include "fragments.h"
+#include "resolve.h"
+
+// Writes a tile's pixels, in place of the kernels' resolve. LAM_OUTPUT_CLIPPED: from sums->unclipped, with the tile's
+// pixels row by row.
+void output_tile(const struct resolve_target *target, const struct fragments *fragments,
+                 const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile);
+
+// Sets the value of a pixel without fragments.
+void output_empty(struct resolve_target *target);
+
+#endif

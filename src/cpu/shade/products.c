@@ -1,0 +1,66 @@
+// products.c: materials × lights, once for each frame.
+#include "shade_frame.h"
+
+#include "fail.h"
+
+#include <string.h>
+
+static void product(float out[3], const float *a, const float *b)
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = a[i] * b[i];
+}
+
+static void multiply_material(struct material_products *out, const lam_material *material, const struct frame *frame)
+{
+    product(out->ambient, &material->ambient.r, frame->ambient);
+    memcpy(out->emission, &material->emission, sizeof out->emission);
+    memcpy(out->diffuse, &material->diffuse, sizeof out->diffuse);
+    out->shininess = material->shininess;
+    if (frame->match_highlights && frame->reflection == LAM_REFLECTION_BLINN_PHONG)
+        out->shininess *= 4;
+    if (frame->gl1 && out->shininess > 128)
+        out->shininess = 128;
+    out->fibre = material->fibre;
+    memcpy(out->reflectivity, &material->reflectivity, sizeof out->reflectivity);
+    out->mirrors =
+        frame->environment && (out->reflectivity[0] != 0 || out->reflectivity[1] != 0 || out->reflectivity[2] != 0);
+}
+
+struct material_products *products_make(struct buffer *storage, const struct frame *frame, struct call_control *call,
+                                        lam_error *error)
+{
+    size_t materials = (size_t)frame->material_count, lights = (size_t)frame->light_count;
+    size_t skies = (size_t)frame->hemisphere_count,
+           each = lights * sizeof(struct light_products) + skies * 6 * sizeof(float);
+    size_t bytes;
+    if (__builtin_mul_overflow(materials, each + sizeof(struct material_products), &bytes)) {
+        fail(error, LAM_LIMIT, "%zu materials under %zu lights are too many", materials, lights);
+        return NULL;
+    }
+    if (!buffer_reserve(storage, bytes, call, error))
+        return NULL;
+    struct material_products *products = storage->data;
+    char *at = (char *)(products + materials);
+    for (size_t m = 0; m < materials; m++) {
+        const lam_material *material = frame->materials[m];
+        struct material_products *out = &products[m];
+        multiply_material(out, material, frame);
+        struct light_products *list = (struct light_products *)at;
+        at += lights * sizeof *list;
+        for (size_t i = 0; i < lights; i++) {
+            product(list[i].diffuse, &material->diffuse.r, frame->lights[i].diffuse);
+            product(list[i].specular, &material->specular.r, frame->lights[i].specular);
+            product(list[i].ambient, &material->ambient.r, frame->lights[i].ambient);
+        }
+        out->lights = list;
+        out->sky = (float(*)[3])at;
+        out->ground = out->sky + skies;
+        at += skies * 6 * sizeof(float);
+        for (size_t i = 0; i < skies; i++) {
+            product(out->sky[i], &material->ambient.r, frame->hemispheres[i].sky);
+            product(out->ground[i], &material->ambient.r, frame->hemispheres[i].ground);
+        }
+    }
+    return products;
+}

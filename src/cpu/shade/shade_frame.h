@@ -1,0 +1,39 @@
+// shade_frame.h: what shading reads of a frame.
+#ifndef SHADE_FRAME_H
+#define SHADE_FRAME_H
+
+#include "buffer.h"
+#include "frame.h"
+#include "visible_normals.h"
+
+// A light against a material: the products that the sum needs (conventions, "The sum").
+struct light_products {
+    float diffuse[3], specular[3]; // kd ⊙ Ld, ks ⊙ Ls
+    float ambient[3];              // ka ⊙ La, where it is attenuated (gl1)
+};
+struct material_products {
+    float ambient[3]; // ka ⊙ (La_global + Σ La)
+    float emission[3];
+    float diffuse[4]; // kd and opacity, for unlit painting
+    float shininess;
+    float reflectivity[3]; // kr
+    bool mirrors;          // there is an environment, and kr is not 0
+    bool fibre;
+    const struct light_products *lights; // one for each light
+    float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere
+};
+
+// Multiplies all materials by all lights, once for the frame. The storage keeps the products. NULL: it failed.
+struct material_products *products_make(struct buffer *storage, const struct frame *frame, struct call_control *call,
+                                        lam_error *error);
+
+struct shade_frame {
+    const struct frame *frame;
+    const struct material_products *materials;
+    const struct light_bounds *light_bounds;  // NULL: every light is evaluated everywhere
+    const float *decode_srgb, *decode_linear; // 256 entries each: the value of a colour byte
+    struct seen_normals seen;  // of draws whose meshes have no normals; its set holds triangle numbers of the frame
+    struct recorder *recorder; // of the pixel that is explained (recorder.h), in the recording kernels; else NULL
+};
+
+#endif

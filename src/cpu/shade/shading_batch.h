@@ -1,0 +1,50 @@
+// shading_batch.h: points side by side on their way through shading, and the scratch memory of shading.
+#ifndef SHADING_BATCH_H
+#define SHADING_BATCH_H
+
+#include "light_cull.h"
+#include "tile.h"
+
+// Rows are a little longer than a batch: the same entries of several rows then lie in different sets of the
+// processor's cache.
+enum { BATCH_MAX = 512, BATCH_ROW = BATCH_MAX + 16 };
+
+// Consecutive fragments that show the same triangle are a run. Rows hold what belongs to the triangle
+// (triangle_runs.inc).
+enum { RUN_CORNERS = 0, RUN_INTERPOLANT = 9, RUN_EXTRA = 18, RUN_ROWS = 21 };
+struct triangle_runs {
+    int count;
+    uint32_t triangle[BATCH_MAX + LANES_MAX];
+    int32_t first[BATCH_MAX];  // of LANES fragments: the run of the first
+    int32_t offset[BATCH_MAX]; // of each fragment: its run, counted from there
+    float row[RUN_ROWS][BATCH_MAX + LANES_MAX];
+};
+
+struct shading_batch {
+    float p[3][BATCH_ROW], n[3][BATCH_ROW], v[3][BATCH_ROW], t[3][BATCH_ROW];
+    float color[3][BATCH_ROW], alpha[BATCH_ROW];    // of the vertices; after shading the result
+    uint32_t triangle[BATCH_ROW];                   // of the mesh
+    float x[BATCH_ROW], y[BATCH_ROW];               // the pixel's centre, in pixels of the window
+    float sample_x[BATCH_ROW], sample_y[BATCH_ROW]; // the sample nearest to it, where a pixel has several
+    float b1[BATCH_ROW], b2[BATCH_ROW];             // barycentric weights of corners 1 and 2
+    struct triangle_runs runs;
+};
+
+// Gouraud and flat shading: the vertices (or triangles) shaded for a tile, found again by hashing.
+struct vertex_cache {
+    uint32_t *table;      // slot → vertex + 1; its size is a power of two, fitted to the group
+    uint32_t (*key)[4];   // identity of a vertex: position, normal, colour, tangent element
+    float (*color)[4];    // r, g, b, a
+    uint32_t *run_vertex; // 3 for each run of fragments: the rows fragments->scratch
+    uint32_t count;
+};
+
+// Scratch memory of one thread's shading, and its counters.
+struct shading {
+    struct shading_batch *batch;
+    struct vertex_cache vertices;
+    struct light_list lights;
+    uint64_t points_lit, lights_evaluated;
+};
+
+#endif

@@ -20,12 +20,12 @@ struct light_bounds {
     const uint32_t *number;   // index in the frame
     const float *position[3]; // eye space; of a directional light the direction to it
     const int32_t *far;       // −1: directional; else 0
-    const float *axis[3];     // of a spot; else 0
+    const float *axis[3];     // of a spot light; else 0
     const float *min_cosine;  // between the axis and a direction; below it no light arrives; −2: no cone
     const float *attenuation[3];
     const float *inverse_range; // 0: none
-    // For each material `capacity` numbers: the maximum channel of kd ⊙ Ld (times the vertex colour), and of ks ⊙ Ls
-    // and other terms that vertex colours do not tint.
+    // For each material `capacity` numbers: the maximum channel of kd ⊙ Ld, which vertex colours tint (gl1: plus that
+    // of ka ⊙ La), and of ks ⊙ Ls.
     const float *max_diffuse, *max_specular;
     // For each group: the bounding box of its lights and their maximum range; infinite if a light has none.
     int group_count, group_capacity;

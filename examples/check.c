@@ -1,5 +1,5 @@
-// check.c: checks the lighting of a fragment shader and names its mistakes; the shader runs in this process, so it must be
-// one that you trust. cc check.c $(pkg-config --cflags --libs lambent-check) -o check
+// check.c: checks the lighting of a fragment shader and names its mistakes; the shader runs in this process, so it must
+// be one that you trust. cc check.c $(pkg-config --cflags --libs lambent-check) -o check
 #include <lambent/check.h>
 #include <lambent/image.h>
 #include <stdio.h>
@@ -21,8 +21,8 @@ int main(int argc, char **argv)
     if (ok)
         printf("%s: %s\n", argv[1], lam_check_verdict_name(report.verdict));
     for (int i = 0; i < report.finding_count; i++)
-        printf("%s: %s\n    write  %s\n", report.findings[i].mistake, report.findings[i].says,
-               report.findings[i].write);
+        printf("%s: %s\n    write  %s\n", report.findings[i].mistake, report.findings[i].explanation,
+               report.findings[i].correction);
     lam_check_report_free(&report);
     if (!ok)
         fprintf(stderr, "%s\n", error.text);

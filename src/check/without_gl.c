@@ -1,4 +1,4 @@
-// without_gl.c: in place of what draws, where the headers of EGL and OpenGL were not there to build it.
+// without_gl.c: replaces the drawing functions in builds without the headers of EGL and OpenGL.
 #include "fault_shader.h"
 
 #include <stddef.h>
@@ -8,14 +8,13 @@
 static bool left_out(lam_error *error)
 {
     return fail(error, LAM_UNSUPPORTED,
-                "check: this build of lambent has no OpenGL; it is built in where the headers are installed "
-                "(on Debian: "
-                "apt install libegl-dev libgl-dev)");
+                "check: this build has no OpenGL; building it in needs the headers (on Debian: apt install libegl-dev "
+                "libgl-dev)");
 }
 
-bool lam_check_draw(const void *job, size_t size, const char *gl_device, lam_bytes *drawn, lam_error *error)
+bool lam_check_draw(const void *request, size_t size, const char *gl_device, lam_bytes *drawn, lam_error *error)
 {
-    (void)job, (void)size, (void)gl_device, (void)drawn;
+    (void)request, (void)size, (void)gl_device, (void)drawn;
     return left_out(error);
 }
 
@@ -26,13 +25,13 @@ struct fault_shader *fault_shader_open(const char *gl_device, int size, lam_erro
     return NULL;
 }
 
-void fault_shader_close(struct fault_shader *model) { (void)model; }
+void fault_shader_close(struct fault_shader *shader) { (void)shader; }
 
-bool fault_shader_draw(struct fault_shader *model, const struct reference_scene *reference_scene,
-                       const struct shader_interface *reading, int room, lam_light_frame frame,
+bool fault_shader_draw(struct fault_shader *shader, const struct reference_scene *reference_scene,
+                       const struct shader_interface *interface, int capacity, lam_light_frame frame,
                        lam_reflection reflection, fault_set set, float *pixels, lam_error *error)
 {
-    (void)model, (void)reference_scene, (void)reading, (void)room, (void)frame, (void)reflection, (void)set,
+    (void)shader, (void)reference_scene, (void)interface, (void)capacity, (void)frame, (void)reflection, (void)set,
         (void)pixels;
     return left_out(error);
 }

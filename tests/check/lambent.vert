@@ -1,5 +1,5 @@
 #version 330 core
-// The contract of `lambent shader`, by hand.
+// The contract of `lambent shader`, written by hand.
 in vec3 position;
 in vec3 normal;
 

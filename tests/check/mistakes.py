@@ -1,6 +1,6 @@
-"""mistakes.py: for each right shader of this folder, the edits that make one known mistake each.
+"""mistakes.py: edits of this folder's correct shaders, each of which introduces known mistakes.
 
-(shader, id that must be told, [(ending, old text, new text), …]). The old text must stand in the file exactly once.
+(shader, expected ids, [(ending, old text, new text), …]). The old text must occur in the file exactly once.
 """
 
 P, Q, O, N, D, M = "pittsburgh", "pittsburgh-vertex", "oregon", "nyu", "nyu-direction", "lambent"
@@ -19,7 +19,7 @@ P_ATTENUATION = "1.0 / (attenuation_constant + attenuation_linear * d + attenuat
 P_SUM = "ambient + attenuation * (diffuse + specular)"
 N_NORMAL = "normalize((normalMatrix * normal).xyz)"
 
-# Clip space as 4-vectors: every vector of the vertex shader goes through the projection.
+# Clip space with 4-vectors: every vector of the vertex shader is multiplied by the projection.
 P_FOUR = [
     vert("varying vec3 N;", "varying vec4 N;"), vert("varying vec3 L;", "varying vec4 L;"),
     vert("varying vec3 V;", "varying vec4 V;"),

@@ -1,5 +1,5 @@
 #version 330 core
-// The Pittsburgh contract in the core profile: a block, precision, a place of the output.
+// The Pittsburgh contract in the core profile: a uniform block, precision qualifiers, an output location.
 precision highp float;
 layout(location = 0) out vec4 frag_color;
 uniform vec4 ambient_product, diffuse_product, specular_product;

@@ -1,5 +1,5 @@
 #version 330 core
-// The Pittsburgh contract in the core profile: places of attributes, and a block from stage to stage.
+// The Pittsburgh contract in the core profile: attribute locations, and an interface block between the stages.
 layout(location = 5) in vec4 vPosition;
 layout(location = 2) in vec3 vNormal;
 uniform mat4 model_view; uniform mat4 projection; uniform vec4 light_position;

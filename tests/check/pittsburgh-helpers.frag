@@ -1,4 +1,4 @@
-// The Pittsburgh contract in another hand: macros, helper functions, a uniform that is not used.
+// The Pittsburgh contract in another style: macros, helper functions, an unused uniform.
 #define SAT(x) clamp(x, 0.0, 1.0)
 uniform vec4 ambient_product, diffuse_product, specular_product;
 uniform float shininess, attenuation_constant, attenuation_linear, attenuation_quadratic;

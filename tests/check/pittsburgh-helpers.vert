@@ -1,4 +1,4 @@
-// The Pittsburgh contract in another hand: helper functions, other names of varyings and of the normal matrix.
+// The Pittsburgh contract in another style: helper functions, other names of varyings and of the normal matrix.
 attribute vec4 vPosition, vNormal;
 uniform mat4 model_view, projection, model_view_inverse_transpose;
 uniform vec4 light_position;

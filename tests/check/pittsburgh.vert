@@ -1,5 +1,5 @@
 #version 120
-// Lit per fragment, with the Pittsburgh contract's names. Right; mistakes.py makes the mistakes.
+// Lit per fragment, with the Pittsburgh contract's names. Correct; mistakes.py introduces mistakes.
 attribute vec4 vPosition;
 attribute vec4 vNormal;
 

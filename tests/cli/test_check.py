@@ -1,5 +1,5 @@
-# test_check.py: the command `check`: right shaders pass, each known mistake is told as that mistake, and shaders that do
-# not compile, end or give numbers are reported.
+# test_check.py: the command `check`: correct shaders pass, each known mistake is identified, and shaders that do not compile, do
+# not end or write NaN are reported.
 import concurrent.futures
 import json
 import os
@@ -17,7 +17,7 @@ sys.path.insert(0, str(ROOT / "tests" / "check"))
 from mistakes import MISTAKES  # noqa: E402
 
 SHADERS = ROOT / "tests" / "check"
-EVERY = int(os.environ.get("LAMBENT_CHECK_EVERY", "1"))  # of the mistakes, every so manieth is checked
+EVERY = int(os.environ.get("LAMBENT_CHECK_EVERY", "1"))  # only every n-th mistake is checked
 SCHEMA = json.loads((ROOT / "docs" / "check.schema.json").read_text())
 
 
@@ -50,7 +50,7 @@ class CheckTest(Case):
             self.skipTest(self.MISSING)
 
     def shader(self, name, edits=()):
-        """Writes a shader of tests/check, edited, as s.frag and s.vert; the words of a command line that checks it."""
+        """Writes a shader of tests/check, edited, as s.frag and s.vert; returns the arguments that check it."""
         for ending, text in edited(name, edits).items():
             (self.folder / f"s.{ending}").write_text(text)
         return ["s.frag", *(["--vertex", "s.vert"] if (SHADERS / f"{name}.vert").exists() else [])]
@@ -79,12 +79,12 @@ class Right(CheckTest):
                 report = self.report_of(*self.shader(name), size=128)
                 self.assertEqual((report["verdict"], report["contract"], report["lit_in"]), ("passes", contract, lit))
                 self.assertEqual((report["mistakes"], report["notes"]), ([], []))
-                # The reference is the CPU device's: the pictures agree far within the tolerance.
+                # The reference comes from the CPU device: the pictures agree far within the tolerance.
                 self.assertLess(max(scene["maximum"] for scene in report["scenes"]), 1e-3)
                 self.assertGreater(min(scene["pixels"] for scene in report["scenes"]), 1000)
 
     def test_printed_shaders(self):
-        """What `lambent shader` prints passes: its lights are what its loops say."""
+        """Shaders printed by `lambent shader` pass: their loops say which lights they have."""
         light = {"point": "point:attenuation=1/0.1/0.02", "plain": "point:position=1/2/3", "sun": "directional",
                  "spot": "spot:cutoff=30", "cones": "spot:inner=10,outer=20", "exponent": "spot:exponent=9", "sky": "hemisphere"}
         for words, lights in (
@@ -94,7 +94,7 @@ class Right(CheckTest):
                 ("--reflection lambert --exposure 1", "sun"), ("--glsl 120", "point " * 90), ("--products", "sun " * 90), ("--show diffuse --reflection none", "")):
             with self.subTest(words + " " + lights):
                 self.good("shader", *words.split(), *[w for name in lights.split() for w in ("--light", light[name])], "-q", "-o", "p")
-                if "none" in words:  # no lighting in it: it differs, and is drawn
+                if "none" in words:  # without lighting it differs, but is drawn
                     self.assertEqual(self.report_of("p.frag", "--vertex", "p.vert", code=6)["verdict"], "differs")
                     continue
                 report = self.report_of("p.frag", "--vertex", "p.vert")
@@ -117,7 +117,7 @@ class Right(CheckTest):
             self.bad(3, "check", "p.frag", "--vertex", "p.vert", says=says, leaves=("p.vert", "p.frag"))
 
     def test_alone(self):
-        """A fragment shader alone gets a right vertex shader, in its own version of GLSL."""
+        """A fragment shader alone gets a correct vertex shader, in its own version of GLSL."""
         for name in ("pittsburgh", "oregon", "nyu", "lambent"):
             with self.subTest(name):
                 self.shader(name)
@@ -166,7 +166,7 @@ class Right(CheckTest):
 
 
 class Mistakes(CheckTest):
-    """One method for each row of tests/check/mistakes.py, made below. The rows are checked together, as a class's would be."""
+    """One method for each row of tests/check/mistakes.py, generated below. The rows are checked together, as a class's would be."""
 
     @classmethod
     def setUpClass(cls):
@@ -175,7 +175,7 @@ class Mistakes(CheckTest):
             return
         folder = pathlib.Path(tempfile.mkdtemp(prefix="lambent-cli-"))
         cls.addClassCleanup(shutil.rmtree, folder, True)
-        files = ([], [])  # pictures are kept by contract, so a contract's shaders stay together
+        files = ([], [])  # pictures are cached by contract, so a contract's shaders stay together
         for number, (name, _, edits) in list(enumerate(MISTAKES))[::EVERY]:
             for ending, text in edited(name, edits).items():
                 (folder / f"{number:03}.{ending}").write_text(text)
@@ -192,7 +192,7 @@ class Mistakes(CheckTest):
 
     def tell(self, number, expected):
         if number % EVERY:
-            self.skipTest(f"every {EVERY}. mistake with sanitizers")
+            self.skipTest(f"with sanitizers only every {EVERY}th mistake")
         report = self.reports.get(f"{number:03}.frag")
         self.assertTrue(report, self.said)
         check_value(self, report, SCHEMA, "check")
@@ -222,8 +222,8 @@ class Refused(CheckTest):
 
     def test_spelling(self):
         self.told("pittsburgh", [("vert", "void main()", "main()")], "void main()")
-        self.told("pittsburgh", [("vert", "gl_Position", "gl_position")], "'gl_position' is written gl_Position")
-        self.told("oregon", [("frag", "in vec3 vNs, vLs, vEs;", "in vec3v Ns; in vec3v Ls; in vec3v Es;")], "in `vec3 vNs`".replace("in ", "is "))
+        self.told("pittsburgh", [("vert", "gl_Position", "gl_position")], "'gl_position' should be gl_Position")
+        self.told("oregon", [("frag", "in vec3 vNs, vLs, vEs;", "in vec3v Ns; in vec3v Ls; in vec3v Es;")], "did you mean `vec3 vNs`")
         self.told("pittsburgh", [("frag", "vec3 h = normalize(l + v);", "vec3 half = normalize(l + v); vec3 h = half;")], "reserved word")
         self.told("pittsburgh-vertex", [("vert", "max(dot(n, l), 0.0)", "max(dot(n, l), 0)")], "0.0")
         self.told("pittsburgh", [("frag", "vec3 n = normalize(N);", "vec3 n = normalize(N)")], "';'")
@@ -232,22 +232,22 @@ class Refused(CheckTest):
         self.assertEqual((SHADERS / "pittsburgh.frag").read_text().splitlines()[line - 1].strip(), "vec3 v = normalize(V);")
 
     def test_undeclared(self):
-        self.told("oregon", [("frag", "    float s =", "    diffuse = uColor;\n    float s =")], "'diffuse' is declared nowhere")
-        self.told("nyu", [("frag", "float attenuation =", "float weakened =")], "'attenuation' is declared nowhere")
+        self.told("oregon", [("frag", "    float s =", "    diffuse = uColor;\n    float s =")], "'diffuse' is not declared")
+        self.told("nyu", [("frag", "float attenuation =", "float weakened =")], "'attenuation' is not declared")
 
     def test_global_from_uniform(self):
-        """GLSL ES starts globals with constants only."""
+        """GLSL ES initialises globals with constants only."""
         for ending, old, new in (("vert", "varying ", "out "), ("frag", "varying ", "in ")):
             text = (SHADERS / f"nyu.{ending}").read_text().replace("#version 120\n", "").replace("attribute ", "in ").replace(old, new)
             text = text.replace("gl_FragColor", "pixel").replace("void main()", "vec3 tint = uColor;\nvoid main()" if ending == "frag" else "void main()")
             (self.folder / f"s.{ending}").write_text("#version 300 es\nprecision highp float;\n" + ("out vec4 pixel;\n" if ending == "frag" else "") + text)
         report = self.report_of("s.frag", "--vertex", "s.vert", code=6)
         self.assertEqual(report["verdict"], "refused")
-        self.assertIn("GLSL ES starts globals with constants only: give 'tint'", " ".join(self.notes(report, "hint")))
+        self.assertIn("GLSL ES initialises globals with constants only: assign 'tint'", " ".join(self.notes(report, "hint")))
 
     def test_names_of_two(self):
         self.told("pittsburgh", [("frag", "uniform float shininess;", "uniform float shininess; uniform vec3 eye_point;"),
-                                 ("frag", "normalize(V)", "normalize(eye_position)")], "'eye_point' is. Is it meant?")
+                                 ("frag", "normalize(V)", "normalize(eye_position)")], "but 'eye_point' is")
         self.told("pittsburgh", [("frag", "uniform vec4 ambient_product;", "uniform mat4 ambient_product;")],
                   "write uniform vec4 ambient_product")
 
@@ -268,13 +268,13 @@ class Unruly(CheckTest):
         report = self.report_of(*self.shader("pittsburgh", [("frag", "uniform float shininess;", "uniform float shinines;"),
                                                             ("frag", "0.0), shininess)", "0.0), shinines)")]),
                                 "--scenes", "highlight", code=6)
-        self.assertIn("the nearest that it knows is 'shininess'", " ".join(self.notes(report, "unknown")))
+        self.assertIn("did you mean 'shininess'", " ".join(self.notes(report, "unknown")))
 
     def test_none_known(self):
         report = self.report_of(*self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")]),
                                 "--scenes", "all,diffuse,gate", code=6)
         self.assertEqual((report["verdict"], report["mistakes"]), ("differs", []))
-        self.assertIn("none of the known", self.run_program("check", "s.frag", "-s", 32, "--scenes", "all").stdout.decode())
+        self.assertIn("No known mistake", self.run_program("check", "s.frag", "-s", 32, "--scenes", "all").stdout.decode())
 
     def test_two_together(self):
         report = self.report_of(*self.shader("nyu", [("frag", "normalize(varyingNormal)", "varyingNormal"), ("frag", "* s * attenuation", "* s")]),
@@ -288,7 +288,7 @@ class Unruly(CheckTest):
         self.assertGreater(sum(scene["not_numbers"] for scene in report["scenes"]), 0)
         self.assertTrue(any("NaN" in text for text in self.notes(report, "hint")))
 
-    # A software driver ends a loop after some ten thousand turns; each of these takes long, and so many pixels wait for it.
+    # A software driver leaves a loop after some ten thousand iterations; these are slow, and there are many pixels.
     LOOP = """float turn = 0.0;
     while (turn < 2.0) {
         turn = 0.5 * sin(turn + shininess) * pow(1.5 + cos(turn), 1.1);
@@ -299,18 +299,18 @@ class Unruly(CheckTest):
         return [*self.shader("pittsburgh", [("frag", "vec3 n = normalize(N);", self.LOOP)]), "-s", "512"]
 
     def processes(self):
-        """Those with the mark of this test in their environment."""
+        """Processes with this test's variable in their environment."""
         mark, found = b"LAMBENT_TEST=" + str(self.folder).encode(), []
         for entry in pathlib.Path("/proc").iterdir():
             try:
                 if entry.name.isdigit() and mark in (entry / "environ").read_bytes().split(b"\0"):
                     found.append((int(entry.name), (entry / "cmdline").read_bytes()))
-            except OSError:  # gone, or not ours
+            except OSError:  # ended, or not readable
                 pass
         return found
 
     def wait_for(self, condition):
-        while not condition():  # the suite's own limit ends this where it is never met
+        while not condition():  # bounded by the suite's own time limit
             time.sleep(0.05)
 
     def test_endless(self):
@@ -319,7 +319,7 @@ class Unruly(CheckTest):
         self.assertEqual(self.processes(), [])
 
     def test_endless_and_asker_killed(self):
-        """Nothing stays behind, though who asked can no longer stop it."""
+        """The drawing process ends although its parent can no longer stop it."""
         asker = subprocess.Popen([PROGRAM, "check", *self.endless(), "--stop-after", "1e5"], cwd=self.folder, stdout=subprocess.DEVNULL,
                                  env={**os.environ, "LAMBENT_TEST": str(self.folder)})
         self.wait_for(lambda: any(b"check-worker" in words for _, words in self.processes()))
@@ -336,22 +336,22 @@ class Unruly(CheckTest):
         self.assertEqual(self.processes(), [])
 
     def test_endless_and_left(self):
-        """A software driver leaves such a loop by itself; it is told by the time that it took."""
+        """A software driver leaves such a loop by itself; its processor time gives it away."""
         report = self.report_of(*self.shader("pittsburgh", [("frag", "vec3 n = normalize(N);", self.LOOP)]), "--scenes", "all",
                                 "--stop-after", 1000, code=6)
         self.assertEqual(report["verdict"], "endless")
-        self.assertIn("a loop without an end", " ".join(self.notes(report, "hint")))
+        self.assertIn("an endless loop", " ".join(self.notes(report, "hint")))
 
     def test_draws_nothing(self):
         report = self.report_of(*self.shader("pittsburgh", [("frag", "gl_FragColor =", "discard; gl_FragColor =")]), code=6)
         self.assertEqual((report["verdict"], report["mistakes"]), ("differs", []))
         self.assertIn("100 % of the model is not drawn", " ".join(self.notes(report, "hint")))
         report = self.report_of(*self.shader("nyu", [("frag", "gl_FragColor =", "vec4 color =")]), code=6)
-        self.assertIn("it writes no colour", " ".join(self.notes(report, "hint")))
+        self.assertIn("the shader writes no colour", " ".join(self.notes(report, "hint")))
         self.assertEqual(report["mistakes"], [])
 
     def test_outputs(self):
-        """Shaders of the core profile that leave out the normal, or write no vec4."""
+        """Shaders of the core profile that do not use the normal, or do not write a vec4."""
         text = "#version 330 core\nuniform vec4 ambient_product;\nin vec3 fN;\nout %s o;\nvoid main() { o = %s(ambient_product); }\n"
         for kind, said in (("vec4", None), ("ivec4", "a picture holds floats"), ("vec3", "leaves channels undefined")):
             (self.folder / "s.frag").write_text(text % (kind, kind))
@@ -362,24 +362,24 @@ class Unruly(CheckTest):
                 self.assertEqual((report["verdict"], report["notes"]), ("passes", []))
 
     def test_unused_and_unset(self):
-        """A name that nothing depends on does no harm; one that holds 0 is told before mistakes are."""
+        """An unknown name that nothing depends on does no harm; one with the value 0 is reported before any mistake."""
         unused = ("frag", "uniform float shininess;", "uniform float shininess;\nuniform vec3 of_no_use;")
         self.assertEqual(self.report_of(*self.shader("pittsburgh", [unused]), "--scenes", "all")["notes"], [])
         words = self.shader("pittsburgh", [("vert", "uniform mat3 normal_matrix;", "uniform mat3 turn;"),
                                            ("vert", "normal_matrix * vNormal", "turn * vNormal")])
         report = self.report_of(*words, code=6)
         self.assertEqual(report["mistakes"], [])
-        self.assertIn("'turn' is unknown", " ".join(self.notes(report, "unknown")))
-        self.assertIn("put the names right first", " ".join(self.notes(report, "hint")))
+        self.assertIn("'turn' is not in the contract", " ".join(self.notes(report, "unknown")))
+        self.assertIn("correct the names first", " ".join(self.notes(report, "hint")))
 
     def test_driver_sleeps(self):
-        """One that waits for ever takes none of the processor's time: the clock stops it."""
+        """A driver that waits for ever uses no processor time: the limit on elapsed time stops it."""
         self.driver("#include <unistd.h>\n#define STAND for (;;) pause()\n")
         report = self.report_of(*self.shader("oregon"), "--stop-after", 0.1, code=6, env={"LD_LIBRARY_PATH": str(self.folder)})
         self.assertEqual(report["verdict"], "endless")
 
     def driver(self, start):
-        """A stand-in for the driver, each of whose functions does STAND."""
+        """A replacement for the driver, each of whose functions does STAND."""
         source = self.folder / "egl.c"
         source.write_text(start + "void *eglGetProcAddress(const char *n) { (void)n; STAND; }\n" + "".join(
             f"void *egl{name}(void) {{ STAND; }}\n" for name in
@@ -405,7 +405,7 @@ class Unruly(CheckTest):
 
 
 class Several(CheckTest):
-    """A class at once: files are paired by name, one that cannot be checked stops nobody."""
+    """Several shaders at once: files are paired by name, and one that cannot be checked does not stop the others."""
 
     def write(self, name, shader, edits=()):
         for ending, text in edited(shader, edits).items():
@@ -433,7 +433,7 @@ class Several(CheckTest):
         self.assertEqual([r["vertex"] for r in reports], [n + ".vert" for n in names[:3]] + [None, None])
         self.assertEqual([r.get("verdict") for r in reports], ["passes", "differs", "differs", None, None])
         self.assertEqual([m["id"] for m in reports[1]["mistakes"]], ["no-gate"])
-        # The second of the kind is judged by pictures that were kept: the same to the last digit.
+        # The second such shader is compared with cached pictures: the same to the last digit.
         self.assertEqual(reports[1]["mistakes"], reports[2]["mistakes"])
         self.assertEqual([r["exit_code"] for r in reports[3:]], [1, 2])
         self.assertIn("--contract", reports[3]["error"])
@@ -454,7 +454,7 @@ class Several(CheckTest):
 
 class Without(Case):
     def test_no_gl(self):
-        """Where there is no libEGL the sentence says what to install."""
+        """Without libEGL the error says what to install."""
         (self.folder / "libEGL.so.1").write_text("no library")
         (self.folder / "s.frag").write_text((SHADERS / "oregon.frag").read_text())
         done = self.run_program("check", "s.frag", env={"LD_LIBRARY_PATH": str(self.folder)})

@@ -1,4 +1,4 @@
-// check.c: the command `check`: a shader against the reference scenes.
+// check.c: the command `check`: compares what shaders draw with the reference scenes.
 #include "check.h"
 
 #include <errno.h>
@@ -11,10 +11,10 @@
 #include "output.h"
 #include "report.h"
 
-enum { EXIT_DIFFERS = 6, TEXT_MOST = 1 << 20, SCENES_MOST = 32 };
-static const size_t pictures_most = (size_t)384 << 20; // bytes of pictures kept for several shaders
+enum { EXIT_DIFFERS = 6, MAX_TEXT_BYTES = 1 << 20, MAX_SCENES = 32 };
+static const size_t max_cache_bytes = (size_t)384 << 20; // of pictures cached for several shaders
 
-// A text file as a string, from malloc.
+// Reads a text file into memory from malloc.
 static char *read_text(const char *path, lam_error *error)
 {
     bool standard = strcmp(path, "-") == 0;
@@ -23,8 +23,8 @@ static char *read_text(const char *path, lam_error *error)
         complain(error, LAM_CANNOT_READ, "%s: %s", path, strerror(errno));
         return NULL;
     }
-    char *text = malloc(TEXT_MOST + 1);
-    size_t size = text ? fread(text, 1, TEXT_MOST + 1, file) : 0;
+    char *text = malloc(MAX_TEXT_BYTES + 1);
+    size_t size = text ? fread(text, 1, MAX_TEXT_BYTES + 1, file) : 0;
     bool bad = ferror(file);
     int reason = errno;
     if (!standard)
@@ -33,10 +33,10 @@ static char *read_text(const char *path, lam_error *error)
         complain(error, LAM_LIMIT, "out of memory");
     else if (bad)
         complain(error, LAM_CANNOT_READ, "%s: %s", path, strerror(reason));
-    else if (size > TEXT_MOST)
-        complain(error, LAM_LIMIT, "%s: a shader of more than %d bytes", path, TEXT_MOST);
+    else if (size > MAX_TEXT_BYTES)
+        complain(error, LAM_LIMIT, "%s: the shader is larger than %d bytes", path, MAX_TEXT_BYTES);
     else if (memchr(text, 0, size))
-        complain(error, LAM_CANNOT_READ, "%s: holds a zero byte, expected the text of a shader", path);
+        complain(error, LAM_CANNOT_READ, "%s: expected the text of a shader, found a zero byte", path);
     else {
         text[size] = 0;
         return text;
@@ -45,19 +45,18 @@ static char *read_text(const char *path, lam_error *error)
     return NULL;
 }
 
-// What all shaders of a command line share.
-struct class
-{
+// State shared by all shaders of a command line.
+struct batch {
     const struct options *options;
-    const char *scenes[SCENES_MOST];
+    const char *scenes[MAX_SCENES];
     int scene_count;
     bool several;
     double tolerance;
-    lam_check_pictures *pictures; // NULL: of a single shader none are kept
+    lam_check_cache *cache; // NULL for a single shader
     int passed;
 };
 
-static bool check_output(const struct class *c, const char *path, const char *shader, lam_error *error)
+static bool check_output(const struct batch *c, const char *path, const char *shader, lam_error *error)
 {
     lam_pixel_format format = LAM_RGBA8;
     if (output_is_stream(path))
@@ -67,20 +66,20 @@ static bool check_output(const struct class *c, const char *path, const char *sh
            output_check(path, shader, !c->several, error);
 }
 
-static void tell(const struct class *c, const lam_check_report *report, const struct check_pair *pair,
-                 const char *sheet)
+static void print_report(const struct batch *c, const lam_check_report *report, const struct check_pair *pair,
+                         const char *sheet)
 {
     const struct options *o = c->options;
     FILE *file = sheet && strcmp(sheet, "-") == 0 ? stderr : stdout;
     if (o->json)
-        check_tell_json(file, report, pair->fragment, pair->vertex, c->tolerance, report->scene_count ? sheet : NULL);
+        check_report_json(file, report, pair->fragment, pair->vertex, c->tolerance, report->scene_count ? sheet : NULL);
     else if (!o->quiet)
-        check_tell_text(file, report, pair->fragment, c->tolerance);
-    fflush(file); // a class takes its time: each shader's word comes when it is known
+        check_report_text(file, report, pair->fragment, c->tolerance);
+    fflush(file); // each shader's report appears as soon as it is done
 }
 
-// Checks one shader and tells what came of it; returns the exit code. What fails is in `error`.
-static int check_one(struct class *c, const struct check_pair *pair, lam_error *error)
+// Checks one shader and prints its report; returns the exit code. A failure is in `error`.
+static int check_one(struct batch *c, const struct check_pair *pair, lam_error *error)
 {
     const struct options *o = c->options;
     struct check_process process = {.time_limit_s = o->stop_after_s};
@@ -103,7 +102,7 @@ static int check_one(struct class *c, const struct check_pair *pair, lam_error *
             .reflection = (lam_reflection)o->highlight,
             .scenes = c->scene_count ? c->scenes : NULL,
             .scene_count = c->scene_count,
-            .pictures = c->pictures,
+            .cache = c->cache,
             .draw = check_process,
             .user = &process,
         };
@@ -117,7 +116,7 @@ static int check_one(struct class *c, const struct check_pair *pair, lam_error *
     if (ok && sheet && report.scene_count)
         ok = check_sheet(&report, pair->fragment, o, sheet, error);
     if (ok)
-        tell(c, &report, pair, sheet);
+        print_report(c, &report, pair, sheet);
     int code = !ok ? (int)error->code : report.verdict == LAM_CHECK_PASSES ? 0 : EXIT_DIFFERS;
     c->passed += code == 0;
     lam_check_report_free(&report);
@@ -127,36 +126,34 @@ static int check_one(struct class *c, const struct check_pair *pair, lam_error *
     return code;
 }
 
-static bool prepare(struct class *c, int pair_count, const struct check_pair *pairs, lam_error *error)
+static bool prepare(struct batch *c, int pair_count, const struct check_pair *pairs, lam_error *error)
 {
     const struct options *o = c->options;
     if (!pair_count)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "check: no shader is given, expected a file with a fragment shader, or --list");
+                        "check: no shader given, expected the file of a fragment shader, or --list");
     for (int i = 0; c->several && i < pair_count; i++)
         if (strcmp(pairs[i].fragment, "-") == 0)
-            return complain(error, LAM_BAD_ARGUMENT, "'-' (standard input) goes only with a single shader");
+            return complain(error, LAM_BAD_ARGUMENT, "'-' (standard input) is possible only for a single shader");
     if (o->has_size && o->width != o->height)
         return complain(error, LAM_BAD_ARGUMENT, "check: pictures are square, found %dx%d", o->width, o->height);
     if (o->output && c->several && output_is_named(o->output))
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--output' names one sheet, but there are %d shaders; name a folder: "
-                        "-o sheets/",
-                        pair_count);
+                        "option '--output' names one sheet for %d shaders; name a folder: -o sheets/", pair_count);
     if (o->output && !c->several && !output_is_named(o->output))
         return complain(error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file", o->output);
-    return !c->several || (c->pictures = lam_check_pictures_make(pictures_most, error));
+    return !c->several || (c->cache = lam_check_cache_make(max_cache_bytes, error));
 }
 
-// "all,gate" into its names; cuts `list`.
-static void split(struct class *c, char *list)
+// Splits "all,gate" into its names, inside `list`.
+static void split(struct batch *c, char *list)
 {
-    for (char *word = list ? strtok(list, ",") : NULL; word && c->scene_count < SCENES_MOST; word = strtok(NULL, ","))
+    for (char *word = list ? strtok(list, ",") : NULL; word && c->scene_count < MAX_SCENES; word = strtok(NULL, ","))
         c->scenes[c->scene_count++] = word;
 }
 
-// One that fails is told and the others are still checked; the highest exit code counts.
-static int check_all(struct class *c, int count, const struct check_pair *pairs)
+// An error in one shader is printed and the others are still checked. Returns the highest exit code.
+static int check_all(struct batch *c, int count, const struct check_pair *pairs)
 {
     int code = 0;
     for (int i = 0; i < count && !interrupted(); i++) {
@@ -165,7 +162,7 @@ static int check_all(struct class *c, int count, const struct check_pair *pairs)
         if (error.code && !interrupted()) {
             say_error(error.text);
             if (c->options->json)
-                check_tell_json_error(stdout, pairs[i].fragment, pairs[i].vertex, &error);
+                check_report_error_json(stdout, pairs[i].fragment, pairs[i].vertex, &error);
         }
         code = mine > code ? mine : code;
     }
@@ -177,12 +174,12 @@ static int check_all(struct class *c, int count, const struct check_pair *pairs)
 int run_check(int operand_count, char **operands, const struct options *o)
 {
     if (o->list) {
-        check_tell_lists(stdout);
+        check_print_lists(stdout);
         return 0;
     }
     interrupt_start();
     lam_error error = {0};
-    struct class c = {.options = o, .tolerance = option_given(o, "tolerance") ? o->tolerance : 2};
+    struct batch c = {.options = o, .tolerance = option_given(o, "tolerance") ? o->tolerance : 2};
     struct check_pair *pairs = calloc((size_t)operand_count + 1, sizeof *pairs);
     char *scenes = o->scenes ? strdup(o->scenes) : NULL;
     split(&c, scenes);
@@ -192,7 +189,7 @@ int run_check(int operand_count, char **operands, const struct options *o)
         complain(&error, LAM_LIMIT, "out of memory");
     else if (count >= 0 && prepare(&c, count, pairs, &error))
         code = c.several ? check_all(&c, count, pairs) : check_one(&c, pairs, &error);
-    lam_check_pictures_free(c.pictures);
+    lam_check_cache_free(c.cache);
     free(pairs);
     free(scenes);
     if (interrupted())

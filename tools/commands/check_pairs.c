@@ -1,4 +1,4 @@
-// check_pairs.c: which vertex shader goes with which fragment shader, and what their sheet is called.
+// check_pairs.c: pairs vertex shaders with fragment shaders, and names their sheets.
 #include "check.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "console.h"
 #include "output.h"
 
-// The end of a path's name without its ending: of "a/phong.frag" and "a/phong.frag.glsl" that of "a/phong".
+// The length of a path without its ending: for "a/phong.frag" and "a/phong.frag.glsl" that of "a/phong".
 static size_t stem_length(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -51,8 +51,8 @@ int check_pair(int count, char **files, const char *vertex, struct check_pair *p
             mine->vertex = files[i];
         else if (is_vertex(files[i]) && count > 1) {
             complain(error, LAM_BAD_ARGUMENT,
-                     "check: '%s' is a vertex shader, and no fragment shader of the same name is given beside "
-                     "it; --vertex names one of another name",
+                     "check: '%s' is a vertex shader without a fragment shader of the same name; use --vertex to name "
+                     "one of another name",
                      files[i]);
             return -1;
         }

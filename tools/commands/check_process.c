@@ -1,9 +1,8 @@
-// check_process.c: the shaders under test run in a process of their own: this program again, which is stopped
-// when its time is over, and whose death is a finding.
+// check_process.c: runs the shaders under test in a process of their own, a second instance of this program. It is
+// stopped at its time limit; if it crashes, that is a verdict.
 //
-// Its time is the processor's, of all its threads: a machine that is busy with other things makes no shader
-// endless. Where a graphics card does the work the processor may have nothing to do: so there is a bound on
-// the clock as well, WALL_TIMES as long.
+// The limit is processor time over all threads, so that other load on the machine makes no shader endless. While a
+// graphics card works, the processor may be idle: therefore elapsed time is limited too, to WALL_TIMES as much.
 #include "check.h"
 
 #include <errno.h>
@@ -21,7 +20,7 @@
 #include "console.h"
 #include "interrupt.h"
 
-enum { BYTES_MOST = 1 << 30, WALL_TIMES = 20 };
+enum { MAX_BYTES = 1 << 30, WALL_TIMES = 20 };
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SANITIZED 1
@@ -31,20 +30,20 @@ enum { BYTES_MOST = 1 << 30, WALL_TIMES = 20 };
 #endif
 #endif
 
-// --- the process that draws
+// --- the drawing process
 
 static bool read_all(int from, lam_bytes *bytes)
 {
-    size_t room = 0;
+    size_t capacity = 0;
     for (;;) {
-        if (bytes->size == room) {
-            room = room ? 2 * room : 1 << 16;
-            void *more = room <= BYTES_MOST ? realloc(bytes->data, room) : NULL;
+        if (bytes->size == capacity) {
+            capacity = capacity ? 2 * capacity : 1 << 16;
+            void *more = capacity <= MAX_BYTES ? realloc(bytes->data, capacity) : NULL;
             if (!more)
                 return false;
             bytes->data = more;
         }
-        ssize_t n = read(from, (char *)bytes->data + bytes->size, room - bytes->size);
+        ssize_t n = read(from, (char *)bytes->data + bytes->size, capacity - bytes->size);
         if (n < 0 && errno == EINTR)
             continue;
         if (n <= 0)
@@ -68,27 +67,27 @@ static bool write_all(int to, const void *data, size_t size)
 
 void check_worker(void)
 {
-    prctl(PR_SET_PDEATHSIG, SIGKILL); // never outlives who asked
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // dies with its parent
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
-#ifndef SANITIZED                         // whose shadow memory is larger than any bound
-    const rlim_t most = (rlim_t)16 << 30; // a shader may ask for any amount
+#ifndef SANITIZED                         // sanitizers reserve more address space than any limit
+    const rlim_t most = (rlim_t)16 << 30; // a shader may allocate without bound
     setrlimit(RLIMIT_AS, &(struct rlimit){most, most});
 #endif
     int answer = dup(STDOUT_FILENO), nowhere = open("/dev/null", O_WRONLY);
     if (answer < 0 || nowhere < 0 || dup2(nowhere, STDOUT_FILENO) < 0 || dup2(nowhere, STDERR_FILENO) < 0)
-        _exit(LAM_LIMIT); // drivers talk on both
-    lam_bytes job = {0}, drawn = {0};
+        _exit(LAM_LIMIT); // drivers print to both
+    lam_bytes request = {0}, drawn = {0};
     lam_error error = {0};
-    bool ok = read_all(STDIN_FILENO, &job) || complain(&error, LAM_LIMIT, "out of memory");
-    ok = ok && lam_check_draw(job.data, job.size, NULL, &drawn, &error);
+    bool ok = read_all(STDIN_FILENO, &request) || complain(&error, LAM_LIMIT, "out of memory");
+    ok = ok && lam_check_draw(request.data, request.size, NULL, &drawn, &error);
     int code = ok ? 0 : (int)error.code;
     if (!write_all(answer, ok ? drawn.data : error.text, ok ? drawn.size : strlen(error.text)))
         code = LAM_CANNOT_WRITE;
-    // What drivers do at a process's exit is no finding: the answer is given.
+    // The result is sent; crashes of the driver during exit must not count.
     _exit(code);
 }
 
-// --- the process that waits
+// --- the waiting process
 
 static double now_s(void)
 {
@@ -102,14 +101,14 @@ struct child {
     int to, from; // −1: closed
 };
 
-// The system stops it too when its time is over and nobody does.
+// The system's own limit, in case the parent dies first.
 static void bound_time(double limit_s)
 {
     rlim_t seconds = (rlim_t)limit_s + 2;
     setrlimit(RLIMIT_CPU, &(struct rlimit){seconds, seconds + 1});
 }
 
-// Of all its threads. 0 where it cannot be told.
+// Over all threads. 0: unknown.
 static double processor_time_s(pid_t pid)
 {
     clockid_t clock;
@@ -137,7 +136,7 @@ static bool start(struct child *child, double limit_s, lam_error *error)
         int reason = errno;
         close(in[1]);
         close(out[0]);
-        return complain(error, LAM_LIMIT, "cannot start a process for the shader: %s", strerror(reason));
+        return complain(error, LAM_LIMIT, "cannot start the drawing process: %s", strerror(reason));
     }
     child->to = in[1];
     child->from = out[0];
@@ -146,44 +145,44 @@ static bool start(struct child *child, double limit_s, lam_error *error)
     return true;
 }
 
-// Sends what the pipe takes. The other end closed early: it has died, which is told later.
-static void send_some(struct child *child, const lam_bytes *job, size_t *sent)
+// Sends as much as the pipe accepts. If the other end is closed, the process has died; its exit status follows later.
+static void send_some(struct child *child, const lam_bytes *request, size_t *sent)
 {
-    ssize_t n = write(child->to, (const char *)job->data + *sent, job->size - *sent);
+    ssize_t n = write(child->to, (const char *)request->data + *sent, request->size - *sent);
     if (n > 0)
         *sent += (size_t)n;
-    if (*sent == job->size || (n < 0 && errno != EAGAIN && errno != EINTR)) {
+    if (*sent == request->size || (n < 0 && errno != EAGAIN && errno != EINTR)) {
         close(child->to);
         child->to = -1;
     }
 }
 
-// Reads what is there; false at the end.
-static bool receive_some(struct child *child, lam_bytes *drawn, size_t *room)
+// Reads the available bytes; false at the end.
+static bool receive_some(struct child *child, lam_bytes *drawn, size_t *capacity)
 {
-    if (drawn->size == *room) {
-        size_t larger = *room ? 2 * *room : 1 << 20;
-        void *more = larger <= BYTES_MOST ? realloc(drawn->data, larger) : NULL;
+    if (drawn->size == *capacity) {
+        size_t larger = *capacity ? 2 * *capacity : 1 << 20;
+        void *more = larger <= MAX_BYTES ? realloc(drawn->data, larger) : NULL;
         if (!more)
             return false;
         drawn->data = more;
-        *room = larger;
+        *capacity = larger;
     }
-    ssize_t n = read(child->from, (char *)drawn->data + drawn->size, *room - drawn->size);
+    ssize_t n = read(child->from, (char *)drawn->data + drawn->size, *capacity - drawn->size);
     if (n > 0)
         drawn->size += (size_t)n;
     return n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
 }
 
-lam_check_end check_process(void *user, const lam_bytes *job, lam_bytes *drawn, lam_error *error)
+lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_bytes *drawn, lam_error *error)
 {
     const struct check_process *how = user;
     struct child child;
     signal(SIGPIPE, SIG_IGN);
     if (!start(&child, how->time_limit_s, error))
-        return LAM_CHECK_FAILED;
+        return LAM_CHECK_DRAW_FAILED;
     double end = now_s() + WALL_TIMES * how->time_limit_s;
-    size_t sent = 0, room = 0;
+    size_t sent = 0, capacity = 0;
     *drawn = (lam_bytes){0};
     bool open = true, late = false;
     while (open && !late && !interrupted()) {
@@ -192,9 +191,9 @@ lam_check_end check_process(void *user, const lam_bytes *job, lam_bytes *drawn, 
         if (late || poll(wait, child.to >= 0 ? 2 : 1, 50) <= 0)
             continue;
         if (child.to >= 0 && wait[1].revents)
-            send_some(&child, job, &sent);
+            send_some(&child, request, &sent);
         if (wait[0].revents)
-            open = receive_some(&child, drawn, &room);
+            open = receive_some(&child, drawn, &capacity);
     }
     if (open)
         kill(child.pid, SIGKILL);
@@ -205,18 +204,18 @@ lam_check_end check_process(void *user, const lam_bytes *job, lam_bytes *drawn, 
     if (child.to >= 0)
         close(child.to);
     if (late || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
-        return LAM_CHECK_TIMEOUT;
+        return LAM_CHECK_DRAW_TIMEOUT;
     if (interrupted()) {
         complain(error, LAM_CANCELLED, "interrupted");
-        return LAM_CHECK_FAILED;
+        return LAM_CHECK_DRAW_FAILED;
     }
     if (WIFSIGNALED(status))
-        return LAM_CHECK_CRASHED;
+        return LAM_CHECK_DRAW_CRASHED;
     if (WEXITSTATUS(status) == 0)
-        return LAM_CHECK_DRAWN;
-    if (WEXITSTATUS(status) > LAM_CANCELLED) // an exit of the driver's own, or no such program
-        return LAM_CHECK_CRASHED;
+        return LAM_CHECK_DRAW_DONE;
+    if (WEXITSTATUS(status) > LAM_CANCELLED) // the driver called exit(), or the program did not start
+        return LAM_CHECK_DRAW_CRASHED;
     complain(error, (lam_code)WEXITSTATUS(status), "%.*s", (int)(drawn->size < 480 ? drawn->size : 480),
-             drawn->data ? (const char *)drawn->data : "the process that draws failed");
-    return LAM_CHECK_FAILED;
+             drawn->data ? (const char *)drawn->data : "the drawing process failed");
+    return LAM_CHECK_DRAW_FAILED;
 }

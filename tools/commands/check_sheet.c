@@ -1,4 +1,4 @@
-// check_sheet.c: theirs, the reference and the difference of each scene, on one page.
+// check_sheet.c: the sheet: the shader's picture, the reference and the difference of each scene, on one page.
 #include "check.h"
 
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 
 enum { INK = 0x222222, GREY = 0x777777, GOOD = 0x0a7d33, BAD = 0xb3261e, GAP = 12, HEAD = 96, SIDE = 196 };
 
-// Floats as a screen shows them: the shader's numbers are what it is sent. Clear pixels are white, so that
+// Converts floats to bytes without an encoding, as a screen shows a shader's output. Clear pixels become white, so that
 // the model stands out.
 static bool to_bytes(const lam_image *from, lam_image *bytes, lam_error *error)
 {
@@ -79,11 +79,11 @@ static void put_head(struct drawing *d, const lam_check_report *r, const char *s
     for (int i = 0; i < r->finding_count; i++)
         snprintf(line + strlen(line), sizeof line - strlen(line), "%s%.50s", i ? ", " : "", r->findings[i].mistake);
     if (r->verdict == LAM_CHECK_DIFFERS && !r->finding_count)
-        snprintf(line, sizeof line, "none of the known mistakes");
+        snprintf(line, sizeof line, "no known mistake");
     double fits = text_width(d, 15, line) > d->width - 2 * GAP ? 11 : 15;
     draw_text(d, (struct point){GAP, 56}, fits, ALIGN_LEFT, INK, line);
     snprintf(title, sizeof title, "difference × %g", gain);
-    const char *heads[] = {"theirs", "reference", title};
+    const char *heads[] = {"shader", "reference", title};
     for (int i = 0; i < 3; i++)
         draw_text(d, (struct point){SIDE + i * (size + GAP) + size / 2.0, HEAD - 10}, 14, ALIGN_MIDDLE, GREY, heads[i]);
 }

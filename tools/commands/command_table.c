@@ -17,8 +17,7 @@ const struct command command_table[] = {
      "the byte. No picture or scene file is written: --output and --save-scene do nothing here.",
      ALL, 2, 2, run_explain},
     {"check", "SHADER.frag...",
-     "Run GLSL shaders over reference scenes, tell how far their pictures are off, and which known mistake "
-     "they look like.",
+     "Compare GLSL shaders with reference scenes, and name the known mistakes that explain the differences.",
      ABOUT | 1u << GROUP_CHECK | 1u << GROUP_DIFF | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
          TAKES_QUIET,
      0, -1, run_check},
@@ -62,7 +61,7 @@ const struct example examples[] = {
     {"lambent koala.obj --rig headlight --save-scene koala.json", "also a scene file, to edit and to draw again"},
     {"lambent koala.json", "a scene file: objects, materials, lights and camera"},
     {"lambent explain teapot 512,400", "how that pixel of the picture came about, number by number"},
-    {"lambent check phong.frag --vertex phong.vert -o check.png", "what a shader's lighting gets wrong, and why"},
+    {"lambent check phong.frag --vertex phong.vert -o check.png", "the mistakes of a shader's lighting"},
     {"lambent shader teapot --glsl 120 --host c -o teapot", "its shaders, and C code that sets them"},
     {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
     {NULL, NULL},
@@ -125,29 +124,23 @@ const struct topic topics[] = {
                            "bit; `docs/lighting.md` has the formulas. With `--json` the same is one line. No "
                            "picture is written, and `--output` does "
                            "not matter."},
-    {"Checking shaders", "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with "
-                         "the shaders and compares the "
-                         "pictures with the CPU device's. Without `--vertex` a correct vertex shader is "
-                         "supplied. The names that the shaders "
-                         "use for uniforms and attributes tell the contract; `--list` prints the contracts, "
-                         "the scenes and the known "
-                         "mistakes. Where pictures differ, the same scenes are drawn with known mistakes "
-                         "made on purpose, and the smallest "
-                         "set that gives the shader's pictures is told, with a line to write instead. `-o` "
-                         "draws theirs, the reference and "
-                         "the difference (times `--gain`) of each scene on one sheet. `--tolerance` (2 "
-                         "unless given) is for each channel "
-                         "of a pixel: one pixel in 200 may be over it, and the mean must not be above a "
-                         "quarter of it. The shaders run "
-                         "in a process of their own, which `--stop-after` stops. Several shaders may be "
-                         "given: `lambent check */phong.frag */phong.vert` checks a class, a vertex shader "
-                         "with the fragment shader of the same folder and name, and `-o sheets/` writes a "
-                         "sheet for each. One that cannot be checked is told and the others still are. "
-                         "The exit code is 0 where every scene of every shader is the reference's, "
-                         "and else the highest of all, 6 also for shaders that do not compile, do "
-                         "not end, or write NaN. With "
-                         "`--json` the report is one "
-                         "line (`docs/check.schema.json`). More: `docs/check.md`."},
+    {"Checking shaders", "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the "
+                         "shaders and compares the pictures with those of the CPU device. Without `--vertex` a "
+                         "correct vertex shader is generated. The contract is recognised by the names of uniforms "
+                         "and attributes; `--list` prints the contracts, the scenes and the known mistakes. Where "
+                         "pictures differ, the same scenes are drawn with known mistakes made on purpose; the "
+                         "smallest set that reproduces the shader's pictures is reported, with a line to write "
+                         "instead. `-o` writes a sheet with the shader's picture, the reference and the "
+                         "difference (times `--gain`) of each scene. `--tolerance` (default 2) applies to each "
+                         "channel of a pixel: one pixel in 200 may exceed it, and the mean difference may be a "
+                         "quarter of it. The shaders run in a process of their own, which `--stop-after` limits. "
+                         "Several shaders may be given: `lambent check */phong.frag */phong.vert` checks a class, "
+                         "each vertex shader with the fragment shader of the same folder and name, and `-o "
+                         "sheets/` writes a sheet for each. A shader that cannot be checked is reported, and the "
+                         "others are still checked. The exit code is 0 if every scene of every shader matches the "
+                         "reference, else the highest of all; 6 also for shaders that do not compile, do not end, "
+                         "or write NaN. With `--json` the report is one line (`docs/check.schema.json`). More: "
+                         "`docs/check.md`."},
     {"Comparing pictures", "`lambent diff A B` reads two pictures of the same size (PNG or PPM with 8 bits, "
                            "PFM with floats, both of one "
                            "kind) and prints the largest difference of a channel, the mean and the root of "

@@ -27,7 +27,7 @@ static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4
                                            {"8", 8, NULL}, {"16", 16, NULL}, {NULL, 0, NULL}};
 
 static const struct word contract_words[] = {
-    {"auto", LAM_CONTRACT_AUTO, "told by the names that the shaders use"},
+    {"auto", LAM_CONTRACT_AUTO, "recognised by the shaders' names"},
     {"lambent", LAM_CONTRACT_LAMBENT, "the names of `lambent shader`"},
     {"pittsburgh", LAM_CONTRACT_PITTSBURGH, "vPosition, model_view, ambient_product ..."},
     {"oregon", LAM_CONTRACT_OREGON, "gl_Vertex, uKa, uColor, uLightX ..."},
@@ -35,7 +35,7 @@ static const struct word contract_words[] = {
     {NULL, 0, NULL}};
 
 static const struct word light_frame_words[] = {
-    {"object", LAM_FRAME_OBJECT, "in the model's space: it goes by the model-view matrix, as vertices do"},
+    {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms it, like the vertices"},
     {"camera", LAM_FRAME_CAMERA, "in eye space: used as given"},
     {NULL, 0, NULL}};
 
@@ -470,21 +470,20 @@ const struct option option_table[] = {
      .store = store_number, FIELD(to), .least = 1e-6, .most = 1e9},
 
     {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader that belongs to the fragment shader.",
-     "Without it a correct one is supplied, whose varyings are told by name and type (`docs/check.md`).",
+     "Without it a correct one is generated, which recognises varyings by name and type (`docs/check.md`).",
      .takes_file = true, .store = store_text, FIELD(vertex)},
     {"contract", 0, GROUP_CHECK, "NAME", "auto",
-     "Whose names the shaders use: lambent, pittsburgh, oregon, nyu or auto.", NULL, contract_words,
+     "The names that the shaders use: lambent, pittsburgh, oregon, nyu or auto.", NULL, contract_words,
      .store = store_word, FIELD(contract)},
-    {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's",
-     "What the light's position is given in: object or camera.", NULL, light_frame_words, .store = store_word,
-     FIELD(light_frame)},
-    {"highlight", 0, GROUP_CHECK, "NAME", "the contract's", "The highlight that is asked for: phong or blinn-phong.",
-     NULL, highlight_words, .store = store_word, FIELD(highlight)},
-    {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to check with, commas between them: all,gate,near.", NULL,
+    {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
+     light_frame_words, .store = store_word, FIELD(light_frame)},
+    {"highlight", 0, GROUP_CHECK, "NAME", "the contract's", "The expected highlight: phong or blinn-phong.", NULL,
+     highlight_words, .store = store_word, FIELD(highlight)},
+    {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(scenes)},
-    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "The processor's time that a shader may take for all scenes.",
-     "It is the time of all threads together, so that a busy machine stops nobody; the clock may go 20 times "
-     "as far.",
+    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "The limit of a shader's processor time, for all scenes.",
+     "It is the time of all threads together, so other load on the machine does not count; elapsed time may be 20 "
+     "times as long.",
      .store = store_number, FIELD(stop_after_s), .least = 0.1, .most = 1e6},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(list)},

@@ -1,4 +1,4 @@
-// contract.c: the table of contracts, and whose names a shader uses.
+// contract.c: the table of contracts, and recognising the one that a shader uses.
 #include "contract.h"
 
 #include <stdio.h>
@@ -9,156 +9,157 @@
 
 #define END {.name = NULL}
 
-// Names of the vertex shaders that the check makes itself (default_vertex_shader.c), known to every contract.
-static const struct contract_name made_names[] = {
-    {"lambent_position", ROLE_POSITION, true, "vec3", "", NULL},
-    {"lambent_normal", ROLE_NORMAL, true, "vec3", "", NULL},
-    {"lambent_model_view", ROLE_MODEL_VIEW, false, "mat4", "", NULL},
-    {"lambent_projection", ROLE_PROJECTION, false, "mat4", "", NULL},
-    {"lambent_normal_matrix", ROLE_NORMAL_MATRIX, false, "mat3", "", NULL},
-    {"lambent_light", ROLE_LIGHT_IN_EYE, false, "vec4", "", NULL},
+// Names of generated vertex shaders (default_vertex_shader.c), known in every contract.
+static const struct contract_name default_vertex_names[] = {
+    {"lambent_position", SEMANTIC_POSITION, true, "vec3", "", NULL},
+    {"lambent_normal", SEMANTIC_NORMAL, true, "vec3", "", NULL},
+    {"lambent_model_view", SEMANTIC_MODEL_VIEW, false, "mat4", "", NULL},
+    {"lambent_projection", SEMANTIC_PROJECTION, false, "mat4", "", NULL},
+    {"lambent_normal_matrix", SEMANTIC_NORMAL_MATRIX, false, "mat3", "", NULL},
+    {"lambent_light", SEMANTIC_LIGHT_IN_EYE, false, "vec4", "", NULL},
     END,
 };
 
 static const struct contract_name lambent_names[] = {
-    {"position", ROLE_POSITION, true, "vec3", "position of the vertex in the model's space", NULL},
-    {"normal", ROLE_NORMAL, true, "vec3", "normal of the vertex in the model's space", NULL},
-    {"model_view", ROLE_MODEL_VIEW, false, "mat4", "model to eye space", NULL},
-    {"model_view_projection", ROLE_MODEL_VIEW_PROJECTION, false, "mat4", "model to clip space", NULL},
-    {"projection", ROLE_PROJECTION, false, "mat4", "eye to clip space", NULL},
-    {"normal_matrix", ROLE_NORMAL_MATRIX, false, "mat3", "inverse transpose of model_view's 3x3", "normalMatrix"},
-    {"ambient_light", ROLE_AMBIENT_LIGHT, false, "vec4", "all light from everywhere", NULL},
-    {"material.ambient", ROLE_AMBIENT, false, "vec4", "ka", NULL},
-    {"material.diffuse", ROLE_DIFFUSE, false, "vec4", "kd; a: the opacity", NULL},
-    {"material.specular", ROLE_SPECULAR, false, "vec4", "ks", NULL},
-    {"material.emission", ROLE_ZERO, false, "vec4", "light of the surface's own", NULL},
-    {"material.reflectivity", ROLE_ZERO, false, "vec4", "kr", NULL},
-    {"material.shininess", ROLE_SHININESS, false, "float", "exponent of the highlight", NULL},
-    {"material.fibre", ROLE_ZERO, false, "float", "1: hair or thread", NULL},
-    {"ambient_product", ROLE_AMBIENT_PRODUCT, false, "vec4", "ka times all light from everywhere", NULL},
-    {"emission", ROLE_ZERO, false, "vec4", "light of the surface's own", NULL},
-    {"diffuse", ROLE_DIFFUSE, false, "vec4", "kd; a: the opacity", NULL},
-    {"reflectivity", ROLE_ZERO, false, "vec4", "kr", NULL},
-    {"shininess", ROLE_SHININESS, false, "float", "exponent of the highlight", NULL},
-    {"fibre", ROLE_ZERO, false, "float", "1: hair or thread", NULL},
-    {"diffuse_product", ROLE_DIFFUSE_PRODUCT, false, "vec4", "kd Ld, for each light", NULL},
-    {"specular_product", ROLE_SPECULAR_PRODUCT, false, "vec4", "ks Ls, for each light", NULL},
-    {"hemispheres[].up", ROLE_ZERO, false, "vec4", "in eye space, towards the sky", NULL},
-    {"hemispheres[].sky", ROLE_ZERO, false, "vec4", "light from above: none here", NULL},
-    {"hemispheres[].ground", ROLE_ZERO, false, "vec4", "light from below: none here", NULL},
-    {"sky_product", ROLE_ZERO, false, "vec4", "ka times the light from above: none here", NULL},
-    {"ground_product", ROLE_ZERO, false, "vec4", "ka times the light from below: none here", NULL},
-    {"back_material.ambient", ROLE_AMBIENT, false, "vec4", "of the back", NULL},
-    {"back_material.diffuse", ROLE_DIFFUSE, false, "vec4", "of the back", NULL},
-    {"back_material.specular", ROLE_SPECULAR, false, "vec4", "of the back", NULL},
-    {"back_material.emission", ROLE_ZERO, false, "vec4", "of the back", NULL},
-    {"back_material.reflectivity", ROLE_ZERO, false, "vec4", "of the back", NULL},
-    {"back_material.shininess", ROLE_SHININESS, false, "float", "of the back", NULL},
-    {"back_material.fibre", ROLE_ZERO, false, "float", "of the back", NULL},
-    {"back_ambient_product", ROLE_AMBIENT_PRODUCT, false, "vec4", "of the back", NULL},
-    {"back_emission", ROLE_ZERO, false, "vec4", "of the back", NULL},
-    {"back_diffuse", ROLE_DIFFUSE, false, "vec4", "of the back", NULL},
-    {"back_reflectivity", ROLE_ZERO, false, "vec4", "of the back", NULL},
-    {"back_shininess", ROLE_SHININESS, false, "float", "of the back", NULL},
-    {"back_fibre", ROLE_ZERO, false, "float", "of the back", NULL},
-    {"back_diffuse_product", ROLE_DIFFUSE_PRODUCT, false, "vec4", "of the back", NULL},
-    {"back_specular_product", ROLE_SPECULAR_PRODUCT, false, "vec4", "of the back", NULL},
-    {"back_sky_product", ROLE_ZERO, false, "vec4", "of the back", NULL},
-    {"back_ground_product", ROLE_ZERO, false, "vec4", "of the back", NULL},
-    {"exposure", ROLE_ONE, false, "float", "all light is multiplied by it", NULL},
-    {"lights[].position", ROLE_LIGHT_POSITION, false, "vec4", "in eye space", NULL},
-    {"lights[].direction", ROLE_LIGHT_TRAVEL, false, "vec4", "in eye space, unit, the way the light travels", NULL},
-    {"lights[].attenuation", ROLE_ATTENUATION, false, "vec4", "constant, linear, quadratic, 1/range", NULL},
-    {"lights[].cone", ROLE_CONE, false, "vec4", "cosine of the cutoff, exponent, cosine of the outer angle, 1/width",
-     NULL},
-    {"lights[].diffuse", ROLE_LIGHT_COLOR, false, "vec4", "Ld", NULL},
-    {"lights[].specular", ROLE_LIGHT_SPECULAR, false, "vec4", "Ls", NULL},
-    {"lights[].ambient", ROLE_LIGHT_AMBIENT, false, "vec4", "La", NULL},
+    {"position", SEMANTIC_POSITION, true, "vec3", "position of the vertex in the model's space", NULL},
+    {"normal", SEMANTIC_NORMAL, true, "vec3", "normal of the vertex in the model's space", NULL},
+    {"model_view", SEMANTIC_MODEL_VIEW, false, "mat4", "model to eye space", NULL},
+    {"model_view_projection", SEMANTIC_MODEL_VIEW_PROJECTION, false, "mat4", "model to clip space", NULL},
+    {"projection", SEMANTIC_PROJECTION, false, "mat4", "eye to clip space", NULL},
+    {"normal_matrix", SEMANTIC_NORMAL_MATRIX, false, "mat3", "inverse transpose of model_view's 3x3", "normalMatrix"},
+    {"ambient_light", SEMANTIC_AMBIENT_LIGHT, false, "vec4", "all light from everywhere", NULL},
+    {"material.ambient", SEMANTIC_AMBIENT, false, "vec4", "ka", NULL},
+    {"material.diffuse", SEMANTIC_DIFFUSE, false, "vec4", "kd; a: the opacity", NULL},
+    {"material.specular", SEMANTIC_SPECULAR, false, "vec4", "ks", NULL},
+    {"material.emission", SEMANTIC_ZERO, false, "vec4", "light of the surface's own", NULL},
+    {"material.reflectivity", SEMANTIC_ZERO, false, "vec4", "kr", NULL},
+    {"material.shininess", SEMANTIC_SHININESS, false, "float", "exponent of the highlight", NULL},
+    {"material.fibre", SEMANTIC_ZERO, false, "float", "1: hair or thread", NULL},
+    {"ambient_product", SEMANTIC_AMBIENT_PRODUCT, false, "vec4", "ka times all light from everywhere", NULL},
+    {"emission", SEMANTIC_ZERO, false, "vec4", "light of the surface's own", NULL},
+    {"diffuse", SEMANTIC_DIFFUSE, false, "vec4", "kd; a: the opacity", NULL},
+    {"reflectivity", SEMANTIC_ZERO, false, "vec4", "kr", NULL},
+    {"shininess", SEMANTIC_SHININESS, false, "float", "exponent of the highlight", NULL},
+    {"fibre", SEMANTIC_ZERO, false, "float", "1: hair or thread", NULL},
+    {"diffuse_product", SEMANTIC_DIFFUSE_PRODUCT, false, "vec4", "kd Ld, for each light", NULL},
+    {"specular_product", SEMANTIC_SPECULAR_PRODUCT, false, "vec4", "ks Ls, for each light", NULL},
+    {"hemispheres[].up", SEMANTIC_ZERO, false, "vec4", "in eye space, towards the sky", NULL},
+    {"hemispheres[].sky", SEMANTIC_ZERO, false, "vec4", "light from above: none here", NULL},
+    {"hemispheres[].ground", SEMANTIC_ZERO, false, "vec4", "light from below: none here", NULL},
+    {"sky_product", SEMANTIC_ZERO, false, "vec4", "ka times the light from above: none here", NULL},
+    {"ground_product", SEMANTIC_ZERO, false, "vec4", "ka times the light from below: none here", NULL},
+    {"back_material.ambient", SEMANTIC_AMBIENT, false, "vec4", "of the back", NULL},
+    {"back_material.diffuse", SEMANTIC_DIFFUSE, false, "vec4", "of the back", NULL},
+    {"back_material.specular", SEMANTIC_SPECULAR, false, "vec4", "of the back", NULL},
+    {"back_material.emission", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
+    {"back_material.reflectivity", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
+    {"back_material.shininess", SEMANTIC_SHININESS, false, "float", "of the back", NULL},
+    {"back_material.fibre", SEMANTIC_ZERO, false, "float", "of the back", NULL},
+    {"back_ambient_product", SEMANTIC_AMBIENT_PRODUCT, false, "vec4", "of the back", NULL},
+    {"back_emission", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
+    {"back_diffuse", SEMANTIC_DIFFUSE, false, "vec4", "of the back", NULL},
+    {"back_reflectivity", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
+    {"back_shininess", SEMANTIC_SHININESS, false, "float", "of the back", NULL},
+    {"back_fibre", SEMANTIC_ZERO, false, "float", "of the back", NULL},
+    {"back_diffuse_product", SEMANTIC_DIFFUSE_PRODUCT, false, "vec4", "of the back", NULL},
+    {"back_specular_product", SEMANTIC_SPECULAR_PRODUCT, false, "vec4", "of the back", NULL},
+    {"back_sky_product", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
+    {"back_ground_product", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
+    {"exposure", SEMANTIC_ONE, false, "float", "all light is multiplied by it", NULL},
+    {"lights[].position", SEMANTIC_LIGHT_POSITION, false, "vec4", "in eye space", NULL},
+    {"lights[].direction", SEMANTIC_LIGHT_TRAVEL, false, "vec4", "in eye space, unit, the way the light travels", NULL},
+    {"lights[].attenuation", SEMANTIC_ATTENUATION, false, "vec4", "constant, linear, quadratic, 1/range", NULL},
+    {"lights[].cone", SEMANTIC_CONE, false, "vec4",
+     "cosine of the cutoff, exponent, cosine of the outer angle, 1/width", NULL},
+    {"lights[].diffuse", SEMANTIC_LIGHT_COLOR, false, "vec4", "Ld", NULL},
+    {"lights[].specular", SEMANTIC_LIGHT_SPECULAR, false, "vec4", "Ls", NULL},
+    {"lights[].ambient", SEMANTIC_LIGHT_AMBIENT, false, "vec4", "La", NULL},
     END,
 };
 
 static const struct contract_name pittsburgh_names[] = {
-    {"vPosition", ROLE_POSITION, true, "vec4", "position of the vertex in the model's space, w 1", NULL},
-    {"vNormal", ROLE_NORMAL, true, "vec4", "normal of the vertex in the model's space, w 0", NULL},
-    {"model_view", ROLE_MODEL_VIEW, false, "mat4", "model to eye space", "modelView model_view_matrix"},
-    {"projection", ROLE_PROJECTION, false, "mat4", "eye to clip space", "projection_matrix"},
-    {"normal_matrix", ROLE_NORMAL_MATRIX, false, "mat3", "inverse transpose of model_view's 3x3",
+    {"vPosition", SEMANTIC_POSITION, true, "vec4", "position of the vertex in the model's space, w 1", NULL},
+    {"vNormal", SEMANTIC_NORMAL, true, "vec4", "normal of the vertex in the model's space, w 0", NULL},
+    {"model_view", SEMANTIC_MODEL_VIEW, false, "mat4", "model to eye space", "modelView model_view_matrix"},
+    {"projection", SEMANTIC_PROJECTION, false, "mat4", "eye to clip space", "projection_matrix"},
+    {"normal_matrix", SEMANTIC_NORMAL_MATRIX, false, "mat3", "inverse transpose of model_view's 3x3",
      "normalMatrix NormalMatrix normal_mat model_view_inverse_transpose modelViewInverseTranspose "
      "inverse_transpose"},
-    {"ambient_product", ROLE_AMBIENT, false, "vec4", "ka times the light's ambient colour", "AmbientProduct"},
-    {"diffuse_product", ROLE_DIFFUSE, false, "vec4", "kd times the light's diffuse colour", "DiffuseProduct"},
-    {"specular_product", ROLE_SPECULAR, false, "vec4", "ks times the light's specular colour", "SpecularProduct"},
-    {"light_position", ROLE_LIGHT_POSITION, false, "vec4",
+    {"ambient_product", SEMANTIC_AMBIENT, false, "vec4", "ka times the light's ambient colour", "AmbientProduct"},
+    {"diffuse_product", SEMANTIC_DIFFUSE, false, "vec4", "kd times the light's diffuse colour", "DiffuseProduct"},
+    {"specular_product", SEMANTIC_SPECULAR, false, "vec4", "ks times the light's specular colour", "SpecularProduct"},
+    {"light_position", SEMANTIC_LIGHT_POSITION, false, "vec4",
      "where the light is, w 1, or the direction to it, w 0; in the model's space (--light-frame camera: in "
      "eye space)",
      "LightPosition"},
-    {"shininess", ROLE_SHININESS, false, "float", "exponent of the highlight", "Shininess"},
-    {"attenuation_constant", ROLE_ATTENUATION_CONSTANT, false, "float", "a of 1/(a + b d + c d^2)", NULL},
-    {"attenuation_linear", ROLE_ATTENUATION_LINEAR, false, "float", "b, for each unit of distance", NULL},
-    {"attenuation_quadratic", ROLE_ATTENUATION_QUADRATIC, false, "float", "c, for each unit squared", NULL},
-    {"eye_position", ROLE_EYE_POSITION, false, "vec4", "the eye in eye space: 0, 0, 0, 1", "eye_point"},
+    {"shininess", SEMANTIC_SHININESS, false, "float", "exponent of the highlight", "Shininess"},
+    {"attenuation_constant", SEMANTIC_ATTENUATION_CONSTANT, false, "float", "a of 1/(a + b d + c d^2)", NULL},
+    {"attenuation_linear", SEMANTIC_ATTENUATION_LINEAR, false, "float", "b, for each unit of distance", NULL},
+    {"attenuation_quadratic", SEMANTIC_ATTENUATION_QUADRATIC, false, "float", "c, for each unit squared", NULL},
+    {"eye_position", SEMANTIC_EYE_POSITION, false, "vec4", "the eye in eye space: 0, 0, 0, 1", "eye_point"},
     END,
 };
 
 static const struct contract_name oregon_names[] = {
-    {"uKa", ROLE_KA, false, "float", "share of ambient light", NULL},
-    {"uKd", ROLE_KD, false, "float", "share of diffuse light", NULL},
-    {"uKs", ROLE_KS, false, "float", "share of specular light", NULL},
-    {"uColor", ROLE_COLOR, false, "vec3", "colour of the surface", NULL},
-    {"uSpecularColor", ROLE_SPECULAR_COLOR, false, "vec3", "colour of the highlight", NULL},
-    {"uShininess", ROLE_SHININESS, false, "float", "exponent of the highlight", NULL},
-    {"uFlat", ROLE_FLAT, false, "bool", "flat shading: the values of each triangle's last vertex", NULL},
-    {"uLightX", ROLE_LIGHT_X, false, "float", "the light's place in eye space", NULL},
-    {"uLightY", ROLE_LIGHT_Y, false, "float", "the light's place in eye space", NULL},
-    {"uLightZ", ROLE_LIGHT_Z, false, "float", "the light's place in eye space", NULL},
+    {"uKa", SEMANTIC_KA, false, "float", "share of ambient light", NULL},
+    {"uKd", SEMANTIC_KD, false, "float", "share of diffuse light", NULL},
+    {"uKs", SEMANTIC_KS, false, "float", "share of specular light", NULL},
+    {"uColor", SEMANTIC_COLOR, false, "vec3", "colour of the surface", NULL},
+    {"uSpecularColor", SEMANTIC_SPECULAR_COLOR, false, "vec3", "colour of the highlight", NULL},
+    {"uShininess", SEMANTIC_SHININESS, false, "float", "exponent of the highlight", NULL},
+    {"uFlat", SEMANTIC_FLAT, false, "bool", "flat shading: the values of each triangle's last vertex", NULL},
+    {"uLightX", SEMANTIC_LIGHT_X, false, "float", "the light's place in eye space", NULL},
+    {"uLightY", SEMANTIC_LIGHT_Y, false, "float", "the light's place in eye space", NULL},
+    {"uLightZ", SEMANTIC_LIGHT_Z, false, "float", "the light's place in eye space", NULL},
     END,
 };
 static const char *const oregon_built_ins[] = {
     "gl_Vertex", "gl_Normal", "gl_NormalMatrix", "gl_ModelViewMatrix", "gl_ModelViewProjectionMatrix", NULL};
 
 static const struct contract_name nyu_names[] = {
-    {"position", ROLE_POSITION, true, "vec4", "position of the vertex in the model's space, w 1", "vertexPosition"},
-    {"normal", ROLE_NORMAL, true, "vec4", "normal of the vertex in the model's space, w 0", "vertexNormal"},
-    {"texCoord", ROLE_TEXCOORD, true, "vec2", "texture coordinate; zero", NULL},
-    {"modelViewMatrix", ROLE_MODEL_VIEW, false, "mat4", "model to eye space", NULL},
-    {"projectionMatrix", ROLE_PROJECTION, false, "mat4", "eye to clip space", NULL},
-    {"normalMatrix", ROLE_NORMAL_MATRIX, false, "mat4", "inverse transpose of modelViewMatrix",
+    {"position", SEMANTIC_POSITION, true, "vec4", "position of the vertex in the model's space, w 1", "vertexPosition"},
+    {"normal", SEMANTIC_NORMAL, true, "vec4", "normal of the vertex in the model's space, w 0", "vertexNormal"},
+    {"texCoord", SEMANTIC_TEXCOORD, true, "vec2", "texture coordinate; zero", NULL},
+    {"modelViewMatrix", SEMANTIC_MODEL_VIEW, false, "mat4", "model to eye space", NULL},
+    {"projectionMatrix", SEMANTIC_PROJECTION, false, "mat4", "eye to clip space", NULL},
+    {"normalMatrix", SEMANTIC_NORMAL_MATRIX, false, "mat4", "inverse transpose of modelViewMatrix",
      "NormalMatrix normal_matrix"},
-    {"uColor", ROLE_COLOR, false, "vec3", "colour of the surface", NULL},
-    {"lights[].lightPosition", ROLE_LIGHT_POSITION, false, "vec3", "where the light is, in eye space", NULL},
-    {"lights[].lightDirection", ROLE_LIGHT_DIRECTION, false, "vec3", "unit direction to the light, in eye space", NULL},
-    {"lights[].lightColor", ROLE_LIGHT_COLOR, false, "vec3", "diffuse colour of the light", NULL},
-    {"lights[].specularLightColor", ROLE_LIGHT_SPECULAR, false, "vec3", "specular colour of the light", NULL},
-    {"lightPosition", ROLE_LIGHT_POSITION, false, "vec3", "where the light is, in eye space", NULL},
-    {"lightDirection", ROLE_LIGHT_DIRECTION, false, "vec3", "unit direction to the light, in eye space", NULL},
-    {"lightColor", ROLE_LIGHT_COLOR, false, "vec3", "diffuse colour of the light", NULL},
-    {"specularLightColor", ROLE_LIGHT_SPECULAR, false, "vec3", "specular colour of the light", NULL},
+    {"uColor", SEMANTIC_COLOR, false, "vec3", "colour of the surface", NULL},
+    {"lights[].lightPosition", SEMANTIC_LIGHT_POSITION, false, "vec3", "where the light is, in eye space", NULL},
+    {"lights[].lightDirection", SEMANTIC_LIGHT_DIRECTION, false, "vec3", "unit direction to the light, in eye space",
+     NULL},
+    {"lights[].lightColor", SEMANTIC_LIGHT_COLOR, false, "vec3", "diffuse colour of the light", NULL},
+    {"lights[].specularLightColor", SEMANTIC_LIGHT_SPECULAR, false, "vec3", "specular colour of the light", NULL},
+    {"lightPosition", SEMANTIC_LIGHT_POSITION, false, "vec3", "where the light is, in eye space", NULL},
+    {"lightDirection", SEMANTIC_LIGHT_DIRECTION, false, "vec3", "unit direction to the light, in eye space", NULL},
+    {"lightColor", SEMANTIC_LIGHT_COLOR, false, "vec3", "diffuse colour of the light", NULL},
+    {"specularLightColor", SEMANTIC_LIGHT_SPECULAR, false, "vec3", "specular colour of the light", NULL},
     END,
 };
 
 static const struct contract_varying pittsburgh_varyings[] = {
-    {"N fN normal fNormal", CARRIED_NORMAL}, {"L fL light", CARRIED_LIGHT},
-    {"V fV E fE view eye", CARRIED_EYE},     {"P fP fPosition position", CARRIED_POSITION},
-    {"distance dist d", CARRIED_DISTANCE},   {NULL, 0},
+    {"N fN normal fNormal", VARYING_NORMAL}, {"L fL light", VARYING_LIGHT},
+    {"V fV E fE view eye", VARYING_EYE},     {"P fP fPosition position", VARYING_POSITION},
+    {"distance dist d", VARYING_DISTANCE},   {NULL, 0},
 };
 static const struct contract_varying oregon_varyings[] = {
-    {"vN vNs vNf Ns Nf N vNormal Normal", CARRIED_NORMAL},
-    {"vL vLs vLf Ls Lf L vLight Light Lvector", CARRIED_LIGHT},
-    {"vE vEs vEf Es Ef E vEye Eye Evector", CARRIED_EYE},
-    {"vEC vECposition vPVs ECposition", CARRIED_POSITION},
-    {"vMC vMCposition MCposition", CARRIED_OBJECT_POSITION},
-    {"vST ST", CARRIED_TEXCOORD},
+    {"vN vNs vNf Ns Nf N vNormal Normal", VARYING_NORMAL},
+    {"vL vLs vLf Ls Lf L vLight Light Lvector", VARYING_LIGHT},
+    {"vE vEs vEf Es Ef E vEye Eye Evector", VARYING_EYE},
+    {"vEC vECposition vPVs ECposition", VARYING_POSITION},
+    {"vMC vMCposition MCposition", VARYING_OBJECT_POSITION},
+    {"vST ST", VARYING_TEXCOORD},
     {NULL, 0},
 };
 static const struct contract_varying nyu_varyings[] = {
-    {"varyingNormal", CARRIED_NORMAL},
-    {"varyingPosition", CARRIED_POSITION},
-    {"varyingTexCoord varyingTexCoordinate", CARRIED_TEXCOORD},
+    {"varyingNormal", VARYING_NORMAL},
+    {"varyingPosition", VARYING_POSITION},
+    {"varyingTexCoord varyingTexCoordinate", VARYING_TEXCOORD},
     {NULL, 0},
 };
 static const struct contract_varying lambent_varyings[] = {
-    {"eye_normal surface_normal normal v_normal", CARRIED_NORMAL},
-    {"eye_position surface_position point v_position", CARRIED_POSITION},
+    {"eye_normal surface_normal normal v_normal", VARYING_NORMAL},
+    {"eye_position surface_position point v_position", VARYING_POSITION},
     {NULL, 0},
 };
 static const char *const no_words[] = {NULL};
@@ -169,8 +170,8 @@ const struct contract contracts[] = {
      .names = lambent_names,
      .varyings = lambent_varyings,
      .built_ins = no_words,
-     .offers = NEED_AMBIENT | NEED_ATTENUATION | NEED_DIRECTIONAL | NEED_POINT | NEED_LIGHTS | NEED_SPOT | NEED_ALPHA |
-               NEED_TWO_SIDES | NEED_SHININESS,
+     .supports = NEED_AMBIENT | NEED_ATTENUATION | NEED_DIRECTIONAL | NEED_POINT | NEED_LIGHTS | NEED_SPOT |
+                 NEED_ALPHA | NEED_TWO_SIDES | NEED_SHININESS,
      .light_frame = LAM_FRAME_CAMERA,
      .has_ambient = true,
      .has_attenuation = true,
@@ -182,7 +183,7 @@ const struct contract contracts[] = {
      .names = pittsburgh_names,
      .varyings = pittsburgh_varyings,
      .built_ins = no_words,
-     .offers = NEED_AMBIENT | NEED_ATTENUATION | NEED_DIRECTIONAL | NEED_POINT | NEED_ALPHA | NEED_SHININESS,
+     .supports = NEED_AMBIENT | NEED_ATTENUATION | NEED_DIRECTIONAL | NEED_POINT | NEED_ALPHA | NEED_SHININESS,
      .light_frame = LAM_FRAME_OBJECT,
      .products = true,
      .has_ambient = true,
@@ -195,7 +196,7 @@ const struct contract contracts[] = {
      .names = oregon_names,
      .varyings = oregon_varyings,
      .built_ins = oregon_built_ins,
-     .offers = NEED_AMBIENT | NEED_POINT | NEED_FLAT | NEED_SHININESS,
+     .supports = NEED_AMBIENT | NEED_POINT | NEED_FLAT | NEED_SHININESS,
      .light_frame = LAM_FRAME_CAMERA,
      .has_ambient = true,
      .reflection = LAM_REFLECTION_PHONG,
@@ -205,7 +206,7 @@ const struct contract contracts[] = {
      .names = nyu_names,
      .varyings = nyu_varyings,
      .built_ins = no_words,
-     .offers = NEED_DIRECTIONAL | NEED_POINT | NEED_ATTENUATION | NEED_LIGHTS,
+     .supports = NEED_DIRECTIONAL | NEED_POINT | NEED_ATTENUATION | NEED_LIGHTS,
      .light_frame = LAM_FRAME_CAMERA,
      .has_attenuation = true,
      .light_colors = true,
@@ -227,10 +228,10 @@ const char *lam_check_contract_name(lam_check_contract which)
     return which == LAM_CONTRACT_AUTO ? "auto" : contract_of(which) ? contract_of(which)->name : NULL;
 }
 
-// --- looking names up
+// --- lookup
 
-// "lights[12].a" as "lights[].a".
-static int plain_name(const char *name, char plain[96])
+// Stores "lights[12].a" as "lights[].a" and returns the index.
+static int strip_index(const char *name, char plain[96])
 {
     const char *open = strchr(name, '['), *close = open ? strchr(open, ']') : NULL;
     int index = 0;
@@ -245,7 +246,8 @@ static int plain_name(const char *name, char plain[96])
     return index;
 }
 
-static bool among(const char *list, const char *name) // a blank-separated list
+// Whether a list of words, separated by blanks, contains the name.
+static bool in_word_list(const char *list, const char *name)
 {
     size_t length = strlen(name);
     for (const char *at = list; at && (at = strstr(at, name)); at += length)
@@ -257,13 +259,13 @@ static bool among(const char *list, const char *name) // a blank-separated list
 const struct contract_name *contract_find(const struct contract *contract, const char *name, bool attribute, int *index)
 {
     char plain[96];
-    int at = plain_name(name, plain);
+    int at = strip_index(name, plain);
     if (index)
         *index = at;
     for (const struct contract_name *n = contract->names; n->name; n++)
-        if (n->attribute == attribute && (strcmp(n->name, plain) == 0 || among(n->synonyms, plain)))
+        if (n->attribute == attribute && (strcmp(n->name, plain) == 0 || in_word_list(n->synonyms, plain)))
             return n;
-    for (const struct contract_name *n = made_names; n->name; n++)
+    for (const struct contract_name *n = default_vertex_names; n->name; n++)
         if (n->attribute == attribute && strcmp(n->name, plain) == 0)
             return n;
     return NULL;
@@ -272,7 +274,7 @@ const struct contract_name *contract_find(const struct contract *contract, const
 const struct contract_varying *contract_varying(const struct contract *contract, const char *name)
 {
     for (const struct contract_varying *v = contract->varyings; v->names; v++)
-        if (among(v->names, name))
+        if (in_word_list(v->names, name))
             return v;
     return NULL;
 }
@@ -293,7 +295,7 @@ bool lam_check_contract_row(lam_check_contract which, int row, lam_check_name *n
 const char *contract_nearest(const struct contract *contract, const char *name)
 {
     char plain[96];
-    plain_name(name, plain);
+    strip_index(name, plain);
     const char *words[64];
     int count = 0;
     for (const struct contract_name *n = contract->names; n->name && count < 64; n++)
@@ -310,10 +312,10 @@ static int score(const struct contract *contract, const struct declarations *d)
             points += 4 * (contract_find(contract, d->items[i].name, !uniform, NULL) != NULL);
         if (d->items[i].kind == DECLARED_INPUT)
             for (const struct contract_varying *v = contract->varyings; v->names; v++)
-                points += (strlen(d->items[i].name) > 1 ? 4 : 1) * among(v->names, d->items[i].name);
+                points += (strlen(d->items[i].name) > 1 ? 4 : 1) * in_word_list(v->names, d->items[i].name);
     }
     for (const char *const *word = contract->built_ins; *word; word++)
-        points += 4 * declarations_use(d, *word);
+        points += 4 * declarations_uses(d, *word);
     return points;
 }
 
@@ -333,13 +335,13 @@ const struct contract *contract_recognise(const struct declarations *vertex, con
     return found;
 }
 
-const char *contract_name_used(const struct contract *contract, enum uniform_semantic role,
+const char *contract_name_used(const struct contract *contract, enum uniform_semantic semantic,
                                const struct declarations *vertex, const struct declarations *fragment)
 {
     const struct declarations *sides[] = {vertex, fragment};
     const char *own = NULL;
     for (const struct contract_name *n = contract->names; n->name; n++) {
-        if (n->role != role)
+        if (n->semantic != semantic)
             continue;
         if (!own)
             own = n->name;

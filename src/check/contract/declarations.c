@@ -1,4 +1,4 @@
-// declarations.c: reads the declarations of a GLSL source.
+// declarations.c: parses the declarations of a GLSL source.
 #include "declarations.h"
 
 #include <ctype.h>
@@ -8,20 +8,20 @@
 
 #include "fail.h"
 
-// A struct of the text, kept while it is read.
-struct shape {
+// A struct type of the source.
+struct struct_type {
     char name[64];
-    int first, count; // its members among `members`
+    int first, count; // range of its members in reader.members
 };
 
-enum { SHAPES_MOST = 16, MEMBERS_MOST = 128 };
+enum { MAX_STRUCT_TYPES = 16, MAX_MEMBERS = 128 };
 
 struct reader {
     struct declarations *d;
-    int at; // word
-    struct shape shapes[SHAPES_MOST];
-    int shape_count;
-    struct declaration members[MEMBERS_MOST];
+    int at; // index of the current word
+    struct struct_type struct_types[MAX_STRUCT_TYPES];
+    int struct_type_count;
+    struct declaration members[MAX_MEMBERS];
     int member_count;
 };
 
@@ -29,9 +29,9 @@ static bool is_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
 static bool add_word(struct declarations *d, const char *from, size_t length, int line, int depth)
 {
-    if ((d->word_count & (d->word_count - 1)) == 0) { // room doubles at each power of two
-        size_t room = d->word_count ? 2 * (size_t)d->word_count : 1;
-        struct word *words = realloc(d->words, room * sizeof *words);
+    if ((d->word_count & (d->word_count - 1)) == 0) { // the capacity doubles at each power of two
+        size_t capacity = d->word_count ? 2 * (size_t)d->word_count : 1;
+        struct word *words = realloc(d->words, capacity * sizeof *words);
         if (!words)
             return false;
         d->words = words;
@@ -40,12 +40,12 @@ static bool add_word(struct declarations *d, const char *from, size_t length, in
     snprintf(w->text, sizeof w->text, "%.*s", (int)(length < 63 ? length : 63), from);
     w->line = line;
     w->depth = depth;
-    w->after_member = d->word_count > 0 && strcmp(w[-1].text, ".") == 0;
+    w->is_member = d->word_count > 0 && strcmp(w[-1].text, ".") == 0;
     d->word_count++;
     return true;
 }
 
-// A preprocessor line: only its version and constants matter. Returns its end.
+// Parses a preprocessor line, of which only #version matters. Returns its end.
 static const char *read_directive(struct declarations *d, const char *c, int *line)
 {
     const char *start = c;
@@ -69,7 +69,7 @@ static const char *read_directive(struct declarations *d, const char *c, int *li
 static bool split(struct declarations *d, const char *c)
 {
     int line = 1, depth = 0;
-    bool fresh = true; // nothing but blanks on this line yet
+    bool fresh = true; // only blanks on this line so far
     while (*c) {
         if (*c == '\n') {
             line++;
@@ -120,14 +120,14 @@ static bool take(struct reader *r, const char *text)
     return there;
 }
 
-static void skip_to(struct reader *r, const char *open,
-                    const char *close) // over a bracket that has been taken
+// Skips past the bracket that closes one already taken.
+static void skip_to(struct reader *r, const char *open, const char *close)
 {
     for (int depth = 1; r->at < r->d->word_count && depth > 0; r->at++)
         depth += next_is(r, open) - next_is(r, close);
 }
 
-// [N], [] or nothing. A size that is a name is looked up as `const int NAME = N`.
+// Parses [N], [] or nothing. A size that is a name is looked up as `const int NAME = N`.
 static int read_count(struct reader *r)
 {
     int count = 0;
@@ -161,8 +161,8 @@ static bool is_qualifier(const char *w)
 static bool add_declaration(struct declarations *d, const struct declaration *item)
 {
     if ((d->count & (d->count - 1)) == 0) {
-        size_t room = d->count ? 2 * (size_t)d->count : 1;
-        struct declaration *items = realloc(d->items, room * sizeof *items);
+        size_t capacity = d->count ? 2 * (size_t)d->count : 1;
+        struct declaration *items = realloc(d->items, capacity * sizeof *items);
         if (!items)
             return false;
         d->items = items;
@@ -171,13 +171,13 @@ static bool add_declaration(struct declarations *d, const struct declaration *it
     return true;
 }
 
-// A name that is declared, and where its type is a struct of the text, each of its members.
+// Adds a declared name; where its type is a struct of the source, each of its members.
 static bool add_expanded(struct reader *r, const struct declaration *item)
 {
-    for (int s = 0; s < r->shape_count; s++)
-        if (strcmp(r->shapes[s].name, item->type) == 0) {
-            for (int m = 0; m < r->shapes[s].count; m++) {
-                struct declaration member = r->members[r->shapes[s].first + m];
+    for (int s = 0; s < r->struct_type_count; s++)
+        if (strcmp(r->struct_types[s].name, item->type) == 0) {
+            for (int m = 0; m < r->struct_types[s].count; m++) {
+                struct declaration member = r->members[r->struct_types[s].first + m];
                 char name[200];
                 snprintf(name, sizeof name, "%.60s%s.%.40s", item->name, item->count ? "[]" : "", member.name);
                 snprintf(member.name, sizeof member.name, "%.95s", name);
@@ -192,7 +192,7 @@ static bool add_expanded(struct reader *r, const struct declaration *item)
     return add_declaration(r->d, item);
 }
 
-// name [count] {, name [count]} ;
+// Parses name [count] {, name [count]} ;
 static bool read_names(struct reader *r, struct declaration item, bool as_members)
 {
     while (is_identifier(word_at(r, 0))) {
@@ -201,7 +201,7 @@ static bool read_names(struct reader *r, struct declaration item, bool as_member
         r->at++;
         item.count = read_count(r);
         if (as_members) {
-            if (r->member_count < MEMBERS_MOST)
+            if (r->member_count < MAX_MEMBERS)
                 r->members[r->member_count++] = item;
         } else if (!add_expanded(r, &item)) {
             return false;
@@ -215,9 +215,10 @@ static bool read_names(struct reader *r, struct declaration item, bool as_member
     return true;
 }
 
-static void read_struct(struct reader *r) // behind `struct`
+// Parses a struct after the keyword.
+static void read_struct(struct reader *r)
 {
-    struct shape shape = {.first = r->member_count};
+    struct struct_type shape = {.first = r->member_count};
     snprintf(shape.name, sizeof shape.name, "%s", word_at(r, 0));
     r->at++;
     if (!take(r, "{"))
@@ -234,11 +235,11 @@ static void read_struct(struct reader *r) // behind `struct`
             r->at++;
     }
     shape.count = r->member_count - shape.first;
-    if (r->shape_count < SHAPES_MOST)
-        r->shapes[r->shape_count++] = shape;
+    if (r->struct_type_count < MAX_STRUCT_TYPES)
+        r->struct_types[r->struct_type_count++] = shape;
 }
 
-// uniform NAME { members } [instance]; and likewise in and out.
+// Parses { members } [instance]; of a uniform, in or out block.
 static bool read_block(struct reader *r, enum declared kind)
 {
     struct declaration member = {.kind = kind, .in_block = true};
@@ -273,7 +274,7 @@ static bool read_statement(struct reader *r)
         } else if (next_is(r, "out")) {
             item.kind = DECLARED_OUTPUT;
         } else if (next_is(r, "varying")) {
-            item.kind = DECLARED_OUTPUT; // of a vertex shader; declarations_read() turns it for a fragment's
+            item.kind = DECLARED_OUTPUT; // declarations_read() makes it an input in fragment shaders
             item.varying = true;
         } else if (!is_qualifier(word_at(r, 0))) {
             break;
@@ -296,7 +297,7 @@ static bool read_statement(struct reader *r)
         r->at++;
         return read_names(r, item, false);
     }
-    // Anything else: a function, a constant, a precision.
+    // Anything else: a function, a constant, a precision statement.
     while (r->at < r->d->word_count && !next_is(r, ";") && !next_is(r, "{"))
         r->at++;
     if (take(r, "{"))
@@ -320,8 +321,8 @@ bool declarations_read(struct declarations *d, const char *text, lam_error *erro
         declarations_free(d);
         return fail_memory(error, strlen(text));
     }
-    // A varying is written by the vertex shader and read by the fragment shader, told by gl_Position.
-    bool vertex = declarations_use(d, "gl_Position");
+    // Varyings are outputs of the vertex shader, recognised by gl_Position, and inputs of the fragment shader.
+    bool vertex = declarations_uses(d, "gl_Position");
     for (int i = 0; i < d->count; i++)
         if (d->items[i].kind == DECLARED_OUTPUT && d->items[i].varying) {
             d->items[i].kind = vertex ? DECLARED_OUTPUT : DECLARED_INPUT;
@@ -337,7 +338,7 @@ void declarations_free(struct declarations *d)
     *d = (struct declarations){0};
 }
 
-bool declarations_use(const struct declarations *d, const char *name)
+bool declarations_uses(const struct declarations *d, const char *name)
 {
     int times = 0, declared = 0;
     for (int i = 0; i < d->word_count; i++)

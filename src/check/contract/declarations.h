@@ -1,8 +1,8 @@
-// declarations.h: what a GLSL source declares, found by reading its text: uniforms, attributes, varyings.
+// declarations.h: the declarations of a GLSL source: uniforms, attributes, varyings.
 //
-// The text is read, not the compiled program, because names and lines are wanted of shaders that do not
-// compile, and of uniforms that a compiler drops. Comments and preprocessor lines are skipped; code that the
-// preprocessor would drop is read too.
+// They are parsed from the text, not queried from the compiled program: names and lines are needed of shaders that do
+// not compile, and of uniforms that a compiler optimises away. Comments and preprocessor lines are skipped; code that
+// the preprocessor would exclude is parsed too.
 #ifndef DECLARATIONS_H
 #define DECLARATIONS_H
 
@@ -10,23 +10,23 @@
 
 enum declared { DECLARED_UNIFORM, DECLARED_INPUT, DECLARED_OUTPUT };
 
-// A member of a struct that is a uniform stands by itself: "lights[].position". Types and names are pieces of `names`.
+// Each member of a uniform struct has an entry of its own: "lights[].position".
 struct declaration {
     enum declared kind;
     char type[32];
     char name[96];
-    int count; // of the outermost array; 0: none, −1: its size is not a number that the text tells
+    int count; // of the outermost array; 0: no array; −1: the size is not a literal number
     int line;
     bool flat;     // interpolation qualifier
-    bool in_block; // of a block
-    bool varying;  // while it is read: of which kind is not known yet
+    bool in_block; // member of an interface block
+    bool varying;  // while parsing: a varying, whose kind is not known yet
 };
 
 struct word {
-    char text[64]; // an identifier, a number, or one sign
+    char text[64]; // an identifier, a number, or one punctuation character
     int line;
-    int depth;         // of braces
-    bool after_member; // stands behind a '.'
+    int depth;      // of braces
+    bool is_member; // follows a '.'
 };
 
 struct declarations {
@@ -38,12 +38,12 @@ struct declarations {
     int word_count;
 };
 
-// False: memory is out.
+// False: out of memory.
 bool declarations_read(struct declarations *d, const char *text, lam_error *error);
 void declarations_free(struct declarations *d);
 
-// Whether an identifier stands anywhere; behind its declaration, where it is declared.
-bool declarations_use(const struct declarations *d, const char *name);
+// Whether an identifier occurs anywhere apart from its own declaration.
+bool declarations_uses(const struct declarations *d, const char *name);
 
 const struct declaration *declarations_find(const struct declarations *d, enum declared kind, const char *name);
 

@@ -1,4 +1,4 @@
-// shader_interface.c: what two shaders declare, against their contract.
+// shader_interface.c: matches the declarations of two shaders with their contract.
 #include "shader_interface.h"
 
 #include <stdio.h>
@@ -6,7 +6,7 @@
 
 #include "fail.h"
 
-static bool has_semantic(const struct shader_interface *r, enum uniform_semantic role)
+static bool has_semantic(const struct shader_interface *r, enum uniform_semantic semantic)
 {
     const struct declarations *sides[] = {&r->vertex, &r->fragment};
     for (int s = 0; s < 2; s++)
@@ -14,23 +14,29 @@ static bool has_semantic(const struct shader_interface *r, enum uniform_semantic
             const struct contract_name *n = sides[s]->items[i].kind == DECLARED_UNIFORM
                                                 ? contract_find(r->contract, sides[s]->items[i].name, false, NULL)
                                                 : NULL;
-            if (n && n->role == role)
+            if (n && n->semantic == semantic)
                 return true;
         }
     return false;
 }
 
-static bool is_light(enum uniform_semantic role) { return role >= ROLE_LIGHT_POSITION && role <= ROLE_LIGHT_AMBIENT; }
+static bool is_light(enum uniform_semantic semantic)
+{
+    return semantic >= SEMANTIC_LIGHT_POSITION && semantic <= SEMANTIC_LIGHT_AMBIENT;
+}
 
-static bool is_material(enum uniform_semantic role) { return role >= ROLE_AMBIENT && role <= ROLE_SHININESS; }
+static bool is_material(enum uniform_semantic semantic)
+{
+    return semantic >= SEMANTIC_AMBIENT && semantic <= SEMANTIC_SHININESS;
+}
 
-// Whether a side names a material or a light.
-static bool lights_up(const struct contract *contract, const struct declarations *d)
+// Whether a shader declares a uniform of a material or light.
+static bool has_lighting(const struct contract *contract, const struct declarations *d)
 {
     for (int i = 0; i < d->count; i++) {
         const struct contract_name *n =
             d->items[i].kind == DECLARED_UNIFORM ? contract_find(contract, d->items[i].name, false, NULL) : NULL;
-        if (n && (is_material(n->role) || is_light(n->role)))
+        if (n && (is_material(n->semantic) || is_light(n->semantic)))
             return true;
     }
     return false;
@@ -44,13 +50,13 @@ static void count_lights(struct shader_interface *r)
             const struct declaration *d = &sides[s]->items[i];
             const struct contract_name *n =
                 d->kind == DECLARED_UNIFORM ? contract_find(r->contract, d->name, false, NULL) : NULL;
-            if (n && is_light(n->role) && d->count > r->light_count)
+            if (n && is_light(n->semantic) && d->count > r->light_count)
                 r->light_count = d->count;
         }
 }
 
-// Whether words follow each other: `text` has them with blanks between, "?" for any.
-static bool says(const struct declarations *d, int at, const char *text)
+// Whether the words at `at` match `text`, a list separated by blanks in which "?" matches any word.
+static bool words_match(const struct declarations *d, int at, const char *text)
 {
     for (; *text; at++) {
         size_t length = strcspn(text, " ");
@@ -62,47 +68,46 @@ static bool says(const struct declarations *d, int at, const char *text)
     return true;
 }
 
-// A shader printed by `lambent shader` loops over the lights of each kind with the kind as a constant: what
-// that says of its lights (study rules); 0: no such shader.
-static unsigned printed_lights(const struct declarations *lit)
+// A shader printed by `lambent shader` has one loop for each kind of light, with the kind as a constant. Returns the
+// restrictions that these loops impose (reference_rule); 0: another shader.
+static unsigned lambent_light_rules(const struct declarations *lit)
 {
     unsigned rules = 0;
     int from = 0, to = 0;
     for (int i = 0; i < lit->word_count; i++) {
-        if (says(lit, i, "for ( int i = ? ; i < ? ;")) {
+        if (words_match(lit, i, "for ( int i = ? ; i < ? ;")) {
             sscanf(lit->words[i + 5].text, "%d", &from);
             sscanf(lit->words[i + 9].text, "%d", &to);
-        } else if (says(lit, i, "toward_light ( s . p , light , ? , ? )")) {
+        } else if (words_match(lit, i, "toward_light ( s . p , light , ? , ? )")) {
             const char *kind = lit->words[i + 8].text;
             unsigned rule = strcmp(kind, "LIGHT_DIRECTIONAL") == 0   ? RULE_DIRECTIONAL
                             : strcmp(kind, "LIGHT_SPOT_CUTOFF") == 0 ? RULE_SPOT
                                                                      : RULE_POINT;
             if (strcmp(lit->words[i + 10].text, "FALLOFF_NONE") == 0)
                 rule |= RULE_UNATTENUATED;
-            for (int k = from; k < to && k < STUDY_LIGHTS_MOST; k++)
+            for (int k = from; k < to && k < MAX_SCENE_LIGHTS; k++)
                 rules |= rule << (RULE_FIRST + RULE_BITS * k);
         }
     }
     return rules;
 }
 
-// Printed shaders that ask for what the check has not got.
+// False for printed shaders that need inputs which the check cannot provide.
 static bool can_be_checked(const struct shader_interface *r, lam_error *error)
 {
     static const struct {
         enum declared kind;
         const char *name, *what;
-    } asked[] = {{DECLARED_UNIFORM, "light_list",
-                  "lights in a texture, which the check does not make; print it with --lights-in array or block"},
-                 {DECLARED_INPUT, "provoking_position",
-                  "vertices made for flat shading in GLSL 120, which the check does not make; print it with --glsl "
-                  "330"},
-                 {DECLARED_INPUT, "front_color",
-                  "light that the application has worked out: there is no lighting in it to check"}};
+    } unsupported[] = {
+        {DECLARED_UNIFORM, "light_list",
+         "lights in a texture, which the check does not provide; print it with --lights-in array or block"},
+        {DECLARED_INPUT, "provoking_position",
+         "the vertices of flat shading in GLSL 120, which the check does not provide; print it with --glsl 330"},
+        {DECLARED_INPUT, "front_color", "colours that the application computes: there is no lighting in it to check"}};
     for (int i = 0; r->which == LAM_CONTRACT_LAMBENT && i < 3; i++)
-        if (declarations_find(&r->vertex, asked[i].kind, asked[i].name) ||
-            declarations_find(&r->fragment, asked[i].kind, asked[i].name))
-            return fail(error, LAM_UNSUPPORTED, "the shader asks by '%s' for %s", asked[i].name, asked[i].what);
+        if (declarations_find(&r->vertex, unsupported[i].kind, unsupported[i].name) ||
+            declarations_find(&r->fragment, unsupported[i].kind, unsupported[i].name))
+            return fail(error, LAM_UNSUPPORTED, "the shader's '%s' needs %s", unsupported[i].name, unsupported[i].what);
     return true;
 }
 
@@ -114,34 +119,34 @@ static bool is_flat(const struct declarations *fragment)
     return false;
 }
 
-static void read_printed(struct shader_interface *r)
+static void apply_lambent_rules(struct shader_interface *r)
 {
     const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
-    unsigned rules = printed_lights(lit), first = rules >> RULE_FIRST & RULE_KIND;
+    unsigned rules = lambent_light_rules(lit), first = rules >> RULE_FIRST & RULE_KIND;
     if (r->which != LAM_CONTRACT_LAMBENT || !rules)
         return;
-    r->offers &= ~(unsigned)(NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT);
-    r->offers |= first == RULE_DIRECTIONAL ? NEED_DIRECTIONAL
-                 : first == RULE_SPOT      ? NEED_POINT | NEED_SPOT
-                                           : NEED_POINT;
-    if (!declarations_use(&r->fragment, "gl_FrontFacing"))
-        r->offers &= ~(unsigned)NEED_TWO_SIDES;
-    r->phong = declarations_use(lit, "phong_lobe");
-    r->offers |= rules;
-    r->offers |= declarations_use(lit, "blinn_phong_lobe") || r->phong ? 0 : RULE_MATT;
-    r->offers |= is_flat(&r->fragment) ? RULE_FLAT : 0;
+    r->supports &= ~(unsigned)(NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT);
+    r->supports |= first == RULE_DIRECTIONAL ? NEED_DIRECTIONAL
+                   : first == RULE_SPOT      ? NEED_POINT | NEED_SPOT
+                                             : NEED_POINT;
+    if (!declarations_uses(&r->fragment, "gl_FrontFacing"))
+        r->supports &= ~(unsigned)NEED_TWO_SIDES;
+    r->phong = declarations_uses(lit, "phong_lobe");
+    r->supports |= rules;
+    r->supports |= declarations_uses(lit, "blinn_phong_lobe") || r->phong ? 0 : RULE_NO_SPECULAR;
+    r->supports |= is_flat(&r->fragment) ? RULE_FLAT : 0;
 }
 
-// A contract that tells a light's kind by what the shader reads of it.
-static unsigned kinds_of(const struct shader_interface *r)
+// The kinds of light that the shader can have, by the members that it reads.
+static unsigned light_kinds(const struct shader_interface *r)
 {
     if (r->which == LAM_CONTRACT_NYU)
-        return has_semantic(r, ROLE_LIGHT_POSITION) ? NEED_POINT : NEED_DIRECTIONAL;
+        return has_semantic(r, SEMANTIC_LIGHT_POSITION) ? NEED_POINT : NEED_DIRECTIONAL;
     if (r->which == LAM_CONTRACT_LAMBENT) {
         const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
         int cone = 0, attenuation = 0, position = 0;
         for (int i = 0; i < lit->word_count; i++) // read, not only declared: lights[i].cone
-            if (lit->words[i].after_member) {
+            if (lit->words[i].is_member) {
                 cone += strcmp(lit->words[i].text, "cone") == 0;
                 attenuation += strcmp(lit->words[i].text, "attenuation") == 0;
                 position += strcmp(lit->words[i].text, "position") == 0;
@@ -180,17 +185,17 @@ bool shader_interface_make(struct shader_interface *r, const char *vertex, const
         shader_interface_free(r);
         return false;
     }
-    r->vertex_lit = vertex && vertex[0] && !lights_up(r->contract, &r->fragment);
+    r->vertex_lit = vertex && vertex[0] && !has_lighting(r->contract, &r->fragment);
     count_lights(r);
-    r->offers = r->contract->offers;
+    r->supports = r->contract->supports;
     unsigned kinds = NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT;
-    r->offers = (r->offers & ~kinds) | (r->offers & kinds & kinds_of(r));
+    r->supports = (r->supports & ~kinds) | (r->supports & kinds & light_kinds(r));
     if (r->light_count < 2)
-        r->offers &= ~(unsigned)NEED_LIGHTS;
-    r->offers |= r->vertex_lit ? NEED_VERTEX_LIT : 0;
-    if (!has_semantic(r, ROLE_FLAT))
-        r->offers &= ~(unsigned)NEED_FLAT;
-    read_printed(r);
+        r->supports &= ~(unsigned)NEED_LIGHTS;
+    r->supports |= r->vertex_lit ? NEED_VERTEX_LIT : 0;
+    if (!has_semantic(r, SEMANTIC_FLAT))
+        r->supports &= ~(unsigned)NEED_FLAT;
+    apply_lambent_rules(r);
     return true;
 }
 

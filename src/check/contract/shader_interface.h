@@ -1,4 +1,5 @@
-// shader_interface.h: two shaders as read: their declarations, the contract, and what of it they can be told.
+// shader_interface.h: the interface of a pair of shaders: their declarations, their contract, and the subset of it that
+// they have names for.
 #ifndef SHADER_INTERFACE_H
 #define SHADER_INTERFACE_H
 
@@ -8,15 +9,15 @@ struct shader_interface {
     struct declarations vertex, fragment;
     const struct contract *contract;
     lam_check_contract which;
-    unsigned offers; // of the contract's, what these shaders have names for; and study rules
-    int light_count; // declared room of the list of lights; 0: no list, one light
-    bool vertex_lit; // the fragment shader names nothing of materials or lights
-    bool phong;      // printed by `lambent shader --reflection phong`
+    unsigned supports; // bits of reference_need, and of reference_rule
+    int light_count;   // declared size of the list of lights; 0: one light without a list
+    bool vertex_lit;   // the fragment shader has no name of a material or light
+    bool phong;        // printed by `lambent shader --reflection phong`
 };
 
-// `vertex` NULL or "": none. `which` AUTO: recognised. LAM_BAD_ARGUMENT: no contract's names are found.
-bool shader_interface_make(struct shader_interface *r, const char *vertex, const char *fragment,
+// `vertex` NULL or "": none. `which` AUTO: recognised. LAM_BAD_ARGUMENT: no contract has any of the names.
+bool shader_interface_make(struct shader_interface *interface, const char *vertex, const char *fragment,
                            lam_check_contract which, lam_error *error);
-void shader_interface_free(struct shader_interface *r);
+void shader_interface_free(struct shader_interface *interface);
 
 #endif

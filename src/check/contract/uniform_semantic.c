@@ -1,13 +1,13 @@
-// uniform_semantic.c: a reference scene as a contract can say it, and the numbers of each uniform.
+// uniform_semantic.c: a reference scene as a contract can express it, and the value of each uniform.
 #include "contract.h"
 
 #include <string.h>
 
 #include "linear.h"
 
-// Contracts without colours or strengths of the material: the surface has one colour, and the highlight that
-// of the light. A term is switched off by black.
-static void plain_material(struct reference_scene *s)
+// For contracts without specular colours or strengths: the surface has one colour, and the highlight the light's. A
+// term is switched off by black.
+static void use_single_color(struct reference_scene *s)
 {
     if (s->kd == 0)
         s->diffuse = (lam_rgb){0, 0, 0};
@@ -20,15 +20,15 @@ static void plain_material(struct reference_scene *s)
     s->kd = s->ks = 1;
 }
 
-static void limit_light(const struct contract *contract, unsigned offers, int index, struct reference_light *light)
+static void limit_light(const struct contract *contract, unsigned supports, int index, struct reference_light *light)
 {
-    unsigned rule = offers >> (RULE_FIRST + RULE_BITS * index), kind = rule & RULE_KIND;
-    bool directional = kind ? kind == RULE_DIRECTIONAL : !(offers & NEED_POINT);
+    unsigned rule = supports >> (RULE_FIRST + RULE_BITS * index), kind = rule & RULE_KIND;
+    bool directional = kind ? kind == RULE_DIRECTIONAL : !(supports & NEED_POINT);
     if (rule & RULE_UNATTENUATED)
         memcpy(light->attenuation, (const float[]){1, 0, 0}, sizeof light->attenuation);
     if (light->type == LAM_LIGHT_POINT && directional) {
         light->type = LAM_LIGHT_DIRECTIONAL;
-        light->from = light->position;
+        light->to_light = light->position;
     }
     if (contract->attenuated_points)
         memcpy(light->attenuation, contract->attenuation, sizeof light->attenuation);
@@ -38,7 +38,7 @@ static void limit_light(const struct contract *contract, unsigned offers, int in
         light->color = light->specular = light->ambient = (lam_rgb){1, 1, 1};
 }
 
-struct reference_scene contract_reference_scene(const struct contract *contract, unsigned offers,
+struct reference_scene contract_reference_scene(const struct contract *contract, unsigned supports,
                                                 const struct reference_scene *reference_scene, int light_count)
 {
     struct reference_scene s = *reference_scene;
@@ -46,22 +46,22 @@ struct reference_scene contract_reference_scene(const struct contract *contract,
         s.ambient = s.diffuse;
     if (!contract->has_ambient)
         s.ka = 0;
-    // A list's other lights are black.
-    while (s.light_count < light_count && s.light_count < STUDY_LIGHTS_MOST)
+    // Unused entries of the list are black.
+    while (s.light_count < light_count && s.light_count < MAX_SCENE_LIGHTS)
         s.lights[s.light_count++] = (struct reference_light){
-            .type = s.lights[0].type, .position = {1, 2, 3}, .from = {1, 2, 3}, .attenuation = {1, 0, 0}};
+            .type = s.lights[0].type, .position = {1, 2, 3}, .to_light = {1, 2, 3}, .attenuation = {1, 0, 0}};
     if (s.light_count > light_count)
         s.light_count = light_count;
     for (int i = 0; i < s.light_count; i++)
-        limit_light(contract, offers, i, &s.lights[i]);
-    if (offers & RULE_MATT)
+        limit_light(contract, supports, i, &s.lights[i]);
+    if (supports & RULE_NO_SPECULAR)
         s.ks = 0;
-    s.flat |= (offers & RULE_FLAT) != 0;
+    s.flat |= (supports & RULE_FLAT) != 0;
     if (!contract->material_strengths && !contract->own_ambient_color)
-        plain_material(&s);
+        use_single_color(&s);
     if (contract->shininess > 0)
         s.shininess = contract->shininess;
-    if (!(contract->offers & NEED_ALPHA))
+    if (!(contract->supports & NEED_ALPHA))
         s.alpha = 1;
     return s;
 }
@@ -111,7 +111,7 @@ static lam_rgb total_ambient(const struct reference_scene *s)
     return sum;
 }
 
-// From the world's space to the frame that the contract's light positions are in.
+// From world space to the space of the contract's light positions.
 static lam_mat4 light_matrix(lam_light_frame frame, const struct reference_matrices *m)
 {
     lam_mat4 out = lam_mat4_identity();
@@ -125,16 +125,16 @@ static lam_mat4 light_matrix(lam_light_frame frame, const struct reference_matri
 static int put_light_position(float out[16], const struct reference_light *light, const lam_mat4 *to)
 {
     if (light->type == LAM_LIGHT_DIRECTIONAL)
-        return put_vector(out, mat4_vector(to, light->from), 0);
+        return put_vector(out, mat4_vector(to, light->to_light), 0);
     return put_vector(out, mat4_point(to, light->position), 1);
 }
 
-int uniform_semantic_value(enum uniform_semantic role, int index, const struct contract *contract,
+int uniform_semantic_value(enum uniform_semantic semantic, int index, const struct contract *contract,
                            lam_light_frame light_frame, const struct reference_scene *s,
                            const struct reference_matrices *m, float out[16])
 {
     static const struct reference_light none = {
-        .type = LAM_LIGHT_POINT, .position = {1, 1, 1}, .from = {0, 0, 1}, .attenuation = {1, 0, 0}};
+        .type = LAM_LIGHT_POINT, .position = {1, 1, 1}, .to_light = {0, 0, 1}, .attenuation = {1, 0, 0}};
     memset(out, 0, 16 * sizeof *out);
     const struct reference_light *light = index < s->light_count ? &s->lights[index] : &none;
     lam_mat4 to = light_matrix(light_frame, m);
@@ -142,90 +142,90 @@ int uniform_semantic_value(enum uniform_semantic role, int index, const struct c
     bool products = contract->products;
     float place[16];
     put_light_position(place, light, &to);
-    switch (role) {
-    case ROLE_MODEL_VIEW:
+    switch (semantic) {
+    case SEMANTIC_MODEL_VIEW:
         return put_matrix(out, &m->model_view);
-    case ROLE_PROJECTION:
+    case SEMANTIC_PROJECTION:
         return put_matrix(out, &m->projection);
-    case ROLE_MODEL_VIEW_PROJECTION:
+    case SEMANTIC_MODEL_VIEW_PROJECTION:
         return put_matrix(out, &m->model_view_projection);
-    case ROLE_MODEL:
+    case SEMANTIC_MODEL:
         return put_matrix(out, &m->model);
-    case ROLE_VIEW:
+    case SEMANTIC_VIEW:
         return put_matrix(out, &m->view);
-    case ROLE_NORMAL_MATRIX:
+    case SEMANTIC_NORMAL_MATRIX:
         return put_matrix(out, &m->normal4);
-    case ROLE_AMBIENT:
+    case SEMANTIC_AMBIENT:
         return put_product(out, s->ambient, s->ka, products ? total_ambient(s) : one, 1);
-    case ROLE_DIFFUSE:
+    case SEMANTIC_DIFFUSE:
         return put_product(out, s->diffuse, s->kd, products ? light->color : one, s->alpha);
-    case ROLE_SPECULAR:
+    case SEMANTIC_SPECULAR:
         return put_product(out, s->specular, s->ks, products ? light->specular : one, 1);
-    case ROLE_AMBIENT_PRODUCT:
+    case SEMANTIC_AMBIENT_PRODUCT:
         return put_product(out, s->ambient, s->ka, total_ambient(s), 1);
-    case ROLE_DIFFUSE_PRODUCT:
+    case SEMANTIC_DIFFUSE_PRODUCT:
         return put_product(out, s->diffuse, s->kd, light->color, s->alpha);
-    case ROLE_SPECULAR_PRODUCT:
+    case SEMANTIC_SPECULAR_PRODUCT:
         return put_product(out, s->specular, s->ks, light->specular, 1);
-    case ROLE_KA:
+    case SEMANTIC_KA:
         return put_number(out, s->ka);
-    case ROLE_KD:
+    case SEMANTIC_KD:
         return put_number(out, s->kd);
-    case ROLE_KS:
+    case SEMANTIC_KS:
         return put_number(out, s->ks);
-    case ROLE_COLOR:
+    case SEMANTIC_COLOR:
         return put_color(out, s->diffuse, 1, s->alpha);
-    case ROLE_SPECULAR_COLOR:
+    case SEMANTIC_SPECULAR_COLOR:
         return put_color(out, s->specular, 1, 1);
-    case ROLE_SHININESS:
+    case SEMANTIC_SHININESS:
         return put_number(out, s->shininess);
-    case ROLE_LIGHT_POSITION:
+    case SEMANTIC_LIGHT_POSITION:
         memcpy(out, place, sizeof place);
         return 4;
-    case ROLE_LIGHT_X:
+    case SEMANTIC_LIGHT_X:
         return put_number(out, place[0]);
-    case ROLE_LIGHT_Y:
+    case SEMANTIC_LIGHT_Y:
         return put_number(out, place[1]);
-    case ROLE_LIGHT_Z:
+    case SEMANTIC_LIGHT_Z:
         return put_number(out, place[2]);
-    case ROLE_LIGHT_DIRECTION:
-        return put_vector(out, v3_unit(mat4_vector(&to, light->from)), 0);
-    case ROLE_LIGHT_TRAVEL:
-        return put_vector(out, v3_scale(v3_unit(mat4_vector(&to, light->from)), -1), 0);
-    case ROLE_LIGHT_COLOR:
+    case SEMANTIC_LIGHT_DIRECTION:
+        return put_vector(out, v3_unit(mat4_vector(&to, light->to_light)), 0);
+    case SEMANTIC_LIGHT_TRAVEL:
+        return put_vector(out, v3_scale(v3_unit(mat4_vector(&to, light->to_light)), -1), 0);
+    case SEMANTIC_LIGHT_COLOR:
         return put_color(out, light->color, 1, 1);
-    case ROLE_LIGHT_SPECULAR:
+    case SEMANTIC_LIGHT_SPECULAR:
         return put_color(out, light->specular, 1, 1);
-    case ROLE_LIGHT_AMBIENT:
+    case SEMANTIC_LIGHT_AMBIENT:
         return put_color(out, light->ambient, 1, 1);
-    case ROLE_AMBIENT_LIGHT:
+    case SEMANTIC_AMBIENT_LIGHT:
         return put_color(out, total_ambient(s), 1, 1);
-    case ROLE_ATTENUATION_CONSTANT:
+    case SEMANTIC_ATTENUATION_CONSTANT:
         return put_number(out, light->attenuation[0]);
-    case ROLE_ATTENUATION_LINEAR:
+    case SEMANTIC_ATTENUATION_LINEAR:
         return put_number(out, light->attenuation[1]);
-    case ROLE_ATTENUATION_QUADRATIC:
+    case SEMANTIC_ATTENUATION_QUADRATIC:
         return put_number(out, light->attenuation[2]);
-    case ROLE_ATTENUATION:
+    case SEMANTIC_ATTENUATION:
         memcpy(out, light->attenuation, sizeof light->attenuation);
         return 4;
-    case ROLE_CONE:
+    case SEMANTIC_CONE:
         out[0] = light->cutoff_deg > 0 ? (float)math_cos(math_radians((double)light->cutoff_deg)) : -1.0f;
         out[1] = light->exponent;
-        out[2] = light->cutoff_deg > 0 ? out[0] : -2.0f; // an edge where the cutoff is, or nowhere
+        out[2] = light->cutoff_deg > 0 ? out[0] : -2.0f; // a hard edge at the cutoff, or none
         out[3] = light->cutoff_deg > 0 ? 1000.0f : 1.0f;
         return 4;
-    case ROLE_ONE:
+    case SEMANTIC_ONE:
         return put_number(out, 1);
-    case ROLE_LIGHT_COUNT:
+    case SEMANTIC_LIGHT_COUNT:
         return put_number(out, (float)s->light_count);
-    case ROLE_FLAT:
+    case SEMANTIC_FLAT:
         return put_number(out, s->flat);
-    case ROLE_LIGHT_IN_EYE:
+    case SEMANTIC_LIGHT_IN_EYE:
         return put_light_position(out, light, &m->view);
-    case ROLE_EYE_POSITION:
+    case SEMANTIC_EYE_POSITION:
         return put_vector(out, (lam_vec3){0, 0, 0}, 1);
     default:
-        return 16; // ROLE_ZERO and what is no uniform
+        return 16; // SEMANTIC_ZERO, and attributes
     }
 }

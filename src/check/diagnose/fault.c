@@ -1,7 +1,7 @@
-// fault.c: the table of known mistakes, and what to write instead.
+// fault.c: the table of known mistakes, their explanations and corrections.
 //
-// Most stand in lectures and tutorials; docs/mistakes.md shows them. Where two give the same picture the one
-// that is made more often stands first.
+// Most occur in lectures and tutorials (docs/mistakes.md shows them). Of two with the same picture the more common one
+// comes first.
 #include "fault.h"
 
 #include <stdio.h>
@@ -9,99 +9,92 @@
 
 #define B(name) ((fault_set)1 << BIT_##name)
 
-const struct fault mistakes[] = {
+const struct fault faults[] = {
     // --- normals
     {"normal-not-unit", B(LONG_NORMAL), WHERE_FRAGMENT, 0,
-     "the interpolated normal is not made unit again in the fragment shader: between vertices it is shorter "
-     "than 1",
+     "the interpolated normal is not normalized again in the fragment shader; between vertices it is shorter than "
+     "1",
      "vec3 n = normalize(N); // in the fragment shader, before any dot product"},
     {"normal-unit-late", B(LONG_NORMAL_VERTEX), WHERE_FRAGMENT, 0,
-     "the normal is made unit only in the fragment shader: the matrix changes the normals' lengths, and "
-     "longer "
+     "the normal is normalized only in the fragment shader; the matrix changes the lengths of normals, and longer "
      "ones weigh more between vertices",
      "N = normalize({normal_matrix} * {normal}); // in the vertex shader too"},
     {"normal-never-unit", B(LONG_NORMAL) | B(LONG_NORMAL_VERTEX), 0, 0,
-     "the normal is never made unit, though the matrix changes its length",
+     "the normal is never normalized, although the matrix changes its length",
      "N = normalize({normal_matrix} * {normal});"},
     {"normal-by-model-view", B(NORMAL_BY_MODEL), 0, 0,
-     "the normal goes by the model-view matrix itself; under a scale that is not the same along all axes it "
-     "then leans "
-     "the wrong way",
+     "the normal is transformed by the model-view matrix itself; with a non-uniform scale it then leans the wrong "
+     "way",
      "N = normalize({normal_matrix} * {normal}); // the inverse transpose of {model_view}'s 3x3"},
-    {"normal-object-space", B(NORMAL_OBJECT), 0, 0,
-     "the normal stays in the model's space while the light is in eye space",
+    {"normal-object-space", B(NORMAL_OBJECT), 0, 0, "the normal stays in object space while the light is in eye space",
      "N = normalize({normal_matrix} * {normal});"},
     {"normal-clip-space", B(NORMAL_BY_MODEL) | B(NORMAL_CLIP), 0, 0,
-     "the normal is multiplied by the projection: normals end in eye space",
+     "the normal is multiplied by the projection; normals belong in eye space",
      "N = normalize({normal_matrix} * {normal}); // no projection"},
     {"normal-with-w", B(NORMAL_WITH_W) | B(LONG_NORMAL), 0, 0,
-     "the normal is made unit as four numbers: the translation lands in w and shortens it",
+     "the normal is normalized with four components; the translation enters w and shortens it",
      "N = normalize(({normal_matrix4} * vec4({normal}, 0.0)).xyz); // .xyz first, then normalize"},
     {"normal-with-w-vertex", B(NORMAL_WITH_W), WHERE_FRAGMENT, 0,
-     "the normal is made unit as four numbers in the vertex shader: the translation lands in w, each "
-     "vertex's "
-     "normal gets a length of its own, and longer ones weigh more between vertices",
+     "the normal is normalized with four components in the vertex shader; the translation enters w, so each "
+     "vertex's normal has another length, and longer ones weigh more between vertices",
      "N = normalize(({normal_matrix4} * vec4({normal}, 0.0)).xyz); // .xyz first, then normalize"},
     {"normal-inward", B(INWARD), 0, 0, "the normal points to the wrong side",
-     "N = normalize({normal_matrix} * {normal}); // no minus"},
+     "N = normalize({normal_matrix} * {normal}); // without the minus"},
     // --- spaces
     {"clip-space", B(NORMAL_BY_MODEL) | B(NORMAL_CLIP) | B(LIGHT_CLIP) | B(POINT_CLIP) | B(EYE_CLIP), 0, 0,
-     "lighting is done after the projection; angles and distances mean nothing there",
+     "the lighting is computed after the projection; angles and distances mean nothing there",
      "vec3 P = ({model_view} * {position}).xyz; // light in eye space; {projection} only in gl_Position"},
     {"clip-space-four", B(NORMAL_BY_MODEL) | B(NORMAL_CLIP) | B(LIGHT_CLIP) | B(POINT_CLIP) | B(EYE_CLIP) | B(FOUR), 0,
      0,
-     "lighting is done after the projection, with vectors of four numbers; angles and distances mean nothing "
-     "there",
-     "vec3 P = ({model_view} * {position}).xyz; // light in eye space, three numbers; {projection} only in "
+     "the lighting is computed after the projection, with four-component vectors; angles and distances mean "
+     "nothing there",
+     "vec3 P = ({model_view} * {position}).xyz; // light in eye space, three components; {projection} only in "
      "gl_Position"},
     {"clip-space-vectors", B(LIGHT_CLIP) | B(POINT_CLIP) | B(EYE_CLIP), 0, 0,
-     "l, v and the distance are taken after the projection",
+     "l, v and the distance are computed after the projection",
      "vec3 P = ({model_view} * {position}).xyz; // light in eye space; {projection} only in gl_Position"},
     {"clip-space-vectors-four", B(LIGHT_CLIP) | B(POINT_CLIP) | B(EYE_CLIP) | B(FOUR), 0, 0,
-     "l, v and the distance are taken after the projection, with four numbers",
+     "l, v and the distance are computed after the projection, with four components",
      "vec3 P = ({model_view} * {position}).xyz; // light in eye space; {projection} only in gl_Position"},
     {"clip-space-vertex", B(POINT_CLIP) | B(EYE_CLIP), 0, 0,
-     "the light is in eye space and the vertex in clip space: the two cannot be subtracted",
+     "the light is in eye space and the vertex in clip space; the two cannot be subtracted",
      "vec3 P = ({model_view} * {position}).xyz; // no projection"},
     {"clip-space-vertex-four", B(POINT_CLIP) | B(EYE_CLIP) | B(FOUR), 0, 0,
-     "the light is in eye space and the vertex in clip space, with four numbers: the two cannot be "
-     "subtracted",
+     "the light is in eye space and the vertex in clip space, with four components; the two cannot be subtracted",
      "vec3 P = ({model_view} * {position}).xyz; // no projection"},
-    {"clip-space-light", B(LIGHT_CLIP) | B(POINT_CLIP), 0, 0, "l and the distance are taken after the projection",
+    {"clip-space-light", B(LIGHT_CLIP) | B(POINT_CLIP), 0, 0, "l and the distance are computed after the projection",
      "vec3 L = {light_eye} - ({model_view} * {position}).xyz;"},
     {"light-not-moved", B(LIGHT_AS_GIVEN), WHERE_OBJECT_LIGHT, 0,
-     "the light's position is in the model's space and is used as if it were in eye space; if the light is "
-     "meant to move with the "
-     "camera, check with --light-frame camera",
+     "the light's position is in object space and is used as if it were in eye space; if the light should move "
+     "with the camera, check with --light-frame camera",
      "vec3 L = ({model_view} * ({light} - {position})).xyz;"},
     {"light-in-object-space", B(LIGHT_AS_GIVEN) | B(LIGHT_FROM_OBJECT), WHERE_OBJECT_LIGHT, 0,
-     "l is taken in the model's space, the normal in eye space",
-     "vec3 L = ({model_view} * ({light} - {position})).xyz;"},
+     "l is computed in object space, the normal in eye space", "vec3 L = ({model_view} * ({light} - {position})).xyz;"},
     {"light-moved-twice", B(LIGHT_TWICE), WHERE_EYE_LIGHT, 0,
-     "the light is in eye space already and goes by the model-view matrix once more",
-     "vec3 L = {light_eye} - ({model_view} * {position}).xyz; // the light as it is"},
+     "the light is already in eye space and is transformed by the model-view matrix again",
+     "vec3 L = {light_eye} - ({model_view} * {position}).xyz; // the light as given"},
     {"point-in-object-space", B(LIGHT_FROM_OBJECT) | B(EYE_FROM_OBJECT), 0, 0,
-     "the vertex is taken before its model-view matrix, for l and for v", "vec3 P = ({model_view} * {position}).xyz;"},
+     "l and v are computed from the vertex before its model-view transformation",
+     "vec3 P = ({model_view} * {position}).xyz;"},
     {"light-from-object-space", B(LIGHT_FROM_OBJECT), WHERE_EYE_LIGHT, 0,
-     "l is the light in eye space minus the vertex before its model-view matrix",
+     "l is the light in eye space minus the vertex before its model-view transformation",
      "vec3 L = {light_eye} - ({model_view} * {position}).xyz;"},
-    {"eye-from-object-space", B(EYE_FROM_OBJECT), 0, 0, "v is taken to the vertex before its model-view matrix",
+    {"eye-from-object-space", B(EYE_FROM_OBJECT), 0, 0,
+     "v is computed from the vertex before its model-view transformation",
      "vec3 V = -({model_view} * {position}).xyz;"},
     {"all-in-object-space", B(NORMAL_OBJECT) | B(LIGHT_AS_GIVEN) | B(LIGHT_FROM_OBJECT) | B(EYE_FROM_OBJECT), 0, 0,
-     "all lighting is done in the model's space, with the eye at its origin",
-     "vec3 P = ({model_view} * {position}).xyz; // and N, L, V in eye space with it"},
+     "all lighting is computed in object space, with the eye at its origin",
+     "vec3 P = ({model_view} * {position}).xyz; // N, L and V in eye space too"},
     {"direction-as-point", B(DIRECTION_AS_POINT), 0, NEED_DIRECTIONAL,
      "a directional light (w = 0) is treated as a point: the vertex is subtracted from a direction",
      "vec3 L = {light}.w == 0.0 ? {light_direction} : {light_eye} - P;"},
     {"direction-minus-point", B(DIRECTION_AS_POINT) | B(FOUR), 0, NEED_DIRECTIONAL,
-     "a point is subtracted from a directional light (w = 0), and the -1 that w becomes is counted in the "
-     "length",
+     "a point is subtracted from a directional light (w = 0), and the resulting w of -1 counts in the length",
      "vec3 L = {light}.w == 0.0 ? {light_direction} : {light_eye} - P;"},
     {"direction-minus-origin", B(DIRECTION_MINUS_ORIGIN), 0, NEED_DIRECTIONAL,
-     "0, 0, 0, 1 is subtracted from a directional light (w = 0) before it is made unit: the -1 that w "
-     "becomes "
-     "is counted in the length, and l is too short",
-     "vec3 L = {light_direction}; // .xyz alone, nothing subtracted"},
+     "0, 0, 0, 1 is subtracted from a directional light (w = 0) before it is normalized; the resulting w of -1 "
+     "counts in the length, and l is too short",
+     "vec3 L = {light_direction}; // .xyz alone, without a subtraction"},
     {"direction-reversed", B(DIRECTION_REVERSED), 0, NEED_DIRECTIONAL,
      "the directional light comes from the wrong side", "vec3 L = {light_direction}; // it points to the light"},
     {"light-backwards", B(LIGHT_BACKWARDS), 0, 0, "l points from the light to the surface",
@@ -109,31 +102,32 @@ const struct fault mistakes[] = {
     {"eye-backwards", B(EYE_BACKWARDS), WHERE_BLINN, 0, "v points from the eye to the surface",
      "vec3 V = -P; // the eye is at the origin"},
     {"viewer-infinite", B(VIEWER_INFINITE), 0, 0,
-     "v is the same for every point, as if the eye were infinitely far away", "vec3 V = normalize(-P);"},
+     "v is the same at every point, as if the eye were infinitely far away", "vec3 V = normalize(-P);"},
     // --- lengths
-    {"light-not-unit", B(LONG_LIGHT), 0, 0, "l is not made unit", "vec3 l = normalize(L);"},
-    {"half-of-raw-light", B(RAW_HALF), WHERE_BLINN, 0, "the half vector is made from l before it is made unit",
+    {"light-not-unit", B(LONG_LIGHT), 0, 0, "l is not normalized", "vec3 l = normalize(L);"},
+    {"half-of-raw-light", B(RAW_HALF), WHERE_BLINN, 0, "the half vector is computed from l before it is normalized",
      "vec3 H = normalize(normalize(L) + normalize(V));"},
-    {"half-of-raw-eye", B(LONG_EYE), 0, 0, "v is not made unit", "vec3 v = normalize(V);"},
+    {"half-of-raw-eye", B(LONG_EYE), 0, 0, "v is not normalized", "vec3 v = normalize(V);"},
     {"half-of-raw-both", B(LONG_EYE) | B(RAW_HALF), WHERE_BLINN, 0,
-     "the half vector is made from l and v before they are made unit",
+     "the half vector is computed from l and v before they are normalized",
      "vec3 H = normalize(normalize(L) + normalize(V));"},
-    {"half-not-unit", B(HALF_LONG), WHERE_BLINN, 0, "the half vector is not made unit", "vec3 H = normalize(l + v);"},
+    {"half-not-unit", B(HALF_LONG), WHERE_BLINN, 0, "the half vector is not normalized", "vec3 H = normalize(l + v);"},
     {"half-is-mean", B(HALF_MEAN), WHERE_BLINN, 0, "the half vector is (l + v)/2, which is shorter than 1",
      "vec3 H = normalize(l + v);"},
     {"unit-too-early", B(EARLY_LIGHT) | B(EARLY_EYE), WHERE_FRAGMENT, 0,
-     "l and v are made unit in the vertex shader and then interpolated: over large triangles they turn "
-     "wrongly",
-     "L = {light_eye} - P; V = -P; // as they are; normalize in the fragment shader"},
+     "l and v are normalized in the vertex shader and then interpolated; on large triangles their directions are "
+     "wrong",
+     "L = {light_eye} - P; V = -P; // not normalized here, but in the fragment shader"},
     {"light-unit-too-early", B(EARLY_LIGHT), WHERE_FRAGMENT, 0,
-     "l is made unit in the vertex shader and then interpolated: over large triangles it turns wrongly",
-     "L = {light_eye} - P; // as it is; normalize in the fragment shader"},
-    {"eye-unit-too-early", B(EARLY_EYE), WHERE_FRAGMENT, 0, "v is made unit in the vertex shader and then interpolated",
-     "V = -P; // as it is; normalize in the fragment shader"},
+     "l is normalized in the vertex shader and then interpolated; on large triangles its direction is wrong",
+     "L = {light_eye} - P; // not normalized here, but in the fragment shader"},
+    {"eye-unit-too-early", B(EARLY_EYE), WHERE_FRAGMENT, 0,
+     "v is normalized in the vertex shader and then interpolated; on large triangles its direction is wrong",
+     "V = -P; // not normalized here, but in the fragment shader"},
     // --- attenuation
     {"distance-interpolated", B(MEAN_DISTANCE), WHERE_FRAGMENT, NEED_ATTENUATION,
-     "the distance is taken at the vertices and interpolated; the distance of the point itself is another",
-     "float d = length(L); // in the fragment shader, L interpolated as it is"},
+     "the distance is computed at the vertices and interpolated; it is not the distance of the point itself",
+     "float d = length(L); // in the fragment shader, with L interpolated"},
     {"no-attenuation", B(BARE_DIFFUSE) | B(BARE_SPECULAR), 0, NEED_ATTENUATION, "the attenuation is missing",
      "color = ambient + (diffuse + specular) / ({a} + {b} * d + {c} * d * d);"},
     {"specular-not-attenuated", B(BARE_SPECULAR), 0, NEED_ATTENUATION, "the specular term is not attenuated",
@@ -141,42 +135,41 @@ const struct fault mistakes[] = {
     {"diffuse-not-attenuated", B(BARE_DIFFUSE), 0, NEED_ATTENUATION, "the diffuse term is not attenuated",
      "diffuse *= 1.0 / ({a} + {b} * d + {c} * d * d);"},
     {"ambient-attenuated", B(AMBIENT_ATTENUATED), 0, NEED_ATTENUATION | NEED_AMBIENT,
-     "the ambient term is attenuated; it comes from everywhere and is not",
+     "the ambient term is attenuated, although ambient light comes from everywhere",
      "color = ambient + attenuation * (diffuse + specular);"},
     {"attenuation-swapped", B(ATTENUATION_SWAPPED), 0, NEED_ATTENUATION,
      "the linear and the quadratic coefficient are swapped",
      "float attenuation = 1.0 / ({a} + {b} * d + {c} * d * d);"},
     {"attenuation-inverted", B(ATTENUATION_INVERTED), 0, NEED_ATTENUATION,
-     "the light is multiplied by a + b d + c d^2 where it should be divided",
+     "the light is multiplied by a + b d + c d^2 instead of divided",
      "float attenuation = 1.0 / ({a} + {b} * d + {c} * d * d);"},
     // --- terms
     {"no-gate", B(NO_GATE), 0, 0, "the highlight is kept where the surface faces away from the light (n.l <= 0)",
      "float s = dot(N, L) > 0.0 ? {S} : 0.0;"},
-    {"no-clamp", B(NO_CLAMP), 0, 0, "n.l is used below 0 as well: the diffuse term takes light away",
+    {"no-clamp", B(NO_CLAMP), 0, 0, "n.l is not clamped at 0: the diffuse term subtracts light",
      "float d = max(dot(N, L), 0.0);"},
-    {"lit-from-behind", B(ABSOLUTE), 0, 0, "abs() in place of max(): surfaces that face away are lit as well",
+    {"lit-from-behind", B(ABSOLUTE), 0, 0, "abs() is used in place of max(): surfaces that face away are lit too",
      "float d = max(dot(N, L), 0.0);"},
     {"phong-lobe", B(OTHER_LOBE), WHERE_BLINN, 0,
-     "the highlight is Phong's (r.v) and Blinn-Phong's (n.h) is expected; if Phong's was asked for, check "
-     "with --highlight phong",
+     "the highlight is Phong's (r.v), but Blinn-Phong's (n.h) is expected; if the exercise asks for Phong's, "
+     "check with --highlight phong",
      "float s = {S};"},
     {"blinn-phong-lobe", B(OTHER_LOBE), WHERE_PHONG, 0,
-     "the highlight is Blinn-Phong's (n.h) and Phong's (r.v) is expected; if Blinn-Phong's was asked for, "
-     "check with "
-     "--highlight blinn-phong",
+     "the highlight is Blinn-Phong's (n.h), but Phong's (r.v) is expected; if the exercise asks for "
+     "Blinn-Phong's, check with --highlight blinn-phong",
      "float s = {S};"},
     {"shininess-times-4", B(SHININESS_4), 0, 0, "the exponent is four times too large",
      "float s = {S}; // the exponent as given"},
     {"shininess-quarter", B(SHININESS_QUARTER), 0, 0, "the exponent is four times too small",
      "float s = {S}; // the exponent as given"},
     {"blinn-phong-times-4", B(OTHER_LOBE) | B(SHININESS_4), WHERE_PHONG, 0,
-     "Blinn-Phong's highlight at four times the exponent, which looks like Phong's and is not the same",
+     "the highlight is Blinn-Phong's with four times the exponent, which resembles Phong's but is not the same",
      "float s = {S};"},
     {"phong-quarter", B(OTHER_LOBE) | B(SHININESS_QUARTER), WHERE_BLINN, 0,
-     "Phong's highlight at a quarter of the exponent, which looks like Blinn-Phong's and is not the same",
+     "the highlight is Phong's with a quarter of the exponent, which resembles Blinn-Phong's but is not the same",
      "float s = {S};"},
     {"reflect-sign", B(REFLECT_SIGN), WHERE_PHONG, 0,
-     "r.v has the wrong sign: reflect() takes the direction that light travels, and v points to the eye",
+     "r.v has the wrong sign: reflect() takes the direction in which light travels, and v points to the eye",
      "vec3 R = reflect(-L, N), V = -P;"},
     {"specular-times-n.l", B(SPECULAR_TIMES_D), 0, 0, "the specular term is multiplied by n.l",
      "specular = {ks} * s; // not times dot(N, L)"},
@@ -184,7 +177,7 @@ const struct fault mistakes[] = {
      "color = ambient + {kd} * d + {ks} * s;"},
     {"ka-kd-swapped", B(KA_KD_SWAPPED), 0, NEED_AMBIENT, "the ambient and the diffuse colour are swapped",
      "color = {ka} + {kd} * d + {ks} * s;"},
-    {"specular-tinted", B(SPECULAR_TINTED), 0, 0, "the highlight is multiplied by the diffuse colour as well",
+    {"specular-tinted", B(SPECULAR_TINTED), 0, 0, "the highlight is also multiplied by the diffuse colour",
      "specular = {ks} * s; // not times {kd}"},
     {"specular-in-diffuse-colour", B(SPECULAR_AS_DIFFUSE), 0, 0, "the highlight has the diffuse colour",
      "specular = {ks} * s;"},
@@ -196,126 +189,127 @@ const struct fault mistakes[] = {
     {"first-light-only", B(FIRST_LIGHT_ONLY), 0, NEED_LIGHTS, "only the first light counts",
      "for (int i = 0; i < {count}; i++) // and add, do not assign"},
     {"last-light-only", B(LAST_LIGHT_ONLY), 0, NEED_LIGHTS,
-     "only the last light counts: each overwrites the one before", "color += ...; // in the loop: add, do not assign"},
-    // --- spots, sides, the rest
+     "only the last light counts: each one overwrites the one before",
+     "color += ...; // in the loop: add, do not assign"},
+    // --- spots, sides, output
     {"no-cone", B(NO_CONE), 0, NEED_SPOT, "the spot's cone is missing",
      "float spot = c >= cutoff ? pow(max(c, 0.0), exponent) : 0.0;"},
     {"no-cutoff", B(NO_CUTOFF), 0, NEED_SPOT, "the spot has no edge: the cutoff is missing",
      "float spot = c >= cutoff ? pow(max(c, 0.0), exponent) : 0.0;"},
     {"no-spot-exponent", B(NO_EXPONENT), 0, NEED_SPOT,
-     "the spot is as bright at its edge as in its middle: the exponent is missing",
+     "the spot is as bright at its edge as in the middle: the exponent is missing",
      "float spot = c >= cutoff ? pow(max(c, 0.0), exponent) : 0.0;"},
     {"no-flip", B(NO_FLIP), 0, NEED_TWO_SIDES, "back faces are lit with the normal of the front",
      "vec3 n = gl_FrontFacing ? normalize(N) : -normalize(N);"},
-    {"smooth-for-flat", B(SMOOTH_FOR_FLAT), 0, NEED_FLAT,
-     "flat shading is asked for and the values are interpolated all the same",
-     "vec3 n = normalize({flat} ? Nf : Ns); // Nf declared flat, and likewise L and E"},
-    {"alpha-one", B(ALPHA_ONE), 0, NEED_ALPHA, "alpha is set to 1; it is the diffuse alpha", "color.a = {kd}.a;"},
-    {"alpha-summed", B(ALPHA_SUM), 0, NEED_ALPHA, "alpha is summed over the terms; it is the diffuse alpha alone",
+    {"smooth-for-flat", B(SMOOTH_FOR_FLAT), 0, NEED_FLAT, "flat shading is expected, but the values are interpolated",
+     "vec3 n = normalize({flat} ? Nf : Ns); // with Nf declared flat; L and E likewise"},
+    {"alpha-one", B(ALPHA_ONE), 0, NEED_ALPHA, "alpha is set to 1 instead of the diffuse alpha", "color.a = {kd}.a;"},
+    {"alpha-summed", B(ALPHA_SUM), 0, NEED_ALPHA, "alpha is summed over the terms instead of being the diffuse alpha",
      "color.a = {kd}.a;"},
     {"vertex-colour-clamped", B(VERTEX_CLAMPED), WHERE_VERTEX, 0,
-     "the colours of the vertices are clamped to 0...1 before they are interpolated (gl_FrontColor does it)",
-     "varying vec4 color; // a varying of its own in place of gl_FrontColor"},
-    {"encoded", B(ENCODED), 0, 0, "the colour is gamma-encoded in the shader, and the plain numbers are expected",
+     "the colours of the vertices are clamped to 0...1 before interpolation, as gl_FrontColor does",
+     "varying vec4 color; // your own varying in place of gl_FrontColor"},
+    {"encoded", B(ENCODED), 0, 0, "the colour is gamma-encoded in the shader, but linear values are expected",
      "gl_FragColor = color; // no pow(color, 1/2.2)"},
     {"upside-down", B(UPSIDE_DOWN), 0, 0, "the picture is upside down",
      "gl_Position = {projection} * {model_view} * {position};"},
 };
-const int fault_count = sizeof mistakes / sizeof mistakes[0];
+const int fault_count = sizeof faults / sizeof faults[0];
 
-bool fault_applies(const struct fault *mistake, const struct shader_interface *reading, lam_light_frame frame,
+bool fault_applies(const struct fault *fault, const struct shader_interface *interface, lam_light_frame frame,
                    lam_reflection reflection, unsigned needs)
 {
-    unsigned here = (reading->vertex_lit ? WHERE_VERTEX : WHERE_FRAGMENT) |
+    unsigned here = (interface->vertex_lit ? WHERE_VERTEX : WHERE_FRAGMENT) |
                     (frame == LAM_FRAME_OBJECT ? WHERE_OBJECT_LIGHT : WHERE_EYE_LIGHT) |
                     (reflection == LAM_REFLECTION_PHONG ? WHERE_PHONG : WHERE_BLINN);
-    return (mistake->where & ~here) == 0 && (mistake->needs & ~needs) == 0;
+    return (fault->where & ~here) == 0 && (fault->needs & ~needs) == 0;
 }
 
-const char *lam_check_mistake(int index) { return index >= 0 && index < fault_count ? mistakes[index].id : NULL; }
+const char *lam_check_mistake(int index) { return index >= 0 && index < fault_count ? faults[index].id : NULL; }
 
-const char *lam_check_mistake_says(int index)
+const char *lam_check_mistake_explanation(int index)
 {
-    return index >= 0 && index < fault_count ? mistakes[index].says : NULL;
+    return index >= 0 && index < fault_count ? faults[index].explanation : NULL;
 }
 
-// --- what to write instead
+// --- expanding texts
 
 static const struct {
     const char *place;
-    enum uniform_semantic role;
-    const char *otherwise;
+    enum uniform_semantic semantic;
+    const char *fallback;
 } places[] = {
-    {"normal_matrix4", ROLE_NORMAL_MATRIX, "normalMatrix"},
-    {"normal", ROLE_NORMAL, "gl_Normal"},
-    {"position", ROLE_POSITION, "gl_Vertex"},
-    {"model_view", ROLE_MODEL_VIEW, "gl_ModelViewMatrix"},
-    {"projection", ROLE_PROJECTION, "gl_ProjectionMatrix"},
-    {"light", ROLE_LIGHT_POSITION, "light"},
-    {"ka", ROLE_AMBIENT, "uKa * uColor"},
-    {"kd", ROLE_DIFFUSE, "uKd * uColor"},
-    {"ks", ROLE_SPECULAR, "uKs * uSpecularColor"},
-    {"shininess", ROLE_SHININESS, "64.0"},
-    {"a", ROLE_ATTENUATION_CONSTANT, "a"},
-    {"b", ROLE_ATTENUATION_LINEAR, "b"},
-    {"c", ROLE_ATTENUATION_QUADRATIC, "c"},
-    {"count", ROLE_LIGHT_COUNT, "LIGHTS"},
-    {"flat", ROLE_FLAT, "flat"},
+    {"normal_matrix4", SEMANTIC_NORMAL_MATRIX, "normalMatrix"},
+    {"normal", SEMANTIC_NORMAL, "gl_Normal"},
+    {"position", SEMANTIC_POSITION, "gl_Vertex"},
+    {"model_view", SEMANTIC_MODEL_VIEW, "gl_ModelViewMatrix"},
+    {"projection", SEMANTIC_PROJECTION, "gl_ProjectionMatrix"},
+    {"light", SEMANTIC_LIGHT_POSITION, "light"},
+    {"ka", SEMANTIC_AMBIENT, "uKa * uColor"},
+    {"kd", SEMANTIC_DIFFUSE, "uKd * uColor"},
+    {"ks", SEMANTIC_SPECULAR, "uKs * uSpecularColor"},
+    {"shininess", SEMANTIC_SHININESS, "64.0"},
+    {"a", SEMANTIC_ATTENUATION_CONSTANT, "a"},
+    {"b", SEMANTIC_ATTENUATION_LINEAR, "b"},
+    {"c", SEMANTIC_ATTENUATION_QUADRATIC, "c"},
+    {"count", SEMANTIC_LIGHT_COUNT, "LIGHTS"},
+    {"flat", SEMANTIC_FLAT, "flat"},
 };
 
 struct line {
-    const struct shader_interface *reading;
+    const struct shader_interface *interface;
     lam_light_frame frame;
     lam_reflection reflection;
     char *out;
-    size_t at, room;
+    size_t at, capacity;
 };
 
 static void put(struct line *line, const char *text)
 {
-    int n = snprintf(line->out + line->at, line->room - line->at, "%s", text);
-    line->at = n < 0 || line->at + (size_t)n >= line->room ? line->room - 1 : line->at + (size_t)n;
+    int n = snprintf(line->out + line->at, line->capacity - line->at, "%s", text);
+    line->at = n < 0 || line->at + (size_t)n >= line->capacity ? line->capacity - 1 : line->at + (size_t)n;
 }
 
-static const char *own_name(const struct line *line, enum uniform_semantic role)
+static const char *own_name(const struct line *line, enum uniform_semantic semantic)
 {
-    return contract_name_used(line->reading->contract, role, &line->reading->vertex, &line->reading->fragment);
+    return contract_name_used(line->interface->contract, semantic, &line->interface->vertex,
+                              &line->interface->fragment);
 }
 
-static bool is_wide(const struct line *line, enum uniform_semantic role) // a vec4 or mat4
+static bool is_wide(const struct line *line, enum uniform_semantic semantic) // vec4 or mat4
 {
-    const char *name = own_name(line, role);
-    const struct declarations *sides[] = {&line->reading->vertex, &line->reading->fragment};
+    const char *name = own_name(line, semantic);
+    const struct declarations *sides[] = {&line->interface->vertex, &line->interface->fragment};
     for (int s = 0; name && s < 2; s++)
         for (int i = 0; i < sides[s]->count; i++)
             if (strcmp(sides[s]->items[i].name, name) == 0)
                 return strchr(sides[s]->items[i].type, '4') != NULL;
-    for (const struct contract_name *n = line->reading->contract->names; name && n->name; n++)
+    for (const struct contract_name *n = line->interface->contract->names; name && n->name; n++)
         if (strcmp(n->name, name) == 0)
             return strchr(n->type, '4') != NULL;
     return false;
 }
 
-// The light in eye space as three numbers, and a direction.
+// The light in eye space as a vec3: its position, or the unit direction to it.
 static void put_light(struct line *line, bool direction)
 {
-    const char *name = own_name(line, ROLE_LIGHT_POSITION), *toward = own_name(line, ROLE_LIGHT_DIRECTION);
-    if (direction && toward && !(line->reading->offers & NEED_POINT)) {
+    const char *name = own_name(line, SEMANTIC_LIGHT_POSITION), *toward = own_name(line, SEMANTIC_LIGHT_DIRECTION);
+    if (direction && toward && !(line->interface->supports & NEED_POINT)) {
         put(line, "normalize(");
         put(line, toward);
         put(line, ")");
         return;
     }
-    if (line->reading->contract->names[0].role == ROLE_KA) { // Oregon: three numbers
+    if (line->interface->contract->names[0].semantic == SEMANTIC_KA) { // Oregon: three floats
         put(line, "vec3(uLightX, uLightY, uLightZ)");
         return;
     }
-    bool wide = is_wide(line, ROLE_LIGHT_POSITION), move = line->frame == LAM_FRAME_OBJECT;
+    bool wide = is_wide(line, SEMANTIC_LIGHT_POSITION), move = line->frame == LAM_FRAME_OBJECT;
     if (direction)
         put(line, "normalize(");
     if (move) {
         put(line, "(");
-        put(line, own_name(line, ROLE_MODEL_VIEW) ? own_name(line, ROLE_MODEL_VIEW) : "gl_ModelViewMatrix");
+        put(line, own_name(line, SEMANTIC_MODEL_VIEW) ? own_name(line, SEMANTIC_MODEL_VIEW) : "gl_ModelViewMatrix");
         put(line, " * ");
     }
     put(line, name ? name : "light");
@@ -328,7 +322,7 @@ static void put_place(struct line *line, const char *place, size_t length)
 {
     if (length == 1 && *place == 'S') {
         put(line, line->reflection == LAM_REFLECTION_PHONG ? "pow(max(dot(R, V), 0.0), " : "pow(max(dot(N, H), 0.0), ");
-        const char *name = own_name(line, ROLE_SHININESS);
+        const char *name = own_name(line, SEMANTIC_SHININESS);
         put(line, name ? name : "64.0");
         put(line, ")");
     } else if (length == 9 && strncmp(place, "light_eye", 9) == 0) {
@@ -336,13 +330,13 @@ static void put_place(struct line *line, const char *place, size_t length)
     } else if (length == 15 && strncmp(place, "light_direction", 15) == 0) {
         put_light(line, true);
     } else if (length == 13 && strncmp(place, "normal_matrix", 13) == 0) {
-        const char *name = own_name(line, ROLE_NORMAL_MATRIX), *view = own_name(line, ROLE_MODEL_VIEW);
-        if (line->reading->contract->built_ins[0]) {
+        const char *name = own_name(line, SEMANTIC_NORMAL_MATRIX), *view = own_name(line, SEMANTIC_MODEL_VIEW);
+        if (line->interface->contract->built_ins[0]) {
             put(line, "gl_NormalMatrix");
-        } else if (name && declarations_use(&line->reading->vertex, name)) {
-            put(line, is_wide(line, ROLE_NORMAL_MATRIX) ? "mat3(" : "");
+        } else if (name && declarations_uses(&line->interface->vertex, name)) {
+            put(line, is_wide(line, SEMANTIC_NORMAL_MATRIX) ? "mat3(" : "");
             put(line, name);
-            put(line, is_wide(line, ROLE_NORMAL_MATRIX) ? ")" : "");
+            put(line, is_wide(line, SEMANTIC_NORMAL_MATRIX) ? ")" : "");
         } else {
             put(line, "transpose(inverse(mat3(");
             put(line, view ? view : "model_view");
@@ -351,22 +345,23 @@ static void put_place(struct line *line, const char *place, size_t length)
     } else {
         for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
             if (strlen(places[i].place) == length && strncmp(places[i].place, place, length) == 0) {
-                const char *name = own_name(line, places[i].role);
-                bool narrow = places[i].role == ROLE_POSITION && name && !is_wide(line, ROLE_POSITION);
+                const char *name = own_name(line, places[i].semantic);
+                bool narrow = places[i].semantic == SEMANTIC_POSITION && name && !is_wide(line, SEMANTIC_POSITION);
                 put(line, narrow ? "vec4(" : "");
-                put(line, name ? name : places[i].otherwise);
+                put(line, name ? name : places[i].fallback);
                 put(line, narrow ? ", 1.0)" : "");
-                if (places[i].role == ROLE_NORMAL && name && is_wide(line, ROLE_NORMAL))
+                if (places[i].semantic == SEMANTIC_NORMAL && name && is_wide(line, SEMANTIC_NORMAL))
                     put(line, ".xyz");
                 return;
             }
     }
 }
 
-void fault_write(const char *template, const struct shader_interface *reading, lam_light_frame frame,
-                 lam_reflection reflection, char *out, size_t room)
+void fault_text(const char *template, const struct shader_interface *interface, lam_light_frame frame,
+                lam_reflection reflection, char *out, size_t capacity)
 {
-    struct line line = {.reading = reading, .frame = frame, .reflection = reflection, .out = out, .room = room};
+    struct line line = {
+        .interface = interface, .frame = frame, .reflection = reflection, .out = out, .capacity = capacity};
     out[0] = 0;
     for (const char *c = template; *c; c++) {
         const char *end = *c == '{' ? strchr(c, '}') : NULL;

@@ -1,15 +1,15 @@
-// fault.h: the mistakes that are known, each a set of switches of the model (fault_light.glsl).
+// fault.h: the known mistakes. Each is a fault: a set of switches of the fault shader.
 //
-// The model is lighting that can be wrong on purpose; it lives here, apart from the equations of the library,
-// which cannot.
+// The fault shader (fault_light.glsl) computes the lighting correctly or with faults switched on. It is independent of
+// the library's own equations, which have no such switches.
 #ifndef FAULT_H
 #define FAULT_H
 
 #include "shader_interface.h"
 
-// The switches. In the GLSL of the model each is is(NAME).
+// The switches. The fault shader queries each with is(NAME).
 // clang-format off
-#define MISTAKE_BITS(X) \
+#define FAULT_BITS(X) \
     X(LONG_NORMAL) X(LONG_NORMAL_VERTEX) X(LONG_EYE) X(LONG_LIGHT) X(RAW_HALF) X(HALF_LONG) \
     X(HALF_MEAN) X(NORMAL_OBJECT) X(NORMAL_BY_MODEL) X(NORMAL_WITH_W) X(NORMAL_CLIP) X(INWARD) \
     X(LIGHT_AS_GIVEN) X(LIGHT_TWICE) X(LIGHT_CLIP) X(LIGHT_FROM_OBJECT) X(POINT_CLIP) \
@@ -25,41 +25,41 @@
 // clang-format on
 
 enum fault_bit {
-#define MISTAKE_BIT(name) BIT_##name,
-    MISTAKE_BITS(MISTAKE_BIT)
-#undef MISTAKE_BIT
+#define FAULT_BIT(name) BIT_##name,
+    FAULT_BITS(FAULT_BIT)
+#undef FAULT_BIT
         FAULT_BIT_COUNT
 };
 typedef uint64_t fault_set; // bit i: switch i
 
-// Where a mistake can be made; 0: everywhere.
+// The conditions under which a fault can occur; 0: always.
 enum fault_where {
     WHERE_FRAGMENT = 1,     // lighting in the fragment shader
-    WHERE_VERTEX = 2,       // in the vertex shader
-    WHERE_OBJECT_LIGHT = 4, // contracts whose lights are in the model's space
-    WHERE_EYE_LIGHT = 8,    // in eye space
-    WHERE_PHONG = 16,       // where Phong's lobe is asked for
-    WHERE_BLINN = 32,       // Blinn–Phong's
+    WHERE_VERTEX = 2,       // lighting in the vertex shader
+    WHERE_OBJECT_LIGHT = 4, // lights in object space
+    WHERE_EYE_LIGHT = 8,    // lights in eye space
+    WHERE_PHONG = 16,       // Phong's highlight is expected
+    WHERE_BLINN = 32,       // Blinn–Phong's is expected
 };
 
 struct fault {
     const char *id;
     fault_set set;
-    unsigned where;
-    unsigned needs;    // study needs: only where one of the scenes in use has it
-    const char *says;  // a sentence
-    const char *write; // one line; {role} in braces is the shader's own name of it (fault_write)
+    unsigned where;          // bits of fault_where
+    unsigned needs;          // reference_need: one of the scenes in use must have it
+    const char *explanation; // a sentence
+    const char *correction;  // one line; {place} is replaced by the shader's own name (fault_text)
 };
 
-extern const struct fault mistakes[];
+extern const struct fault faults[];
 extern const int fault_count;
 
-// Whether the mistake can be made with these shaders.
-bool fault_applies(const struct fault *mistake, const struct shader_interface *reading, lam_light_frame frame,
+// Whether the fault can occur in these shaders.
+bool fault_applies(const struct fault *fault, const struct shader_interface *interface, lam_light_frame frame,
                    lam_reflection reflection, unsigned needs);
 
-// A sentence or line of the table, {role} filled in with the names that the shaders use.
-void fault_write(const char *template, const struct shader_interface *reading, lam_light_frame frame,
-                 lam_reflection reflection, char *out, size_t room);
+// Expands an explanation or a correction: each {place} becomes the name that the shaders use.
+void fault_text(const char *template, const struct shader_interface *interface, lam_light_frame frame,
+                lam_reflection reflection, char *out, size_t capacity);
 
 #endif

@@ -1,4 +1,4 @@
-// fault_fragment.glsl: the fragment's lighting, or the colour that the vertices had.
+// fault_fragment.glsl: lights the fragment, or passes the interpolated colour of the vertices.
 
 uniform bool flat_shading, two_sided;
 

@@ -1,32 +1,32 @@
-// fault_light.glsl: the lighting, right where no mistake is switched on. Both stages of the model have this text.
+// fault_light.glsl: the lighting, correct where no fault is switched on. Both stages of the fault shader include it.
 //
-// is(NAME) tells whether a mistake is on; the names are those of mistake_bits.h. Vectors have four numbers, since some
-// mistakes are made with the fourth; w is 0 where it is none of them.
+// is(NAME) returns whether a fault is switched on; fault.h lists the names. Vectors have four components, since some
+// faults involve the fourth; in the others w is 0.
 
 #define LAMPS 3
 
 struct Lamp {
     vec4 position; // in eye space; w 0: the direction to it
-    vec4 given;    // as the program gives it to the shader under test
+    vec4 given;    // the value that the shader under test receives
     vec3 diffuse, specular;
     vec3 attenuation;
     vec3 axis; // of a spot, in eye space
     vec2 cone; // cosine of the cutoff (-1: no spot), exponent
 };
 
-uniform int mistaken[MISTAKE_BITS];
+uniform int fault_on[FAULT_BITS];
 uniform Lamp lamps[LAMPS];
 uniform int lamp_count;
 uniform vec3 ambient_product, kd, ks;
 uniform vec3 kd_with_ks, ks_with_kd; // the colours with each other's strength
 uniform vec3 specular_as_diffuse;
-uniform vec3 tint;                   // what a highlight is tinted by
-uniform float light_room;            // lights that the shader under test has room for
+uniform vec3 tint;                   // multiplies a tinted highlight
+uniform float light_capacity;        // of the shader under test
 uniform float opacity, shininess;
 uniform bool phong_lobe;
 uniform mat4 model_view, projection;
 
-bool is(int bit) { return mistaken[bit] != 0; }
+bool is(int bit) { return fault_on[bit] != 0; }
 
 vec4 unit4(vec4 a)
 {
@@ -36,7 +36,7 @@ vec4 unit4(vec4 a)
 
 bool is_far(int i) { return lamps[i].position.w == 0.0; }
 
-// From a point, in the space that the lighting is done in, to light i; not unit.
+// From a point to light i, in the space of the lighting; not normalized.
 vec4 to_lamp(int i, vec4 p)
 {
     vec4 place = is(LIGHT_AS_GIVEN) ? lamps[i].given : lamps[i].position;
@@ -89,8 +89,8 @@ float cone_of(int i, vec4 l)
     return is(NO_EXPONENT) ? 1.0 : pow(max(c, 0.0), cone.y);
 }
 
-// n: the normal as it came. pl, pv: the point as l and v are taken from it. early: l of each light as the vertices had it,
-// made unit; early_eye: v likewise; distances: as the vertices had them.
+// n: the interpolated normal. pl, pv: the points from which l and v are computed. early: l of each light, normalized at
+// the vertices; early_eye: v likewise; distances: of the vertices.
 vec4 shade(vec4 n, vec4 pl, vec4 pv, vec4 early[LAMPS], vec4 early_eye, float distances[LAMPS])
 {
     if (!is(LONG_NORMAL)) {
@@ -152,7 +152,7 @@ vec4 shade(vec4 n, vec4 pl, vec4 pv, vec4 early[LAMPS], vec4 early_eye, float di
     }
     vec3 sum = vec3(0.0);
     if (!is(NO_AMBIENT)) {
-        sum += ambient_color * (is(AMBIENT_ATTENUATED) ? arrived : 1.0) * (is(AMBIENT_EACH_LIGHT) ? light_room : 1.0);
+        sum += ambient_color * (is(AMBIENT_ATTENUATED) ? arrived : 1.0) * (is(AMBIENT_EACH_LIGHT) ? light_capacity : 1.0);
     }
     if (!is(NO_DIFFUSE)) {
         sum += diffuse;

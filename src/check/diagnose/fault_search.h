@@ -1,67 +1,65 @@
-// fault_search.h: pictures against pictures: how far apart, and with which mistakes the model's pictures are nearest.
+// fault_search.h: measures the difference between pictures, and searches for the faults that explain it.
 #ifndef FAULT_SEARCH_H
 #define FAULT_SEARCH_H
 
 #include "fault_shader.h"
 #include "render_cache.h"
 
-// One scene as it is judged.
-struct judged {
+// The comparison of one scene. A pixel is compared where its 3×3 neighbours are all covered in the reference.
+struct scene_comparison {
     const struct reference_scene *row;      // of the table
-    struct reference_scene reference_scene; // as the contract can say it
+    struct reference_scene reference_scene; // as the contract can express it
     const float *theirs;                    // straight RGBA
-    float *reference;                       // the CPU device's, straight alpha
-    // Compared are the pixels whose 3×3 neighbours are all covered in the reference: their indices, and what
-    // theirs has there (fault_search_gather).
-    uint32_t *inside;
+    float *reference;                       // drawn by the CPU device, straight alpha
+    uint32_t *inside;                       // indices of the compared pixels
     size_t inside_count;
-    float *gathered;
-    bool alpha;   // alpha counts
-    double apart; // mean difference from the reference
+    float *samples; // of `theirs` (fault_search_sample)
+    bool alpha;     // alpha is compared too
+    double mean_difference;
     bool passes;
 };
 
-struct distance {
+struct difference {
     double maximum, mean, share_over;
     uint64_t pixels;
     bool fits;
 };
 
-// The numbers of the pixels that are compared, one pixel after the other: red, green, blue (clamped to 0…1),
-// and alpha where it counts.
-size_t fault_search_gathered_count(const struct judged *scene);
-void fault_search_gather(const struct judged *scene, const float *picture, float *out);
+// Copies the compared pixels of a picture to `out`: red, green, blue (clamped to 0…1), and alpha where it is compared.
+size_t fault_search_sample_count(const struct scene_comparison *scene);
+void fault_search_sample(const struct scene_comparison *scene, const float *picture, float *out);
 
-// Of scene->gathered from another picture's gathered numbers.
-struct distance fault_search_distance(const struct judged *scene, const float *other, double tolerance);
+// The difference between scene->samples and those of another picture.
+struct difference fault_search_difference(const struct scene_comparison *scene, const float *other, double tolerance);
 
-enum { FOUND_MOST = 4, ORDER_MOST = 32 };
+enum { MAX_FOUND_FAULTS = 4, MAX_SCENES = 32 };
 
-struct search {
+struct fault_search {
     const char *gl_device;
-    lam_check_pictures *pictures; // may be NULL
-    const struct shader_interface *reading;
+    lam_check_cache *cache; // may be NULL
+    const struct shader_interface *interface;
     lam_light_frame frame;
     lam_reflection reflection;
-    struct judged *scenes;
+    struct scene_comparison *scenes;
     int scene_count, size;
-    int room; // lights that the shaders have room for
+    int light_capacity; // of the shaders under test
     double tolerance;
-    int order[ORDER_MOST];
-    unsigned needs; // of the scenes together
-    bool unset;     // names without a value: only a mistake that explains all by itself counts
-    // Results: mistakes in the order found, the mean distance after each, and whether they explain everything.
-    const struct fault *found[FOUND_MOST];
-    double after[FOUND_MOST];
+    int order[MAX_SCENES];
+    unsigned needs; // of all scenes together
+    // Some names have no value: only a single fault that explains everything counts.
+    bool has_unset_names;
+    double before; // mean difference without faults
+    // Results: the faults in the order found, the mean difference after each, and whether they explain everything.
+    const struct fault *found[MAX_FOUND_FAULTS];
+    double after[MAX_FOUND_FAULTS];
     int count;
     bool certain;
-    double before;
-    // For each scene the one of the found that explains it by itself; where no explanation is certain, the
-    // one mistake that explains it and half of the others that differ. NULL: none.
-    const struct fault **alone;
+    // For each scene, the found fault that explains it alone. Where no explanation is certain: the one fault that
+    // explains this scene and at least half of those that differ. NULL: none.
+    const struct fault **scene_faults;
 };
 
-// Looks for the fewest mistakes that explain the pictures. `alone` has room for scene_count.
-bool fault_search_run(struct search *search, lam_error *error);
+// Searches for the fewest faults that explain the pictures. The caller allocates `scene_faults`.
+bool fault_search_run(struct fault_search *search, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// fault_shader.c: the program that lights rightly or, on purpose, wrongly (fault_light.glsl).
+// fault_shader.c: a program that computes the lighting with faults switched on or off (fault_light.glsl).
 #include "fault_shader.h"
 #include "offscreen.h"
 
@@ -11,35 +11,35 @@
 #include "fault_texts.inc"
 
 struct fault_shader {
-    struct offscreen target;
-    GLuint programs[2]; // lighting in the fragment shader, in the vertex shader; made when first used
+    struct offscreen offscreen;
+    GLuint programs[2]; // lighting in the fragment shader, in the vertex shader; 0: not built yet
     GLuint program;     // the one in use
 };
 
 static const char *const bit_names[] = {
 #define BIT_NAME(name) #name,
-    MISTAKE_BITS(BIT_NAME)
+    FAULT_BITS(BIT_NAME)
 #undef BIT_NAME
 };
 
 static GLuint compile(struct fault_shader *m, GLenum kind, bool in_vertex, const char *body, lam_error *error)
 {
-    size_t room = strlen(text_fault_light_glsl) + strlen(body) + 40 * FAULT_BIT_COUNT + 100;
-    char *text = malloc(room), log[1024] = "";
+    size_t capacity = strlen(text_fault_light_glsl) + strlen(body) + 40 * FAULT_BIT_COUNT + 100;
+    char *text = malloc(capacity), log[1024] = "";
     if (!text) {
-        fail_memory(error, room);
+        fail_memory(error, capacity);
         return 0;
     }
-    size_t at = (size_t)snprintf(text, room, "#version 330 core\n%s#define MISTAKE_BITS %d\n",
+    size_t at = (size_t)snprintf(text, capacity, "#version 330 core\n%s#define FAULT_BITS %d\n",
                                  in_vertex ? "#define IN_VERTEX\n" : "", FAULT_BIT_COUNT);
     for (int i = 0; i < FAULT_BIT_COUNT; i++)
-        at += (size_t)snprintf(text + at, room - at, "#define %s %d\n", bit_names[i], i);
-    snprintf(text + at, room - at, "%s%s", text_fault_light_glsl, body);
-    GLuint shader = offscreen_compile(&m->target, kind, text, log, sizeof log);
+        at += (size_t)snprintf(text + at, capacity - at, "#define %s %d\n", bit_names[i], i);
+    snprintf(text + at, capacity - at, "%s%s", text_fault_light_glsl, body);
+    GLuint shader = offscreen_compile(&m->offscreen, kind, text, log, sizeof log);
     free(text);
     if (!shader)
-        fail(error, LAM_UNSUPPORTED, "%s does not compile the check's own shader: %.300s", m->target.context.renderer,
-             log);
+        fail(error, LAM_UNSUPPORTED, "%s does not compile the check's own shader: %.300s",
+             m->offscreen.context.renderer, log);
     return shader;
 }
 
@@ -50,7 +50,7 @@ struct fault_shader *fault_shader_open(const char *gl_device, int size, lam_erro
         fail_memory(error, sizeof *m);
         return NULL;
     }
-    if (!offscreen_open(&m->target, GL_PROFILE_CORE, gl_device, size, error)) {
+    if (!offscreen_open(&m->offscreen, GL_PROFILE_CORE, gl_device, size, error)) {
         free(m);
         return NULL;
     }
@@ -66,12 +66,12 @@ static bool build(struct fault_shader *m, bool in_vertex, lam_error *error)
            fragment = vertex ? compile(m, GL_FRAGMENT_SHADER, in_vertex, text_fault_fragment_glsl, error) : 0;
     char log[1024] = "";
     if (fragment) {
-        m->program = m->programs[in_vertex] = offscreen_link(&m->target, vertex, fragment, log, sizeof log);
+        m->program = m->programs[in_vertex] = offscreen_link(&m->offscreen, vertex, fragment, log, sizeof log);
         if (!m->program)
-            fail(error, LAM_UNSUPPORTED, "%s does not link the check's own shaders: %.300s", m->target.context.renderer,
-                 log);
+            fail(error, LAM_UNSUPPORTED, "%s does not link the check's own shaders: %.300s",
+                 m->offscreen.context.renderer, log);
     }
-    const struct gl *gl = &m->target.context.gl;
+    const struct gl *gl = &m->offscreen.context.gl;
     gl->DeleteShader(vertex);
     gl->DeleteShader(fragment);
     return m->program != 0;
@@ -83,14 +83,14 @@ void fault_shader_close(struct fault_shader *m)
         return;
     for (int i = 0; i < 2; i++)
         if (m->programs[i])
-            m->target.context.gl.DeleteProgram(m->programs[i]);
-    offscreen_close(&m->target);
+            m->offscreen.context.gl.DeleteProgram(m->programs[i]);
+    offscreen_close(&m->offscreen);
     free(m);
 }
 
 static GLint place(const struct fault_shader *m, const char *name)
 {
-    return m->target.context.gl.GetUniformLocation(m->program, name);
+    return m->offscreen.context.gl.GetUniformLocation(m->program, name);
 }
 
 static GLint lamp_place(const struct fault_shader *m, int i, const char *member)
@@ -101,19 +101,19 @@ static GLint lamp_place(const struct fault_shader *m, int i, const char *member)
 }
 
 static void set_lamp(const struct fault_shader *m, int i, const struct reference_light *light,
-                     const struct shader_interface *reading, lam_light_frame frame,
+                     const struct shader_interface *interface, lam_light_frame frame,
                      const struct reference_scene *reference_scene, const struct reference_matrices *matrices)
 {
-    const struct gl *gl = &m->target.context.gl;
-    const struct contract *contract = reading->contract;
+    const struct gl *gl = &m->offscreen.context.gl;
+    const struct contract *contract = interface->contract;
     float v[16];
-    uniform_semantic_value(ROLE_LIGHT_POSITION, i, contract, LAM_FRAME_CAMERA, reference_scene, matrices, v);
+    uniform_semantic_value(SEMANTIC_LIGHT_POSITION, i, contract, LAM_FRAME_CAMERA, reference_scene, matrices, v);
     gl->Uniform4fv(lamp_place(m, i, "position"), 1, v);
-    uniform_semantic_value(ROLE_LIGHT_POSITION, i, contract, frame, reference_scene, matrices, v);
+    uniform_semantic_value(SEMANTIC_LIGHT_POSITION, i, contract, frame, reference_scene, matrices, v);
     gl->Uniform4fv(lamp_place(m, i, "given"), 1, v);
-    uniform_semantic_value(ROLE_LIGHT_TRAVEL, i, contract, LAM_FRAME_CAMERA, reference_scene, matrices, v);
+    uniform_semantic_value(SEMANTIC_LIGHT_TRAVEL, i, contract, LAM_FRAME_CAMERA, reference_scene, matrices, v);
     gl->Uniform3fv(lamp_place(m, i, "axis"), 1, v);
-    uniform_semantic_value(ROLE_CONE, i, contract, frame, reference_scene, matrices, v);
+    uniform_semantic_value(SEMANTIC_CONE, i, contract, frame, reference_scene, matrices, v);
     gl->Uniform2fv(lamp_place(m, i, "cone"), 1, v);
     gl->Uniform3fv(lamp_place(m, i, "attenuation"), 1, light->attenuation);
     gl->Uniform3f(lamp_place(m, i, "diffuse"), light->color.r, light->color.g, light->color.b);
@@ -122,53 +122,53 @@ static void set_lamp(const struct fault_shader *m, int i, const struct reference
 
 static void set_color(const struct fault_shader *m, const char *name, lam_rgb c, float k)
 {
-    m->target.context.gl.Uniform3f(place(m, name), c.r * k, c.g * k, c.b * k);
+    m->offscreen.context.gl.Uniform3f(place(m, name), c.r * k, c.g * k, c.b * k);
 }
 
 bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *reference_scene,
-                       const struct shader_interface *reading, int room, lam_light_frame frame,
+                       const struct shader_interface *interface, int light_capacity, lam_light_frame frame,
                        lam_reflection reflection, fault_set set, float *pixels, lam_error *error)
 {
-    const struct gl *gl = &m->target.context.gl;
+    const struct gl *gl = &m->offscreen.context.gl;
     struct reference_matrices matrices;
     reference_matrices(reference_scene, &matrices);
     bool smooth = set >> BIT_SMOOTH_FOR_FLAT & 1;
-    if (!build(m, reading->vertex_lit || (reference_scene->flat && !smooth), error))
+    if (!build(m, interface->vertex_lit || (reference_scene->flat && !smooth), error))
         return false;
     gl->UseProgram(m->program);
     GLint bits[FAULT_BIT_COUNT];
     for (int i = 0; i < FAULT_BIT_COUNT; i++)
         bits[i] = (GLint)(set >> i & 1);
-    gl->Uniform1iv(place(m, "mistaken"), FAULT_BIT_COUNT, bits);
+    gl->Uniform1iv(place(m, "fault_on"), FAULT_BIT_COUNT, bits);
     float v[16];
-    const struct contract *contract = reading->contract;
-    uniform_semantic_value(ROLE_MODEL_VIEW, 0, contract, frame, reference_scene, &matrices, v);
+    const struct contract *contract = interface->contract;
+    uniform_semantic_value(SEMANTIC_MODEL_VIEW, 0, contract, frame, reference_scene, &matrices, v);
     gl->UniformMatrix4fv(place(m, "model_view"), 1, GL_FALSE, v);
-    uniform_semantic_value(ROLE_PROJECTION, 0, contract, frame, reference_scene, &matrices, v);
+    uniform_semantic_value(SEMANTIC_PROJECTION, 0, contract, frame, reference_scene, &matrices, v);
     gl->UniformMatrix4fv(place(m, "projection"), 1, GL_FALSE, v);
-    uniform_semantic_value(ROLE_NORMAL_MATRIX, 0, contract, frame, reference_scene, &matrices, v);
+    uniform_semantic_value(SEMANTIC_NORMAL_MATRIX, 0, contract, frame, reference_scene, &matrices, v);
     gl->UniformMatrix4fv(place(m, "normal_matrix4"), 1, GL_FALSE, v);
     for (int i = 0; i < reference_scene->light_count; i++)
-        set_lamp(m, i, &reference_scene->lights[i], reading, frame, reference_scene, &matrices);
+        set_lamp(m, i, &reference_scene->lights[i], interface, frame, reference_scene, &matrices);
     gl->Uniform1i(place(m, "lamp_count"), reference_scene->light_count);
     float light[16];
-    uniform_semantic_value(ROLE_AMBIENT_LIGHT, 0, contract, frame, reference_scene, &matrices, light);
+    uniform_semantic_value(SEMANTIC_AMBIENT_LIGHT, 0, contract, frame, reference_scene, &matrices, light);
     gl->Uniform3f(place(m, "ambient_product"), reference_scene->ambient.r * reference_scene->ka * light[0],
                   reference_scene->ambient.g * reference_scene->ka * light[1],
                   reference_scene->ambient.b * reference_scene->ka * light[2]);
     set_color(m, "kd", reference_scene->diffuse, reference_scene->kd);
     set_color(m, "ks", reference_scene->specular, reference_scene->ks);
-    // Contracts with strengths and colours apart mix up the one or the other; the rest have only their products.
+    // In contracts with separate strengths and colours, shaders confuse one of them; in the others, the products.
     bool apart = contract->material_strengths;
     set_color(m, "kd_with_ks", apart ? reference_scene->diffuse : reference_scene->specular, reference_scene->ks);
     set_color(m, "ks_with_kd", apart ? reference_scene->specular : reference_scene->diffuse, reference_scene->kd);
     set_color(m, "specular_as_diffuse", reference_scene->diffuse, apart ? reference_scene->ks : reference_scene->kd);
     set_color(m, "tint", reference_scene->diffuse, apart ? 1 : reference_scene->kd);
-    gl->Uniform1f(place(m, "light_room"), (float)room);
+    gl->Uniform1f(place(m, "light_capacity"), (float)light_capacity);
     gl->Uniform1f(place(m, "opacity"), reference_scene->alpha);
     gl->Uniform1f(place(m, "shininess"), reference_scene->shininess);
     gl->Uniform1i(place(m, "phong_lobe"), reflection == LAM_REFLECTION_PHONG);
     gl->Uniform1i(place(m, "flat_shading"), reference_scene->flat);
-    gl->Uniform1i(place(m, "two_sided"), (reading->offers & NEED_TWO_SIDES) != 0);
-    return offscreen_draw(&m->target, reference_scene->mesh, 0, 1, pixels, error);
+    gl->Uniform1i(place(m, "two_sided"), (interface->supports & NEED_TWO_SIDES) != 0);
+    return offscreen_draw(&m->offscreen, reference_scene->mesh, 0, 1, pixels, error);
 }

@@ -1,4 +1,4 @@
-// fault_shader.h: draws a reference scene with mistakes switched on, by OpenGL.
+// fault_shader.h: draws a reference scene with faults switched on, by OpenGL.
 #ifndef FAULT_SHADER_H
 #define FAULT_SHADER_H
 
@@ -7,12 +7,12 @@
 struct fault_shader;
 
 struct fault_shader *fault_shader_open(const char *gl_device, int size, lam_error *error);
-void fault_shader_close(struct fault_shader *model); // NULL is fine
+void fault_shader_close(struct fault_shader *shader); // NULL is fine
 
-// Draws a study as the contract can say it; `room`: lights that the shaders have room for. Pixels: size² × 4
-// floats, rows top-down.
-bool fault_shader_draw(struct fault_shader *model, const struct reference_scene *reference_scene,
-                       const struct shader_interface *reading, int room, lam_light_frame frame,
+// Draws a scene from contract_reference_scene. `light_capacity`: of the shaders under test. `pixels`: size² × 4 floats,
+// rows top-down.
+bool fault_shader_draw(struct fault_shader *shader, const struct reference_scene *reference_scene,
+                       const struct shader_interface *interface, int light_capacity, lam_light_frame frame,
                        lam_reflection reflection, fault_set set, float *pixels, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// fault_vertex.glsl: what the vertex shader hands on, and the lighting where it is done there.
+// fault_vertex.glsl: the varyings, or the lighting where it is computed in the vertex shader.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

@@ -1,4 +1,4 @@
-// render_cache.c: a table by key, in memory that is bounded and given back at once.
+// render_cache.c: a hash table of samples in an arena of bounded size.
 #include "render_cache.h"
 
 #include <stdlib.h>
@@ -9,38 +9,38 @@
 
 enum { BUCKETS = 4096 };
 
-struct picture {
-    struct picture *next;
-    struct picture_key key;
+struct cached_render {
+    struct cached_render *next;
+    struct render_key key;
     float *numbers;
 };
 
-struct lam_check_pictures {
+struct lam_check_cache {
     struct arena arena;
-    size_t most;
-    struct picture *buckets[BUCKETS];
+    size_t max_bytes;
+    struct cached_render *buckets[BUCKETS];
 };
 
-lam_check_pictures *lam_check_pictures_make(size_t bytes_most, lam_error *error)
+lam_check_cache *lam_check_cache_make(size_t max_bytes, lam_error *error)
 {
-    lam_check_pictures *p = calloc(1, sizeof *p);
+    lam_check_cache *p = calloc(1, sizeof *p);
     if (!p) {
         fail_memory(error, sizeof *p);
         return NULL;
     }
     arena_start(&p->arena, NULL);
-    p->most = bytes_most;
+    p->max_bytes = max_bytes;
     return p;
 }
 
-void lam_check_pictures_free(lam_check_pictures *pictures)
+void lam_check_cache_free(lam_check_cache *cache)
 {
-    if (pictures)
-        arena_free(&pictures->arena);
-    free(pictures);
+    if (cache)
+        arena_free(&cache->arena);
+    free(cache);
 }
 
-static size_t bucket_of(const struct picture_key *k)
+static size_t bucket_of(const struct render_key *k)
 {
     const uint64_t parts[] = {(uint64_t)k->scene,
                               (uint64_t)k->contract,
@@ -48,43 +48,43 @@ static size_t bucket_of(const struct picture_key *k)
                               (uint64_t)k->reflection,
                               (uint64_t)k->vertex_lit,
                               (uint64_t)k->size,
-                              (uint64_t)k->room,
-                              k->offers,
+                              (uint64_t)k->light_capacity,
+                              k->supports,
                               k->set};
-    uint64_t hash = 14695981039346656037u; // FNV-1a, a number at a time
+    uint64_t hash = 14695981039346656037u; // FNV-1a, one number at a time
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         hash = (hash ^ parts[i] ^ parts[i] >> 29) * 1099511628211u;
     return (hash >> 40) % BUCKETS;
 }
 
-static bool same(const struct picture_key *a, const struct picture_key *b)
+static bool same(const struct render_key *a, const struct render_key *b)
 {
     return a->scene == b->scene && a->contract == b->contract && a->light_frame == b->light_frame &&
            a->reflection == b->reflection && a->vertex_lit == b->vertex_lit && a->size == b->size &&
-           a->room == b->room && a->offers == b->offers && a->set == b->set;
+           a->light_capacity == b->light_capacity && a->supports == b->supports && a->set == b->set;
 }
 
-const float *render_cache_find(const lam_check_pictures *pictures, const struct picture_key *key)
+const float *render_cache_find(const lam_check_cache *cache, const struct render_key *key)
 {
-    if (!pictures)
+    if (!cache)
         return NULL;
-    for (const struct picture *p = pictures->buckets[bucket_of(key)]; p; p = p->next)
+    for (const struct cached_render *p = cache->buckets[bucket_of(key)]; p; p = p->next)
         if (same(&p->key, key))
             return p->numbers;
     return NULL;
 }
 
-float *render_cache_add(lam_check_pictures *pictures, const struct picture_key *key, size_t count)
+float *render_cache_add(lam_check_cache *cache, const struct render_key *key, size_t count)
 {
-    if (!pictures || count > (SIZE_MAX - sizeof(struct picture)) / sizeof(float) ||
-        pictures->arena.total + count * sizeof(float) + sizeof(struct picture) > pictures->most)
+    if (!cache || count > (SIZE_MAX - sizeof(struct cached_render)) / sizeof(float) ||
+        cache->arena.total + count * sizeof(float) + sizeof(struct cached_render) > cache->max_bytes)
         return NULL;
-    struct picture *p = arena_alloc(&pictures->arena, sizeof *p);
-    float *numbers = p ? arena_array(&pictures->arena, count, sizeof *numbers) : NULL;
+    struct cached_render *p = arena_alloc(&cache->arena, sizeof *p);
+    float *numbers = p ? arena_array(&cache->arena, count, sizeof *numbers) : NULL;
     if (!numbers)
         return NULL;
-    struct picture **bucket = &pictures->buckets[bucket_of(key)];
-    *p = (struct picture){*bucket, *key, numbers};
+    struct cached_render **bucket = &cache->buckets[bucket_of(key)];
+    *p = (struct cached_render){*bucket, *key, numbers};
     *bucket = p;
     return numbers;
 }

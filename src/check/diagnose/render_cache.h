@@ -1,23 +1,23 @@
-// render_cache.h: pictures of mistakes, kept from one check to the next.
+// render_cache.h: pictures drawn with faults, kept from one check to the next.
 #ifndef RENDER_CACHE_H
 #define RENDER_CACHE_H
 
 #include "fault.h"
 
-// All that a picture of the model depends on.
-struct picture_key {
-    int scene; // index of the study
+// Everything that a picture of the fault shader depends on.
+struct render_key {
+    int scene; // index in reference_scenes
     int contract, light_frame, reflection, vertex_lit;
-    int size, room;  // pixels of a side; lights that the shaders have room for
-    unsigned offers; // what the shaders have names for
+    int size; // width and height in pixels
+    int light_capacity;
+    unsigned supports; // of shader_interface
     fault_set set;
 };
 
-// The numbers kept for a key: those of the pixels that are compared. NULL: none.
-const float *render_cache_find(const lam_check_pictures *pictures, const struct picture_key *key);
+// The samples stored for a key. NULL: none.
+const float *render_cache_find(const lam_check_cache *cache, const struct render_key *key);
 
-// Room for `count` numbers, to be filled by the caller, kept from now on. NULL where the store is full: then
-// the picture is drawn again when it is wanted again.
-float *render_cache_add(lam_check_pictures *pictures, const struct picture_key *key, size_t count);
+// Adds an entry of `count` samples, which the caller fills. NULL: the cache is full.
+float *render_cache_add(lam_check_cache *cache, const struct render_key *key, size_t count);
 
 #endif

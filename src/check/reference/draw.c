@@ -1,4 +1,4 @@
-// draw.c: compiles the shaders under test, gives their uniforms the values of each reference scene, and draws.
+// draw.c: compiles the shaders under test, sets their uniforms for each reference scene, and draws.
 #include "draw_request.h"
 #include "shader_interface.h"
 #include "offscreen.h"
@@ -10,28 +10,28 @@
 
 #include "fail.h"
 
-enum { BLOCKS_MOST = 8, BLOCK_BYTES_MOST = 65536 };
+enum { MAX_BLOCKS = 8, MAX_BLOCK_BYTES = 65536 };
 
-// An active uniform that the contract knows, one element of it.
-struct wire {
-    enum uniform_semantic role;
+// An active uniform with a name of the contract, one element of it.
+struct uniform_binding {
+    enum uniform_semantic semantic;
     int light;
     GLenum type;
     GLint location; // −1: in a block
     int block, offset, matrix_stride;
 };
 
-struct bench {
-    struct offscreen target;
-    struct shader_interface reading;
-    struct draw_request job;
-    struct check_drawn drawn;
+struct shader_run {
+    struct offscreen offscreen;
+    struct shader_interface interface;
+    struct draw_request request;
+    struct draw_result drawn;
     GLuint program;
-    int position, normal; // attribute locations; −1: built in, or none
-    struct wire *wires;   // room for every element of every uniform
-    int wire_count;
-    GLuint blocks[BLOCKS_MOST];
-    int block_bytes[BLOCKS_MOST];
+    int position, normal;             // attribute locations; −1: built in, or none
+    struct uniform_binding *bindings; // one for each element of each uniform
+    int binding_count;
+    GLuint blocks[MAX_BLOCKS];
+    int block_bytes[MAX_BLOCKS];
 };
 
 static enum gl_profile profile_of(const struct shader_interface *r)
@@ -44,12 +44,12 @@ static enum gl_profile profile_of(const struct shader_interface *r)
     return GL_PROFILE_CORE;
 }
 
-static void tell_unknown(struct check_drawn *drawn, const char *name)
+static void report_unknown(struct draw_result *drawn, const char *name)
 {
     for (int i = 0; i < drawn->unknown_count; i++)
         if (strcmp(drawn->unknown[i], name) == 0)
             return;
-    if (drawn->unknown_count < DRAWN_UNKNOWN_MOST)
+    if (drawn->unknown_count < MAX_UNKNOWN_NAMES)
         snprintf(drawn->unknown[drawn->unknown_count++], sizeof drawn->unknown[0], "%.63s", name);
 }
 
@@ -77,7 +77,7 @@ static const char *type_name(GLenum type)
     }
 }
 
-// What a type can hold of a role's numbers: matrices are matrices, vectors vectors, and numbers numbers.
+// Whether a uniform's type can hold the contract's: matrices fit matrices, vectors vectors, scalars scalars.
 static bool type_fits(GLenum type, const char *contract_type)
 {
     if (strncmp(contract_type, "mat", 3) == 0)
@@ -95,29 +95,29 @@ static const struct contract_name *look_up(const struct contract *contract, cons
     return found || !dot ? found : contract_find(contract, dot + 1, attribute, index); // Block.member
 }
 
-static void add_wire(struct bench *b, GLuint number, const char *name, GLenum type, GLint elements)
+static void add_binding(struct shader_run *run, GLuint number, const char *name, GLenum type, GLint elements)
 {
-    const struct gl *gl = &b->target.context.gl;
+    const struct gl *gl = &run->offscreen.context.gl;
     if (strncmp(name, "gl_", 3) == 0)
         return;
     int light = 0;
-    const struct contract_name *known = look_up(b->reading.contract, name, false, &light);
+    const struct contract_name *known = look_up(run->interface.contract, name, false, &light);
     if (!known) {
-        tell_unknown(&b->drawn, name);
+        report_unknown(&run->drawn, name);
         return;
     }
     if (!type_fits(type, known->type)) {
-        if (b->drawn.types_count < DRAWN_UNKNOWN_MOST)
-            snprintf(b->drawn.types[b->drawn.types_count++], sizeof b->drawn.types[0],
-                     "uniform %s %.40s: the contract's is %s", type_name(type), name, known->type);
+        if (run->drawn.types_count < MAX_UNKNOWN_NAMES)
+            snprintf(run->drawn.types[run->drawn.types_count++], sizeof run->drawn.types[0],
+                     "uniform %s %.40s should be of type %s", type_name(type), name, known->type);
         return;
     }
     GLint block = -1, offset = 0, stride = 0, array_stride = 0;
-    gl->GetActiveUniformsiv(b->program, 1, &number, GL_UNIFORM_BLOCK_INDEX, &block);
+    gl->GetActiveUniformsiv(run->program, 1, &number, GL_UNIFORM_BLOCK_INDEX, &block);
     if (block >= 0) {
-        gl->GetActiveUniformsiv(b->program, 1, &number, GL_UNIFORM_OFFSET, &offset);
-        gl->GetActiveUniformsiv(b->program, 1, &number, GL_UNIFORM_MATRIX_STRIDE, &stride);
-        gl->GetActiveUniformsiv(b->program, 1, &number, GL_UNIFORM_ARRAY_STRIDE, &array_stride);
+        gl->GetActiveUniformsiv(run->program, 1, &number, GL_UNIFORM_OFFSET, &offset);
+        gl->GetActiveUniformsiv(run->program, 1, &number, GL_UNIFORM_MATRIX_STRIDE, &stride);
+        gl->GetActiveUniformsiv(run->program, 1, &number, GL_UNIFORM_ARRAY_STRIDE, &array_stride);
     }
     for (int i = 0; i < elements; i++) {
         char element[128];
@@ -125,80 +125,80 @@ static void add_wire(struct bench *b, GLuint number, const char *name, GLenum ty
         char *bracket = elements > 1 ? strrchr(element, '[') : NULL;
         if (bracket && i > 0)
             snprintf(bracket, sizeof element - (size_t)(bracket - element), "[%d]", i);
-        b->wires[b->wire_count++] =
-            (struct wire){.role = known->role,
-                          .light = light + i,
-                          .type = type,
-                          .block = block,
-                          .location = block < 0 ? gl->GetUniformLocation(b->program, element) : -1,
-                          .offset = offset + i * array_stride,
-                          .matrix_stride = stride};
-        if (strchr(name, '[') && known->role >= ROLE_LIGHT_POSITION && known->role <= ROLE_LIGHT_AMBIENT &&
-            light + i + 1 > b->drawn.light_count)
-            b->drawn.light_count = light + i + 1;
+        run->bindings[run->binding_count++] =
+            (struct uniform_binding){.semantic = known->semantic,
+                                     .light = light + i,
+                                     .type = type,
+                                     .block = block,
+                                     .location = block < 0 ? gl->GetUniformLocation(run->program, element) : -1,
+                                     .offset = offset + i * array_stride,
+                                     .matrix_stride = stride};
+        if (strchr(name, '[') && known->semantic >= SEMANTIC_LIGHT_POSITION &&
+            known->semantic <= SEMANTIC_LIGHT_AMBIENT && light + i + 1 > run->drawn.light_count)
+            run->drawn.light_count = light + i + 1;
     }
 }
 
-static bool find_uniforms(struct bench *b, lam_error *error)
+static bool find_uniforms(struct shader_run *run, lam_error *error)
 {
-    const struct gl *gl = &b->target.context.gl;
+    const struct gl *gl = &run->offscreen.context.gl;
     GLint count = 0, blocks = 0;
-    size_t room = 1;
-    gl->GetProgramiv(b->program, GL_ACTIVE_UNIFORMS, &count);
+    size_t capacity = 1;
+    gl->GetProgramiv(run->program, GL_ACTIVE_UNIFORMS, &count);
     for (GLuint i = 0; i < (GLuint)count; i++) {
         char name[8];
         GLint elements = 0;
         GLenum type = 0;
-        gl->GetActiveUniform(b->program, i, sizeof name, NULL, &elements, &type, name);
-        room += (size_t)elements;
+        gl->GetActiveUniform(run->program, i, sizeof name, NULL, &elements, &type, name);
+        capacity += (size_t)elements;
     }
-    b->wires = calloc(room, sizeof *b->wires);
-    if (!b->wires)
-        return fail_memory(error, room * sizeof *b->wires);
+    run->bindings = calloc(capacity, sizeof *run->bindings);
+    if (!run->bindings)
+        return fail_memory(error, capacity * sizeof *run->bindings);
     for (GLuint i = 0; i < (GLuint)count; i++) {
         char name[128];
         GLint elements = 0;
         GLenum type = 0;
-        gl->GetActiveUniform(b->program, i, sizeof name, NULL, &elements, &type, name);
-        add_wire(b, i, name, type, elements);
+        gl->GetActiveUniform(run->program, i, sizeof name, NULL, &elements, &type, name);
+        add_binding(run, i, name, type, elements);
     }
-    gl->GetProgramiv(b->program, GL_ACTIVE_UNIFORM_BLOCKS, &blocks);
-    for (GLuint i = 0; i < (GLuint)blocks && i < BLOCKS_MOST; i++) {
+    gl->GetProgramiv(run->program, GL_ACTIVE_UNIFORM_BLOCKS, &blocks);
+    for (GLuint i = 0; i < (GLuint)blocks && i < MAX_BLOCKS; i++) {
         GLint bytes = 0;
-        gl->GetActiveUniformBlockiv(b->program, i, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
-        b->block_bytes[i] = bytes < BLOCK_BYTES_MOST ? bytes : BLOCK_BYTES_MOST;
-        gl->GenBuffers(1, &b->blocks[i]);
-        gl->BindBufferBase(GL_UNIFORM_BUFFER, i, b->blocks[i]);
-        gl->UniformBlockBinding(b->program, i, i);
+        gl->GetActiveUniformBlockiv(run->program, i, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
+        run->block_bytes[i] = bytes < MAX_BLOCK_BYTES ? bytes : MAX_BLOCK_BYTES;
+        gl->GenBuffers(1, &run->blocks[i]);
+        gl->BindBufferBase(GL_UNIFORM_BUFFER, i, run->blocks[i]);
+        gl->UniformBlockBinding(run->program, i, i);
     }
     return true;
 }
 
-static void find_attributes(struct bench *b)
+static void find_attributes(struct shader_run *run)
 {
-    const struct gl *gl = &b->target.context.gl;
+    const struct gl *gl = &run->offscreen.context.gl;
     GLint count = 0;
-    b->position = b->normal = -1;
-    gl->GetProgramiv(b->program, GL_ACTIVE_ATTRIBUTES, &count);
+    run->position = run->normal = -1;
+    gl->GetProgramiv(run->program, GL_ACTIVE_ATTRIBUTES, &count);
     for (GLuint i = 0; i < (GLuint)count; i++) {
         char name[128];
         GLint elements = 0;
         GLenum type = 0;
-        gl->GetActiveAttrib(b->program, i, sizeof name, NULL, &elements, &type, name);
+        gl->GetActiveAttrib(run->program, i, sizeof name, NULL, &elements, &type, name);
         if (strncmp(name, "gl_", 3) == 0)
             continue;
-        const struct contract_name *known = contract_find(b->reading.contract, name, true, NULL);
+        const struct contract_name *known = contract_find(run->interface.contract, name, true, NULL);
         if (!known)
-            tell_unknown(&b->drawn, name);
-        else if (known->role == ROLE_POSITION)
-            b->position = gl->GetAttribLocation(b->program, name);
-        else if (known->role == ROLE_NORMAL)
-            b->normal = gl->GetAttribLocation(b->program, name);
+            report_unknown(&run->drawn, name);
+        else if (known->semantic == SEMANTIC_POSITION)
+            run->position = gl->GetAttribLocation(run->program, name);
+        else if (known->semantic == SEMANTIC_NORMAL)
+            run->normal = gl->GetAttribLocation(run->program, name);
     }
 }
 
-// A role's numbers in a uniform's type: `values` matrices are 4×4 by columns.
-static int shape_value(GLenum type, int count, const float values[16], float out[16])
+// Converts a value to a uniform's type and returns the count of its numbers. Matrices in `values` are 4×4 by columns.
+static int convert_value(GLenum type, int count, const float values[16], float out[16])
 {
     if (type == GL_FLOAT_MAT3) {
         for (int c = 0; c < 3; c++)
@@ -211,7 +211,7 @@ static int shape_value(GLenum type, int count, const float values[16], float out
     return type == GL_FLOAT_MAT4 ? 16 : type == GL_FLOAT_VEC4 ? 4 : type == GL_FLOAT_VEC3 ? 3 : 1;
 }
 
-static void set_uniform(const struct gl *gl, const struct wire *w, const float *v)
+static void set_uniform(const struct gl *gl, const struct uniform_binding *w, const float *v)
 {
     GLint whole = (GLint)v[0];
     switch (w->type) {
@@ -236,12 +236,13 @@ static void set_uniform(const struct gl *gl, const struct wire *w, const float *
     }
 }
 
-static void store_in_block(const struct wire *w, const float *v, int count, unsigned char *bytes, int room)
+static void store_in_block(const struct uniform_binding *w, const float *v, int count, unsigned char *bytes,
+                           int capacity)
 {
     int columns = w->type == GL_FLOAT_MAT4 ? 4 : w->type == GL_FLOAT_MAT3 ? 3 : 1, rows = count / columns;
     for (int c = 0; c < columns; c++) {
         int at = w->offset + c * w->matrix_stride;
-        if (at < 0 || at + rows * 4 > room)
+        if (at < 0 || at + rows * 4 > capacity)
             return;
         if (w->type == GL_INT || w->type == GL_BOOL) {
             int32_t whole = (int32_t)v[0];
@@ -258,54 +259,54 @@ static void set_built_ins(const struct gl *gl, const struct contract *contract,
     float values[16];
     if (!gl->MatrixMode || !gl->LoadMatrixf)
         return;
-    uniform_semantic_value(ROLE_MODEL_VIEW, 0, contract, contract->light_frame, reference_scene, m, values);
+    uniform_semantic_value(SEMANTIC_MODEL_VIEW, 0, contract, contract->light_frame, reference_scene, m, values);
     gl->MatrixMode(GL_MODELVIEW);
     gl->LoadMatrixf(values);
-    uniform_semantic_value(ROLE_PROJECTION, 0, contract, contract->light_frame, reference_scene, m, values);
+    uniform_semantic_value(SEMANTIC_PROJECTION, 0, contract, contract->light_frame, reference_scene, m, values);
     gl->MatrixMode(GL_PROJECTION);
     gl->LoadMatrixf(values);
 }
 
-static bool set_values(struct bench *b, const struct reference_scene *reference_scene, enum gl_profile profile,
+static bool set_values(struct shader_run *run, const struct reference_scene *reference_scene, enum gl_profile profile,
                        lam_error *error)
 {
-    const struct gl *gl = &b->target.context.gl;
-    const struct contract *contract = b->reading.contract;
+    const struct gl *gl = &run->offscreen.context.gl;
+    const struct contract *contract = run->interface.contract;
     struct reference_matrices m;
     reference_matrices(reference_scene, &m);
     if (profile == GL_PROFILE_COMPATIBILITY)
         set_built_ins(gl, contract, reference_scene, &m);
-    unsigned char *bytes = calloc(BLOCKS_MOST, BLOCK_BYTES_MOST);
+    unsigned char *bytes = calloc(MAX_BLOCKS, MAX_BLOCK_BYTES);
     if (!bytes)
-        return fail_memory(error, BLOCKS_MOST * BLOCK_BYTES_MOST);
-    for (int i = 0; i < b->wire_count; i++) {
-        const struct wire *w = &b->wires[i];
+        return fail_memory(error, MAX_BLOCKS * MAX_BLOCK_BYTES);
+    for (int i = 0; i < run->binding_count; i++) {
+        const struct uniform_binding *w = &run->bindings[i];
         float values[16], shaped[16];
-        int count = uniform_semantic_value(w->role, w->light, contract, (lam_light_frame)b->job.light_frame,
+        int count = uniform_semantic_value(w->semantic, w->light, contract, (lam_light_frame)run->request.light_frame,
                                            reference_scene, &m, values);
-        count = shape_value(w->type, count, values, shaped);
+        count = convert_value(w->type, count, values, shaped);
         if (w->block < 0)
             set_uniform(gl, w, shaped);
-        else if (w->block < BLOCKS_MOST)
-            store_in_block(w, shaped, count, bytes + (size_t)w->block * BLOCK_BYTES_MOST, b->block_bytes[w->block]);
+        else if (w->block < MAX_BLOCKS)
+            store_in_block(w, shaped, count, bytes + (size_t)w->block * MAX_BLOCK_BYTES, run->block_bytes[w->block]);
     }
-    for (int i = 0; i < BLOCKS_MOST; i++)
-        if (b->blocks[i]) {
-            gl->BindBuffer(GL_UNIFORM_BUFFER, b->blocks[i]);
-            gl->BufferData(GL_UNIFORM_BUFFER, b->block_bytes[i], bytes + (size_t)i * BLOCK_BYTES_MOST, GL_STATIC_DRAW);
+    for (int i = 0; i < MAX_BLOCKS; i++)
+        if (run->blocks[i]) {
+            gl->BindBuffer(GL_UNIFORM_BUFFER, run->blocks[i]);
+            gl->BufferData(GL_UNIFORM_BUFFER, run->block_bytes[i], bytes + (size_t)i * MAX_BLOCK_BYTES, GL_STATIC_DRAW);
         }
     free(bytes);
     return true;
 }
 
-// --- shaders that take too long
+// --- endless shaders
 
-// A loop that never ends may end all the same: software drivers leave one after some ten thousand turns, and
-// go on with what they have. It is told by the time: a right shader takes a hundredth of this for each pixel,
-// such a loop more. What a shader takes is the processor's time, of all threads; the measure is a sum whose
-// terms wait for each other, by the clock, in pieces so short that one of them is not interrupted.
-enum { PIECES = 16, TERMS = 1 << 16, TERMS_A_PIXEL = 2000, PIXELS_AT_LEAST = 128 * 128 };
-static const double least_s = 0.05; // processors' clocks may tick as coarsely as 10 ms
+// Software drivers leave an endless loop after some ten thousand iterations and continue with the values so far. Such a
+// shader is recognised by its processor time, over all threads: a correct shader takes a hundredth of the limit. The
+// limit follows the machine's speed: it is a multiple of the time of a sum of dependent terms, measured in pieces so
+// short that at least one of them runs without an interruption.
+enum { PIECES = 16, TERMS = 1 << 16, TERMS_PER_PIXEL = 2000, MIN_PIXELS = 128 * 128 };
+static const double min_time_limit_s = 0.05; // the clock's resolution may be as coarse as 10 ms
 
 static double seconds(clockid_t clock)
 {
@@ -314,10 +315,10 @@ static double seconds(clockid_t clock)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-static double longest_s(int size)
+static double time_limit_s(int size)
 {
     volatile float seed = 0.5f;
-    double least = 1;
+    double shortest = 1;
     for (int piece = 0; piece < PIECES; piece++) {
         double start = seconds(CLOCK_MONOTONIC);
         float x = seed, a = seed;
@@ -325,28 +326,29 @@ static double longest_s(int size)
             x = x * a + a;
         seed = x * 0.5f;
         double taken = seconds(CLOCK_MONOTONIC) - start;
-        least = taken < least ? taken : least;
+        shortest = taken < shortest ? taken : shortest;
     }
-    double longest = least / TERMS * TERMS_A_PIXEL * ((double)size * size + PIXELS_AT_LEAST);
-    return longest > least_s ? longest : least_s;
+    double limit = shortest / TERMS * TERMS_PER_PIXEL * ((double)size * size + MIN_PIXELS);
+    return limit > min_time_limit_s ? limit : min_time_limit_s;
 }
 
-// Compiles and links; what is refused is in b->drawn.
-static void build(struct bench *b)
+// Compiles and links. Errors are recorded in run->drawn.
+static void build(struct shader_run *run)
 {
-    struct check_drawn *d = &b->drawn;
-    const struct gl *gl = &b->target.context.gl;
-    GLuint vertex = offscreen_compile(&b->target, GL_VERTEX_SHADER, b->job.vertex, d->log, sizeof d->log);
+    struct draw_result *d = &run->drawn;
+    const struct gl *gl = &run->offscreen.context.gl;
+    GLuint vertex = offscreen_compile(&run->offscreen, GL_VERTEX_SHADER, run->request.vertex, d->log, sizeof d->log);
     if (!vertex) {
         d->state = DRAWN_REFUSED_VERTEX;
         return;
     }
-    GLuint fragment = offscreen_compile(&b->target, GL_FRAGMENT_SHADER, b->job.fragment, d->log, sizeof d->log);
+    GLuint fragment =
+        offscreen_compile(&run->offscreen, GL_FRAGMENT_SHADER, run->request.fragment, d->log, sizeof d->log);
     if (!fragment) {
         d->state = DRAWN_REFUSED_FRAGMENT;
     } else {
-        b->program = offscreen_link(&b->target, vertex, fragment, d->log, sizeof d->log);
-        if (!b->program)
+        run->program = offscreen_link(&run->offscreen, vertex, fragment, d->log, sizeof d->log);
+        if (!run->program)
             d->state = DRAWN_REFUSED_LINK;
     }
     gl->DeleteShader(vertex);
@@ -354,35 +356,37 @@ static void build(struct bench *b)
         gl->DeleteShader(fragment);
 }
 
-static bool draw_scenes(struct bench *b, enum gl_profile profile, float *pixels, lam_error *error)
+static bool draw_scenes(struct shader_run *run, enum gl_profile profile, float *pixels, lam_error *error)
 {
-    b->target.context.gl.UseProgram(b->program);
-    if (!find_uniforms(b, error))
+    run->offscreen.context.gl.UseProgram(run->program);
+    if (!find_uniforms(run, error))
         return false;
-    find_attributes(b);
-    b->drawn.has_list = b->drawn.light_count > 0 || b->reading.light_count > 0;
-    if (b->reading.light_count > b->drawn.light_count)
-        b->drawn.light_count = b->reading.light_count;
-    int lights = b->drawn.has_list ? b->drawn.light_count : 1;
-    size_t at = 0, each = 4 * (size_t)b->job.size * (size_t)b->job.size;
-    double longest = longest_s(b->job.size);
+    find_attributes(run);
+    run->drawn.has_list = run->drawn.light_count > 0 || run->interface.light_count > 0;
+    if (run->interface.light_count > run->drawn.light_count)
+        run->drawn.light_count = run->interface.light_count;
+    int lights = run->drawn.has_list ? run->drawn.light_count : 1;
+    size_t at = 0, each = 4 * (size_t)run->request.size * (size_t)run->request.size;
+    double limit = time_limit_s(run->request.size);
     for (int i = 0; i < reference_scene_count; i++)
-        if (b->job.scenes >> i & 1) {
-            struct reference_scene reference_scene =
-                contract_reference_scene(b->reading.contract, b->reading.offers, &reference_scenes[i], lights);
-            if (!set_values(b, &reference_scene, profile, error))
+        if (run->request.scenes >> i & 1) {
+            struct reference_scene reference_scene = contract_reference_scene(
+                run->interface.contract, run->interface.supports, &reference_scenes[i], lights);
+            if (!set_values(run, &reference_scene, profile, error))
                 return false;
             double taken = 0;
-            for (int turn = 0; turn == 0 || (turn == 1 && taken > longest); turn++) { // the first may compile
+            for (int turn = 0; turn == 0 || (turn == 1 && taken > limit);
+                 turn++) { // the driver may compile during the first
                 double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
-                if (!offscreen_draw(&b->target, reference_scene.mesh, b->position, b->normal, pixels + at, error))
+                if (!offscreen_draw(&run->offscreen, reference_scene.mesh, run->position, run->normal, pixels + at,
+                                    error))
                     return false;
                 taken = seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
             }
-            if (taken > longest) {
-                b->drawn.state = DRAWN_SLOW;
-                b->drawn.seconds = taken;
-                snprintf(b->drawn.log, sizeof b->drawn.log, "%s", reference_scenes[i].name);
+            if (taken > limit) {
+                run->drawn.state = DRAWN_SLOW;
+                run->drawn.seconds = taken;
+                snprintf(run->drawn.log, sizeof run->drawn.log, "%s", reference_scenes[i].name);
                 return true;
             }
             at += each;
@@ -390,45 +394,46 @@ static bool draw_scenes(struct bench *b, enum gl_profile profile, float *pixels,
     return true;
 }
 
-bool lam_check_draw(const void *job, size_t size, const char *gl_device, lam_bytes *out, lam_error *error)
+bool lam_check_draw(const void *request, size_t size, const char *gl_device, lam_bytes *out, lam_error *error)
 {
     *out = (lam_bytes){0};
-    struct bench *b = calloc(1, sizeof *b);
-    if (!b)
-        return fail_memory(error, sizeof *b);
+    struct shader_run *run = calloc(1, sizeof *run);
+    if (!run)
+        return fail_memory(error, sizeof *run);
     float *pixels = NULL;
-    bool ok = job_read(job, size, &b->job, error) && shader_interface_make(&b->reading, b->job.vertex, b->job.fragment,
-                                                                           (lam_check_contract)b->job.contract, error);
+    bool ok = draw_request_read(request, size, &run->request, error) &&
+              shader_interface_make(&run->interface, run->request.vertex, run->request.fragment,
+                                    (lam_check_contract)run->request.contract, error);
     bool open = false;
     if (ok) {
-        enum gl_profile profile = profile_of(&b->reading);
-        ok = open = offscreen_open(&b->target, profile, gl_device, b->job.size, error);
+        enum gl_profile profile = profile_of(&run->interface);
+        ok = open = offscreen_open(&run->offscreen, profile, gl_device, run->request.size, error);
         size_t count = 0;
         if (ok) {
-            snprintf(b->drawn.driver, sizeof b->drawn.driver, "%s", b->target.context.renderer);
-            b->drawn.scenes = b->job.scenes;
+            snprintf(run->drawn.driver, sizeof run->drawn.driver, "%s", run->offscreen.context.renderer);
+            run->drawn.scenes = run->request.scenes;
             for (int i = 0; i < reference_scene_count; i++)
-                count += b->job.scenes >> i & 1;
-            count *= 4 * (size_t)b->job.size * (size_t)b->job.size;
+                count += run->request.scenes >> i & 1;
+            count *= 4 * (size_t)run->request.size * (size_t)run->request.size;
             pixels = malloc(count * sizeof *pixels + 1);
             ok = pixels || fail_memory(error, count * sizeof *pixels);
         }
         if (ok)
-            build(b);
-        ok = ok && (!b->program || draw_scenes(b, profile, pixels, error)) &&
-             drawn_write(&b->drawn, b->drawn.state == DRAWN_PICTURES ? pixels : NULL,
-                         b->drawn.state == DRAWN_PICTURES ? count : 0, out, error);
+            build(run);
+        ok = ok && (!run->program || draw_scenes(run, profile, pixels, error)) &&
+             draw_result_write(&run->drawn, run->drawn.state == DRAWN_PICTURES ? pixels : NULL,
+                               run->drawn.state == DRAWN_PICTURES ? count : 0, out, error);
     }
     if (open) {
-        const struct gl *gl = &b->target.context.gl;
-        if (b->program)
-            gl->DeleteProgram(b->program);
-        gl->DeleteBuffers(BLOCKS_MOST, b->blocks);
-        offscreen_close(&b->target);
+        const struct gl *gl = &run->offscreen.context.gl;
+        if (run->program)
+            gl->DeleteProgram(run->program);
+        gl->DeleteBuffers(MAX_BLOCKS, run->blocks);
+        offscreen_close(&run->offscreen);
     }
-    shader_interface_free(&b->reading);
+    shader_interface_free(&run->interface);
     free(pixels);
-    free(b->wires);
-    free(b);
+    free(run->bindings);
+    free(run);
     return ok;
 }

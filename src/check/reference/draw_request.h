@@ -1,4 +1,4 @@
-// draw_request.h: what the process that draws is told, and what it answers: bytes, both ways.
+// draw_request.h: the messages to and from the drawing process, as bytes.
 #ifndef DRAW_REQUEST_H
 #define DRAW_REQUEST_H
 
@@ -8,35 +8,36 @@ struct draw_request {
     int contract;    // lam_check_contract
     int light_frame; // lam_light_frame
     int size;
-    unsigned scenes; // bit i: study i
+    unsigned scenes; // bit i: reference_scenes[i]
     const char *vertex, *fragment;
 };
 
-enum drawn_state { DRAWN_PICTURES, DRAWN_REFUSED_VERTEX, DRAWN_REFUSED_FRAGMENT, DRAWN_REFUSED_LINK, DRAWN_SLOW };
+enum draw_state { DRAWN_PICTURES, DRAWN_REFUSED_VERTEX, DRAWN_REFUSED_FRAGMENT, DRAWN_REFUSED_LINK, DRAWN_SLOW };
 
-enum { DRAWN_UNKNOWN_MOST = 16 };
+enum { MAX_UNKNOWN_NAMES = 16 };
 
-struct check_drawn {
-    int state;       // enum drawn_state
-    int light_count; // room for lights in the shaders; 0: no list, one light
+struct draw_result {
+    int state;       // enum draw_state
+    int light_count; // light capacity of the shaders; 0: one light without a list
     bool has_list;
     char driver[128];
-    char log[4096];                       // slow: the scene's name
-    double seconds;                       // slow: the processor's time for that scene
-    char unknown[DRAWN_UNKNOWN_MOST][64]; // active uniforms and attributes that the contract does not know
-    char types[DRAWN_UNKNOWN_MOST][96];   // uniforms of a type that does not fit, as a sentence's end
+    char log[4096];                      // DRAWN_SLOW: the scene's name
+    double seconds;                      // DRAWN_SLOW: processor time of that scene
+    char unknown[MAX_UNKNOWN_NAMES][64]; // active uniforms and attributes that are not in the contract
+    char types[MAX_UNKNOWN_NAMES][96];   // messages about uniforms whose type does not fit
     int unknown_count, types_count;
-    unsigned scenes;     // as in the job
-    const float *pixels; // RGBA, rows top-down, one picture after the other; inside the bytes that were read
+    unsigned scenes; // as in the request
+    // RGBA, rows top-down, one picture after the other; points into the message.
+    const float *pixels;
 };
 
-bool job_write(const struct draw_request *job, lam_bytes *out, lam_error *error);
-// Texts point into the bytes.
-bool job_read(const void *bytes, size_t size, struct draw_request *job, lam_error *error);
+bool draw_request_write(const struct draw_request *request, lam_bytes *out, lam_error *error);
+// The texts point into `bytes`.
+bool draw_request_read(const void *bytes, size_t size, struct draw_request *request, lam_error *error);
 
-// `pictures`: size² × 4 floats for each scene of the job; NULL where there are none.
-bool drawn_write(const struct check_drawn *drawn, const float *pictures, size_t count, lam_bytes *out,
-                 lam_error *error);
-bool drawn_read(const lam_bytes *bytes, int size, struct check_drawn *drawn, lam_error *error);
+// `pictures`: size² × 4 floats for each scene of the request; NULL: none.
+bool draw_result_write(const struct draw_result *result, const float *pictures, size_t count, lam_bytes *out,
+                       lam_error *error);
+bool draw_result_read(const lam_bytes *bytes, int size, struct draw_result *result, lam_error *error);
 
 #endif

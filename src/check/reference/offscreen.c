@@ -1,4 +1,4 @@
-// offscreen.c: a framebuffer of floats, the reference meshes, and drawing the one into the other.
+// offscreen.c: a framebuffer of floats, the reference meshes as buffers, and drawing.
 #include "offscreen.h"
 
 #include <stdlib.h>
@@ -29,7 +29,7 @@ bool offscreen_open(struct offscreen *t, enum gl_profile profile, const char *gl
     gl->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size, size);
     gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, t->depth);
     if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        fail(error, LAM_UNSUPPORTED, "%s cannot draw into pictures of floats, expected RGBA32F", t->context.renderer);
+        fail(error, LAM_UNSUPPORTED, "%s cannot render to float textures (RGBA32F)", t->context.renderer);
         offscreen_close(t);
         return false;
     }
@@ -51,8 +51,8 @@ void offscreen_close(struct offscreen *t)
     if (t->context.context == EGL_NO_CONTEXT)
         return;
     const struct gl *gl = &t->context.gl;
-    gl->DeleteBuffers(STUDY_MESHES, t->positions);
-    gl->DeleteBuffers(STUDY_MESHES, t->normals);
+    gl->DeleteBuffers(MESH_COUNT, t->positions);
+    gl->DeleteBuffers(MESH_COUNT, t->normals);
     gl->DeleteVertexArrays(1, &t->array);
     gl->DeleteFramebuffers(1, &t->framebuffer);
     gl->DeleteRenderbuffers(1, &t->color);
@@ -62,7 +62,7 @@ void offscreen_close(struct offscreen *t)
     memset(t, 0, sizeof *t);
 }
 
-bool offscreen_mesh(struct offscreen *t, enum reference_mesh mesh, lam_error *error)
+static bool upload_mesh(struct offscreen *t, enum reference_mesh mesh, lam_error *error)
 {
     if (t->counts[mesh])
         return true;
@@ -92,7 +92,7 @@ bool offscreen_mesh(struct offscreen *t, enum reference_mesh mesh, lam_error *er
     return true;
 }
 
-// Generic attribute `place`, or the built-in array where it is below 0.
+// Binds a buffer to generic attribute `place`, or to the built-in one where it is negative.
 static void point_at(const struct gl *gl, GLuint buffer, int place, int width, bool is_normal)
 {
     gl->BindBuffer(GL_ARRAY_BUFFER, buffer);
@@ -112,7 +112,7 @@ bool offscreen_draw(struct offscreen *t, enum reference_mesh mesh, int position,
                     lam_error *error)
 {
     const struct gl *gl = &t->context.gl;
-    if (!offscreen_mesh(t, mesh, error))
+    if (!upload_mesh(t, mesh, error))
         return false;
     bool built_in = t->built_ins && gl->VertexPointer && gl->NormalPointer && gl->EnableClientState;
     if (position >= 0 || built_in)
@@ -125,7 +125,7 @@ bool offscreen_draw(struct offscreen *t, enum reference_mesh mesh, int position,
     GLenum wrong = gl->GetError();
     if (wrong)
         return fail(error, LAM_UNSUPPORTED, "%s reports error 0x%04x while drawing", t->context.renderer, wrong);
-    size_t row = 4 * (size_t)t->size; // OpenGL's first row is the lowest
+    size_t row = 4 * (size_t)t->size; // OpenGL's first row is the bottom one
     for (int y = 0; y < t->size / 2; y++) {
         float *a = pixels + (size_t)y * row, *b = pixels + (size_t)(t->size - 1 - y) * row;
         for (size_t i = 0; i < row; i++) {
@@ -137,7 +137,7 @@ bool offscreen_draw(struct offscreen *t, enum reference_mesh mesh, int position,
     return true;
 }
 
-GLuint offscreen_compile(struct offscreen *t, GLenum kind, const char *text, char *log, size_t room)
+GLuint offscreen_compile(struct offscreen *t, GLenum kind, const char *text, char *log, size_t capacity)
 {
     const struct gl *gl = &t->context.gl;
     GLuint shader = gl->CreateShader(kind);
@@ -145,14 +145,14 @@ GLuint offscreen_compile(struct offscreen *t, GLenum kind, const char *text, cha
     gl->ShaderSource(shader, 1, &text, NULL);
     gl->CompileShader(shader);
     gl->GetShaderiv(shader, GL_COMPILE_STATUS, &good);
-    gl->GetShaderInfoLog(shader, (GLsizei)room, NULL, log);
+    gl->GetShaderInfoLog(shader, (GLsizei)capacity, NULL, log);
     if (good)
         return shader;
     gl->DeleteShader(shader);
     return 0;
 }
 
-GLuint offscreen_link(struct offscreen *t, GLuint vertex, GLuint fragment, char *log, size_t room)
+GLuint offscreen_link(struct offscreen *t, GLuint vertex, GLuint fragment, char *log, size_t capacity)
 {
     const struct gl *gl = &t->context.gl;
     GLuint program = gl->CreateProgram();
@@ -161,7 +161,7 @@ GLuint offscreen_link(struct offscreen *t, GLuint vertex, GLuint fragment, char 
     gl->AttachShader(program, fragment);
     gl->LinkProgram(program);
     gl->GetProgramiv(program, GL_LINK_STATUS, &good);
-    gl->GetProgramInfoLog(program, (GLsizei)room, NULL, log);
+    gl->GetProgramInfoLog(program, (GLsizei)capacity, NULL, log);
     if (good)
         return program;
     gl->DeleteProgram(program);

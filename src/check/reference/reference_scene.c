@@ -1,4 +1,4 @@
-// reference_scene.c: the table of reference scenes, and a scene made from a row.
+// reference_scene.c: the table of reference scenes, their meshes and matrices.
 #include "reference_scene.h"
 
 #include <stdlib.h>
@@ -49,7 +49,7 @@ const struct reference_scene reference_scenes[] = {
      .lights = {{.type = LAM_LIGHT_POINT, .position = {0.35, 0.75, 0.3}, WHITE, .attenuation = {0.4f, 0.3f, 0.6f}}}},
     {"directional", "a light infinitely far away", NEED_DIRECTIONAL, STRETCHED, MATTER, .ka = 0.1f, .kd = 0.7f,
      .ks = 0.6f, .shininess = 14, .light_count = 1,
-     .lights = {{.type = LAM_LIGHT_DIRECTIONAL, .from = {0.9, 1.3, 1.1}, WHITE, .attenuation = {1, 0, 0}}}},
+     .lights = {{.type = LAM_LIGHT_DIRECTIONAL, .to_light = {0.9, 1.3, 1.1}, WHITE, .attenuation = {1, 0, 0}}}},
     {"lights", "three lights of different colours", NEED_LIGHTS, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.15f,
      .kd = 0.8f, .ks = 0.5f, .shininess = 20, .light_count = 3,
      .lights = {{.type = LAM_LIGHT_POINT,
@@ -74,7 +74,7 @@ const struct reference_scene reference_scenes[] = {
      .shininess = 10, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_SPOT,
                  .position = {0.8, 1.2, 2.8},
-                 .from = {0.25, 0.35, 0.9},
+                 .to_light = {0.25, 0.35, 0.9},
                  WHITE,
                  .attenuation = {0.6f, 0.1f, 0.02f},
                  .cutoff_deg = 16,
@@ -230,7 +230,7 @@ static bool add_lights(lam_scene *scene, const struct reference_scene *s, lam_er
         const struct reference_light *from = &s->lights[i];
         lam_light light = lam_light_default(from->type);
         light.position = from->position;
-        light.direction = v3_scale(from->from, -1);
+        light.direction = v3_scale(from->to_light, -1);
         light.ambient = from->ambient;
         light.diffuse = from->color;
         light.specular = from->specular;

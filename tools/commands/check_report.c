@@ -1,49 +1,49 @@
-// check_tell.c: what came of a check, as text and as JSON (docs/check.schema.json).
+// check_report.c: prints the report of a check, as text and as JSON (docs/check.schema.json).
 #include "check.h"
 
 #include <string.h>
 
 #include "json.h"
 
-static const char *what(lam_check_verdict verdict)
+static const char *verdict_text(lam_check_verdict verdict)
 {
     switch (verdict) {
     case LAM_CHECK_PASSES:
-        return "passes: its pictures are the reference's";
+        return "passes: its pictures match the reference";
     case LAM_CHECK_DIFFERS:
         return "differs from the reference";
     case LAM_CHECK_REFUSED:
-        return "is refused: it does not compile, or its two shaders do not link";
+        return "is refused: it does not compile or link";
     case LAM_CHECK_ENDLESS:
-        return "does not end: it was stopped";
+        return "does not end: it exceeded its time";
     case LAM_CHECK_CRASHES:
-        return "crashes: the graphics driver died of it";
+        return "crashes the graphics driver";
     case LAM_CHECK_NOT_NUMBER:
         return "writes NaN or infinity";
     }
     return "";
 }
 
-static const char *kind_name(lam_check_note_kind kind)
+static const char *kind_name(lam_check_diagnostic_kind kind)
 {
-    return kind == LAM_CHECK_NOTE_COMPILER ? "compiler" : kind == LAM_CHECK_NOTE_HINT ? "hint" : "unknown";
+    return kind == LAM_CHECK_DIAGNOSTIC_COMPILER ? "compiler" : kind == LAM_CHECK_DIAGNOSTIC_HINT ? "hint" : "unknown";
 }
 
-static void tell_notes(FILE *file, const lam_check_report *r)
+static void print_diagnostics(FILE *file, const lam_check_report *r)
 {
-    for (int i = 0; i < r->note_count; i++) {
-        const lam_check_note *n = &r->notes[i];
+    for (int i = 0; i < r->diagnostic_count; i++) {
+        const lam_check_diagnostic *n = &r->diagnostics[i];
         fputs("  ", file);
         if (n->file)
             fprintf(file, "%s:", n->file);
         if (n->line)
             fprintf(file, "%d:", n->line);
-        fprintf(file, "%s%s%s\n", n->file || n->line ? " " : "", n->kind == LAM_CHECK_NOTE_HINT ? "hint: " : "",
+        fprintf(file, "%s%s%s\n", n->file || n->line ? " " : "", n->kind == LAM_CHECK_DIAGNOSTIC_HINT ? "hint: " : "",
                 n->text);
     }
 }
 
-static void tell_scenes(FILE *file, const lam_check_report *r, double tolerance)
+static void print_scenes(FILE *file, const lam_check_report *r, double tolerance)
 {
     if (!r->scene_count)
         return;
@@ -54,41 +54,41 @@ static void tell_scenes(FILE *file, const lam_check_report *r, double tolerance)
                 s->passes ? "same" : "differs", s->looks_like ? ", looks like " : "",
                 s->looks_like ? s->looks_like : "");
         if (s->not_numbers)
-            fprintf(file, ", %llu pixels are no numbers", (unsigned long long)s->not_numbers);
+            fprintf(file, ", %llu pixels are NaN or infinite", (unsigned long long)s->not_numbers);
         putc('\n', file);
     }
 }
 
-static void tell_findings(FILE *file, const lam_check_report *r)
+static void print_findings(FILE *file, const lam_check_report *r)
 {
     if (!r->finding_count) {
         if (r->verdict == LAM_CHECK_DIFFERS)
-            fputs("It looks like none of the known mistakes.\n", file);
+            fputs("No known mistake explains it.\n", file);
         return;
     }
     bool certain = r->findings[0].certain;
-    fprintf(file, certain ? "It looks like%s:\n" : "It looks most like%s, which does not explain all of it:\n",
+    fprintf(file, certain ? "It looks like%s:\n" : "It looks most like%s, which does not explain everything:\n",
             r->finding_count > 1 ? " these together" : " this");
     for (int i = 0; i < r->finding_count; i++) {
         const lam_check_finding *f = &r->findings[i];
         fprintf(file, "  %s: %s\n    mean difference %.5f without it, %.5f with it\n    write  %s\n", f->mistake,
-                f->says, f->mean_before, f->mean_after, f->write);
+                f->explanation, f->mean_before, f->mean_after, f->correction);
     }
 }
 
-void check_tell_text(FILE *file, const lam_check_report *r, const char *shader, double tolerance)
+void check_report_text(FILE *file, const lam_check_report *r, const char *shader, double tolerance)
 {
-    fprintf(file, "%s %s\n", shader, what(r->verdict));
+    fprintf(file, "%s %s\n", shader, verdict_text(r->verdict));
     fprintf(file, "  contract %s; lit in the %s shader%s%s%s\n", lam_check_contract_name(r->contract),
-            r->vertex_lit ? "vertex" : "fragment", r->made_vertex ? "; the vertex shader is the check's own" : "",
+            r->vertex_lit ? "vertex" : "fragment", r->made_vertex ? "; the vertex shader was generated" : "",
             r->driver[0] ? "; " : "", r->driver);
-    tell_notes(file, r);
-    tell_scenes(file, r, tolerance);
-    tell_findings(file, r);
+    print_diagnostics(file, r);
+    print_scenes(file, r, tolerance);
+    print_findings(file, r);
 }
 
-void check_tell_json(FILE *file, const lam_check_report *r, const char *shader, const char *vertex, double tolerance,
-                     const char *picture)
+void check_report_json(FILE *file, const lam_check_report *r, const char *shader, const char *vertex, double tolerance,
+                       const char *picture)
 {
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
@@ -105,7 +105,7 @@ void check_tell_json(FILE *file, const lam_check_report *r, const char *shader, 
         const lam_check_scene *s = &r->scenes[i];
         json_open(&json, NULL, '{');
         json_text(&json, "name", s->name);
-        json_text(&json, "shows", s->shows);
+        json_text(&json, "shows", s->description);
         json_count(&json, "passes", s->passes);
         json_number(&json, "maximum", s->maximum);
         json_number(&json, "mean", s->mean);
@@ -121,8 +121,8 @@ void check_tell_json(FILE *file, const lam_check_report *r, const char *shader, 
         const lam_check_finding *f = &r->findings[i];
         json_open(&json, NULL, '{');
         json_text(&json, "id", f->mistake);
-        json_text(&json, "says", f->says);
-        json_text(&json, "write", f->write);
+        json_text(&json, "says", f->explanation);
+        json_text(&json, "write", f->correction);
         json_count(&json, "certain", f->certain);
         json_number(&json, "mean_before", f->mean_before);
         json_number(&json, "mean_after", f->mean_after);
@@ -130,8 +130,8 @@ void check_tell_json(FILE *file, const lam_check_report *r, const char *shader, 
     }
     json_close(&json, ']');
     json_open(&json, "notes", '[');
-    for (int i = 0; i < r->note_count; i++) {
-        const lam_check_note *n = &r->notes[i];
+    for (int i = 0; i < r->diagnostic_count; i++) {
+        const lam_check_diagnostic *n = &r->diagnostics[i];
         json_open(&json, NULL, '{');
         json_text(&json, "kind", kind_name(n->kind));
         json_text(&json, "file", n->file);
@@ -145,7 +145,7 @@ void check_tell_json(FILE *file, const lam_check_report *r, const char *shader, 
     putc('\n', file);
 }
 
-void check_tell_json_error(FILE *file, const char *shader, const char *vertex, const lam_error *error)
+void check_report_error_json(FILE *file, const char *shader, const char *vertex, const lam_error *error)
 {
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
@@ -157,7 +157,7 @@ void check_tell_json_error(FILE *file, const char *shader, const char *vertex, c
     putc('\n', file);
 }
 
-void check_tell_lists(FILE *file)
+void check_print_lists(FILE *file)
 {
     lam_check_name row;
     for (int c = LAM_CONTRACT_LAMBENT; c < LAM_CONTRACT_COUNT; c++) {
@@ -168,8 +168,8 @@ void check_tell_lists(FILE *file)
     }
     fputs("scenes\n", file);
     for (int i = 0; lam_check_scene_name(i); i++)
-        fprintf(file, "  %-12s %s\n", lam_check_scene_name(i), lam_check_scene_shows(i));
+        fprintf(file, "  %-12s %s\n", lam_check_scene_name(i), lam_check_scene_description(i));
     fputs("mistakes\n", file);
     for (int i = 0; lam_check_mistake(i); i++)
-        fprintf(file, "  %-26s %s\n", lam_check_mistake(i), lam_check_mistake_says(i));
+        fprintf(file, "  %-26s %s\n", lam_check_mistake(i), lam_check_mistake_explanation(i));
 }

@@ -1,0 +1,142 @@
+// shader_diagnostics.c: diagnostics of the compiler's log and of the names that the contract does not know.
+#include "shader_diagnostics.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "compiler_hints.h"
+
+enum { MAX_LOG_LINES = 8 };
+
+// Parses "0:12(5): error: …" (Mesa), "0(12) : error …" (NVIDIA) or "ERROR: 0:12: …" (others). Returns the line number,
+// 0: none, and the beginning of the message.
+static int line_of(const char *text, const char **words)
+{
+    int string = 0, line = 0, used = 0;
+    *words = text;
+    const char *at = strncmp(text, "ERROR: ", 7) == 0 ? text + 7 : text;
+    if ((sscanf(at, "%d:%d(%*d)%n", &string, &line, &used) >= 2 && used) ||
+        (sscanf(at, "%d:%d%n", &string, &line, &used) >= 2 && used) ||
+        (sscanf(at, "%d(%d)%n", &string, &line, &used) >= 2 && used)) {
+        at += used;
+        while (*at == ' ' || *at == ':')
+            at++;
+        *words = at;
+        return line;
+    }
+    return 0;
+}
+
+void diagnostics_add_refusal(struct diagnostics *diagnostics, const struct draw_result *drawn,
+                             const struct shader_interface *interface, const lam_check_params *params)
+{
+    bool vertex = drawn->state == DRAWN_REFUSED_VERTEX, link = drawn->state == DRAWN_REFUSED_LINK;
+    const struct declarations *d = vertex ? &interface->vertex : &interface->fragment;
+    const char *file = link ? NULL : vertex ? params->vertex_name : params->fragment_name;
+    char log[sizeof drawn->log];
+    snprintf(log, sizeof log, "%s", drawn->log);
+    int line_count = 0;
+    char *rest = log;
+    for (char *line; (line = strsep(&rest, "\n")) && line_count < MAX_LOG_LINES;) {
+        for (char *c = line; *c; c++)
+            if (iscntrl((unsigned char)*c))
+                *c = ' ';
+        if (strspn(line, " ") == strlen(line))
+            continue;
+        const char *words;
+        int at = line_of(line, &words);
+        diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_COMPILER, file, at, "%.400s", words);
+        line_count++;
+        if (!link)
+            compiler_hints_for_message(diagnostics, d, file, at, words);
+    }
+    if (!line_count)
+        diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_COMPILER, file, 0, "refused without a message");
+    if (link)
+        compiler_hints_for_link(diagnostics, interface, params);
+    else
+        compiler_hints_for_text(diagnostics, d, file, vertex);
+}
+
+static const char *file_of(const lam_check_params *params, bool vertex)
+{
+    return vertex ? params->vertex_name : params->fragment_name;
+}
+
+static void report_unknown(struct diagnostics *diagnostics, const struct shader_interface *r, const char *name,
+                           const char *kind, const char *file, int line)
+{
+    const char *near = contract_nearest(r->contract, name);
+    if (near)
+        diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_UNKNOWN, file, line,
+                        "%s '%.60s' is not in the contract %s; did you mean '%s'?", kind, name, r->contract->name,
+                        near);
+    else
+        diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_UNKNOWN, file, line,
+                        "%s '%.60s' is not in the contract %s and gets no value; `lambent check --list` prints its "
+                        "names",
+                        kind, name, r->contract->name);
+}
+
+// Reports a uniform that is a matrix or vector where the contract has the other.
+static void report_type_mismatch(struct diagnostics *diagnostics, const struct shader_interface *r,
+                                 const struct declaration *d, const char *file)
+{
+    const struct contract_name *known = contract_find(r->contract, d->name, false, NULL);
+    if (known && ((strncmp(known->type, "mat", 3) == 0) != (strncmp(d->type, "mat", 3) == 0) ||
+                  (strncmp(known->type, "vec", 3) == 0) != (strncmp(d->type, "vec", 3) == 0)))
+        diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, d->line, "uniform %s %s: write uniform %s %s",
+                        d->type, d->name, known->type, d->name);
+}
+
+// Whether a declared name is active: the driver reports "lights[].a" as "lights[0].a", and a block's member
+// as "Block.a".
+static bool is_active(const struct draw_result *drawn, const char *declared)
+{
+    for (int i = 0; i < drawn->unknown_count; i++) {
+        const char *a = drawn->unknown[i], *b = declared, *dot = strchr(a, '.');
+        for (int k = 0; k < 2 && a; k++, a = dot ? dot + 1 : NULL) {
+            const char *x = a;
+            for (b = declared; *x && *x == *b; x++, b++)
+                if (*x == '[')
+                    x += strcspn(x, "]") - 1;
+            if ((!*x || *x == '[') && (!*b || *b == '['))
+                return true;
+        }
+    }
+    return false;
+}
+
+void diagnostics_add_names(struct diagnostics *diagnostics, const struct draw_result *drawn,
+                           const struct shader_interface *r, const lam_check_params *params)
+{
+    const struct declarations *sides[] = {&r->vertex, &r->fragment};
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; i < sides[s]->count; i++) {
+            const struct declaration *d = &sides[s]->items[i];
+            const char *file = file_of(params, s == 0);
+            bool attribute = s == 0 && d->kind == DECLARED_INPUT && params->vertex;
+            if (d->kind != DECLARED_UNIFORM && !attribute)
+                continue;
+            if (!contract_find(r->contract, d->name, attribute, NULL)) {
+                // An unknown name that nothing depends on does no harm.
+                if (drawn->state != DRAWN_PICTURES || is_active(drawn, d->name))
+                    report_unknown(diagnostics, r, d->name, attribute ? "attribute" : "uniform", file, d->line);
+            } else if (!attribute)
+                report_type_mismatch(diagnostics, r, d, file);
+        }
+    for (int i = 0; i < drawn->unknown_count; i++) { // active, but not in the text: made by macros
+        bool seen = false;
+        for (int s = 0; s < 2; s++)
+            for (int k = 0; k < sides[s]->count; k++) {
+                const char *name = sides[s]->items[k].name;
+                size_t length = strcspn(name, "[");
+                seen |= strncmp(name, drawn->unknown[i], length) == 0;
+            }
+        if (!seen)
+            report_unknown(diagnostics, r, drawn->unknown[i], "uniform", NULL, 0);
+    }
+    for (int i = 0; i < drawn->types_count; i++)
+        diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s; it gets no value", drawn->types[i]);
+}

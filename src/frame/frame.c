@@ -278,7 +278,7 @@ static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig ri
         if ((only < 0 || only == scene->lights.count + i) && !add_light(frame, scene, &frame->rig[i], -1, view, error))
             return false;
     if (only >= scene->lights.count + count)
-        return fail(error, LAM_BAD_ARGUMENT, "show_light is %d, but the frame has %d lights, counted from 0", only,
+        return fail(error, LAM_BAD_ARGUMENT, "output_light is %d, but the frame has %d lights, counted from 0", only,
                     scene->lights.count + count);
     if (only >= 0 && frame->show != LAM_OUTPUT_LIGHT && !frame->light_count)
         return fail(error, LAM_BAD_ARGUMENT, "%s: light %d comes from everywhere, expected one with a direction",

@@ -81,6 +81,7 @@ int main(int count, char **words)
     if (count == 2 && strcmp(words[1], CHECK_WORKER) == 0)
         check_worker();
     console_start();
+    option_table_fill();
     int code = run(count - (count > 0), words + (count > 0));
     lam_error error;
     if (!finish_output(&error) && code == 0) { // else the failure was told already

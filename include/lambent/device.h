@@ -65,17 +65,6 @@ typedef enum lam_shading {
     LAM_SHADING_FLAT,
 } lam_shading;
 
-// Reflection models (docs/lighting.md has their equations and sources).
-typedef enum lam_reflection {
-    LAM_REFLECTION_AUTO = 0,           // Blinn–Phong
-    LAM_REFLECTION_NONE,               // the diffuse colour, unlit
-    LAM_REFLECTION_LAMBERT,            // diffuse only
-    LAM_REFLECTION_PHONG,              // highlight by the mirrored light
-    LAM_REFLECTION_BLINN_PHONG,        // highlight by the half vector
-    LAM_REFLECTION_KAJIYA_KAY,         // threads along the tangents
-    LAM_REFLECTION_KAJIYA_KAY_LECTURE, // the same as lectures print it
-} lam_reflection;
-
 // The stage that evaluates the lighting. The CPU device gives the same bytes for every stage of a shading method.
 typedef enum lam_stage {
     LAM_STAGE_AUTO = 0,    // fragment

@@ -24,7 +24,7 @@ LAM_API float lam_spot_at(const lam_light *light, double angle_rad);
 // half vector:
 //   LAM_REFLECTION_PHONG                  S = cos(φ)^shininess
 //   LAM_REFLECTION_BLINN_PHONG, …_AUTO    S = cos(φ/2)^shininess
-// 0 for models without a highlight, and for Kajiya–Kay, which needs a tangent. `shininess` ≥ 0, finite.
+// 0 for models without a highlight, and for models of threads, which need a tangent. `shininess` ≥ 0, finite.
 LAM_API float lam_highlight_at(lam_reflection reflection, float shininess, double angle_rad);
 
 #ifdef __cplusplus

@@ -8,6 +8,35 @@
 extern "C" {
 #endif
 
+// Reflection models (docs/lighting.md has their equations and sources).
+typedef enum lam_reflection {
+    LAM_REFLECTION_AUTO = 0,           // Blinn–Phong
+    LAM_REFLECTION_NONE,               // the diffuse colour, unlit
+    LAM_REFLECTION_LAMBERT,            // diffuse only
+    LAM_REFLECTION_PHONG,              // highlight by the mirrored light
+    LAM_REFLECTION_BLINN_PHONG,        // highlight by the half vector
+    LAM_REFLECTION_KAJIYA_KAY,         // threads along the tangents
+    LAM_REFLECTION_KAJIYA_KAY_LECTURE, // the same as lectures print it
+    LAM_REFLECTION_COUNT
+} lam_reflection;
+
+// A reflection model in words. With its formulas (UTF-8) the light of one source is, as in lam_material,
+//   diffuse ⊙ Ld · D + specular ⊙ Ls · base^α.
+typedef struct lam_reflection_info {
+    const char *word;    // in options, scene files and reports: "blinn-phong"
+    const char *summary; // one line
+    // D: "max(n·l, 0)"; NULL: auto and none. A formula that does not begin with "max(" is also gated by [n·l > 0],
+    // unless light from behind counts.
+    const char *diffuse;
+    const char *base; // of the highlight: "max(n·h, 0)"; NULL: no highlight
+    bool tangents;    // it reads the mesh's tangents, or a direction field where there are none
+    // Whether light from behind the surface (n·l ≤ 0) counts: always, or where the material is a fibre.
+    bool backlit, backlit_fibre;
+} lam_reflection_info;
+
+// NULL: no such model.
+LAM_API const lam_reflection_info *lam_reflection_describe(lam_reflection model);
+
 // The texture maps that material files name. They are kept as written; drawing does not use them yet.
 typedef enum lam_map {
     LAM_MAP_AMBIENT,      // map_Ka

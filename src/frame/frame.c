@@ -46,8 +46,7 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
     if (!(params->exposure >= -100 && params->exposure <= 100))
         return fail(error, LAM_BAD_ARGUMENT, "exposure is %g, expected stops from -100 to 100", params->exposure);
     if ((unsigned)params->color > LAM_COLOR_RAW || (unsigned)params->rig > LAM_RIG_LECTURE ||
-        (unsigned)params->shading > LAM_SHADING_FLAT ||
-        (unsigned)params->reflection > LAM_REFLECTION_KAJIYA_KAY_LECTURE)
+        (unsigned)params->shading > LAM_SHADING_FLAT || (unsigned)params->reflection >= LAM_REFLECTION_COUNT)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: color, rig, shading or reflection is out of its range");
     if ((unsigned)params->stage > LAM_STAGE_FRAGMENT || (unsigned)params->viewer > LAM_VIEWER_INFINITE ||
         (unsigned)params->flat_normal > LAM_FLAT_NORMAL_VERTEX)
@@ -194,28 +193,37 @@ static bool light_space(const lam_scene *scene, const lam_light *light, const la
 
 void frame_light_reach(struct frame_light *out, const lam_light *light)
 {
-    *out = (struct frame_light){.directional = light->type == LAM_LIGHT_DIRECTIONAL};
+    *out = (struct frame_light){.kind = LIGHT_POINT, .attenuation = {1, 0, 0}};
+    if (light->type == LAM_LIGHT_DIRECTIONAL) {
+        out->kind = LIGHT_DIRECTIONAL;
+        return;
+    }
     const lam_attenuation *a = &light->attenuation;
-    bool none = a->constant == 0 && a->linear == 0 && a->quadratic == 0;
-    out->attenuation[0] = none || out->directional ? 1 : a->constant;
-    out->attenuation[1] = out->directional ? 0 : a->linear;
-    out->attenuation[2] = out->directional ? 0 : a->quadratic;
-    out->inverse_range = light->range > 0 && !out->directional ? rounded(1.0 / (double)light->range) : 0;
+    if (a->constant != 0 || a->linear != 0 || a->quadratic != 0) {
+        out->attenuation[0] = a->constant;
+        out->attenuation[1] = a->linear;
+        out->attenuation[2] = a->quadratic;
+    }
+    out->inverse_range = light->range > 0 ? rounded(1.0 / (double)light->range) : 0;
+    const float *own = out->attenuation;
+    out->falloff = out->inverse_range > 0                      ? FALLOFF_RANGE
+                   : own[0] == 1 && own[1] == 0 && own[2] == 0 ? FALLOFF_NONE
+                                                               : FALLOFF_DISTANCE;
     if (light->type != LAM_LIGHT_SPOT)
         return;
     out->exponent = light->exponent;
     if (light->outer_rad > 0) {
         double inner = math_cos((double)light->inner_rad), outer = math_cos((double)light->outer_rad);
         double width = inner - outer > 0.001 ? inner - outer : 0.001;
-        out->cone = CONE_SOFT;
+        out->kind = LIGHT_SPOT_CONES;
         out->cos_outer = rounded(outer);
         out->inverse_width = rounded(1 / width);
     } else if (light->cutoff_rad > 0 && (double)light->cutoff_rad <= PI / 2 + 1e-6) {
         double cosine = math_cos((double)light->cutoff_rad);
-        out->cone = CONE_CUTOFF;
+        out->kind = LIGHT_SPOT_CUTOFF;
         out->cos_cutoff = rounded(cosine > 0 ? cosine : 0);
-    } else {
-        out->cone = light->exponent > 0 ? CONE_EXPONENT : CONE_NONE;
+    } else if (light->exponent > 0) {
+        out->kind = LIGHT_SPOT_EXPONENT;
     }
 }
 
@@ -429,6 +437,14 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         frame->translucent = false;
     return build_lights(frame, scene, params->rig, shows_one_light(frame->show) ? params->output_light : -1, &view,
                         error);
+}
+
+float frame_shininess(const struct frame *frame, const lam_material *material)
+{
+    float shininess = material->shininess;
+    if (frame->match_highlights && frame->reflection == LAM_REFLECTION_BLINN_PHONG)
+        shininess *= 4;
+    return frame->gl1 && shininess > 128 ? 128 : shininess;
 }
 
 void frame_free(struct frame *frame) { buffer_free(&frame->storage); }

@@ -6,6 +6,7 @@
 #define FRAME_H
 
 #include "buffer.h"
+#include "light_kinds.h"
 #include "scene_internal.h"
 
 #include <lambent/device.h>
@@ -35,18 +36,9 @@ struct frame_draw_range {
     bool translucent; // a material's or a colour's alpha is below 1: blended, not just covered
 };
 
-// How a light's cone is shaped.
-enum frame_cone {
-    CONE_NONE,     // point and directional lights
-    CONE_EXPONENT, // max(c, 0)^exponent
-    CONE_CUTOFF,   // c^exponent inside, 0 outside
-    CONE_SOFT,     // clamp((c − cos outer)·inverse_width, 0, 1)²
-};
-
 // A point, directional or spot light in eye space.
 struct frame_light {
-    bool directional;
-    enum frame_cone cone;
+    int kind, falloff; // LIGHT_…, FALLOFF_…
     float position[3];
     float axis[3]; // unit: the way the light travels
     float attenuation[3];
@@ -59,7 +51,8 @@ struct frame_light {
     const lam_light *source;
 };
 
-// What of a light does not depend on where it is: its kind, attenuation, range and cone. The rest is zeroed.
+// Fills the part of a light that does not depend on its place: kind, falloff, attenuation, range and cone. The rest is
+// zeroed.
 void frame_light_reach(struct frame_light *out, const lam_light *light);
 
 struct frame_hemisphere {
@@ -111,6 +104,9 @@ struct frame {
     lam_material default_material;
     struct buffer storage; // holds the arrays
 };
+
+// The exponent of highlights on a material, after match_highlights and gl1.
+float frame_shininess(const struct frame *frame, const lam_material *material);
 
 // Whether lights but one are left out.
 static inline bool shows_one_light(lam_output show)

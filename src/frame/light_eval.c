@@ -8,7 +8,7 @@
 
 #include <lambent/light_eval.h>
 
-// The part of a light that attenuation and cone look at.
+// The part of a light that attenuation and cone read.
 static light_source reach_of(const struct frame_light *light)
 {
     return (light_source){
@@ -30,8 +30,7 @@ float lam_attenuation_at(const lam_light *light, float distance)
     uint64_t state = float_state_enter();
     struct frame_light reach;
     frame_light_reach(&reach, light);
-    float result =
-        attenuation_at(distance, reach_of(&reach), reach.inverse_range > 0 ? FALLOFF_RANGE : FALLOFF_DISTANCE);
+    float result = attenuation_at(distance, reach_of(&reach), reach.falloff);
     float_state_leave(state);
     return result;
 }
@@ -43,25 +42,20 @@ float lam_spot_at(const lam_light *light, double angle_rad)
     uint64_t state = float_state_enter();
     struct frame_light reach;
     frame_light_reach(&reach, light);
-    static const int kinds[] = {[CONE_NONE] = LIGHT_POINT,
-                                [CONE_EXPONENT] = LIGHT_SPOT_EXPONENT,
-                                [CONE_CUTOFF] = LIGHT_SPOT_CUTOFF,
-                                [CONE_SOFT] = LIGHT_SPOT_CONES};
-    float result = spot_at(cosine((float)math_cos(angle_rad)), reach_of(&reach), kinds[reach.cone]);
+    float result = spot_at(cosine((float)math_cos(angle_rad)), reach_of(&reach), reach.kind);
     float_state_leave(state);
     return result;
 }
 
 float lam_highlight_at(lam_reflection reflection, float shininess, double angle_rad)
 {
+    int model = reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : reflection;
+    if (lobe_properties(model) & LOBE_TANGENT)
+        return 0.0f;
     uint64_t state = float_state_enter();
     surface s = {.n = {0, 0, 1}, .v = {(float)math_sin(angle_rad), 0, (float)math_cos(angle_rad)}};
-    vec3 l = {0, 0, 1};
-    float result = 0.0f;
-    if (reflection == LAM_REFLECTION_PHONG)
-        result = reflect_light(s, l, shininess, MODEL_PHONG, 0).specular;
-    else if (reflection == LAM_REFLECTION_BLINN_PHONG || reflection == LAM_REFLECTION_AUTO)
-        result = reflect_light(s, l, shininess, MODEL_BLINN_PHONG, 0).specular;
+    lobe_parameters m = {.shininess = shininess};
+    float result = reflect_light(s, (vec3){0, 0, 1}, m, model).specular;
     float_state_leave(state);
     return result;
 }

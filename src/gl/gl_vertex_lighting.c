@@ -69,23 +69,12 @@ LANE_FN vec3 environment_of(const struct frame *frame, surface s)
     return pick3(both(present(s.n), present(s.v)), vec3_of(c.r, c.g, c.b), black3());
 }
 
-static int model_of(lam_reflection reflection)
-{
-    static const int models[] = {[LAM_REFLECTION_NONE] = MODEL_NONE,
-                                 [LAM_REFLECTION_LAMBERT] = MODEL_LAMBERT,
-                                 [LAM_REFLECTION_PHONG] = MODEL_PHONG,
-                                 [LAM_REFLECTION_BLINN_PHONG] = MODEL_BLINN_PHONG,
-                                 [LAM_REFLECTION_KAJIYA_KAY] = MODEL_KAJIYA_KAY,
-                                 [LAM_REFLECTION_KAJIYA_KAY_LECTURE] = MODEL_KAJIYA_KAY_LECTURE};
-    return models[reflection];
-}
-
 LANE_FN terms terms_of(const struct side *side, surface s, vec3 color)
 {
     const struct frame *frame = side->frame;
     const lam_material *m = side->material;
-    int model = model_of(frame->reflection);
-    if (model == MODEL_NONE)
+    int model = (int)frame->reflection;
+    if (model == LAM_REFLECTION_NONE)
         return tint_terms(unlit_terms(of3(&m->diffuse.r)), color);
     terms sum = start_terms(product3(&m->ambient.r, frame->ambient), of3(&m->emission.r));
     for (int i = 0; i < frame->hemisphere_count; i++) {
@@ -93,12 +82,12 @@ LANE_FN terms terms_of(const struct side *side, surface s, vec3 color)
         sum = add_hemisphere(
             sum, s, (hemisphere){of3(h->up), product3(&m->ambient.r, h->sky), product3(&m->ambient.r, h->ground)});
     }
-    num shininess = num_of(glsl_products_of(frame, m).shininess);
+    lobe_parameters parameters = lobe_parameters_of(m, frame_shininess(frame, m));
     for (int i = 0; i < frame->light_count; i++) {
         const struct frame_light *l = &frame->lights[i];
         light_source light = source_of(side, l);
-        light_sample t = toward_light(s.p, light, glsl_kind(l), glsl_falloff(l));
-        sum = add_reflected(sum, light, t, reflect_light(s, t.l, shininess, model, m->fibre));
+        light_sample t = toward_light(s.p, light, l->kind, l->falloff);
+        sum = add_reflected(sum, light, t, reflect_light(s, t.l, parameters, model));
         if (frame->gl1)
             sum = add_arriving_ambient(sum, product3(&m->ambient.r, l->ambient), t);
     }
@@ -141,7 +130,7 @@ LANE_FN vec3 vector_of(const struct side *side, surface s)
     if (show == LAM_OUTPUT_TANGENTS)
         return s.t;
     const struct frame_light *light = &side->frame->lights[0]; // the only one
-    vec3 l = toward_light(s.p, source_of(side, light), glsl_kind(light), FALLOFF_NONE).l;
+    vec3 l = toward_light(s.p, source_of(side, light), light->kind, FALLOFF_NONE).l;
     num c = cosine(dot3(s.n, show == LAM_OUTPUT_N_L ? l : halfway3(l, s.v)));
     return vec3_of(c, c, c);
 }
@@ -167,7 +156,7 @@ LANE_FN surface surface_of(const struct side *side, const struct mesh_vertex *fr
     s.n = unit3(side->flip ? negate3(n) : n);
     s.v = to_eye(s.p, frame->distant_viewer ? VIEWER_INFINITE : VIEWER_LOCAL);
     s.t = black3();
-    if (frame->reflection >= LAM_REFLECTION_KAJIYA_KAY || frame->show == LAM_OUTPUT_TANGENTS)
+    if (lobe_properties(frame->reflection) & LOBE_TANGENT || frame->show == LAM_OUTPUT_TANGENTS)
         s.t = perpendicular3(
             side->mesh->tangents ? unit3(turn(side->draw->tangent, load3(from, 10))) : field_tangent(side, s.n), s.n);
     return s;
@@ -222,7 +211,7 @@ static bool note(struct gl_frame *f, struct gl_colors *row, size_t *size, const 
 static bool note_light(struct gl_frame *f, struct gl_colors *row, size_t *size, const struct frame_light *light,
                        lam_error *error)
 {
-    const int kind[] = {light->directional, (int)light->cone};
+    const int kind[] = {light->kind, light->falloff};
     size_t first = offsetof(struct frame_light, position), end = offsetof(struct frame_light, light);
     return note(f, row, size, kind, sizeof kind, error) &&
            note(f, row, size, (const char *)light + first, end - first, error);

@@ -210,7 +210,7 @@ static void write_definition(struct text *text, const struct piece *p)
 
 // --- the whole
 
-enum { FILES = 4 };
+enum { FILES = 5 };
 
 struct whole {
     struct text sources[FILES];
@@ -244,7 +244,7 @@ static void write_kept(struct text *text, const struct whole *w)
 {
     static const char *const titles[FILES] = {
         "the words that the equations are written in", "how a point of a surface answers the light of one direction",
-        "what of a light arrives at a point: its direction, distance, attenuation and cone",
+        "the kinds of light", "what of a light arrives at a point: its direction, distance, attenuation and cone",
         "the light that leaves a point, as terms and as their sum"};
     int file = -1;
     bool define = false;
@@ -265,7 +265,8 @@ static void write_kept(struct text *text, const struct whole *w)
 
 void equations_add(struct text *text, char *calls, const struct decided *decided)
 {
-    static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h, text_lights_h, text_sum_h};
+    static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h, text_light_kinds_h, text_lights_h,
+                                               text_sum_h};
     struct whole *w = calloc(1, sizeof *w);
     bool ok = w != NULL;
     for (int i = 0; ok && i < FILES; i++) {

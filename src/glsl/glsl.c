@@ -29,33 +29,11 @@ static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_
 
 // --- pieces that depend on more than flags
 
-static const char *lobe_call(const struct glsl_choices *c)
-{
-    switch (c->reflection) {
-    case LAM_REFLECTION_LAMBERT:
-        return "lambert_lobe(s, t.l)";
-    case LAM_REFLECTION_PHONG:
-        return "phong_lobe(s, t.l)";
-    case LAM_REFLECTION_KAJIYA_KAY:
-        return "kajiya_kay_lobe(s, t.l, 0, thread)";
-    case LAM_REFLECTION_KAJIYA_KAY_LECTURE:
-        return "kajiya_kay_lobe(s, t.l, 1, thread)";
-    default:
-        return "blinn_phong_lobe(s, t.l)";
-    }
-}
-
-static const char *exponent_of(const struct glsl_facts *f)
-{
-    return !f->highlights          ? "1.0" // Lambert's, whose base is 0: no highlight
-           : !f->choices->products ? "m.shininess"
-           : f->back               ? "exponent"
-                                   : "shininess";
-}
-
-static const char *const kind_words[GLSL_KINDS] = {"LIGHT_POINT", "LIGHT_DIRECTIONAL", "LIGHT_SPOT_CUTOFF",
-                                                   "LIGHT_SPOT_EXPONENT", "LIGHT_SPOT_CONES"};
-static const char *const falloff_words[GLSL_FALLOFFS] = {"FALLOFF_NONE", "FALLOFF_DISTANCE", "FALLOFF_RANGE"};
+#define WORD(name) [name] = #name
+static const char *const kind_words[GLSL_KINDS] = {WORD(LIGHT_POINT), WORD(LIGHT_DIRECTIONAL), WORD(LIGHT_SPOT_CUTOFF),
+                                                   WORD(LIGHT_SPOT_EXPONENT), WORD(LIGHT_SPOT_CONES)};
+static const char *const falloff_words[GLSL_FALLOFFS] = {WORD(FALLOFF_NONE), WORD(FALLOFF_DISTANCE),
+                                                         WORD(FALLOFF_RANGE)};
 
 static const char *list_argument(const struct glsl_facts *f)
 {
@@ -66,14 +44,15 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     int first = 0;
-    for (int i = 0; f->lights && i < c->group_count; i++) {
+    for (int i = 0; f->sums && i < c->group_count; i++) {
         const struct glsl_group *group = &c->groups[i];
         text_print(text, "    for (int i = %d; i < %d; i++) {\n", first, first + group->count);
         text_print(text, "        light_source light = light_of(i%s);\n", list_argument(f));
         text_print(text, "        light_sample t = toward_light(s.p, light, %s, %s);\n", kind_words[group->kind],
                    falloff_words[group->falloff]);
-        text_print(text, "        sum = add_reflected(sum, light, t, reflected_of(%s, %s));\n", lobe_call(c),
-                   exponent_of(f));
+        text_add(text, "        sum = add_reflected(sum, light, t, ");
+        glsl_add_lobe(text, f);
+        text_add(text, ");\n");
         if (c->gl1)
             text_print(text, "        sum = add_arriving_ambient(sum, ambient_of(i%s), t);\n", list_argument(f));
         first += group->count;
@@ -115,7 +94,7 @@ static void add_shown_vector(struct text *text, const struct glsl_facts *f)
     text_print(text, "    light.direction = %s.xyz;\n",
                texture ? "texelFetch(light_list, ivec2(1, 0), 0)" : "lights[0].direction");
     text_print(text, "    vec3 l = toward_light(s.p, light, %s, FALLOFF_NONE).l;\n",
-               kind_words[c->group_count ? c->groups[0].kind == 1 : 0]);
+               kind_words[c->group_count && c->groups[0].kind == LIGHT_DIRECTIONAL ? LIGHT_DIRECTIONAL : LIGHT_POINT]);
     text_print(text, "    float c = cosine(dot3(s.n, %s));\n    return vec4(c, c, c, 1.0);",
                c->show == LAM_OUTPUT_N_L ? "l" : "halfway3(l, s.v)");
 }
@@ -141,6 +120,10 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
     bool tints = c->colors && f->lit && !f->shows_vector;
     bool eye = surface || c->show == LAM_OUTPUT_DEPTH;
     bool numbers_triangles = c->show == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS;
+    struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0};
+    glsl_declare_attributes(&attributes, f);
+    add_groups(&groups, f);
+    glsl_add_parameters(&chosen, f);
     const struct preprocess_flag flags[] = {
         {"old", old},
         {"array", c->storage == GLSL_ARRAY},
@@ -174,7 +157,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {"has_environment", f->environment},
         {"cube", c->environment == GLSL_CUBE},
         {"highlights", f->highlights},
-        {"kajiya_kay", f->kajiya_kay},
+        {"chooses_parameters", chosen.bytes != NULL},
         {"provoking", flat && old && eye},
         {"depth", c->show == LAM_OUTPUT_DEPTH},
         {"facing", c->show == LAM_OUTPUT_FACING},
@@ -220,9 +203,6 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
                  : i == 0 ? "bool front"
                           : sides[i]);
     }
-    struct text groups = {0}, vector = {0}, attributes = {0};
-    glsl_declare_attributes(&attributes, f);
-    add_groups(&groups, f);
     if (f->shows_vector)
         add_shown_vector(&vector, f);
     const char *pixel = old ? "gl_FragColor" : "pixel";
@@ -243,6 +223,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {"lit_position", flat && old ? "provoking_position" : "position"},
         {"viewer", c->distant_viewer ? "VIEWER_INFINITE" : "VIEWER_LOCAL"},
         {"groups", groups.bytes ? groups.bytes : ""},
+        {"parameters", chosen.bytes ? chosen.bytes : ""},
         {"shown", shown_term(c)},
         {"shown_vector", vector.bytes ? vector.bytes : ""},
         {"texture_cube", old ? "textureCube" : "texture"},
@@ -253,8 +234,8 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {NULL, NULL},
     };
     const struct preprocess_words words = {flags, values};
-    const struct text *parts[] = {&groups, &vector, &attributes};
-    for (int i = 0; i < 3; i++)
+    const struct text *parts[] = {&groups, &vector, &attributes, &chosen};
+    for (int i = 0; i < 4; i++)
         if (parts[i]->failed) {
             text->failed = true;
             text->error = parts[i]->error;
@@ -266,6 +247,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
     free(groups.bytes);
     free(vector.bytes);
     free(attributes.bytes);
+    free(chosen.bytes);
 }
 
 // --- the whole
@@ -297,17 +279,15 @@ static void decide_all(struct decided out[DECIDED_MAX], const struct glsl_facts 
     }
     if (c->distant_viewer)
         decide(out, "viewer == VIEWER_LOCAL", false);
-    if (f->kajiya_kay)
-        decide(out, "lecture != 0", c->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE);
     if (f->shows_vector) // asks for a light of its own kind
         return;
-    decide_lights(out, "kind == LIGHT_DIRECTIONAL", kinds[1], all);
-    decide_lights(out, "kind >= LIGHT_SPOT_CUTOFF", kinds[2] + kinds[3] + kinds[4], all);
-    decide_lights(out, "kind == LIGHT_SPOT_CUTOFF", kinds[2], all);
-    decide_lights(out, "kind == LIGHT_SPOT_EXPONENT", kinds[3], all);
-    decide_lights(out, "kind == LIGHT_SPOT_CONES", kinds[4], all);
-    decide_lights(out, "falloff != FALLOFF_NONE", falloffs[1] + falloffs[2], all);
-    decide_lights(out, "falloff == FALLOFF_RANGE", falloffs[2], all);
+    decide_lights(out, "kind == LIGHT_DIRECTIONAL", kinds[LIGHT_DIRECTIONAL], all);
+    decide_lights(out, "kind >= LIGHT_SPOT_CUTOFF", all - kinds[LIGHT_POINT] - kinds[LIGHT_DIRECTIONAL], all);
+    decide_lights(out, "kind == LIGHT_SPOT_CUTOFF", kinds[LIGHT_SPOT_CUTOFF], all);
+    decide_lights(out, "kind == LIGHT_SPOT_EXPONENT", kinds[LIGHT_SPOT_EXPONENT], all);
+    decide_lights(out, "kind == LIGHT_SPOT_CONES", kinds[LIGHT_SPOT_CONES], all);
+    decide_lights(out, "falloff != FALLOFF_NONE", all - falloffs[FALLOFF_NONE], all);
+    decide_lights(out, "falloff == FALLOFF_RANGE", falloffs[FALLOFF_RANGE], all);
 }
 
 static const char *const version_lines[] = {"#version 120\n", "#version 330 core\n",

@@ -47,7 +47,7 @@ enum glsl_layer {
 
 // Lights of one kind stand side by side in the lists and are looped over with their kind as a constant.
 struct glsl_group {
-    int kind, falloff; // LIGHT_…, FALLOFF_… of src/lighting/sources.h
+    int kind, falloff; // LIGHT_…, FALLOFF_… of src/lighting/light_kinds.h
     int count;
 };
 enum { GLSL_KINDS = 5, GLSL_FALLOFFS = 3, GLSL_GROUPS_MAX = GLSL_KINDS * GLSL_FALLOFFS };
@@ -137,9 +137,5 @@ struct glsl_material glsl_material_of(const struct frame *frame, const lam_mater
 // Light i of the text's list; −1 past the end. Lights of a group keep the frame's order.
 int glsl_frame_light(const struct glsl_choices *choices, const struct frame *frame, int i);
 struct glsl_light glsl_light_of(const struct frame_light *light);
-
-// The kind and falloff of a light, LIGHT_… and FALLOFF_….
-int glsl_kind(const struct frame_light *light);
-int glsl_falloff(const struct frame_light *light);
 
 #endif

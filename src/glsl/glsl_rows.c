@@ -26,16 +26,16 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
     f.lights = c->light_count > 0 && (sums || f.shows_one_light);
     f.skies = c->hemisphere_count > 0 && sums;
     f.environment = c->environment != GLSL_NO_ENVIRONMENT && sums;
-    f.kajiya_kay =
-        sums && (c->reflection == LAM_REFLECTION_KAJIYA_KAY || c->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE);
-    f.threads = f.kajiya_kay || (f.lit && c->show == LAM_OUTPUT_TANGENTS);
-    f.highlights = sums && c->light_count > 0 && c->reflection != LAM_REFLECTION_LAMBERT;
+    const lam_reflection_info *lobe = lam_reflection_describe(c->reflection);
+    f.sums = sums;
+    f.threads = (sums && lobe->tangents) || (f.lit && c->show == LAM_OUTPUT_TANGENTS);
+    f.highlights = sums && c->light_count > 0 && lobe->base;
     f.back = c->two_sided && c->back_material && f.lit && !f.shows_vector;
     for (int i = 0; i < c->group_count; i++) {
-        f.falloff |= f.lights && !f.shows_vector && c->groups[i].falloff != 0;
-        f.cones |= f.lights && !f.shows_vector && c->groups[i].kind >= 2;
-        f.positions |= c->groups[i].kind != 1;
-        f.directions |= c->groups[i].kind != 0;
+        f.falloff |= f.lights && !f.shows_vector && c->groups[i].falloff != FALLOFF_NONE;
+        f.cones |= f.lights && !f.shows_vector && c->groups[i].kind >= LIGHT_SPOT_CUTOFF;
+        f.positions |= c->groups[i].kind != LIGHT_DIRECTIONAL;
+        f.directions |= c->groups[i].kind != LIGHT_POINT;
     }
     return f;
 }
@@ -93,7 +93,7 @@ static void add_products(struct list *list, const struct glsl_facts *f, bool bac
         add(list, GLSL_SHININESS, "float", 0, block, "%sshininess", p);
         mean(list, "the highlight's exponent");
     }
-    if (all || f->kajiya_kay) {
+    if (all || glsl_lobe_reads(f, "fibre")) {
         add(list, GLSL_FIBRE, "float", 0, block, "%sfibre", p);
         mean(list, "1: threads in the air, lit from behind as well; 0: a solid surface");
     }
@@ -329,7 +329,7 @@ int glsl_members(const struct glsl_facts *f, const char *type, struct glsl_row r
         if (all || f->highlights) {
             add_member(&list, GLSL_MATERIAL, "float", 20, "shininess", "the highlight's exponent");
         }
-        if (all || f->kajiya_kay) {
+        if (all || glsl_lobe_reads(f, "fibre")) {
             add_member(&list, GLSL_MATERIAL, "float", 21, "fibre",
                        "1: threads in the air, lit from behind as well; 0: a solid surface");
         }

@@ -53,18 +53,26 @@ struct glsl_facts {
     lam_shading shading; // PHONG where a place is shown
     bool application, per_vertex, per_fragment;
     bool shows_place, shows_vector, shows_one_light;
-    bool paints;           // no light is asked: the colour as it is
-    bool lit;              // there is a light_point
-    bool lights, skies;    // lists that are read
-    bool falloff, cones;   // any light has some
-    bool positions;        // any light but a directional one
-    bool directions;       // any light but a point
-    bool highlights;       // the model has
-    bool threads;          // tangents are looked at
-    bool environment;      // read
-    bool kajiya_kay, back; // back: a material of its own, and two sides
+    bool paints;         // no light is asked: the colour as it is
+    bool lit;            // there is a light_point
+    bool sums;           // it adds up lights
+    bool lights, skies;  // lists that are read
+    bool falloff, cones; // any light has some
+    bool positions;      // any light but a directional one
+    bool directions;     // any light but a point
+    bool highlights;     // the model has
+    bool threads;        // tangents are read
+    bool environment;    // read
+    bool back;           // a material of its own, and two sides
 };
 struct glsl_facts glsl_facts_of(const struct glsl_choices *choices);
+
+// Whether the lobe of the choices reads a number of the material, by the name in LOBE_PARAMETERS (src/lighting/lobes.h).
+bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
+// Appends the lines that choose these numbers from two materials, where they stand as products.
+void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
+// Appends the lobe's answer to the light `t`: "reflected_of(phong_lobe(s, t.l), shininess)".
+void glsl_add_lobe(struct text *text, const struct glsl_facts *facts);
 
 // The uniforms of both texts, in the order of their declaration (that of each block is its layout). Returns
 // their number.

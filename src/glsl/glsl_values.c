@@ -3,30 +3,11 @@
 
 #include <string.h>
 
-// The kinds of src/lighting/sources.h, which GLSL and C share by number.
-enum { POINT, DIRECTIONAL, SPOT_CUTOFF, SPOT_EXPONENT, SPOT_CONES };
-enum { NONE, DISTANCE, RANGE };
-
-int glsl_kind(const struct frame_light *light)
-{
-    static const int of_cone[] = {
-        [CONE_NONE] = POINT, [CONE_EXPONENT] = SPOT_EXPONENT, [CONE_CUTOFF] = SPOT_CUTOFF, [CONE_SOFT] = SPOT_CONES};
-    return light->directional ? DIRECTIONAL : of_cone[light->cone];
-}
-
-int glsl_falloff(const struct frame_light *light)
-{
-    const float *a = light->attenuation;
-    if (light->inverse_range > 0)
-        return RANGE;
-    return a[0] == 1 && a[1] == 0 && a[2] == 0 ? NONE : DISTANCE;
-}
-
 static void find_groups(struct glsl_choices *c, const struct frame *frame)
 {
     int counts[GLSL_KINDS][GLSL_FALLOFFS] = {{0}};
     for (int i = 0; i < frame->light_count; i++)
-        counts[glsl_kind(&frame->lights[i])][glsl_falloff(&frame->lights[i])]++;
+        counts[frame->lights[i].kind][frame->lights[i].falloff]++;
     for (int kind = 0; kind < GLSL_KINDS; kind++)
         for (int falloff = 0; falloff < GLSL_FALLOFFS; falloff++)
             if (counts[kind][falloff])
@@ -69,7 +50,7 @@ int glsl_frame_light(const struct glsl_choices *c, const struct frame *frame, in
         i -= c->groups[group++].count;
     for (int k = 0; group < c->group_count && k < frame->light_count; k++) {
         const struct frame_light *light = &frame->lights[k];
-        if (glsl_kind(light) == c->groups[group].kind && glsl_falloff(light) == c->groups[group].falloff && i-- == 0)
+        if (light->kind == c->groups[group].kind && light->falloff == c->groups[group].falloff && i-- == 0)
             return k;
     }
     return -1;
@@ -95,17 +76,9 @@ struct glsl_light glsl_light_of(const struct frame_light *light)
     return out;
 }
 
-static float shininess_of(const struct frame *frame, const lam_material *material)
-{
-    float shininess = material->shininess;
-    if (frame->match_highlights && frame->reflection == LAM_REFLECTION_BLINN_PHONG)
-        shininess *= 4;
-    return frame->gl1 && shininess > 128 ? 128 : shininess;
-}
-
 struct glsl_material glsl_material_of(const struct frame *frame, const lam_material *material)
 {
-    struct glsl_material out = {.shininess = shininess_of(frame, material), .fibre = material->fibre};
+    struct glsl_material out = {.shininess = frame_shininess(frame, material), .fibre = material->fibre};
     set3(out.ambient, &material->ambient.r, 1);
     memcpy(out.diffuse, &material->diffuse, sizeof out.diffuse);
     set3(out.specular, &material->specular.r, 1);
@@ -123,7 +96,7 @@ static void product(float out[4], const float *a, const float *b)
 
 struct glsl_products glsl_products_of(const struct frame *frame, const lam_material *material)
 {
-    struct glsl_products out = {.shininess = shininess_of(frame, material), .fibre = material->fibre};
+    struct glsl_products out = {.shininess = frame_shininess(frame, material), .fibre = material->fibre};
     product(out.ambient_product, &material->ambient.r, frame->ambient);
     set3(out.emission, &material->emission.r, 1);
     memcpy(out.diffuse, &material->diffuse, sizeof out.diffuse);
@@ -153,7 +126,7 @@ void glsl_pack_lights(const struct glsl_choices *c, const struct frame *frame, f
     for (int g = 0; g < c->group_count; g++)
         for (int i = 0; i < frame->light_count; i++) {
             const struct frame_light *light = &frame->lights[i];
-            if (glsl_kind(light) != c->groups[g].kind || glsl_falloff(light) != c->groups[g].falloff)
+            if (light->kind != c->groups[g].kind || light->falloff != c->groups[g].falloff)
                 continue;
             struct glsl_light packed = glsl_light_of(light);
             memcpy(out, &packed, each * sizeof *out);
@@ -194,7 +167,7 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
     for (int g = 0; g < c->group_count; g++)
         for (int i = 0; i < frame->light_count; i++) {
             const struct frame_light *light = &frame->lights[i];
-            if (glsl_kind(light) != c->groups[g].kind || glsl_falloff(light) != c->groups[g].falloff)
+            if (light->kind != c->groups[g].kind || light->falloff != c->groups[g].falloff)
                 continue;
             product(out + at, &material->diffuse.r, light->diffuse);
             product(out + at + next, &material->specular.r, light->specular);

@@ -216,19 +216,8 @@ vec4 light_point(@lit_parameters@)
 //@else
     terms sum = start_terms(mul3(m.ambient.rgb, ambient_light.rgb), m.emission.rgb);
 //@end
-//@if kajiya_kay
-//@if products
-    int thread = $(fibre) > 0.5 ? 1 : 0;
-//@else
-    int thread = m.fibre > 0.5 ? 1 : 0;
-//@end
-//@end
-//@if back_material
-//@if highlights
-//@if products
-    float exponent = $(shininess);
-//@end
-//@end
+//@if chooses_parameters
+@parameters@
 //@end
 //@if has_hemispheres
     for (int i = 0; i < @hemispheres@; i++) {

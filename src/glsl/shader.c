@@ -393,8 +393,8 @@ static bool find_order(struct making *m)
     int at = 0;
     for (int g = 0; m->order && g < m->choices.group_count; g++)
         for (int i = 0; i < frame->light_count; i++)
-            if (glsl_kind(&frame->lights[i]) == m->choices.groups[g].kind &&
-                glsl_falloff(&frame->lights[i]) == m->choices.groups[g].falloff)
+            if (frame->lights[i].kind == m->choices.groups[g].kind &&
+                frame->lights[i].falloff == m->choices.groups[g].falloff)
                 m->order[at++] = i;
     return m->order != NULL;
 }

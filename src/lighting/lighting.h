@@ -1,12 +1,15 @@
 // lighting.h: the equations in C. Include with LANES defined as 1, 4, 8 or 16 (src/base/math/lanes.h).
 //
-// In GLSL the three files of the equations follow one another in this order after prelude.glsl; hence no guards in
-// them.
+// In GLSL the files of the equations follow one another in this order after prelude.glsl; hence they have no guards.
 #ifndef LIGHTING_H
 #define LIGHTING_H
 
 #include "prelude_c.h"
+
+#include <lambent/material.h>
+
 #include "lobes.h"
+#include "light_kinds.h"
 #include "lights.h"
 #include "sum.h"
 

@@ -1,22 +1,9 @@
-// lights.h: what of a light arrives at a point: its direction, distance, attenuation and cone.
+// lights.h: the light that arrives at a point: its direction, distance, attenuation and cone.
 //
 // One text for C and GLSL (prelude_c.h, prelude.glsl). Everything is in eye space, distances in the scene's units.
 
-// Kinds of light that have a direction, told to each function as a uniform number. Ambient and hemisphere light, which
-// come from everywhere, stand in sum.h.
-#define LIGHT_POINT         0 // from a position to all sides
-#define LIGHT_DIRECTIONAL   1 // from infinitely far
-#define LIGHT_SPOT_CUTOFF   2 // a cone with a sharp edge and a power of the cosine inside
-#define LIGHT_SPOT_EXPONENT 3 // a power of the cosine, no edge
-#define LIGHT_SPOT_CONES    4 // full inside an inner cone, nothing outside an outer one, smooth between
-
-// What weakens a light with the distance, also uniform. Directional lights have FALLOFF_NONE.
-#define FALLOFF_NONE     0 // nothing: attenuation 1/0/0 and no range
-#define FALLOFF_DISTANCE 1 // 1 / (constant + linear d + quadratic d^2)
-#define FALLOFF_RANGE    2 // that, and the window that ends at the range
-
-// One light as it acts on one material: the colours are products, formed once for each draw. What the kind of light
-// has no use for is never looked at.
+// One light as it acts on one material: the colours are products, formed once for each draw. Fields that a
+// kind of light does not have are never read.
 STRUCT(light_source)
 {
     vec3 position;     // point and spot

@@ -1,24 +1,21 @@
-// lobes.h: how a point of a surface answers the light of one direction: Lambert, Phong, Blinn-Phong, Kajiya-Kay.
+// lobes.h: how a point of a surface answers the light of one direction: the reflection models and their table.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space: n the unit normal, l from the
-// point to the light, v from the point to the eye, t the tangent, all of length 1, or 0 where there is none; then the
-// answer is 0. D is the share of diffuse light, S the strength of the highlight, both in 0...1; what multiplies them
-// stands in sum.h. No light comes through a surface: S is 0 where n.l <= 0, since r.v and n.h may be positive there.
-
-// The reflection models, numbered as in lambent/device.h.
-#define MODEL_NONE               1
-#define MODEL_LAMBERT            2
-#define MODEL_PHONG              3
-#define MODEL_BLINN_PHONG        4
-#define MODEL_KAJIYA_KAY         5
-#define MODEL_KAJIYA_KAY_LECTURE 6
+// One text for C and GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space: n is the unit normal, l points to
+// the light, v to the eye, t along the tangent. Each has length 1, or 0 where there is none; the answer is then 0.
+// D is the share of diffuse light, S the strength of the highlight, both in 0...1; sum.h multiplies them with colours.
+// No light comes through a surface: S is 0 where n.l <= 0, although r.v and n.h may be positive there.
+//
+// `lambent shader` prints this text, and src/glsl/equations.c and specialize.c read it line by line. They rely on its
+// shape, here and in lights.h and sum.h: a definition begins in column 1 and its closing brace stands in column 1; an
+// `if` ends its line with a brace, and the closing brace stands below the `if`; a struct has one member on a line; a
+// comment leads the definition that follows it without an empty line between them. clang-format keeps all of this.
 
 STRUCT(surface)
 {
     vec3 p; // the point
     vec3 n; // its normal, on the side that is seen
     vec3 v; // towards the eye
-    vec3 t; // along the surface, perpendicular to n; only Kajiya-Kay looks at it
+    vec3 t; // along the surface, perpendicular to n; for the lobes of threads
 };
 
 // How the surface meets the light of one direction, but for the highlight's power.
@@ -110,55 +107,55 @@ FN lobe_sample blinn_phong_lobe(surface s, vec3 l)
 }
 
 // Kajiya and Kay (1989): a thread along t mirrors light into a cone round t. With the angles between t and l, t and v:
-//     D = sin(t,l)        S = max(sin(t,l) sin(t,v) - cos(t,l) cos(t,v), 0)^shininess        the mirror cone
-//                         S = max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)^shininess        `lecture`, as some print it
-// sin(t,l) = |t x l|: the root of 1 - (t.l)^2 would lose half of the digits where l is nearly along t. On a solid
-// surface D and S are gated by n.l > 0; a fibre has no inside, and the lecture's form has no gate.
-FN lobe_sample kajiya_kay_lobe(surface s, vec3 l, int lecture, int fibre)
+//     D = sin(t,l)
+//     S = max(sin(t,l) sin(t,v) - cos(t,l) cos(t,v), 0)^shininess
+// On a solid surface D and S are gated by n.l > 0; a fibre (1, else 0) has no inside and no gate.
+STRUCT(thread_angles)
 {
-    vec3 across_l = cross3(s.t, l);
-    vec3 across_v = cross3(s.t, s.v);
-    num sine_l = min_of(square_root(dot3(across_l, across_l)), num_of(1.0f));
-    num sine_v = min_of(square_root(dot3(across_v, across_v)), num_of(1.0f));
-    num cosines = dot3(s.t, l) * dot3(s.t, s.v);
+    num sine;    // sin(t,l)
+    num sines;   // sin(t,l) sin(t,v)
+    num cosines; // cos(t,l) cos(t,v)
+};
+
+// sin(t,l) = |t x l|: the root of 1 - (t.l)^2 would lose half of the digits where l is nearly along t.
+FN thread_angles thread_angles_of(vec3 t, vec3 l, vec3 v)
+{
+    thread_angles a;
+    vec3 across_l = cross3(t, l);
+    vec3 across_v = cross3(t, v);
+    a.sine = min_of(square_root(dot3(across_l, across_l)), num_of(1.0f));
+    a.sines = a.sine * min_of(square_root(dot3(across_v, across_v)), num_of(1.0f));
+    a.cosines = dot3(t, l) * dot3(t, v);
+    return a;
+}
+
+FN lobe_sample kajiya_kay_lobe(surface s, vec3 l, num fibre)
+{
+    thread_angles a = thread_angles_of(s.t, l, s.v);
     lobe_sample b;
     b.n_dot_l = cosine(dot3(s.n, l));
-    b.base = sine_l * sine_v - cosines;
-    if (lecture != 0) {
-        b.base = sine_l * sine_v + cosines;
-    }
-    mask there = both(present(s.t), present(l));
-    if (fibre == 0 && lecture == 0) {
-        there = both(there, b.n_dot_l > 0.0f);
-    }
-    b.diffuse = pick(there, sine_l, num_of(0.0f));
+    b.base = a.sines - a.cosines;
+    mask there = both(both(present(s.t), present(l)), either(b.n_dot_l > 0.0f, fibre > 0.5f));
+    b.diffuse = pick(there, a.sine, num_of(0.0f));
     b.lit = both(there, present(s.v));
     return b;
 }
 
-// The model by its number. MODEL_NONE answers no light: its colour is `unlit` in sum.h.
-FN lobe_sample lobe_of(surface s, vec3 l, int model, int fibre)
+// Kajiya-Kay with the sign that some lectures print, and without a gate:
+//     S = max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)^shininess
+FN lobe_sample kajiya_kay_lecture_lobe(surface s, vec3 l)
 {
-    lobe_sample b = lambert_lobe(s, l);
-    if (model == MODEL_NONE) {
-        b.diffuse = num_of(0.0f);
-    }
-    if (model == MODEL_PHONG) {
-        b = phong_lobe(s, l);
-    }
-    if (model == MODEL_BLINN_PHONG) {
-        b = blinn_phong_lobe(s, l);
-    }
-    if (model == MODEL_KAJIYA_KAY) {
-        b = kajiya_kay_lobe(s, l, 0, fibre);
-    }
-    if (model == MODEL_KAJIYA_KAY_LECTURE) {
-        b = kajiya_kay_lobe(s, l, 1, fibre);
-    }
+    thread_angles a = thread_angles_of(s.t, l, s.v);
+    lobe_sample b;
+    b.n_dot_l = cosine(dot3(s.n, l));
+    b.base = a.sines + a.cosines;
+    mask there = both(present(s.t), present(l));
+    b.diffuse = pick(there, a.sine, num_of(0.0f));
+    b.lit = both(there, present(s.v));
     return b;
 }
 
-// The highlight to its power.
+// The highlight, raised to its power.
 FN lobe_value reflected_of(lobe_sample b, num shininess)
 {
     lobe_value r;
@@ -169,11 +166,95 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
     return r;
 }
 
-FN lobe_value reflect_light(surface s, vec3 l, num shininess, int model, int fibre)
+// --- C only: the text of GLSL ends here (src/glsl/embed.py).
+
+// The numbers of a material that lobes read, named as in lam_material, in its table of fields and in the shaders.
+#define LOBE_PARAMETERS(X)                                                                                             \
+    X(shininess)                                                                                                       \
+    X(fibre)
+
+// The table of the reflection models: the dispatch in C and in GLSL, the words of the command line and of scene files,
+// reports, explanations and tests are made from it. A new model is an enumerator in lambent/material.h, a function
+// above and a row here. The columns:
+//     the enumerator without LAM_REFLECTION_
+//     the call: `s` is the surface, `l` the direction to the light, `m` the material's lobe_parameters
+//     properties: LOBE_HIGHLIGHT   S is not 0: the lobe returns the base of a power
+//                 LOBE_TANGENT     it reads the surface's tangent
+//                 LOBE_BACKLIT     light from behind (n.l < 0) counts
+//                 LOBE_BACKLIT_FIBRE   it counts where the material is a fibre
+//     the word, a one-line summary, the formula of D, the formula of the highlight's base ("": none)
+// clang-format off
+#define LOBES(X) \
+    X(LAMBERT, lambert_lobe(s, l), 0, \
+      "lambert", "ambient and diffuse light, no highlight", \
+      "max(n·l, 0)", "") \
+    X(PHONG, phong_lobe(s, l), LOBE_HIGHLIGHT, \
+      "phong", "the highlight around the mirrored light", \
+      "max(n·l, 0)", "max(r·v, 0)") \
+    X(BLINN_PHONG, blinn_phong_lobe(s, l), LOBE_HIGHLIGHT, \
+      "blinn-phong", "the highlight by the half vector", \
+      "max(n·l, 0)", "max(n·h, 0)") \
+    X(KAJIYA_KAY, kajiya_kay_lobe(s, l, m.fibre), LOBE_HIGHLIGHT | LOBE_TANGENT | LOBE_BACKLIT_FIBRE, \
+      "kajiya-kay", "highlights along threads, from the tangents", \
+      "sin(t,l)", "max(sin(t,l) sin(t,v) − cos(t,l) cos(t,v), 0)") \
+    X(KAJIYA_KAY_LECTURE, kajiya_kay_lecture_lobe(s, l), LOBE_HIGHLIGHT | LOBE_TANGENT | LOBE_BACKLIT, \
+      "kajiya-kay-lecture", "the same with the sign that a lecture prints", \
+      "sin(t,l)", "max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)")
+// clang-format on
+
+enum { LOBE_HIGHLIGHT = 1, LOBE_TANGENT = 2, LOBE_BACKLIT = 4, LOBE_BACKLIT_FIBRE = 8 };
+
+STRUCT(lobe_parameters){
+#define MEMBER(name) num name;
+    LOBE_PARAMETERS(MEMBER)
+#undef MEMBER
+};
+
+// The lobe of a lam_reflection. LAM_REFLECTION_NONE reflects nothing: its colour is `unlit_terms` in sum.h.
+LANE_FN lobe_sample lobe_of(surface s, vec3 l, lobe_parameters m, int model)
 {
-    lobe_value r = reflected_of(lobe_of(s, l, model, fibre), shininess);
-    if (model <= MODEL_LAMBERT) { // and MODEL_NONE: no highlight
-        r.specular = num_of(0.0f);
+    switch (model) {
+#define LOBE(NAME, call, ...)                                                                                          \
+    case LAM_REFLECTION_##NAME:                                                                                        \
+        return call;
+        LOBES(LOBE)
+#undef LOBE
+    default: {
+        lobe_sample b = lambert_lobe(s, l);
+        b.diffuse = num_of(0.0f);
+        return b;
     }
+    }
+}
+
+// Its properties; 0 for LAM_REFLECTION_NONE.
+static inline int lobe_properties(int model)
+{
+    switch (model) {
+#define LOBE(NAME, call, properties, ...)                                                                              \
+    case LAM_REFLECTION_##NAME:                                                                                        \
+        return properties;
+        LOBES(LOBE)
+#undef LOBE
+    default:
+        return 0;
+    }
+}
+
+LANE_FN lobe_value reflect_light(surface s, vec3 l, lobe_parameters m, int model)
+{
+    lobe_value r = reflected_of(lobe_of(s, l, m, model), m.shininess);
+    if (!(lobe_properties(model) & LOBE_HIGHLIGHT))
+        r.specular = num_of(0.0f);
     return r;
+}
+
+// A material's; `shininess` is the one in use (frame_shininess).
+LANE_FN lobe_parameters lobe_parameters_of(const lam_material *material, float shininess)
+{
+#define OF_MATERIAL(name) .name = num_of((float)material->name),
+    lobe_parameters m = {LOBE_PARAMETERS(OF_MATERIAL)};
+#undef OF_MATERIAL
+    m.shininess = num_of(shininess);
+    return m;
 }

@@ -59,7 +59,7 @@ FN terms start_terms(vec3 ambient, vec3 emission)
     return sum;
 }
 
-// MODEL_NONE: the diffuse colour as it is, no light asked.
+// The model `none`: the diffuse colour as it is; no light is read.
 FN terms unlit_terms(vec3 kd)
 {
     terms sum = start_terms(black3(), black3());
@@ -89,14 +89,6 @@ FN terms add_arriving_ambient(terms sum, vec3 ambient, light_sample t)
 {
     sum.ambient = add3(sum.ambient, scale3(ambient, t.attenuation * t.spot));
     return sum;
-}
-
-// Adds one point, directional or spot light.
-FN terms add_light(terms sum, surface s, light_source light, num shininess, int kind, int falloff, int model, int fibre)
-{
-    light_sample t = toward_light(s.p, light, kind, falloff);
-    lobe_value r = reflect_light(s, t.l, shininess, model, fibre);
-    return add_reflected(sum, light, t, r);
 }
 
 // Adds kr * environment, the environment's colour having been looked up with mirror3(v, n).

@@ -63,8 +63,10 @@ struct scene_word {
 // One of some words; the list ends with a NULL name.
 bool take_word(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
                const struct scene_word *words, int *out);
-extern const struct scene_word color_words[], shading_words[], reflection_words[], stage_words[], viewer_words[],
-    flat_normal_words[], normals_words[], cull_words[], up_words[], frame_words[], light_type_words[], tangent_words[];
+extern const struct scene_word color_words[], shading_words[], stage_words[], viewer_words[], flat_normal_words[],
+    normals_words[], cull_words[], up_words[], frame_words[], light_type_words[], tangent_words[];
+
+void reflection_words(struct scene_word words[LAM_REFLECTION_COUNT + 1]);
 
 // The key of a field, set in a material or light.
 bool take_field(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,

@@ -230,14 +230,6 @@ const struct scene_word color_words[] = {{"srgb", LAM_COLOR_SRGB}, {"raw", LAM_C
 const struct scene_word shading_words[] = {{"flat", LAM_SHADING_FLAT},    {"gouraud", LAM_SHADING_GOURAUD},
                                            {"phong", LAM_SHADING_PHONG},  {"smooth", LAM_SHADING_GOURAUD},
                                            {"normal", LAM_SHADING_PHONG}, {NULL, 0}};
-const struct scene_word reflection_words[] = {{"auto", LAM_REFLECTION_AUTO},
-                                              {"none", LAM_REFLECTION_NONE},
-                                              {"lambert", LAM_REFLECTION_LAMBERT},
-                                              {"phong", LAM_REFLECTION_PHONG},
-                                              {"blinn-phong", LAM_REFLECTION_BLINN_PHONG},
-                                              {"kajiya-kay", LAM_REFLECTION_KAJIYA_KAY},
-                                              {"kajiya-kay-lecture", LAM_REFLECTION_KAJIYA_KAY_LECTURE},
-                                              {NULL, 0}};
 const struct scene_word stage_words[] = {{"auto", LAM_STAGE_AUTO},
                                          {"application", LAM_STAGE_APPLICATION},
                                          {"vertex", LAM_STAGE_VERTEX},
@@ -257,6 +249,13 @@ const struct scene_word light_type_words[] = {{"ambient", LAM_LIGHT_AMBIENT}, {"
                                               {"point", LAM_LIGHT_POINT},     {"directional", LAM_LIGHT_DIRECTIONAL},
                                               {"spot", LAM_LIGHT_SPOT},       {NULL, 0}};
 const struct scene_word tangent_words[] = {{"file", false}, {"field", true}, {NULL, 0}};
+
+void reflection_words(struct scene_word words[LAM_REFLECTION_COUNT + 1])
+{
+    for (int i = 0; i < LAM_REFLECTION_COUNT; i++)
+        words[i] = (struct scene_word){lam_reflection_describe((lam_reflection)i)->word, i};
+    words[LAM_REFLECTION_COUNT] = (struct scene_word){NULL, 0};
+}
 
 // --- colours
 

@@ -445,7 +445,7 @@ static bool put_settings(struct scene_writer *w, json_t *root, const lam_picture
     if (s->present & LAM_SETTING_SHADING)
         put(w, root, "shading", word(shading_words, (int)s->draw.shading));
     if (s->present & LAM_SETTING_REFLECTION)
-        put(w, root, "reflection", word(reflection_words, (int)s->draw.reflection));
+        put(w, root, "reflection", json_string(lam_reflection_describe(s->draw.reflection)->word));
     if (s->present & LAM_SETTING_STAGE)
         put(w, root, "stage", word(stage_words, (int)s->draw.stage));
     if (s->present & LAM_SETTING_VIEWER)

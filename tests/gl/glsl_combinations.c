@@ -89,7 +89,7 @@ int glsl_combinations(void (*visit)(void *user, const struct glsl_choices *choic
                     base.stage = ways[way].stage;
                     base.products = products;
                     every_light(&base);
-                    for (int model = LAM_REFLECTION_NONE; model <= LAM_REFLECTION_KAJIYA_KAY_LECTURE; model++)
+                    for (int model = LAM_REFLECTION_NONE; model < LAM_REFLECTION_COUNT; model++)
                         for (int sides = 0; sides < 3; sides++) {
                             struct glsl_choices c = base;
                             c.reflection = (lam_reflection)model;

@@ -42,17 +42,18 @@ static void compare(const struct points *p, const struct modes *m, int i)
     point_inputs(p, i, in);
     struct textbook t = textbook_light(m, in);
     double alpha = (double)in[IN_SHININESS], lobe = 2e-6 + 4e-7 * alpha, matt = 2e-6, base = 2e-6;
-    int kajiya = m->model == MODEL_KAJIYA_KAY || m->model == MODEL_KAJIYA_KAY_LECTURE;
+    int kajiya = m->model == LAM_REFLECTION_KAJIYA_KAY || m->model == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
     // Where one last digit decides between all and nothing, either is right; nearly parallel tangents have no
     // direction.
-    if (m->model != MODEL_LAMBERT && fabs(t.out[OUT_N_DOT_L]) < 1e-6)
+    if (m->model != LAM_REFLECTION_LAMBERT && fabs(t.out[OUT_N_DOT_L]) < 1e-6)
         return;
     if (m->kind == LIGHT_SPOT_CUTOFF && fabs(t.cone_cosine - (double)in[IN_COS_CUTOFF]) < 1e-6)
         return;
     if (kajiya && t.tangent_sine < 0.3)
         return;
-    if (m->model == MODEL_BLINN_PHONG && t.half_length < 0.1) { // light from straight behind: what is left of l + v
-        lobe *= 0.1 / t.half_length;                            // is the roundings of l and v
+    if (m->model == LAM_REFLECTION_BLINN_PHONG &&
+        t.half_length < 0.1) {       // light from straight behind: what is left of l + v
+        lobe *= 0.1 / t.half_length; // is the roundings of l and v
         base *= 0.1 / t.half_length;
     }
 
@@ -97,7 +98,7 @@ static void test_random_points(void **state)
     int compared = 0;
     for (int kind = LIGHT_POINT; kind <= LIGHT_SPOT_CONES; kind++) {
         for (int falloff = FALLOFF_NONE; falloff <= FALLOFF_RANGE; falloff++) {
-            for (int model = MODEL_NONE; model <= MODEL_KAJIYA_KAY_LECTURE; model++) {
+            for (int model = LAM_REFLECTION_NONE; model <= LAM_REFLECTION_KAJIYA_KAY_LECTURE; model++) {
                 for (int variant = 0; variant < 4; variant++) {
                     if (kind == LIGHT_DIRECTIONAL && falloff != FALLOFF_NONE)
                         continue;
@@ -179,50 +180,50 @@ static void test_degenerate_points(void **state)
     for (int kind = LIGHT_POINT; kind <= LIGHT_SPOT_CONES; kind++) {
         if (kind != LIGHT_DIRECTIONAL)
             for (int falloff = FALLOFF_NONE; falloff <= FALLOFF_RANGE; falloff++)
-                adds_nothing(in, kind, falloff, MODEL_LAMBERT, MODEL_KAJIYA_KAY_LECTURE, 1);
+                adds_nothing(in, kind, falloff, LAM_REFLECTION_LAMBERT, LAM_REFLECTION_KAJIYA_KAY_LECTURE, 1);
     }
     in[IN_CONSTANT] = 0; // and the pure inverse square there
     in[IN_QUADRATIC] = 1;
-    adds_nothing(in, LIGHT_POINT, FALLOFF_DISTANCE, MODEL_LAMBERT, MODEL_KAJIYA_KAY_LECTURE, 1);
+    adds_nothing(in, LIGHT_POINT, FALLOFF_DISTANCE, LAM_REFLECTION_LAMBERT, LAM_REFLECTION_KAJIYA_KAY_LECTURE, 1);
 
     plain_point(in); // no normal
     in[IN_NORMAL + 2] = 0;
     in[IN_SKY] = in[IN_GROUND] = 1;
-    adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, MODEL_LAMBERT, MODEL_BLINN_PHONG, 1);
-    light_one(&(struct modes){LIGHT_POINT, 0, MODEL_BLINN_PHONG, 0, 0}, in, out);
+    adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, LAM_REFLECTION_LAMBERT, LAM_REFLECTION_BLINN_PHONG, 1);
+    light_one(&(struct modes){LIGHT_POINT, 0, LAM_REFLECTION_BLINN_PHONG, 0, 0}, in, out);
     assert_true(out[OUT_AMBIENT] == 0);
 
     plain_point(in); // no tangent, and one along the normal
     in[IN_TANGENT] = 0;
-    adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, MODEL_KAJIYA_KAY, MODEL_KAJIYA_KAY_LECTURE, 1);
+    adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, LAM_REFLECTION_KAJIYA_KAY, LAM_REFLECTION_KAJIYA_KAY_LECTURE, 1);
     in[IN_TANGENT + 2] = 3;
-    adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, MODEL_KAJIYA_KAY, MODEL_KAJIYA_KAY_LECTURE, 1);
+    adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, LAM_REFLECTION_KAJIYA_KAY, LAM_REFLECTION_KAJIYA_KAY_LECTURE, 1);
 
     plain_point(in); // the eye at the point: no highlight
     in[IN_POINT + 2] = 0;
     in[IN_POSITION + 2] = 5;
-    adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, MODEL_LAMBERT, MODEL_KAJIYA_KAY_LECTURE, 0);
+    adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, LAM_REFLECTION_LAMBERT, LAM_REFLECTION_KAJIYA_KAY_LECTURE, 0);
 
     plain_point(in); // light from behind: gated, but for fibres and the lecture's form
     in[IN_POSITION] = 4;
     in[IN_POSITION + 2] = -4.5f;
-    adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, MODEL_LAMBERT, MODEL_BLINN_PHONG, 1);
+    adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, LAM_REFLECTION_LAMBERT, LAM_REFLECTION_BLINN_PHONG, 1);
     for (int fibre = 0; fibre < 2; fibre++) {
-        light_one(&(struct modes){LIGHT_POINT, 0, MODEL_KAJIYA_KAY, fibre, 0}, in, out);
+        light_one(&(struct modes){LIGHT_POINT, 0, LAM_REFLECTION_KAJIYA_KAY, fibre, 0}, in, out);
         assert_true((out[OUT_DIFFUSE] > 0) == fibre);
-        light_one(&(struct modes){LIGHT_POINT, 0, MODEL_KAJIYA_KAY_LECTURE, fibre, 0}, in, out);
+        light_one(&(struct modes){LIGHT_POINT, 0, LAM_REFLECTION_KAJIYA_KAY_LECTURE, fibre, 0}, in, out);
         assert_true(out[OUT_DIFFUSE] > 0);
     }
 
     plain_point(in); // attenuation all zero
     in[IN_CONSTANT] = 0;
-    adds_nothing(in, LIGHT_POINT, FALLOFF_DISTANCE, MODEL_LAMBERT, MODEL_KAJIYA_KAY_LECTURE, 1);
+    adds_nothing(in, LIGHT_POINT, FALLOFF_DISTANCE, LAM_REFLECTION_LAMBERT, LAM_REFLECTION_KAJIYA_KAY_LECTURE, 1);
 
     plain_point(in); // beyond the range, far beyond, and exactly there
     in[IN_INVERSE_RANGE] = 0.25f;
     for (float z = 0; z < 1e15f; z = z * 10 + 1) {
         in[IN_POSITION + 2] = z;
-        adds_nothing(in, LIGHT_POINT, FALLOFF_RANGE, MODEL_LAMBERT, MODEL_KAJIYA_KAY_LECTURE, 1);
+        adds_nothing(in, LIGHT_POINT, FALLOFF_RANGE, LAM_REFLECTION_LAMBERT, LAM_REFLECTION_KAJIYA_KAY_LECTURE, 1);
     }
 }
 
@@ -231,7 +232,7 @@ static void test_scale(void **state)
 {
     (void)state;
     float in[INPUTS], first[OUTPUTS], out[OUTPUTS];
-    for (int model = MODEL_LAMBERT; model <= MODEL_KAJIYA_KAY_LECTURE; model++) {
+    for (int model = LAM_REFLECTION_LAMBERT; model <= LAM_REFLECTION_KAJIYA_KAY_LECTURE; model++) {
         plain_point(in);
         in[IN_POSITION + 1] = 3;
         struct modes m = {LIGHT_POINT, FALLOFF_NONE, model, 0, VIEWER_LOCAL};
@@ -260,32 +261,32 @@ static void test_known_answers(void **state)
     (void)state;
     float in[INPUTS], out[OUTPUTS];
     plain_point(in); // head on, light at the eye: everything 1
-    for (int model = MODEL_PHONG; model <= MODEL_BLINN_PHONG; model++) {
+    for (int model = LAM_REFLECTION_PHONG; model <= LAM_REFLECTION_BLINN_PHONG; model++) {
         light_one(&(struct modes){LIGHT_POINT, FALLOFF_NONE, model, 0, 0}, in, out);
         assert_true(out[OUT_D] == 1 && out[OUT_S] == 1 && out[OUT_DISTANCE] == 4 && out[OUT_ATTENUATION] == 1);
     }
     in[IN_QUADRATIC] = 0.2f; // the lecture's 1, 0.54, 0.2 at distance 4: 1/(1 + 2.16 + 3.2)
     in[IN_LINEAR] = 0.54f;
-    light_one(&(struct modes){LIGHT_POINT, FALLOFF_DISTANCE, MODEL_LAMBERT, 0, 0}, in, out);
+    light_one(&(struct modes){LIGHT_POINT, FALLOFF_DISTANCE, LAM_REFLECTION_LAMBERT, 0, 0}, in, out);
     assert_true(fabsf(out[OUT_ATTENUATION] - 0.157232704f) < 1e-7f);
     in[IN_INVERSE_RANGE] = 0.125f; // half the range: 1 − 1/16
-    light_one(&(struct modes){LIGHT_POINT, FALLOFF_RANGE, MODEL_LAMBERT, 0, 0}, in, out);
+    light_one(&(struct modes){LIGHT_POINT, FALLOFF_RANGE, LAM_REFLECTION_LAMBERT, 0, 0}, in, out);
     assert_true(fabsf(out[OUT_ATTENUATION] - 0.157232704f * 0.9375f) < 1e-7f);
 
     // Light 60° off the normal, the eye on it: D = ½; Phong (½)^10; Blinn–Phong cos(30°)^10 = (¾)^5.
     plain_point(in);
     in[IN_DIRECTION] = -0.8660254f;
     in[IN_DIRECTION + 2] = -0.5f;
-    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, MODEL_PHONG, 0, 0}, in, out);
+    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, LAM_REFLECTION_PHONG, 0, 0}, in, out);
     assert_true(fabsf(out[OUT_D] - 0.5f) < 1e-6f && fabsf(out[OUT_S] - 0.0009765625f) < 1e-7f);
-    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, MODEL_BLINN_PHONG, 0, 0}, in, out);
+    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, LAM_REFLECTION_BLINN_PHONG, 0, 0}, in, out);
     assert_true(fabsf(out[OUT_S] - 0.2373046875f) < 2e-6f);
     // A thread across: t·l = sin 60°, t·v = 0: D = ½, mirror cone's base ½. A thread upright: both 1.
-    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, MODEL_KAJIYA_KAY, 0, 0}, in, out);
+    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, LAM_REFLECTION_KAJIYA_KAY, 0, 0}, in, out);
     assert_true(fabsf(out[OUT_D] - 0.5f) < 1e-6f && fabsf(out[OUT_BASE] - 0.5f) < 1e-6f);
     in[IN_TANGENT] = 0;
     in[IN_TANGENT + 1] = -7;
-    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, MODEL_KAJIYA_KAY, 0, 0}, in, out);
+    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, LAM_REFLECTION_KAJIYA_KAY, 0, 0}, in, out);
     assert_true(fabsf(out[OUT_D] - 1) < 1e-6f && fabsf(out[OUT_S] - 1) < 1e-5f);
 
     // Mirror cone and the lecture's form differ in the sign: l and v at 45° on either side of the normal.
@@ -293,9 +294,9 @@ static void test_known_answers(void **state)
     in[IN_POINT] = -4;               // the eye is at 45° to the right of the normal
     in[IN_DIRECTION] = -0.70710678f; // and so is the light
     in[IN_DIRECTION + 2] = -0.70710678f;
-    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, MODEL_KAJIYA_KAY, 0, 0}, in, out);
+    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, LAM_REFLECTION_KAJIYA_KAY, 0, 0}, in, out);
     assert_true(out[OUT_BASE] < 1e-6f);
-    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, MODEL_KAJIYA_KAY_LECTURE, 0, 0}, in, out);
+    light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, LAM_REFLECTION_KAJIYA_KAY_LECTURE, 0, 0}, in, out);
     assert_true(fabsf(out[OUT_BASE] - 1) < 1e-6f);
 }
 
@@ -304,7 +305,7 @@ static void test_cone_edge(void **state)
 {
     (void)state;
     float in[INPUTS], out[OUTPUTS];
-    struct modes m = {LIGHT_SPOT_CUTOFF, FALLOFF_NONE, MODEL_LAMBERT, 0, 0};
+    struct modes m = {LIGHT_SPOT_CUTOFF, FALLOFF_NONE, LAM_REFLECTION_LAMBERT, 0, 0};
     struct random r = {99};
     for (int i = 0; i < 500; i++) {
         double angle = i == 0 ? acos(-1.0) / 2 : (double)random_between(&r, 0.01f, 1.57f), turn = i * 0.7;
@@ -325,10 +326,10 @@ static void test_cone_edge(void **state)
     // No cutoff and exponent 0 is a point light: 0⁰ = 1, behind the spot too.
     plain_point(in);
     in[IN_DIRECTION + 2] = 1;
-    light_one(&(struct modes){LIGHT_SPOT_EXPONENT, 0, MODEL_LAMBERT, 0, 0}, in, out);
+    light_one(&(struct modes){LIGHT_SPOT_EXPONENT, 0, LAM_REFLECTION_LAMBERT, 0, 0}, in, out);
     assert_true(out[OUT_SPOT] == 1);
     in[IN_EXPONENT] = 1;
-    light_one(&(struct modes){LIGHT_SPOT_EXPONENT, 0, MODEL_LAMBERT, 0, 0}, in, out);
+    light_one(&(struct modes){LIGHT_SPOT_EXPONENT, 0, LAM_REFLECTION_LAMBERT, 0, 0}, in, out);
     assert_true(out[OUT_SPOT] == 0);
 }
 
@@ -336,12 +337,12 @@ static void test_cone_edge(void **state)
 static void test_numbers(void **state)
 {
     (void)state;
-    assert_int_equal(MODEL_NONE, LAM_REFLECTION_NONE);
-    assert_int_equal(MODEL_LAMBERT, LAM_REFLECTION_LAMBERT);
-    assert_int_equal(MODEL_PHONG, LAM_REFLECTION_PHONG);
-    assert_int_equal(MODEL_BLINN_PHONG, LAM_REFLECTION_BLINN_PHONG);
-    assert_int_equal(MODEL_KAJIYA_KAY, LAM_REFLECTION_KAJIYA_KAY);
-    assert_int_equal(MODEL_KAJIYA_KAY_LECTURE, LAM_REFLECTION_KAJIYA_KAY_LECTURE);
+    assert_int_equal(LAM_REFLECTION_NONE, LAM_REFLECTION_NONE);
+    assert_int_equal(LAM_REFLECTION_LAMBERT, LAM_REFLECTION_LAMBERT);
+    assert_int_equal(LAM_REFLECTION_PHONG, LAM_REFLECTION_PHONG);
+    assert_int_equal(LAM_REFLECTION_BLINN_PHONG, LAM_REFLECTION_BLINN_PHONG);
+    assert_int_equal(LAM_REFLECTION_KAJIYA_KAY, LAM_REFLECTION_KAJIYA_KAY);
+    assert_int_equal(LAM_REFLECTION_KAJIYA_KAY_LECTURE, LAM_REFLECTION_KAJIYA_KAY_LECTURE);
 }
 
 int main(void)

@@ -122,7 +122,7 @@ static uint64_t hash_of_lighting(uint64_t hash)
     assert_non_null(p);
     struct random r = {77};
     for (int kind = LIGHT_POINT; kind <= LIGHT_SPOT_CONES; kind++) {
-        for (int model = MODEL_NONE; model <= MODEL_KAJIYA_KAY_LECTURE; model++) {
+        for (int model = LAM_REFLECTION_NONE; model <= LAM_REFLECTION_KAJIYA_KAY_LECTURE; model++) {
             for (int variant = 0; variant < 4; variant++) {
                 struct modes m = {kind, (kind + model + variant) % 3, model, variant & 1, variant >> 1};
                 points_fill(first, 1 + random_bits(&r));

@@ -14,7 +14,7 @@
 #define LANES 1
 #include "lighting.h"
 
-static const char *const equation_files[] = {"lobes.h", "lights.h", "sum.h"};
+static const char *const equation_files[] = {"lobes.h", "light_kinds.h", "lights.h", "sum.h"};
 enum { EQUATION_FILES = sizeof equation_files / sizeof *equation_files };
 
 struct word {
@@ -41,7 +41,7 @@ static void test_meaning_in_c(void **state)
 #undef WORD
 }
 
-// The whole of a file of src/lighting; the caller frees it.
+// A file of src/lighting, as far as GLSL sees it; the caller frees it.
 static char *read_text(const char *name)
 {
     char path[4096];
@@ -54,6 +54,9 @@ static char *read_text(const char *name)
     size_t size = fread(text, 1, (1 << 17) - 1, file);
     fclose(file);
     assert_true(size > 100 && size < (1 << 17) - 1);
+    char *end = strstr(text, "// --- C only");
+    if (end)
+        *end = 0;
     return text;
 }
 
@@ -161,7 +164,7 @@ static void test_glsl_words_are_listed(void **state)
     free(text);
 }
 
-// A main that uses every word and, through add_light and its kin, every equation.
+// A main that uses every word, every lobe and, through their kin, every equation.
 static void write_shader(FILE *file, const char *version)
 {
     int old = strcmp(version, "120") == 0;
@@ -174,7 +177,12 @@ static void write_shader(FILE *file, const char *version)
         fputs(text, file);
         free(text);
     }
-    fputs("uniform int kind, falloff, model, fibre, viewer;\nuniform float a, b;\nuniform vec3 p, q;\n"
+    fputs("struct lobe_parameters {", file);
+#define MEMBER(name) fputs(" float " #name ";", file);
+    LOBE_PARAMETERS(MEMBER)
+#undef MEMBER
+    fputs(" };\nuniform lobe_parameters m;\n"
+          "uniform int kind, falloff, viewer;\nuniform float a, b;\nuniform vec3 p, q;\n"
           "uniform light_source light;\nuniform hemisphere dome;\n",
           file);
     fputs(old ? "#define result gl_FragColor\n" : "out vec4 result;\n", file);
@@ -184,7 +192,13 @@ static void write_shader(FILE *file, const char *version)
     fputs("    surface s = surface_at(p, q, p, viewer);\n"
           "    terms t = start_terms(p, q);\n"
           "    t = add_hemisphere(t, s, dome);\n"
-          "    t = add_light(t, s, light, a, kind, falloff, model, fibre);\n"
+          "    light_sample way = toward_light(s.p, light, kind, falloff);\n"
+          "    vec3 l = way.l;\n",
+          file);
+#define LOBE(NAME, call, ...) fputs("    t = add_reflected(t, light, way, reflected_of(" #call ", a));\n", file);
+    LOBES(LOBE)
+#undef LOBE
+    fputs("    t = add_arriving_ambient(t, p, way);\n"
           "    t = add_environment(tint_terms(t, q), p, mirror3(s.v, s.n));\n"
           "    vec3 colour = add3(sum_terms(t), add3(sum_terms(unlit_terms(p)), halfway3(p, q)));\n"
           "    result = vec4(colour, sum);\n}\n",

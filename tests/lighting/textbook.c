@@ -88,32 +88,32 @@ struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]
     double theta_l = acos(limit(inner(t, l), -1, 1)), theta_v = acos(limit(inner(t, v), -1, 1));
     int gated = 1, seen = !none(v);
     switch (modes->model) {
-    case MODEL_LAMBERT:
+    case LAM_REFLECTION_LAMBERT:
         diffuse = fmax(n_l, 0);
         break;
-    case MODEL_PHONG:
+    case LAM_REFLECTION_PHONG:
         diffuse = fmax(n_l, 0);
         base = limit(inner(r, v), 0, 1);
         specular = n_l > 0 && seen ? raise(base, shininess) : 0;
         break;
-    case MODEL_BLINN_PHONG:
+    case LAM_REFLECTION_BLINN_PHONG:
         diffuse = fmax(n_l, 0);
         base = limit(inner(n, h), 0, 1);
         specular = n_l > 0 && seen ? raise(base, shininess) : 0;
         break;
-    case MODEL_KAJIYA_KAY:
-    case MODEL_KAJIYA_KAY_LECTURE:
+    case LAM_REFLECTION_KAJIYA_KAY:
+    case LAM_REFLECTION_KAJIYA_KAY_LECTURE:
         // sin sin ∓ cos cos are −cos of the sum and cos of the difference of the angles.
-        base = modes->model == MODEL_KAJIYA_KAY ? -cos(theta_l + theta_v) : cos(theta_l - theta_v);
+        base = modes->model == LAM_REFLECTION_KAJIYA_KAY ? -cos(theta_l + theta_v) : cos(theta_l - theta_v);
         base = limit(base, 0, 1);
-        gated = modes->model == MODEL_KAJIYA_KAY && !modes->fibre;
+        gated = modes->model == LAM_REFLECTION_KAJIYA_KAY && !modes->fibre;
         if (!none(t) && !none(l) && (n_l > 0 || !gated)) {
             diffuse = sin(theta_l);
             specular = seen ? raise(base, shininess) : 0;
         }
         break;
     }
-    if (modes->model == MODEL_NONE)
+    if (modes->model == LAM_REFLECTION_NONE)
         base = 0;
 
     put(out + OUT_L, l);

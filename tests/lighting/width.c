@@ -75,11 +75,11 @@ static void light(const struct modes *modes, const float *const in[INPUTS], floa
         l.exponent = num_load(in[IN_EXPONENT] + i);
         l.cos_outer = num_load(in[IN_COS_OUTER] + i);
         l.inverse_width = num_load(in[IN_INVERSE_WIDTH] + i);
-        num shininess = num_load(in[IN_SHININESS] + i);
+        lobe_parameters m = {.shininess = num_load(in[IN_SHININESS] + i), .fibre = num_of((float)modes->fibre)};
         hemisphere h = {load3(in, IN_UP, i), load3(in, IN_SKY, i), load3(in, IN_GROUND, i)};
 
         light_sample t = toward_light(s.p, l, modes->kind, modes->falloff);
-        lobe_value r = reflect_light(s, t.l, shininess, modes->model, modes->fibre);
+        lobe_value r = reflect_light(s, t.l, m, modes->model);
         store3(out, OUT_L, i, t.l);
         num_store(out[OUT_DISTANCE] + i, t.distance);
         num_store(out[OUT_ATTENUATION] + i, t.attenuation);
@@ -91,7 +91,7 @@ static void light(const struct modes *modes, const float *const in[INPUTS], floa
 
         terms sum = start_terms(load3(in, IN_AMBIENT, i), load3(in, IN_EMISSION, i));
         sum = add_hemisphere(sum, s, h);
-        sum = add_light(sum, s, l, shininess, modes->kind, modes->falloff, modes->model, modes->fibre);
+        sum = add_reflected(sum, l, t, r);
         sum = tint_terms(sum, load3(in, IN_TINT, i));
         sum = add_environment(sum, load3(in, IN_MIRROR, i), load3(in, IN_ENVIRONMENT, i));
         store3(out, OUT_AMBIENT, i, sum.ambient);

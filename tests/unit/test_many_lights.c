@@ -108,7 +108,7 @@ static void test_exact(void **state)
         lam_draw_params params = {.samples = round & 1 ? 4 : 1,
                                   .rig = LAM_RIG_NONE,
                                   .shading = (lam_shading)(round % 4 == 3 ? 1 + round / 4 % 2 : 0),
-                                  .reflection = (lam_reflection)(round % 7),
+                                  .reflection = (lam_reflection)(round % LAM_REFLECTION_COUNT),
                                   .gl1 = round % 6 == 5};
         lam_frame_report report;
         lam_image few = draw(scene, &params, LAM_RGBA32F, &report);

@@ -180,7 +180,7 @@ static void test_every_method(void **state)
     (void)state;
     for (int colors = 0; colors < 2; colors++)
         for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++)
-            for (int model = LAM_REFLECTION_NONE; model <= LAM_REFLECTION_KAJIYA_KAY_LECTURE; model++)
+            for (int model = LAM_REFLECTION_NONE; model < LAM_REFLECTION_COUNT; model++)
                 for (int gl1 = 0; gl1 < 2; gl1++) {
                     lam_draw_params params = {.shading = (lam_shading)shading,
                                               .reflection = (lam_reflection)model,

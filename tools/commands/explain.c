@@ -17,13 +17,6 @@ const char *explain_shading(lam_shading shading)
     return names[shading];
 }
 
-const char *explain_reflection(lam_reflection reflection)
-{
-    static const char *const names[] = {"auto",        "none",       "lambert",           "phong",
-                                        "blinn-phong", "kajiya-kay", "kajiya-kay-lecture"};
-    return names[reflection];
-}
-
 const char *explain_light_type(lam_light_type type)
 {
     static const char *const names[] = {"ambient", "hemisphere", "point", "directional", "spot"};

@@ -215,7 +215,7 @@ void explain_json(const lam_explanation *e, const char *model)
     json_count(&json, "height", (uint64_t)e->height);
     json_count(&json, "samples", (uint64_t)e->samples);
     json_text(&json, "shading", explain_shading(e->shading));
-    json_text(&json, "reflection", explain_reflection(e->reflection));
+    json_text(&json, "reflection", lam_reflection_describe(e->reflection)->word);
     json_text(&json, "viewer", e->distant_viewer ? "infinite" : "local");
     json_open(&json, "triangles", '[');
     for (int i = 0; i < e->fragment_count; i++)

@@ -3,6 +3,7 @@
 #include "explain.h"
 
 #include <stdio.h>
+#include <string.h>
 
 enum {
     COLUMN = 26,
@@ -67,11 +68,6 @@ static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z *
 static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-static bool is_thread(const lam_explanation *e)
-{
-    return e->reflection == LAM_REFLECTION_KAJIYA_KAY || e->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
-}
-
 // --- a light
 
 static void tell_attenuation(const lam_explained_light *l)
@@ -92,23 +88,20 @@ static void tell_attenuation(const lam_explained_light *l)
 static void tell_highlight(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
                            const lam_explained_light *l)
 {
-    bool gated = !f->surface.fibre && e->reflection != LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    const lam_reflection_info *model = lam_reflection_describe(e->reflection);
+    bool gated = !model->backlit && !(model->backlit_fibre && f->surface.fibre);
     const char *gate = gated ? "[n·l > 0] " : "";
     char remark[200];
-    if (is_thread(e)) {
+    if (model->tangents) {
         number(4, "t·l", dot(p->t, l->l), "cos(t,l)");
         number(4, "t·v", dot(p->t, p->v), "cos(t,v)");
-        snprintf(remark, sizeof remark, "%ssin(t,l)", gate);
-        number(4, "D", (double)l->D, remark);
-        number(4, "base", (double)l->base,
-               e->reflection == LAM_REFLECTION_KAJIYA_KAY ? "max(sin(t,l) sin(t,v) − cos(t,l) cos(t,v), 0)"
-                                                          : "max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)");
-    } else {
-        number(4, "D", (double)l->D, "max(n·l, 0)");
-        if (e->reflection == LAM_REFLECTION_LAMBERT)
-            return;
-        number(4, "base", (double)l->base, e->reflection == LAM_REFLECTION_PHONG ? "max(r·v, 0)" : "max(n·h, 0)");
     }
+    bool gates_diffuse = strncmp(model->diffuse, "max(", 4) != 0; // which is 0 by itself
+    snprintf(remark, sizeof remark, "%s%s", gates_diffuse ? gate : "", model->diffuse);
+    number(4, "D", (double)l->D, remark);
+    if (!model->base)
+        return;
+    number(4, "base", (double)l->base, model->base);
     number(4, "power α", (double)l->power, "the shininess");
     snprintf(remark, sizeof remark, "%sbase^α = %s%.7g^%.7g", gate, gated && !(l->n_dot_l > 0) ? "0 · " : "",
              (double)l->base, (double)l->power);
@@ -349,7 +342,7 @@ static void tell_pixel(const lam_explanation *e)
 void explain_text(const lam_explanation *e, const char *model)
 {
     printf("%s: pixel %d,%d of %dx%d, %s shading, %s reflection, %d sample%s a pixel\n", model, e->x, e->y, e->width,
-           e->height, explain_shading(e->shading), explain_reflection(e->reflection), e->samples,
+           e->height, explain_shading(e->shading), lam_reflection_describe(e->reflection)->word, e->samples,
            e->samples == 1 ? "" : "s");
     if (!e->fragment_count)
         printf("\nNothing is seen here but the background.\n");

@@ -102,7 +102,7 @@ static bool draws_once(const struct job *job)
     const struct options *o = job->options;
     if (job->device && lam_device_isa(job->device) == LAM_ISA_AUTO) // not the CPU's
         return false;
-    bool tangents = o->reflection == LAM_REFLECTION_KAJIYA_KAY || o->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    bool tangents = lam_reflection_describe((lam_reflection)o->reflection)->tangents;
     return o->repeat == 1 && !show_is_all(o) && !tangents;
 }
 

@@ -115,7 +115,7 @@ bool job_dress(struct job *job, const lam_control *control, struct model_sphere 
         lam_scene_sphere(scene, -1, &sphere->centre, &sphere->radius);
     if (!(sphere->radius > 0))
         sphere->radius = 1;
-    bool threads = o->reflection == LAM_REFLECTION_KAJIYA_KAY || o->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    bool threads = lam_reflection_describe((lam_reflection)o->reflection)->tangents;
     return dress_materials(o, scene, error) && dress_sides(o, scene, error) && dress_rig(job, error) &&
            dress_rotations(o, sphere->centre, scene, error) &&
            (!threads || lam_scene_make_tangents(scene, control, error));

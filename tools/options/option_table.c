@@ -112,15 +112,9 @@ static const struct word shading_words[] = {
     {"normal", LAM_SHADING_PHONG, "another name of phong"},
     {NULL, 0, NULL}};
 
-static const struct word reflection_words[] = {
-    {"auto", LAM_REFLECTION_AUTO, "blinn-phong for classic materials"},
-    {"none", LAM_REFLECTION_NONE, "the diffuse colour, unlit"},
-    {"lambert", LAM_REFLECTION_LAMBERT, "ambient and diffuse light, no highlight"},
-    {"phong", LAM_REFLECTION_PHONG, "the highlight around the mirrored light"},
-    {"blinn-phong", LAM_REFLECTION_BLINN_PHONG, "the highlight by the half vector"},
-    {"kajiya-kay", LAM_REFLECTION_KAJIYA_KAY, "highlights along threads, from the tangents"},
-    {"kajiya-kay-lecture", LAM_REFLECTION_KAJIYA_KAY_LECTURE, "the same with the sign that a lecture prints"},
-    {NULL, 0, NULL}};
+// Filled by option_table_fill.
+static struct word reflection_words[LAM_REFLECTION_COUNT + 1];
+static char reflection_summary[400];
 
 static const struct word rig_words[] = {
     {"auto", LAM_RIG_AUTO, "the model's own lights, the studio where it has none"},
@@ -356,9 +350,8 @@ const struct option option_table[] = {
 
     {"shading", 0, GROUP_SHADING, "METHOD", "phong", "Where light is worked out: flat, gouraud or phong (each pixel).",
      NULL, shading_words, .store = store_word, FIELD(shading), .has_field = offsetof(struct options, has_shading)},
-    {"reflection", 0, GROUP_SHADING, "MODEL", "auto",
-     "How surfaces answer light: none, lambert, phong, blinn-phong, kajiya-kay, kajiya-kay-lecture or auto.", NULL,
-     reflection_words, .store = store_word, FIELD(reflection)},
+    {"reflection", 0, GROUP_SHADING, "MODEL", "auto", reflection_summary, NULL, reflection_words, .store = store_word,
+     FIELD(reflection)},
     {"stage", 0, GROUP_SHADING, "WHERE", "fragment", "Where lighting is worked out: application, vertex or fragment.",
      "Without `--shading`, application and vertex take gouraud and fragment takes phong. flat goes with all "
      "three, gouraud with "
@@ -522,3 +515,23 @@ const struct option option_table[] = {
     {"help", 'h', GROUP_ABOUT, NULL, NULL, "Print this help.", NULL, .store = store_switch, FIELD(help)},
     {.name = NULL},
 };
+
+static char *append(char *to, const char *text)
+{
+    while (*text)
+        *to++ = *text++;
+    return to;
+}
+
+// Every start of the program runs this: no printf.
+void option_table_fill(void)
+{
+    char *end = append(reflection_summary, "How surfaces answer light:");
+    for (int i = 0; i < LAM_REFLECTION_COUNT; i++) {
+        const lam_reflection_info *model = lam_reflection_describe((lam_reflection)i);
+        reflection_words[i] = (struct word){model->word, i, model->summary};
+        if (i > LAM_REFLECTION_AUTO && end - reflection_summary < (int)(sizeof reflection_summary - 60))
+            end = append(append(end, i > LAM_REFLECTION_NONE ? ", " : " "), model->word);
+    }
+    append(end, " or auto.");
+}

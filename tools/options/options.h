@@ -180,6 +180,8 @@ struct option {
 };
 
 extern const struct option option_table[]; // ends with a NULL name
+// Fills the words that stand in the library's tables. main calls it before anything reads the table.
+void option_table_fill(void);
 extern const char *const group_titles[GROUP_COUNT];
 
 struct options option_defaults(void);

@@ -34,7 +34,7 @@ static uint32_t quantize(float x, float low, float high)
     return part > 0 ? part < (1 << KEY_BITS) - 1 ? (uint32_t)part : (1 << KEY_BITS) - 1 : 0;
 }
 
-static bool has_range(const struct frame_light *light) { return !light->directional && light->inverse_range > 0; }
+static bool has_range(const struct frame_light *light) { return light->falloff == FALLOFF_RANGE; }
 
 // Morton order: the bits of the three coordinates interleaved. Lights without a range come last.
 static void make_keys(const struct frame *frame, struct sort_key *keys)
@@ -45,7 +45,7 @@ static void make_keys(const struct frame *frame, struct sort_key *keys)
         for (int i = 0; i < frame->light_count; i++) {
             const struct frame_light *light = &frame->lights[i];
             float x = light->position[a];
-            if (light->directional)
+            if (light->kind == LIGHT_DIRECTIONAL)
                 continue;
             low[a] = x < low[a] ? x : low[a];
             high[a] = x > high[a] ? x : high[a];
@@ -54,7 +54,7 @@ static void make_keys(const struct frame *frame, struct sort_key *keys)
     for (int i = 0; i < frame->light_count; i++) {
         const struct frame_light *light = &frame->lights[i];
         uint32_t key = has_range(light) ? 0 : 1u << (3 * KEY_BITS);
-        for (int a = 0; a < 3 && !light->directional; a++)
+        for (int a = 0; a < 3 && light->kind != LIGHT_DIRECTIONAL; a++)
             key |= spread_bits(quantize(light->position[a], low[a], high[a])) << a;
         keys[i] = (struct sort_key){key, (uint32_t)i};
     }
@@ -90,12 +90,12 @@ static float max_channel(const float v[3])
 
 static float min_cosine(const struct frame_light *light)
 {
-    switch (light->cone) {
-    case CONE_CUTOFF:
+    switch (light->kind) {
+    case LIGHT_SPOT_CUTOFF:
         return light->cos_cutoff;
-    case CONE_SOFT:
+    case LIGHT_SPOT_CONES:
         return light->cos_outer;
-    case CONE_EXPONENT:
+    case LIGHT_SPOT_EXPONENT:
         return 0;
     default:
         return -2;
@@ -154,10 +154,10 @@ static struct bound_rows lay_out_rows(struct rows *rows, int capacity, int group
 static void fill_light(const struct bound_rows *w, int i, const struct frame_light *light, uint32_t number)
 {
     w->number[i] = number;
-    w->far[i] = light->directional ? -1 : 0;
+    w->far[i] = light->kind == LIGHT_DIRECTIONAL ? -1 : 0;
     for (int a = 0; a < 3; a++) {
-        w->position[a][i] = light->directional ? -light->axis[a] : light->position[a];
-        w->axis[a][i] = light->cone == CONE_NONE ? 0 : light->axis[a];
+        w->position[a][i] = light->kind == LIGHT_DIRECTIONAL ? -light->axis[a] : light->position[a];
+        w->axis[a][i] = light->kind >= LIGHT_SPOT_CUTOFF ? light->axis[a] : 0;
         w->attenuation[a][i] = light->attenuation[a];
     }
     w->min_cosine[i] = min_cosine(light);

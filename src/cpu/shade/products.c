@@ -16,12 +16,8 @@ static void multiply_material(struct material_products *out, const lam_material 
     product(out->ambient, &material->ambient.r, frame->ambient);
     memcpy(out->emission, &material->emission, sizeof out->emission);
     memcpy(out->diffuse, &material->diffuse, sizeof out->diffuse);
-    out->shininess = material->shininess;
-    if (frame->match_highlights && frame->reflection == LAM_REFLECTION_BLINN_PHONG)
-        out->shininess *= 4;
-    if (frame->gl1 && out->shininess > 128)
-        out->shininess = 128;
-    out->fibre = material->fibre;
+    out->given = material;
+    out->shininess = frame_shininess(frame, material);
     memcpy(out->reflectivity, &material->reflectivity, sizeof out->reflectivity);
     out->mirrors =
         frame->environment && (out->reflectivity[0] != 0 || out->reflectivity[1] != 0 || out->reflectivity[2] != 0);

@@ -14,11 +14,11 @@ struct light_products {
 struct material_products {
     float ambient[3]; // ka ⊙ (La_global + Σ La)
     float emission[3];
-    float diffuse[4]; // kd and opacity, for unlit painting
-    float shininess;
+    float diffuse[4];      // kd and opacity, for unlit painting
     float reflectivity[3]; // kr
     bool mirrors;          // there is an environment, and kr is not 0
-    bool fibre;
+    const lam_material *given;
+    float shininess;                     // in use
     const struct light_products *lights; // one for each light
     float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere
 };

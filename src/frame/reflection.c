@@ -1,0 +1,25 @@
+// reflection.c: the reflection models in words, from the table in src/lighting/lobes.h.
+#define LANES 1
+#include "lighting.h"
+
+#include <stddef.h>
+
+#define TEXT_OR_NULL(text) (sizeof(text) > 1 ? (text) : NULL)
+#define LOBE(NAME, call, properties, word, summary, diffuse, base)                                                     \
+    [LAM_REFLECTION_##NAME] = {word,                                                                                   \
+                               summary,                                                                                \
+                               diffuse,                                                                                \
+                               TEXT_OR_NULL(base),                                                                     \
+                               ((properties) & LOBE_TANGENT) != 0,                                                     \
+                               ((properties) & LOBE_BACKLIT) != 0,                                                     \
+                               ((properties) & LOBE_BACKLIT_FIBRE) != 0},
+
+static const lam_reflection_info models[LAM_REFLECTION_COUNT] = {
+    [LAM_REFLECTION_AUTO] = {.word = "auto", .summary = "blinn-phong for classic materials"},
+    [LAM_REFLECTION_NONE] = {.word = "none", .summary = "the diffuse colour, unlit"},
+    LOBES(LOBE)};
+
+const lam_reflection_info *lam_reflection_describe(lam_reflection model)
+{
+    return (unsigned)model < LAM_REFLECTION_COUNT ? &models[model] : NULL;
+}

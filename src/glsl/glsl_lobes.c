@@ -1,0 +1,81 @@
+// glsl_lobes.c: the reflection models as calls in GLSL, from the table in src/lighting/lobes.h.
+#include "glsl_rows.h"
+
+#define LANES 1
+#include "lighting.h"
+
+#include <stdio.h>
+#include <string.h>
+
+// As they stand in the table: "kajiya_kay_lobe(s, l, m.fibre)".
+static const char *const calls[LAM_REFLECTION_COUNT] = {
+#define LOBE(NAME, call, ...) [LAM_REFLECTION_##NAME] = #call,
+    LOBES(LOBE)
+#undef LOBE
+};
+
+static const char *const parameters[] = {
+#define NAME(name) #name,
+    LOBE_PARAMETERS(NAME)
+#undef NAME
+};
+enum { PARAMETERS = sizeof parameters / sizeof *parameters };
+
+static bool is_name(const char *at, size_t length, const char *name)
+{
+    return strlen(name) == length && memcmp(at, name, length) == 0;
+}
+
+static size_t name_length(const char *at) { return strspn(at, "abcdefghijklmnopqrstuvwxyz_0123456789"); }
+
+bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
+{
+    if (!f->sums || !f->lights)
+        return false;
+    if (strcmp(parameter, "shininess") == 0)
+        return f->highlights;
+    const char *at = calls[f->choices->reflection];
+    while (at && (at = strstr(at, "m.")) && !is_name(at + 2, name_length(at + 2), parameter))
+        at += 2;
+    return at != NULL;
+}
+
+// Products of two materials: the one in hand is chosen once, before the loops.
+static bool chooses(const struct glsl_facts *f) { return f->choices->products && f->back; }
+
+void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
+{
+    for (int i = 0; chooses(f) && i < PARAMETERS; i++)
+        if (glsl_lobe_reads(f, parameters[i]))
+            text_print(text, "%s    float own_%s = front ? %s : back_%s;", text->bytes ? "\n" : "", parameters[i],
+                       parameters[i], parameters[i]);
+}
+
+static void add_parameter(struct text *text, const struct glsl_facts *f, const char *name, size_t length)
+{
+    text_print(text, "%s%.*s", !f->choices->products ? "m." : chooses(f) ? "own_" : "", (int)length, name);
+}
+
+void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
+{
+    text_add(text, "reflected_of(");
+    for (const char *at = calls[f->choices->reflection]; *at;) {
+        size_t length = name_length(at), member = length && at[length] == '.' ? name_length(at + length + 1) : 0;
+        if (is_name(at, length, "m") && member) {
+            add_parameter(text, f, at + length + 1, member);
+            length += 1 + member;
+        } else if (is_name(at, length, "l")) {
+            text_add(text, "t.l");
+        } else {
+            length += !length;
+            text_add_part(text, at, length);
+        }
+        at += length;
+    }
+    text_add(text, ", ");
+    if (f->highlights)
+        add_parameter(text, f, "shininess", strlen("shininess"));
+    else
+        text_add(text, "1.0"); // the base is 0: no highlight
+    text_add(text, ")");
+}

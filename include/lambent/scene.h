@@ -31,7 +31,8 @@ LAM_API bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *co
 typedef enum lam_normals {
     // The file's; smooth ones where it has none. STL's facet normals count as none.
     LAM_NORMALS_FILE = 0,
-    LAM_NORMALS_SMOOTH, // smooth ones, made even where the file has normals
+    // Smooth ones, made even where the file has normals: faces are weighted by area × corner angle, and creased.
+    LAM_NORMALS_SMOOTH,
     LAM_NORMALS_FACET,  // each triangle's own, at its three corners
 } lam_normals;
 

@@ -2,9 +2,8 @@
 //
 // A triangle's tangent is ∂p/∂s, the way in which the first texture coordinate grows (from p = p0 + ∂p/∂s·Δs + ∂p/∂t·Δt
 // along two edges). Corners that share position, normal, texture coordinate and the sense of the mapping share the mean
-// of their triangles' tangents, weighted by the corner's angle as smooth normals are, so that the result does not
-// depend on how a flat face is cut. Corners are listed by vertex with a counting sort and worked through in one order:
-// the same bits on every run.
+// of their triangles' tangents, weighted by the corner's angle, so that the result does not depend on how a flat face is
+// cut. Corners are listed by vertex with a counting sort and worked through in one order: the same bits on every run.
 #include "scene_internal.h"
 
 #include "fail.h"

@@ -150,8 +150,8 @@ static void test_cube(void **state)
         const float *face = cube_faces[c / 6];
         assert_normal(&mesh, c, (double)face[0], (double)face[1], (double)face[2]);
     }
-    // At 90° all are one. Some faces have two triangles at a corner, some one: the weight is the angle, so
-    // that the diagonal does not show.
+    // At 90° all are one. Some faces have two triangles at a corner, some one: the angles, 45° and 45° or 90°, make up
+    // for that, so that the diagonal does not show.
     static const double creases[] = {90, 120, 180};
     for (int k = 0; k < 3; k++) {
         mesh = cube();
@@ -168,6 +168,85 @@ static void test_cube(void **state)
     mesh = cube();
     smooth(&mesh, 89.9, &arena, NULL);
     assert_int_equal(mesh.normal_count, 24);
+    arena_free(&arena);
+}
+
+// --- The weight of a corner: its triangle's area × its angle
+
+// A sum of v weighted by `weight`, unit.
+static void add_weighted(double sum[3], const double v[3], double weight)
+{
+    for (int a = 0; a < 3; a++)
+        sum[a] += v[a] * weight;
+}
+
+// A tip where three triangles of areas 1 : 10 : 100 or so, and angles from 20° to 150°, meet; in metres, micrometres and
+// light years.
+static void test_area_times_angle(void **state)
+{
+    (void)state;
+    static const double scales[] = {1, 1e-6, 1e16, 1e-30, 1e34};
+    for (size_t k = 0; k < sizeof scales / sizeof *scales; k++) {
+        struct arena arena;
+        arena_start(&arena, NULL);
+        static const double rim[4][3] = {{1, 0, 0.1}, {0.3, 0, -0.4}, {-3, 0.5, 0.2}, {20, 0.1, 30}};
+        static const uint32_t indices[] = {0, 2, 1, 2, 0, 3, 3, 0, 4};
+        static const int tips[] = {0, 1, 1};
+        float p[15] = {0};
+        for (int i = 0; i < 12; i++)
+            p[3 + i] = (float)(rim[i / 3][i % 3] * scales[k]);
+        lam_mesh mesh = {.positions = p, .vertex_count = 5, .indices = indices, .triangle_count = 3};
+        smooth(&mesh, 180, &arena, NULL);
+        double expected[3] = {0}, by_angle[3] = {0};
+        for (int t = 0; t < 3; t++) {
+            const double *q = rim[indices[3 * t + (tips[t] + 1) % 3] - 1],
+                         *r = rim[indices[3 * t + (tips[t] + 2) % 3] - 1];
+            double cross[3] = {q[1] * r[2] - q[2] * r[1], q[2] * r[0] - q[0] * r[2], q[0] * r[1] - q[1] * r[0]};
+            double length = sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
+            double angle = atan2(length, q[0] * r[0] + q[1] * r[1] + q[2] * r[2]);
+            add_weighted(expected, cross, angle);
+            add_weighted(by_angle, cross, angle / length);
+        }
+        double length = sqrt(expected[0] * expected[0] + expected[1] * expected[1] + expected[2] * expected[2]);
+        double other = sqrt(by_angle[0] * by_angle[0] + by_angle[1] * by_angle[1] + by_angle[2] * by_angle[2]);
+        double apart = 0;
+        for (int a = 0; a < 3; a++) {
+            const double n = (double)normal_of(&mesh, 0)[a];
+            assert_true(fabs(n - expected[a] / length) < 1e-5); // the angle's own error
+            apart = fmax(apart, fabs(n - by_angle[a] / other));
+        }
+        assert_true(apart > 0.05); // the test can tell the weights apart
+        arena_free(&arena);
+    }
+}
+
+// The wall of a cylinder as CAD programs write it: between its facets lie slivers, whose normals are tilted by the
+// rounding of their corners, here by 20°. Weighted by the angle alone, they turn the wall's normals by 10°.
+static void test_slivers_do_not_streak(void **state)
+{
+    (void)state;
+    enum { SIDES = 180, POINTS = 2 * SIDES };
+    struct arena arena;
+    arena_start(&arena, NULL);
+    float p[2 * POINTS * 3];
+    uint32_t indices[POINTS * 6];
+    for (uint32_t i = 0; i < POINTS; i++) {
+        double angle = 2 * M_PI * (i / 2) / SIDES, beside = i % 2 * 1e-5, along = angle + RADIANS(90 + 20);
+        for (uint32_t top = 0; top < 2; top++) {
+            float point[3] = {(float)(cos(angle) + beside * cos(along)), (float)(sin(angle) + beside * sin(along)),
+                              top ? 10 : 0};
+            memcpy(p + 3 * (2 * i + top), point, 12);
+        }
+        uint32_t low = 2 * i, next = 2 * ((i + 1) % POINTS);
+        memcpy(indices + 6 * i, (uint32_t[]){low, next, next + 1, low, next + 1, low + 1}, 24);
+    }
+    lam_mesh mesh = {.positions = p, .vertex_count = 2 * POINTS, .indices = indices, .triangle_count = 2 * POINTS};
+    smooth(&mesh, 40, &arena, NULL);
+    for (size_t c = 0; c < 6 * POINTS; c++) {
+        const float *n = normal_of(&mesh, c), *at = p + 3 * (size_t)indices[c];
+        double radial = (double)n[0] * (double)at[0] + (double)n[1] * (double)at[1];
+        assert_true(radial > cos(RADIANS(1.1))); // a facet's own is 1° off at its edges
+    }
     arena_free(&arena);
 }
 
@@ -698,6 +777,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cube),
+        cmocka_unit_test(test_area_times_angle),
+        cmocka_unit_test(test_slivers_do_not_streak),
         cmocka_unit_test(test_facet),
         cmocka_unit_test(test_sphere),
         cmocka_unit_test(test_weld),

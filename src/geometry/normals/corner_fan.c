@@ -119,8 +119,9 @@ static void look(const lam_mesh *mesh, uint32_t corner, struct spoke *spoke)
     spoke->normal[0] = spans ? x * scale : 0;
     spoke->normal[1] = spans ? y * scale : 0;
     spoke->normal[2] = spans ? z * scale : 0;
-    // |a × b| and a·b are sine and cosine of the angle times the same lengths.
-    spoke->angle = spans ? angle_of(length, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) : 0;
+    // |a × b| and a·b are sine and cosine of the angle times the same lengths. The weight is below 1e78, and above 1e-90
+    // if not 0: neither a sum of weighted normals nor its square leaves the range of doubles, whatever the unit.
+    spoke->weight = spans ? length * angle_of(length, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) : 0;
 }
 
 static bool has_area(const struct spoke *s) { return s->normal[0] != 0 || s->normal[1] != 0 || s->normal[2] != 0; }
@@ -258,7 +259,7 @@ uint32_t fan_normals(const lam_mesh *mesh, double least_cosine, struct fan_room 
     memset(sums, 0, fans * sizeof *sums);
     for (uint32_t i = 0; i < count; i++)
         for (int a = 0; a < 3; a++)
-            sums[spokes[i].fan][a] += spokes[i].normal[a] * spokes[i].angle;
+            sums[spokes[i].fan][a] += spokes[i].normal[a] * spokes[i].weight;
     for (uint32_t f = 0; f < fans; f++) {
         lam_vec3 unit = v3_unit(v3(sums[f][0], sums[f][1], sums[f][2]));
         room->normals[f][0] = (float)unit.x;

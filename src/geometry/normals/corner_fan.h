@@ -15,7 +15,7 @@ struct spoke {
     uint32_t next[3],
         before[3];    // bits of the positions of the triangle's next corner and the one before, −0 as 0
     double normal[3]; // of the triangle, unit; zero without area
-    double angle;     // at the corner, radians
+    double weight;    // twice the area × the angle at the corner in radians
     uint32_t fan;     // while joining: a spoke that this one is joined to; then the number of its fan
 };
 

@@ -111,13 +111,13 @@ static void look(struct fan_block *b)
                                s * (-0.12044858521312099 + s * (0.05658998519974516 + s * -0.013130382075233026)))));
             angle = steep ? PI / 2 - angle : angle;
             angle = dot < 0 ? PI - angle : angle;
-            angle = spans ? angle : 0;
+            double weight = spans ? length * angle : 0;
             b->normal[i][0][p] = x;
             b->normal[i][1][p] = y;
             b->normal[i][2][p] = z;
-            b->weighted[i][0][p] = x * angle;
-            b->weighted[i][1][p] = y * angle;
-            b->weighted[i][2][p] = z * angle;
+            b->weighted[i][0][p] = x * weight;
+            b->weighted[i][1][p] = y * weight;
+            b->weighted[i][2][p] = z * weight;
             b->flat[p] |= 1 - (uint32_t)spans;
         }
 }

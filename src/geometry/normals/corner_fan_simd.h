@@ -34,7 +34,7 @@ struct fan_block {
     fan_numbers next_vertex[FAN_FEW], before_vertex[FAN_FEW]; // the triangle's next corner, the one before
     float here[3][FAN_PLACES], next[FAN_FEW][3][FAN_PLACES], before[FAN_FEW][3][FAN_PLACES];
     double normal[FAN_FEW][3][FAN_PLACES];   // of the triangle, unit; zero without area
-    double weighted[FAN_FEW][3][FAN_PLACES]; // the normal times the angle at the corner
+    double weighted[FAN_FEW][3][FAN_PLACES]; // the normal × twice the area × the angle at the corner
     fan_numbers links[FAN_FEW];              // bit j: the corner is joined to corner j
 };
 

@@ -11,8 +11,9 @@
 // Smooth normals (conventions 18): corners at the same position (bit-equal after −0 → 0, whatever their index) are
 // welded; around a position, two triangles are joined where they share an edge and their face normals differ by at most
 // the crease angle (and they are of one smoothing group, not 0, where groups are given); a corner's normal is the sum
-// over its joined fan of unit face normals weighted by the angle at the corner, summed in triangle order. A triangle
-// without area adds nothing and its corners take their neighbours' normal, else zero. Neighbours that run along their
+// over its joined fan of unit face normals, each weighted by the triangle's area × the angle at the corner, summed in
+// triangle order. (By the angle alone, the slivers of CAD files, whose normals are little but rounding, count as much as
+// the faces beside them, and surfaces streak.) A triangle without area adds nothing and its corners take their neighbours' normal, else zero. Neighbours that run along their
 // common edge in the same direction (inconsistent winding) are never joined.
 // Fills mesh->normals, normal_count and normal_indices from `arena`. The result does not depend on the pool.
 bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena, struct pool *pool,

@@ -33,7 +33,7 @@ typedef enum lam_normals {
     LAM_NORMALS_FILE = 0,
     // Smooth ones, made even where the file has normals: faces are weighted by area × corner angle, and creased.
     LAM_NORMALS_SMOOTH,
-    LAM_NORMALS_FACET,  // each triangle's own, at its three corners
+    LAM_NORMALS_FACET, // each triangle's own, at its three corners
 } lam_normals;
 
 struct lam_bytes;

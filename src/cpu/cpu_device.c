@@ -21,16 +21,16 @@ struct cpu_device {
     struct thread_state *threads;
     struct thread_bins *bins;
     struct frame_memory memory;
-    struct seeing_room seeing;
+    struct visible_buffers visible;
     float decode_srgb[256], decode_linear[256];
 };
 
 static uint64_t cpu_memory(const struct lam_device *base)
 {
     const struct cpu_device *device = (const struct cpu_device *)base;
-    const struct seeing_room *seeing = &device->seeing;
-    uint64_t bytes =
-        frame_memory_bytes(&device->memory) + seeing->sets.room + seeing->normals.room + seeing->fragment_stores.room;
+    const struct visible_buffers *visible = &device->visible;
+    uint64_t bytes = frame_memory_bytes(&device->memory) + visible->sets.room + visible->normals.room +
+                     visible->fragment_stores.room;
     for (int i = 0; i < device->thread_count; i++)
         bytes += thread_bytes(&device->threads[i], &device->bins[i]);
     return bytes;
@@ -45,9 +45,9 @@ static void cpu_free(struct lam_device *base)
     free(device->threads);
     free(device->bins);
     frame_memory_free(&device->memory);
-    buffer_free(&device->seeing.sets);
-    buffer_free(&device->seeing.normals);
-    buffer_free(&device->seeing.fragment_stores);
+    buffer_free(&device->visible.sets);
+    buffer_free(&device->visible.normals);
+    buffer_free(&device->visible.fragment_stores);
     free(device);
 }
 
@@ -168,15 +168,16 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     if (!step_done(&cpu, error))
         return false;
     cpu.shade.recorder = base->recorder;
-    bool ok = !frame->makes_normals || (see_triangles(&cpu, &device->seeing, error) && step_done(&cpu, error));
+    bool ok =
+        !frame->makes_normals || (make_normals_of_visible(&cpu, &device->visible, error) && step_done(&cpu, error));
     if (frame->makes_normals)
-        base->report.normals_ms = milliseconds_since(&clock) - device->seeing.search_ms;
+        base->report.normals_ms = milliseconds_since(&clock) - device->visible.search_ms;
     if (ok && base->recorder)
         record_tile(&cpu, base->recorder);
     else if (ok)
         pool_run(device->pool, tile_count(&cpu), tile_task, &cpu);
-    seeing_room_empty(&device->seeing, device->thread_count);
-    base->report.tiles_ms = milliseconds_since(&clock) + (cpu.fragment_stores ? device->seeing.search_ms : 0);
+    visible_buffers_empty(&device->visible, device->thread_count);
+    base->report.tiles_ms = milliseconds_since(&clock) + (cpu.fragment_stores ? device->visible.search_ms : 0);
     fill_report(&base->report, device);
     return ok && step_done(&cpu, error);
 }
@@ -222,7 +223,7 @@ lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
     device->thread_count = pool_threads(pool);
     device->threads = threads;
     device->bins = bins;
-    device->seeing.vertices = &device->memory.vertices;
+    device->visible.vertices = &device->memory.vertices;
     for (int i = 0; i < 256; i++) {
         device->decode_srgb[i] = (float)srgb_linear(i / 255.0);
         device->decode_linear[i] = (float)(i / 255.0);

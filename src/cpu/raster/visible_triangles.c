@@ -23,7 +23,7 @@ static void mark_bins(void *user, size_t index, int number)
                 uint32_t id = block->ids[k];
                 if (id & CLIPPED)
                     id = clipped_piece(bins, id & ~CLIPPED)->id;
-                number_set_add(&cpu->shade.seen.triangles, id);
+                rank_bitset_add(&cpu->shade.visible.triangles, id);
             }
     }
 }
@@ -38,25 +38,26 @@ struct tile_search {
 // Tiles: half a million fragments, and some megabytes, where all is covered.
 enum { LARGE_PICTURE = 128 };
 
-// Adds the triangles of the fragments, and tells the lowest and the highest of them. Which of them differ
-// from the one before is a coin's toss: that is asked without a branch.
-static void add_shown(struct number_set *set, const struct fragments *fragments, uint32_t *lowest, uint32_t *highest)
+// Adds the triangles of the fragments, and returns the lowest and the highest of them. Whether a fragment's triangle
+// differs from the one before cannot be predicted, so that it is tested without a branch.
+static void add_triangles(struct rank_bitset *set, const struct fragments *fragments, uint32_t *lowest,
+                          uint32_t *highest)
 {
-    uint32_t *shown = fragments->order; // not in use yet
-    uint32_t before = NOTHING;
+    uint32_t *ids = fragments->order; // not in use yet
+    uint32_t previous = NOTHING;
     int count = 0;
     for (int i = 0; i < fragments->count; i++) {
         uint32_t id = fragments->id[i] & ~BACK_SIDE;
-        shown[count] = id;
-        count += id != before;
-        before = id;
+        ids[count] = id;
+        count += id != previous;
+        previous = id;
     }
     *lowest = UINT32_MAX;
     *highest = 0;
     for (int i = 0; i < count; i++) {
-        number_set_add(set, shown[i]);
-        *lowest = shown[i] < *lowest ? shown[i] : *lowest;
-        *highest = shown[i] > *highest ? shown[i] : *highest;
+        rank_bitset_add(set, ids[i]);
+        *lowest = ids[i] < *lowest ? ids[i] : *lowest;
+        *highest = ids[i] > *highest ? ids[i] : *highest;
     }
 }
 
@@ -76,31 +77,31 @@ static void search_tile(void *user, size_t index, int number)
         cpu->kernels->visibility_resolve(cpu->raster.pattern, &thread->samples, &thread->fragments, &tile);
     struct fragment_store *fragment_store = &cpu->fragment_stores[index];
     uint32_t highest;
-    add_shown(&cpu->shade.seen.triangles, &thread->fragments, &fragment_store->lowest, &highest);
+    add_triangles(&cpu->shade.visible.triangles, &thread->fragments, &fragment_store->lowest, &highest);
     if (!cpu->kernels->save_fragments(fragment_store, &thread->fragments, cpu->raster.frame->samples, highest,
                                       &search->arenas[number]))
         raster_fail(&cpu->raster, FAILED_MEMORY);
     thread->coverage_ns += now_ns() - start;
 }
 
-static bool search_tiles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
+static bool search_tiles(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error)
 {
     size_t tiles = tile_count(cpu), threads = (size_t)pool_threads(cpu->pool);
-    if (!buffer_reserve(&room->fragment_stores, tiles * sizeof(struct fragment_store) + threads * sizeof(struct arena),
-                        cpu->call, error))
+    if (!buffer_reserve(&buffers->fragment_stores,
+                        tiles * sizeof(struct fragment_store) + threads * sizeof(struct arena), cpu->call, error))
         return false;
-    cpu->fragment_stores = room->fragment_stores.data;
+    cpu->fragment_stores = buffers->fragment_stores.data;
     memset(cpu->fragment_stores, 0, tiles * sizeof(struct fragment_store));
-    room->arenas = (struct arena *)(cpu->fragment_stores + tiles);
+    buffers->arenas = (struct arena *)(cpu->fragment_stores + tiles);
     for (size_t i = 0; i < threads; i++)
-        (tiles > LARGE_PICTURE ? arena_start_large : arena_start)(&room->arenas[i], cpu->call);
+        (tiles > LARGE_PICTURE ? arena_start_large : arena_start)(&buffers->arenas[i], cpu->call);
     uint64_t start = now_ns();
-    pool_run(cpu->pool, tiles, search_tile, &(struct tile_search){cpu, room->arenas});
-    room->search_ms = (double)(now_ns() - start) * 1e-6;
+    pool_run(cpu->pool, tiles, search_tile, &(struct tile_search){cpu, buffers->arenas});
+    buffers->search_ms = (double)(now_ns() - start) * 1e-6;
     return true;
 }
 
-// The bins are done with.
+// Frees the bins, which are no longer needed.
 static void release_bins(struct cpu_frame *cpu)
 {
     size_t tiles = tile_count(cpu);
@@ -112,76 +113,76 @@ static void release_bins(struct cpu_frame *cpu)
 
 // --- both
 
-static bool make_set(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
+static bool make_set(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error)
 {
-    struct number_set *set = &cpu->shade.seen.triangles;
-    size_t words = number_set_words(cpu->raster.frame->triangle_count);
-    if (!buffer_reserve(&room->sets, words * (sizeof *set->bits + sizeof *set->before), cpu->call, error))
+    struct rank_bitset *set = &cpu->shade.visible.triangles;
+    size_t words = rank_bitset_words(cpu->raster.frame->triangle_count);
+    if (!buffer_reserve(&buffers->sets, words * (sizeof *set->bits + sizeof *set->ranks), cpu->call, error))
         return false;
     set->size = cpu->raster.frame->triangle_count;
-    set->bits = room->sets.data;
-    set->before = (uint32_t *)(set->bits + words);
+    set->bits = buffers->sets.data;
+    set->ranks = (uint32_t *)(set->bits + words);
     memset(set->bits, 0, words * sizeof *set->bits);
     return true;
 }
 
-// Finds memory for the elements and normals of so many corners: in the spare one where that is large, else of
-// their own, of which fewer pages are touched: corners share normals.
-static bool place_normals(struct seeing_room *room, struct seen_normals *seen, size_t corners, struct spare *spare,
-                          struct call_control *call, lam_error *error)
+// Finds memory for the elements and normals of so many corners: in the scratch memory where that is large, else of their
+// own, of which fewer pages are touched, since corners share normals.
+static bool place_normals(struct visible_buffers *buffers, struct visible_normals *visible, size_t corners,
+                          struct scratch_memory *scratch, struct call_control *call, lam_error *error)
 {
-    size_t elements = (corners * sizeof *seen->elements + 63) / 64 * 64,
-           normals = (corners * sizeof *seen->normals + 63) / 64 * 64;
-    bool lies_there = elements + normals <= spare->room / 4;
-    if (!lies_there && !buffer_reserve(&room->normals, elements + normals, call, error))
+    size_t elements = (corners * sizeof *visible->elements + 63) / 64 * 64,
+           normals = (corners * sizeof *visible->normals + 63) / 64 * 64;
+    bool fits = elements + normals <= scratch->capacity / 4;
+    if (!fits && !buffer_reserve(&buffers->normals, elements + normals, call, error))
         return false;
-    char *memory = lies_there ? spare->memory : room->normals.data;
-    seen->elements = (uint32_t *)memory;
-    seen->normals = (float(*)[3])(memory + elements);
-    seen->used = 0;
-    spare->used = lies_there ? elements + normals : 0;
+    char *memory = fits ? scratch->memory : buffers->normals.data;
+    visible->elements = (uint32_t *)memory;
+    visible->normals = (float(*)[3])(memory + elements);
+    visible->used = 0;
+    scratch->used = fits ? elements + normals : 0;
     return true;
 }
 
-bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error)
+bool make_normals_of_visible(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error)
 {
     const struct frame *frame = cpu->raster.frame;
-    struct seen_normals *seen = &cpu->shade.seen;
-    room->search_ms = 0;
-    if (!make_set(cpu, room, error))
+    struct visible_normals *visible = &cpu->shade.visible;
+    buffers->search_ms = 0;
+    if (!make_set(cpu, buffers, error))
         return false;
     if (!frame->translucent && !cpu->shade.recorder && lam_output_is_light(frame->show)) {
-        if (!search_tiles(cpu, room, error))
+        if (!search_tiles(cpu, buffers, error))
             return false;
     } else {
         pool_run(cpu->pool, tile_count(cpu), mark_bins, cpu);
     }
     if (!raster_should_continue(&cpu->raster))
-        return true; // the caller asks why
-    // The vertices are done with too; what is made may lie where they did.
-    struct spare spare = {0};
+        return true; // the caller reports why
+    // The vertices are no longer needed either: their memory serves again.
+    struct scratch_memory scratch = {0};
     if (cpu->fragment_stores) {
         release_bins(cpu);
-        spare = (struct spare){.memory = room->vertices->data, .room = room->vertices->room};
+        scratch = (struct scratch_memory){.memory = buffers->vertices->data, .capacity = buffers->vertices->room};
         cpu->raster.vertices = NULL;
     }
-    number_set_count(&seen->triangles);
-    size_t corners = 3 * (size_t)seen->triangles.count;
+    rank_bitset_finish(&visible->triangles);
+    size_t corners = 3 * (size_t)visible->triangles.count;
     if (corners == 0)
-        return true; // no triangle is seen
-    if (!place_normals(room, seen, corners, &spare, cpu->call, error))
+        return true; // no triangle is visible
+    if (!place_normals(buffers, visible, corners, &scratch, cpu->call, error))
         return false;
     for (int i = 0; i < frame->draw_count; i++)
         if (frame->draws[i].crease_rad > 0 &&
-            !normals_seen(frame->draws[i].mesh, frame->draws[i].first_id, frame->draws[i].crease_rad, seen, spare,
-                          cpu->kernels->lanes, cpu->pool, cpu->call, error))
+            !make_visible_normals(frame->draws[i].mesh, frame->draws[i].first_id, frame->draws[i].crease_rad, visible,
+                                  scratch, cpu->kernels->lanes, cpu->pool, cpu->call, error))
             return false;
     return true;
 }
 
-void seeing_room_empty(struct seeing_room *room, int threads)
+void visible_buffers_empty(struct visible_buffers *buffers, int threads)
 {
-    for (int i = 0; room->arenas && i < threads; i++)
-        arena_free(&room->arenas[i]);
-    room->arenas = NULL;
+    for (int i = 0; buffers->arenas && i < threads; i++)
+        arena_free(&buffers->arenas[i]);
+    buffers->arenas = NULL;
 }

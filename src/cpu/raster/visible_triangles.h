@@ -8,7 +8,7 @@
 struct cpu_frame;
 
 // Memory of the device. It lasts from frame to frame, except for the fragment stores.
-struct seeing_room {
+struct visible_buffers {
     struct buffer sets, normals, fragment_stores;
     struct buffer *vertices; // of the device: normals may lie there once the tiles are searched
     struct arena *arenas;    // of each thread, for the fragment stores
@@ -17,7 +17,7 @@ struct seeing_room {
 
 // If all surfaces are opaque, each tile's fragments are found on the way and kept; otherwise every binned triangle
 // counts as visible.
-bool see_triangles(struct cpu_frame *cpu, struct seeing_room *room, lam_error *error);
-void seeing_room_empty(struct seeing_room *room, int threads); // frees the fragment stores
+bool make_normals_of_visible(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error);
+void visible_buffers_empty(struct visible_buffers *buffers, int threads); // frees the fragment stores
 
 #endif

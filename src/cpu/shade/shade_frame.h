@@ -32,7 +32,8 @@ struct shade_frame {
     const struct material_products *materials;
     const struct light_bounds *light_bounds;  // NULL: every light is evaluated everywhere
     const float *decode_srgb, *decode_linear; // 256 entries each: the value of a colour byte
-    struct seen_normals seen;  // of draws whose meshes have no normals; its set holds triangle numbers of the frame
+    struct visible_normals
+        visible;               // of draws whose meshes have no normals; its set holds triangle numbers of the frame
     struct recorder *recorder; // of the pixel that is explained (recorder.h), in the recording kernels; else NULL
 };
 

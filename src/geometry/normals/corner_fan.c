@@ -2,24 +2,24 @@
 #include "corner_fan.h"
 
 #include "linear.h"
-#include "weld.h"
+#include "position_simd.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// An edge from the position, as one spoke has it.
+// One of a corner's two edges at the position.
 struct fan_edge {
     uint32_t end[3]; // bits of the other end
-    uint32_t spoke;
+    uint32_t corner;
     uint32_t incoming; // 0: the triangle runs from the position to the end; 1: from the end to the position
 };
 _Static_assert(2 * sizeof(struct fan_edge) >= 3 * sizeof(double),
-               "a fan's sum must fit into the room of a spoke's edges");
+               "a fan's sum must fit into the memory of a corner's edges");
 
-// Positions are floats: one and the same angle, computed from two of its sides, differs in the seventh digit.
+// Positions are floats: the same angle between two pairs of faces differs in the seventh digit.
 #define CREASE_SLACK 1e-6
 
-double fan_least_cosine(double crease_angle_rad) { return math_cos(crease_angle_rad) - CREASE_SLACK; }
+double min_crease_cosine(double crease_angle_rad) { return math_cos(crease_angle_rad) - CREASE_SLACK; }
 
 static int compare_corners(const void *left, const void *right)
 {
@@ -27,7 +27,7 @@ static int compare_corners(const void *left, const void *right)
     return a < b ? -1 : a > b;
 }
 
-void fan_sort(uint32_t *corners, uint32_t count)
+void sort_corners(uint32_t *corners, uint32_t count)
 {
     if (count > 64) {
         bool sorted = true;
@@ -45,34 +45,28 @@ void fan_sort(uint32_t *corners, uint32_t count)
     }
 }
 
-void fan_room_start(struct fan_room *room, struct call_control *call)
+void corner_fan_scratch_start(struct corner_fan_scratch *scratch, struct call_control *call)
 {
-    *room = (struct fan_room){0};
-    arena_start(&room->arena, call);
+    *scratch = (struct corner_fan_scratch){0};
+    arena_start(&scratch->arena, call);
 }
 
-void fan_room_free(struct fan_room *room) { arena_free(&room->arena); }
+void corner_fan_scratch_free(struct corner_fan_scratch *scratch) { arena_free(&scratch->arena); }
 
-bool fan_room_reserve(struct fan_room *room, uint32_t count)
+bool corner_fan_scratch_reserve(struct corner_fan_scratch *scratch, uint32_t count)
 {
-    if (count <= room->room)
+    if (count <= scratch->capacity)
         return true;
-    uint32_t larger = room->room ? room->room : 64;
+    uint32_t larger = scratch->capacity ? scratch->capacity : 64;
     while (larger < count)
         larger = larger > UINT32_MAX / 2 ? count : larger * 2;
-    uint32_t *corners = arena_array(&room->arena, larger, sizeof *corners);
-    room->spokes = arena_array(&room->arena, larger, sizeof *room->spokes);
-    room->edges = arena_array(&room->arena, 2 * (size_t)larger, sizeof *room->edges);
-    room->normals = arena_array(&room->arena, larger, sizeof *room->normals);
-    if (!corners || !room->spokes || !room->edges || !room->normals) {
-        room->room = 0;
-        return false;
-    }
-    if (room->room)
-        memcpy(corners, room->corners, room->room * sizeof *corners);
-    room->corners = corners;
-    room->room = larger;
-    return true;
+    scratch->numbers = arena_array(&scratch->arena, larger, sizeof *scratch->numbers);
+    scratch->corners = arena_array(&scratch->arena, larger, sizeof *scratch->corners);
+    scratch->edges = arena_array(&scratch->arena, 2 * (size_t)larger, sizeof *scratch->edges);
+    scratch->normals = arena_array(&scratch->arena, larger, sizeof *scratch->normals);
+    bool ok = scratch->numbers && scratch->corners && scratch->edges && scratch->normals;
+    scratch->capacity = ok ? larger : 0;
+    return ok;
 }
 
 // atan2(y, x) for y ≥ 0 within 3e-6 rad: enough for a weight. The polynomial for atan on 0…1 goes through its
@@ -94,17 +88,17 @@ static double angle_of(double y, double x)
     return x < 0 ? PI - a : a;
 }
 
-static void look(const lam_mesh *mesh, uint32_t corner, struct spoke *spoke)
+static void look(const lam_mesh *mesh, uint32_t corner, struct fan_corner *c)
 {
     uint32_t triangle = corner / 3, k = corner - 3 * triangle;
-    uint32_t next = k == 2 ? corner - 2 : corner + 1, before = k == 0 ? corner + 2 : corner - 1;
+    uint32_t next = k == 2 ? corner - 2 : corner + 1, previous = k == 0 ? corner + 2 : corner - 1;
     const float *p = mesh->positions + 3 * (size_t)corner_vertex(mesh, corner);
     const float *q = mesh->positions + 3 * (size_t)corner_vertex(mesh, next);
-    const float *r = mesh->positions + 3 * (size_t)corner_vertex(mesh, before);
-    spoke->corner = corner;
-    spoke->smoothing_group = mesh->smoothing_groups ? mesh->smoothing_groups[triangle] : 1;
-    position_bits(q, spoke->next);
-    position_bits(r, spoke->before);
+    const float *r = mesh->positions + 3 * (size_t)corner_vertex(mesh, previous);
+    c->corner = corner;
+    c->smoothing_group = mesh->smoothing_groups ? mesh->smoothing_groups[triangle] : 1;
+    position_bits(q, c->next);
+    position_bits(r, c->previous);
     double a[3], b[3];
     for (int i = 0; i < 3; i++) {
         a[i] = (double)q[i] - (double)p[i];
@@ -116,50 +110,48 @@ static void look(const lam_mesh *mesh, uint32_t corner, struct spoke *spoke)
     double length = __builtin_sqrt(x * x + y * y + z * z);
     bool spans = length > 0 && length < 1e300; // neither infinite nor NaN
     double scale = spans ? 1 / length : 0;
-    spoke->normal[0] = spans ? x * scale : 0;
-    spoke->normal[1] = spans ? y * scale : 0;
-    spoke->normal[2] = spans ? z * scale : 0;
+    c->normal[0] = spans ? x * scale : 0;
+    c->normal[1] = spans ? y * scale : 0;
+    c->normal[2] = spans ? z * scale : 0;
     // |a × b| and a·b are sine and cosine of the angle times the same lengths. The weight is below 1e78, and above 1e-90
     // if not 0: neither a sum of weighted normals nor its square leaves the range of doubles, whatever the unit.
-    spoke->weight = spans ? length * angle_of(length, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) : 0;
+    c->weight = spans ? length * angle_of(length, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) : 0;
 }
 
-static bool has_area(const struct spoke *s) { return s->normal[0] != 0 || s->normal[1] != 0 || s->normal[2] != 0; }
+static bool has_area(const struct fan_corner *s) { return s->normal[0] != 0 || s->normal[1] != 0 || s->normal[2] != 0; }
 
-static uint32_t root_of(struct spoke *spokes, uint32_t i)
+static uint32_t root_of(struct fan_corner *around, uint32_t i)
 {
-    while (spokes[i].fan != i) {
-        spokes[i].fan = spokes[spokes[i].fan].fan; // halves the way for the next time
-        i = spokes[i].fan;
+    while (around[i].fan != i) {
+        around[i].fan = around[around[i].fan].fan; // halves the path for the next time
+        i = around[i].fan;
     }
     return i;
 }
 
-// Joins two spokes that share an edge, if they may share a normal. The lower number stands for both.
-static void join(struct spoke *spokes, uint32_t a, uint32_t b, double least_cosine)
+// Joins two corners that share an edge, if they may share a normal. The lower number becomes the root.
+static void join(struct fan_corner *around, uint32_t a, uint32_t b, double min_cosine)
 {
-    const struct spoke *s = &spokes[a], *t = &spokes[b];
+    const struct fan_corner *s = &around[a], *t = &around[b];
     double cosine = s->normal[0] * t->normal[0] + s->normal[1] * t->normal[1] + s->normal[2] * t->normal[2];
-    if (!(cosine >= least_cosine) || s->smoothing_group != t->smoothing_group || s->smoothing_group == 0 ||
+    if (!(cosine >= min_cosine) || s->smoothing_group != t->smoothing_group || s->smoothing_group == 0 ||
         !has_area(s) || !has_area(t))
         return;
-    uint32_t x = root_of(spokes, a), y = root_of(spokes, b);
+    uint32_t x = root_of(around, a), y = root_of(around, b);
     if (x < y)
-        spokes[y].fan = x;
+        around[y].fan = x;
     else
-        spokes[x].fan = y;
+        around[x].fan = y;
 }
 
-static bool same_bits(const uint32_t a[3], const uint32_t b[3]) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
-
-// Consistently wound neighbours have their common edge in opposite directions: one's next corner is where the
-// other's corner before is. Few spokes: every pair.
-static void join_few(struct spoke *spokes, uint32_t count, double least_cosine)
+// Consistently wound neighbours have their common edge in opposite directions: the next corner of one lies where the
+// previous corner of the other does. For few corners: tests every pair.
+static void join_few(struct fan_corner *around, uint32_t count, double min_cosine)
 {
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t j = 0; j < count; j++)
-            if (same_bits(spokes[i].next, spokes[j].before) && i != j)
-                join(spokes, i, j, least_cosine);
+            if (same_position(around[i].next, around[j].previous) && i != j)
+                join(around, i, j, min_cosine);
 }
 
 static int compare_edges(const void *left, const void *right)
@@ -170,101 +162,101 @@ static int compare_edges(const void *left, const void *right)
             return a->end[i] < b->end[i] ? -1 : 1;
     if (a->incoming != b->incoming)
         return a->incoming < b->incoming ? -1 : 1;
-    return a->spoke < b->spoke ? -1 : a->spoke > b->spoke;
+    return a->corner < b->corner ? -1 : a->corner > b->corner;
 }
 
-// Many spokes: by sorting. On an edge with so many triangles that all pairs would be too many, each outgoing
-// one meets the incoming one of the same rank only; no real surface has such an edge.
-static void join_many(struct spoke *spokes, struct fan_edge *edges, uint32_t count, double least_cosine)
+// For many corners: sorts their edges. On an edge with so many triangles that all pairs would be too many, each outgoing
+// one is tested against the incoming one of the same rank only; no real surface has such an edge.
+static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_t count, double min_cosine)
 {
     enum { PAIRS_MAX = 256 };
     for (uint32_t i = 0; i < count; i++) {
-        memcpy(edges[2 * (size_t)i].end, spokes[i].next, 12);
-        memcpy(edges[2 * (size_t)i + 1].end, spokes[i].before, 12);
+        memcpy(edges[2 * (size_t)i].end, around[i].next, 12);
+        memcpy(edges[2 * (size_t)i + 1].end, around[i].previous, 12);
         for (uint32_t k = 0; k < 2; k++) {
-            edges[2 * (size_t)i + k].spoke = i;
+            edges[2 * (size_t)i + k].corner = i;
             edges[2 * (size_t)i + k].incoming = k;
         }
     }
     size_t total = 2 * (size_t)count;
     qsort(edges, total, sizeof *edges,
-          compare_edges); // no two are equal, so the order is one and the same everywhere
+          compare_edges); // no two are equal, so every qsort gives the same order
     for (size_t first = 0; first < total;) {
         size_t split = first, end;
-        while (split < total && !edges[split].incoming && same_bits(edges[split].end, edges[first].end))
+        while (split < total && !edges[split].incoming && same_position(edges[split].end, edges[first].end))
             split++;
-        for (end = split; end < total && edges[end].incoming && same_bits(edges[end].end, edges[first].end);)
+        for (end = split; end < total && edges[end].incoming && same_position(edges[end].end, edges[first].end);)
             end++;
         size_t out = split - first, in = end - split;
         bool all = out <= PAIRS_MAX && in <= PAIRS_MAX && out * in <= PAIRS_MAX;
         for (size_t i = 0; i < out; i++)
             for (size_t j = all ? 0 : i; j < (all || i >= in ? in : i + 1); j++)
-                if (edges[first + i].spoke != edges[split + j].spoke)
-                    join(spokes, edges[first + i].spoke, edges[split + j].spoke, least_cosine);
+                if (edges[first + i].corner != edges[split + j].corner)
+                    join(around, edges[first + i].corner, edges[split + j].corner, min_cosine);
         first = end;
     }
 }
 
-// The fan for a corner of a triangle without area: that of the first neighbour across an edge that has one,
-// else the fan of `otherwise`.
-static uint32_t fan_beside(const struct spoke *spokes, uint32_t count, uint32_t i, uint32_t otherwise)
+// The fan for a corner of a triangle without area: that of the first neighbour across an edge that has an area, else the
+// fan of corner `otherwise`.
+static uint32_t neighbouring_fan(const struct fan_corner *around, uint32_t count, uint32_t i, uint32_t otherwise)
 {
-    enum { LOOKED_AT_MAX = 64 }; // so that a position with a million such corners takes no million squared steps
-    for (uint32_t j = 0; j < count && j < LOOKED_AT_MAX; j++)
-        if (has_area(&spokes[j]) &&
-            (same_bits(spokes[i].next, spokes[j].before) || same_bits(spokes[i].before, spokes[j].next)))
-            return spokes[j].fan;
-    return spokes[otherwise].fan;
+    enum { EXAMINED_MAX = 64 }; // so that a million such corners at a position do not take a million squared steps
+    for (uint32_t j = 0; j < count && j < EXAMINED_MAX; j++)
+        if (has_area(&around[j]) &&
+            (same_position(around[i].next, around[j].previous) || same_position(around[i].previous, around[j].next)))
+            return around[j].fan;
+    return around[otherwise].fan;
 }
 
 // Turns roots into numbers of fans, in the order of their first corners. Returns how many there are.
-static uint32_t number_fans(struct spoke *spokes, uint32_t count, uint32_t *number)
+static uint32_t number_fans(struct fan_corner *around, uint32_t count, uint32_t *number)
 {
     uint32_t fans = 0;
     memset(number, 0xff, count * sizeof *number);
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t *n = &number[spokes[i].fan];
+        uint32_t *n = &number[around[i].fan];
         if (*n == UINT32_MAX)
             *n = fans++;
-        spokes[i].fan = *n;
+        around[i].fan = *n;
     }
     return fans;
 }
 
-uint32_t fan_normals(const lam_mesh *mesh, double least_cosine, struct fan_room *room, uint32_t count)
+uint32_t corner_fan_normals(const lam_mesh *mesh, double min_cosine, struct corner_fan_scratch *scratch, uint32_t count)
 {
-    struct spoke *spokes = room->spokes;
+    struct fan_corner *around = scratch->corners;
     uint32_t flat = 0, first_with_area = 0;
     for (uint32_t i = count; i-- > 0;) {
-        look(mesh, room->corners[i], &spokes[i]);
-        spokes[i].fan = i;
-        if (has_area(&spokes[i]))
+        look(mesh, scratch->numbers[i], &around[i]);
+        around[i].fan = i;
+        if (has_area(&around[i]))
             first_with_area = i;
         else
             flat++;
     }
     if (count <= 24)
-        join_few(spokes, count, least_cosine);
+        join_few(around, count, min_cosine);
     else
-        join_many(spokes, room->edges, count, least_cosine);
+        join_many(around, scratch->edges, count, min_cosine);
     for (uint32_t i = 0; i < count; i++)
-        spokes[i].fan = root_of(spokes, i);
+        around[i].fan = root_of(around, i);
     for (uint32_t i = 0; flat && i < count; i++)
-        if (!has_area(&spokes[i]))
-            spokes[i].fan = fan_beside(spokes, count, i, first_with_area);
+        if (!has_area(&around[i]))
+            around[i].fan = neighbouring_fan(around, count, i, first_with_area);
 
-    // The corners are in the spokes too, the edges are done with: their room serves for the numbers and the sums.
-    uint32_t fans = number_fans(spokes, count, room->corners);
-    double(*sums)[3] = (double(*)[3])room->edges;
+    // The numbers are stored in the corners too, and the edges are no longer needed: both arrays are used again.
+    uint32_t fans = number_fans(around, count, scratch->numbers);
+    double(*sums)[3] = (double(*)[3])scratch->edges;
     memset(sums, 0, fans * sizeof *sums);
     for (uint32_t i = 0; i < count; i++)
         for (int a = 0; a < 3; a++)
-            sums[spokes[i].fan][a] += spokes[i].normal[a] * spokes[i].weight;
+            sums[around[i].fan][a] += around[i].normal[a] * around[i].weight;
     for (uint32_t f = 0; f < fans; f++) {
         lam_vec3 unit = v3_unit(v3(sums[f][0], sums[f][1], sums[f][2]));
-        room->normals[f][0] = (float)unit.x;
-        room->normals[f][1] = (float)unit.y;
-        room->normals[f][2] = (float)unit.z;
+        scratch->normals[f][0] = (float)unit.x;
+        scratch->normals[f][1] = (float)unit.y;
+        scratch->normals[f][2] = (float)unit.z;
     }
     return fans;
 }

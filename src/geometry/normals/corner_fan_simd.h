@@ -1,53 +1,51 @@
-// corner_fan_simd.h: fans (corner_fan.h) at many positions side by side, compiled once for each width of
-// registers. Every width gives the bits of corner_fan.c.
+// corner_fan_simd.h: fans (corner_fan.h) at many positions side by side, compiled once for each instruction set
+// (meson.build). Every one gives the bits of corner_fan.c.
 #ifndef CORNER_FAN_SIMD_H
 #define CORNER_FAN_SIMD_H
 
-#include "visible_normals.h"
+#include "rank_bitset.h"
 
 #include <lambent/mesh.h>
 
-#include <stddef.h>
-#include <stdint.h>
-
 enum {
-    FAN_PLACES = 32, // positions side by side; gcc unrolls loops of 16 before it could make them wide
-    FAN_FEW = 16,    // corners at one of them, at most
+    FAN_POSITIONS = 32,   // side by side; gcc unrolls loops of 16 instead of vectorizing them
+    FAN_CORNERS_MAX = 16, // corners at one of them
 };
 
-typedef uint32_t fan_numbers[FAN_PLACES];
+// One number for each position.
+typedef uint32_t fan_row[FAN_POSITIONS];
 
-// Positions where equally many corners meet, one in each lane: row i has their corners i.
-struct fan_block {
-    uint32_t count, places;       // corners at each, and how many there are; the lanes behind them repeat one
-    fan_numbers corners[FAN_FEW]; // ascending at each position once they are looked at
-    fan_numbers flat;             // not 0: a triangle there has no area, and nothing else is told of it
-    // Of the fans, numbered at each position by their first corners: the corners as bits, 0: there is no such
-    // fan; and the normals.
-    uint32_t fans; // at the position with most
-    fan_numbers members[FAN_FEW];
-    float unit[FAN_FEW][3][FAN_PLACES];
-    uint64_t elements[FAN_FEW][FAN_PLACES]; // where the corners' elements stand in seen_normals
+// Positions where equally many corners meet, one in each column: row i has their corners i.
+struct corner_fan_block {
+    uint32_t count, positions;        // corners at each; the columns after the last position repeat it
+    fan_row corners[FAN_CORNERS_MAX]; // ascending at each position once `make` has run
+    fan_row flat;                     // nonzero: a degenerate triangle; the other fields are invalid
+    // Fans, numbered at each position by their first corners: their corners as bits (0: the position has fewer fans),
+    // and their normals.
+    uint32_t fans; // the largest number of them at a position
+    fan_row members[FAN_CORNERS_MAX];
+    float unit[FAN_CORNERS_MAX][3][FAN_POSITIONS];
+    uint64_t elements[FAN_CORNERS_MAX][FAN_POSITIONS]; // indices of the corners in visible_normals.elements
 
-    // On the way there.
-    fan_numbers triangles[FAN_FEW], groups[FAN_FEW];
-    fan_numbers next_vertex[FAN_FEW], before_vertex[FAN_FEW]; // the triangle's next corner, the one before
-    float here[3][FAN_PLACES], next[FAN_FEW][3][FAN_PLACES], before[FAN_FEW][3][FAN_PLACES];
-    double normal[FAN_FEW][3][FAN_PLACES];   // of the triangle, unit; zero without area
-    double weighted[FAN_FEW][3][FAN_PLACES]; // the normal × twice the area × the angle at the corner
-    fan_numbers links[FAN_FEW];              // bit j: the corner is joined to corner j
+    // Intermediate values.
+    fan_row triangles[FAN_CORNERS_MAX], groups[FAN_CORNERS_MAX];
+    fan_row next_vertex[FAN_CORNERS_MAX], previous_vertex[FAN_CORNERS_MAX]; // of the triangle
+    float here[3][FAN_POSITIONS], next[FAN_CORNERS_MAX][3][FAN_POSITIONS], previous[FAN_CORNERS_MAX][3][FAN_POSITIONS];
+    double normal[FAN_CORNERS_MAX][3][FAN_POSITIONS];   // of the triangle, unit; zero without area
+    double weighted[FAN_CORNERS_MAX][3][FAN_POSITIONS]; // the normal × twice the area × the angle at the corner
+    fan_row links[FAN_CORNERS_MAX];                     // bit j: the corner is joined to corner j
 };
 
-struct fan_lanes {
+struct corner_fan_simd {
     int lanes; // floats in a register
-    // Fills what follows from count, places and corners, but for the elements.
-    void (*make)(struct fan_block *block, const lam_mesh *mesh, double least_cosine);
-    // Then: fills the elements, and leaves as members only corners of triangles in the set, where triangle 0
-    // has the number `first`. Returns how many fans have any.
-    uint32_t (*find)(struct fan_block *block, const struct number_set *triangles, uint32_t first);
+    // Computes the fans from count, positions and corners.
+    void (*make)(struct corner_fan_block *block, const lam_mesh *mesh, double min_cosine);
+    // Then fills `elements`, and leaves as members only corners of triangles in the set, where the mesh's triangle 0 has
+    // the number `first`. Returns the number of fans that have members.
+    uint32_t (*locate)(struct corner_fan_block *block, const struct rank_bitset *triangles, uint32_t first);
 };
 
-// The widest that the processor has, and not wider than `lanes`.
-const struct fan_lanes *fan_lanes_of(int lanes);
+// The widest that the processor has, of at most `lanes` lanes.
+const struct corner_fan_simd *corner_fan_simd_for(int lanes);
 
 #endif

@@ -1,48 +1,19 @@
 // normals.c: normals for meshes that have none.
 //
-// Smooth normals, in four steps over the whole mesh. Weld (weld.c): each vertex gets the number of its
-// position. Link: each corner is pushed onto its position's list, by one exchange of the list's head, so that
-// any number of threads may; the links lie in the array that becomes normal_indices, which saves a quarter of
-// the memory. Fans (corner_fan.c): for each position the corners are put in order and their normals worked
-// out, in pieces of a fixed number of positions; a corner's index counts within its piece. Shift: the pieces'
-// normals are strung together, and each corner's index moved by those before its piece. The lists' order is
-// the only thing that depends on the threads, and it is sorted away.
+// Smooth normals are made by visible_normals.c, which numbers them in the order in which threads come. They are then
+// numbered by the first corner that has them, so that the result does not depend on the threads.
 #include "normals.h"
 
-#include "loop_status.h"
-#include "linear.h"
 #include "corner_fan.h"
-#include "weld.h"
+#include "linear.h"
+#include "loop_status.h"
+#include "visible_normals.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum {
-    CHUNK = 1 << 16, // corners of one piece of work
-    PIECE = 1 << 12, // positions of one piece of work
-};
-
-// The normals of one piece, in the arena of the thread that made them.
-struct piece {
-    float (*normals)[3];
-    uint32_t count, before; // before: normals of all pieces before this one
-};
-
-struct smoothing {
-    lam_mesh *mesh;
-    double least_cosine;
-    struct arena *scratch;
-    struct pool *pool;
-    struct loop_status loop;
-    size_t corners;
-    uint32_t *position_of; // vertex → number of its position
-    uint32_t positions;
-    uint32_t *heads;        // position → its last pushed corner
-    uint32_t *indices;      // corner → the corner pushed before it; then its normal's index
-    struct fan_room *rooms; // one for each thread
-    struct piece *pieces;
-    float (*normals)[3];
-    uint32_t normal_count;
+    CHUNK = 1 << 16,    // corners or triangles of one piece of work
+    LANES_MAX = 1 << 8, // whatever the processor has
 };
 
 static size_t chunks_of(size_t total) { return (total + CHUNK - 1) / CHUNK; }
@@ -53,178 +24,95 @@ static size_t chunk_end(size_t index, size_t total)
     return end < total ? end : total;
 }
 
-// --- Link
+// --- Smooth normals
 
-#define NO_CORNER UINT32_MAX
+struct numbering {
+    struct visible_normals made;
+    struct rank_bitset first_corners;
+    float (*normals)[3]; // by number
+    uint32_t *indices;   // of the corners: elements of `made`, then numbers
+    size_t corners;
+};
 
-static void link_chunk(void *user, size_t index, int thread)
+static void mark_first_corners(void *user, size_t index, int thread)
 {
     (void)thread;
-    struct smoothing *s = user;
-    if (!should_continue(&s->loop))
-        return;
-    for (size_t c = index * CHUNK; c < chunk_end(index, s->corners); c++) {
-        uint32_t position = s->position_of[corner_vertex(s->mesh, c)];
-        s->indices[c] = __atomic_exchange_n(&s->heads[position], (uint32_t)c, __ATOMIC_RELAXED);
+    struct numbering *n = user;
+    for (size_t e = index * CHUNK; e < chunk_end(index, n->made.used); e++)
+        rank_bitset_add(&n->first_corners, n->made.first_corners[e]);
+}
+
+// Replaces the first corner of each normal by the normal's number.
+static void number_normals(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct numbering *n = user;
+    for (size_t e = index * CHUNK; e < chunk_end(index, n->made.used); e++) {
+        uint32_t *number = &n->made.first_corners[e];
+        *number = rank_bitset_rank(&n->first_corners, *number);
+        memcpy(n->normals[*number], n->made.normals[e], sizeof *n->normals);
     }
 }
 
-// --- Fans
-
-// The list was pushed in nearly ascending order, so it is read in nearly descending order.
-static void sort_corners(uint32_t *corners, uint32_t count)
+static void number_corners(void *user, size_t index, int thread)
 {
-    for (uint32_t i = 0, j = count - 1; i < j; i++, j--) {
-        uint32_t swap = corners[i];
-        corners[i] = corners[j];
-        corners[j] = swap;
-    }
-    fan_sort(corners, count);
+    (void)thread;
+    struct numbering *n = user;
+    for (size_t c = index * CHUNK; c < chunk_end(index, n->corners); c++)
+        n->indices[c] = n->made.first_corners[n->indices[c]];
 }
 
-// The corners of a position into room->corners. False when memory is out.
-static bool gather(const struct smoothing *s, uint32_t position, struct fan_room *room, uint32_t *count)
+// A set of all numbers below `size`, or of none.
+static bool make_set(struct rank_bitset *set, size_t size, bool full, struct arena *arena)
 {
-    uint32_t n = 0;
-    for (uint32_t c = s->heads[position]; c != NO_CORNER; c = s->indices[c]) {
-        if (n == room->room && !fan_room_reserve(room, n + 1))
-            return false;
-        room->corners[n++] = c;
-    }
-    *count = n;
-    if (n)
-        sort_corners(room->corners, n);
+    size_t words = rank_bitset_words(size);
+    *set = (struct rank_bitset){.bits = arena_array(arena, words, sizeof *set->bits),
+                                .ranks = arena_array(arena, words, sizeof *set->ranks),
+                                size};
+    if (!set->bits || !set->ranks)
+        return false;
+    memset(set->bits, full ? 0xff : 0, words * sizeof *set->bits);
+    if (full && size % 64)
+        set->bits[words - 1] = ((uint64_t)1 << size % 64) - 1;
+    if (full)
+        rank_bitset_finish(set);
     return true;
 }
 
-static void fan_piece(void *user, size_t index, int thread)
+static bool number(struct numbering *n, struct arena *scratch, struct arena *arena, struct pool *pool)
 {
-    struct smoothing *s = user;
-    if (!should_continue(&s->loop))
-        return;
-    struct fan_room *room = &s->rooms[thread];
-    struct piece *piece = &s->pieces[index];
-    size_t first = index * PIECE, end = first + PIECE < s->positions ? first + PIECE : s->positions;
-    struct arena *arena = &room->arena;
-    uint32_t held = 0;
-    float(*normals)[3] = NULL;
-    for (size_t position = first; position < end; position++) {
-        uint32_t count;
-        if (!gather(s, (uint32_t)position, room, &count)) {
-            no_memory(&s->loop);
-            return;
-        }
-        uint32_t fans = count ? fan_normals(s->mesh, s->least_cosine, room, count) : 0;
-        if (piece->count + fans > held) {
-            // At first one normal for each position, which is most often what is needed.
-            uint32_t larger = held ? 2 * held : (uint32_t)(end - first);
-            larger = larger < piece->count + fans ? piece->count + fans : larger;
-            float(*copy)[3] = arena_array(arena, larger, sizeof *copy);
-            if (!copy) {
-                no_memory(&s->loop);
-                return;
-            }
-            if (piece->count)
-                memcpy(copy, normals, piece->count * sizeof *copy);
-            normals = copy;
-            held = larger;
-        }
-        for (uint32_t i = 0; i < count; i++)
-            s->indices[room->spokes[i].corner] = piece->count + room->spokes[i].fan;
-        if (fans)
-            memcpy(normals + piece->count, room->normals, fans * sizeof *normals);
-        piece->count += fans;
-    }
-    piece->normals = normals;
-}
-
-// --- Shift
-
-static void shift_chunk(void *user, size_t index, int thread)
-{
-    (void)thread;
-    struct smoothing *s = user;
-    if (!should_continue(&s->loop))
-        return;
-    for (size_t c = index * CHUNK; c < chunk_end(index, s->corners); c++)
-        s->indices[c] += s->pieces[s->position_of[corner_vertex(s->mesh, c)] / PIECE].before;
-}
-
-static void copy_piece(void *user, size_t index, int thread)
-{
-    (void)thread;
-    struct smoothing *s = user;
-    const struct piece *piece = &s->pieces[index];
-    if (piece->count)
-        memcpy(s->normals + piece->before, piece->normals, piece->count * sizeof *s->normals);
-}
-
-// Fans and shift, with the normals in `arena`.
-static bool make_fans(struct smoothing *s, struct arena *arena)
-{
-    int threads = pool_threads(s->pool);
-    size_t pieces = (s->positions + (size_t)PIECE - 1) / PIECE;
-    s->pieces = arena_alloc_zeroed(s->scratch, pieces * sizeof *s->pieces);
-    s->rooms = arena_array(s->scratch, (size_t)threads, sizeof *s->rooms);
-    if (!s->pieces || !s->rooms) {
-        no_memory(&s->loop);
+    n->normals = arena_array(arena, n->made.used, sizeof *n->normals);
+    if (!n->normals || !make_set(&n->first_corners, n->corners, false, scratch))
         return false;
-    }
-    for (int i = 0; i < threads; i++)
-        fan_room_start(&s->rooms[i], s->loop.call);
-    pool_run(s->pool, pieces, fan_piece, s);
-    uint64_t total = 0; // at most one for each corner, and there are fewer than 2³² of those
-    for (size_t i = 0; i < pieces; i++) {
-        s->pieces[i].before = (uint32_t)total;
-        total += s->pieces[i].count;
-    }
-    if (should_continue(&s->loop)) {
-        s->normals = arena_array(arena, total, sizeof *s->normals);
-        if (s->normals) {
-            pool_run(s->pool, pieces, copy_piece, s);
-            pool_run(s->pool, chunks_of(s->corners), shift_chunk, s);
-            s->normal_count = (uint32_t)total;
-        } else
-            no_memory(&s->loop);
-    }
-    for (int i = 0; i < threads; i++)
-        fan_room_free(&s->rooms[i]);
-    return should_continue(&s->loop);
+    pool_run(pool, chunks_of(n->made.used), mark_first_corners, n);
+    rank_bitset_finish(&n->first_corners);
+    pool_run(pool, chunks_of(n->made.used), number_normals, n);
+    pool_run(pool, chunks_of(n->corners), number_corners, n);
+    return true;
 }
 
 bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena, struct pool *pool,
                     struct call_control *call, lam_error *error)
 {
+    size_t corners = 3 * (size_t)mesh->triangle_count;
+    struct numbering n = {.corners = corners};
     struct arena scratch;
     arena_start(&scratch, call);
-    struct smoothing s = {
-        .mesh = mesh,
-        .least_cosine = fan_least_cosine(crease_angle_rad),
-        .scratch = &scratch,
-        .pool = pool,
-        .loop = {.call = call},
-        .corners = (size_t)mesh->triangle_count * 3,
-    };
-    size_t vertices = mesh->indices ? mesh->vertex_count : s.corners;
-    s.indices = arena_array(arena, s.corners, sizeof *s.indices);
-    s.position_of = arena_array(&scratch, vertices, sizeof *s.position_of);
-    bool ok = s.indices && s.position_of;
+    n.indices = n.made.elements = arena_array(arena, corners, sizeof *n.indices);
+    n.made.normals = arena_array(&scratch, corners, sizeof *n.made.normals);
+    n.made.first_corners = arena_array(&scratch, corners, sizeof *n.made.first_corners);
+    bool ok = n.indices && n.made.normals && n.made.first_corners &&
+              make_set(&n.made.triangles, mesh->triangle_count, true, &scratch);
     if (!ok)
-        call_memory_error(call, (s.corners + vertices) * 4, error);
-    ok = ok && weld_positions(mesh->positions, vertices, s.position_of, &s.positions, pool, call, error);
+        call_memory_error(call, corners * 20, error);
+    ok = ok && make_visible_normals(mesh, 0, crease_angle_rad, &n.made, (struct scratch_memory){0}, LANES_MAX, pool,
+                                    call, error);
+    if (ok && !number(&n, &scratch, arena, pool))
+        ok = call_memory_error(call, n.made.used * sizeof *n.normals, error);
     if (ok) {
-        s.heads = arena_array(&scratch, s.positions, sizeof *s.heads);
-        if (s.heads) {
-            memset(s.heads, 0xff, s.positions * sizeof *s.heads);
-            pool_run(pool, chunks_of(s.corners), link_chunk, &s);
-        } else
-            no_memory(&s.loop);
-        ok = (should_continue(&s.loop) && make_fans(&s, arena)) || loop_error(&s.loop, s.corners * 4, error);
-    }
-    if (ok) {
-        mesh->normals = &s.normals[0][0];
-        mesh->normal_count = s.normal_count;
-        mesh->normal_indices = s.indices;
+        mesh->normals = &n.normals[0][0];
+        mesh->normal_count = n.made.used;
+        mesh->normal_indices = n.indices;
     }
     arena_free(&scratch);
     return ok;

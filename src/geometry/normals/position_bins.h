@@ -1,18 +1,25 @@
-// position_bins.h: the corners at the positions that are seen, by ranges of positions.
+// position_bins.h: the corners at the positions that were found (shared_positions.h), sorted by ranges of positions: the
+// second step of visible_normals.h.
 #ifndef POSITION_BINS_H
 #define POSITION_BINS_H
 
 #include "shared_positions.h"
 
-// Puts the corners into bins, one for each of s->ranges. False: it ended early (s->halt), or the table does
-// not serve (s->crowded): weld_all, and then again.
-bool bin_corners(struct seeing *s);
+// Bin r of each thread's lists holds the corners whose position p has p >> shift = r.
+struct position_bins {
+    struct position_search *search;
+    unsigned shift;
+    size_t count;
+};
 
-// How many corners a range has.
-size_t corners_in_range(const struct seeing *s, size_t range);
+// Puts the corners into bins. False: it ended early (search->loop), or the probe limit is reached.
+bool position_bins_fill(struct position_bins *bins, struct position_search *search);
 
-// Puts the corners of a range in order by position, in `sorted`; `starts` tells for each of its positions,
-// and one more, where they begin.
-void sort_range(const struct seeing *s, size_t range, uint32_t *restrict sorted, uint32_t *restrict starts);
+// How many corners a bin has.
+size_t position_bin_corners(const struct position_bins *bins, size_t bin);
+
+// Sorts the corners of a bin by position; those of the bin's position i are sorted[starts[i]] to sorted[starts[i + 1]].
+void position_bin_sort(const struct position_bins *bins, size_t bin, uint32_t *restrict sorted,
+                       uint32_t *restrict starts);
 
 #endif

@@ -1,53 +1,51 @@
-// position_hash.h: the positions of shown vertices, by hash: one vertex stands for each.
+// position_hash.h: a hash table of positions, each represented by one vertex.
 //
-// The table and its filter are cut into parts by the hash. First each thread spreads the vertices that it
-// finds over the parts, then each part is filled by one thread, in its cache.
+// The table and its filter are cut into parts by the hash. First each thread spreads its vertices over the parts
+// (block_list.h), then each part is filled by one thread, in its cache.
 #ifndef POSITION_HASH_H
 #define POSITION_HASH_H
 
+#include "block_list.h"
 #include "position_simd.h"
-#include "rank_bitset.h"
 
-// Four slots: a cache line, looked at as a whole.
-struct seen_line {
+// Four slots: a cache line, compared as a whole.
+struct position_slots {
     int32_t bits[3][4];
-    int32_t vertex[4]; // NONE: free, as are those behind it
+    int32_t vertex[4]; // NONE: free, as are the slots after it
 };
 
-struct seen_table {
-    struct seen_line *lines;
-    struct seen_filter filter;
+struct position_hash {
+    struct position_slots *lines;
+    struct position_filter filter;
     uint32_t part_bits; // of the hash; there are 2^part_bits parts
     uint32_t part_lines, part_words;
 };
 
-// Plans as many parts as suit so many vertices.
-void seen_table_plan(struct seen_table *table, size_t vertices);
+// Chooses the number of parts for about so many vertices.
+void position_hash_plan(struct position_hash *table, size_t vertices);
 
-// How many bytes the table takes for so many vertices in all parts together, and where it is. The filter
-// takes few bits for each, or twice as many, so that few others pass.
-size_t seen_table_size(struct seen_table *table, size_t vertices, bool strict);
-void seen_table_place(struct seen_table *table, void *memory);
+// The bytes that the table takes for so many vertices in all parts together. `strict` doubles the bits of the filter, so
+// that it lets fewer other positions pass.
+size_t position_hash_size(struct position_hash *table, size_t vertices, bool strict);
+void position_hash_place(struct position_hash *table, void *memory);
 
-static inline uint32_t seen_table_parts(const struct seen_table *table) { return (uint32_t)1 << table->part_bits; }
+static inline uint32_t position_hash_parts(const struct position_hash *table)
+{
+    return (uint32_t)1 << table->part_bits;
+}
 
-static inline uint32_t seen_table_part(const struct seen_table *table, uint32_t hash)
+static inline uint32_t position_hash_part(const struct position_hash *table, uint32_t hash)
 {
     return (uint32_t)((uint64_t)hash << table->part_bits >> 32);
 }
 
 // The line in which the search for a hash starts, one of its part's.
-static inline size_t seen_table_start(const struct seen_table *table, uint32_t hash)
+static inline size_t position_hash_start(const struct position_hash *table, uint32_t hash)
 {
     return (size_t)(hash * ((uint64_t)table->part_lines << table->part_bits) >> 32);
 }
 
-static inline bool same_bits(const uint32_t a[3], const uint32_t b[3])
-{
-    return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
-}
-
-// Number by number: what was written so is not read as a whole soon.
+// Number by number: a load of the whole would stall on stores of single numbers.
 static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
 {
     to[0] = from[0];
@@ -55,12 +53,15 @@ static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
     to[2] = from[2];
 }
 
-// The vertex that stands for a position; NONE: it is not in the table. Adds the steps beyond the first line.
-uint32_t seen_table_find(const struct seen_table *table, const uint32_t bits[3], uint32_t hash, size_t *steps);
+// The vertex that represents a position; NONE: the table does not hold it. Adds the probes after the first line.
+uint32_t position_hash_find(const struct position_hash *table, const uint32_t bits[3], uint32_t hash, size_t *probes);
 
-// Fills a part from its bin in each of `threads` lists, which is empty then; with `doubles`, each vertex at a
-// position that another one stands for goes to that list of `mine`. False: too many steps, or no memory.
-bool seen_table_fill(struct seen_table *table, uint32_t part, struct seen_lists *lists, int threads,
-                     struct seen_lists *mine, bool doubles);
+// Fills a part from its bin in each of `threads` lists, and empties the bins. With `duplicates`, each vertex whose
+// position another one represents goes to that list of `mine`. False: the probe limit is reached, or memory is out.
+bool position_hash_fill(struct position_hash *table, uint32_t part, struct block_lists *lists, int threads,
+                        struct block_lists *mine, bool duplicates);
+
+// More probes than any file has that was not made to collide.
+static inline bool probe_limit_exceeded(size_t probes, size_t searches) { return probes > 16 * searches + 4096; }
 
 #endif

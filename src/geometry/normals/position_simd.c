@@ -10,8 +10,8 @@ static inline uint32_t bits_of_number(float x)
     return bits == 0x80000000u ? 0 : bits;
 }
 
-// The first loop becomes wide by itself, since its length is known.
-static uint64_t ask(const float *points, uint32_t count, const struct seen_filter *filter, uint32_t hashes[WORD])
+// The compiler vectorizes the first loop, since its length is known.
+static uint64_t test(const float *points, uint32_t count, const struct position_filter *filter, uint32_t hashes[WORD])
 {
     float padded[3 * WORD];
     if (count < WORD) {
@@ -22,7 +22,7 @@ static uint64_t ask(const float *points, uint32_t count, const struct seen_filte
     for (uint32_t i = 0; i < WORD; i++) {
         uint32_t bits[3] = {bits_of_number(points[3 * i]), bits_of_number(points[3 * i + 1]),
                             bits_of_number(points[3 * i + 2])};
-        hashes[i] = seen_hash(bits);
+        hashes[i] = hash_position(bits);
     }
     uint64_t has = 0;
     for (uint32_t i = 0; i < WORD; i += LANES) {
@@ -69,6 +69,6 @@ static uint32_t list(const uint32_t *indices, const uint32_t *position_of, uint3
 }
 
 #define JOIN(a, b) a##b
-#define NAME(isa)  JOIN(seen_lanes_, isa)
-extern const struct seen_lanes NAME(ISA);
-const struct seen_lanes NAME(ISA) = {.lanes = LANES, .ask = ask, .number = number, .list = list};
+#define NAME(isa)  JOIN(position_simd_, isa)
+extern const struct position_simd NAME(ISA);
+const struct position_simd NAME(ISA) = {.lanes = LANES, .test = test, .number = number, .list = list};

@@ -1,26 +1,40 @@
-// position_simd.h: the long loops over vertices and corners of the search for seen positions, compiled once for
-// each width of registers.
+// position_simd.h: the long loops over vertices and corners that look for shared positions, compiled once for each
+// instruction set (meson.build), and the bits and the hash of a position.
 #ifndef POSITION_SIMD_H
 #define POSITION_SIMD_H
 
 #include <stdint.h>
 
-enum { WORD = 64 }; // vertices or corners worked on together: a word of a set
+enum { WORD = 64 }; // vertices or corners that are worked on together: a word of a bit set
 
-// Bits that tell most positions that are in a set from those that are not: two of the word that the hash's
-// upper bits choose.
-struct seen_filter {
+// A Bloom filter with two bits for each position, both in the word that the hash's upper bits choose.
+struct position_filter {
     uint32_t *words;
     unsigned shift; // < 32
 };
 
-static inline uint32_t seen_filter_bits(uint32_t hash)
+static inline uint32_t position_filter_bits(uint32_t hash)
 {
     return (uint32_t)1 << (hash & 31) | (uint32_t)1 << (hash >> 5 & 31);
 }
 
-// A hash of a position's bits (weld.h). Round numbers have none but upper bits, so these come down first.
-static inline uint32_t seen_hash(const uint32_t bits[3])
+// The bits of a position, with −0 as 0, so that equal positions have equal bits.
+static inline void position_bits(const float *position, uint32_t bits[3])
+{
+    for (int a = 0; a < 3; a++) {
+        uint32_t of;
+        __builtin_memcpy(&of, position + a, 4);
+        bits[a] = of == 0x80000000u ? 0 : of;
+    }
+}
+
+static inline int same_position(const uint32_t a[3], const uint32_t b[3])
+{
+    return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+}
+
+// A hash of a position's bits. Round numbers have only upper bits set, so these are folded down first.
+static inline uint32_t hash_position(const uint32_t bits[3])
 {
     uint32_t h = (bits[0] ^ bits[0] >> 16) * 0x9e3779b1u;
     h = (h ^ h >> 15 ^ bits[1] ^ bits[1] >> 16) * 0x85ebca77u;
@@ -28,19 +42,19 @@ static inline uint32_t seen_hash(const uint32_t bits[3])
     return h ^ h >> 16;
 }
 
-struct seen_lanes {
+struct position_simd {
     int lanes; // 32-bit numbers in a register
-    // The hashes of WORD or fewer points, 3 floats each. Bit i: the filter has point i.
-    uint64_t (*ask)(const float *points, uint32_t count, const struct seen_filter *filter, uint32_t hashes[WORD]);
+    // Hashes WORD or fewer points of 3 floats. Bit i of the result: the filter may hold point i.
+    uint64_t (*test)(const float *points, uint32_t count, const struct position_filter *filter, uint32_t hashes[WORD]);
     // Numbers the members of a word of a set from `first` on; the others get UINT32_MAX.
     void (*number)(uint64_t members, uint32_t first, uint32_t numbers[WORD]);
-    // Lists those of `count` corners from number `first` on whose vertices, at `indices`, have a position.
-    // The lists have room for a register more.
+    // Lists those of `count` corners from number `first` on whose vertices, at `indices`, have a position. The lists
+    // must have the capacity of `count` and one register.
     uint32_t (*list)(const uint32_t *indices, const uint32_t *position_of, uint32_t first, uint32_t count,
                      uint32_t *corners, uint32_t *positions);
 };
 
-// The widest that the processor has, and not wider than `lanes`.
-const struct seen_lanes *seen_lanes_of(int lanes);
+// The widest that the processor has, of at most `lanes` lanes.
+const struct position_simd *position_simd_for(int lanes);
 
 #endif

@@ -1,76 +1,50 @@
-// rank_bitset.h: lists that threads fill while they look for the corners at the positions that are seen:
-// blocks of one size, which serve again once they were read.
+// rank_bitset.h: a set of numbers that also knows how many members lie below a number.
 #ifndef RANK_BITSET_H
 #define RANK_BITSET_H
 
-#include "arena.h"
-#include "loop_status.h"
-#include "visible_normals.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
-#define NONE UINT32_MAX
-
-// A vertex and the bits of its position (weld.h).
-struct seen_key {
-    uint32_t bits[3];
-    uint32_t vertex;
+// Some of the numbers from 0 to below `size`.
+struct rank_bitset {
+    uint64_t *bits;  // 64 numbers to a word
+    uint32_t *ranks; // of each word: the members in the words before it; filled by rank_bitset_finish
+    size_t size;
+    uint32_t count; // of members; filled by rank_bitset_finish
 };
 
-enum {
-    BLOCK_CORNERS = 338,
-    BLOCK_KEYS = 127,
-    BLOCK_DOUBLES = 254,
-    BLOCK_BYTES = 2048,
-};
+static inline size_t rank_bitset_words(size_t size) { return (size + 63) / 64; }
 
-struct seen_block {
-    struct seen_block *before;
-    uint32_t count, unused;
-    union {
-        struct {
-            uint16_t place[BLOCK_CORNERS]; // of its position in a range
-            uint32_t corner[BLOCK_CORNERS];
-        } at;
-        struct seen_key key[BLOCK_KEYS];
-        uint32_t doubles[BLOCK_DOUBLES][2]; // a vertex, and the one that stands for its position
-    };
-};
-_Static_assert(sizeof(struct seen_block) <= BLOCK_BYTES, "blocks lie side by side");
-
-// One thread's.
-struct seen_lists {
-    struct arena arena;
-    struct spare *spare;      // all threads'
-    struct loop_status *loop; // told when memory is out
-    size_t slab_bytes;
-    char *slab;
-    size_t slab_left;
-    struct seen_block *unused;
-    struct seen_block **bins; // the newest block of each bin
-    struct seen_block *doubles;
-};
-
-// Memory from the spare one while there is some, else from the arena; NULL: out of memory. Any thread.
-void *spare_take(struct spare *spare, struct arena *arena, size_t count, size_t size);
-
-// Lends the end of the spare memory until it is given back; NULL: it is smaller. While no thread takes any.
-void *spare_lend(struct spare *spare, size_t bytes);
-void spare_give_back(struct spare *spare);
-
-// An empty block in front of `before`; NULL: out of memory.
-struct seen_block *seen_block_new(struct seen_lists *lists, struct seen_block *before);
-
-// The block of a list with room for one more of those that a block has `room` for; NULL: out of memory.
-static inline struct seen_block *seen_block_for_one(struct seen_lists *lists, struct seen_block **list, uint32_t room)
+// Any thread.
+static inline void rank_bitset_add(struct rank_bitset *set, size_t number)
 {
-    if (*list && (*list)->count < room)
-        return *list;
-    struct seen_block *block = seen_block_new(lists, *list);
-    if (block)
-        *list = block;
-    return block;
+    uint64_t bit = (uint64_t)1 << number % 64, *word = &set->bits[number / 64];
+    if (!(__atomic_load_n(word, __ATOMIC_RELAXED) & bit))
+        __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
 }
 
-// The blocks of a list were read: they may be filled anew.
-void seen_blocks_reuse(struct seen_lists *lists, struct seen_block **list);
+static inline bool rank_bitset_has(const struct rank_bitset *set, size_t number)
+{
+    return set->bits[number / 64] >> number % 64 & 1;
+}
+
+// The number of bits set, summed in pairs, in fours, in bytes (the baseline processor has no instruction for it).
+static inline uint32_t count_bits(uint64_t x)
+{
+    x -= x >> 1 & UINT64_C(0x5555555555555555);
+    x = (x & UINT64_C(0x3333333333333333)) + (x >> 2 & UINT64_C(0x3333333333333333));
+    x = (x + (x >> 4)) & UINT64_C(0x0f0f0f0f0f0f0f0f);
+    return (uint32_t)(x * UINT64_C(0x0101010101010101) >> 56);
+}
+
+// How many members are below a number: a member's index among all of them.
+static inline uint32_t rank_bitset_rank(const struct rank_bitset *set, size_t number)
+{
+    return set->ranks[number / 64] + count_bits(set->bits[number / 64] & (((uint64_t)1 << number % 64) - 1));
+}
+
+// Fills `ranks` and `count`, once all members are in.
+void rank_bitset_finish(struct rank_bitset *set);
 
 #endif

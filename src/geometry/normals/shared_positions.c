@@ -1,72 +1,63 @@
-// shared_positions.c: which vertices of a mesh lie where triangles lie that a picture shows.
+// shared_positions.c: which vertices of a mesh lie at the positions of given triangles.
 //
-// The vertices of those triangles go into a table by position. Then every other vertex of the mesh is looked
-// up in it; most are turned away by a small table of bits before the large one is asked. In what order
-// threads come shows only in where things lie, never in a normal.
+// The vertices of these triangles go into a hash table of positions. Then every other vertex of the mesh is looked up in
+// it; a filter turns most of them away before the table is searched. The order in which threads run decides only where
+// data lie, never a normal.
 #include "shared_positions.h"
 
-#include "weld.h"
+#include "corner_fan.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum {
-    WORDS = 1 << 8,        // of a set, in one piece of work
-    AHEAD = 16,            // words whose triangles' positions memory is asked for early
-    TOGETHER = 8,          // words whose vertices wait for the table together
-    SLAB = 2 << 20,        // of blocks
-    ANSWERS_MAX = 1 << 13, // that a thread keeps: they fit the second-level cache
+    WORDS = 1 << 8,      // of a bit set, in one piece of work
+    AHEAD = 16,          // words by which the positions of triangles are prefetched
+    TOGETHER = 8,        // words whose vertices are looked up together, after prefetches
+    SLAB = 2 << 20,      // bytes of blocks that are allocated together
+    CACHE_MAX = 1 << 13, // positions that a thread caches: they fit the second-level cache
 };
 
-void number_set_count(struct number_set *set)
-{
-    uint32_t count = 0;
-    for (size_t i = 0; i < number_set_words(set->size); i++) {
-        set->before[i] = count;
-        count += count_bits(set->bits[i]);
-    }
-    set->count = count;
-}
-
-// What is done with before any fan is made may lie where normals will.
-static void *take_until_fans(struct seeing *s, size_t count, size_t size)
+// Memory that is free again before any fan is made, which may lie where normals will.
+static void *alloc_until_fans(struct position_search *s, size_t count, size_t size)
 {
     for (int i = 0; i < 2; i++) {
-        struct spare *there = &s->until_fans[i];
-        if (count <= (there->room - there->used) / size / 64 * 64)
-            return spare_take(there, &s->scratch, count, size);
+        struct scratch_memory *scratch = &s->until_fans[i];
+        if (count <= (scratch->capacity - scratch->used) / size / 64 * 64)
+            return scratch_take(scratch, &s->arena, count, size);
     }
-    return seeing_take(s, &s->scratch, count, size);
+    return search_alloc(s, &s->arena, count, size);
 }
 
-void *seeing_take_zeroed(struct seeing *s, size_t bytes)
+void *search_alloc_zeroed(struct position_search *s, size_t bytes)
 {
-    void *memory = seeing_take(s, &s->scratch, bytes, 1);
+    void *memory = search_alloc(s, &s->arena, bytes, 1);
     if (memory)
         memset(memory, 0, bytes);
     return memory;
 }
 
-bool few_steps(struct seeing *s, size_t steps, size_t total)
+bool within_probe_limit(struct position_search *s, size_t probes, size_t searches)
 {
-    if (steps > 16 * total + 4096)
-        __atomic_store_n(&s->crowded, 1, __ATOMIC_RELAXED);
-    return !__atomic_load_n(&s->crowded, __ATOMIC_RELAXED);
+    if (probe_limit_exceeded(probes, searches))
+        __atomic_store_n(&s->probe_limit_reached, 1, __ATOMIC_RELAXED);
+    return !__atomic_load_n(&s->probe_limit_reached, __ATOMIC_RELAXED);
 }
 
-// --- the triangles that are seen
+// --- the triangles of the set
 
-static size_t first_word(const struct seeing *s) { return s->first / 64; }
+static size_t first_word(const struct position_search *s) { return s->first / 64; }
 
-static size_t triangle_words(const struct seeing *s)
+static size_t triangle_words(const struct position_search *s)
 {
-    return number_set_words(s->first + (size_t)s->mesh->triangle_count) - first_word(s);
+    return rank_bitset_words(s->first + (size_t)s->mesh->triangle_count) - first_word(s);
 }
 
-// Those of the mesh in a word of the set.
-static uint64_t seen_word(const struct seeing *s, size_t word)
+// The bits of the mesh's triangles in a word of the set.
+static uint64_t triangle_word(const struct position_search *s, size_t word)
 {
     size_t from = 64 * word, last = s->first + (size_t)s->mesh->triangle_count;
-    uint64_t bits = s->seen->triangles.bits[word];
+    uint64_t bits = s->triangles->bits[word];
     if (from < s->first)
         bits &= ~UINT64_C(0) << (s->first - from);
     if (from + 64 > last)
@@ -74,52 +65,53 @@ static uint64_t seen_word(const struct seeing *s, size_t word)
     return bits;
 }
 
-static void show_words(void *user, size_t index, int thread)
+static void add_wanted(void *user, size_t index, int thread)
 {
     (void)thread;
-    struct seeing *s = user;
+    struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
     for (size_t w = index * WORDS; w < piece_end(index, triangle_words(s), WORDS); w++)
-        for (uint64_t bits = seen_word(s, first_word(s) + w); bits; bits &= bits - 1) {
+        for (uint64_t bits = triangle_word(s, first_word(s) + w); bits; bits &= bits - 1) {
             size_t triangle = 64 * (first_word(s) + w) + (size_t)__builtin_ctzll(bits) - s->first;
             for (size_t k = 0; k < 3; k++)
-                number_set_add(&s->shown, s->mesh->indices[3 * triangle + k]);
+                rank_bitset_add(&s->wanted, s->mesh->indices[3 * triangle + k]);
         }
 }
 
-static bool find_shown(struct seeing *s)
+static bool find_wanted(struct position_search *s)
 {
-    size_t words = number_set_words(s->vertices);
-    s->shown.size = s->vertices;
-    s->shown.bits = seeing_take_zeroed(s, words * sizeof *s->shown.bits);
-    s->shown.before = seeing_take(s, &s->scratch, words, sizeof *s->shown.before);
-    if (!s->shown.bits || !s->shown.before)
+    size_t words = rank_bitset_words(s->vertices);
+    s->wanted.size = s->vertices;
+    s->wanted.bits = search_alloc_zeroed(s, words * sizeof *s->wanted.bits);
+    s->wanted.ranks = search_alloc(s, &s->arena, words, sizeof *s->wanted.ranks);
+    if (!s->wanted.bits || !s->wanted.ranks)
         return false;
-    pool_run(s->pool, pieces_of(triangle_words(s), WORDS), show_words, s);
-    number_set_count(&s->shown);
+    pool_run(s->pool, pieces_of(triangle_words(s), WORDS), add_wanted, s);
+    rank_bitset_finish(&s->wanted);
     return true;
 }
 
 // --- the table
 
-// Puts a vertex into its part's bin, unless a vertex at its position was lately.
-static inline bool spread(struct seeing *s, int thread, size_t vertex)
+// Puts a vertex into its part's bin, unless another one at its position was recently.
+static inline bool spread(struct position_search *s, int thread, size_t vertex)
 {
-    struct seen_lists *lists = &s->lists[thread];
+    struct block_lists *lists = &s->lists[thread];
     uint32_t bits[3];
     position_bits(point_of(s, vertex), bits);
-    uint32_t hash = seen_hash(bits);
-    if (s->answers) {
-        struct seen_answer *lately = &s->answers[thread][hash & s->answers_mask];
-        if (same_bits(lately->bits, bits))
+    uint32_t hash = hash_position(bits);
+    if (s->caches) {
+        struct cached_position *cached = &s->caches[thread][hash & s->caches_mask];
+        if (same_position(cached->bits, bits))
             return true;
-        copy_bits(lately->bits, bits);
+        copy_bits(cached->bits, bits);
     }
-    struct seen_block *block = seen_block_for_one(lists, &lists->bins[seen_table_part(&s->table, hash)], BLOCK_KEYS);
+    struct list_block *block =
+        list_block_with_space(lists, &lists->bins[position_hash_part(&s->table, hash)], BLOCK_KEYS);
     if (!block)
         return false;
-    struct seen_key *key = &block->key[block->count++];
+    struct vertex_key *key = &block->key[block->count++];
     copy_bits(key->bits, bits);
     key->vertex = (uint32_t)vertex;
     return true;
@@ -127,29 +119,29 @@ static inline bool spread(struct seeing *s, int thread, size_t vertex)
 
 static void spread_vertices(void *user, size_t index, int thread)
 {
-    struct seeing *s = user;
+    struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
-    for (size_t w = index * WORDS; w < piece_end(index, number_set_words(s->vertices), WORDS); w++)
-        for (uint64_t bits = s->shown.bits[w]; bits; bits &= bits - 1)
+    for (size_t w = index * WORDS; w < piece_end(index, rank_bitset_words(s->vertices), WORDS); w++)
+        for (uint64_t bits = s->wanted.bits[w]; bits; bits &= bits - 1)
             if (!spread(s, thread, 64 * w + (size_t)__builtin_ctzll(bits)))
                 return;
 }
 
 static void spread_corners(void *user, size_t index, int thread)
 {
-    struct seeing *s = user;
+    struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
     size_t end = piece_end(index, triangle_words(s), WORDS);
     for (size_t w = index * WORDS, ahead = w; w < end; w++) {
         for (; ahead < end && ahead < w + AHEAD; ahead++)
-            for (uint64_t bits = seen_word(s, first_word(s) + ahead); bits; bits &= bits - 1) {
+            for (uint64_t bits = triangle_word(s, first_word(s) + ahead); bits; bits &= bits - 1) {
                 size_t triangle = 64 * (first_word(s) + ahead) + (size_t)__builtin_ctzll(bits) - s->first;
                 __builtin_prefetch(point_of(s, 3 * triangle));
                 __builtin_prefetch(point_of(s, 3 * triangle + 2) + 2);
             }
-        for (uint64_t bits = seen_word(s, first_word(s) + w); bits; bits &= bits - 1) {
+        for (uint64_t bits = triangle_word(s, first_word(s) + w); bits; bits &= bits - 1) {
             size_t triangle = 64 * (first_word(s) + w) + (size_t)__builtin_ctzll(bits) - s->first;
             for (size_t k = 0; k < 3; k++)
                 if (!spread(s, thread, 3 * triangle + k))
@@ -160,198 +152,213 @@ static void spread_corners(void *user, size_t index, int thread)
 
 static void fill_part(void *user, size_t index, int thread)
 {
-    struct seeing *s = user;
-    if (should_continue(&s->loop) && !seen_table_fill(&s->table, (uint32_t)index, s->lists, pool_threads(s->pool),
-                                                      &s->lists[thread], s->mesh->indices != NULL))
-        __atomic_store_n(&s->crowded, 1, __ATOMIC_RELAXED);
+    struct position_search *s = user;
+    if (should_continue(&s->loop) && !position_hash_fill(&s->table, (uint32_t)index, s->lists, pool_threads(s->pool),
+                                                         &s->lists[thread], s->mesh->indices != NULL))
+        __atomic_store_n(&s->probe_limit_reached, 1, __ATOMIC_RELAXED);
 }
 
-static bool start_lists(struct seeing *s)
+static bool start_lists(struct position_search *s)
 {
     size_t threads = (size_t)pool_threads(s->pool);
-    // Blocks for a small model come in small slabs.
+    // Blocks for a small model are allocated in small slabs.
     size_t slab = SLAB;
     while (slab > 16 * BLOCK_BYTES && slab / 2 > s->corners * 8)
         slab /= 2;
-    s->lists = seeing_take_zeroed(s, threads * sizeof *s->lists);
+    s->lists = search_alloc_zeroed(s, threads * sizeof *s->lists);
     for (size_t i = 0; s->lists && i < threads; i++) {
-        struct seen_lists *lists = &s->lists[i];
-        *lists = (struct seen_lists){.spare = &s->spare, .loop = &s->loop, .slab_bytes = slab};
+        struct block_lists *lists = &s->lists[i];
+        *lists = (struct block_lists){.scratch = &s->scratch, .loop = &s->loop, .slab_bytes = slab};
         arena_start(&lists->arena, s->loop.call);
-        lists->bins = seeing_take_zeroed(s, (size_t)seen_table_parts(&s->table) * sizeof *lists->bins);
+        lists->bins = search_alloc_zeroed(s, (size_t)position_hash_parts(&s->table) * sizeof *lists->bins);
         if (!lists->bins)
             return false;
     }
     return s->lists != NULL;
 }
 
-void stop_lists(struct seeing *s)
+void position_search_free(struct position_search *s)
 {
     for (int i = 0; s->lists && i < pool_threads(s->pool); i++)
         arena_free(&s->lists[i].arena);
     s->lists = NULL;
+    arena_free(&s->arena);
 }
 
 // No position's bits are all ones.
-static void forget_answers(struct seeing *s)
+static void clear_caches(struct position_search *s)
 {
     for (int i = 0; i < pool_threads(s->pool); i++)
-        memset(s->answers[i], 0xff, (s->answers_mask + (size_t)1) * sizeof **s->answers);
+        memset(s->caches[i], 0xff, (s->caches_mask + (size_t)1) * sizeof **s->caches);
 }
 
-// Without indices the same positions come again and again, mostly soon.
-static bool start_answers(struct seeing *s)
+// Without indices the same positions come again and again, mostly soon after one another.
+static bool start_caches(struct position_search *s)
 {
     size_t threads = (size_t)pool_threads(s->pool), room = 64;
-    while (room < ANSWERS_MAX && room < s->corners / 4)
+    while (room < CACHE_MAX && room < s->corners / 4)
         room *= 2;
-    s->answers_mask = (uint32_t)room - 1;
-    s->answers = seeing_take(s, &s->scratch, threads, sizeof *s->answers);
-    if (!s->answers)
+    s->caches_mask = (uint32_t)room - 1;
+    s->caches = search_alloc(s, &s->arena, threads, sizeof *s->caches);
+    if (!s->caches)
         return false;
     for (size_t i = 0; i < threads; i++) {
-        s->answers[i] = seeing_take(s, &s->scratch, room, sizeof **s->answers);
-        if (!s->answers[i])
+        s->caches[i] = search_alloc(s, &s->arena, room, sizeof **s->caches);
+        if (!s->caches[i])
             return false;
     }
-    forget_answers(s);
+    clear_caches(s);
     return true;
 }
 
-static size_t keys_of(const struct seeing *s)
+static size_t count_keys(const struct position_search *s)
 {
     size_t keys = 0;
     for (int t = 0; t < pool_threads(s->pool); t++)
-        for (uint32_t p = 0; p < seen_table_parts(&s->table); p++)
-            for (const struct seen_block *block = s->lists[t].bins[p]; block; block = block->before)
+        for (uint32_t p = 0; p < position_hash_parts(&s->table); p++)
+            for (const struct list_block *block = s->lists[t].bins[p]; block; block = block->previous)
                 keys += block->count;
     return keys;
 }
 
-static bool fill_table(struct seeing *s)
+static bool fill_table(struct position_search *s)
 {
     const bool indexed = s->mesh->indices != NULL;
-    size_t shown = indexed ? s->shown.count : 3 * (size_t)seen_triangles_before(s, s->mesh->triangle_count);
-    s->positions = shown;
-    seen_table_plan(&s->table, shown);
-    if (!start_lists(s) || (!indexed && !start_answers(s)))
+    size_t wanted = indexed ? s->wanted.count : 3 * (size_t)triangles_before(s, s->mesh->triangle_count);
+    s->positions = wanted;
+    position_hash_plan(&s->table, wanted);
+    if (!start_lists(s) || (!indexed && !start_caches(s)))
         return false;
     if (indexed)
-        pool_run(s->pool, pieces_of(number_set_words(s->vertices), WORDS), spread_vertices, s);
+        pool_run(s->pool, pieces_of(rank_bitset_words(s->vertices), WORDS), spread_vertices, s);
     else
         pool_run(s->pool, pieces_of(triangle_words(s), WORDS), spread_corners, s);
-    size_t bytes = seen_table_size(&s->table, keys_of(s), indexed);
-    void *memory = spare_lend(&s->spare, bytes);
+    size_t bytes = position_hash_size(&s->table, count_keys(s), indexed);
+    void *memory = scratch_borrow(&s->scratch, bytes);
     if (!memory)
-        memory = take_until_fans(s, bytes, 1);
+        memory = alloc_until_fans(s, bytes, 1);
     if (!memory)
         return false;
-    seen_table_place(&s->table, memory);
-    pool_run(s->pool, seen_table_parts(&s->table), fill_part, s);
+    position_hash_place(&s->table, memory);
+    pool_run(s->pool, position_hash_parts(&s->table), fill_part, s);
     return true;
 }
 
 // --- the other vertices of a mesh with indices
 
-// Numbers the shown vertices of some words of the set, and asks the table for those of the others that pass
-// the filter, which are few.
-static size_t place_some(const struct seeing *s, size_t word, size_t end)
+// Numbers the wanted vertices of some words of the set, and looks up those of the others that pass the filter, which are
+// few. Returns the probes.
+static size_t place_some(const struct position_search *s, size_t word, size_t end)
 {
-    uint32_t asked[WORD * TOGETHER], hash[WORD * TOGETHER], asking = 0;
+    uint32_t looked_up[WORD * TOGETHER], hash[WORD * TOGETHER], lookups = 0;
     for (; word < end; word++) {
         size_t first = WORD * word, count = s->vertices - first < WORD ? s->vertices - first : WORD;
-        uint64_t shown = s->shown.bits[word];
+        uint64_t wanted = s->wanted.bits[word];
         uint32_t hashes[WORD];
-        s->search->number(shown, s->shown.before[word], s->position_of + first);
-        uint64_t passed = s->search->ask(point_of(s, first), (uint32_t)count, &s->table.filter, hashes) & ~shown;
+        s->simd->number(wanted, s->wanted.ranks[word], s->position_of + first);
+        uint64_t passed = s->simd->test(point_of(s, first), (uint32_t)count, &s->table.filter, hashes) & ~wanted;
         for (; passed; passed &= passed - 1) {
             uint32_t i = (uint32_t)__builtin_ctzll(passed);
-            __builtin_prefetch(&s->table.lines[seen_table_start(&s->table, hashes[i])]);
-            asked[asking] = (uint32_t)first + i;
-            hash[asking++] = hashes[i];
+            __builtin_prefetch(&s->table.lines[position_hash_start(&s->table, hashes[i])]);
+            looked_up[lookups] = (uint32_t)first + i;
+            hash[lookups++] = hashes[i];
         }
     }
-    size_t steps = 0;
-    for (uint32_t k = 0; k < asking; k++) {
+    size_t probes = 0;
+    for (uint32_t k = 0; k < lookups; k++) {
         uint32_t bits[3];
-        position_bits(point_of(s, asked[k]), bits);
-        uint32_t vertex = seen_table_find(&s->table, bits, hash[k], &steps);
+        position_bits(point_of(s, looked_up[k]), bits);
+        uint32_t vertex = position_hash_find(&s->table, bits, hash[k], &probes);
         if (vertex != NONE)
-            s->position_of[asked[k]] = number_set_place(&s->shown, vertex);
+            s->position_of[looked_up[k]] = rank_bitset_rank(&s->wanted, vertex);
     }
-    return steps;
+    return probes;
 }
 
 static void place_words(void *user, size_t index, int thread)
 {
     (void)thread;
-    struct seeing *s = user;
+    struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
-    size_t steps = 0, end = piece_end(index, number_set_words(s->vertices), WORDS);
-    for (size_t w = index * WORDS; w < end && few_steps(s, steps, WORD * WORDS); w += TOGETHER)
-        steps += place_some(s, w, w + TOGETHER < end ? w + TOGETHER : end);
+    size_t probes = 0, end = piece_end(index, rank_bitset_words(s->vertices), WORDS);
+    for (size_t w = index * WORDS; w < end && within_probe_limit(s, probes, WORD * WORDS); w += TOGETHER)
+        probes += place_some(s, w, w + TOGETHER < end ? w + TOGETHER : end);
 }
 
-// Those shown vertices where another one stands for the position.
-static void place_doubles(void *user, size_t index, int thread)
+// Numbers the wanted vertices whose position another one represents.
+static void place_duplicates(void *user, size_t index, int thread)
 {
     (void)thread;
-    struct seeing *s = user;
-    for (const struct seen_block *block = s->lists[index].doubles; block; block = block->before)
+    struct position_search *s = user;
+    for (const struct list_block *block = s->lists[index].duplicates; block; block = block->previous)
         for (uint32_t i = 0; i < block->count; i++)
-            s->position_of[block->doubles[i][0]] = number_set_place(&s->shown, block->doubles[i][1]);
-    seen_blocks_reuse(&s->lists[index], &s->lists[index].doubles);
+            s->position_of[block->duplicates[i][0]] = rank_bitset_rank(&s->wanted, block->duplicates[i][1]);
+    list_blocks_recycle(&s->lists[index], &s->lists[index].duplicates);
 }
 
-static bool place_vertices(struct seeing *s)
+static bool place_vertices(struct position_search *s)
 {
-    s->position_of = take_until_fans(s, WORD * number_set_words(s->vertices), sizeof *s->position_of);
+    s->position_of = alloc_until_fans(s, WORD * rank_bitset_words(s->vertices), sizeof *s->position_of);
     if (!s->position_of)
         return false;
-    pool_run(s->pool, pieces_of(number_set_words(s->vertices), WORDS), place_words, s);
-    pool_run(s->pool, (size_t)pool_threads(s->pool), place_doubles, s);
+    pool_run(s->pool, pieces_of(rank_bitset_words(s->vertices), WORDS), place_words, s);
+    pool_run(s->pool, (size_t)pool_threads(s->pool), place_duplicates, s);
     return true;
 }
 
 // --- all
 
-bool weld_all(struct seeing *s, lam_error *error)
+static int compare_keys(const void *left, const void *right)
 {
-    uint32_t positions;
+    const struct vertex_key *a = left, *b = right;
+    for (int i = 0; i < 3; i++)
+        if (a->bits[i] != b->bits[i])
+            return a->bits[i] < b->bits[i] ? -1 : 1;
+    return 0;
+}
+
+bool find_positions_by_sorting(struct position_search *s, lam_error *error)
+{
+    struct vertex_key *keys = search_alloc(s, &s->arena, s->vertices, sizeof *keys);
+    uint8_t *wanted = search_alloc_zeroed(s, s->vertices); // by position
     if (!s->position_of)
-        s->position_of = seeing_take(s, &s->scratch, s->vertices, sizeof *s->position_of);
-    if (!s->position_of)
-        return call_memory_error(s->loop.call, s->vertices * 4, error);
-    if (!weld_positions(s->mesh->positions, s->vertices, s->position_of, &positions, s->pool, s->loop.call, error))
-        return false;
-    uint8_t *shown = seeing_take_zeroed(s, positions);
-    if (!shown)
-        return call_memory_error(s->loop.call, positions, error);
+        s->position_of = search_alloc(s, &s->arena, s->vertices, sizeof *s->position_of);
+    if (!keys || !wanted || !s->position_of)
+        return call_memory_error(s->loop.call, s->vertices * sizeof *keys, error);
+    for (size_t v = 0; v < s->vertices; v++) {
+        position_bits(point_of(s, v), keys[v].bits);
+        keys[v].vertex = (uint32_t)v;
+    }
+    qsort(keys, s->vertices, sizeof *keys, compare_keys);
+    s->positions = 0;
+    for (size_t i = 0; i < s->vertices; i++) {
+        s->positions += i == 0 || !same_position(keys[i].bits, keys[i - 1].bits);
+        s->position_of[keys[i].vertex] = (uint32_t)s->positions - 1;
+    }
     for (size_t w = 0; w < triangle_words(s); w++)
-        for (uint64_t bits = seen_word(s, first_word(s) + w); bits; bits &= bits - 1) {
+        for (uint64_t bits = triangle_word(s, first_word(s) + w); bits; bits &= bits - 1) {
             size_t triangle = 64 * (first_word(s) + w) + (size_t)__builtin_ctzll(bits) - s->first;
             for (size_t k = 0; k < 3; k++)
-                shown[s->position_of[corner_vertex(s->mesh, 3 * triangle + k)]] = 1;
+                wanted[s->position_of[corner_vertex(s->mesh, 3 * triangle + k)]] = 1;
         }
     for (size_t v = 0; v < s->vertices; v++)
-        if (!shown[s->position_of[v]])
+        if (!wanted[s->position_of[v]])
             s->position_of[v] = NONE;
-    s->positions = positions;
     return true;
 }
 
-bool find_positions(struct seeing *s, lam_error *error)
+bool find_positions(struct position_search *s, lam_error *error)
 {
     const bool indexed = s->mesh->indices != NULL;
-    bool ok = (!indexed || find_shown(s)) && fill_table(s);
-    if (ok && indexed && !s->crowded) {
+    bool ok = (!indexed || find_wanted(s)) && fill_table(s);
+    if (ok && indexed && !s->probe_limit_reached) {
         ok = place_vertices(s);
-        spare_give_back(&s->spare); // the table is done with
+        scratch_return(&s->scratch); // the table is no longer needed
     } else if (ok && !indexed) {
-        forget_answers(s);
+        clear_caches(s);
     }
     if (!ok)
         return call_memory_error(s->loop.call, s->vertices / 4, error);
-    return !s->crowded || weld_all(s, error);
+    return !s->probe_limit_reached || find_positions_by_sorting(s, error);
 }

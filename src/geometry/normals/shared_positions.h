@@ -1,61 +1,61 @@
-// shared_positions.h: which vertices of a mesh lie where triangles lie that a picture shows, and which of them
-// lie at the same position: the first part of visible_normals.h's work.
+// shared_positions.h: which vertices of a mesh lie at the positions of given triangles, and which of them lie at the same
+// position: the first step of visible_normals.h.
 #ifndef SHARED_POSITIONS_H
 #define SHARED_POSITIONS_H
 
-#include "corner_fan_simd.h"
-#include "corner_fan.h"
+#include "pool.h"
 #include "position_hash.h"
+#include "rank_bitset.h"
+
+#include <lambent/mesh.h>
 
 enum {
     CHUNK = 1 << 16, // vertices or corners of one piece of work
 };
 
-// What the table said of a position lately; bits that no position has: nothing.
-struct seen_answer {
+// A recent result of the table; bits that no position has: empty.
+struct cached_position {
     uint32_t bits[3];
-    uint32_t position; // NONE: it is not in the table
+    uint32_t position; // NONE: the table does not hold it
 };
 
-struct seen_worker; // visible_normals.c
-
-struct seeing {
+struct position_search {
+    // In:
     const lam_mesh *mesh;
-    uint32_t first;       // number of the mesh's triangle 0
-    uint32_t seen_before; // triangles of other meshes
-    double least_cosine;
-    const struct fan_lanes *lanes;
-    const struct seen_lanes *search;
-    struct seen_normals *seen;
+    const struct rank_bitset *triangles;
+    uint32_t first;               // number of the mesh's triangle 0 in the set
+    uint32_t triangles_of_others; // members of the set that belong to meshes before this one
+    const struct position_simd *simd;
     struct pool *pool;
     struct loop_status loop;
-    struct arena scratch;
-    struct spare spare;
-    struct spare until_fans[2]; // where the mesh's elements and further normals will lie
+    struct scratch_memory scratch, until_fans[2]; // until_fans: memory that is free until the fans are made
     size_t vertices, corners;
-    struct seen_table table;
-    struct seen_lists *lists; // each thread's
-    int crowded;              // touched atomically: a file was made so that positions fall into few slots
 
-    // A position has the rank of the shown vertex that stands for it; without indices, of the shown corner.
-    struct number_set shown;      // vertices of the triangles that are seen; of a mesh with indices
-    uint32_t *position_of;        // of each vertex, NONE: none of a seen triangle; NULL: corners are looked up
-    struct seen_answer **answers; // each thread's
-    uint32_t answers_mask;
+    struct arena arena;
+    struct position_hash table;
+    struct block_lists *lists; // of each thread
+    int probe_limit_reached;   // set atomically: the file was made so that its positions collide
+
+    // Out. A position has the rank of the vertex that represents it among `wanted`; without indices, the rank of the
+    // corner among those of the set's triangles.
+    struct rank_bitset wanted;       // vertices of the set's triangles; of a mesh with indices
+    uint32_t *position_of;           // of each vertex, NONE: not wanted; NULL: corners are looked up in the table
+    struct cached_position **caches; // of each thread
+    uint32_t caches_mask;
     size_t positions;
-
-    unsigned range_shift;
-    size_t ranges;
-    struct seen_worker *workers;
 };
 
-static inline void *seeing_take(struct seeing *s, struct arena *arena, size_t count, size_t size)
+// Memory from the scratch memory or an arena; NULL: out of memory.
+static inline void *search_alloc(struct position_search *s, struct arena *arena, size_t count, size_t size)
 {
-    return spare_take(&s->spare, arena, count, size);
+    return scratch_take(&s->scratch, arena, count, size);
 }
-void *seeing_take_zeroed(struct seeing *s, size_t bytes); // from the scratch arena
+void *search_alloc_zeroed(struct position_search *s, size_t bytes); // from the search's own arena
 
-static inline const float *point_of(const struct seeing *s, size_t vertex) { return s->mesh->positions + 3 * vertex; }
+static inline const float *point_of(const struct position_search *s, size_t vertex)
+{
+    return s->mesh->positions + 3 * vertex;
+}
 
 static inline size_t pieces_of(size_t total, size_t piece) { return (total + piece - 1) / piece; }
 
@@ -65,22 +65,21 @@ static inline size_t piece_end(size_t index, size_t total, size_t piece)
 }
 
 // Starts the lists and fills the table and, of a mesh with indices, `position_of`.
-bool find_positions(struct seeing *s, lam_error *error);
+bool find_positions(struct position_search *s, lam_error *error);
+void position_search_free(struct position_search *s);
 
-void stop_lists(struct seeing *s);
+// Where the probe limit is reached: finds the positions by sorting all vertices, in a time that no file can stretch.
+bool find_positions_by_sorting(struct position_search *s, lam_error *error);
 
-// Where the table does not serve (`crowded`): all vertices are welded, in time that no file can stretch.
-bool weld_all(struct seeing *s, lam_error *error);
-
-// How many of the mesh's triangles before one, or in all, are seen.
-static inline uint32_t seen_triangles_before(const struct seeing *s, size_t triangle)
+// How many of the mesh's triangles before one, or in all, are in the set.
+static inline uint32_t triangles_before(const struct position_search *s, size_t triangle)
 {
-    const struct number_set *set = &s->seen->triangles;
     size_t number = s->first + triangle;
-    return (number < set->size ? number_set_place(set, number) : set->count) - s->seen_before;
+    return (number < s->triangles->size ? rank_bitset_rank(s->triangles, number) : s->triangles->count) -
+           s->triangles_of_others;
 }
 
-// No more steps in the table than a well filled one takes; else `crowded` is set. A file can be made to take more.
-bool few_steps(struct seeing *s, size_t steps, size_t total);
+// Checks the probes of so many searches; false once the probe limit is reached.
+bool within_probe_limit(struct position_search *s, size_t probes, size_t searches);
 
 #endif

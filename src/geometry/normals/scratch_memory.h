@@ -1,0 +1,21 @@
+// scratch_memory.h: memory of the caller that several steps share.
+#ifndef SCRATCH_MEMORY_H
+#define SCRATCH_MEMORY_H
+
+#include "arena.h"
+
+// Memory of the caller, aligned to 64 bytes, that may be overwritten: fresh memory costs more to touch than to use.
+struct scratch_memory {
+    void *memory;
+    size_t capacity, used;
+    size_t borrowed; // bytes at its end, after `capacity`
+};
+
+// Memory from the scratch memory while it lasts, else from the arena; NULL: out of memory. Any thread.
+void *scratch_take(struct scratch_memory *scratch, struct arena *arena, size_t count, size_t size);
+
+// Takes the end of the scratch memory until scratch_return; NULL: it is smaller. Only while no other thread takes any.
+void *scratch_borrow(struct scratch_memory *scratch, size_t bytes);
+void scratch_return(struct scratch_memory *scratch);
+
+#endif

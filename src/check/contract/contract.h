@@ -134,9 +134,13 @@ const char *contract_name_used(const struct contract *contract, enum uniform_sem
 struct reference_scene contract_reference_scene(const struct contract *contract, unsigned supports,
                                                 const struct reference_scene *reference_scene, int light_count);
 
-// Stores the value of a uniform, up to 16 numbers, matrices by columns. Returns their count.
-int uniform_semantic_value(enum uniform_semantic semantic, int light, const struct contract *contract,
-                           lam_light_frame light_frame, const struct reference_scene *reference_scene,
-                           const struct reference_matrices *m, float out[16]);
+// The value of a uniform; matrices by columns.
+struct uniform_value {
+    float v[16];
+};
+struct uniform_value matrix_value(const lam_mat4 *m);
+struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int light, const struct contract *contract,
+                                            lam_light_frame light_frame, const struct reference_scene *reference_scene,
+                                            const struct reference_matrices *m);
 
 #endif

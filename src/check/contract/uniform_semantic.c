@@ -66,42 +66,30 @@ struct reference_scene contract_reference_scene(const struct contract *contract,
     return s;
 }
 
-static int put_color(float out[16], lam_rgb c, float strength, float alpha)
+// --- values
+
+static struct uniform_value color(lam_rgb c, float strength, float alpha)
 {
-    out[0] = c.r * strength;
-    out[1] = c.g * strength;
-    out[2] = c.b * strength;
-    out[3] = alpha;
-    return 4;
+    return (struct uniform_value){{c.r * strength, c.g * strength, c.b * strength, alpha}};
 }
 
-static int put_product(float out[16], lam_rgb c, float strength, lam_rgb light, float alpha)
+static struct uniform_value vector(lam_vec3 v, float w)
 {
-    return put_color(out, (lam_rgb){c.r * light.r, c.g * light.g, c.b * light.b}, strength, alpha);
+    return (struct uniform_value){{(float)v.x, (float)v.y, (float)v.z, w}};
 }
 
-static int put_vector(float out[16], lam_vec3 v, float w)
-{
-    out[0] = (float)v.x;
-    out[1] = (float)v.y;
-    out[2] = (float)v.z;
-    out[3] = w;
-    return 4;
-}
+static struct uniform_value number(float x) { return (struct uniform_value){{x}}; }
 
-static int put_number(float out[16], float x)
+struct uniform_value matrix_value(const lam_mat4 *m)
 {
-    out[0] = x;
-    return 1;
-}
-
-static int put_matrix(float out[16], const lam_mat4 *m)
-{
+    struct uniform_value out;
     for (int c = 0; c < 4; c++)
         for (int r = 0; r < 4; r++)
-            out[4 * c + r] = (float)m->m[r][c];
-    return 16;
+            out.v[4 * c + r] = (float)m->m[r][c];
+    return out;
 }
+
+static lam_rgb product(lam_rgb a, lam_rgb b) { return (lam_rgb){a.r * b.r, a.g * b.g, a.b * b.b}; }
 
 static lam_rgb total_ambient(const struct reference_scene *s)
 {
@@ -122,110 +110,104 @@ static lam_mat4 light_matrix(lam_light_frame frame, const struct reference_matri
     return out;
 }
 
-static int put_light_position(float out[16], const struct reference_light *light, const lam_mat4 *to)
+static struct uniform_value light_position(const struct reference_light *light, const lam_mat4 *to)
 {
-    if (light->type == LAM_LIGHT_DIRECTIONAL)
-        return put_vector(out, mat4_vector(to, light->to_light), 0);
-    return put_vector(out, mat4_point(to, light->position), 1);
+    return light->type == LAM_LIGHT_DIRECTIONAL ? vector(mat4_vector(to, light->to_light), 0)
+                                                : vector(mat4_point(to, light->position), 1);
 }
 
-int uniform_semantic_value(enum uniform_semantic semantic, int index, const struct contract *contract,
-                           lam_light_frame light_frame, const struct reference_scene *s,
-                           const struct reference_matrices *m, float out[16])
+// Cosine of the cutoff, exponent, and for shaders with two angles a hard edge at the cutoff, or none.
+static struct uniform_value cone(const struct reference_light *light)
+{
+    if (light->cutoff_deg <= 0)
+        return (struct uniform_value){{-1, light->exponent, -2, 1}};
+    float cosine = (float)math_cos(math_radians((double)light->cutoff_deg));
+    return (struct uniform_value){{cosine, light->exponent, cosine, 1000}};
+}
+
+struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int index, const struct contract *contract,
+                                            lam_light_frame light_frame, const struct reference_scene *s,
+                                            const struct reference_matrices *m)
 {
     static const struct reference_light none = {
         .type = LAM_LIGHT_POINT, .position = {1, 1, 1}, .to_light = {0, 0, 1}, .attenuation = {1, 0, 0}};
-    memset(out, 0, 16 * sizeof *out);
     const struct reference_light *light = index < s->light_count ? &s->lights[index] : &none;
+    const float *a = light->attenuation;
     lam_mat4 to = light_matrix(light_frame, m);
+    bool products =
+        contract->products || (semantic >= SEMANTIC_AMBIENT_PRODUCT && semantic <= SEMANTIC_SPECULAR_PRODUCT);
     lam_rgb one = {1, 1, 1};
-    bool products = contract->products;
-    float place[16];
-    put_light_position(place, light, &to);
     switch (semantic) {
     case SEMANTIC_MODEL_VIEW:
-        return put_matrix(out, &m->model_view);
+        return matrix_value(&m->model_view);
     case SEMANTIC_PROJECTION:
-        return put_matrix(out, &m->projection);
+        return matrix_value(&m->projection);
     case SEMANTIC_MODEL_VIEW_PROJECTION:
-        return put_matrix(out, &m->model_view_projection);
+        return matrix_value(&m->model_view_projection);
     case SEMANTIC_MODEL:
-        return put_matrix(out, &m->model);
+        return matrix_value(&m->model);
     case SEMANTIC_VIEW:
-        return put_matrix(out, &m->view);
+        return matrix_value(&m->view);
     case SEMANTIC_NORMAL_MATRIX:
-        return put_matrix(out, &m->normal4);
+        return matrix_value(&m->normal4);
     case SEMANTIC_AMBIENT:
-        return put_product(out, s->ambient, s->ka, products ? total_ambient(s) : one, 1);
-    case SEMANTIC_DIFFUSE:
-        return put_product(out, s->diffuse, s->kd, products ? light->color : one, s->alpha);
-    case SEMANTIC_SPECULAR:
-        return put_product(out, s->specular, s->ks, products ? light->specular : one, 1);
     case SEMANTIC_AMBIENT_PRODUCT:
-        return put_product(out, s->ambient, s->ka, total_ambient(s), 1);
+        return color(product(s->ambient, products ? total_ambient(s) : one), s->ka, 1);
+    case SEMANTIC_DIFFUSE:
     case SEMANTIC_DIFFUSE_PRODUCT:
-        return put_product(out, s->diffuse, s->kd, light->color, s->alpha);
+        return color(product(s->diffuse, products ? light->color : one), s->kd, s->alpha);
+    case SEMANTIC_SPECULAR:
     case SEMANTIC_SPECULAR_PRODUCT:
-        return put_product(out, s->specular, s->ks, light->specular, 1);
+        return color(product(s->specular, products ? light->specular : one), s->ks, 1);
     case SEMANTIC_KA:
-        return put_number(out, s->ka);
+        return number(s->ka);
     case SEMANTIC_KD:
-        return put_number(out, s->kd);
+        return number(s->kd);
     case SEMANTIC_KS:
-        return put_number(out, s->ks);
+        return number(s->ks);
     case SEMANTIC_COLOR:
-        return put_color(out, s->diffuse, 1, s->alpha);
+        return color(s->diffuse, 1, s->alpha);
     case SEMANTIC_SPECULAR_COLOR:
-        return put_color(out, s->specular, 1, 1);
+        return color(s->specular, 1, 1);
     case SEMANTIC_SHININESS:
-        return put_number(out, s->shininess);
+        return number(s->shininess);
     case SEMANTIC_LIGHT_POSITION:
-        memcpy(out, place, sizeof place);
-        return 4;
+        return light_position(light, &to);
     case SEMANTIC_LIGHT_X:
-        return put_number(out, place[0]);
     case SEMANTIC_LIGHT_Y:
-        return put_number(out, place[1]);
     case SEMANTIC_LIGHT_Z:
-        return put_number(out, place[2]);
+        return number(light_position(light, &to).v[semantic - SEMANTIC_LIGHT_X]);
     case SEMANTIC_LIGHT_DIRECTION:
-        return put_vector(out, v3_unit(mat4_vector(&to, light->to_light)), 0);
+        return vector(v3_unit(mat4_vector(&to, light->to_light)), 0);
     case SEMANTIC_LIGHT_TRAVEL:
-        return put_vector(out, v3_scale(v3_unit(mat4_vector(&to, light->to_light)), -1), 0);
+        return vector(v3_scale(v3_unit(mat4_vector(&to, light->to_light)), -1), 0);
     case SEMANTIC_LIGHT_COLOR:
-        return put_color(out, light->color, 1, 1);
+        return color(light->color, 1, 1);
     case SEMANTIC_LIGHT_SPECULAR:
-        return put_color(out, light->specular, 1, 1);
+        return color(light->specular, 1, 1);
     case SEMANTIC_LIGHT_AMBIENT:
-        return put_color(out, light->ambient, 1, 1);
+        return color(light->ambient, 1, 1);
     case SEMANTIC_AMBIENT_LIGHT:
-        return put_color(out, total_ambient(s), 1, 1);
+        return color(total_ambient(s), 1, 1);
     case SEMANTIC_ATTENUATION_CONSTANT:
-        return put_number(out, light->attenuation[0]);
     case SEMANTIC_ATTENUATION_LINEAR:
-        return put_number(out, light->attenuation[1]);
     case SEMANTIC_ATTENUATION_QUADRATIC:
-        return put_number(out, light->attenuation[2]);
+        return number(a[semantic - SEMANTIC_ATTENUATION_CONSTANT]);
     case SEMANTIC_ATTENUATION:
-        memcpy(out, light->attenuation, sizeof light->attenuation);
-        return 4;
+        return (struct uniform_value){{a[0], a[1], a[2]}};
     case SEMANTIC_CONE:
-        out[0] = light->cutoff_deg > 0 ? (float)math_cos(math_radians((double)light->cutoff_deg)) : -1.0f;
-        out[1] = light->exponent;
-        out[2] = light->cutoff_deg > 0 ? out[0] : -2.0f; // a hard edge at the cutoff, or none
-        out[3] = light->cutoff_deg > 0 ? 1000.0f : 1.0f;
-        return 4;
+        return cone(light);
     case SEMANTIC_ONE:
-        return put_number(out, 1);
+        return number(1);
     case SEMANTIC_LIGHT_COUNT:
-        return put_number(out, (float)s->light_count);
+        return number((float)s->light_count);
     case SEMANTIC_FLAT:
-        return put_number(out, s->flat);
+        return number(s->flat);
     case SEMANTIC_LIGHT_IN_EYE:
-        return put_light_position(out, light, &m->view);
+        return light_position(light, &m->view);
     case SEMANTIC_EYE_POSITION:
-        return put_vector(out, (lam_vec3){0, 0, 0}, 1);
-    default:
-        return 16; // SEMANTIC_ZERO, and attributes
+        return vector((lam_vec3){0, 0, 0}, 1);
+    default: // SEMANTIC_ZERO, and attributes
+        return (struct uniform_value){{0}};
     }
 }

@@ -4,6 +4,7 @@
 // comes first.
 #include "fault.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -264,9 +265,12 @@ struct line {
     size_t at, capacity;
 };
 
-static void put(struct line *line, const char *text)
+__attribute__((format(printf, 2, 3))) static void put(struct line *line, const char *format, ...)
 {
-    int n = snprintf(line->out + line->at, line->capacity - line->at, "%s", text);
+    va_list arguments;
+    va_start(arguments, format);
+    int n = vsnprintf(line->out + line->at, line->capacity - line->at, format, arguments);
+    va_end(arguments);
     line->at = n < 0 || line->at + (size_t)n >= line->capacity ? line->capacity - 1 : line->at + (size_t)n;
 }
 
@@ -293,68 +297,52 @@ static bool is_wide(const struct line *line, enum uniform_semantic semantic) // 
 // The light in eye space as a vec3: its position, or the unit direction to it.
 static void put_light(struct line *line, bool direction)
 {
-    const char *name = own_name(line, SEMANTIC_LIGHT_POSITION), *toward = own_name(line, SEMANTIC_LIGHT_DIRECTION);
-    if (direction && toward && !(line->interface->supports & NEED_POINT)) {
-        put(line, "normalize(");
-        put(line, toward);
-        put(line, ")");
-        return;
-    }
-    if (line->interface->contract->names[0].semantic == SEMANTIC_KA) { // Oregon: three floats
+    const char *name = own_name(line, SEMANTIC_LIGHT_POSITION), *unit = own_name(line, SEMANTIC_LIGHT_DIRECTION);
+    const char *model_view = own_name(line, SEMANTIC_MODEL_VIEW);
+    const char *open = direction ? "normalize(" : "", *close = direction ? ")" : "";
+    if (direction && unit && !(line->interface->supports & NEED_POINT))
+        put(line, "normalize(%s)", unit);
+    else if (line->interface->contract->names[0].semantic == SEMANTIC_KA) // Oregon: three floats
         put(line, "vec3(uLightX, uLightY, uLightZ)");
-        return;
-    }
-    bool wide = is_wide(line, SEMANTIC_LIGHT_POSITION), move = line->frame == LAM_FRAME_OBJECT;
-    if (direction)
-        put(line, "normalize(");
-    if (move) {
-        put(line, "(");
-        put(line, own_name(line, SEMANTIC_MODEL_VIEW) ? own_name(line, SEMANTIC_MODEL_VIEW) : "gl_ModelViewMatrix");
-        put(line, " * ");
-    }
-    put(line, name ? name : "light");
-    put(line, move ? ").xyz" : wide ? ".xyz" : "");
-    if (direction)
-        put(line, ")");
+    else if (line->frame == LAM_FRAME_OBJECT)
+        put(line, "%s(%s * %s).xyz%s", open, model_view ? model_view : "gl_ModelViewMatrix", name ? name : "light",
+            close);
+    else
+        put(line, "%s%s%s%s", open, name ? name : "light", is_wide(line, SEMANTIC_LIGHT_POSITION) ? ".xyz" : "", close);
 }
 
-static void put_place(struct line *line, const char *place, size_t length)
+static void put_normal_matrix(struct line *line)
 {
-    if (length == 1 && *place == 'S') {
-        put(line, line->reflection == LAM_REFLECTION_PHONG ? "pow(max(dot(R, V), 0.0), " : "pow(max(dot(N, H), 0.0), ");
-        const char *name = own_name(line, SEMANTIC_SHININESS);
-        put(line, name ? name : "64.0");
-        put(line, ")");
-    } else if (length == 9 && strncmp(place, "light_eye", 9) == 0) {
-        put_light(line, false);
-    } else if (length == 15 && strncmp(place, "light_direction", 15) == 0) {
-        put_light(line, true);
-    } else if (length == 13 && strncmp(place, "normal_matrix", 13) == 0) {
-        const char *name = own_name(line, SEMANTIC_NORMAL_MATRIX), *view = own_name(line, SEMANTIC_MODEL_VIEW);
-        if (line->interface->contract->built_ins[0]) {
-            put(line, "gl_NormalMatrix");
-        } else if (name && declarations_uses(&line->interface->vertex, name)) {
-            put(line, is_wide(line, SEMANTIC_NORMAL_MATRIX) ? "mat3(" : "");
-            put(line, name);
-            put(line, is_wide(line, SEMANTIC_NORMAL_MATRIX) ? ")" : "");
-        } else {
-            put(line, "transpose(inverse(mat3(");
-            put(line, view ? view : "model_view");
-            put(line, ")))");
+    const char *name = own_name(line, SEMANTIC_NORMAL_MATRIX), *view = own_name(line, SEMANTIC_MODEL_VIEW);
+    if (line->interface->contract->built_ins[0])
+        put(line, "gl_NormalMatrix");
+    else if (name && declarations_uses(&line->interface->vertex, name))
+        put(line, is_wide(line, SEMANTIC_NORMAL_MATRIX) ? "mat3(%s)" : "%s", name);
+    else
+        put(line, "transpose(inverse(mat3(%s)))", view ? view : "model_view");
+}
+
+static void put_place(struct line *line, const char *place)
+{
+    const char *shininess = own_name(line, SEMANTIC_SHININESS);
+    if (strcmp(place, "S") == 0)
+        put(line, "pow(max(dot(%s), 0.0), %s)", line->reflection == LAM_REFLECTION_PHONG ? "R, V" : "N, H",
+            shininess ? shininess : "64.0");
+    else if (strcmp(place, "light_eye") == 0 || strcmp(place, "light_direction") == 0)
+        put_light(line, strcmp(place, "light_direction") == 0);
+    else if (strcmp(place, "normal_matrix") == 0)
+        put_normal_matrix(line);
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
+        if (strcmp(places[i].place, place) == 0) {
+            const char *name = own_name(line, places[i].semantic);
+            bool wide = name && is_wide(line, places[i].semantic);
+            bool extend = name && places[i].semantic == SEMANTIC_POSITION && !wide;
+            bool cut = places[i].semantic == SEMANTIC_NORMAL && wide;
+            put(line, "%s%s%s", extend ? "vec4(" : "", name ? name : places[i].fallback,
+                extend ? ", 1.0)"
+                : cut  ? ".xyz"
+                       : "");
         }
-    } else {
-        for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
-            if (strlen(places[i].place) == length && strncmp(places[i].place, place, length) == 0) {
-                const char *name = own_name(line, places[i].semantic);
-                bool narrow = places[i].semantic == SEMANTIC_POSITION && name && !is_wide(line, SEMANTIC_POSITION);
-                put(line, narrow ? "vec4(" : "");
-                put(line, name ? name : places[i].fallback);
-                put(line, narrow ? ", 1.0)" : "");
-                if (places[i].semantic == SEMANTIC_NORMAL && name && is_wide(line, SEMANTIC_NORMAL))
-                    put(line, ".xyz");
-                return;
-            }
-    }
 }
 
 void fault_text(const char *template, const struct shader_interface *interface, lam_light_frame frame,
@@ -366,10 +354,12 @@ void fault_text(const char *template, const struct shader_interface *interface, 
     for (const char *c = template; *c; c++) {
         const char *end = *c == '{' ? strchr(c, '}') : NULL;
         if (end) {
-            put_place(&line, c + 1, (size_t)(end - c - 1));
+            char place[32];
+            snprintf(place, sizeof place, "%.*s", (int)(end - c - 1), c + 1);
+            put_place(&line, place);
             c = end;
         } else {
-            put(&line, (const char[]){*c, 0});
+            put(&line, "%c", *c);
         }
     }
 }

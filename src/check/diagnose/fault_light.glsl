@@ -10,8 +10,8 @@ struct Lamp {
     vec4 given;    // the value that the shader under test receives
     vec3 diffuse, specular;
     vec3 attenuation;
-    vec3 axis; // of a spot, in eye space
-    vec2 cone; // cosine of the cutoff (-1: no spot), exponent
+    vec4 axis; // of a spot, in eye space; w 0
+    vec4 cone; // cosine of the cutoff (-1: no spot), exponent; z, w: unused
 };
 
 uniform int fault_on[FAULT_BITS];
@@ -78,11 +78,11 @@ float attenuation_of(int i, float d)
 
 float cone_of(int i, vec4 l)
 {
-    vec2 cone = lamps[i].cone;
+    vec2 cone = lamps[i].cone.xy;
     if (cone.x <= -1.0 || is(NO_CONE)) {
         return 1.0;
     }
-    float c = dot(-l.xyz, lamps[i].axis);
+    float c = dot(-l.xyz, lamps[i].axis.xyz);
     if (c < cone.x && !is(NO_CUTOFF)) {
         return 0.0;
     }

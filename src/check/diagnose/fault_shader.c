@@ -100,21 +100,23 @@ static GLint lamp_place(const struct fault_shader *m, int i, const char *member)
     return place(m, name);
 }
 
-static void set_lamp(const struct fault_shader *m, int i, const struct reference_light *light,
-                     const struct shader_interface *interface, lam_light_frame frame,
+static void set_lamp(const struct fault_shader *m, int i, const struct contract *contract, lam_light_frame frame,
                      const struct reference_scene *reference_scene, const struct reference_matrices *matrices)
 {
     const struct gl *gl = &m->offscreen.context.gl;
-    const struct contract *contract = interface->contract;
-    float v[16];
-    uniform_semantic_value(SEMANTIC_LIGHT_POSITION, i, contract, LAM_FRAME_CAMERA, reference_scene, matrices, v);
-    gl->Uniform4fv(lamp_place(m, i, "position"), 1, v);
-    uniform_semantic_value(SEMANTIC_LIGHT_POSITION, i, contract, frame, reference_scene, matrices, v);
-    gl->Uniform4fv(lamp_place(m, i, "given"), 1, v);
-    uniform_semantic_value(SEMANTIC_LIGHT_TRAVEL, i, contract, LAM_FRAME_CAMERA, reference_scene, matrices, v);
-    gl->Uniform3fv(lamp_place(m, i, "axis"), 1, v);
-    uniform_semantic_value(SEMANTIC_CONE, i, contract, frame, reference_scene, matrices, v);
-    gl->Uniform2fv(lamp_place(m, i, "cone"), 1, v);
+    const struct reference_light *light = &reference_scene->lights[i];
+    const struct {
+        const char *member;
+        enum uniform_semantic semantic;
+        lam_light_frame frame;
+    } members[] = {{"position", SEMANTIC_LIGHT_POSITION, LAM_FRAME_CAMERA},
+                   {"given", SEMANTIC_LIGHT_POSITION, frame},
+                   {"axis", SEMANTIC_LIGHT_TRAVEL, LAM_FRAME_CAMERA},
+                   {"cone", SEMANTIC_CONE, frame}};
+    for (int k = 0; k < 4; k++)
+        gl->Uniform4fv(
+            lamp_place(m, i, members[k].member), 1,
+            uniform_semantic_value(members[k].semantic, i, contract, members[k].frame, reference_scene, matrices).v);
     gl->Uniform3fv(lamp_place(m, i, "attenuation"), 1, light->attenuation);
     gl->Uniform3f(lamp_place(m, i, "diffuse"), light->color.r, light->color.g, light->color.b);
     gl->Uniform3f(lamp_place(m, i, "specular"), light->specular.r, light->specular.g, light->specular.b);
@@ -140,22 +142,15 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     for (int i = 0; i < FAULT_BIT_COUNT; i++)
         bits[i] = (GLint)(set >> i & 1);
     gl->Uniform1iv(place(m, "fault_on"), FAULT_BIT_COUNT, bits);
-    float v[16];
+    gl->UniformMatrix4fv(place(m, "model_view"), 1, GL_FALSE, matrix_value(&matrices.model_view).v);
+    gl->UniformMatrix4fv(place(m, "projection"), 1, GL_FALSE, matrix_value(&matrices.projection).v);
+    gl->UniformMatrix4fv(place(m, "normal_matrix4"), 1, GL_FALSE, matrix_value(&matrices.normal4).v);
     const struct contract *contract = interface->contract;
-    uniform_semantic_value(SEMANTIC_MODEL_VIEW, 0, contract, frame, reference_scene, &matrices, v);
-    gl->UniformMatrix4fv(place(m, "model_view"), 1, GL_FALSE, v);
-    uniform_semantic_value(SEMANTIC_PROJECTION, 0, contract, frame, reference_scene, &matrices, v);
-    gl->UniformMatrix4fv(place(m, "projection"), 1, GL_FALSE, v);
-    uniform_semantic_value(SEMANTIC_NORMAL_MATRIX, 0, contract, frame, reference_scene, &matrices, v);
-    gl->UniformMatrix4fv(place(m, "normal_matrix4"), 1, GL_FALSE, v);
     for (int i = 0; i < reference_scene->light_count; i++)
-        set_lamp(m, i, &reference_scene->lights[i], interface, frame, reference_scene, &matrices);
+        set_lamp(m, i, contract, frame, reference_scene, &matrices);
     gl->Uniform1i(place(m, "lamp_count"), reference_scene->light_count);
-    float light[16];
-    uniform_semantic_value(SEMANTIC_AMBIENT_LIGHT, 0, contract, frame, reference_scene, &matrices, light);
-    gl->Uniform3f(place(m, "ambient_product"), reference_scene->ambient.r * reference_scene->ka * light[0],
-                  reference_scene->ambient.g * reference_scene->ka * light[1],
-                  reference_scene->ambient.b * reference_scene->ka * light[2]);
+    gl->Uniform3fv(place(m, "ambient_product"), 1,
+                   uniform_semantic_value(SEMANTIC_AMBIENT_PRODUCT, 0, contract, frame, reference_scene, &matrices).v);
     set_color(m, "kd", reference_scene->diffuse, reference_scene->kd);
     set_color(m, "ks", reference_scene->specular, reference_scene->ks);
     // In contracts with separate strengths and colours, shaders confuse one of them; in the others, the products.

@@ -12,11 +12,22 @@
 
 enum { MAX_BLOCKS = 8, MAX_BLOCK_BYTES = 65536 };
 
+// The types of uniforms: matrices have several columns, vectors one of several rows.
+static const struct glsl_type {
+    GLenum type;
+    const char *name;
+    int columns, rows;
+} types[] = {
+    {GL_FLOAT, "float", 1, 1},     {GL_INT, "int", 1, 1},         {GL_BOOL, "bool", 1, 1},
+    {GL_FLOAT_VEC2, "vec2", 1, 2}, {GL_FLOAT_VEC3, "vec3", 1, 3}, {GL_FLOAT_VEC4, "vec4", 1, 4},
+    {GL_FLOAT_MAT3, "mat3", 3, 3}, {GL_FLOAT_MAT4, "mat4", 4, 4}, {0, "another type", 0, 0},
+};
+
 // An active uniform with a name of the contract, one element of it.
 struct uniform_binding {
     enum uniform_semantic semantic;
     int light;
-    GLenum type;
+    const struct glsl_type *type;
     GLint location; // −1: in a block
     int block, offset, matrix_stride;
 };
@@ -53,38 +64,22 @@ static void report_unknown(struct draw_result *drawn, const char *name)
         snprintf(drawn->unknown[drawn->unknown_count++], sizeof drawn->unknown[0], "%.63s", name);
 }
 
-static const char *type_name(GLenum type)
+static const struct glsl_type *type_of(GLenum type)
 {
-    switch (type) {
-    case GL_FLOAT:
-        return "float";
-    case GL_FLOAT_VEC2:
-        return "vec2";
-    case GL_FLOAT_VEC3:
-        return "vec3";
-    case GL_FLOAT_VEC4:
-        return "vec4";
-    case GL_INT:
-        return "int";
-    case GL_BOOL:
-        return "bool";
-    case GL_FLOAT_MAT3:
-        return "mat3";
-    case GL_FLOAT_MAT4:
-        return "mat4";
-    default:
-        return "another type";
-    }
+    const struct glsl_type *t = types;
+    while (t->type && t->type != type)
+        t++;
+    return t;
 }
 
 // Whether a uniform's type can hold the contract's: matrices fit matrices, vectors vectors, scalars scalars.
-static bool type_fits(GLenum type, const char *contract_type)
+static bool type_fits(const struct glsl_type *t, const char *contract_type)
 {
     if (strncmp(contract_type, "mat", 3) == 0)
-        return type == GL_FLOAT_MAT3 || type == GL_FLOAT_MAT4;
+        return t->columns > 1;
     if (strncmp(contract_type, "vec", 3) == 0)
-        return type == GL_FLOAT_VEC3 || type == GL_FLOAT_VEC4;
-    return type == GL_FLOAT || type == GL_INT || type == GL_BOOL;
+        return t->columns == 1 && t->rows > 2;
+    return t->rows == 1;
 }
 
 static const struct contract_name *look_up(const struct contract *contract, const char *name, bool attribute,
@@ -106,10 +101,10 @@ static void add_binding(struct shader_run *run, GLuint number, const char *name,
         report_unknown(&run->drawn, name);
         return;
     }
-    if (!type_fits(type, known->type)) {
+    if (!type_fits(type_of(type), known->type)) {
         if (run->drawn.types_count < MAX_UNKNOWN_NAMES)
             snprintf(run->drawn.types[run->drawn.types_count++], sizeof run->drawn.types[0],
-                     "uniform %s %.40s should be of type %s", type_name(type), name, known->type);
+                     "uniform %s %.40s should be of type %s", type_of(type)->name, name, known->type);
         return;
     }
     GLint block = -1, offset = 0, stride = 0, array_stride = 0;
@@ -128,7 +123,7 @@ static void add_binding(struct shader_run *run, GLuint number, const char *name,
         run->bindings[run->binding_count++] =
             (struct uniform_binding){.semantic = known->semantic,
                                      .light = light + i,
-                                     .type = type,
+                                     .type = type_of(type),
                                      .block = block,
                                      .location = block < 0 ? gl->GetUniformLocation(run->program, element) : -1,
                                      .offset = offset + i * array_stride,
@@ -197,24 +192,17 @@ static void find_attributes(struct shader_run *run)
     }
 }
 
-// Converts a value to a uniform's type and returns the count of its numbers. Matrices in `values` are 4×4 by columns.
-static int convert_value(GLenum type, int count, const float values[16], float out[16])
+// The columns of a value, as a uniform's type has them.
+static void convert_value(const struct glsl_type *type, const struct uniform_value *value, float out[16])
 {
-    if (type == GL_FLOAT_MAT3) {
-        for (int c = 0; c < 3; c++)
-            for (int r = 0; r < 3; r++)
-                out[3 * c + r] = values[4 * c + r];
-        return 9;
-    }
-    memcpy(out, values, 16 * sizeof *out);
-    (void)count;
-    return type == GL_FLOAT_MAT4 ? 16 : type == GL_FLOAT_VEC4 ? 4 : type == GL_FLOAT_VEC3 ? 3 : 1;
+    for (int c = 0; c < type->columns; c++)
+        memcpy(out + c * type->rows, value->v + 4 * c, (size_t)type->rows * sizeof *out);
 }
 
 static void set_uniform(const struct gl *gl, const struct uniform_binding *w, const float *v)
 {
     GLint whole = (GLint)v[0];
-    switch (w->type) {
+    switch (w->type->type) {
     case GL_FLOAT:
         gl->Uniform1fv(w->location, 1, v);
         break;
@@ -236,35 +224,27 @@ static void set_uniform(const struct gl *gl, const struct uniform_binding *w, co
     }
 }
 
-static void store_in_block(const struct uniform_binding *w, const float *v, int count, unsigned char *bytes,
-                           int capacity)
+static void store_in_block(const struct uniform_binding *w, const float *v, unsigned char *bytes, int capacity)
 {
-    int columns = w->type == GL_FLOAT_MAT4 ? 4 : w->type == GL_FLOAT_MAT3 ? 3 : 1, rows = count / columns;
-    for (int c = 0; c < columns; c++) {
+    size_t size = (size_t)w->type->rows * sizeof *v;
+    int32_t whole = (int32_t)v[0];
+    bool is_whole = w->type->type == GL_INT || w->type->type == GL_BOOL;
+    for (int c = 0; c < w->type->columns; c++) {
         int at = w->offset + c * w->matrix_stride;
-        if (at < 0 || at + rows * 4 > capacity)
+        if (at < 0 || at + (int)size > capacity)
             return;
-        if (w->type == GL_INT || w->type == GL_BOOL) {
-            int32_t whole = (int32_t)v[0];
-            memcpy(bytes + at, &whole, sizeof whole);
-        } else {
-            memcpy(bytes + at, v + c * rows, (size_t)rows * sizeof *v);
-        }
+        memcpy(bytes + at, is_whole ? (const void *)&whole : v + c * w->type->rows, size);
     }
 }
 
-static void set_built_ins(const struct gl *gl, const struct contract *contract,
-                          const struct reference_scene *reference_scene, const struct reference_matrices *m)
+static void set_built_ins(const struct gl *gl, const struct reference_matrices *m)
 {
-    float values[16];
     if (!gl->MatrixMode || !gl->LoadMatrixf)
         return;
-    uniform_semantic_value(SEMANTIC_MODEL_VIEW, 0, contract, contract->light_frame, reference_scene, m, values);
     gl->MatrixMode(GL_MODELVIEW);
-    gl->LoadMatrixf(values);
-    uniform_semantic_value(SEMANTIC_PROJECTION, 0, contract, contract->light_frame, reference_scene, m, values);
+    gl->LoadMatrixf(matrix_value(&m->model_view).v);
     gl->MatrixMode(GL_PROJECTION);
-    gl->LoadMatrixf(values);
+    gl->LoadMatrixf(matrix_value(&m->projection).v);
 }
 
 static bool set_values(struct shader_run *run, const struct reference_scene *reference_scene, enum gl_profile profile,
@@ -275,20 +255,20 @@ static bool set_values(struct shader_run *run, const struct reference_scene *ref
     struct reference_matrices m;
     reference_matrices(reference_scene, &m);
     if (profile == GL_PROFILE_COMPATIBILITY)
-        set_built_ins(gl, contract, reference_scene, &m);
+        set_built_ins(gl, &m);
     unsigned char *bytes = calloc(MAX_BLOCKS, MAX_BLOCK_BYTES);
     if (!bytes)
         return fail_memory(error, MAX_BLOCKS * MAX_BLOCK_BYTES);
     for (int i = 0; i < run->binding_count; i++) {
         const struct uniform_binding *w = &run->bindings[i];
-        float values[16], shaped[16];
-        int count = uniform_semantic_value(w->semantic, w->light, contract, (lam_light_frame)run->request.light_frame,
-                                           reference_scene, &m, values);
-        count = convert_value(w->type, count, values, shaped);
+        struct uniform_value value = uniform_semantic_value(
+            w->semantic, w->light, contract, (lam_light_frame)run->request.light_frame, reference_scene, &m);
+        float shaped[16];
+        convert_value(w->type, &value, shaped);
         if (w->block < 0)
             set_uniform(gl, w, shaped);
         else if (w->block < MAX_BLOCKS)
-            store_in_block(w, shaped, count, bytes + (size_t)w->block * MAX_BLOCK_BYTES, run->block_bytes[w->block]);
+            store_in_block(w, shaped, bytes + (size_t)w->block * MAX_BLOCK_BYTES, run->block_bytes[w->block]);
     }
     for (int i = 0; i < MAX_BLOCKS; i++)
         if (run->blocks[i]) {

@@ -16,7 +16,7 @@ struct points {
 static inline void points_fill(struct points *p, uint64_t seed)
 {
     static const float exponents[] = {0, 1, 27.8f, 50, 128, 500, 1000, 10000};
-    struct random r = {seed};
+    struct random r = {seed}, own = {~seed};
     for (int i = 0; i < POINTS; i++) {
         float unit[4][3]; // directions: light, axis, up, and the point's place
         for (int k = 0; k < 4; k++) {
@@ -60,6 +60,8 @@ static inline void points_fill(struct points *p, uint64_t seed)
         p->in[IN_EXPONENT][i] = i % 3 == 0 ? 0 : random_between(&r, 0, 64);
         p->in[IN_COS_OUTER][i] = random_between(&r, 0, 0.7f);
         p->in[IN_INVERSE_WIDTH][i] = 1 / random_between(&r, 0.1f, 0.3f);
+        for (int k = IN_PARAMETERS; k < INPUTS; k++)
+            p->in[k][i] = random_between(&own, 0, 1.5f);
         p->in[IN_SHININESS][i] = exponents[i % 8];
     }
 }

@@ -58,6 +58,74 @@ static double spot(const struct modes *modes, const float *in, double c)
     }
 }
 
+// --- the lobes
+
+struct geometry {
+    vector n, l, v, t;
+    double n_l, theta_l, theta_v; // n.l; angles between t and l, t and v
+    const float *parameters;      // in the order of LOBE_PARAMETERS
+    int fibre;
+};
+
+struct reflected {
+    double diffuse, base;
+    int lit; // there is a highlight where the eye sees the point
+};
+
+static struct reflected reflect_none(const struct geometry *g)
+{
+    (void)g;
+    return (struct reflected){0};
+}
+
+static struct reflected reflect_lambert(const struct geometry *g)
+{
+    return (struct reflected){.diffuse = fmax(g->n_l, 0)};
+}
+
+static struct reflected reflect_phong(const struct geometry *g)
+{
+    vector r = minus(times(2 * g->n_l, g->n), g->l);
+    return (struct reflected){fmax(g->n_l, 0), inner(r, g->v), g->n_l > 0};
+}
+
+static struct reflected reflect_blinn_phong(const struct geometry *g)
+{
+    return (struct reflected){fmax(g->n_l, 0), inner(g->n, normalize(plus(g->l, g->v))), g->n_l > 0};
+}
+
+// sin sin ∓ cos cos are −cos of the sum and cos of the difference of the angles.
+static struct reflected reflect_thread(const struct geometry *g, double base, int gated)
+{
+    int there = !none(g->t) && !none(g->l) && (g->n_l > 0 || !gated);
+    return (struct reflected){there ? sin(g->theta_l) : 0, base, there};
+}
+
+static struct reflected reflect_kajiya_kay(const struct geometry *g)
+{
+    return reflect_thread(g, -cos(g->theta_l + g->theta_v), !g->fibre);
+}
+
+static struct reflected reflect_kajiya_kay_lecture(const struct geometry *g)
+{
+    return reflect_thread(g, cos(g->theta_l - g->theta_v), 0);
+}
+
+// Each with the hash over the results of all widths (test_widths.c prints it).
+static const struct lobe {
+    struct reflected (*of)(const struct geometry *g);
+    uint64_t hash;
+} lobes[LAM_REFLECTION_COUNT] = {
+    [LAM_REFLECTION_NONE] = {reflect_none, 0x587cfd57bf96a6f0},
+    [LAM_REFLECTION_LAMBERT] = {reflect_lambert, 0x0ddab406a9be3458},
+    [LAM_REFLECTION_PHONG] = {reflect_phong, 0xaaf98f248c7e0654},
+    [LAM_REFLECTION_BLINN_PHONG] = {reflect_blinn_phong, 0x64be24bc5d552f2b},
+    [LAM_REFLECTION_KAJIYA_KAY] = {reflect_kajiya_kay, 0x86fdeb727f396564},
+    [LAM_REFLECTION_KAJIYA_KAY_LECTURE] = {reflect_kajiya_kay_lecture, 0xfa54dbabeeecf5f4},
+};
+
+uint64_t textbook_hash(int model) { return lobes[model].hash; }
+
 struct textbook textbook_light(const struct modes *modes, const float in[INPUTS])
 {
     struct textbook result;
@@ -82,53 +150,27 @@ struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]
         narrowed = spot(modes, in, result.cone_cosine);
     }
 
-    double n_l = inner(n, l), diffuse = 0, specular = 0, base = 0, shininess = (double)in[IN_SHININESS];
-    vector r = minus(times(2 * n_l, n), l), h = normalize(plus(l, v));
     result.half_length = length(plus(l, v));
-    double theta_l = acos(limit(inner(t, l), -1, 1)), theta_v = acos(limit(inner(t, v), -1, 1));
-    int gated = 1, seen = !none(v);
-    switch (modes->model) {
-    case LAM_REFLECTION_LAMBERT:
-        diffuse = fmax(n_l, 0);
-        break;
-    case LAM_REFLECTION_PHONG:
-        diffuse = fmax(n_l, 0);
-        base = limit(inner(r, v), 0, 1);
-        specular = n_l > 0 && seen ? raise(base, shininess) : 0;
-        break;
-    case LAM_REFLECTION_BLINN_PHONG:
-        diffuse = fmax(n_l, 0);
-        base = limit(inner(n, h), 0, 1);
-        specular = n_l > 0 && seen ? raise(base, shininess) : 0;
-        break;
-    case LAM_REFLECTION_KAJIYA_KAY:
-    case LAM_REFLECTION_KAJIYA_KAY_LECTURE:
-        // sin sin ∓ cos cos are −cos of the sum and cos of the difference of the angles.
-        base = modes->model == LAM_REFLECTION_KAJIYA_KAY ? -cos(theta_l + theta_v) : cos(theta_l - theta_v);
-        base = limit(base, 0, 1);
-        gated = modes->model == LAM_REFLECTION_KAJIYA_KAY && !modes->fibre;
-        if (!none(t) && !none(l) && (n_l > 0 || !gated)) {
-            diffuse = sin(theta_l);
-            specular = seen ? raise(base, shininess) : 0;
-        }
-        break;
-    }
-    if (modes->model == LAM_REFLECTION_NONE)
-        base = 0;
+    struct geometry g = {n, l, v, t, .n_l = inner(n, l), .parameters = in + IN_PARAMETERS, .fibre = modes->fibre};
+    g.theta_l = acos(limit(inner(t, l), -1, 1));
+    g.theta_v = acos(limit(inner(t, v), -1, 1));
+    struct reflected lobe = lobes[modes->model].of(&g);
+    double base = limit(lobe.base, 0, 1);
+    double specular = lobe.lit && !none(v) ? raise(base, (double)in[IN_SHININESS]) : 0;
 
     put(out + OUT_L, l);
     out[OUT_DISTANCE] = d;
     out[OUT_ATTENUATION] = arrives;
     out[OUT_SPOT] = narrowed;
-    out[OUT_D] = diffuse;
+    out[OUT_D] = lobe.diffuse;
     out[OUT_S] = specular;
-    out[OUT_N_DOT_L] = n_l;
+    out[OUT_N_DOT_L] = g.n_l;
     out[OUT_BASE] = base;
     for (int i = 0; i < 3; i++) {
         double w = 0.5 + 0.5 * inner(n, take(in + IN_UP)), tint = (double)in[IN_TINT + i];
         double dome = none(n) ? 0 : (double)in[IN_SKY + i] * w + (double)in[IN_GROUND + i] * (1 - w);
         out[OUT_AMBIENT + i] = tint * ((double)in[IN_AMBIENT + i] + dome);
-        out[OUT_DIFFUSE + i] = tint * (double)in[IN_DIFFUSE + i] * arrives * narrowed * diffuse;
+        out[OUT_DIFFUSE + i] = tint * (double)in[IN_DIFFUSE + i] * arrives * narrowed * lobe.diffuse;
         out[OUT_SPECULAR + i] = (double)in[IN_SPECULAR + i] * arrives * narrowed * specular;
         out[OUT_REFLECTION + i] = (double)in[IN_MIRROR + i] * (double)in[IN_ENVIRONMENT + i];
         out[OUT_SUM + i] = (double)in[IN_EMISSION + i] + out[OUT_AMBIENT + i] + out[OUT_DIFFUSE + i] +

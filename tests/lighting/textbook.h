@@ -15,4 +15,7 @@ struct textbook {
 
 struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]);
 
+// The hash that test_widths recorded for a lam_reflection; 0: it has no row here.
+uint64_t textbook_hash(int model);
+
 #endif

@@ -75,7 +75,12 @@ static void light(const struct modes *modes, const float *const in[INPUTS], floa
         l.exponent = num_load(in[IN_EXPONENT] + i);
         l.cos_outer = num_load(in[IN_COS_OUTER] + i);
         l.inverse_width = num_load(in[IN_INVERSE_WIDTH] + i);
-        lobe_parameters m = {.shininess = num_load(in[IN_SHININESS] + i), .fibre = num_of((float)modes->fibre)};
+        lobe_parameters m;
+        int parameter = IN_PARAMETERS;
+#define TAKE(name) m.name = num_load(in[parameter++] + i);
+        LOBE_PARAMETERS(TAKE)
+#undef TAKE
+        m.fibre = num_of((float)modes->fibre);
         hemisphere h = {load3(in, IN_UP, i), load3(in, IN_SKY, i), load3(in, IN_GROUND, i)};
 
         light_sample t = toward_light(s.p, l, modes->kind, modes->falloff);

@@ -38,7 +38,6 @@ enum input {
     IN_EXPONENT,
     IN_COS_OUTER,
     IN_INVERSE_WIDTH,
-    IN_SHININESS,
     IN_UP,
     IN_SKY = IN_UP + 3,
     IN_GROUND = IN_SKY + 3,
@@ -47,7 +46,9 @@ enum input {
     IN_TINT = IN_EMISSION + 3,
     IN_MIRROR = IN_TINT + 3, // kr
     IN_ENVIRONMENT = IN_MIRROR + 3,
-    INPUTS = IN_ENVIRONMENT + 3
+    IN_PARAMETERS = IN_ENVIRONMENT + 3, // of the lobe, in the order of LOBE_PARAMETERS
+    IN_SHININESS = IN_PARAMETERS,
+    INPUTS = IN_PARAMETERS + 8
 };
 
 enum output {

@@ -6,6 +6,7 @@
 
 #include "check.h"
 #include "console.h"
+#include "exit_codes.h"
 #include "help.h"
 #include "report.h"
 
@@ -86,7 +87,7 @@ int main(int count, char **words)
     lam_error error;
     if (!finish_output(&error) && code == 0) { // else the failure was told already
         say_error(error.text);
-        code = (int)error.code;
+        code = exit_code_of(error.code)->code;
     }
     return code;
 }

@@ -1,10 +1,24 @@
-// lambent/base.h: errors, control of long calls, vectors and the version: the part that every other header includes.
+// lambent/base.h: errors, control of long calls, small vectors, and the rules of the whole interface.
 //
-// C11; includes cleanly in C++17. Every call may be made from any thread. A call that can fail takes a `lam_error *` as
-// its last argument, which may be NULL; on failure it returns false, NULL or −1 and fills the error. The library prints
-// nothing, never exits, and keeps no global state.
+// C11; includes cleanly in C++17. Every call may be made from any thread. The library prints nothing, never exits, and
+// keeps no global state.
 //
-// Structs of parameters are plain: all zero is the default. Pointers to them may be NULL where their function says so.
+// Names: functions are lam_<thing>_<verb>, types lam_<thing>, constants LAM_<KIND>_<VALUE>. A unit stands at the end of
+// the name: _rad, _deg, _ms, _s, _px, _bytes. Lengths without one are model units.
+//
+// Errors: a call that can fail takes a `lam_error *` last, which may be NULL; it returns false, NULL or −1 on failure
+// and then fills the error.
+//
+// Defaults: a zeroed parameter struct asks for the default of every field, and a NULL one does too where the call says
+// so. Structs whose defaults are not zero (lam_material, lam_light, lam_object, lam_camera) have a function that returns
+// them, lam_<thing>_default.
+//
+// Growth: a struct that may grow ends in LAM_RESERVED(n), n words of 8 bytes that must be zero. A later version puts new
+// fields in their place, a whole number of words at a time, and zero means the default or "absent" for each of them.
+// Hence the size of a struct, the stride of an array of them, and the offset of each field never change within one
+// soname: programs and libraries of different versions work together, in both directions. A call that takes a struct of
+// parameters with a reserved word that is not zero fails with LAM_BAD_ARGUMENT: the program was compiled against a newer
+// header and sets a field that this library does not know. Structs without LAM_RESERVED never change.
 #ifndef LAMBENT_BASE_H
 #define LAMBENT_BASE_H
 
@@ -28,19 +42,21 @@ extern "C" {
 #define LAM_API
 #endif
 
-// The kind of a failure. The numbers 1 to 5 are also exit codes of the `lambent` program, whose 6 means that two
-// pictures differ.
+// The words of 8 bytes at the end of a struct that later versions turn into fields. Zero (see "Growth" above).
+#define LAM_RESERVED(words) uint64_t reserved[words]
+
+// The kind of a failure. The exit codes of the `lambent` program are numbers of their own.
 typedef enum lam_code {
     LAM_OK = 0, // no error
     // An argument is out of its range or does not go with another one; the sentence names it.
-    LAM_BAD_ARGUMENT = 1,
+    LAM_BAD_ARGUMENT,
     // A file is missing, unreadable, cut short, or not of the format that it claims.
-    LAM_CANNOT_READ = 2,
-    LAM_UNSUPPORTED = 3, // understood, but not supported by this build or machine
+    LAM_CANNOT_READ,
+    LAM_UNSUPPORTED, // understood, but not supported by this build or machine
     // A limit was reached: a size, the memory limit, the time limit, or the machine's memory.
-    LAM_LIMIT = 4,
-    LAM_CANNOT_WRITE = 5, // the output cannot be written
-    LAM_CANCELLED = 7,    // the caller's cancel flag was raised
+    LAM_LIMIT,
+    LAM_CANNOT_WRITE, // the output cannot be written
+    LAM_CANCELLED,    // the caller's cancel flag was raised
 } lam_code;
 
 // An error. It need not be initialised: a call that fails fills all of it, a call that succeeds leaves it alone.
@@ -73,6 +89,7 @@ typedef struct lam_control {
     // "normals", "frame"). It must not call into the same device or scene. NULL: none.
     void (*progress)(void *user, double share, const char *step);
     void *user; // passed to `progress`
+    LAM_RESERVED(8);
 } lam_control;
 
 // A position, direction or angle triple.

@@ -21,6 +21,7 @@ typedef struct lam_camera {
     // Distances along the view of what is nearest and farthest drawn; near < far, and near > 0 for perspective. Both 0:
     // fitted to the scene.
     double near_plane, far_plane;
+    LAM_RESERVED(16);
 } lam_camera;
 
 // A perspective camera at (0, 0, 4) that looks at the origin with a field of view of 30°.
@@ -43,6 +44,7 @@ typedef struct lam_view {
     double zoom;       // > 0; 2 shows the model twice as large; 0: 1
     // Fraction of the tighter side of the picture that the projected vertices take, in (0, 1]. 0: 0.92.
     double fill;
+    LAM_RESERVED(8);
 } lam_view;
 
 // The named sides of a scene.
@@ -71,7 +73,8 @@ LAM_API lam_view lam_view_of_side(lam_side side);
 // Places a camera so that the scene's projected vertices (not their bounding box) fill a picture of width × height
 // pixels and are centred in it. A fit for one shape cuts off the model, or shrinks it, in a picture of another. The
 // scene's up axis turns the view. A side below 1 counts as 1. `view` NULL: the three-quarter view. A scene without
-// triangles gives the default camera.
+// triangles gives the default camera. A view with a field that this version does not know gives a camera that every
+// call refuses (base.h, "Growth").
 LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view);
 
 // Reads a camera as people write it: pairs key=value, separated by commas, of

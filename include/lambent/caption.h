@@ -30,7 +30,7 @@ LAM_API double lam_text_width(lam_font *font, double size_px, const char *text);
 
 // Draws a line of UTF-8 text over the picture. It starts at pixel column `x`, with its baseline at row `y`, counted
 // from the upper left corner; the parts outside of the picture are left out. `color` is not premultiplied and in the
-// picture's own numbers: sRGB-encoded 0..1 for LAM_RGBA8, linear for LAM_RGBA32F. Errors: LAM_BAD_ARGUMENT, LAM_LIMIT.
+// picture's own numbers: sRGB-encoded 0..1 in formats of 8 bits, linear in floats. Errors: LAM_BAD_ARGUMENT, LAM_LIMIT.
 LAM_API bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
                            const char *text, lam_error *error);
 

@@ -32,6 +32,7 @@ typedef struct lam_check_name {
     // Other accepted names, separated by blanks. NULL: none.
     const char *synonyms;
     bool attribute;
+    LAM_RESERVED(4);
 } lam_check_name;
 
 // Row `row` of a contract, counted from 0. False past the last one.
@@ -92,6 +93,7 @@ typedef struct lam_check_params {
     // Runs lam_check_draw in another process. NULL: in this process, for trusted shaders.
     lam_check_draw_fn *draw;
     void *user; // passed to `draw`
+    LAM_RESERVED(16);
 } lam_check_params;
 
 typedef enum lam_check_verdict {
@@ -115,6 +117,7 @@ typedef struct lam_check_scene {
     bool passes;
     // The mistake that explains this scene alone, by id. NULL: none, or the scene passes.
     const char *looks_like;
+    LAM_RESERVED(8);
 } lam_check_scene;
 
 // A mistake that explains the pictures.
@@ -126,6 +129,7 @@ typedef struct lam_check_finding {
     bool certain;
     // Mean difference over all scenes without and with the mistake.
     double mean_before, mean_after;
+    LAM_RESERVED(8);
 } lam_check_finding;
 
 typedef enum lam_check_diagnostic_kind {
@@ -138,6 +142,7 @@ typedef struct lam_check_diagnostic {
     const char *file; // as given in lam_check_params; NULL: both or none
     int line;         // 0: unknown
     char *text;
+    LAM_RESERVED(4);
 } lam_check_diagnostic;
 
 typedef struct lam_check_report {
@@ -155,6 +160,7 @@ typedef struct lam_check_report {
     lam_check_diagnostic *diagnostics;
     int diagnostic_count;
     void *memory; // owns the strings above
+    LAM_RESERVED(8);
 } lam_check_report;
 
 // Checks. False only without a verdict: LAM_BAD_ARGUMENT (no contract fits, an unknown scene), LAM_UNSUPPORTED (no

@@ -35,6 +35,7 @@ LAM_API bool lam_isa_usable(lam_isa isa);
 typedef struct lam_cpu_params {
     int threads; // that draw, the calling one included, 1..1024; 0: auto
     lam_isa isa; // the instruction set
+    LAM_RESERVED(8);
 } lam_cpu_params;
 
 // Makes the CPU device; `params` may be NULL. NULL on failure: LAM_UNSUPPORTED (the instruction set), LAM_LIMIT. In C
@@ -162,6 +163,7 @@ typedef struct lam_draw_params {
     lam_output output; // the content of the frame
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the light's number in lam_draw_lights.
     int output_light;
+    LAM_RESERVED(32);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.
@@ -187,6 +189,7 @@ typedef struct lam_frame_report {
     uint64_t points_lit;
     uint64_t lights_evaluated; // summed over those points
     uint64_t memory_bytes;     // held by the device after the frame
+    LAM_RESERVED(16);
 } lam_frame_report;
 
 // Draws the scene as the camera sees it into `image`, which the caller made with the size and pixel format

@@ -48,6 +48,7 @@ typedef struct lam_explained_light {
     // The light's terms are not in the sum: they are too weak in this part of the picture
     // (lam_draw_params.light_cutoff).
     bool skipped;
+    LAM_RESERVED(8);
 } lam_explained_light;
 
 // A hemisphere light at a lit point.
@@ -58,6 +59,7 @@ typedef struct lam_explained_hemisphere {
     lam_rgb sky, ground; // its colours
     float n_dot_up;      // cosine between n and up
     lam_rgb term;        // ka ⊙ mix(ground, sky, ½ + ½ n·up)
+    LAM_RESERVED(8);
 } lam_explained_hemisphere;
 
 // A point that was lit: the fragment itself (Phong), a corner (Gouraud), or the last corner (flat).
@@ -87,6 +89,7 @@ typedef struct lam_explained_point {
     lam_rgb emission, ambient, diffuse, specular, reflection;
     lam_rgb sum;    // emission + ambient + diffuse + specular + reflection
     lam_rgb result; // the sum; clamped to 0…1 with gl1, flat and Gouraud
+    LAM_RESERVED(8);
 } lam_explained_point;
 
 // A triangle that the pixel shows.
@@ -115,6 +118,7 @@ typedef struct lam_explained_fragment {
     float transmittance[16];
     // Σ transmittance / samples of a pixel: the fragment's share of the pixel.
     float weight;
+    LAM_RESERVED(8);
 } lam_explained_fragment;
 
 // One pixel of a picture.
@@ -143,6 +147,7 @@ typedef struct lam_explanation {
     lam_rgb straight; // result / alpha
     lam_rgb encoded;  // `straight` sRGB-encoded, or clamped with LAM_COLOR_RAW
     uint8_t bytes[4]; // what LAM_RGBA8 holds: floor(255·encoded + ½), and alpha
+    LAM_RESERVED(8);
 } lam_explanation;
 
 // Draws the part of the picture around pixel (x, y), counted from the upper left corner, and records every number of

@@ -36,6 +36,7 @@ typedef struct lam_field {
     size_t offset; // in lam_material or lam_light
     // Bits 1 << lam_light_type: the lights that have it. 0: a material's.
     unsigned light_types;
+    LAM_RESERVED(8);
 } lam_field;
 
 // A row of a table; NULL past the end. Of lights a key may have several rows, with different defaults for

@@ -40,6 +40,7 @@ typedef struct lam_gl_params {
     bool debug;
     // Path of the EGL library that is loaded without a window. NULL: "libEGL.so.1".
     const char *library;
+    LAM_RESERVED(8);
 } lam_gl_params;
 
 // Makes an OpenGL device; lam_device_free frees it. `params` may be NULL. NULL on failure: LAM_UNSUPPORTED where a
@@ -58,6 +59,7 @@ typedef struct lam_gl_device {
     bool software;     // the processor does the work
     bool usable;       // it has at least one of the versions
     char reason[192];  // a sentence: why it is not usable
+    LAM_RESERVED(8);
 } lam_gl_device;
 
 // Finds the devices by starting each, which takes from some milliseconds to some hundreds. Writes the first `capacity`

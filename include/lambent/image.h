@@ -8,39 +8,55 @@
 extern "C" {
 #endif
 
+// Formats of 8 bits hold sRGB-encoded numbers (or raw ones), the floats linear ones. RGBA8 and BGRA8 are not
+// premultiplied by alpha, RGBA32F is. Formats without alpha are opaque: a frame is drawn into them over its background,
+// and that over black. Converted to another format of 8 bits, they have alpha 255.
 typedef enum lam_pixel_format {
-    LAM_RGBA8 = 0,   // 4 bytes a pixel, sRGB-encoded (or raw numbers), colour not premultiplied
-    LAM_RGBA32F = 1, // 4 floats a pixel, linear, premultiplied by alpha
+    LAM_RGBA8 = 0,   // 4 bytes a pixel
+    LAM_RGBA32F = 1, // 4 floats a pixel
+    LAM_BGRA8,       // 4 bytes a pixel, blue first
+    LAM_RGB8,        // 3 bytes a pixel
+    // 1 byte a pixel: the luminance of the RGB8 picture (Rec. 709: 0.2126 R + 0.7152 G + 0.0722 B of its linear light,
+    // encoded again). Raw numbers, and pictures of numbers (lam_output), are weighted as they are.
+    LAM_GREY8,
+    LAM_RGB32F, // 3 floats a pixel
 } lam_pixel_format;
 
-// A picture. Rows run top to bottom, without padding: pixel (x, y) starts at pixels + (y·width + x)·bytes,
-// with 4 bytes a pixel for LAM_RGBA8 and 16 for LAM_RGBA32F. Zero-initialise before lam_image_make.
+// A picture. Row 0 is the top one: pixel (x, y) starts at (char *)pixels + y·stride + x·bytes, with the bytes a pixel of
+// its format. Every function of this library that takes a picture takes all formats and strides unless it says
+// otherwise. The pixels are the library's (lam_image_make, lam_image_load: `owned` is set) or the caller's:
+//     lam_image window = {.width = 800, .height = 600, .format = LAM_BGRA8, .pixels = memory, .stride = pitch};
 typedef struct lam_image {
     int width, height; // pixels, 1..65535
     lam_pixel_format format;
-    void *pixels; // owned; freed by lam_image_free
+    bool owned;       // lam_image_free frees `pixels`; false: they are the caller's, and stay as they are
+    void *pixels;     // formats of floats: aligned to 4 bytes
+    ptrdiff_t stride; // bytes from a row to the next lower one; 0: rows without padding; negative: bottom row first
+    LAM_RESERVED(8);
 } lam_image;
 
-// Allocates a picture of width×height pixels, contents undefined. The caller frees it with lam_image_free.
+// Allocates a picture of width×height pixels, without padding, contents undefined. The caller frees it with
+// lam_image_free. LAM_BAD_ARGUMENT, LAM_LIMIT (a side over 65535, memory).
 LAM_API bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format format, lam_error *error);
 
-// Frees the pixels and zeroes the struct. NULL and a zeroed struct are fine.
+// Frees the pixels if the picture owns them, and zeroes the struct. NULL and a zeroed struct are fine.
 LAM_API void lam_image_free(lam_image *image);
 
-// How much work is put into making a PNG file small. Every reader reads either; the picture is the same.
+// The effort spent on a small PNG file. The picture is the same.
 typedef enum lam_compress {
     LAM_COMPRESS_FAST, // the default: some milliseconds for a million pixels
     LAM_COMPRESS_BEST, // about a third smaller, a hundred times slower
 } lam_compress;
 
-// How a picture is written. All zero is the plain default.
+// How a picture is written. All zero: the defaults.
 typedef struct lam_save_params {
     const lam_control *control; // cancel flag and time limit, checked while encoding; NULL: none
     // Formats without alpha (PPM) hold the picture over this colour, linear. Default black.
     lam_rgb background;
     int threads; // threads to encode with; 0: one for each processor. The bytes do not depend on it.
     bool raw;    // the numbers are not sRGB-encoded: PNG gets no sRGB chunk, PPM is composed without conversion
-    lam_compress compress; // of PNG; other formats take no notice
+    lam_compress compress; // of PNG; ignored for other formats
+    LAM_RESERVED(8);
 } lam_save_params;
 
 // A block of bytes that the caller frees with lam_bytes_free.
@@ -51,15 +67,15 @@ typedef struct lam_bytes {
 
 LAM_API void lam_bytes_free(lam_bytes *bytes);
 
-// Encodes a picture. `format` is "png" (from LAM_RGBA8), "ppm" (from LAM_RGBA8) or "pfm" (from LAM_RGBA32F, RGB,
-// linear, bottom row first) or "exr" (from LAM_RGBA32F, 32-bit floats; LAM_UNSUPPORTED where OpenEXR is not). The same
-// picture always gives the same bytes. `params` may be NULL. Errors: LAM_BAD_ARGUMENT (pixel format does not fit),
-// LAM_UNSUPPORTED (no such format), LAM_LIMIT.
+// Encodes a picture. `format` is "png" or "ppm" (from formats of 8 bits), "pfm" (from floats; RGB, linear, bottom row
+// first) or "exr" (from floats of 32 bits; LAM_UNSUPPORTED without OpenEXR). The same picture always gives the same
+// bytes. `params` may be NULL. Errors: LAM_BAD_ARGUMENT (bytes where the file holds floats, or floats where it holds
+// bytes), LAM_UNSUPPORTED (no such format), LAM_LIMIT.
 LAM_API bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params, lam_bytes *out,
                               lam_error *error);
 
-// Encodes and writes to `path`, the format taken from the name's end. The file appears whole or not at all:
-// it is written beside the path under another name and then renamed. Errors as above, LAM_CANNOT_WRITE.
+// Encodes and writes to `path`, whose ending names the format. The file appears whole or not at all: it is written beside
+// the path under another name and then renamed. Errors as above, LAM_CANNOT_WRITE.
 LAM_API bool lam_image_save(const lam_image *image, const char *path, const lam_save_params *params, lam_error *error);
 
 // A layer of an EXR picture.
@@ -69,6 +85,7 @@ typedef struct lam_layer {
     // a letter for each number of a pixel that is written, in their order: "XYZ"; NULL: "RGB", of the picture
     // itself "RGBA"
     const char *channels;
+    LAM_RESERVED(4);
 } lam_layer;
 
 // Encodes, and writes to `path` as lam_image_save does, one EXR picture with all layers: 32-bit floats, ZIP. The same
@@ -83,8 +100,8 @@ LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, la
 
 // Reads a picture: PNG, JPEG (not CMYK) and binary PPM into LAM_RGBA8 (16 bits are cut to 8, grey and palettes become
 // RGB), PFM, EXR (scanlines; the first part) and Radiance (.hdr) into LAM_RGBA32F, with alpha 1 where the file has
-// none. Content decides the format. `image` may hold anything before; it is
-// not freed, and is zeroed on failure. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, memory).
+// none. Content decides the format. `image` may hold anything before the call, which does not free it; on failure it is
+// zeroed. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, memory).
 LAM_API bool lam_image_load(lam_image *image, const char *path, lam_error *error);
 
 // Reads a picture of any of these formats into LAM_RGBA32F, linear and premultiplied. The numbers of PNG (all 16 bits
@@ -93,27 +110,28 @@ LAM_API bool lam_image_load(lam_image *image, const char *path, lam_error *error
 LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, lam_error *error);
 
 // Whether the file at `path` says that Lambent wrote it: PNG by its text "Software: lambent", PPM by the comment
-// "# lambent" in its second line. False for PFM, which has no place to say so, and wherever it cannot be told (no such
-// file, not a regular file, not readable). Looks at the file's beginning only.
+// "# lambent" in its second line. False for PFM, which has no room for a remark, and for a file that does not exist, is
+// not regular or is not readable. Reads the beginning of the file only.
 LAM_API bool lam_image_is_from_lambent(const char *path);
 
-// How far two pictures of the same size and format are apart, over all channels; a channel's unit is 1 = full
-// range (LAM_RGBA8: 255 steps). Where one picture has a number and the other has NaN or another infinity, they are
-// infinitely far apart.
+// The difference of two pictures of the same size and format, over red, green, blue and alpha (1 in formats without it);
+// a channel's unit is 1 = full range (255 steps of a byte). A number and NaN, and a number and another infinity, differ
+// infinitely.
 typedef struct lam_difference {
     double maximum, mean, rmse;
     double psnr_db; // 20·log10(1 / rmse); infinity for equal pictures, −infinity for infinitely different ones
     double share_over_1, share_over_2; // share of pixels, 0..1, with a channel off by more than 1/255, 2/255
+    LAM_RESERVED(8);
 } lam_difference;
 
 // LAM_BAD_ARGUMENT when sizes or formats differ.
 LAM_API bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference, lam_error *error);
 
-// A picture of where two pictures of the same size and format are apart: each colour channel is `gain` times the larger
-// of the channel's own difference and alpha's, and alpha is 1. Black is equal. LAM_RGBA8 ends at 255; LAM_RGBA32F goes
-// on, and is infinite where lam_image_compare calls two numbers infinitely far apart. `gain` ≥ 0 and finite.
-// `difference` is made by the call (what it held is not freed) and freed by the caller. Saved as PNG its numbers are
-// raw (lam_save_params). LAM_BAD_ARGUMENT, LAM_LIMIT.
+// A picture of the differences of two pictures of the same size and format, LAM_RGBA8 or LAM_RGBA32F: each colour channel
+// is `gain` times the larger of the channel's own difference and alpha's, and alpha is 1. Black is equal. Bytes end at
+// 255; floats go on, and are infinite where lam_image_compare finds an infinite difference. `gain` ≥ 0 and finite. The
+// call makes `difference` (without freeing what it held), the caller frees it. Saved as PNG its numbers are raw
+// (lam_save_params). LAM_BAD_ARGUMENT, LAM_LIMIT.
 LAM_API bool lam_image_difference(const lam_image *a, const lam_image *b, float gain, lam_image *difference,
                                   lam_error *error);
 

@@ -69,6 +69,7 @@ typedef struct lam_light {
     lam_rgb sky;    // hemisphere: light from above
     lam_rgb ground; // hemisphere: light from below
     lam_vec3 up;    // hemisphere: towards the sky; zero: the scene's up axis
+    LAM_RESERVED(32);
 } lam_light;
 
 // A white light of a type at the origin, direction (0, 0, −1): ambient 0 (LAM_LIGHT_AMBIENT: 0.2), diffuse and specular

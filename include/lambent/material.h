@@ -75,6 +75,7 @@ typedef struct lam_material {
     int illum;                              // MTL's illumination model as written; −1: none given
     const char *map_names[LAM_MAP_COUNT];   // file names as written; NULL: none
     const char *map_options[LAM_MAP_COUNT]; // MTL's options before them, "-s 1 1 1"; NULL: none
+    LAM_RESERVED(64);
 } lam_material;
 
 // The material of parts that name none: neutral light grey with a soft highlight.

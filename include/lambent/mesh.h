@@ -29,6 +29,7 @@ typedef struct lam_part {
     uint32_t first_triangle; // index into the mesh's triangles
     uint32_t triangle_count; // triangles of the part
     int32_t material;        // index into the scene's materials; −1: the default material
+    LAM_RESERVED(4);
 } lam_part;
 
 // A mesh of triangles. Its arrays are borrowed: lam_scene_add_mesh copies them, and the scene owns its copies.
@@ -73,6 +74,7 @@ typedef struct lam_mesh {
 
     const lam_part *parts; // NULL: one unnamed part with the default material
     uint32_t part_count;   // elements of `parts`
+    LAM_RESERVED(32);
 } lam_mesh;
 
 // Parameters of a built-in shape. All zero: the shape's defaults.
@@ -85,6 +87,7 @@ typedef struct lam_shape_params {
     // 4096 for each patch; gyroid and metaballs do not use it.
     int stacks;
     const lam_control *control; // for making the shape; NULL: none
+    LAM_RESERVED(8);
 } lam_shape_params;
 
 // The built-in shapes, from 0: sphere, torus, plane, cube, cylinder, cone, teapot, torus-knot, gyroid, metaballs. They
@@ -118,6 +121,7 @@ typedef struct lam_parametric {
     int u_segments, v_segments; // 1..16384
     // The surface meets itself at the ends of u, of v: both ends share positions and normals.
     bool u_closed, v_closed;
+    LAM_RESERVED(8);
 } lam_parametric;
 
 // A surface given by the zeros of a function that is negative inside.
@@ -128,6 +132,7 @@ typedef struct lam_implicit {
     // Two corners of the box that is searched; the surface is cut at its sides.
     lam_vec3 minimum, maximum;
     int cells; // along the longest side of the box, 2..1024; 0: 96
+    LAM_RESERVED(8);
 } lam_implicit;
 
 #ifdef __cplusplus

@@ -39,9 +39,11 @@ typedef enum lam_normals {
 struct lam_bytes;
 
 // Opens a file that a model names (MTL, texture). `name` is relative to the model's folder and does not leave it. Fills
-// `bytes`, which the loader frees with lam_bytes_free: the data come from malloc. False: it cannot be read, and `error`
-// says why.
+// `bytes`. False: it cannot be read, and `error` says why.
 typedef bool lam_open_fn(void *user, const char *name, struct lam_bytes *bytes, lam_error *error);
+
+// Frees the bytes of a lam_open_fn. The loader calls it once for each file that was opened.
+typedef void lam_release_fn(void *user, struct lam_bytes *bytes);
 
 // How a model is loaded. All zero is the default.
 typedef struct lam_load_params {
@@ -62,9 +64,12 @@ typedef struct lam_load_params {
     // Scene files: true: the models that they name may lie in any folder. false: only in the scene file's folder and
     // below. Files that models name always stay in the model's folder.
     bool models_anywhere;
-    // Opens the files that a model in memory names. NULL: none can be opened.
+    // Opens the files that a model names. NULL: those beside the model; for a model in memory none can be opened.
     lam_open_fn *open;
-    void *user; // passed to `open`
+    // Frees the bytes of `open`. NULL: the loader frees them with lam_bytes_free, so they come from malloc.
+    lam_release_fn *release;
+    void *user; // passed to `open` and `release`
+    LAM_RESERVED(16);
 } lam_load_params;
 
 // Loads a model file into a new scene: its meshes, materials and lights, and an object for each mesh. `params`
@@ -126,6 +131,7 @@ typedef struct lam_object {
     // true: back faces are lit with n as it is and the front material; false: with −n.
     bool one_sided;
     lam_cull cull; // the side that is left out
+    LAM_RESERVED(16);
 } lam_object;
 
 // An object with mesh 0, the identity transform, and −1 for both materials.

@@ -42,6 +42,7 @@ typedef struct lam_picture_settings {
     const char *environment_picture;  // one picture: equirectangular or a cross
     const char *environment_built_in; // the name of a built-in environment
     double environment_rotation_rad;  // about the up axis
+    LAM_RESERVED(16);
 } lam_picture_settings;
 
 // The settings of a scene that was loaded from a scene file. False, and all zero, for any other scene.

@@ -37,6 +37,7 @@ typedef struct lam_shader_params {
     lam_shader_lights lights; // where the lights are
     // true: the uniforms are the products ka·La, kd·Ld, ks·Ls, formed before drawing. false: materials and lights.
     bool products;
+    LAM_RESERVED(8);
 } lam_shader_params;
 
 // A vertex attribute.
@@ -45,6 +46,7 @@ typedef struct lam_shader_attribute {
     // Its location. The text declares it, except in GLSL 120, where it is bound before linking (glBindAttribLocation).
     int location;
     const char *meaning; // one line
+    LAM_RESERVED(4);
 } lam_shader_attribute;
 
 // A uniform with its value.
@@ -56,6 +58,7 @@ typedef struct lam_shader_uniform {
     const char *meaning; // one line
     int count;           // numbers in `value`; 0: a sampler
     float value[16];     // matrices are column-major, as glUniformMatrix takes them
+    LAM_RESERVED(4);
 } lam_shader_uniform;
 
 // The content of a float texture (RGBA32F, not filtered), 1024 texels to a row; the last row may be short.
@@ -63,6 +66,7 @@ typedef struct lam_shader_texture {
     const char *name;    // of its sampler: "light_list"
     int texels;          // number of texels
     const float *values; // 4 for each texel
+    LAM_RESERVED(4);
 } lam_shader_texture;
 
 // A run of triangles that is drawn with one setting of the uniforms.
@@ -83,6 +87,7 @@ typedef struct lam_shader_draw {
     double origin[3];                   // attribute `position` is the mesh's position minus this
     const lam_shader_uniform *uniforms; // those of this run
     int uniform_count;                  // elements of `uniforms`
+    LAM_RESERVED(8);
 } lam_shader_draw;
 
 // The shaders of a scene, the numbers that they need, and the runs to draw.
@@ -101,6 +106,7 @@ typedef struct lam_shader {
     int texture_count;                      // elements of `textures`
     // Each triangle needs three vertices of its own, with the face normal or its last vertex's.
     bool flat;
+    LAM_RESERVED(8);
 } lam_shader;
 
 // Writes the shaders of a scene as lam_draw would draw it at that size, and computes the value of each uniform. One

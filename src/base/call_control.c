@@ -27,8 +27,10 @@ void lam_cancel_clear(lam_cancel *cancel)
 void call_start(struct call_control *call, const lam_control *control)
 {
     *call = (struct call_control){0};
-    if (control)
+    if (control) {
         call->control = *control;
+        call->unknown_field = !check_reserved("control", control, NULL);
+    }
     call->start_ns = now_ns();
 }
 
@@ -42,10 +44,15 @@ static bool over_time(const struct call_control *call)
     return call->control.time_limit_s > 0 && (double)(now_ns() - call->start_ns) * 1e-9 > call->control.time_limit_s;
 }
 
-bool call_should_continue(struct call_control *call) { return !call || (!cancelled(call) && !over_time(call)); }
+bool call_should_continue(struct call_control *call)
+{
+    return !call || (!cancelled(call) && !over_time(call) && !call->unknown_field);
+}
 
 bool call_error(struct call_control *call, lam_error *error)
 {
+    if (call->unknown_field)
+        return check_reserved("control", &call->control, error);
     if (cancelled(call))
         return fail(error, LAM_CANCELLED, "cancelled");
     return fail(error, LAM_LIMIT, "the time limit of %g s is over", call->control.time_limit_s);

@@ -9,13 +9,14 @@ struct call_control {
     uint64_t start_ns;
     uint64_t memory_used; // touched atomically
     int over_memory;      // set once a request was refused by the budget
+    bool unknown_field;   // the control has a field that this version does not know
     double last_share;
 };
 
 // Starts a call. `control` may be NULL.
 void call_start(struct call_control *call, const lam_control *control);
 
-// False when the call must end: cancelled or over its time. Cheap enough for every few thousand items (about 25 ns);
+// False when the call must end: cancelled, over its time, or with a control that this version does not know. Cheap enough for every few thousand items (about 25 ns);
 // any thread. `call` may be NULL.
 bool call_should_continue(struct call_control *call);
 

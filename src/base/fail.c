@@ -32,3 +32,14 @@ bool fail_memory(lam_error *error, size_t bytes)
 {
     return fail(error, LAM_LIMIT, "out of memory: %.1f MB more were needed", (double)bytes / 1e6);
 }
+
+bool reserved_words_are_zero(const char *what, const uint64_t *words, size_t count, lam_error *error)
+{
+    for (size_t i = 0; i < count; i++)
+        if (words[i])
+            return fail(error, LAM_BAD_ARGUMENT,
+                        "%s: a field is set that Lambent " LAM_VERSION_TEXT
+                        " does not know (reserved word %zu is not 0)",
+                        what, i);
+    return true;
+}

@@ -12,4 +12,10 @@ bool fail(lam_error *error, lam_code code, const char *format, ...) __attribute_
 // Out of memory: LAM_LIMIT, naming the size of the request.
 bool fail_memory(lam_error *error, size_t bytes);
 
+// Refuses a struct of parameters with a field from a newer header: false, and LAM_BAD_ARGUMENT, where a reserved word is
+// not zero (base.h, "Growth").
+#define check_reserved(what, params, error)                                                                            \
+    reserved_words_are_zero(what, (params)->reserved, sizeof(params)->reserved / sizeof(uint64_t), error)
+bool reserved_words_are_zero(const char *what, const uint64_t *words, size_t count, lam_error *error);
+
 #endif

@@ -220,9 +220,11 @@ static bool make_scenes(struct run *r, unsigned scenes, lam_error *error)
         scene->samples = arena_array(r->arena, pixels, 4 * sizeof *scene->samples);
         ok = scene->inside && scene->samples && draw_reference(r, device, scene, error);
         lam_check_scene *out = &r->report->scenes[r->report->scene_count++];
-        *out = (lam_check_scene){.name = scene->row->name,
-                                 .description = scene->row->description,
-                                 .reference = {r->size, r->size, LAM_RGBA32F, scene->reference}};
+        *out = (lam_check_scene){
+            .name = scene->row->name,
+            .description = scene->row->description,
+            .reference = {
+                .width = r->size, .height = r->size, .format = LAM_RGBA32F, .owned = true, .pixels = scene->reference}};
         ok = ok && lam_image_make(&out->theirs, r->size, r->size, LAM_RGBA32F, error);
         if (ok)
             memcpy(out->theirs.pixels, scene->theirs, pixels * 4 * sizeof(float));
@@ -395,6 +397,8 @@ static bool explain(struct run *r, lam_error *error)
 bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error)
 {
     *report = (lam_check_report){0};
+    if (!check_reserved("lam_check_params", params, error))
+        return false;
     struct run r = {.params = params, .report = report};
     r.arena = report->memory = calloc(1, sizeof *r.arena);
     if (!r.arena)

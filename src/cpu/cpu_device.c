@@ -133,6 +133,8 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
                      lam_error *error)
 {
     struct cpu_device *device = (struct cpu_device *)base;
+    bool converted = image->format != working_format(image->format);
+    lam_image working = {.width = image->width, .height = image->height, .format = working_format(image->format)};
     struct cpu_frame cpu = {
         .raster = {.frame = frame,
                    .pattern = sample_pattern(frame->samples),
@@ -145,7 +147,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
                    .bins = device->bins,
                    .thread_count = device->thread_count},
         .shade = {.frame = frame, .decode_srgb = device->decode_srgb, .decode_linear = device->decode_linear},
-        .target = {.frame = frame, .image = image},
+        .target = {.frame = frame, .image = converted ? &working : image, .converted = converted ? image : NULL},
         .kernels = device->kernels,
         .call = call,
         .pool = device->pool,
@@ -190,6 +192,8 @@ lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
     static const lam_cpu_params plain = {0};
     if (!params)
         params = &plain;
+    if (!check_reserved("lam_cpu_params", params, error))
+        return NULL;
     if (params->threads < 0 || params->threads > 1024) {
         fail(error, LAM_BAD_ARGUMENT, "cpu: threads is %d, expected 1 to 1024, or 0 for one each processor",
              params->threads);

@@ -39,8 +39,9 @@ static void lay_out_shading(struct suballocator *from, struct shading *shading, 
     ARRAY(shading->lights.bits, (lights + 63) / 64);
 }
 
-static void lay_out_thread(struct suballocator *from, struct thread_state *thread, const struct frame *frame)
+static void lay_out_thread(struct suballocator *from, struct thread_state *thread, const struct resolve_target *target)
 {
+    const struct frame *frame = target->frame;
     size_t samples = (size_t)tile_samples_count(frame->samples);
     size_t fragments = (frame->translucent && samples < LAYERS_MAX ? (size_t)LAYERS_MAX : samples) + LANES_MAX;
     ARRAY(thread->samples.keys, samples);
@@ -61,6 +62,9 @@ static void lay_out_thread(struct suballocator *from, struct thread_state *threa
         ARRAY(thread->sums.sum[c], TILE * TILE + LANES_MAX);
     }
     lay_out_shading(from, &thread->shading, frame);
+    thread->sums.pixels = NULL;
+    if (target->converted)
+        ARRAY(thread->sums.pixels, TILE * TILE * 4);
     thread->sums.unclipped = NULL;
     if (frame->show == LAM_OUTPUT_CLIPPED)
         ARRAY(thread->sums.unclipped, TILE * TILE * 4);
@@ -77,10 +81,10 @@ static void lay_out_thread(struct suballocator *from, struct thread_state *threa
 static bool set_up_thread(struct thread_state *thread, const struct cpu_frame *cpu, lam_error *error)
 {
     struct suballocator count = {0};
-    lay_out_thread(&count, thread, cpu->raster.frame);
+    lay_out_thread(&count, thread, &cpu->target);
     if (!buffer_reserve(&thread->storage, count.used, cpu->call, error))
         return false;
-    lay_out_thread(&(struct suballocator){.block = thread->storage.data}, thread, cpu->raster.frame);
+    lay_out_thread(&(struct suballocator){.block = thread->storage.data}, thread, &cpu->target);
     thread->coverage_ns = thread->lighting_ns = thread->resolve_ns = thread->pixels_covered = 0;
     thread->shading.points_lit = thread->shading.lights_evaluated = 0;
     return true;

@@ -1,6 +1,7 @@
 // draw_tile.c: one tile through all steps, from its bins to the picture.
 #include "cpu_frame.h"
 
+#include "encode_values.h"
 #include "output.h"
 
 #include <string.h>
@@ -61,32 +62,55 @@ static void blend_tile(const struct cpu_frame *cpu, struct thread_state *thread,
 
 static void fill_empty_tile(const struct resolve_target *target, const struct tile *tile)
 {
-    size_t size = pixel_bytes(target->image);
-    char row[TILE * sizeof target->empty_pixel];
+    const lam_image *image = target->converted ? target->converted : target->image;
+    size_t size = pixel_bytes(image->format), left = (size_t)tile->x * TILE * size;
+    char pixel[sizeof target->empty_pixel], row[TILE * sizeof pixel];
+    pixels_from_working(image->format, values_are_raw(target->frame), target->empty_pixel, 1, pixel);
     for (int x = 0; x < tile->width; x++)
-        memcpy(row + (size_t)x * size, target->empty_pixel, size);
+        memcpy(row + (size_t)x * size, pixel, size);
     for (int y = 0; y < tile->height; y++)
-        memcpy(tile_row(target->image, tile, y), row, (size_t)tile->width * size);
+        memcpy((char *)image_row(image, tile->y * TILE + y) + left, row, (size_t)tile->width * size);
 }
 
-static void resolve_tile(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile)
+static void resolve_into(const struct resolve_target *target, const struct cpu_frame *cpu, struct thread_state *thread,
+                         const struct tile *tile)
 {
     const struct kernels *kernels = cpu->kernels;
-    lam_output output = cpu->target.frame->show;
+    lam_output output = target->frame->show;
     if (lam_output_is_light(output)) {
-        kernels->resolve(&cpu->target, &thread->fragments, &thread->samples, &thread->sums, tile);
+        kernels->resolve(target, &thread->fragments, &thread->samples, &thread->sums, tile);
         if (cpu->shade.recorder)
             kernels->record_pixel(cpu, thread, tile);
         return;
     }
     if (output == LAM_OUTPUT_CLIPPED) { // resolved into floats first
-        lam_image image = {tile->width, tile->height, LAM_RGBA32F, thread->sums.unclipped};
-        struct resolve_target apart = {.frame = cpu->target.frame, .image = &image};
+        lam_image image = {
+            .width = tile->width, .height = tile->height, .format = LAM_RGBA32F, .pixels = thread->sums.unclipped};
+        struct resolve_target apart = {.frame = target->frame, .image = &image};
         kernels->resolve_empty(&apart);
         kernels->resolve(&apart, &thread->fragments, &thread->samples, &thread->sums,
                          &(struct tile){0, 0, tile->width, tile->height});
     }
-    output_tile(&cpu->target, &thread->fragments, &thread->samples, &thread->sums, tile);
+    output_tile(target, &thread->fragments, &thread->samples, &thread->sums, tile);
+}
+
+static void resolve_tile(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile)
+{
+    const struct resolve_target *target = &cpu->target;
+    const lam_image *converted = target->converted;
+    if (!converted) {
+        resolve_into(target, cpu, thread, tile);
+        return;
+    }
+    lam_image pixels = {
+        .width = tile->width, .height = tile->height, .format = target->image->format, .pixels = thread->sums.pixels};
+    struct resolve_target apart = *target;
+    apart.image = &pixels;
+    resolve_into(&apart, cpu, thread, &(struct tile){0, 0, tile->width, tile->height});
+    size_t left = (size_t)tile->x * TILE * pixel_bytes(converted->format);
+    for (int y = 0; y < tile->height; y++)
+        pixels_from_working(converted->format, values_are_raw(target->frame), image_row(&pixels, y), tile->width,
+                            (char *)image_row(converted, tile->y * TILE + y) + left);
 }
 
 void draw_tile(struct cpu_frame *cpu, size_t index, int number)

@@ -8,7 +8,7 @@
 struct recorder;
 
 struct device_type {
-    // Draws the frame into the image. Fills device->report's times and counts, except frame_ms and total_ms.
+    // Draws the frame into the image, of any format and stride (pixels.h). Fills device->report's times and counts, except frame_ms and total_ms.
     bool (*draw)(struct lam_device *device, const struct frame *frame, lam_image *image, struct call_control *call,
                  lam_error *error);
     // Bytes held from frame to frame.

@@ -10,4 +10,10 @@ void encode_values(const struct frame *frame, lam_pixel_format format, const flo
 // Writes the excess of the picture's pixel p (premultiplied) over 0…1, or in 8 bits a colour that marks it.
 void encode_clipped(lam_pixel_format format, const float p[4], void *to);
 
+// Whether 8 bits hold numbers that are not sRGB-encoded.
+static inline bool values_are_raw(const struct frame *frame)
+{
+    return frame->color == LAM_COLOR_RAW || !lam_output_is_light(frame->show);
+}
+
 #endif

@@ -97,8 +97,8 @@ static void take_frame(lam_explanation *out, const struct frame *frame)
     out->exposure = frame->exposure;
 }
 
-static bool check_place(const lam_device *device, const lam_draw_params *params, int width, int height, int x, int y,
-                        lam_error *error)
+static bool check_place(const lam_device *device, const lam_draw_params *params, int width, int height,
+                        lam_pixel_format format, int x, int y, lam_error *error)
 {
     if (!device)
         return fail(error, LAM_BAD_ARGUMENT, "lam_explain: device is NULL");
@@ -108,6 +108,9 @@ static bool check_place(const lam_device *device, const lam_draw_params *params,
     if (lam_device_isa(device) == LAM_ISA_AUTO)
         return fail(error, LAM_UNSUPPORTED, "the device '%s' cannot explain its pixels, the CPU device can",
                     lam_device_name(device));
+    if (format != LAM_RGBA8 && format != LAM_RGBA32F)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_explain: format is %d, expected LAM_RGBA8 or LAM_RGBA32F",
+                    (int)format);
     if (x < 0 || y < 0 || x >= width || y >= height)
         return fail(error, LAM_BAD_ARGUMENT,
                     "pixel %d,%d lies outside of the picture of %d×%d pixels, expected 0,0 to %d,%d", x, y, width,
@@ -120,7 +123,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
                              int y, const lam_control *control, lam_error *error)
 {
     lam_image image = {0};
-    if (!check_place(device, params, width, height, x, y, error) ||
+    if (!check_place(device, params, width, height, format, x, y, error) ||
         !lam_image_make(&image, width, height, format, error))
         return NULL;
     struct explanation *explanation = calloc(1, sizeof *explanation);

@@ -2,6 +2,7 @@
 #include "device_type.h"
 
 #include "fail.h"
+#include "pixels.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,8 +13,8 @@ static bool null_draw(struct lam_device *device, const struct frame *frame, lam_
 {
     (void)device;
     (void)frame;
-    size_t bytes = (size_t)image->width * (size_t)image->height * (image->format == LAM_RGBA8 ? 4 : 16);
-    memset(image->pixels, 0, bytes);
+    for (int y = 0; y < image->height; y++)
+        memset(image_row(image, y), 0, (size_t)image->width * pixel_bytes(image->format));
     return call_should_continue(call) || call_error(call, error);
 }
 

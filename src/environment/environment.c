@@ -4,6 +4,7 @@
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
+#include "pixels.h"
 #include "call_control.h"
 
 #include <string.h>
@@ -188,15 +189,11 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
 static bool linear_copy(const lam_image *image, lam_color_mode color, lam_image *out, lam_error *error)
 {
     *out = (lam_image){0};
-    if (!image || !image->pixels || image->width < 1 || image->height < 1)
-        return fail(error, LAM_BAD_ARGUMENT, "environment: a picture is missing");
+    if (!image_check(image, "environment", error))
+        return false;
     if ((unsigned)color > LAM_COLOR_RAW)
         return fail(error, LAM_BAD_ARGUMENT, "environment: color mode %d is not one of lam_color_mode", (int)color);
-    if (!lam_image_make(out, image->width, image->height, image->format, error))
-        return false;
-    memcpy(out->pixels, image->pixels,
-           (size_t)image->width * (size_t)image->height * (image->format == LAM_RGBA8 ? 4 : 16));
-    return image_linearize(out, false, color, error);
+    return image_copy(image, out, error) && image_linearize(out, false, color, error);
 }
 
 lam_environment *lam_environment_make(const lam_image *const faces[LAM_FACE_COUNT], lam_color_mode color,

@@ -13,6 +13,8 @@ static float rounded(double x) { return (float)x; }
 
 static bool check_camera(const lam_camera *camera, lam_error *error)
 {
+    if (!check_reserved("camera", camera, error))
+        return false;
     if (!v3_finite(camera->eye) || !v3_finite(camera->target) || !v3_finite(camera->up))
         return fail(error, LAM_BAD_ARGUMENT, "camera: eye, target or up is not finite");
     if (v3_length(v3_sub(camera->eye, camera->target)) == 0)
@@ -33,6 +35,8 @@ static bool check_camera(const lam_camera *camera, lam_error *error)
 
 static bool check_params(const lam_draw_params *params, lam_error *error)
 {
+    if (!check_reserved("lam_draw_params", params, error))
+        return false;
     int s = params->samples;
     if (s != 0 && s != 1 && s != 2 && s != 4 && s != 8 && s != 16)
         return fail(error, LAM_BAD_ARGUMENT, "samples is %d, expected 1, 2, 4, 8 or 16", s);

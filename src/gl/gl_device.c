@@ -305,6 +305,8 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
     static const struct device_type type = {.draw = gl_draw, .memory = gl_memory, .free = gl_free};
     static const lam_gl_params plain = {0};
     params = params ? params : &plain;
+    if (!check_reserved("lam_gl_params", params, error))
+        return NULL;
     if ((unsigned)params->api > LAM_GL_ES) {
         fail(error, LAM_BAD_ARGUMENT, "OpenGL: api is %d, which does not exist", params->api);
         return NULL;

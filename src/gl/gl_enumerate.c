@@ -40,6 +40,8 @@ int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int room
 {
     struct egl egl;
     struct gl_place places[GL_PLACES_MAX];
+    if (params && !check_reserved("lam_gl_params", params, error))
+        return -1;
     if (!egl_open(&egl, params ? params->library : NULL, error))
         return -1;
     int count = gl_places(&egl, places);

@@ -4,16 +4,17 @@
 
 #include "fail.h"
 #include "encode_values.h"
+#include "pixels.h"
 
 #define LANES 8
 #include "picture_pixels.h"
 
 #include <string.h>
 
-// Pixels of a row: r, g, b, a, premultiplied, side by side.
-static void store_light(const struct gl_frame *f, const float *from, int count, char *to)
+// Pixels of a row: r, g, b, a, premultiplied, side by side. `format`: of `to`, a working one.
+static void store_light(const struct gl_frame *f, const float *from, int count, lam_pixel_format format, char *to)
 {
-    size_t size = f->image->format == LAM_RGBA8 ? 4 : 16;
+    size_t size = pixel_bytes(format);
     for (int x = 0; x < count; x += LANES) {
         int some = count - x < LANES ? count - x : LANES;
         float lanes[4][LANES] = {{0}};
@@ -22,30 +23,30 @@ static void store_light(const struct gl_frame *f, const float *from, int count, 
                 lanes[c][i] = from[4 * (x + i) + c];
         struct pixel_lanes p = {num_load(lanes[0]), num_load(lanes[1]), num_load(lanes[2]),
                                 min_of(num_load(lanes[3]), num_of(1.0f))}; // sums may be over by a rounding
-        write_pixels(f->frame, p, f->image->format, to + (size_t)x * size, some);
+        write_pixels(f->frame, p, format, to + (size_t)x * size, some);
     }
 }
 
-static void store_clipped(const struct gl_frame *f, const float *from, void *to)
+static void store_clipped(const struct gl_frame *f, const float *from, lam_pixel_format format, void *to)
 {
     float p[4];
     num a = num_of(from[3] < 1 ? from[3] : 1);
     struct pixel_lanes one = {num_of(from[0]), num_of(from[1]), num_of(from[2]), a};
     write_pixels(f->frame, one, LAM_RGBA32F, p, 1);
-    encode_clipped(f->image->format, p, to);
+    encode_clipped(format, p, to);
 }
 
-static void store_number(const struct gl_frame *f, const float *from, void *to)
+static void store_number(const struct gl_frame *f, const float *from, lam_pixel_format format, void *to)
 {
     lam_output show = f->frame->show;
     if (show == LAM_OUTPUT_COVERAGE || show == LAM_OUTPUT_OVERDRAW) {
         float share = show == LAM_OUTPUT_COVERAGE ? from[3] : from[0];
-        encode_values(f->frame, f->image->format, (float[4]){share, share, share, 1}, to);
+        encode_values(f->frame, format, (float[4]){share, share, share, 1}, to);
         return;
     }
     bool covered = from[3] > 0;
     encode_values(
-        f->frame, f->image->format,
+        f->frame, format,
         (float[4]){covered ? from[0] : 0, covered ? from[1] : 0, covered ? from[2] : 0, covered ? 1.0f : 0.0f}, to);
 }
 
@@ -56,24 +57,27 @@ bool reading_part(struct gl_frame *f, lam_error *error)
     if (!buffer_reserve(&f->device->pixels, bytes, f->call, error))
         return false;
     gl->ReadPixels(0, 0, f->width, f->height, GL_RGBA, GL_FLOAT, f->device->pixels.data);
-    size_t size = f->image->format == LAM_RGBA8 ? 4 : 16;
+    lam_pixel_format format = f->image->format, working = working_format(format);
+    size_t size = pixel_bytes(working);
+    char apart[PART_MOST * 16]; // a row of the working format, before it is converted
     lam_output show = f->frame->show;
     uint64_t covered = 0;
     for (int y = 0; y < f->height; y++) {
         const float *from = (const float *)f->device->pixels.data + (size_t)y * (size_t)f->width * 4;
-        char *to = (char *)f->image->pixels +
-                   (((size_t)f->top + (size_t)y) * (size_t)f->image->width + (size_t)f->left) * size;
+        char *row = (char *)image_row(f->image, f->top + y) + (size_t)f->left * pixel_bytes(format);
+        char *to = format == working ? row : apart;
         for (int x = 0; x < f->width; x++)
             covered += from[4 * x + 3] > 0;
-        if (lam_output_is_light(show)) {
-            store_light(f, from, f->width, to);
-            continue;
-        }
-        for (int x = 0; x < f->width; x++, from += 4, to += size)
-            if (show == LAM_OUTPUT_CLIPPED)
-                store_clipped(f, from, to);
-            else
-                store_number(f, from, to);
+        if (lam_output_is_light(show))
+            store_light(f, from, f->width, working, to);
+        else
+            for (int x = 0; x < f->width; x++, from += 4)
+                if (show == LAM_OUTPUT_CLIPPED)
+                    store_clipped(f, from, working, to + (size_t)x * size);
+                else
+                    store_number(f, from, working, to + (size_t)x * size);
+        if (format != working)
+            pixels_from_working(format, values_are_raw(f->frame), apart, f->width, row);
     }
     f->device->base.report.pixels_covered += covered;
     return call_should_continue(f->call) || call_error(f->call, error);

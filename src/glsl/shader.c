@@ -353,7 +353,8 @@ static bool tell_attributes(const struct making *m)
     lam_shader *told = &m->shader->told;
     lam_shader_attribute *out = arena_array(&m->shader->arena, (size_t)count, sizeof *out);
     for (int i = 0; out && i < count; i++)
-        out[i] = (lam_shader_attribute){rows[i].name, rows[i].type, rows[i].location, rows[i].meaning};
+        out[i] = (lam_shader_attribute){
+            .name = rows[i].name, .type = rows[i].type, .location = rows[i].location, .meaning = rows[i].meaning};
     told->attributes = out;
     told->attribute_count = count;
     return out != NULL;
@@ -374,7 +375,8 @@ static bool tell_lists(const struct making *m)
     if (!values)
         return false;
     glsl_pack_lights(c, &m->frame, values);
-    lists[told->texture_count++] = (lam_shader_texture){"light_list", (int)(bytes / 16), values};
+    lists[told->texture_count++] =
+        (lam_shader_texture){.name = "light_list", .texels = (int)(bytes / 16), .values = values};
     if (!c->products)
         return true;
     values = arena_array(&m->shader->arena, materials, each);
@@ -382,7 +384,8 @@ static bool tell_lists(const struct making *m)
         return false;
     for (size_t i = 0; i < materials; i++)
         glsl_pack_products(c, &m->frame, m->frame.materials[i], values + i * (each / sizeof *values));
-    lists[told->texture_count++] = (lam_shader_texture){"product_list", (int)(materials * each / 16), values};
+    lists[told->texture_count++] =
+        (lam_shader_texture){.name = "product_list", .texels = (int)(materials * each / 16), .values = values};
     return true;
 }
 
@@ -429,6 +432,8 @@ lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, co
     static const lam_draw_params plain_draw = {0};
     static const lam_shader_params plain = {0};
     draw = draw ? draw : &plain_draw;
+    if (params && !check_reserved("lam_shader_params", params, error))
+        return NULL;
     if (!scene || !camera) {
         fail(error, LAM_BAD_ARGUMENT, "lam_shader_make: %s is NULL", scene ? "camera" : "scene");
         return NULL;

@@ -1,6 +1,7 @@
 // caption.c: words in pictures, by FreeType, which is opened (dlopen) with the first font and not before.
 #include "dynamic_library.h"
 #include "fail.h"
+#include "pixels.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -170,12 +171,16 @@ static void stamp(lam_image *image, const FT_Bitmap *bitmap, int left, int top, 
             int x = left + column, y = top + row;
             if (x < 0 || y < 0 || x >= image->width || y >= image->height)
                 continue;
-            size_t at = 4 * ((size_t)y * (size_t)image->width + (size_t)x);
-            float cover = (float)bitmap->buffer[row * bitmap->pitch + column] / 255.0f;
-            if (cover > 0.0f && image->format == LAM_RGBA8)
-                blend_bytes((uint8_t *)image->pixels + at, color, cover);
-            else if (cover > 0.0f)
-                blend_floats((float *)image->pixels + at, color, cover);
+            float cover = (float)bitmap->buffer[row * bitmap->pitch + column] / 255.0f, working[4];
+            if (!(cover > 0.0f))
+                continue;
+            void *pixel = (char *)image_row(image, y) + (size_t)x * pixel_bytes(image->format);
+            pixels_to_working(image->format, pixel, 1, working);
+            if (format_is_float(image->format))
+                blend_floats(working, color, cover);
+            else
+                blend_bytes((uint8_t *)working, color, cover);
+            pixels_from_working(image->format, false, working, 1, pixel);
         }
 }
 
@@ -215,8 +220,10 @@ double lam_text_width(lam_font *font, double size_px, const char *text)
 bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
                    const char *text, lam_error *error)
 {
-    if (!image || !image->pixels || !font || !text)
-        return fail(error, LAM_BAD_ARGUMENT, "text: a picture, a font and a text are needed");
+    if (!font || !text)
+        return fail(error, LAM_BAD_ARGUMENT, "text: %s is NULL", font ? "text" : "font");
+    if (!image_check(image, "text", error))
+        return false;
     if (!(size_px >= 1 && size_px <= 1000))
         return fail(error, LAM_BAD_ARGUMENT, "text: the size is %g pixels, expected 1 to 1000", size_px);
     if (!(x > -1e6 && x < 1e6 && y > -1e6 && y < 1e6))

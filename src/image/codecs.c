@@ -3,6 +3,7 @@
 #include "fail.h"
 #include "file.h"
 #include "float_state.h"
+#include "pixels.h"
 #include "spelling.h"
 
 #include <fcntl.h>
@@ -73,15 +74,17 @@ static bool encode(const struct codec *codec, const lam_image *image, const lam_
     static const lam_save_params plain = {0};
     if (!params)
         params = &plain;
-    if (!image || !image->pixels || image->width < 1 || image->height < 1 || image->width > 65535 ||
-        image->height > 65535)
-        return fail(error, LAM_BAD_ARGUMENT, "image: expected pixels, 1 to 65535 wide and high");
-    if (image->format != codec->pixels)
+    if (!image_check(image, "image", error) || !check_reserved("lam_save_params", params, error))
+        return false;
+    if (working_format(image->format) != codec->pixels)
         return fail(error, LAM_BAD_ARGUMENT, "image: %s is made from %s, the picture has %s", codec->title,
                     codec->pixels == LAM_RGBA8 ? "bytes (LAM_RGBA8)" : "floats (LAM_RGBA32F)",
-                    image->format == LAM_RGBA8 ? "bytes" : "floats");
+                    format_is_float(image->format) ? "floats" : "bytes");
     if (params->threads < 0 || params->threads > THREADS_MOST)
         return fail(error, LAM_BAD_ARGUMENT, "threads: %d, expected 0 to %d", params->threads, THREADS_MOST);
+    lam_image working;
+    if (!image_working(image, &working, error))
+        return false;
     uint64_t state = float_state_enter();
     // Starting a thread takes as long as encoding some thousand pixels: none gets fewer than 65536.
     int64_t most = (int64_t)image->width * image->height >> 16;
@@ -89,9 +92,10 @@ static bool encode(const struct codec *codec, const lam_image *image, const lam_
     if (threads > most)
         threads = (int)most;
     struct pool *pool = threads > 1 ? pool_make(threads) : NULL; // NULL: this thread alone
-    bool ok = codec->write(image, params, pool, out, error);
+    bool ok = codec->write(&working, params, pool, out, error);
     pool_free(pool);
     float_state_leave(state);
+    lam_image_free(&working);
     return ok;
 }
 

@@ -1,8 +1,7 @@
-// difference.c: a picture of where two pictures are apart.
+// difference.c: a picture of the differences of two pictures.
 #include "fail.h"
 #include "float_state.h"
-
-#include <lambent/image.h>
+#include "pixels.h"
 
 static void difference_bytes(const uint8_t *a, const uint8_t *b, uint8_t *out, size_t pixels, float gain)
 {
@@ -47,26 +46,25 @@ static void difference_floats(const float *a, const float *b, float *out, size_t
 
 bool lam_image_difference(const lam_image *a, const lam_image *b, float gain, lam_image *difference, lam_error *error)
 {
-    if (!a || !b || !a->pixels || !b->pixels || !difference)
-        return fail(error, LAM_BAD_ARGUMENT, "difference: two pictures and a place for the third are needed");
-    if (a->width != b->width || a->height != b->height)
-        return fail(error, LAM_BAD_ARGUMENT, "difference: the pictures have %d×%d and %d×%d pixels, expected the same",
-                    a->width, a->height, b->width, b->height);
-    if (a->format != b->format)
-        return fail(error, LAM_BAD_ARGUMENT, "difference: one picture has bytes, the other floats, expected the same");
+    lam_image pair[2], made;
+    if (!difference)
+        return fail(error, LAM_BAD_ARGUMENT, "difference: the third picture is NULL");
     if (!(gain >= 0.0f && gain <= 3e38f))
         return fail(error, LAM_BAD_ARGUMENT, "difference: gain is %g, expected a finite number of 0 or more",
                     (double)gain);
-    lam_image made;
-    if (!lam_image_make(&made, a->width, a->height, a->format, error))
+    if (!image_pair("difference", (const lam_image *const[]){a, b}, pair, error))
         return false;
+    bool ok = lam_image_make(&made, a->width, a->height, working_format(a->format), error);
     uint64_t state = float_state_enter();
     size_t pixels = (size_t)a->width * (size_t)a->height;
-    if (a->format == LAM_RGBA32F)
-        difference_floats(a->pixels, b->pixels, made.pixels, pixels, gain);
-    else
-        difference_bytes(a->pixels, b->pixels, made.pixels, pixels, gain);
+    if (ok && made.format == LAM_RGBA32F)
+        difference_floats(pair[0].pixels, pair[1].pixels, made.pixels, pixels, gain);
+    else if (ok)
+        difference_bytes(pair[0].pixels, pair[1].pixels, made.pixels, pixels, gain);
     float_state_leave(state);
-    *difference = made;
-    return true;
+    if (ok)
+        *difference = made;
+    lam_image_free(&pair[0]);
+    lam_image_free(&pair[1]);
+    return ok;
 }

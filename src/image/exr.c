@@ -5,7 +5,9 @@
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"
+#include "pixels.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -402,13 +404,30 @@ bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out,
     *out = (lam_bytes){0};
     for (int i = 0; i < count; i++) {
         const lam_image *image = layers[i].image, *first = layers[0].image;
-        if (!image || !image->pixels || image->format != LAM_RGBA32F)
+        char what[24];
+        snprintf(what, sizeof what, "layer %d", i);
+        if (!image_check(image, what, error) || !check_reserved(what, &layers[i], error))
+            return false;
+        if (!format_is_float(image->format))
             return fail(error, LAM_BAD_ARGUMENT, "layer %d: expected a picture of floats (LAM_RGBA32F)", i);
         if (image->width != first->width || image->height != first->height)
             return fail(error, LAM_BAD_ARGUMENT, "layer %d: has %d×%d pixels, the first one %d×%d, expected the same",
                         i, image->width, image->height, first->width, first->height);
     }
-    return write_layers(layers, count, out, error);
+    lam_layer *copies = calloc((size_t)count, sizeof *copies);
+    lam_image *images = calloc((size_t)count, sizeof *images);
+    bool ok = (copies && images) || fail_memory(error, (size_t)count * (sizeof *copies + sizeof *images));
+    for (int i = 0; ok && i < count; i++) {
+        copies[i] = layers[i];
+        copies[i].image = &images[i];
+        ok = image_working(layers[i].image, &images[i], error);
+    }
+    ok = ok && write_layers(copies, count, out, error);
+    for (int i = 0; images && i < count; i++)
+        lam_image_free(&images[i]);
+    free(images);
+    free(copies);
+    return ok;
 }
 
 const struct codec codec_exr = {

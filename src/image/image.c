@@ -1,17 +1,14 @@
-// image.c: pixels in memory, and how far two pictures are apart.
+// image.c: pixels in memory, and the difference of two pictures.
 #include "fail.h"
 #include "float_state.h"
 #include "pages.h"
-
-#include <lambent/image.h>
+#include "pixels.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 
 enum { SIDE_MOST = 65535 };
-
-static size_t pixel_bytes(lam_pixel_format format) { return format == LAM_RGBA32F ? 16 : 4; }
 
 // Large pictures lie in huge pages where the system gives them: first touch is three times as fast.
 static void *get_pixels(size_t bytes)
@@ -33,7 +30,7 @@ bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format fo
     if (!image)
         return fail(error, LAM_BAD_ARGUMENT, "image: none given");
     *image = (lam_image){0};
-    if (format != LAM_RGBA8 && format != LAM_RGBA32F)
+    if ((unsigned)format > LAM_RGB32F)
         return fail(error, LAM_BAD_ARGUMENT, "image: pixel format %d is not one of lam_pixel_format", (int)format);
     if (width < 1 || height < 1)
         return fail(error, LAM_BAD_ARGUMENT, "image: %d×%d pixels, expected at least 1×1", width, height);
@@ -46,7 +43,7 @@ bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format fo
     if (!pixels)
         return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which could not be had", width,
                     height, (double)bytes / 1e6);
-    *image = (lam_image){width, height, format, pixels};
+    *image = (lam_image){.width = width, .height = height, .format = format, .owned = true, .pixels = pixels};
     return true;
 }
 
@@ -54,7 +51,8 @@ void lam_image_free(lam_image *image)
 {
     if (!image)
         return;
-    free(image->pixels);
+    if (image->owned)
+        free(image->pixels);
     *image = (lam_image){0};
 }
 
@@ -140,22 +138,39 @@ static void tally_floats(struct tally *tally, const float *a, const float *b, si
     }
 }
 
+bool image_pair(const char *what, const lam_image *const given[2], lam_image pair[2], lam_error *error)
+{
+    const lam_image *a = given[0], *b = given[1];
+    pair[0] = pair[1] = (lam_image){0};
+    if (!a || !b)
+        return fail(error, LAM_BAD_ARGUMENT, "%s: two pictures are needed", what);
+    if (!image_check(a, what, error) || !image_check(b, what, error))
+        return false;
+    if (a->width != b->width || a->height != b->height)
+        return fail(error, LAM_BAD_ARGUMENT, "%s: the pictures have %d×%d and %d×%d pixels, expected the same", what,
+                    a->width, a->height, b->width, b->height);
+    if (working_format(a->format) != working_format(b->format))
+        return fail(error, LAM_BAD_ARGUMENT, "%s: one picture has bytes, the other floats, expected the same", what);
+    if (image_working(a, &pair[0], error) && image_working(b, &pair[1], error))
+        return true;
+    lam_image_free(&pair[0]);
+    return false;
+}
+
 bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference, lam_error *error)
 {
-    if (!a || !b || !a->pixels || !b->pixels || !difference)
-        return fail(error, LAM_BAD_ARGUMENT, "compare: two pictures and a place for the result are needed");
-    if (a->width != b->width || a->height != b->height)
-        return fail(error, LAM_BAD_ARGUMENT, "compare: the pictures have %d×%d and %d×%d pixels, expected the same",
-                    a->width, a->height, b->width, b->height);
-    if (a->format != b->format)
-        return fail(error, LAM_BAD_ARGUMENT, "compare: one picture has bytes, the other floats, expected the same");
+    lam_image pair[2];
+    if (!difference)
+        return fail(error, LAM_BAD_ARGUMENT, "compare: difference is NULL");
+    if (!image_pair("compare", (const lam_image *const[]){a, b}, pair, error))
+        return false;
     uint64_t state = float_state_enter();
     struct tally tally = {0};
     size_t pixels = (size_t)a->width * (size_t)a->height;
-    if (a->format == LAM_RGBA32F)
-        tally_floats(&tally, a->pixels, b->pixels, pixels);
+    if (format_is_float(a->format))
+        tally_floats(&tally, pair[0].pixels, pair[1].pixels, pixels);
     else
-        tally_bytes(&tally, a->pixels, b->pixels, pixels);
+        tally_bytes(&tally, pair[0].pixels, pair[1].pixels, pixels);
     double channels = 4.0 * (double)pixels, mean_square = tally.squares / channels;
     *difference = (lam_difference){
         .maximum = tally.maximum,
@@ -168,5 +183,7 @@ bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *d
         .share_over_2 = (double)tally.over_2 / (double)pixels,
     };
     float_state_leave(state);
+    lam_image_free(&pair[0]);
+    lam_image_free(&pair[1]);
     return true;
 }

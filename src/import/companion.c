@@ -41,7 +41,10 @@ static bool open_by_caller(const struct import_source *source, const char *insid
     if (!companions->open(companions->user, inside, &bytes, error))
         return false;
     bool ok = file_copy(bytes.data, bytes.size, source->call, out, error);
-    lam_bytes_free(&bytes);
+    if (companions->release)
+        companions->release(companions->user, &bytes);
+    else
+        lam_bytes_free(&bytes);
     return ok;
 }
 

@@ -8,6 +8,7 @@
 struct companions {
     const char *model; // path of the model; NULL: the model came from memory
     lam_open_fn *open; // the caller's function; NULL: files are opened beside the model
+    lam_release_fn *release;
     void *user;
 };
 

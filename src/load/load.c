@@ -12,6 +12,8 @@
 
 static bool check_params(const lam_load_params *params, const char *name, lam_error *error)
 {
+    if (!check_reserved(name, params, error))
+        return false;
     double crease = params->crease_angle_rad;
     if (!(crease >= 0 && crease <= 3.1415927))
         return fail(error, LAM_BAD_ARGUMENT, "%s: crease_angle_rad is %g, expected 0 to pi", name, crease);
@@ -117,7 +119,8 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     uint64_t state = float_state_enter(), start_ns = now_ns();
     struct call_control call;
     call_start(&call, control);
-    struct companions companions = {.model = path, .open = params->open, .user = params->user};
+    struct companions companions = {
+        .model = path, .open = params->open, .release = params->release, .user = params->user};
     struct import_source source = {
         .name = name,
         .path = path && strcmp(path, "-") != 0 ? path : NULL,

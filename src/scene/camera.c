@@ -1,6 +1,7 @@
 // camera.c: the camera's defaults, and fitting it to a scene.
 #include <lambent/camera.h>
 
+#include "fail.h"
 #include "float_state.h"
 #include "linear.h"
 #include "view_extents.h"
@@ -103,6 +104,11 @@ lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const l
     static const lam_view plain = {0};
     if (!view)
         view = &plain;
+    if (!check_reserved("lam_view", view, NULL)) {
+        lam_camera refused = lam_camera_default();
+        refused.reserved[0] = 1;
+        return refused;
+    }
     lam_vec3 low, high;
     if (!lam_scene_bounds(scene, &low, &high))
         return lam_camera_default();

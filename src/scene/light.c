@@ -42,6 +42,8 @@ bool lam_light_check(const lam_light *light, lam_error *error)
 {
     if (!light)
         return fail(error, LAM_BAD_ARGUMENT, "light is NULL, expected a light");
+    if (!check_reserved("light", light, error))
+        return false;
     if ((unsigned)light->type > LAM_LIGHT_SPOT)
         return fail(error, LAM_BAD_ARGUMENT, "light: type is %d, expected 0 to %d", (int)light->type,
                     (int)LAM_LIGHT_SPOT);

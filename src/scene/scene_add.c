@@ -41,6 +41,8 @@ static bool check_attribute(const char *name, const float *values, uint32_t coun
 
 static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_error *error)
 {
+    if (!check_reserved("mesh", mesh, error))
+        return false;
     size_t corners = (size_t)mesh->triangle_count * 3;
     if (corners > UINT32_MAX)
         return fail(error, LAM_LIMIT, "mesh: %u triangles, at most %u can be held", mesh->triangle_count,
@@ -80,6 +82,8 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
     uint64_t next = 0;
     for (uint32_t i = 0; i < mesh->part_count; i++) {
         const lam_part *part = &mesh->parts[i];
+        if (!check_reserved("part", part, error))
+            return false;
         if (part->first_triangle != next)
             return fail(error, LAM_BAD_ARGUMENT, "mesh: part %u starts at triangle %u, expected %llu", i,
                         part->first_triangle, (unsigned long long)next);
@@ -167,6 +171,8 @@ static bool own_material(lam_scene *scene, const lam_material *material, lam_mat
 {
     if (!scene || !material)
         return fail(error, LAM_BAD_ARGUMENT, "material: the %s is NULL", scene ? "material" : "scene");
+    if (!check_reserved("material", material, error))
+        return false;
     struct field_fault fault;
     for (int i = 0; lam_material_field(i); i++)
         if (!field_fits(lam_material_field(i), material, &fault))
@@ -254,6 +260,8 @@ void lam_scene_clear_lights(lam_scene *scene)
 
 static bool check_object(const struct lam_scene *scene, const lam_object *object, lam_error *error)
 {
+    if (!check_reserved("object", object, error))
+        return false;
     if (object->mesh < 0 || object->mesh >= scene->meshes.count)
         return fail(error, LAM_BAD_ARGUMENT, "object: mesh %d of %d", object->mesh, scene->meshes.count);
     if (object->material < -1 || object->material >= scene->materials.count)

@@ -505,6 +505,10 @@ bool lam_scene_save(const lam_scene *scene, const lam_picture_settings *settings
 {
     if (!scene || !path || !*path)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_save: the %s is missing", scene ? "path" : "scene");
+    if (settings && (!check_reserved("lam_picture_settings", settings, error) ||
+                     !check_reserved("lam_picture_settings.camera", &settings->camera, error) ||
+                     !check_reserved("lam_picture_settings.draw", &settings->draw, error)))
+        return false;
     struct scene_writer writer = {.scene = scene, .path = path, .ok = true, .error = error};
     uint64_t state = float_state_enter();
     bool ok = save(&writer, settings, path);

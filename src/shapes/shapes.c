@@ -235,6 +235,18 @@ static lam_vec3 balls_gradient(void *user, lam_vec3 p)
 
 // --- Builders
 
+// A surface of `n->slices` segments around and `stacks` along, its domain counted in segments.
+static lam_parametric round_surface(lam_surface_fn *surface, struct segments *n, int stacks)
+{
+    return (lam_parametric){.surface = surface,
+                            .user = n,
+                            .u_max = n->slices,
+                            .v_max = stacks,
+                            .u_segments = (int)n->slices,
+                            .v_segments = stacks,
+                            .u_closed = true};
+}
+
 static bool build_round(const struct shape_request *request, lam_surface_fn *surface, int slices, int stacks,
                         bool v_closed, lam_mesh *mesh)
 {
@@ -245,7 +257,8 @@ static bool build_round(const struct shape_request *request, lam_surface_fn *sur
         return fail(request->error, LAM_BAD_ARGUMENT, "shape: stacks is %d, expected at least %d for this one", stacks,
                     least);
     struct segments n = {slices, stacks};
-    lam_parametric one = {surface, &n, 0, slices, 0, stacks, slices, stacks, true, v_closed};
+    lam_parametric one = round_surface(surface, &n, stacks);
+    one.v_closed = v_closed;
     return tessellate_parametric(&one, 1, request->arena, request->call, mesh, request->error);
 }
 
@@ -265,11 +278,23 @@ static bool knot_build(const struct shape_request *request, lam_mesh *mesh)
     return build_round(request, knot_point, 384, 64, true, mesh);
 }
 
+static lam_parametric square_surface(struct square *square, int slices, int stacks)
+{
+    return (lam_parametric){.surface = square_point,
+                            .user = square,
+                            .u_min = -1,
+                            .u_max = 1,
+                            .v_min = -1,
+                            .v_max = 1,
+                            .u_segments = slices,
+                            .v_segments = stacks};
+}
+
 static bool plane_build(const struct shape_request *request, lam_mesh *mesh)
 {
     struct square ground = {v3(0, 0, 0), v3(1, 0, 0), v3(0, 0, -1)};
     int slices = request->slices ? request->slices : 1, stacks = request->stacks ? request->stacks : 1;
-    lam_parametric one = {square_point, &ground, -1, 1, -1, 1, slices, stacks, false, false};
+    lam_parametric one = square_surface(&ground, slices, stacks);
     return tessellate_parametric(&one, 1, request->arena, request->call, mesh, request->error);
 }
 
@@ -284,8 +309,7 @@ static bool cube_build(const struct shape_request *request, lam_mesh *mesh)
     int slices = request->slices ? request->slices : 1, stacks = request->stacks ? request->stacks : 1;
     lam_parametric surfaces[6];
     for (int i = 0; i < 6; i++)
-        surfaces[i] =
-            (lam_parametric){square_point, &faces[i], -1, 1, -1, 1, slices, i < 4 ? stacks : slices, false, false};
+        surfaces[i] = square_surface(&faces[i], slices, i < 4 ? stacks : slices);
     return tessellate_parametric(surfaces, 6, request->arena, request->call, mesh, request->error);
 }
 
@@ -293,11 +317,8 @@ static bool build_turned(const struct shape_request *request, lam_surface_fn *si
 {
     int slices = request->slices ? request->slices : 192, stacks = request->stacks ? request->stacks : 1;
     struct segments n = {slices, stacks};
-    lam_parametric surfaces[3] = {
-        {side, &n, 0, slices, 0, stacks, slices, stacks, true, false},
-        {bottom_disc, &n, 0, slices, 0, 1, slices, 1, true, false},
-        {top_disc, &n, 0, slices, 0, 1, slices, 1, true, false},
-    };
+    lam_parametric surfaces[3] = {round_surface(side, &n, stacks), round_surface(bottom_disc, &n, 1),
+                                  round_surface(top_disc, &n, 1)};
     return tessellate_parametric(surfaces, has_top ? 3 : 2, request->arena, request->call, mesh, request->error);
 }
 
@@ -320,12 +341,11 @@ static bool build_implicit(const struct shape_request *request, double (*value)(
                     "shape: slices is %d, expected at most 1024 for an implicit surface", request->slices);
     // A little more than the surface, so that it is not cut and its symmetric points do not fall on the lattice.
     const double side = 1.03;
-    lam_implicit one = {value,
-                        gradient,
-                        NULL,
-                        v3(-side, -side, -side),
-                        v3(side, side, side),
-                        request->slices ? request->slices : cells};
+    lam_implicit one = {.value = value,
+                        .gradient = gradient,
+                        .minimum = v3(-side, -side, -side),
+                        .maximum = v3(side, side, side),
+                        .cells = request->slices ? request->slices : cells};
     return tessellate_implicit(&one, request->arena, request->call, mesh, request->error);
 }
 
@@ -411,6 +431,8 @@ static void scale_mesh(lam_mesh *mesh, double radius)
 
 static bool check_params(const char *name, const lam_shape_params *params, lam_error *error)
 {
+    if (!check_reserved("lam_shape_params", params, error))
+        return false;
     if (!(params->radius >= 0) || params->radius > 1e30)
         return fail(error, LAM_BAD_ARGUMENT, "shape '%s': radius is %g, expected more than 0 and at most 1e30 (0: 1)",
                     name, params->radius);
@@ -481,6 +503,8 @@ int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, co
         fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_parametric: %s is NULL", scene ? "surface" : "scene");
         return -1;
     }
+    if (!check_reserved("lam_parametric", surface, error))
+        return -1;
     struct call_control call;
     uint64_t state = begin(scene, &call, control);
     lam_mesh mesh = {0};
@@ -494,6 +518,8 @@ int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const 
         fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_implicit: %s is NULL", scene ? "surface" : "scene");
         return -1;
     }
+    if (!check_reserved("lam_implicit", surface, error))
+        return -1;
     struct call_control call;
     uint64_t state = begin(scene, &call, control);
     lam_mesh mesh = {0};

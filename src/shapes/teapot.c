@@ -132,7 +132,13 @@ bool teapot_build(const struct shape_request *request, lam_mesh *mesh)
         part->u_steps = (slices + 3) / 4;
         part->v_steps = request->stacks ? request->stacks : 32;
         int u = part->u_steps * part->around, v = part->v_steps * part->bands;
-        surfaces[i] = (lam_parametric){patch_point, part, 0, u, 0, v, u, v, true, false};
+        surfaces[i] = (lam_parametric){.surface = patch_point,
+                                       .user = part,
+                                       .u_max = u,
+                                       .v_max = v,
+                                       .u_segments = u,
+                                       .v_segments = v,
+                                       .u_closed = true};
     }
     return tessellate_parametric(surfaces, 4, request->arena, request->call, mesh, request->error);
 }

@@ -89,12 +89,17 @@ static void test_round(void **state)
     }
 }
 
+static lam_layer layer(const char *name, const lam_image *image, const char *channels)
+{
+    return (lam_layer){.name = name, .image = image, .channels = channels};
+}
+
 static void test_layers(void **state)
 {
     (void)state;
     lam_image picture = noise(20, 40, 1), light = noise(20, 40, 2), back;
-    const lam_layer layers[] = {
-        {"diffuse", &light, NULL}, {NULL, &picture, NULL}, {"depth", &light, "Z"}, {"n.l", &light, "Y"}};
+    const lam_layer layers[] = {layer("diffuse", &light, NULL), layer(NULL, &picture, NULL),
+                                layer("depth", &light, "Z"), layer("n.l", &light, "Y")};
     lam_bytes bytes;
     lam_error error = {0};
     if (!encode(layers, 4, &bytes))
@@ -123,9 +128,9 @@ static void test_wrong(void **state)
     assert_true(lam_image_make(&bytes_image, 4, 4, LAM_RGBA8, NULL));
     lam_bytes bytes;
     lam_error error;
-    const lam_layer twice[] = {{"a", &image, NULL}, {"a", &image, "GX"}},
-                    sizes[] = {{"a", &image, NULL}, {"b", &other, NULL}}, format = {"a", &bytes_image, NULL},
-                    letters = {"a", &image, "RGBAX"};
+    const lam_layer twice[] = {layer("a", &image, NULL), layer("a", &image, "GX")};
+    const lam_layer sizes[] = {layer("a", &image, NULL), layer("b", &other, NULL)};
+    const lam_layer format = layer("a", &bytes_image, NULL), letters = layer("a", &image, "RGBAX");
     assert_false(lam_image_encode_layers(sizes, 2, &bytes, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     assert_false(lam_image_encode_layers(&format, 1, &bytes, &error));

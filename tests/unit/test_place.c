@@ -372,7 +372,8 @@ static lam_scene *square_scene(const float *texcoords, const lam_part *parts, ui
 static void parts_change_their_material(void **state)
 {
     (void)state;
-    lam_part parts[] = {{"a", 0, 1, -1}, {"b", 1, 1, -1}};
+    lam_part parts[] = {{.name = "a", .triangle_count = 1, .material = -1},
+                        {.name = "b", .first_triangle = 1, .triangle_count = 1, .material = -1}};
     lam_scene *scene = square_scene(NULL, parts, 2);
     lam_material gold = lam_material_named(LAM_MATERIAL_GOLD);
     assert_int_equal(lam_scene_add_material(scene, &gold, NULL), 0);

@@ -367,6 +367,17 @@ static void test_convergence(void **state)
 
 // --- The unit sphere three ways, with the mathematics library's functions as a user would write it
 
+static lam_parametric parametric(lam_surface_fn *surface, double u_max, double v_max, int u_segments, int v_segments,
+                                 bool u_closed)
+{
+    return (lam_parametric){.surface = surface,
+                            .u_max = u_max,
+                            .v_max = v_max,
+                            .u_segments = u_segments,
+                            .v_segments = v_segments,
+                            .u_closed = u_closed};
+}
+
 static void user_sphere(void *user, double u, double v, lam_surface_point *out)
 {
     bool limits = user != NULL;
@@ -396,7 +407,8 @@ static void test_unit_sphere(void **state)
     int yes = 1;
     // With the limit's direction at the poles, and with derivatives that vanish there.
     for (int k = 0; k < 2; k++) {
-        lam_parametric sphere = {user_sphere, k ? NULL : &yes, 0, 2 * M_PI, 0, M_PI, 48, 24, true, false};
+        lam_parametric sphere = parametric(user_sphere, 2 * M_PI, M_PI, 48, 24, true);
+        sphere.user = k ? NULL : &yes;
         int index = lam_scene_add_parametric(scene, &sphere, NULL, &error);
         assert_int_equal(index, k);
         const lam_mesh *mesh = lam_scene_mesh(scene, index);
@@ -419,7 +431,11 @@ static void test_unit_sphere(void **state)
     // Lattice points on the surface (cells 20, 24), and none on it (cells 25).
     static const int cells[] = {20, 24, 25, 61};
     for (int k = 0; k < 4; k++) {
-        lam_implicit ball = {ball_value, ball_gradient, NULL, {-1.25, -1.25, -1.25}, {1.25, 1.25, 1.25}, cells[k]};
+        lam_implicit ball = {.value = ball_value,
+                             .gradient = ball_gradient,
+                             .minimum = {-1.25, -1.25, -1.25},
+                             .maximum = {1.25, 1.25, 1.25},
+                             .cells = cells[k]};
         int index = lam_scene_add_implicit(scene, &ball, NULL, &error);
         assert_int_equal(index, 2 + k);
         const lam_mesh *mesh = lam_scene_mesh(scene, index);
@@ -476,7 +492,8 @@ static void test_every_cell_case(void **state)
             sign[i] = (int)(random >> 30) < share ? -1 : 1;
         }
         struct noise noise = {N, sign};
-        lam_implicit surface = {noise_value, noise_gradient, &noise, {0, 0, 0}, {N, N, N}, N};
+        lam_implicit surface = {
+            .value = noise_value, .gradient = noise_gradient, .user = &noise, .maximum = {N, N, N}, .cells = N};
         lam_scene *scene = lam_scene_make(NULL);
         lam_error error = {0};
         assert_int_equal(lam_scene_add_implicit(scene, &surface, NULL, &error), 0);
@@ -505,7 +522,7 @@ static void test_tip(void **state)
     (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     // (v, u) in this order makes ∂p/∂u × ∂p/∂v point outward, so the tip is a column that coincides, not a row.
-    lam_parametric cone = {cone_point, NULL, 0, 2 * M_PI, 0, 1, 16, 4, true, false};
+    lam_parametric cone = parametric(cone_point, 2 * M_PI, 1, 16, 4, true);
     assert_int_equal(lam_scene_add_parametric(scene, &cone, NULL, NULL), 0);
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->vertex_count, 16 * 4 + 1);
@@ -532,7 +549,8 @@ static void test_column_pole_and_origin(void **state)
 {
     (void)state;
     lam_scene *scene = lam_scene_make(NULL);
-    lam_parametric patch = {triangle_patch, NULL, 0, 1, -1, 1, 3, 4, false, false};
+    lam_parametric patch = parametric(triangle_patch, 1, 1, 3, 4, false);
+    patch.v_min = -1;
     assert_int_equal(lam_scene_add_parametric(scene, &patch, NULL, NULL), 0);
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->vertex_count, 3 * 5 + 1);
@@ -559,7 +577,7 @@ static void test_bad_formulas(void **state)
     (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     lam_error error;
-    lam_parametric good = {user_sphere, NULL, 0, 1, 0, 1, 4, 4, false, false};
+    lam_parametric good = parametric(user_sphere, 1, 1, 4, 4, false);
     lam_parametric bad[6];
     static const char *const named[6] = {"NULL", "u goes", "v goes", "u_segments", "v_segments", "coordinate"};
     for (int i = 0; i < 6; i++)
@@ -582,7 +600,9 @@ static void test_bad_formulas(void **state)
     assert_int_equal(lam_scene_add_parametric(scene, &huge, NULL, &error), -1);
     assert_int_equal(error.code, LAM_LIMIT);
 
-    lam_implicit ball = {ball_value, ball_gradient, NULL, {-2, -2, -2}, {2, 2, 2}, 8}, wrong = ball;
+    lam_implicit ball = {
+        .value = ball_value, .gradient = ball_gradient, .minimum = {-2, -2, -2}, .maximum = {2, 2, 2}, .cells = 8};
+    lam_implicit wrong = ball;
     wrong.gradient = NULL;
     assert_int_equal(lam_scene_add_implicit(scene, &wrong, NULL, &error), -1);
     assert_non_null(strstr(error.text, "gradient"));

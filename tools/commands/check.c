@@ -7,11 +7,12 @@
 
 #include "command.h"
 #include "console.h"
+#include "exit_codes.h"
 #include "interrupt.h"
 #include "output.h"
 #include "report.h"
 
-enum { EXIT_DIFFERS = 6, MAX_TEXT_BYTES = 1 << 20, MAX_SCENES = 32 };
+enum { MAX_TEXT_BYTES = 1 << 20, MAX_SCENES = 32 };
 static const size_t max_cache_bytes = (size_t)384 << 20; // of pictures cached for several shaders
 
 // Reads a text file into memory from malloc.
@@ -117,7 +118,7 @@ static int check_one(struct batch *c, const struct check_pair *pair, lam_error *
         ok = check_sheet(&report, pair->fragment, o, sheet, error);
     if (ok)
         print_report(c, &report, pair, sheet);
-    int code = !ok ? (int)error->code : report.verdict == LAM_CHECK_PASSES ? 0 : EXIT_DIFFERS;
+    int code = !ok ? exit_code_of(error->code)->code : report.verdict == LAM_CHECK_PASSES ? 0 : EXIT_DIFFERS;
     c->passed += code == 0;
     lam_check_report_free(&report);
     free(fragment);

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "exit_codes.h"
 #include "json.h"
 
 static const char *verdict_text(lam_check_verdict verdict)
@@ -152,7 +153,7 @@ void check_report_error_json(FILE *file, const char *shader, const char *vertex,
     json_text(&json, "fragment", shader);
     json_text(&json, "vertex", vertex);
     json_text(&json, "error", error->text);
-    json_count(&json, "exit_code", (uint64_t)error->code);
+    json_count(&json, "exit_code", (uint64_t)exit_code_of(error->code)->code);
     json_close(&json, '}');
     putc('\n', file);
 }

@@ -24,13 +24,6 @@ command_fn run_render, run_shapes, run_lights, run_formats, run_help, run_genera
     run_explain, run_shader;
 command_fn run_check, run_materials, run_devices;
 
-// The exit codes, for the help, the man page and the docs. Ends with a NULL meaning.
-struct exit_code {
-    int code;
-    const char *meaning;
-};
-extern const struct exit_code exit_codes[];
-
 // Examples: a command line and what it does. Ends with NULL.
 struct example {
     const char *line, *meaning;

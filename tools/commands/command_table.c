@@ -1,4 +1,4 @@
-// command_table.c: the commands, the examples, the exit codes and the topics of the manual.
+// command_table.c: the commands, the examples and the topics of the manual.
 #include "command.h"
 
 #define ABOUT (1u << GROUP_ABOUT)
@@ -65,18 +65,6 @@ const struct example examples[] = {
     {"lambent shader teapot --glsl 120 --host c -o teapot", "its shaders, and C code that sets them"},
     {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
     {NULL, NULL},
-};
-
-const struct exit_code exit_codes[] = {
-    {0, "done"},
-    {1, "the command line is wrong"},
-    {2, "a model cannot be read or is not what its format says"},
-    {3, "not supported: a format, or an instruction set that this machine lacks"},
-    {4, "a limit was hit: time, memory, or a picture too large for this machine"},
-    {5, "the output cannot be written, or would overwrite a file that lambent did not write"},
-    {6, "`diff`: the pictures differ by more than the tolerance; `check`: the shader does not pass"},
-    {130, "interrupted (Ctrl-C); nothing half done is left behind"},
-    {0, NULL},
 };
 
 const struct topic topics[] = {

@@ -6,11 +6,10 @@
 #include <unistd.h>
 
 #include "console.h"
+#include "exit_codes.h"
 #include "json.h"
 #include "output.h"
 #include "report.h"
-
-enum { EXIT_DIFFERENT = 6 };
 
 struct pair {
     const char *name[2];
@@ -143,5 +142,5 @@ int run_diff(int operand_count, char **operands, const struct options *options)
     lam_image_free(&pair.where);
     if (!ok)
         return tell_failure(&error, options);
-    return differ ? EXIT_DIFFERENT : 0;
+    return differ ? EXIT_DIFFERS : 0;
 }

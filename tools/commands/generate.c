@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "console.h"
+#include "exit_codes.h"
 #include "suggest.h"
 
 static const struct {
@@ -33,5 +34,5 @@ int run_generate(int operand_count, char **operands, const struct options *optio
              operands[0], nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
              nearest.best ? "'?" : "");
     say_error(error.text);
-    return error.code;
+    return exit_code_of(error.code)->code;
 }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "console.h"
+#include "exit_codes.h"
 #include "device_option.h"
 #include "interrupt.h"
 #include "job.h"
@@ -192,7 +193,7 @@ static int render_one(const char *model, lam_device *device, const struct option
     lam_image_free(&job.image);
     lam_scene_free(job.scene);
     free(path);
-    return (int)error.code;
+    return exit_code_of(error.code)->code;
 }
 
 int run_render(int operand_count, char **operands, const struct options *options)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "console.h"
+#include "exit_codes.h"
 #include "suggest.h"
 
 enum { WIDTH = 100, COLUMN = 29, EXAMPLE_COLUMN = 41 };
@@ -157,7 +158,7 @@ int run_help(int operand_count, char **operands, const struct options *options)
         complain(&error, LAM_BAD_ARGUMENT, "help: unknown command '%.60s', expected %s%s%s%s", operands[0], known,
                  nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
         say_error(error.text);
-        return error.code;
+        return exit_code_of(error.code)->code;
     }
     if (operand_count)
         print_command(command);

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "exit_codes.h"
+
 // Text for roff: '-' is written \- (else it may be shown as another dash), '`code`' is bold, a line never
 // begins with a control character.
 static void roff(const char *text)

@@ -10,8 +10,8 @@
 
 struct options option_defaults(void)
 {
-    return (struct options){.width = 1024,
-                            .height = 1024,
+    return (struct options){.width = LAM_RENDER_SIZE,
+                            .height = LAM_RENDER_SIZE,
                             .crease_angle_deg = -1,
                             .light_scale = 1,
                             .repeat = 1,

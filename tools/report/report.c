@@ -6,10 +6,8 @@
 #include <string.h>
 
 #include "console.h"
+#include "exit_codes.h"
 #include "json.h"
-
-static const char *const code_names[] = {"ok",           "usage", "cannot-read", "unsupported", "limit",
-                                         "cannot-write", "",      "cancelled"};
 
 static char up_letter(const lam_scene *scene)
 {
@@ -232,8 +230,8 @@ static void json_error(struct json *json, const lam_error *error)
         return;
     }
     json_open(json, "error", '{');
-    json_text(json, "code", code_names[error->code]);
-    json_count(json, "exit", error->code == LAM_CANCELLED ? 130 : (uint64_t)error->code);
+    json_text(json, "code", exit_code_of(error->code)->name);
+    json_count(json, "exit", (uint64_t)exit_code_of(error->code)->code);
     json_text(json, "text", error->text);
     json_close(json, '}');
 }
@@ -281,5 +279,5 @@ int tell_failure(const lam_error *error, const struct options *options)
         report_json(stream, NULL, error);
     else if (error->code == LAM_BAD_ARGUMENT)
         say_plain("Try 'lambent --help'.\n");
-    return (int)error->code;
+    return exit_code_of(error->code)->code;
 }

@@ -286,7 +286,11 @@ bool lam_check_contract_row(lam_check_contract which, int row, lam_check_name *n
         return false;
     for (const struct contract_name *n = contract->names; n->name; n++)
         if (row-- == 0) {
-            *name = (lam_check_name){n->name, n->type, n->meaning, n->synonyms, n->attribute};
+            *name = (lam_check_name){.name = n->name,
+                                     .type = n->type,
+                                     .meaning = n->meaning,
+                                     .synonyms = n->synonyms,
+                                     .attribute = n->attribute};
             return true;
         }
     return false;

@@ -59,7 +59,7 @@ void output_tile(const struct resolve_target *target, const struct fragments *fr
     lam_pixel_format format = target->image->format;
     for (int y = 0; y < tile->height; y++) {
         char *to = tile_row(target->image, tile, y);
-        for (int x = 0; x < tile->width; x++, to += pixel_bytes(target->image)) {
+        for (int x = 0; x < tile->width; x++, to += working_bytes(target->image)) {
             int at = y * TILE + x;
             float first = sum[0][at];
             if (output == LAM_OUTPUT_CLIPPED)

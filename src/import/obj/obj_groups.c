@@ -139,7 +139,10 @@ static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
         if (!name_part(state, error))
             return false;
     }
-    obj->parts[obj->part_count++] = (lam_part){state->part_name, from, triangle - from, state->material};
+    obj->parts[obj->part_count++] = (lam_part){.name = state->part_name,
+                                               .first_triangle = from,
+                                               .triangle_count = triangle - from,
+                                               .material = state->material};
     return true;
 }
 

@@ -1,0 +1,46 @@
+// pixels.h: rows of pixels in every format. Code that works on pixels knows two formats, LAM_RGBA8 and LAM_RGBA32F (the
+// working formats); the others are converted row by row.
+#ifndef PIXELS_H
+#define PIXELS_H
+
+#include <lambent/image.h>
+
+static inline bool format_is_float(lam_pixel_format format) { return format == LAM_RGBA32F || format == LAM_RGB32F; }
+
+static inline lam_pixel_format working_format(lam_pixel_format format)
+{
+    return format_is_float(format) ? LAM_RGBA32F : LAM_RGBA8;
+}
+
+size_t pixel_bytes(lam_pixel_format format);
+bool format_has_alpha(lam_pixel_format format);
+
+// Distance of rows, never 0.
+static inline ptrdiff_t image_stride(const lam_image *image)
+{
+    return image->stride ? image->stride : (ptrdiff_t)((size_t)image->width * pixel_bytes(image->format));
+}
+
+static inline void *image_row(const lam_image *image, int y)
+{
+    return (char *)image->pixels + (ptrdiff_t)y * image_stride(image);
+}
+
+// Whether a picture of the caller's can be used: its pixels, size, format and stride. `what` begins the sentence.
+bool image_check(const lam_image *image, const char *what, lam_error *error);
+
+// `count` pixels from a format to its working format, and back. `raw`: luminance is that of the numbers as they are.
+void pixels_to_working(lam_pixel_format format, const void *from, int count, void *to);
+void pixels_from_working(lam_pixel_format format, bool raw, const void *from, int count, void *to);
+
+// The picture in its working format, without padding: itself where it is, else a copy. The caller frees `out`, which
+// frees a copy only.
+bool image_working(const lam_image *image, lam_image *out, lam_error *error);
+
+// A copy in its working format, in any case.
+bool image_copy(const lam_image *image, lam_image *out, lam_error *error);
+
+// Two pictures to compare, of one size, both of bytes or both of floats: as image_working gives them.
+bool image_pair(const char *what, const lam_image *const given[2], lam_image pair[2], lam_error *error);
+
+#endif

@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+"""abi.py BUILD PROGRAM [--record]: programs and libraries of different versions work together (include/lambent/base.h, "Growth").
+
+The layout of all public structs is the recorded one (tests/abi/layout.txt) but for fields in place of reserved words. One program,
+compiled against headers whose newest fields are not there yet, against today's, and against headers with a field more, gets the same
+picture, explanation and report from today's library; a field that the library does not know is refused by every call. And lam_render
+draws what the program draws."""
+import glob
+import os
+import subprocess
+import sys
+import tempfile
+
+import layout
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+BUILD, PROGRAM = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+HEADERS, RECORDED = os.path.join(ROOT, "include", "lambent"), os.path.join(HERE, "layout.txt")
+# Values, and structs that a standard or a formula fixes: they never change.
+FIXED = {"lam_error", "lam_cancel", "lam_vec3", "lam_rgb", "lam_rgba", "lam_mat4", "lam_attenuation", "lam_bytes", "lam_surface_point"}
+results = []
+
+
+def check(name, ok, output=""):
+    results.append(ok)
+    print("%s %d - %s" % ("ok" if ok else "not ok", len(results), name))
+    if not ok:
+        print("# " + "\n# ".join(output.splitlines()[-40:]))
+    return ok
+
+
+def run(command, **more):
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more)
+
+
+def build(source, include, program, *more):
+    library = os.path.join(BUILD, "src")
+    return run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-I", include, source, "-o", program, *more, "-L", library, "-llambent",
+                "-Wl,-rpath," + library])
+
+
+def layout_now(folder):
+    source, program = os.path.join(folder, "layout.c"), os.path.join(folder, "layout")
+    open(source, "w").write(layout.layout_program(layout.read(HEADERS)))
+    built = run(["cc", "-I", os.path.dirname(HEADERS), source, "-o", program])
+    if built.returncode:
+        sys.exit("layout.c does not compile: " + built.stdout)
+    return run([program]).stdout
+
+
+def check_layout(now):
+    recorded, found = layout.parse_layout(open(RECORDED).read()), layout.parse_layout(now)
+    check("%d structs: every recorded field is in its place" % len(recorded[0]), not layout.differences(recorded, found),
+          "\n".join(layout.differences(recorded, found)))
+    new = sorted(set(found[0]) - set(recorded[0]))
+    check("every struct is recorded", not new, "not in layout.txt (abi.py BUILD PROGRAM --record): " + " ".join(new))
+    short = sorted(n for n, (_, fields) in found[0].items() if ("reserved" in fields) == (n in FIXED))
+    check("every struct that may grow ends in LAM_RESERVED", not short, " ".join(short))
+    # The comparison notices what it is there for.
+    for name, change in (("a field moved", {"width": (4, 4)}), ("a field gone", {"width": None})):
+        size, fields = recorded[0]["lam_image"]
+        moved = {**found[0], "lam_image": (size, {k: v for k, v in {**fields, **change}.items() if v})}
+        check("%s would be noticed" % name, bool(layout.differences(recorded, (moved, found[1]))))
+
+
+def older(now):
+    """The last fields of every struct that begin at a whole word become reserved words."""
+    sizes = layout.parse_layout(now)[0]
+    gone = []
+
+    def change(name, fields):
+        if fields[-1].name != "reserved":
+            return fields
+        places = sizes[name][1]
+        for at in range(len(fields) - 2, 0, -1):
+            if places[fields[at].name][0] % 8 == 0:
+                words = (places["reserved"][0] - places[fields[at].name][0]) // 8
+                gone.extend("%s.%s" % (name, field.name) for field in fields[at:-1])
+                return fields[:at] + [layout.Field("reserved", "LAM_RESERVED(%d)" % (words + fields[-1].reserved))]
+        return fields
+    return change, gone
+
+
+def newer(name, fields):
+    """Every struct that can has one field more."""
+    if fields[-1].name != "reserved":
+        return fields
+    return fields[:-1] + [layout.Field("newest", "uint64_t newest"),
+                          layout.Field("reserved", "LAM_RESERVED(%d)" % (fields[-1].reserved - 1))]
+
+
+def check_versions(now, folder):
+    change, gone = older(now)
+    layout.rewrite(HEADERS, os.path.join(folder, "older", "lambent"), change)
+    layout.rewrite(HEADERS, os.path.join(folder, "newer", "lambent"), newer)
+    told, source = {}, os.path.join(HERE, "versions.c")
+    for version, include in (("today's", os.path.dirname(HEADERS)), ("older", os.path.join(folder, "older")),
+                             ("newer", os.path.join(folder, "newer"))):
+        program = os.path.join(folder, "with-" + version[:5] + "-headers")
+        built = build(source, include, program, *(["-DNEWER"] if version == "newer" else []))
+        if not check("a program compiled against %s headers" % version, built.returncode == 0, built.stdout):
+            continue
+        ran = run([program, os.path.join(ROOT, "tests", "models", "cube.obj")])
+        told[version] = ran.stdout
+        check("it runs with today's library", ran.returncode == 0, ran.stdout)
+    check("older headers lack fields: %d of them, lam_image.stride among them" % len(gone), "lam_image.stride" in gone, " ".join(gone))
+    check("the older program gets the same picture, explanation and report", told.get("older") == told.get("today's") != None,
+          "older:\n%s\ntoday's:\n%s" % (told.get("older"), told.get("today's")))
+    refused = told.get("newer", "").split("refused:\n")
+    check("so does the newer one, its new fields being zero", refused[0] == told.get("today's"), told.get("newer", ""))
+    check("a field that the library does not know is refused by every call", len(refused) == 2 and refused[1].count(": yes") >= 18 and
+          ": no" not in refused[1], told.get("newer", ""))
+
+
+def check_render(folder):
+    program = os.path.join(folder, "render_one")
+    built = build(os.path.join(HERE, "render_one.c"), os.path.dirname(HEADERS), program)
+    if not check("render_one compiles", built.returncode == 0, built.stdout):
+        return
+    models = os.path.join(ROOT, "tests", "models")
+    scene = os.path.join(folder, "scene.json")
+    open(scene, "w").write('{"lambent": 1, "image": {"size": [300, 200], "samples": 8, "background": "navy"}, "stage": "vertex", '
+                           '"reflection": "phong", "objects": [{"shape": "torus-knot"}, {"file": "%s"}]}' %
+                           os.path.join(models, "cube.obj"))
+    for model in (os.path.join(models, "cube.obj"), os.path.join(ROOT, "examples", "models", "spot.obj"), "teapot", scene):
+        pictures = [os.path.join(folder, name) for name in ("program.png", "library.png")]
+        drawn = run([PROGRAM, model, "-o", pictures[0], "-q"])
+        again = run([program, model, pictures[1]])
+        same = drawn.returncode == again.returncode == 0 and open(pictures[0], "rb").read() == open(pictures[1], "rb").read()
+        check("lam_render draws %s as the program does" % os.path.basename(model), same, drawn.stdout + again.stdout)
+    wrong = run([program, os.path.join(folder, "none.obj"), os.path.join(folder, "none.png")])
+    check("lam_render refuses a missing file with LAM_CANNOT_READ", wrong.returncode == 2 and "none.obj" in wrong.stdout, wrong.stdout)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        now = layout_now(folder)
+        if "--record" in sys.argv:
+            head = "# Sizes and offsets of the public structs, and the constants, on 64-bit machines (abi.py --record).\n"
+            open(RECORDED, "w").write(head + now)
+            return 0
+        check_layout(now)
+        check_versions(now, folder)
+        check_render(folder)
+    print("1..%d" % len(results))
+    return 0 if all(results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,156 @@
+// versions.c: what a program does with the library, by fields that every version of the headers has. It prints a hash of
+// its picture and numbers of its explanation, reports and scene, arrays among them. With NEWER the headers have a field
+// `newest` in every struct, and each call is made once with that field set.
+#include <lambent/lambent.h>
+#include <stdio.h>
+#include <string.h>
+
+static void print_image(const char *name, const lam_image *image)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    const unsigned char *bytes = image->pixels;
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height * 4; i++)
+        hash = (hash ^ bytes[i]) * UINT64_C(0x100000001b3);
+    printf("%s %dx%d %016llx\n", name, image->width, image->height, (unsigned long long)hash);
+}
+
+static bool build_scene(lam_scene *scene, lam_error *error)
+{
+    lam_material material = lam_material_named(LAM_MATERIAL_BRASS);
+    lam_light lights[2] = {lam_light_default(LAM_LIGHT_POINT), lam_light_default(LAM_LIGHT_SPOT)};
+    lights[0].position = (lam_vec3){3, 4, 5};
+    lights[1].position = (lam_vec3){-3, 1, 5};
+    lights[1].direction = (lam_vec3){3, -1, -5};
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_shape(scene, "torus", &(lam_shape_params){.radius = 2, .slices = 24}, error);
+    object.material = lam_scene_add_material(scene, &material, error);
+    return object.mesh >= 0 && object.material >= 0 && lam_scene_add_object(scene, &object, error) >= 0 &&
+           lam_scene_add_light(scene, &lights[0], error) >= 0 && lam_scene_add_light(scene, &lights[1], error) >= 0;
+}
+
+static bool draw(lam_device *device, const lam_scene *scene, lam_error *error)
+{
+    lam_view view = {.from_angles = true, .azimuth_rad = 0.4, .elevation_rad = 0.5};
+    lam_camera camera = lam_camera_fit(scene, 160, 120, &view);
+    lam_draw_params params = {.samples = 8, .background = {0.2f, 0.3f, 0.4f, 1}, .exposure = 0.25};
+    lam_image image = {0};
+    if (!lam_image_make(&image, 160, 120, LAM_RGBA8, error) ||
+        !lam_draw(device, scene, &camera, &params, &image, NULL, error))
+        return false;
+    print_image("picture", &image);
+    lam_image_free(&image);
+    lam_frame_report report;
+    lam_device_report(device, &report);
+    printf("report %llu %llu %llu\n", (unsigned long long)report.triangles, (unsigned long long)report.triangles_binned,
+           (unsigned long long)report.pixels_covered);
+
+    lam_explanation *told = lam_explain(device, scene, &camera, &params, 160, 120, LAM_RGBA8, 80, 62, NULL, error);
+    for (int i = 0; told && i < told->fragment_count; i++) {
+        const lam_explained_fragment *fragment = &told->fragments[i];
+        printf("fragment %d %u %d\n", fragment->object, fragment->triangle, fragment->samples);
+        for (int p = 0; p < fragment->point_count; p++)
+            for (int k = 0; k < fragment->points[p].light_count; k++)
+                printf("light %d at %.9g: %.9g\n", fragment->points[p].lights[k].light,
+                       (double)fragment->points[p].lights[k].distance, (double)fragment->points[p].lights[k].n_dot_l);
+    }
+    lam_explanation_free(told);
+    lam_shader *shader = lam_shader_make(scene, &camera, &params, 160, 120, -1, NULL, error);
+    for (int i = 0; shader && i < shader->draw_count; i++)
+        printf("shader draw of object %d: %s, %s\n", shader->draws[i].object, shader->draws[i].uniforms[0].name,
+               shader->draws[i].uniforms[1].name);
+    bool ok = told && shader;
+    lam_shader_free(shader);
+    return ok;
+}
+
+static bool use(const char *path, lam_error *error)
+{
+    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, error);
+    lam_load_params params = {.threads = 1, .color = LAM_COLOR_SRGB};
+    lam_scene *scene = device ? lam_scene_load(path, &params, NULL, error) : NULL;
+    bool ok = scene && build_scene(scene, error) && draw(device, scene, error);
+    for (int i = 0; ok && i < lam_scene_mesh_count(scene); i++)
+        if (lam_scene_mesh(scene, i)->parts)
+            printf("the first parts of mesh %d: %u triangles\n", i, lam_scene_mesh(scene, i)->parts[0].triangle_count);
+    lam_image image = {0};
+    ok = ok && lam_render("torus-knot", &(lam_render_params){.threads = 1}, &image, NULL, error);
+    if (ok)
+        print_image("render", &image);
+    lam_image_free(&image);
+    lam_scene_free(scene);
+    lam_device_free(device);
+    return ok;
+}
+
+#ifdef NEWER
+static void expect(const char *what, bool failed, const lam_error *error)
+{
+    bool ok = failed && error->code == LAM_BAD_ARGUMENT && strstr(error->text, "does not know");
+    printf("%s: %s\n", what, ok ? "yes" : "no");
+}
+
+static void refusals(const char *path)
+{
+    lam_error error = {0};
+    lam_device *device = lam_device_cpu(NULL, &error);
+    lam_scene *scene = lam_scene_load(path, NULL, NULL, &error);
+    lam_camera good = lam_camera_fit(scene, 64, 64, NULL);
+    lam_image image = {0}, made = {0};
+    lam_image_make(&image, 64, 64, LAM_RGBA8, &error);
+    lam_bytes bytes;
+    printf("refused:\n");
+#define REFUSES(what, call) (error = (lam_error){0}, expect(what, !(call), &error))
+    REFUSES("draw params", lam_draw(device, scene, &good, &(lam_draw_params){.newest = 1}, &image, NULL, &error));
+    REFUSES("control", lam_draw(device, scene, &good, NULL, &image, &(lam_control){.newest = 1}, &error));
+    lam_camera camera = good;
+    camera.newest = 1;
+    REFUSES("camera", lam_draw(device, scene, &camera, NULL, &image, NULL, &error));
+    camera = lam_camera_fit(scene, 64, 64, &(lam_view){.newest = 1});
+    REFUSES("view", lam_draw(device, scene, &camera, NULL, &image, NULL, &error));
+    lam_image other = image;
+    other.newest = 1;
+    REFUSES("image", lam_draw(device, scene, &good, NULL, &other, NULL, &error));
+    REFUSES("encode", lam_image_encode(&image, "png", &(lam_save_params){.newest = 1}, &bytes, &error));
+    REFUSES("compare", lam_image_compare(&image, &other, &(lam_difference){0}, &error));
+    REFUSES("cpu params", lam_device_cpu(&(lam_cpu_params){.newest = 1}, &error));
+    REFUSES("load params", lam_scene_load(path, &(lam_load_params){.newest = 1}, NULL, &error));
+    REFUSES("load control", lam_scene_load(path, NULL, &(lam_control){.newest = 1}, &error));
+    REFUSES("explain",
+            lam_explain(device, scene, &good, &(lam_draw_params){.newest = 1}, 64, 64, LAM_RGBA8, 1, 1, NULL, &error));
+    REFUSES("shader params",
+            lam_shader_make(scene, &good, NULL, 64, 64, -1, &(lam_shader_params){.newest = 1}, &error));
+    lam_material material = lam_material_default();
+    material.newest = 1;
+    REFUSES("material", lam_scene_add_material(scene, &material, &error) >= 0);
+    lam_light light = lam_light_default(LAM_LIGHT_POINT);
+    light.newest = 1;
+    REFUSES("light", lam_scene_add_light(scene, &light, &error) >= 0);
+    lam_object object = lam_object_default();
+    object.newest = 1;
+    REFUSES("object", lam_scene_add_object(scene, &object, &error) >= 0);
+    lam_mesh mesh = *lam_scene_mesh(scene, 0);
+    mesh.newest = 1;
+    REFUSES("mesh", lam_scene_add_mesh(scene, &mesh, &error) >= 0);
+    REFUSES("shape params", lam_scene_add_shape(scene, "cube", &(lam_shape_params){.newest = 1}, &error) >= 0);
+    REFUSES("parametric", lam_scene_add_parametric(scene, &(lam_parametric){.newest = 1}, NULL, &error) >= 0);
+    REFUSES("implicit", lam_scene_add_implicit(scene, &(lam_implicit){.newest = 1}, NULL, &error) >= 0);
+    REFUSES("settings", lam_scene_save(scene, &(lam_picture_settings){.newest = 1}, "/nowhere/scene.json", &error));
+    REFUSES("render params", lam_render(path, &(lam_render_params){.newest = 1}, &made, NULL, &error));
+    lam_image_free(&image);
+    lam_scene_free(scene);
+    lam_device_free(device);
+}
+#endif
+
+int main(int argc, char **argv)
+{
+    lam_error error = {LAM_BAD_ARGUMENT, "usage: versions MODEL"};
+    if (argc != 2 || !use(argv[1], &error)) {
+        fprintf(stderr, "%s\n", error.text);
+        return 1;
+    }
+#ifdef NEWER
+    refusals(argv[1]);
+#endif
+    return 0;
+}

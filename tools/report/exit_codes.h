@@ -1,0 +1,20 @@
+// exit_codes.h: the program's exit codes, one table: from it come what main returns, the reports, the help, the man page
+// and the docs. They are numbers of their own, whatever lam_code's are.
+#ifndef EXIT_CODES_H
+#define EXIT_CODES_H
+
+#include <lambent/base.h>
+
+enum { EXIT_DIFFERS = 6 };
+
+struct exit_code {
+    int code;
+    int of;              // the lam_code that it stands for; −1: none
+    const char *name;    // in reports; NULL: none
+    const char *meaning; // NULL: the table's end
+};
+extern const struct exit_code exit_codes[];
+
+const struct exit_code *exit_code_of(lam_code code);
+
+#endif

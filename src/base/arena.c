@@ -1,4 +1,4 @@
-// arena.c: memory that is given back all at once.
+// arena.c: memory that is freed all at once.
 #include "arena.h"
 
 #include "file.h"
@@ -18,10 +18,10 @@ enum {
 struct arena_block {
     struct arena_block *next;
     uint8_t *memory;
-    size_t room, used;
-    bool whole;     // one request's own; nothing is cut from it
-    size_t held;    // > 0: bytes of pages behind `memory`, given back by pages_free
-    size_t charged; // what the watch was charged
+    size_t capacity, used;
+    bool whole;     // serves one request; nothing else is allocated from it
+    size_t held;    // > 0: bytes of the pages at `memory`, released by pages_free
+    size_t charged; // bytes charged to the call
 };
 
 static _Thread_local long fail_countdown = -1;
@@ -60,7 +60,7 @@ void arena_free(struct arena *arena)
 
 static void link_block(struct arena *arena, struct arena_block *block)
 {
-    // The block that small requests are cut from stays first.
+    // The block that serves small requests stays first.
     if (block->whole && arena->blocks) {
         block->next = arena->blocks->next;
         arena->blocks->next = block;
@@ -84,7 +84,7 @@ static void *own_pages(struct arena *arena, size_t bytes)
             call_refund(arena->call, bytes);
         return NULL;
     }
-    block->room = block->used = block->held;
+    block->capacity = block->used = block->held;
     block->charged = bytes;
     block->whole = true;
     link_block(arena, block);
@@ -93,26 +93,26 @@ static void *own_pages(struct arena *arena, size_t bytes)
 
 static struct arena_block *new_block(struct arena *arena, size_t bytes)
 {
-    size_t room = arena->large ? BLOCK_LARGEST : BLOCK_FIRST;
+    size_t capacity = arena->large ? BLOCK_LARGEST : BLOCK_FIRST;
     if (arena->blocks && !arena->blocks->whole)
-        room = arena->blocks->room * 2;
-    if (room > BLOCK_LARGEST)
-        room = BLOCK_LARGEST;
-    if (room < bytes + 64)
-        room = bytes + 64;
-    if (arena->call && !call_charge(arena->call, room))
+        capacity = arena->blocks->capacity * 2;
+    if (capacity > BLOCK_LARGEST)
+        capacity = BLOCK_LARGEST;
+    if (capacity < bytes + 64)
+        capacity = bytes + 64;
+    if (arena->call && !call_charge(arena->call, capacity))
         return NULL;
-    const bool pages = room >= BLOCK_LARGEST;
-    struct arena_block *block = malloc(sizeof *block + (pages ? 0 : room));
+    const bool pages = capacity >= BLOCK_LARGEST;
+    struct arena_block *block = malloc(sizeof *block + (pages ? 0 : capacity));
     if (block) {
-        *block = (struct arena_block){.memory = (uint8_t *)(block + 1), .room = room, .charged = room};
+        *block = (struct arena_block){.memory = (uint8_t *)(block + 1), .capacity = capacity, .charged = capacity};
         if (pages)
-            block->memory = pages_get(room, &block->held);
+            block->memory = pages_get(capacity, &block->held);
     }
     if (!block || !block->memory) {
         free(block);
         if (arena->call)
-            call_refund(arena->call, room);
+            call_refund(arena->call, capacity);
         return NULL;
     }
     link_block(arena, block);
@@ -131,7 +131,7 @@ void *arena_alloc(struct arena *arena, size_t bytes)
         if (block && !block->whole) {
             uintptr_t at = (uintptr_t)block->memory + block->used;
             size_t gap = (alignment - at % alignment) % alignment;
-            if (block->used + gap + bytes <= block->room) {
+            if (block->used + gap + bytes <= block->capacity) {
                 block->used += gap + bytes;
                 return (void *)(at + gap);
             }
@@ -192,9 +192,9 @@ bool arena_adopt(struct arena *arena, struct file_bytes *bytes)
     struct arena_block *block = fails_now() ? NULL : calloc(1, sizeof *block);
     if (!block)
         return false;
-    // The file's reader charged the watch; the arena gives that back when it goes.
+    // The file's reader charged the call; the arena refunds it when it is freed.
     *block = (struct arena_block){.memory = (uint8_t *)(uintptr_t)bytes->data,
-                                  .room = bytes->held,
+                                  .capacity = bytes->held,
                                   .used = bytes->held,
                                   .held = bytes->held,
                                   .whole = true,

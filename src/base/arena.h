@@ -1,8 +1,8 @@
-// arena.h: memory that is given back all at once.
+// arena.h: memory that is freed all at once.
 //
-// Small requests are cut from blocks that grow to a huge page; requests of 1 MiB and more get pages of their
-// own, advised to be huge pages (first touch of fresh memory is three times as fast with them). Memory is not
-// zeroed unless asked for. One thread at a time.
+// Small requests are suballocated from blocks that grow up to a huge page; requests of 1 MiB and more get pages of their
+// own, advised to be huge pages (first touch of fresh memory is three times as fast with them). Memory is not zeroed
+// unless the function says so. One thread at a time.
 #ifndef ARENA_H
 #define ARENA_H
 
@@ -20,11 +20,11 @@ struct arena {
 };
 
 void arena_start(struct arena *arena, struct call_control *call);
-void arena_start_large(struct arena *arena, struct call_control *call); // where some megabytes will be needed
+void arena_start_large(struct arena *arena, struct call_control *call); // starts with a block of the largest size
 void arena_free(struct arena *arena); // frees everything; the arena is empty and usable again
 
-// Aligned to 64 bytes for 64 bytes and more, else to 16. NULL when memory or the watch's budget is out (the reason is
-// found by call_memory_error). Size 0 gives a valid pointer.
+// Aligned to 64 bytes for 64 bytes and more, else to 16. NULL when memory or the call's budget is exhausted
+// (call_memory_error reports which). Size 0 gives a valid pointer.
 void *arena_alloc(struct arena *arena, size_t bytes);
 void *arena_alloc_zeroed(struct arena *arena, size_t bytes);
 

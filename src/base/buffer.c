@@ -1,4 +1,4 @@
-// buffer.c: memory that a device keeps from frame to frame and only ever grows.
+// buffer.c: memory that a device keeps from frame to frame, and that only grows.
 #include "buffer.h"
 
 #include "pages.h"
@@ -7,30 +7,30 @@
 
 bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *call, lam_error *error)
 {
-    if (bytes <= buffer->room)
+    if (bytes <= buffer->capacity)
         return true;
-    size_t old = buffer->room;
+    size_t old = buffer->capacity;
     // Grow by half again at least, so that slowly growing frames do not allocate each time.
-    size_t room = bytes > old + old / 2 ? bytes : old + old / 2;
+    size_t capacity = bytes > old + old / 2 ? bytes : old + old / 2;
     buffer_free(buffer);
     if (call)
         call_refund(call, old);
-    if (call && !call_charge(call, room))
-        return call_memory_error(call, room, error);
-    buffer->data = pages_get(room, &buffer->room);
+    if (call && !call_charge(call, capacity))
+        return call_memory_error(call, capacity, error);
+    buffer->data = pages_get(capacity, &buffer->capacity);
     if (!buffer->data) {
         if (call)
-            call_refund(call, room);
-        buffer->room = 0;
-        return call_memory_error(call, room, error);
+            call_refund(call, capacity);
+        buffer->capacity = 0;
+        return call_memory_error(call, capacity, error);
     }
     if (call)
-        call_charge(call, buffer->room - room);
+        call_charge(call, buffer->capacity - capacity);
     return true;
 }
 
 void buffer_free(struct buffer *buffer)
 {
-    pages_free(buffer->data, buffer->room);
+    pages_free(buffer->data, buffer->capacity);
     *buffer = (struct buffer){0};
 }

@@ -1,4 +1,4 @@
-// buffer.h: memory that a device keeps from frame to frame and only ever grows.
+// buffer.h: memory that a device keeps from frame to frame, and that only grows.
 #ifndef BUFFER_H
 #define BUFFER_H
 
@@ -6,11 +6,11 @@
 
 struct buffer {
     void *data; // at least 64-byte aligned
-    size_t room;
+    size_t capacity;
 };
 
-// Makes sure of `bytes`; the old contents are lost when it grows. Charges the watch for the growth. False: fills the
-// error.
+// Ensures a capacity of `bytes`; the contents are lost when the buffer grows. Charges the growth to the call. False: the
+// error is filled.
 bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *call, lam_error *error);
 void buffer_free(struct buffer *buffer);
 

@@ -7,7 +7,7 @@
 struct call_control {
     lam_control control; // a copy; zero: no bounds
     uint64_t start_ns;
-    uint64_t memory_used; // touched atomically
+    uint64_t memory_used; // accessed atomically
     int over_memory;      // set once a request was refused by the budget
     bool unknown_field;   // the control has a field that this version does not know
     double last_share;
@@ -20,17 +20,17 @@ void call_start(struct call_control *call, const lam_control *control);
 // any thread. `call` may be NULL.
 bool call_should_continue(struct call_control *call);
 
-// Fills the error with the reason why call_should_continue said false, and returns false.
+// Fills the error with the reason why call_should_continue returned false, and returns false.
 bool call_error(struct call_control *call, lam_error *error);
 
-// Charges and gives back memory; false: over the budget. Any thread.
+// Charge and refund memory; false: over the budget. Any thread.
 bool call_charge(struct call_control *call, size_t bytes);
 void call_refund(struct call_control *call, size_t bytes);
 
-// The error for an arena_alloc that returned NULL: over the budget, or the machine's memory is out. Returns false.
+// Reports an allocation that failed: over the budget, or out of memory. Returns false.
 bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error);
 
-// Tells the progress callback; from the calling thread only. Shares never go backwards.
+// Calls the progress callback; from the calling thread only. Reported shares never decrease.
 void call_progress(struct call_control *call, double share, const char *step);
 
 // Monotonic time.

@@ -1,4 +1,4 @@
-// file.c: whole files in, whole files out.
+// file.c: reads and writes whole files.
 #include "file.h"
 
 #include "fail.h"
@@ -78,7 +78,7 @@ struct reading {
     size_t size;
     struct call_control *call;
     int failed;     // an errno; −1: the file ended early
-    size_t reached; // where it ended
+    size_t reached; // offset at which it ended
 };
 
 static void read_piece(void *user, size_t index, int thread)
@@ -94,7 +94,7 @@ static void read_piece(void *user, size_t index, int thread)
         if (got > 0) {
             at += (size_t)got;
         } else if (got == 0 || errno != EINTR) {
-            // Of several pieces that fail the first to say so is told.
+            // Of several failing pieces the first to fail is reported.
             int none = 0, reason = got == 0 ? -1 : errno;
             if (__atomic_compare_exchange_n(&reading->failed, &none, reason, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
                 reading->reached = at;
@@ -124,20 +124,19 @@ static bool read_sized(int file, const char *path, size_t size, struct pool *poo
     return ok;
 }
 
-// Waits until a stream can be read; false once the watch says stop. A pipe whose writer has not come yet is waited for
-// too.
+// Waits until a stream can be read, or the writer of a pipe appears; false once the call must end.
 static bool wait_readable(int file, struct call_control *call)
 {
     while (call_should_continue(call)) {
         struct pollfd ready = {.fd = file, .events = POLLIN};
         int count = poll(&ready, 1, 50);
         if (count > 0 || (count < 0 && errno != EINTR))
-            return true; // the read tells what it is
+            return true; // the read will report the error
     }
     return false;
 }
 
-// Twice the room, with what was read so far.
+// Doubles the capacity and keeps the bytes read so far.
 static bool grow(struct file_bytes *bytes, size_t used, struct call_control *call, lam_error *error)
 {
     struct file_bytes larger;
@@ -149,16 +148,16 @@ static bool grow(struct file_bytes *bytes, size_t used, struct call_control *cal
     return true;
 }
 
-// A pipe, a terminal, a device: read until it ends. It may have no end (/dev/zero).
+// Reads a pipe, a terminal or a device until its end, which may never come (/dev/zero).
 static bool read_stream(int file, const char *path, struct call_control *call, struct file_bytes *out, lam_error *error)
 {
-    size_t used = 0, most = pages_of_machine() / 4;
+    size_t used = 0, max = pages_of_machine() / 4;
     bool ok = hold(1 << 20, call, out, error), ended = false;
     while (ok && !ended) {
         if (used == out->size)
-            ok = used >= most
+            ok = used >= max
                      ? fail(error, LAM_LIMIT, "%s: has no end within %.1f GB, a quarter of this machine's memory", path,
-                            (double)most / 1e9)
+                            (double)max / 1e9)
                      : grow(out, used, call, error);
         if (ok && !wait_readable(file, call))
             ok = call_error(call, error);
@@ -175,7 +174,7 @@ static bool read_stream(int file, const char *path, struct call_control *call, s
         file_release(out);
         return false;
     }
-    // What is behind the last byte stays zero; what was charged for it is given back.
+    // Bytes after the last one stay zero; their charge is refunded.
     if (call)
         call_refund(call, out->size - used);
     out->size = used;
@@ -267,7 +266,7 @@ static bool write_direct(const char *path, const void *data, size_t size, lam_er
     return ok || fail_system(error, LAM_CANNOT_WRITE, path, "write");
 }
 
-// A new file beside `target` under a name that nothing has. Created like any file, so the umask decides its mode.
+// Creates a file beside `target` under an unused name, with the mode that the umask gives.
 static int open_temporary(const char *target, char **name)
 {
     for (int attempt = 0; attempt < 100; attempt++) {
@@ -289,7 +288,7 @@ static int open_temporary(const char *target, char **name)
     return -1;
 }
 
-// Writes the temporary file and moves it over the target. False with errno set; then it is gone again.
+// Writes the temporary file and renames it over the target. False with errno set; the temporary file is then removed.
 static bool replace(const char *target, const struct stat *existing, const void *data, size_t size)
 {
     char *temporary = NULL;
@@ -322,7 +321,7 @@ bool file_write(const char *path, const void *data, size_t size, lam_error *erro
     if (exists && !S_ISREG(about.st_mode))
         return write_direct(path, data, size, error);
 
-    // A link keeps pointing where it points: the file behind it is replaced.
+    // A symbolic link is kept: the file that it points to is replaced.
     char *target = exists ? realpath(path, NULL) : strdup(path);
     bool ok = target && (!exists || access(target, W_OK) == 0) && replace(target, exists ? &about : NULL, data, size);
     if (!ok)

@@ -1,4 +1,4 @@
-// file.h: whole files in, whole files out.
+// file.h: reads and writes whole files.
 #ifndef FILE_H
 #define FILE_H
 
@@ -13,27 +13,27 @@ enum { FILE_PADDING = 64 };
 struct file_bytes {
     const uint8_t *data;
     size_t size;
-    size_t held;               // bytes of address space behind data; 0: not owned
-    struct call_control *call; // was charged for them, and is refunded; may be NULL
+    size_t held;               // bytes of address space at `data`; 0: not owned
+    struct call_control *call; // charged for them, refunded at release; may be NULL
 };
 
 // Reads a file, or standard input for "-". `pool` and `call` may be NULL. Errors: LAM_CANNOT_READ (no such file, a
-// directory, a read error, it became shorter meanwhile), LAM_LIMIT, LAM_CANCELLED.
+// directory, a read error, the file was shortened meanwhile), LAM_LIMIT, LAM_CANCELLED.
 bool file_read(const char *path, struct pool *pool, struct call_control *call, struct file_bytes *out,
                lam_error *error);
 
-// A large file that is read in parts, by any thread.
+// A large file that is read in parts, from any thread.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
 struct file_parts {
     int file;
     size_t size;
 };
-// Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD. False: it is none, or cannot be read.
+// Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD. False: the file is smaller, or cannot be read.
 bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out);
 bool file_read_part(const struct file_parts *parts, size_t offset, void *to, size_t bytes);
 void file_close_parts(struct file_parts *parts);
 
-// A padded copy of memory, as file_read would give it.
+// A padded copy of memory, as file_read returns it.
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 
 void file_release(struct file_bytes *bytes);
@@ -42,7 +42,7 @@ void file_release(struct file_bytes *bytes);
 // of an existing file. A path that is not a regular file (/dev/stdout, a pipe) is written directly. LAM_CANNOT_WRITE.
 bool file_write(const char *path, const void *data, size_t size, lam_error *error);
 
-// The part of a path behind the last '/', and that part's ending behind the last '.' ("" if none).
+// The last component of a path, and that component's ending after its last '.' ("" if none).
 const char *path_name(const char *path);
 const char *path_ending(const char *path);
 

@@ -28,7 +28,7 @@ static inline uint64_t float_state_enter(void)
 }
 static inline void float_state_leave(uint64_t saved) { __asm__ volatile("msr fpcr, %0" : : "r"(saved)); }
 #else
-// WebAssembly has one state only, the one we want.
+// WebAssembly has exactly this state and no other.
 static inline uint64_t float_state_enter(void) { return 0; }
 static inline void float_state_leave(uint64_t saved) { (void)saved; }
 #endif

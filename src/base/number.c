@@ -1,6 +1,6 @@
 // number.c: numbers in text, correctly rounded, whatever the locale.
 //
-// Three ways, each used where the one before cannot be sure of the last bit:
+// Three methods, each used where the previous one cannot guarantee the last bit:
 // 1. Few digits and a small power of ten: one exact operation (Clinger, "How to Read Floating Point Numbers
 //    Accurately", 1990); for floats a product in double, unless it lies near the middle between two floats.
 // 2. One or two 64×64-bit products with a 128-bit power of five (Lemire, "Number Parsing at a Gigabyte per
@@ -19,13 +19,13 @@ struct decimal {
     const uint8_t *first, *stop; // the run of digits and '.'
 };
 
-// What is rounded to.
+// A floating-point format to round to.
 struct format {
-    int mantissa_bits;           // stored ones
-    int least_exponent;          // of the exponent field 0, minus one: −bias
-    int infinite;                // the exponent field of infinity
-    int even_first, even_last;   // powers of ten at which a product can lie in the middle between two
-    int least_power, most_power; // below: 0, above: infinity, whatever 19 digits stand before
+    int mantissa_bits;         // stored bits
+    int min_exponent_field;    // exponent of field 0, minus one: −bias
+    int infinite;              // the exponent field of infinity
+    int even_first, even_last; // powers of ten at which a product can lie in the middle between two
+    int min_power, max_power;  // below: 0, above: infinity, for any 19 digits
 };
 static const struct format format_double = {52, -1023, 0x7ff, -4, 23, -342, 308};
 static const struct format format_float = {23, -127, 0xff, -17, 10, -65, 38};
@@ -49,7 +49,7 @@ static const uint8_t *skip_digits(const uint8_t *at, const uint8_t *end, uint64_
     return at;
 }
 
-// The first 19 significant digits of a run that has more.
+// The first 19 significant digits of a longer run.
 static void take_leading(struct decimal *d, int64_t exponent_behind_run, const uint8_t *point)
 {
     const uint8_t *at = d->first;
@@ -64,8 +64,8 @@ static void take_leading(struct decimal *d, int64_t exponent_behind_run, const u
         d->digits = d->digits * 10 + (unsigned)(*at - '0');
         taken++;
     }
-    // Digits that were not taken: those before the point count as powers of ten, those behind it were counted
-    // as taken.
+    // Dropped digits: before the point each counts as a power of ten; after the point the count of taken digits
+    // already covers them.
     int64_t left = d->stop - at;
     if (point && at <= point)
         left--; // the point itself
@@ -76,7 +76,7 @@ static void take_leading(struct decimal *d, int64_t exponent_behind_run, const u
     }
 }
 
-// Reads sign, digits and exponent. Returns the place behind, NULL if there are no digits.
+// Reads sign, digits and exponent. Returns the position after them, NULL if there are no digits.
 static const uint8_t *scan(const uint8_t *at, const uint8_t *end, struct decimal *d)
 {
     *d = (struct decimal){0};
@@ -117,7 +117,7 @@ static const uint8_t *scan(const uint8_t *at, const uint8_t *end, struct decimal
     return at;
 }
 
-// --- the second way
+// --- the second method
 
 struct wide {
     uint64_t high, low;
@@ -129,15 +129,15 @@ static struct wide multiply(uint64_t a, uint64_t b)
     return (struct wide){(uint64_t)(product >> 64), (uint64_t)product};
 }
 
-// The bits (without sign) nearest to digits · 10^power. False: not sure.
+// The bits (without sign) nearest to digits · 10^power. False: the last bit is not certain.
 static bool round_product(uint64_t digits, int64_t power, const struct format *format, uint64_t *bits)
 {
     const uint64_t infinity = (uint64_t)format->infinite << format->mantissa_bits;
-    if (digits == 0 || power < format->least_power) {
+    if (digits == 0 || power < format->min_power) {
         *bits = 0;
         return true;
     }
-    if (power > format->most_power) {
+    if (power > format->max_power) {
         *bits = infinity;
         return true;
     }
@@ -160,7 +160,7 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
     int shift = top + 64 - format->mantissa_bits - 3;
     uint64_t mantissa = product.high >> shift; // one bit more than is kept
     // 217706/2^16 is log2(10), exact enough to give the floor for every power in the table.
-    int field = (int)((217706 * power) >> 16) + 63 + top - zeros - format->least_exponent;
+    int field = (int)((217706 * power) >> 16) + 63 + top - zeros - format->min_exponent_field;
     uint64_t hidden = UINT64_C(1) << format->mantissa_bits;
     if (field <= 0) { // denormal
         if (1 - field >= 64) {
@@ -172,7 +172,7 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
         *bits = mantissa; // one that became the smallest normal number carries into the exponent by itself
         return true;
     }
-    // In the middle exactly: round to even, not up.
+    // Exactly in the middle: round to even.
     if (product.low <= 1 && power >= format->even_first && power <= format->even_last && (mantissa & 3) == 1 &&
         mantissa << shift == product.high)
         mantissa &= ~UINT64_C(1);
@@ -185,7 +185,7 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
     return true;
 }
 
-// --- the third way
+// --- the third method
 
 // Unsigned big integers, lowest limb first. 770 digits times 10^308, or 10^(342 + 770) and its multiples by
 // 2^64, fit.
@@ -253,9 +253,9 @@ static void big_subtract(struct big *a, const struct big *b) // a ≥ b
         a->count--;
 }
 
-// All the digits of the run, up to DIGITS_MAX significant ones: no middle between two doubles has more than
-// 767, so what comes behind only matters by being there, which one more digit says. Returns the power of ten
-// it is to be multiplied by.
+// All the digits of the run, up to DIGITS_MAX significant ones: no midpoint between two doubles has more
+// than 767, so later digits matter only by their presence, which one more digit represents. Returns the power of ten to
+// multiply by.
 static int64_t big_digits(const struct decimal *d, struct big *a)
 {
     const uint8_t *at = d->first;
@@ -294,11 +294,11 @@ static uint64_t round_exactly(const struct decimal *d, const struct format *form
 
     // Scale so that the quotient's last bit is the last bit of the result.
     int precision = format->mantissa_bits + 1;
-    int least = format->least_exponent + 2 - precision; // exponent of a denormal's last bit
-    int exponent = big_bits(&over) - big_bits(&under);  // of the number's first bit, or one more
-    int last = exponent - precision;                    // so the quotient has `precision` bits, or one more
-    if (last < least)
-        last = least;
+    int min_exponent = format->min_exponent_field + 2 - precision; // exponent of a denormal's last bit
+    int exponent = big_bits(&over) - big_bits(&under);             // of the number's first bit, or one more
+    int last = exponent - precision;                               // so the quotient has `precision` bits, or one more
+    if (last < min_exponent)
+        last = min_exponent;
     if (last > 0)
         big_shift_left(&under, last);
     else
@@ -342,7 +342,7 @@ static uint64_t round_exactly(const struct decimal *d, const struct format *form
         quotient = hidden;
         last++;
     }
-    int field = last - least + 1;
+    int field = last - min_exponent + 1;
     if (field >= format->infinite)
         return (uint64_t)format->infinite << format->mantissa_bits;
     return (uint64_t)field << format->mantissa_bits | (quotient & ~hidden);
@@ -357,7 +357,7 @@ static uint64_t round_decimal(const struct decimal *d, const struct format *form
     return round_exactly(d, format);
 }
 
-// --- what the header promises
+// --- the public functions
 
 // "inf", "infinity", "nan", "nan(…)", in any case. `*bits` is the mantissa's top bit for a NaN, 0 for infinity.
 static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, bool *negative, bool *nan)
@@ -410,22 +410,22 @@ const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out)
     static const double powers[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                       1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     struct decimal d;
-    const uint8_t *behind = scan(at, end, &d);
-    if (!behind) {
+    const uint8_t *after = scan(at, end, &d);
+    if (!after) {
         bool negative, nan;
-        behind = scan_special(at, end, &negative, &nan);
-        if (behind)
+        after = scan_special(at, end, &negative, &nan);
+        if (after)
             *out = double_of(nan ? UINT64_C(0x7ff8) << 48 : UINT64_C(0x7ff0) << 48, negative);
-        return behind;
+        return after;
     }
     if (d.digits <= UINT64_C(1) << 53 && d.exponent >= -22 && d.exponent <= 22 && !d.truncated) {
         double x = (double)d.digits;
         x = d.exponent < 0 ? x / powers[-d.exponent] : x * powers[d.exponent];
         *out = d.negative ? -x : x;
-        return behind;
+        return after;
     }
     *out = double_of(round_decimal(&d, &format_double), d.negative);
-    return behind;
+    return after;
 }
 
 const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out)
@@ -437,23 +437,23 @@ const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out)
                                     1e-4,  1e-3,  1e-2,  1e-1,  1e0,   1e1,   1e2,   1e3,   1e4,   1e5,   1e6,   1e7,
                                     1e8,   1e9,   1e10,  1e11,  1e12,  1e13,  1e14,  1e15,  1e16,  1e17,  1e18};
     struct decimal d;
-    const uint8_t *behind = scan(at, end, &d);
-    if (!behind) {
+    const uint8_t *after = scan(at, end, &d);
+    if (!after) {
         bool negative, nan;
-        behind = scan_special(at, end, &negative, &nan);
-        if (behind)
+        after = scan_special(at, end, &negative, &nan);
+        if (after)
             *out = float_of(nan ? 0x7fc00000u : 0x7f800000u, negative);
-        return behind;
+        return after;
     }
     if (d.exponent >= LEAST && d.exponent <= MOST) {
         double x = (double)d.digits * powers[d.exponent - LEAST];
         if (number_rounds_surely(x)) {
             *out = (float)(d.negative ? -x : x);
-            return behind;
+            return after;
         }
     }
     *out = float_of(round_decimal(&d, &format_float), d.negative);
-    return behind;
+    return after;
 }
 
 const uint8_t *number_int(const uint8_t *at, const uint8_t *end, int64_t *out)
@@ -462,10 +462,10 @@ const uint8_t *number_int(const uint8_t *at, const uint8_t *end, int64_t *out)
     if (at < end && (*at == '-' || *at == '+'))
         negative = *at++ == '-';
     const uint8_t *first = at;
-    uint64_t value = 0, most = (uint64_t)INT64_MAX + negative;
+    uint64_t value = 0, max = (uint64_t)INT64_MAX + negative;
     for (; at < end && (unsigned)(*at - '0') < 10; at++) {
         unsigned digit = (unsigned)(*at - '0');
-        if (value > (most - digit) / 10)
+        if (value > (max - digit) / 10)
             return NULL;
         value = value * 10 + digit;
     }

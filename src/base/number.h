@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 // Reads a decimal number (sign, digits, '.', exponent; also inf, nan, as C writes them) at `at`, never looking at or
-// past `end`. Returns the place behind it, NULL if there is no number. The result is the double nearest to the text,
+// past `end`. Returns the position after the number, NULL if there is none. The result is the double nearest to the text,
 // ties to even.
 const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out);
 

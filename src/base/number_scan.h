@@ -1,5 +1,5 @@
-// number_scan.h: the digits of a number in text, eight at a time, and a short cut for the numbers that model
-// files are full of. Everything that is not short and plain goes on to number.c.
+// number_scan.h: the digits of a number in text, eight at a time, and a fast path for the short numbers that fill model
+// files. Everything else goes to number.c.
 #ifndef NUMBER_SCAN_H
 #define NUMBER_SCAN_H
 
@@ -19,7 +19,7 @@ static inline uint64_t number_load8(const uint8_t *at)
 }
 
 // How many of eight bytes are digits before the first that is not: 0 … 8. A byte below '0' borrows and one
-// above '9' carries, and only spoils bytes behind it.
+// above '9' carries, which affects later bytes only.
 static inline unsigned number_digit_count(uint64_t eight)
 {
     uint64_t other = ((eight + 0x4646464646464646u) | (eight - 0x3030303030303030u)) & 0x8080808080808080u;
@@ -29,7 +29,7 @@ static inline unsigned number_digit_count(uint64_t eight)
 // The value of the first `count` of eight bytes, all digits.
 static inline uint64_t number_digits_value(uint64_t eight, unsigned count)
 {
-    // Moved to the end, so that zeros lead; in two steps, since a shift by 64 means nothing.
+    // Shifted to the end, so that zeros lead; in two steps, since a shift by 64 is undefined.
     uint64_t v = (eight - 0x3030303030303030u) << 4 * (8 - count) << 4 * (8 - count);
     // Neighbours are joined, ten times the first plus the second: 8 digits to 4 pairs to 2 quads to 1 number.
     // One product does both, since 10 · 2⁸ + 1 puts ten times the lower byte under the upper one.
@@ -61,8 +61,8 @@ static const uint64_t number_integer_powers[20] = {
     10000000000000000000u,
 };
 
-// Whether a double that is off by at most 4 units in its last place may be rounded to float as it stands: it
-// may not lie near the middle between two floats. For |x| from 2^-126 to 2^127 only.
+// Whether a double with an error of at most 4 units in its last place rounds to the right float: true unless it lies
+// near the midpoint of two floats. For |x| from 2^-126 to 2^127 only.
 static inline bool number_rounds_surely(double x)
 {
     uint64_t bits;
@@ -71,12 +71,12 @@ static inline bool number_rounds_surely(double x)
     return ((bits & 0x1fffffff) - 0x0ffffffc) > 8;
 }
 
-// Each is rounded once.
+// Each power is rounded once.
 static const double number_tenths[16] = {1e0,  1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
                                          1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
 
-// As number_float, quick for [-]ddd.ddd with up to 7 + 15 digits. At least 24 bytes must be readable at `at`,
-// and a byte that is no part of a number must follow the number before `end`.
+// As number_float, fast for [-]ddd.ddd with up to 7 + 15 digits. At least 24 bytes must be readable at `at`, and a byte
+// that is not part of a number must follow the number before `end`.
 static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t *end, float *out)
 {
     bool negative = *at == '-';

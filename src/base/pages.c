@@ -1,4 +1,4 @@
-// pages.c: large blocks straight from the system, in huge pages where it gives them.
+// pages.c: large blocks from the operating system, in huge pages where available.
 #include "pages.h"
 
 #include <stdint.h>
@@ -53,8 +53,8 @@ void *pages_get_sparse(size_t bytes, size_t *held)
 }
 
 // A block of at least one huge page is aligned to it: the kernel then backs it with huge pages from the first touch,
-// which costs a third of touching the same memory in small pages. What such a block has behind its last huge page gets
-// one too, quicker than hundreds of small ones, where the block becomes little larger by it.
+// which costs a third of touching the same memory in small pages. The rest after the last whole huge page
+// gets one too, which is faster than hundreds of small ones, where that makes the block only a little larger.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)

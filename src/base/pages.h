@@ -1,26 +1,26 @@
-// pages.h: large blocks straight from the system, in huge pages where it gives them.
+// pages.h: large blocks from the operating system, in huge pages where available.
 #ifndef PAGES_H
 #define PAGES_H
 
 #include <stddef.h>
 
-// Whether memory is taken only when it is touched, so that much more may be asked for than will be used.
+// Whether the system commits memory on first touch, so that reserving much more than is used costs nothing.
 #if defined(__wasm__)
 enum { PAGES_WHEN_TOUCHED = 0 };
 #else
 enum { PAGES_WHEN_TOUCHED = 1 };
 #endif
 
-// Fresh zeroed memory, page-aligned. `held` gets the size to give back. NULL when there is none.
+// Fresh zeroed memory, page-aligned. `held` receives the size to free. NULL: out of memory.
 void *pages_get(size_t bytes, size_t *held);
-// The same in small pages: where perhaps little will be touched.
+// The same in small pages, for blocks of which little may be touched.
 void *pages_get_sparse(size_t bytes, size_t *held);
 void pages_free(void *pages, size_t held);
-// Gives back what lies behind the first `bytes`, where that can be done.
+// Releases the pages after the first `bytes`, where the system allows that.
 void pages_trim(void *pages, size_t *held, size_t bytes);
 
-// Bytes of memory that the machine has; SIZE_MAX where it does not tell. The system lends more than there is and kills
-// the process that uses it: what asks for a lot asks this first.
+// Bytes of the machine's memory; SIZE_MAX: unknown. The system overcommits and kills a process that uses too much:
+// check this before a large allocation.
 size_t pages_of_machine(void);
 
 #endif

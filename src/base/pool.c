@@ -1,4 +1,4 @@
-// pool.c: threads that share loops.
+// pool.c: a thread pool for parallel loops.
 #include "pool.h"
 
 #include "float_state.h"
@@ -7,7 +7,7 @@
 
 #if defined(__wasm__)
 
-// One thread: the page has no threads to lend.
+// WebAssembly: one thread.
 struct pool {
     int threads;
 };
@@ -44,7 +44,7 @@ struct pool {
     int threads; // the caller included
     pthread_mutex_t lock;
     pthread_cond_t work, done;
-    unsigned round; // one up for each pool_run
+    unsigned round; // incremented by each pool_run
     int busy;       // workers that have not yet finished the round
     bool closing;
 
@@ -52,7 +52,7 @@ struct pool {
     pool_task *task;
     void *user;
     size_t count;
-    size_t next; // touched atomically
+    size_t next; // accessed atomically
 
     struct worker {
         struct pool *pool;
@@ -115,7 +115,7 @@ struct pool *pool_make(int threads)
     pthread_cond_init(&pool->work, NULL);
     pthread_cond_init(&pool->done, NULL);
     pool->threads = 1;
-    // Signals belong to the program's own threads.
+    // Signals are left to the program's own threads.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);

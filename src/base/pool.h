@@ -1,4 +1,4 @@
-// pool.h: threads that share loops.
+// pool.h: a thread pool for parallel loops.
 #ifndef POOL_H
 #define POOL_H
 
@@ -6,8 +6,8 @@
 
 struct pool;
 
-// Makes a pool of `threads` threads, the caller included (0: one for each processor this process may use). Fewer are
-// made where the system refuses more; at least the caller works. NULL only when memory is out.
+// Makes a pool of `threads` threads, the caller included (0: one for each processor this process may use). Fewer
+// start where the system refuses more; the caller always works. NULL: out of memory.
 struct pool *pool_make(int threads);
 void pool_free(struct pool *pool);
 int pool_threads(const struct pool *pool); // NULL: 1
@@ -15,7 +15,7 @@ int pool_threads(const struct pool *pool); // NULL: 1
 // Calls task(user, index, thread) once for each index in [0, count), spread over the pool; returns when all are done.
 // `thread` is 0 … pool_threads − 1 and names the thread's own scratch. Indices are handed out in order, one at a time,
 // so cut the work into some hundred pieces of a size that does not depend on the thread count. Every thread runs with
-// the library's floating-point state (float_state.h). `pool` NULL: the caller does it all. One pool_run at a time per
+// the library's floating-point state (float_state.h). `pool` NULL: the caller runs them all. One pool_run at a time per
 // pool.
 typedef void pool_task(void *user, size_t index, int thread);
 void pool_run(struct pool *pool, size_t count, pool_task *task, void *user);

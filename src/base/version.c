@@ -1,4 +1,4 @@
-// version.c: what this library is and what it was built with.
+// version.c: the library's version and build options.
 #include <lambent/base.h>
 
 #if defined(__clang__)
@@ -27,7 +27,7 @@
 
 const char *lam_version(void) { return LAM_VERSION_TEXT; }
 
-// What the build file knows: libraries and instruction sets.
+// From the build file: libraries and instruction sets.
 #ifndef BUILT_WITH
 #define BUILT_WITH ""
 #endif

@@ -1,4 +1,4 @@
-// cube_lookup.h: LANES directions to colours of a cube map. Include with LANES defined (lanes.h).
+// cube_lookup.h: looks up LANES directions in a cube map. Include with LANES defined (lanes.h).
 #ifndef CUBE_LOOKUP_H
 #define CUBE_LOOKUP_H
 
@@ -9,14 +9,15 @@ struct cube_color {
     num r, g, b;
 };
 
-// Where a direction meets the cube: in texels of the bordered face, ½ … size + 1½. The zero vector gives some place.
+// The point where a direction meets the cube, in texels of the bordered face, ½ … size + 1½. The zero vector gives an
+// arbitrary point.
 struct cube_place {
     inum face;
     num s, t;
 };
 
-// OpenGL's table (4.6, 8.13): the axis with the largest size names the face. At equal sizes either would do, the filter
-// being continuous.
+// OpenGL's table (4.6, 8.13): the axis with the largest magnitude selects the face. Of equal magnitudes either serves,
+// since the filter is continuous.
 LANE_FN struct cube_place cube_place(num x, num y, num z, int size)
 {
     num ax = absolute(x), ay = absolute(y), az = absolute(z);
@@ -27,12 +28,12 @@ LANE_FN struct cube_place cube_place(num x, num y, num z, int size)
     num down = pick(on_y, pick(minus, -z, z), -y);
     inum axis = ipick(on_x, inum_of(LAM_FACE_PX), ipick(on_y, inum_of(LAM_FACE_PY), inum_of(LAM_FACE_PZ)));
     float half = 0.5f * (float)size, middle = half + 0.5f;
-    num least = num_of(0.5f), most = num_of((float)size + 0.5f);
+    num min = num_of(0.5f), max = num_of((float)size + 0.5f);
     struct cube_place place;
     place.face = wrap_add(axis, ipick(minus, inum_of(1), inum_of(0)));
     // Clamped with NaN, 0/0, to the middle of the border.
-    place.s = min_of(max_of(across / major * half + middle, least), most);
-    place.t = min_of(max_of(down / major * half + middle, least), most);
+    place.s = min_of(max_of(across / major * half + middle, min), max);
+    place.t = min_of(max_of(down / major * half + middle, min), max);
     return place;
 }
 

@@ -1,4 +1,4 @@
-// cube_map.c: a cube map in memory: its borders, its holders, looking into it.
+// cube_map.c: a cube map in memory: borders, reference counting, lookup.
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
@@ -52,8 +52,8 @@ void cube_direction(int face, double major, double across, double down, double o
 }
 
 // The texel beside the edge on the neighbouring face. A face is taken from −size to size, so that texel i lies at the
-// odd number 2i + 1 − size; across the edge one axis goes on inwards as far as the other came outwards. All numbers are
-// whole.
+// odd number 2i + 1 − size; across the edge one axis continues inwards as far as the other came outwards. All numbers
+// are integers.
 static const float *neighbour(const struct lam_environment *cube, int face, int s, int t)
 {
     int n = cube->size;
@@ -74,7 +74,7 @@ static const float *neighbour(const struct lam_environment *cube, int face, int 
             at[i] = ((int)(unit[i][0] * d[0] + unit[i][1] * d[1] + unit[i][2] * d[2]) + n - 1) / 2;
         return cube_texel(cube, other, at[0], at[1]);
     }
-    return cube_texel(cube, face, 0, 0); // not reached: one axis is at ±size
+    return cube_texel(cube, face, 0, 0); // unreachable: one axis is at ±size
 }
 
 static void close_corner(struct lam_environment *cube, int face, int s, int t)

@@ -12,7 +12,7 @@
 enum { CUBE_SIDE_MOST = 8192 };
 
 struct lam_environment {
-    int references; // who holds it; touched atomically
+    int references; // accessed atomically
     int size;       // texels on a face's side, border not counted
     float *texels;  // 6 faces of (size + 2)² times r, g, b; row t = −1 first
 };
@@ -33,7 +33,7 @@ static inline size_t cube_bytes(int size)
     return ((size_t)size + 2) * ((size_t)size + 2) * LAM_FACE_COUNT * 3 * sizeof(float);
 }
 
-// lam_environment_load_faces and lam_environment_load within a call that has its watch already.
+// lam_environment_load_faces and lam_environment_load within a running call.
 struct call_control;
 struct lam_environment *environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
                                                struct call_control *call, lam_error *error);
@@ -46,7 +46,7 @@ void cube_close(struct lam_environment *cube);
 // The direction of a point of a face: major · axis + across · s + down · t (OpenGL's table, read backwards).
 void cube_direction(int face, double major, double across, double down, double out[3]);
 
-// One more holder of the same cube.
+// Adds a reference.
 struct lam_environment *cube_share(const struct lam_environment *cube);
 
 #endif

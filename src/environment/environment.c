@@ -11,7 +11,7 @@
 
 // --- memory
 
-// Takes it from the call's budget; `call` NULL: none.
+// Charges the call's budget; `call` may be NULL.
 static bool charge(struct call_control *call, size_t bytes, lam_error *error)
 {
     return !call || call_charge(call, bytes) || call_memory_error(call, bytes, error);
@@ -27,7 +27,7 @@ static struct lam_environment *cube_within(struct call_control *call, int size, 
     return charge(call, cube_bytes(size), error) ? cube_make(size, error) : NULL;
 }
 
-// --- pieces of pictures to faces
+// --- faces from parts of a picture
 
 // A square of a linear picture that becomes a face; `turned` by 180°.
 struct piece {
@@ -94,7 +94,7 @@ static struct lam_environment *cube_of_faces(const lam_image *faces, const char 
 
 // --- an equirectangular picture
 
-// The pixel at column x, row y: columns go round, rows end.
+// The pixel at column x, row y: columns wrap around, rows are clamped.
 static const float *pixel_at(const lam_image *image, int x, int y)
 {
     x = x < 0 ? x + image->width : x >= image->width ? x - image->width : x;
@@ -155,7 +155,7 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
     return cube;
 }
 
-// One linear picture, by the ratio of its sides.
+// From one linear picture, by its aspect ratio.
 static struct lam_environment *cube_of_image(const lam_image *image, const char *name, struct call_control *call,
                                              lam_error *error)
 {
@@ -183,9 +183,9 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
     return cube_of_pieces(pieces, names, size, call, error);
 }
 
-// --- pictures of the caller
+// --- the caller's pictures
 
-// A linear copy, freed by the caller; the picture itself stays as it is.
+// A linear copy, freed by the caller of this function.
 static bool linear_copy(const lam_image *image, lam_color_mode color, lam_image *out, lam_error *error)
 {
     *out = (lam_image){0};
@@ -227,7 +227,7 @@ lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mo
 
 // --- files
 
-// A file's picture, linear; its memory is the caller's to refund.
+// A file's picture, linear; the caller refunds its memory.
 static bool load_picture(lam_image *image, const char *path, lam_color_mode color, struct call_control *call,
                          lam_error *error)
 {

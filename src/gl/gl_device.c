@@ -242,15 +242,15 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
 static uint64_t gl_memory(const struct lam_device *base)
 {
     const struct gl_device *device = (const struct gl_device *)base;
-    uint64_t bytes = device->scratch.room + device->runs.room + device->pixels.room + device->surfaces.room +
+    uint64_t bytes = device->scratch.capacity + device->runs.capacity + device->pixels.capacity + device->surfaces.capacity +
                      device->environment_bytes + device->target_bytes;
     const struct gl_list *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++)
-        bytes += lists[i]->shadow.room + lists[i]->next.room + lists[i]->size;
+        bytes += lists[i]->shadow.capacity + lists[i]->next.capacity + lists[i]->size;
     for (int i = 0; i < device->mesh_count; i++)
         bytes += device->meshes[i].bytes;
     for (int i = 0; i < device->color_room; i++)
-        bytes += device->colors[i].bytes + device->colors[i].made_of.room + device->colors[i].now.room;
+        bytes += device->colors[i].bytes + device->colors[i].made_of.capacity + device->colors[i].now.capacity;
     return bytes;
 }
 

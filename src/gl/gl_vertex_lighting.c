@@ -193,7 +193,7 @@ static void light_side(const struct side *side, const struct mesh_vertex *from, 
 static bool note(struct gl_frame *f, struct gl_colors *row, size_t *size, const void *bytes, size_t count,
                  lam_error *error)
 {
-    if (*size + count > row->now.room) {
+    if (*size + count > row->now.capacity) {
         struct buffer grown = {0};
         if (!buffer_reserve(&grown, 2 * (*size + count), f->call, error))
             return false;

@@ -7,10 +7,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-bool confine(const char *name, char *out, size_t room)
+bool confine(const char *name, char *out, size_t capacity)
 {
     size_t length = strlen(name);
-    if (length >= room)
+    if (length >= capacity)
         return false;
     for (size_t i = 0; i <= length; i++)
         out[i] = name[i] == '\\' ? '/' : name[i];

@@ -1,4 +1,4 @@
-// formats.c: the table of model formats, and which of them a file has.
+// formats.c: the table of model formats, and the choice of a file's importer.
 #include "formats.h"
 
 #include "fail.h"
@@ -46,7 +46,7 @@ static bool has_ending(const struct importer *importer, const char *ending)
     return false;
 }
 
-// Content decides. Where it leaves a choice, or says nothing, the name's ending does.
+// Content decides. Where content is ambiguous, the name's ending does.
 const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
                                     lam_error *error)
 {
@@ -79,7 +79,7 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
     }
     if (best == 2)
         return by_content;
-    // Known to be something else, whatever its name says.
+    // Recognised as another kind of file, whatever its name.
     const struct unsupported_format *foreign = unsupported_format_of(file->data, file->size);
     if (foreign && foreign->is_model) {
         fail(error, LAM_UNSUPPORTED, "%s: this is %s, which this version cannot read yet; it reads %s", name,
@@ -92,7 +92,7 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
         return NULL;
     }
     if (by_ending)
-        return by_ending; // its reader says what is wrong
+        return by_ending; // its reader reports the error
     fail(error, LAM_CANNOT_READ, "%s: this is no model format known here; expected %s", name, format_list(list));
     return NULL;
 }
@@ -103,7 +103,7 @@ const struct importer *importer_for_stream(const char *name, const uint8_t *head
         const struct importer *importer = importer_for(name, NULL, wanted, NULL);
         return importer && importer->load_parts ? importer : NULL;
     }
-    for (int i = 0; i < IMPORTERS; i++) // those that have load_parts look at no more than the head
+    for (int i = 0; i < IMPORTERS; i++) // importers with load_parts probe the head only
         if (importers[i]->probe(head, importers[i]->load_parts ? size : FILE_HEAD) == 2)
             return importers[i]->load_parts ? importers[i] : NULL;
     return NULL;

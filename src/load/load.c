@@ -54,14 +54,14 @@ static struct lam_scene *start_scene(const struct import_source *source, const s
     return scene;
 }
 
-// What follows reading: where it came from, normals, extents.
+// The steps after reading: origin, normals, bounds.
 static bool finish(struct lam_scene *scene, const struct import_source *source, const struct importer *importer,
                    uint64_t start_ns, lam_error *error)
 {
     const lam_load_params *params = source->params;
     if (!check_not_empty(scene, source->name, error))
         return false;
-    // A scene file notes where each of its models came from by itself.
+    // A scene file records the origin of each of its models itself.
     struct scene_origin origin = {.normals = params->normals, .crease_angle_rad = params->crease_angle_rad};
     if (!importer->is_scene_file && source->path) {
         origin.path = arena_string(&scene->arena, source->path);
@@ -84,7 +84,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     return true;
 }
 
-// A large file of a layout that is read part by part; NULL: it is none, and nothing was said.
+// Streams a large file of a supported layout. NULL: not such a file; no error is reported.
 static struct lam_scene *load_parts(struct import_source *source, const struct importer **importer)
 {
     uint8_t *head = malloc(FILE_HEAD + FILE_PADDING);

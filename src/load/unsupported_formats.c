@@ -1,9 +1,9 @@
-// unsupported_formats.c: kinds of files that are told by their content, so that an error can name them.
+// unsupported_formats.c: kinds of files that are recognised by content, so that an error can name them.
 #include "unsupported_formats.h"
 
 #include <string.h>
 
-// A file is of the first kind whose `magic` stands at `offset`, and that holds `within` (NULL: nothing more).
+// A file is of the first kind whose `magic` is at `offset` and that contains `within` (NULL: no such test).
 static const struct kind {
     struct unsupported_format kind;
     unsigned offset, length;
@@ -54,7 +54,7 @@ static const struct kind {
     {{"a web page", false}, 0, 5, "<html", NULL},
 };
 
-// Text formats that begin anyhow: told by a first character behind white space, and a word further on.
+// Text formats without a magic number: recognised by the first character after white space, and a later word.
 static const struct text_kind {
     struct unsupported_format kind;
     char first;

@@ -1,4 +1,4 @@
-// unsupported_formats.h: kinds of files that are told by their content, so that an error can name them.
+// unsupported_formats.h: kinds of files that are recognised by content, so that an error can name them.
 #ifndef UNSUPPORTED_FORMATS_H
 #define UNSUPPORTED_FORMATS_H
 
@@ -8,10 +8,10 @@
 
 struct unsupported_format {
     const char *name; // "a PNG picture"
-    bool is_model;    // a 3D format, which the program could read one day
+    bool is_model;    // a 3D format
 };
 
-// NULL: not known.
+// NULL: not recognised.
 const struct unsupported_format *unsupported_format_of(const uint8_t *bytes, size_t size);
 
 #endif

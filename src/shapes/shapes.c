@@ -252,10 +252,10 @@ static bool build_round(const struct shape_request *request, lam_surface_fn *sur
 {
     slices = request->slices ? request->slices : slices;
     stacks = request->stacks ? request->stacks : stacks;
-    int least = v_closed ? 3 : 2; // fewer do not enclose anything
-    if (stacks < least)
+    int min = v_closed ? 3 : 2; // fewer do not enclose anything
+    if (stacks < min)
         return fail(request->error, LAM_BAD_ARGUMENT, "shape: stacks is %d, expected at least %d for this one", stacks,
-                    least);
+                    min);
     struct segments n = {slices, stacks};
     lam_parametric one = round_surface(surface, &n, stacks);
     one.v_closed = v_closed;

@@ -128,7 +128,7 @@ struct march {
 
     float *positions, *normals;
     uint32_t *indices;
-    size_t vertices, vertex_room, count, index_room; // count: of indices
+    size_t vertices, vertex_capacity, count, index_capacity; // count: of indices
 };
 
 static double coordinate(const struct march *m, int axis, int i)
@@ -202,18 +202,18 @@ static lam_vec3 normal_at(const struct march *m, lam_vec3 p)
 }
 
 // Room for one more vertex, or for the triangles of one more cell.
-static bool grow(struct march *m, void **list, size_t *room, size_t needed, size_t size)
+static bool grow(struct march *m, void **list, size_t *capacity, size_t needed, size_t size)
 {
-    if (needed <= *room)
+    if (needed <= *capacity)
         return true;
-    size_t larger = *room ? *room * 2 : 1 << 14;
+    size_t larger = *capacity ? *capacity * 2 : 1 << 14;
     void *copy = arena_array(m->scratch, larger, size);
     if (!copy)
         return call_memory_error(m->call, larger * size, m->error);
-    if (*room)
-        memcpy(copy, *list, *room * size);
+    if (*capacity)
+        memcpy(copy, *list, *capacity * size);
     *list = copy;
-    *room = larger;
+    *capacity = larger;
     return true;
 }
 
@@ -237,9 +237,9 @@ static bool add_vertex(struct march *m, lam_vec3 p, lam_vec3 at, uint32_t *corne
     }
     if (m->vertices >= SHAPE_VERTICES_MAX)
         return fail(m->error, LAM_LIMIT, "implicit surface: more than %d vertices", SHAPE_VERTICES_MAX);
-    size_t room = m->vertex_room;
-    if (!grow(m, (void **)&m->positions, &room, m->vertices + 1, 3 * sizeof(float)) ||
-        !grow(m, (void **)&m->normals, &m->vertex_room, m->vertices + 1, 3 * sizeof(float)))
+    size_t capacity = m->vertex_capacity;
+    if (!grow(m, (void **)&m->positions, &capacity, m->vertices + 1, 3 * sizeof(float)) ||
+        !grow(m, (void **)&m->normals, &m->vertex_capacity, m->vertices + 1, 3 * sizeof(float)))
         return false;
     lam_vec3 n = normal_at(m, p);
     float *normal = m->normals + 3 * m->vertices;
@@ -334,13 +334,13 @@ static double misfit(const struct march *m, uint32_t a, uint32_t b, uint32_t c)
     lam_vec3 first = v3((double)p[0][0], (double)p[0][1], (double)p[0][2]);
     lam_vec3 face = v3_unit(v3_cross(v3_sub(v3((double)p[1][0], (double)p[1][1], (double)p[1][2]), first),
                                      v3_sub(v3((double)p[2][0], (double)p[2][1], (double)p[2][2]), first)));
-    double least = 1;
+    double min = 1;
     for (int k = 0; k < 3; k++) {
         const float *n = m->normals + 3 * (size_t)ids[k];
         double cosine = v3_dot(face, v3((double)n[0], (double)n[1], (double)n[2]));
-        least = cosine < least ? cosine : least;
+        min = cosine < min ? cosine : min;
     }
-    return 1 - least;
+    return 1 - min;
 }
 
 static void add_triangle(struct march *m, uint32_t a, uint32_t b, uint32_t c)
@@ -407,7 +407,7 @@ static bool fill_layer(struct march *m, const struct cell_case *table, int below
             const struct cell_case *cell = &table[inside];
             if (!cell->loops)
                 continue;
-            if (!grow(m, (void **)&m->indices, &m->index_room, m->count + 3 * EDGES, sizeof(uint32_t)))
+            if (!grow(m, (void **)&m->indices, &m->index_capacity, m->count + 3 * EDGES, sizeof(uint32_t)))
                 return false;
             const uint8_t *edges = cell->edges;
             for (int loop = 0; loop < cell->loops; edges += cell->counts[loop++]) {

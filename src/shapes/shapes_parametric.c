@@ -87,14 +87,14 @@ static void frame_at(const struct tessellation *t, double u, double v, const lam
     const lam_parametric *s = t->surface;
     double inner_u = inside(u, s->u_min, s->u_max), inner_v = inside(v, s->v_min, s->v_max);
     lam_vec3 du = point->dp_du, dv = point->dp_dv;
-    double least_u = VANISHED * t->u_unit, least_v = VANISHED * t->v_unit;
-    if (shorter(du, least_u))
+    double min_u = VANISHED * t->u_unit, min_v = VANISHED * t->v_unit;
+    if (shorter(du, min_u))
         du = evaluate(t, u, inner_v).dp_du;
-    if (shorter(du, least_u))
+    if (shorter(du, min_u))
         du = evaluate(t, inner_u, v).dp_du;
-    if (shorter(dv, least_v))
+    if (shorter(dv, min_v))
         dv = evaluate(t, inner_u, v).dp_dv;
-    if (shorter(dv, least_v))
+    if (shorter(dv, min_v))
         dv = evaluate(t, u, inner_v).dp_dv;
     du = v3_unit(du);
     dv = v3_unit(dv);

@@ -1,7 +1,7 @@
 // functions.h: powers, logarithms and inverse roots, many at a time, with the same bits on every machine.
 //
-// On top of lanes.h: + − × and integer work on the bits, no libm, no table, no division. Each function says its range
-// and its error, both measured by tests/lighting/test_functions.c. No argument gives NaN, unless it says so.
+// On top of lanes.h: + − × and integer work on the bits, no libm, no table, no division. Each function states its range
+// and its error, both measured by tests/lighting/test_functions.c. No argument gives NaN unless stated.
 #ifndef FUNCTIONS_H
 #define FUNCTIONS_H
 
@@ -40,7 +40,7 @@ LANE_FN num exp2_fraction(num f)
            f2 * ((f * 5.5507299e-2f + 2.4022247e-1f) + f2 * (f * 1.3265090e-3f + 9.6713379e-3f));
 }
 
-// A whole number n near y and 2^n. Adding 1.5·2²³ + 127 leaves no room for a fraction and puts n + 127, the exponent as
+// A whole number n near y and 2^n. Adding 1.5·2²³ + 127 rounds the fraction away and puts n + 127, the exponent as
 // floats store it, into the lowest bits. Meaningless but harmless where |y| > 126.
 struct whole_power {
     num whole, power;
@@ -59,7 +59,7 @@ LANE_FN num log2_of(num x)
     return b.exponent + (1.5f * b.rest + log2_remainder(b.rest));
 }
 
-// 2^y within 2.5e-7 relative. 0 below −126 and for NaN; what is above 127.5 counts as 127.5.
+// 2^y within 2.5e-7 relative. 0 below −126 and for NaN; y above 127.5 counts as 127.5.
 LANE_FN num exp2_of(num y)
 {
     num x = min_of(y, num_of(127.5f));
@@ -67,11 +67,10 @@ LANE_FN num exp2_of(num y)
     return pick(y >= -126.0f, exp2_fraction(x - w.whole) * w.power, num_of(0.0f));
 }
 
-// y = exponent · log₂ base for normal base > 0, of which the parts are given, as head + tail. Powers want y
-// to 2e-6 where it may be 126, two bits more than a float has. So the logarithm is taken in two parts, the
-// first of 12 bits (any value near it will do: here a short guess), and the exponent likewise. Head · head is
-// then exact, and only small things are rounded. The work on the exponent is the same for every pixel and
-// leaves the loop.
+// y = exponent · log₂ base as head + tail, for normal base > 0 whose parts are given. A power needs y within 2e-6 where
+// y may be 126: two bits more than a float has. The logarithm is therefore split into a head of 12 bits (any nearby
+// value serves; a short guess is used) and a tail, and the exponent likewise. Head · head is then exact, and only small
+// products are rounded. The split of the exponent is the same for every pixel and leaves the loop.
 struct two_parts {
     num head, tail;
 };
@@ -88,8 +87,8 @@ LANE_FN struct two_parts scaled_log2(struct binary_parts b, num exponent)
     return (struct two_parts){exponent_head * log_head, exponent_tail * log_head + exponent * log_tail};
 }
 
-// The least base that is not taken for 0: any, where the exponent is 0, since 0⁰ = 1.
-LANE_FN num least_base(num exponent)
+// The smallest base that does not count as 0. With exponent 0 that is any base, since 0⁰ = 1.
+LANE_FN num min_base(num exponent)
 {
     return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-__builtin_inff()));
 }
@@ -98,14 +97,14 @@ LANE_FN num least_base(num exponent)
 // 0, negative or below the smallest normal number; 0 where it is NaN. Results below the smallest normal number are 0:
 // denormals cost two to three times the rest. Relative error at most 2e-6 for exponents up to 128, and 3e-6 for all.
 //
-// In three steps, so that loops over many powers need not wait for each one's end: the base's parts, its
-// logarithm, with a head of −∞ where the result is 0, and the power of two.
+// Split into three steps, so that a loop over many powers overlaps their latencies: the base's parts; its logarithm,
+// with a head of −∞ where the result is 0; the power of two.
 LANE_FN struct binary_parts unit_parts_of(num base) { return binary_parts_of(min_of(base, num_of(1.0f))); }
 
 LANE_FN struct two_parts unit_power_logarithm(num base, struct binary_parts parts, num exponent)
 {
     struct two_parts y = scaled_log2(parts, exponent);
-    y.head = pick(base >= least_base(exponent), y.head, num_of(-__builtin_inff()));
+    y.head = pick(base >= min_base(exponent), y.head, num_of(-__builtin_inff()));
     return y;
 }
 
@@ -122,14 +121,14 @@ LANE_FN num unit_power(num base, num exponent)
     return unit_power_of(unit_power_logarithm(base, unit_parts_of(base), exponent));
 }
 
-// As unit_power, for any base ≥ 0. Results above 2^127.5 become about that.
+// As unit_power, for any base ≥ 0. Results above 2^127.5 become about 2^127.5.
 LANE_FN num power(num base, num exponent)
 {
     struct two_parts y = scaled_log2(binary_parts_of(base), min_of(exponent, num_of(1.0e30f)));
     num sum = y.head + y.tail;
     struct whole_power w = whole_power_of(min_of(sum, num_of(127.0f)));
     num fraction = min_of((y.head - w.whole) + y.tail, num_of(0.51f)); // a little over ½: sum was rounded
-    mask some = both(base >= least_base(exponent), sum >= -126.0f);
+    mask some = both(base >= min_base(exponent), sum >= -126.0f);
     return pick(some, exp2_fraction(fraction) * w.power, num_of(0.0f));
 }
 
@@ -137,7 +136,7 @@ LANE_FN num power(num base, num exponent)
 // (the halved, negated exponent), a first step whose constants were fitted to come out a little low, which makes the
 // rounding of x·y² finer, and one step of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2 + 3e²/8 + …).
 //
-// In two steps for loops over many, as above: what is near it, and the rest of the way.
+// Split into two steps for loops, as above: an approximation, and its refinement.
 LANE_FN num rsqrt_near(num x)
 {
     num y = num_of_bits(wrap_sub(inum_of(0x5f1ffff9), shift_right(bits_of(x), 1)));

@@ -1,4 +1,4 @@
-// lanes.h: numbers side by side. Include with LANES defined as 1, 4, 8 or 16.
+// lanes.h: SIMD values of LANES numbers. Include with LANES defined as 1, 4, 8 or 16.
 //
 //   num    LANES floats          inum   LANES 32-bit integers          mask   LANES truths, from comparing
 //
@@ -34,7 +34,7 @@ typedef float num __attribute__((vector_size(LANES * 4)));
 typedef int32_t inum __attribute__((vector_size(LANES * 4)));
 typedef inum mask; // each lane 0 or −1
 typedef uint32_t unsigned_lanes __attribute__((vector_size(LANES * 4)));
-// The same in memory of any alignment from 4 up: loads and stores go through these.
+// The same types for memory aligned to 4 bytes or more: loads and stores go through these.
 typedef float num_memory __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
 typedef int32_t inum_memory __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
 #endif
@@ -170,8 +170,8 @@ LANE_FN num square_root(num x)
 }
 #endif
 
-// The smaller and the larger; b where either is NaN. −0 and 0 count as equal (b is taken). That is what x86's
-// own instructions do; a comparison and a choice would take them twice as long.
+// Minimum and maximum; b where either is NaN. −0 and 0 count as equal (b is taken). These are the semantics of x86's
+// instructions; a comparison and a selection would take twice as long.
 #if LANES == 16 && defined(__AVX512F__)
 LANE_FN num min_of(num a, num b) { return (num)_mm512_min_ps((__m512)a, (__m512)b); }
 LANE_FN num max_of(num a, num b) { return (num)_mm512_max_ps((__m512)a, (__m512)b); }
@@ -187,14 +187,14 @@ LANE_FN num max_of(num a, num b) { return pick(a > b, a, b); }
 #endif
 LANE_FN inum imin_of(inum a, inum b) { return ipick(a < b, a, b); }
 LANE_FN inum imax_of(inum a, inum b) { return ipick(a > b, a, b); }
-// |x|; the sign bit goes, NaN stays.
+// |x|: clears the sign bit; NaN stays NaN.
 LANE_FN num absolute(num x) { return num_of_bits(bits_of(x) & 0x7fffffff); }
 // max(x, 0); NaN gives 0.
 LANE_FN num positive(num x) { return max_of(x, num_of(0.0f)); }
 // x clamped to 0…1; NaN gives 0.
 LANE_FN num saturate(num x) { return min_of(positive(x), num_of(1.0f)); }
 
-// Writes x where m, to where `old` lies.
+// Stores x in the lanes of m, and leaves memory unchanged elsewhere.
 LANE_FN void num_store_where(float *at, mask m, num x, num old)
 {
 #if LANES == 16 && defined(__AVX512DQ__)
@@ -205,7 +205,7 @@ LANE_FN void num_store_where(float *at, mask m, num x, num old)
 #endif
 }
 
-// The lanes that bits name: those of mask_bits.
+// The mask of `bits`, the inverse of mask_bits.
 LANE_FN mask mask_of_bits(unsigned bits)
 {
 #if LANES == 1
@@ -217,7 +217,7 @@ LANE_FN mask mask_of_bits(unsigned bits)
 #endif
 }
 
-// LANES numbers of 16 or 8 bits, side by side.
+// Loads LANES consecutive numbers of 16 or 8 bits.
 LANE_FN inum inum_load_16(const uint16_t *at)
 {
 #if LANES == 1
@@ -249,7 +249,7 @@ LANE_FN inum inum_load_8(const uint8_t *at)
 #endif
 }
 
-// Writes the lowest 16 or 8 bits of each lane, side by side.
+// Stores the lowest 16 or 8 bits of each lane consecutively.
 LANE_FN void inum_store_16(uint16_t *at, inum x)
 {
 #if LANES == 1
@@ -274,7 +274,7 @@ LANE_FN void inum_store_8(uint8_t *at, inum x)
 #endif
 }
 
-// The greatest integer not above; |x| < 2³¹, never NaN: clamp first.
+// Floor; |x| < 2³¹, never NaN: clamp first.
 LANE_FN inum floor_of(num x)
 {
 #if LANES == 16 && defined(__AVX512F__)
@@ -325,15 +325,15 @@ LANE_FN num lanes_at(num x, inum at)
 #endif
 }
 
-// The least of all lanes, none of which is NaN.
-LANE_FN float least_lane(num x)
+// The minimum of all lanes, none of which is NaN.
+LANE_FN float min_lane(num x)
 {
     for (int apart = 1; apart < LANES; apart *= 2)
         x = min_of(x, lanes_at(x, lane_numbers() ^ apart));
     return lane(x, 0);
 }
 
-// Half of the lanes from one place, half from another.
+// The lower half of the lanes from one address, the upper half from another.
 LANE_FN num num_load_halves(const float *low, const float *high)
 {
 #if LANES == 1
@@ -349,7 +349,7 @@ LANE_FN num num_load_halves(const float *low, const float *high)
 }
 
 #if LANES == 8 && defined(__AVX2__)
-// For each set of bits, their numbers from the lowest on, a byte each.
+// For each set of eight bits, the numbers of its bits in ascending order, a byte each.
 #define BIT_NUMBER(b, i) ((b) >> (i) & 1 ? (uint64_t)(i) << 8 * __builtin_popcount((b) & ((1u << (i)) - 1)) : 0)
 #define BIT_NUMBERS(b)                                                                                                 \
     (BIT_NUMBER(b, 0) | BIT_NUMBER(b, 1) | BIT_NUMBER(b, 2) | BIT_NUMBER(b, 3) | BIT_NUMBER(b, 4) | BIT_NUMBER(b, 5) | \
@@ -366,8 +366,8 @@ static const uint64_t bit_numbers[256]
 #undef BIT_NUMBERS_64
 #endif
 
-// Writes the lanes named by `bits` (bit i: lane i) side by side, in their order; room for LANES is needed.
-// How many they are.
+// Compress: stores the lanes selected by `bits` (bit i: lane i) consecutively, in order; LANES elements must be
+// writable. Returns their number.
 LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
 {
 #if LANES == 16 && defined(__AVX512F__)
@@ -404,9 +404,9 @@ LANE_FN inum igather(const int32_t *from, inum at)
 #endif
 }
 
-// Three neighbours from each of LANES places in memory: lane i of out[k] is the 32 bits at from[stride ·
-// at[i] + k]. Nothing else is read: the last of them may end the array. x86 takes the three at once and turns
-// rows into columns; its own gather takes four times as long.
+// Gathers three neighbours from each of LANES places: lane i of out[k] is the 32 bits at from[stride · at[i] + k].
+// Nothing else is read: the array may end with the last of them. On x86 the three are loaded at once and transposed,
+// which is four times as fast as its gather instruction.
 LANE_FN void igather3(const void *from, const uint32_t *at, int stride, inum out[3])
 {
     const char *base = from;

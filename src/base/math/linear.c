@@ -13,8 +13,8 @@ double math_degrees(double radians) { return radians * (180 / PI); }
 #define HALF_PI_2 6.07710050630396597660e-11
 #define HALF_PI_3 2.02226624879595063154e-21
 
-// x = quarter·π/2 + rest with |rest| ≤ π/4 (a little more by rounding). Exact enough for |x| ≤ 1e6; beyond, the angle
-// is taken to be 0 turns off: no user gives such an angle, and the result stays finite.
+// x = quarter·π/2 + rest with |rest| ≤ π/4 (a little more by rounding). Exact enough for |x| ≤ 1e6; beyond, no
+// quarter is subtracted: no user gives such an angle, and the result stays finite.
 static double reduce(double x, int *quarter)
 {
     if (!(x > -1e9 && x < 1e9)) {
@@ -113,7 +113,7 @@ double math_acos(double x)
     return math_atan2(math_sqrt((1 - x) * (1 + x)), x);
 }
 
-// The whole part by doubling or halving, the rest, at most ½, by the series of e^(x ln 2).
+// The integral part by doubling or halving; the fraction, at most ½, by the series of e^(x ln 2).
 double math_exp2(double x)
 {
     int whole = (int)(x < 0 ? x - 0.5 : x + 0.5);
@@ -258,7 +258,7 @@ lam_mat4 mat4_look_at(lam_vec3 eye, lam_vec3 target, lam_vec3 up)
     if (v3_dot(back, back) == 0)
         back = v3(0, 0, 1);
     lam_vec3 side = v3_cross(v3_unit(up), back);
-    if (v3_dot(side, side) < 1e-20) { // up along the view: another axis serves
+    if (v3_dot(side, side) < 1e-20) { // `up` is parallel to the view: use another axis
         up = back.z * back.z < 0.5 ? v3(0, 0, 1) : v3(0, 1, 0);
         side = v3_cross(up, back);
     }

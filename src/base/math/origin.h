@@ -31,9 +31,9 @@ static inline bool origin_choose(const double minimum[3], const double maximum[3
     bool any = false;
     for (int axis = 0; axis < 3; axis++) {
         double lowest = minimum[axis], highest = maximum[axis];
-        double farthest = highest > -lowest ? highest : -lowest; // max |coordinate|, since lowest ≤ highest
+        double max_distance = highest > -lowest ? highest : -lowest; // max |coordinate|, since lowest ≤ highest
         origin[axis] = 0.0;
-        if (!(0.5 * farthest > ORIGIN_RATIO * half_size))
+        if (!(0.5 * max_distance > ORIGIN_RATIO * half_size))
             continue;
         any = true;
         double middle = 0.5 * lowest + 0.5 * highest;

@@ -1,14 +1,14 @@
-// triples.h: points in memory, x y z x y z …, to lanes and back.
+// triples.h: loads and stores of points, x y z x y z … in memory.
 //
-// Points are read and written four floats at a time and turned round in registers: that is several times
-// faster than a float at a time.
+// Points are loaded and stored four floats at a time and transposed in registers, several times faster than one float
+// at a time.
 #ifndef TRIPLES_H
 #define TRIPLES_H
 
 #include "lanes.h"
 
-// Three floats from each of LANES places, and to LANES consecutive ones. On the way there are four in hand: a
-// place is readable one float past its three, and `store_triples` writes a meaningless one behind the last.
+// Three floats from each of LANES places, and to LANES consecutive places. Four floats are moved at a time: one float
+// after each place must be readable, and `store_triples` writes an arbitrary one after the last.
 struct triples {
     num x, y, z;
 };
@@ -70,7 +70,7 @@ LANE_FN void store_triples(float *to, struct triples t)
     num zz_low = SHUFFLE(t.z, t.z, 0, 0, 1, 1), zz_high = SHUFFLE(t.z, t.z, 2, 2, 3, 3);
     num of[4] = {SHUFFLE(xy_low, zz_low, 0, 1, 4, 5), SHUFFLE(xy_low, zz_low, 2, 3, 6, 7),
                  SHUFFLE(xy_high, zz_high, 0, 1, 4, 5), SHUFFLE(xy_high, zz_high, 2, 3, 6, 7)};
-    for (int i = 0; i < LANES; i++) { // each overwrites the fourth of the one before
+    for (int i = 0; i < LANES; i++) { // each overwrites the fourth float of its predecessor
         quad q;
         memcpy(&q, (const char *)&of[i & 3] + 16 * (i >> 2), sizeof q);
         *(quad_memory *)(to + 3 * i) = q;

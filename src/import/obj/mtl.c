@@ -22,7 +22,7 @@ static uint32_t hash(const char *name)
 static struct mtl_entry *entry_of(const struct mtl_set *set, const char *name)
 {
     for (uint32_t i = hash(name);; i++) {
-        struct mtl_entry *entry = &set->entries[i & (set->room - 1)];
+        struct mtl_entry *entry = &set->entries[i & (set->capacity - 1)];
         if (!entry->name || strcmp(entry->name, name) == 0)
             return entry;
     }
@@ -30,7 +30,7 @@ static struct mtl_entry *entry_of(const struct mtl_set *set, const char *name)
 
 int32_t mtl_find(const struct mtl_set *set, const char *name)
 {
-    if (set->room == 0)
+    if (set->capacity == 0)
         return -1;
     const struct mtl_entry *entry = entry_of(set, name);
     return entry->name ? entry->material : -1;
@@ -38,13 +38,13 @@ int32_t mtl_find(const struct mtl_set *set, const char *name)
 
 static bool remember(struct mtl_set *set, const char *name, int32_t material)
 {
-    if (2 * (set->count + 1) > set->room) {
+    if (2 * (set->count + 1) > set->capacity) {
         struct mtl_set larger = *set;
-        larger.room = set->room ? 2 * set->room : 64;
-        larger.entries = arena_alloc_zeroed(set->memory, larger.room * sizeof *larger.entries);
+        larger.capacity = set->capacity ? 2 * set->capacity : 64;
+        larger.entries = arena_alloc_zeroed(set->memory, larger.capacity * sizeof *larger.entries);
         if (!larger.entries)
             return false;
-        for (uint32_t i = 0; i < set->room; i++) {
+        for (uint32_t i = 0; i < set->capacity; i++) {
             if (set->entries[i].name)
                 *entry_of(&larger, set->entries[i].name) = set->entries[i];
         }
@@ -89,19 +89,19 @@ static size_t line_of(struct reader *reader, const uint8_t *at)
     return reader->line;
 }
 
-// Reads `least` to `most` numbers, and says how many there were; fewer are −1, with a warning.
-static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t *end, float *to, int least, int most)
+// Reads `min` to `max` numbers, and says how many there were; fewer are −1, with a warning.
+static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t *end, float *to, int min, int max)
 {
     int count = 0;
-    while (count < most) {
+    while (count < max) {
         at = text_skip_white(at, end);
-        const uint8_t *behind = number_float(at, end, &to[count]);
-        if (!behind || (behind < end && !text_white(*behind)))
+        const uint8_t *after = number_float(at, end, &to[count]);
+        if (!after || (after < end && !text_white(*after)))
             break;
         count++;
-        at = behind;
+        at = after;
     }
-    if (count >= least)
+    if (count >= min)
         return count;
     char found[TEXT_FOUND_SIZE];
     scene_warn(reader->scene, "%s:%zu: found %s, expected a number; the statement is left out", reader->name,
@@ -190,7 +190,7 @@ static bool close_material(struct reader *reader, lam_error *error)
         return false;
     reader->open = false;
     return remember(reader->set, m->name, index) ||
-           call_memory_error(reader->scene->arena.call, reader->set->room * sizeof(struct mtl_entry), error);
+           call_memory_error(reader->scene->arena.call, reader->set->capacity * sizeof(struct mtl_entry), error);
 }
 
 static bool start_material(struct reader *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
@@ -213,7 +213,7 @@ static const uint8_t *behind_options(const uint8_t *at, const uint8_t *end)
 {
     static const struct {
         const char *word;
-        int least, most; // what follows: words, or numbers where the two differ
+        int min, max; // what follows: words, or numbers where the two differ
     } options[] = {
         {"-blendu", 1, 1}, {"-blendv", 1, 1},     {"-boost", 1, 1},   {"-bm", 1, 1},   {"-cc", 1, 1},
         {"-clamp", 1, 1},  {"-colorspace", 1, 1}, {"-imfchan", 1, 1}, {"-mm", 2, 2},   {"-o", 1, 3},
@@ -228,11 +228,11 @@ static const uint8_t *behind_options(const uint8_t *at, const uint8_t *end)
         if (option < 0)
             return at;
         at = text_skip_white(text_skip_word(at, end), end);
-        for (int i = 0; i < options[option].most && at < end; i++) {
+        for (int i = 0; i < options[option].max && at < end; i++) {
             float unused;
             const uint8_t *word = text_skip_word(at, end);
             // A number that is the last word is the file's name.
-            if (i >= options[option].least &&
+            if (i >= options[option].min &&
                 (number_float(at, end, &unused) != word || text_skip_white(word, end) == end))
                 break;
             at = text_skip_white(word, end);

@@ -90,7 +90,7 @@ struct obj {
 };
 
 // obj_scan.c Where a logical line ends: behind its '\n', or at `end`. A backslash before the '\n' continues it.
-const uint8_t *obj_line_behind(const uint8_t *at, const uint8_t *end);
+const uint8_t *obj_line_after(const uint8_t *at, const uint8_t *end);
 // The next word of the statement, or its end: at '\n' or `end`. Steps over white space, continued lines and a comment.
 const uint8_t *obj_next_slowly(const uint8_t *at, const uint8_t *end);
 bool obj_cut(struct obj *obj, size_t chunk_bytes, lam_error *error);

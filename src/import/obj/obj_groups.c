@@ -76,7 +76,7 @@ static enum statement statement_of(const uint8_t *at, const uint8_t *end)
 // in `*out` for an empty one.
 static bool read_name(struct state *state, const uint8_t *at, const char **out, lam_error *error)
 {
-    const uint8_t *end = obj_line_behind(at, state->obj->end);
+    const uint8_t *end = obj_line_after(at, state->obj->end);
     at = text_skip_word(at, end);
     at = text_skip_white(at, end);
     while (end > at && text_white(end[-1]))

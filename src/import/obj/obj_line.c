@@ -30,22 +30,22 @@ static const uint8_t *wrong(struct obj_reader *reader, const uint8_t *at, const 
     return NULL;
 }
 
-// Reads `count` numbers; a missing one is 0 where `least` are there. Returns the place of the word behind
+// Reads `count` numbers; a missing one is 0 where `min` are there. Returns the place of the word behind
 // them; NULL: wrong. `expected` names them.
-static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8_t *at, float *to, int least, int count,
+static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8_t *at, float *to, int min, int count,
                                           const char *expected)
 {
     const uint8_t *end = reader->end;
     for (int i = 0; i < count; i++) {
         at = obj_next(at, end);
-        if (i >= least && obj_over(at, end)) {
+        if (i >= min && obj_over(at, end)) {
             to[i] = 0;
             continue;
         }
-        const uint8_t *behind = number_float_quick(at, end, &to[i]);
-        if (__builtin_expect(!behind || !obj_word_over(behind), 0))
+        const uint8_t *after = number_float_quick(at, end, &to[i]);
+        if (__builtin_expect(!after || !obj_word_over(after), 0))
             return wrong(reader, at, expected);
-        at = behind;
+        at = after;
     }
     return obj_next(at, end);
 }
@@ -59,11 +59,11 @@ static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, f
     float extra[4];
     int count = 0;
     while (count < 4 && !obj_over(at, end)) {
-        const uint8_t *behind = number_float_quick(at, end, &extra[count]);
-        if (!behind || !obj_word_over(behind))
+        const uint8_t *after = number_float_quick(at, end, &extra[count]);
+        if (!after || !obj_word_over(after))
             return wrong(reader, at, "a weight or a colour behind the position");
         count++;
-        at = obj_next(behind, end);
+        at = obj_next(after, end);
     }
     reader->chunk->colors |= count >= 3;
     if (color && count >= 3) {
@@ -159,11 +159,11 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
     uint64_t eight = number_load8(at);
     unsigned digits = number_digit_count(eight);
     uint64_t index = number_digits_value(eight, digits) - 1;
-    const uint8_t *behind = at + digits;
+    const uint8_t *after = at + digits;
     if (__builtin_expect(digits - 1 >= 7, 0)) { // a sign, eight digits or more, or no number
         int64_t value;
-        behind = number_int(at, reader->end, &value);
-        if (!behind)
+        after = number_int(at, reader->end, &value);
+        if (!after)
             return wrong(reader, at, what);
         bool relative = value < 0 && !reader->obj->in_pieces;
         index = value > 0 ? (uint64_t)value - 1 : relative ? so_far + (uint64_t)value : UINT64_MAX;
@@ -177,7 +177,7 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
         const char *name = what + 2; // without the article
         struct obj *obj = reader->obj;
         size_t line = obj_line(obj, at);
-        text_found(at, behind, found);
+        text_found(at, after, found);
         if (value == 0)
             fail_line(reader->error, obj->source, line, "a face names %s 0; they are counted from 1", name);
         else if (value > 0)
@@ -189,7 +189,7 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
         return NULL;
     }
     *out = (uint32_t)index;
-    return behind;
+    return after;
 }
 
 static const char what_position[] = "a vertex", what_texcoord[] = "a texture coordinate", what_normal[] = "a normal";
@@ -294,7 +294,7 @@ const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at)
         if (reader->at.others >= reader->limit.others)
             return wrong(reader, at, "what was there a moment ago");
         reader->obj->statements[reader->at.others++] = (struct obj_statement){at, (uint32_t)reader->at.triangles};
-        return obj_line_behind(at, end);
+        return obj_line_after(at, end);
     case OBJ_EMPTY:
         if (*at == 0 && at < end)
             return wrong(reader, at, "text (this is a zero byte)");

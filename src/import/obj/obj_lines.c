@@ -17,9 +17,9 @@
 
 // Numbers that every line needs; none here but:
 struct constants {
-    uint32_t most;
+    uint32_t max;
 };
-static inline struct constants constants_of(uint32_t most) { return (struct constants){most}; }
+static inline struct constants constants_of(uint32_t max) { return (struct constants){max}; }
 
 static inline uint64_t newlines_of(const struct constants *c, const uint8_t *block)
 {
@@ -36,7 +36,7 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
         uint64_t eight = number_load8(++at);
         unsigned digits = number_digit_count(eight);
         uint64_t index = number_digits_value(eight, digits) - 1;
-        if (digits == 0 || index >= c->most)
+        if (digits == 0 || index >= c->max)
             return false;
         to[i] = (uint32_t)index;
         at += digits;
@@ -143,9 +143,9 @@ const uint8_t *JOIN(obj_read_lines_, ISA)(struct obj_reader *reader, const uint8
                   : line[0] == 'v' ? take_position(&hand, &constants, line, stop)
                                    : false)) {
                 put_down(&hand, reader);
-                const uint8_t *behind = obj_read_line(reader, line);
-                if (behind != stop + 1)
-                    return behind;
+                const uint8_t *after = obj_read_line(reader, line);
+                if (after != stop + 1)
+                    return after;
                 hand = take_up(reader);
             }
             line = stop + 1;

@@ -32,9 +32,9 @@ struct constants {
     __m256i cut, middle, doubt;            // of number_rounds_surely
     __m256i hundred_millions;
     __m128 sign;
-    __m128i one_32, most; // most: of a face's number
+    __m128i one_32, max; // most: of a face's number
 };
-static inline struct constants constants_of(uint32_t most)
+static inline struct constants constants_of(uint32_t max)
 {
     const double *t = number_tenths;
     struct constants c = {
@@ -62,14 +62,14 @@ static inline struct constants constants_of(uint32_t most)
         .hundred_millions = _mm256_set1_epi64x(100000000),
         .sign = _mm_set1_ps(-0.0f),
         .one_32 = _mm_set1_epi32(1),
-        .most = _mm_set1_epi32((int)most),
+        .max = _mm_set1_epi32((int)max),
     };
     // Opaque to the compiler from here on.
     __asm__("" : "+v"(c.newline), "+v"(c.zero), "+v"(c.nine), "+v"(c.space), "+v"(c.point), "+v"(c.minus));
     __asm__("" : "+v"(c.lanes_of_8), "+v"(c.lanes_of_16), "+v"(c.back_8), "+v"(c.back_16));
     __asm__("" : "+v"(c.tens), "+v"(c.hundreds), "+v"(c.ten_thousands), "+v"(c.tenths_to_6), "+v"(c.tenths_to_14));
     __asm__("" : "+v"(c.cut), "+v"(c.middle), "+v"(c.doubt), "+v"(c.hundred_millions), "+v"(c.sign));
-    __asm__("" : "+v"(c.one), "+v"(c.one_32), "+v"(c.most));
+    __asm__("" : "+v"(c.one), "+v"(c.one_32), "+v"(c.max));
     return c;
 }
 
@@ -78,7 +78,7 @@ static inline uint64_t newlines_of(const struct constants *c, const uint8_t *blo
     return set_of(_mm512_cmpeq_epi8_mask(_mm512_loadu_epi8(block), c->newline));
 }
 
-// Three numbers of one to eight digits, one space between them, each from 1 to `most`. Whether that is the
+// Three numbers of one to eight digits, one space between them, each from 1 to `max`. Whether that is the
 // line, which ends at `stop`.
 static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *stop, uint32_t to[3])
 {
@@ -106,7 +106,7 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
     __m256i fours = _mm256_madd_epi16(pairs, _mm512_castsi512_si256(c->hundreds));
     __m128i numbers = _mm_madd_epi16(_mm256_cvtepi32_epi16(fours), _mm512_castsi512_si128(c->ten_thousands));
     __m128i indices = _mm_sub_epi32(numbers, c->one_32);
-    if (_mm_mask_cmpge_epu32_mask(7, indices, c->most))
+    if (_mm_mask_cmpge_epu32_mask(7, indices, c->max))
         return false;
     _mm_storel_epi64((__m128i *)(void *)to, indices);
     to[2] = (uint32_t)_mm_extract_epi32(indices, 2);
@@ -147,8 +147,8 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
     __m256i eights = _mm256_madd_epi16(_mm512_cvtepi32_epi16(fours), _mm512_castsi512_si256(c->ten_thousands));
     // Of each two the first counts 10⁸.
     __m256i whole = _mm256_add_epi64(_mm256_mul_epu32(eights, c->hundred_millions), _mm256_srli_epi64(eights, 32));
-    __m512i behind = _mm512_cvtepu8_epi64(_mm_cvtsi32_si128((int)(ends - middles))); // digits there, and one
-    __m256d tenths = _mm512_castpd512_pd256(_mm512_permutex2var_pd(c->tenths_to_6, behind, c->tenths_to_14));
+    __m512i after = _mm512_cvtepu8_epi64(_mm_cvtsi32_si128((int)(ends - middles))); // digits there, and one
+    __m256d tenths = _mm512_castpd512_pd256(_mm512_permutex2var_pd(c->tenths_to_6, after, c->tenths_to_14));
     __m256d product = _mm256_mul_pd(_mm256_cvtepi64_pd(whole), tenths); // as number_float_quick has it
     __m256i off = _mm256_sub_epi64(_mm256_and_si256(_mm256_castpd_si256(product), c->cut), c->middle);
     if (_mm256_cmple_epu64_mask(off, c->doubt)) // number_rounds_surely; the fourth is 0, and sure

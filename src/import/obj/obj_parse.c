@@ -85,7 +85,7 @@ static void each_position(struct obj *obj, struct obj_chunk *chunk,
             break;
         }
         case OBJ_OTHER:
-            at = obj_line_behind(at, end);
+            at = obj_line_after(at, end);
             break;
         case OBJ_EMPTY:
             at = memchr(at, '\n', (size_t)(end - at));

@@ -20,7 +20,7 @@ static bool continued(const uint8_t *begin, const uint8_t *newline)
     return newline > begin && newline[-1] == '\\';
 }
 
-const uint8_t *obj_line_behind(const uint8_t *at, const uint8_t *end)
+const uint8_t *obj_line_after(const uint8_t *at, const uint8_t *end)
 {
     for (;;) {
         const uint8_t *newline = newline_or(at, end);
@@ -61,10 +61,10 @@ bool obj_cut(struct obj *obj, size_t chunk_bytes, lam_error *error)
         if (nominal >= size)
             at = obj->end;
         else if (obj->begin + nominal > at) // else a line so long that this chunk stays empty
-            at = obj_line_behind(obj->begin + nominal, obj->end);
+            at = obj_line_after(obj->begin + nominal, obj->end);
         // obj_line_behind may have begun behind the backslash of a continued line.
         while (at < obj->end && continued(obj->begin, at - 1))
-            at = obj_line_behind(at, obj->end);
+            at = obj_line_after(at, obj->end);
         obj->chunks[i].end = at;
     }
     return true;
@@ -88,7 +88,7 @@ static const uint8_t *count_slowly(struct obj_chunk *chunk, const uint8_t *at, c
     enum obj_kind kind = obj_kind_of(at);
     if (kind == OBJ_OTHER) {
         chunk->holds.others++;
-        return obj_line_behind(at, end);
+        return obj_line_after(at, end);
     }
     if (kind == OBJ_EMPTY) {
         const uint8_t *newline = newline_or(at, end);
@@ -218,11 +218,11 @@ bool obj_scan(struct obj *obj, lam_error *error)
     if (!slashes) // no face names any
         obj->total.texcoords = obj->total.normals = 0;
     const char *name = obj->source->name;
-    uint64_t most = sum.positions > sum.texcoords ? sum.positions : sum.texcoords;
-    most = most > sum.normals ? most : sum.normals;
-    if (most >= UINT32_MAX)
+    uint64_t max = sum.positions > sum.texcoords ? sum.positions : sum.texcoords;
+    max = max > sum.normals ? max : sum.normals;
+    if (max >= UINT32_MAX)
         return fail(error, LAM_LIMIT, "%s: holds %llu vertices of a kind; at most 4294967294 can be held", name,
-                    (unsigned long long)most);
+                    (unsigned long long)max);
     if (sum.triangles > UINT32_MAX / 3)
         return fail(error, LAM_LIMIT, "%s: holds %llu triangles; at most %u can be held", name,
                     (unsigned long long)sum.triangles, UINT32_MAX / 3);

@@ -34,7 +34,7 @@ static const struct {
 };
 
 // What a thread has.
-struct room {
+struct scratch {
     struct obj obj; // its arrays lie here
     uint8_t *text;
     void *arrays[ARRAYS];
@@ -53,7 +53,7 @@ struct large {
     const struct file_parts *file;
     struct loop_status loop;
     int wrong; // touched atomically
-    struct room *rooms;
+    struct scratch *scratches;
     uint8_t *arrays[ARRAYS];
     size_t held[ARRAYS];
     size_t turn; // the piece that is counted next; touched atomically. What follows belongs to its thread.
@@ -63,7 +63,7 @@ struct large {
     float low[3], high[3];
     struct large_statement *statements;
     uint8_t *texts; // of the statements, one after another
-    size_t statements_room, texts_used, texts_room;
+    size_t statements_capacity, texts_used, texts_capacity;
 };
 
 static bool still_right(struct large *large)
@@ -80,16 +80,16 @@ static uint64_t count_of(const struct obj_counts *counts, enum array kind)
                                : counts->triangles;
 }
 
-static size_t most_of(enum array kind, size_t bytes) { return bytes / kinds[kind].line + 1; }
+static size_t max_of(enum array kind, size_t bytes) { return bytes / kinds[kind].line + 1; }
 
 // --- one piece
 
 // The whole lines that begin in the piece.
-static bool read_text(const struct large *large, struct room *room, size_t index, struct obj_chunk *piece)
+static bool read_text(const struct large *large, struct scratch *scratch, size_t index, struct obj_chunk *piece)
 {
     size_t size = large->file->size, nominal = index * PIECE, from = index ? nominal - 1 : 0;
     size_t to = size - nominal < PIECE + TAIL ? size : nominal + PIECE + TAIL;
-    uint8_t *text = room->text, *end = text + (to - from);
+    uint8_t *text = scratch->text, *end = text + (to - from);
     if (!file_read_part(large->file, from, text, to - from))
         return false;
     memset(end, 0, FILE_PADDING);
@@ -116,40 +116,40 @@ static bool read_text(const struct large *large, struct room *room, size_t index
     return true;
 }
 
-static bool parse(struct room *room, struct obj_chunk *piece)
+static bool parse(struct scratch *scratch, struct obj_chunk *piece)
 {
-    struct obj *obj = &room->obj;
+    struct obj *obj = &scratch->obj;
     const struct obj_chunk unread = *piece;
     obj->begin = piece->begin;
     obj->end = piece->end;
     for (;;) {
         *piece = unread;
         piece->holds = (struct obj_counts){
-            .positions = most_of(POSITIONS, PIECE),
-            .texcoords = most_of(TEXCOORDS, PIECE),
-            .normals = most_of(NORMALS, PIECE),
-            .triangles = most_of(CORNERS, PIECE),
-            .polygons = most_of(POLYGONS, PIECE),
+            .positions = max_of(POSITIONS, PIECE),
+            .texcoords = max_of(TEXCOORDS, PIECE),
+            .normals = max_of(NORMALS, PIECE),
+            .triangles = max_of(CORNERS, PIECE),
+            .polygons = max_of(POLYGONS, PIECE),
             .others = STATEMENTS,
         };
-        obj->texcoord_indices = room->texcoords ? room->arrays[CORNER_TEXCOORDS] : NULL;
-        obj->normal_indices = room->normals ? room->arrays[CORNER_NORMALS] : NULL;
+        obj->texcoord_indices = scratch->texcoords ? scratch->arrays[CORNER_TEXCOORDS] : NULL;
+        obj->normal_indices = scratch->normals ? scratch->arrays[CORNER_NORMALS] : NULL;
         if (!obj_parse_chunk(obj, piece, NULL))
             return false;
         if (!piece->texcoord_unknown && !piece->normal_unknown)
             break;
-        room->texcoords |= piece->texcoord_unknown; // the first faces that this thread sees
-        room->normals |= piece->normal_unknown;
+        scratch->texcoords |= piece->texcoord_unknown; // the first faces that this thread sees
+        scratch->normals |= piece->normal_unknown;
     }
     return !piece->colors && !piece->short_faces && !piece->odd_numbers &&
-           !(room->texcoords && piece->texcoord_missing) && !(room->normals && piece->normal_missing);
+           !(scratch->texcoords && piece->texcoord_missing) && !(scratch->normals && piece->normal_missing);
 }
 
 // --- its place
 
-static bool grow(struct arena *arena, void *array, size_t *room, size_t used, size_t more, size_t item)
+static bool grow(struct arena *arena, void *array, size_t *scratch, size_t used, size_t more, size_t item)
 {
-    if (used + more <= *room)
+    if (used + more <= *scratch)
         return true;
     size_t wanted = 2 * (used + more) + 1024;
     void *old, *larger = arena_array(arena, wanted, item);
@@ -159,23 +159,23 @@ static bool grow(struct arena *arena, void *array, size_t *room, size_t used, si
     if (used)
         memcpy(larger, old, used * item);
     memcpy(array, &larger, sizeof larger);
-    *room = wanted;
+    *scratch = wanted;
     return true;
 }
 
-static bool keep_statements(struct large *large, const struct room *room, uint64_t count, uint32_t triangle)
+static bool keep_statements(struct large *large, const struct scratch *scratch, uint64_t count, uint32_t triangle)
 {
     struct arena *memory = &large->obj->memory;
     size_t kept = (size_t)large->total.others;
-    if (!grow(memory, &large->statements, &large->statements_room, kept, (size_t)count, sizeof *large->statements))
+    if (!grow(memory, &large->statements, &large->statements_capacity, kept, (size_t)count, sizeof *large->statements))
         return false;
     for (uint64_t i = 0; i < count; i++) {
-        const uint8_t *at = room->statements[i].at;
-        size_t length = (size_t)(obj_line_behind(at, room->obj.end) - at);
-        if (!grow(memory, &large->texts, &large->texts_room, large->texts_used, length + 1 + FILE_PADDING, 1))
+        const uint8_t *at = scratch->statements[i].at;
+        size_t length = (size_t)(obj_line_after(at, scratch->obj.end) - at);
+        if (!grow(memory, &large->texts, &large->texts_capacity, large->texts_used, length + 1 + FILE_PADDING, 1))
             return false;
         large->statements[kept + i] =
-            (struct large_statement){large->texts_used, triangle + room->statements[i].triangle};
+            (struct large_statement){large->texts_used, triangle + scratch->statements[i].triangle};
         memcpy(large->texts + large->texts_used, at, length);
         large->texts_used += length;
     }
@@ -183,7 +183,7 @@ static bool keep_statements(struct large *large, const struct room *room, uint64
 }
 
 // Counts the piece, in the pieces' order. `before` gets what stands above it.
-static bool count_piece(struct large *large, struct room *room, size_t index, const struct obj_chunk *piece,
+static bool count_piece(struct large *large, struct scratch *scratch, size_t index, const struct obj_chunk *piece,
                         struct obj_counts *before)
 {
     while (__atomic_load_n(&large->turn, __ATOMIC_ACQUIRE) != index) {
@@ -194,13 +194,13 @@ static bool count_piece(struct large *large, struct room *room, size_t index, co
     const struct obj_counts *holds = &piece->holds;
     struct obj_counts *total = &large->total;
     *before = *total;
-    int layout = 1 + room->texcoords + 2 * room->normals;
+    int layout = 1 + scratch->texcoords + 2 * scratch->normals;
     if (holds->triangles) {
         if (large->layout && large->layout != layout)
             return false;
         large->layout = layout;
     }
-    if (holds->others && !keep_statements(large, room, holds->others, (uint32_t)total->triangles))
+    if (holds->others && !keep_statements(large, scratch, holds->others, (uint32_t)total->triangles))
         return false;
     total->positions += holds->positions;
     total->texcoords += holds->texcoords;
@@ -210,7 +210,7 @@ static bool count_piece(struct large *large, struct room *room, size_t index, co
     total->others += holds->others;
     size_t bytes = 0;
     for (enum array kind = 0; kind < ARRAYS; kind++) {
-        if (count_of(total, kind) > most_of(kind, large->file->size))
+        if (count_of(total, kind) > max_of(kind, large->file->size))
             return false;
         bytes += (size_t)count_of(holds, kind) * kinds[kind].row;
     }
@@ -225,31 +225,31 @@ static bool count_piece(struct large *large, struct room *room, size_t index, co
     return true;
 }
 
-static void copy_corners(const struct large *large, struct room *room, enum array kind, uint64_t first,
+static void copy_corners(const struct large *large, struct scratch *scratch, enum array kind, uint64_t first,
                          uint64_t triangles)
 {
-    const uint32_t *from = room->arrays[kind];
+    const uint32_t *from = scratch->arrays[kind];
     uint32_t *to = (uint32_t *)(void *)large->arrays[kind] + 3 * first;
-    uint32_t highest = room->highest[kind - CORNERS];
+    uint32_t highest = scratch->highest[kind - CORNERS];
     for (size_t i = 0; i < 3 * triangles; i++) {
         highest = from[i] > highest ? from[i] : highest;
         to[i] = from[i];
     }
-    room->highest[kind - CORNERS] = highest;
+    scratch->highest[kind - CORNERS] = highest;
 }
 
-static void copy_piece(const struct large *large, struct room *room, const struct obj_counts *holds,
+static void copy_piece(const struct large *large, struct scratch *scratch, const struct obj_counts *holds,
                        const struct obj_counts *before)
 {
     for (enum array kind = POSITIONS; kind <= NORMALS; kind++)
-        memcpy(large->arrays[kind] + count_of(before, kind) * kinds[kind].row, room->arrays[kind],
+        memcpy(large->arrays[kind] + count_of(before, kind) * kinds[kind].row, scratch->arrays[kind],
                (size_t)count_of(holds, kind) * kinds[kind].row);
-    copy_corners(large, room, CORNERS, before->triangles, holds->triangles);
-    if (room->texcoords)
-        copy_corners(large, room, CORNER_TEXCOORDS, before->triangles, holds->triangles);
-    if (room->normals)
-        copy_corners(large, room, CORNER_NORMALS, before->triangles, holds->triangles);
-    const struct obj_polygon *from = room->arrays[POLYGONS];
+    copy_corners(large, scratch, CORNERS, before->triangles, holds->triangles);
+    if (scratch->texcoords)
+        copy_corners(large, scratch, CORNER_TEXCOORDS, before->triangles, holds->triangles);
+    if (scratch->normals)
+        copy_corners(large, scratch, CORNER_NORMALS, before->triangles, holds->triangles);
+    const struct obj_polygon *from = scratch->arrays[POLYGONS];
     struct obj_polygon *to = (struct obj_polygon *)(void *)large->arrays[POLYGONS] + before->polygons;
     for (size_t i = 0; i < holds->polygons; i++)
         to[i] = (struct obj_polygon){(uint32_t)before->triangles + from[i].first_triangle, from[i].count};
@@ -258,14 +258,14 @@ static void copy_piece(const struct large *large, struct room *room, const struc
 static void take_piece(void *user, size_t index, int thread)
 {
     struct large *large = user;
-    struct room *room = &large->rooms[thread];
+    struct scratch *scratch = &large->scratches[thread];
     struct obj_chunk piece;
     struct obj_counts before;
     if (!still_right(large))
         return;
-    if (read_text(large, room, index, &piece) && parse(room, &piece) &&
-        count_piece(large, room, index, &piece, &before))
-        copy_piece(large, room, &piece.holds, &before);
+    if (read_text(large, scratch, index, &piece) && parse(scratch, &piece) &&
+        count_piece(large, scratch, index, &piece, &before))
+        copy_piece(large, scratch, &piece.holds, &before);
     else
         __atomic_store_n(&large->wrong, 1, __ATOMIC_RELAXED);
 }
@@ -276,31 +276,31 @@ static bool make_rooms(struct large *large)
 {
     struct obj *obj = large->obj;
     size_t threads = (size_t)pool_threads(obj->source->pool);
-    large->rooms = arena_alloc_zeroed(&obj->memory, threads * sizeof *large->rooms);
+    large->scratches = arena_alloc_zeroed(&obj->memory, threads * sizeof *large->scratches);
     size_t text = PIECE + TAIL + FILE_PADDING, bytes = text;
     for (enum array kind = 0; kind < ARRAYS; kind++)
-        bytes += (most_of(kind, PIECE) + 1) * kinds[kind].row / 64 * 64 + 64;
+        bytes += (max_of(kind, PIECE) + 1) * kinds[kind].row / 64 * 64 + 64;
     uint8_t *memory = arena_array(&obj->memory, threads, bytes);
-    if (!large->rooms || !memory)
+    if (!large->scratches || !memory)
         return false;
     for (size_t t = 0; t < threads; t++) {
-        struct room *room = &large->rooms[t];
-        room->text = memory;
+        struct scratch *scratch = &large->scratches[t];
+        scratch->text = memory;
         memory += text;
         for (enum array kind = 0; kind < ARRAYS; kind++) {
-            room->arrays[kind] = memory;
-            memory += (most_of(kind, PIECE) + 1) * kinds[kind].row / 64 * 64 + 64;
+            scratch->arrays[kind] = memory;
+            memory += (max_of(kind, PIECE) + 1) * kinds[kind].row / 64 * 64 + 64;
         }
-        room->obj = (struct obj){
+        scratch->obj = (struct obj){
             .source = obj->source,
             .in_pieces = true,
             .total = {.positions = MOST, .texcoords = MOST, .normals = MOST},
-            .positions = room->arrays[POSITIONS],
-            .texcoords = room->arrays[TEXCOORDS],
-            .normals = room->arrays[NORMALS],
-            .indices = room->arrays[CORNERS],
-            .polygons = room->arrays[POLYGONS],
-            .statements = room->statements,
+            .positions = scratch->arrays[POSITIONS],
+            .texcoords = scratch->arrays[TEXCOORDS],
+            .normals = scratch->arrays[NORMALS],
+            .indices = scratch->arrays[CORNERS],
+            .polygons = scratch->arrays[POLYGONS],
+            .statements = scratch->statements,
         };
     }
     return true;
@@ -309,7 +309,7 @@ static bool make_rooms(struct large *large)
 static bool make_arrays(struct large *large)
 {
     for (enum array kind = 0; kind < ARRAYS; kind++) {
-        size_t bytes = most_of(kind, large->file->size) * kinds[kind].row;
+        size_t bytes = max_of(kind, large->file->size) * kinds[kind].row;
         large->arrays[kind] = pages_get(bytes, &large->held[kind]);
         if (!large->arrays[kind])
             return false;
@@ -325,7 +325,7 @@ static bool corners_known(const struct large *large)
     const bool named[3] = {true, (large->layout - 1) & 1, (large->layout - 1) & 2};
     for (int t = 0; t < pool_threads(large->obj->source->pool); t++) {
         for (int k = 0; k < 3; k++) {
-            if (named[k] && large->rooms[t].highest[k] >= limits[k])
+            if (named[k] && large->scratches[t].highest[k] >= limits[k])
                 return false;
         }
     }

@@ -46,7 +46,7 @@ static const uint8_t *read_scalar(const struct reading *reading, size_t row, int
                                   uint8_t *out, lam_error *error)
 {
     static const struct {
-        int64_t least, most;
+        int64_t min, max;
         const char *expected;
     } ranges[] = {
         [PLY_I8] = {-128, 127, "a whole number from -128 to 127"},
@@ -71,7 +71,7 @@ static const uint8_t *read_scalar(const struct reading *reading, size_t row, int
     }
     int64_t value = 0;
     next = read_integer(reading, at, &value);
-    if (!next || value < ranges[type].least || value > ranges[type].most) {
+    if (!next || value < ranges[type].min || value > ranges[type].max) {
         fail_number(reading, row, property, at, ranges[type].expected, error);
         return NULL;
     }

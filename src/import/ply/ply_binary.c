@@ -143,7 +143,7 @@ static bool may_be_threes(const struct reading *reading, const struct ply_header
     for (const struct ply_element *e = element; e < end; e++) {
         if (e != element && e->list_count > 0)
             return false;
-        uint64_t bytes, row = e->least_bytes + (e == element ? 3 * ply_type_size(list->type) : 0);
+        uint64_t bytes, row = e->min_bytes + (e == element ? 3 * ply_type_size(list->type) : 0);
         if (__builtin_mul_overflow(e->count, row, &bytes) || bytes > left)
             return false;
         left -= bytes;
@@ -303,8 +303,8 @@ bool ply_read_binary(const struct import_source *source, const struct ply_header
 {
     // Nothing is asked for before the bytes that it would come from are known to be there.
     uint64_t left = source->size - *at;
-    if (element->least_bytes > 0 && element->count > left / element->least_bytes)
-        return ply_fail_short(source, element, left / element->least_bytes, error);
+    if (element->min_bytes > 0 && element->count > left / element->min_bytes)
+        return ply_fail_short(source, element, left / element->min_bytes, error);
 
     static const struct ply_request nothing = {.list = -1};
     struct ply_table unused = {0};

@@ -153,7 +153,7 @@ static bool read_property(struct lines *lines, struct ply_element *element, stru
     element->property_count++;
     element->list_count += property->list;
     element->scalar_bytes += property->list ? 0 : types[property->type].size;
-    element->least_bytes += types[property->list ? property->count_type : property->type].size;
+    element->min_bytes += types[property->list ? property->count_type : property->type].size;
     return true;
 }
 
@@ -193,19 +193,19 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
                      lam_error *error)
 {
     // First how many elements and properties there are, then what they are.
-    size_t element_room = 0, property_room = 0;
+    size_t element_capacity = 0, property_capacity = 0;
     enum keyword keyword = BLANK;
     const uint8_t *word;
     struct lines lines = start(source, arena);
     while (keyword != END && keyword != UNKNOWN && next_line(&lines)) {
         keyword = read_keyword(&lines, &word);
-        element_room += keyword == ELEMENT;
-        property_room += keyword == PROPERTY;
+        element_capacity += keyword == ELEMENT;
+        property_capacity += keyword == PROPERTY;
     }
-    struct ply_element *elements = arena_array(arena, element_room, sizeof *elements);
-    struct ply_property *properties = arena_array(arena, property_room, sizeof *properties);
+    struct ply_element *elements = arena_array(arena, element_capacity, sizeof *elements);
+    struct ply_property *properties = arena_array(arena, property_capacity, sizeof *properties);
     if (!elements || !properties)
-        return call_memory_error(source->call, element_room * sizeof *elements + property_room * sizeof *properties,
+        return call_memory_error(source->call, element_capacity * sizeof *elements + property_capacity * sizeof *properties,
                                  error);
 
     bool has_format = false;

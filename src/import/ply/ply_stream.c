@@ -19,7 +19,7 @@ struct parts {
     struct loop_status loop;
     int wrong;     // touched atomically
     size_t begin;  // of the element in the file
-    uint8_t *room; // PART_FACES · FACE bytes for each thread
+    uint8_t *capacity; // PART_FACES · FACE bytes for each thread
     // Vertices
     uint8_t *rows;
     size_t count, stride;
@@ -61,7 +61,7 @@ static void read_faces(void *user, size_t index, int thread)
         return;
     size_t first = index * PART_FACES, count = parts->count - first;
     count = count < PART_FACES ? count : PART_FACES;
-    uint8_t *at = parts->room + (size_t)thread * PART_FACES * FACE;
+    uint8_t *at = parts->capacity + (size_t)thread * PART_FACES * FACE;
     if (!file_read_part(parts->file, parts->begin + first * FACE, at, count * FACE)) {
         found_wrong(parts);
         return;
@@ -152,8 +152,8 @@ static bool load(struct parts *parts, struct lam_scene *scene, struct arena *scr
     parts->count = (size_t)faces->count;
     parts->limit = mesh.vertex_count;
     parts->indices = arena_array(&scene->arena, parts->count, 3 * sizeof *parts->indices);
-    parts->room = arena_array(scratch, (size_t)pool_threads(source->pool), PART_FACES * FACE);
-    if (!parts->indices || !parts->room)
+    parts->capacity = arena_array(scratch, (size_t)pool_threads(source->pool), PART_FACES * FACE);
+    if (!parts->indices || !parts->capacity)
         return false;
     pool_run(source->pool, (parts->count + PART_FACES - 1) / PART_FACES, read_faces, parts);
     if (!still_right(parts))

@@ -37,13 +37,13 @@ static bool looks_ascii(const uint8_t *bytes, size_t size)
 // The size decides first: 84 + 50 · count bytes cannot be met by chance in a text, whose count would be above 10⁸.
 static enum kind tell_kind(const uint8_t *bytes, size_t size)
 {
-    bool room = size >= STL_FACETS;
-    uint64_t expected = room ? STL_FACETS + (uint64_t)STL_FACET * facets_promised(bytes) : 0;
-    if (room && size == expected)
+    bool capacity = size >= STL_FACETS;
+    uint64_t expected = capacity ? STL_FACETS + (uint64_t)STL_FACET * facets_promised(bytes) : 0;
+    if (capacity && size == expected)
         return BINARY_EXACT;
     if (looks_ascii(bytes, size))
         return ASCII;
-    return room && has_zero(bytes, size) ? BINARY_LOOSE : NEITHER;
+    return capacity && has_zero(bytes, size) ? BINARY_LOOSE : NEITHER;
 }
 
 static int stl_probe(const uint8_t *bytes, size_t size)

@@ -168,7 +168,7 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
 #error "positions are copied as they lie in the file: this reader needs a little-endian machine"
 #endif
-    size_t room = source->size - STL_FACETS, present = room / STL_FACET;
+    size_t capacity = source->size - STL_FACETS, present = capacity / STL_FACET;
     if (promised > present)
         return fail(error, LAM_CANNOT_READ,
                     "%s: the file is cut short: its header promises %u facets (%llu bytes), found %zu (%zu bytes)",
@@ -194,7 +194,7 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
     if (!done)
         return false;
 
-    size_t extra = room - (size_t)promised * STL_FACET;
+    size_t extra = capacity - (size_t)promised * STL_FACET;
     if (extra > 0)
         scene_warn(scene, "%s: %zu bytes behind the last of %u facets are ignored", source->name, extra, promised);
     mesh->positions = reading.positions;

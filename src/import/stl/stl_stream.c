@@ -13,7 +13,7 @@ struct parts {
     const struct file_parts *file;
     struct loop_status loop;
     int wrong;     // touched atomically
-    uint8_t *room; // PART_FACETS · STL_FACET bytes for each thread
+    uint8_t *capacity; // PART_FACETS · STL_FACET bytes for each thread
     float *positions;
     size_t count;
 };
@@ -25,7 +25,7 @@ static void read_facets(void *user, size_t index, int thread)
         return;
     size_t first = index * PART_FACETS, count = parts->count - first;
     count = count < PART_FACETS ? count : PART_FACETS;
-    const uint8_t *facet = parts->room + (size_t)thread * PART_FACETS * STL_FACET;
+    const uint8_t *facet = parts->capacity + (size_t)thread * PART_FACETS * STL_FACET;
     bool read =
         file_read_part(parts->file, STL_FACETS + first * STL_FACET, (uint8_t *)(uintptr_t)facet, count * STL_FACET);
     uint32_t odd = 0; // its top bit: an exponent of all ones was met
@@ -64,8 +64,8 @@ bool stl_load_parts(const struct import_source *source, const struct file_parts 
     arena_start(&scratch, source->call);
     struct parts parts = {.file = file, .loop = {.call = source->call}, .count = count};
     parts.positions = arena_array(&scene->arena, count, 9 * sizeof(float));
-    parts.room = arena_array(&scratch, (size_t)pool_threads(source->pool), PART_FACETS * STL_FACET);
-    bool done = parts.positions && parts.room;
+    parts.capacity = arena_array(&scratch, (size_t)pool_threads(source->pool), PART_FACETS * STL_FACET);
+    bool done = parts.positions && parts.capacity;
     if (done) {
         pool_run(source->pool, (parts.count + PART_FACETS - 1) / PART_FACETS, read_facets, &parts);
         done = !parts.wrong && should_continue(&parts.loop);

@@ -29,8 +29,8 @@ static uint64_t cpu_memory(const struct lam_device *base)
 {
     const struct cpu_device *device = (const struct cpu_device *)base;
     const struct visible_buffers *visible = &device->visible;
-    uint64_t bytes = frame_memory_bytes(&device->memory) + visible->sets.room + visible->normals.room +
-                     visible->fragment_stores.room;
+    uint64_t bytes = frame_memory_bytes(&device->memory) + visible->sets.capacity + visible->normals.capacity +
+                     visible->fragment_stores.capacity;
     for (int i = 0; i < device->thread_count; i++)
         bytes += thread_bytes(&device->threads[i], &device->bins[i]);
     return bytes;

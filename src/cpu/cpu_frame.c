@@ -112,7 +112,7 @@ static bool set_up_threads(struct cpu_frame *cpu, struct buffer *heads, lam_erro
 
 uint64_t thread_bytes(const struct thread_state *thread, const struct thread_bins *bins)
 {
-    return thread->storage.room + slabs_bytes(&bins->blocks) + slabs_bytes(&bins->pieces);
+    return thread->storage.capacity + slabs_bytes(&bins->blocks) + slabs_bytes(&bins->pieces);
 }
 
 void thread_free(struct thread_state *thread, struct thread_bins *bins)
@@ -197,8 +197,8 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
 
 uint64_t frame_memory_bytes(const struct frame_memory *memory)
 {
-    return memory->vertices.room + memory->pieces.room + memory->products.room + memory->lights.room +
-           memory->bins.room;
+    return memory->vertices.capacity + memory->pieces.capacity + memory->products.capacity + memory->lights.capacity +
+           memory->bins.capacity;
 }
 
 void frame_memory_free(struct frame_memory *memory)

@@ -26,7 +26,7 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     struct call_control call;
     call_start(&call, control);
     // Memory that the device holds already counts towards the budget.
-    uint64_t held = device->type->memory(device) + device->frame.storage.room;
+    uint64_t held = device->type->memory(device) + device->frame.storage.capacity;
     memset(&device->report, 0, sizeof device->report);
     if (!call_charge(&call, held))
         return call_memory_error(&call, held, error);
@@ -41,7 +41,7 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
                   "lam_scene_make_normals does");
     ok = ok && device->type->draw(device, &device->frame, &target, &call, error);
     device->report.total_ms = (double)(now_ns() - call.start_ns) * 1e-6;
-    device->report.memory_bytes = device->type->memory(device) + device->frame.storage.room;
+    device->report.memory_bytes = device->type->memory(device) + device->frame.storage.capacity;
     float_state_leave(state);
     if (ok)
         call_progress(&call, 1, "frame");

@@ -163,7 +163,7 @@ bool make_normals_of_visible(struct cpu_frame *cpu, struct visible_buffers *buff
     struct scratch_memory scratch = {0};
     if (cpu->fragment_stores) {
         release_bins(cpu);
-        scratch = (struct scratch_memory){.memory = buffers->vertices->data, .capacity = buffers->vertices->room};
+        scratch = (struct scratch_memory){.memory = buffers->vertices->data, .capacity = buffers->vertices->capacity};
         cpu->raster.vertices = NULL;
     }
     rank_bitset_finish(&visible->triangles);

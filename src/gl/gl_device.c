@@ -242,8 +242,8 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
 static uint64_t gl_memory(const struct lam_device *base)
 {
     const struct gl_device *device = (const struct gl_device *)base;
-    uint64_t bytes = device->scratch.capacity + device->runs.capacity + device->pixels.capacity + device->surfaces.capacity +
-                     device->environment_bytes + device->target_bytes;
+    uint64_t bytes = device->scratch.capacity + device->runs.capacity + device->pixels.capacity +
+                     device->surfaces.capacity + device->environment_bytes + device->target_bytes;
     const struct gl_list *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++)
         bytes += lists[i]->shadow.capacity + lists[i]->next.capacity + lists[i]->size;

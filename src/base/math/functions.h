@@ -88,10 +88,7 @@ LANE_FN struct two_parts scaled_log2(struct binary_parts b, num exponent)
 }
 
 // The smallest base that does not count as 0. With exponent 0 that is any base, since 0⁰ = 1.
-LANE_FN num min_base(num exponent)
-{
-    return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-__builtin_inff()));
-}
+LANE_FN num min_base(num exponent) { return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-__builtin_inff())); }
 
 // base^exponent for a base in 0…1 (more counts as 1) and any finite exponent ≥ 0. 0⁰ = 1. Otherwise 0 where the base is
 // 0, negative or below the smallest normal number; 0 where it is NaN. Results below the smallest normal number are 0:

@@ -9,7 +9,7 @@ struct mtl_set {
     struct arena *memory; // for the table
     struct mtl_entry *entries;
     uint32_t capacity, count; // room: a power of two, or 0
-    size_t maps;          // statements that name a texture
+    size_t maps;              // statements that name a texture
 };
 
 struct mtl_entry {

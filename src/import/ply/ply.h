@@ -28,7 +28,7 @@ struct ply_element {
     int property_count;
     int list_count;      // properties that are lists
     size_t scalar_bytes; // a binary row without its lists
-    size_t min_bytes;  // a binary row with its lists empty
+    size_t min_bytes;    // a binary row with its lists empty
 };
 
 struct ply_header {

@@ -205,8 +205,8 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
     struct ply_element *elements = arena_array(arena, element_capacity, sizeof *elements);
     struct ply_property *properties = arena_array(arena, property_capacity, sizeof *properties);
     if (!elements || !properties)
-        return call_memory_error(source->call, element_capacity * sizeof *elements + property_capacity * sizeof *properties,
-                                 error);
+        return call_memory_error(source->call,
+                                 element_capacity * sizeof *elements + property_capacity * sizeof *properties, error);
 
     bool has_format = false;
     *header = (struct ply_header){.elements = elements};

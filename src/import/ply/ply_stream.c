@@ -17,8 +17,8 @@ struct parts {
     const struct import_source *source;
     const struct file_parts *file;
     struct loop_status loop;
-    int wrong;     // touched atomically
-    size_t begin;  // of the element in the file
+    int wrong;         // touched atomically
+    size_t begin;      // of the element in the file
     uint8_t *capacity; // PART_FACES · FACE bytes for each thread
     // Vertices
     uint8_t *rows;

@@ -12,7 +12,7 @@ enum { PART_FACETS = 4096 };
 struct parts {
     const struct file_parts *file;
     struct loop_status loop;
-    int wrong;     // touched atomically
+    int wrong;         // touched atomically
     uint8_t *capacity; // PART_FACETS · STL_FACET bytes for each thread
     float *positions;
     size_t count;

@@ -18,7 +18,17 @@ typedef enum lam_light_type {
     LAM_LIGHT_POINT,       // from a position, in all directions
     LAM_LIGHT_DIRECTIONAL, // parallel, from infinitely far
     LAM_LIGHT_SPOT,        // from a position, in a cone
+    LAM_LIGHT_TYPE_COUNT
 } lam_light_type;
+
+// A kind of light in words. lam_light_field has its fields.
+typedef struct lam_light_type_info {
+    const char *word;    // in options, scene files and reports: "point"
+    const char *summary; // one line
+} lam_light_type_info;
+
+// NULL: no such kind.
+LAM_API const lam_light_type_info *lam_light_type_describe(lam_light_type type);
 
 // The space of a light's position, direction and up.
 typedef enum lam_light_frame {

@@ -18,11 +18,22 @@ lam_light lam_light_default(lam_light_type type)
 
 // --- Checks
 
-static const char *const type_words[] = {"ambient", "hemisphere", "point", "directional", "spot"};
+static const lam_light_type_info types[LAM_LIGHT_TYPE_COUNT] = {
+    [LAM_LIGHT_AMBIENT] = {"ambient", "the same from everywhere"},
+    [LAM_LIGHT_HEMISPHERE] = {"hemisphere", "from a sky over a ground"},
+    [LAM_LIGHT_POINT] = {"point", "from a position in all directions"},
+    [LAM_LIGHT_DIRECTIONAL] = {"directional", "parallel, from infinitely far"},
+    [LAM_LIGHT_SPOT] = {"spot", "from a position in a cone"},
+};
+
+const lam_light_type_info *lam_light_type_describe(lam_light_type type)
+{
+    return (unsigned)type < LAM_LIGHT_TYPE_COUNT ? &types[type] : NULL;
+}
 
 static bool bad(lam_error *error, const lam_light *light, const char *field, double found, const char *expected)
 {
-    return fail(error, LAM_BAD_ARGUMENT, "%s light%s%s%s: %s is %g, expected %s", type_words[light->type],
+    return fail(error, LAM_BAD_ARGUMENT, "%s light%s%s%s: %s is %g, expected %s", types[light->type].word,
                 light->name ? " '" : "", light->name ? light->name : "", light->name ? "'" : "", field, found,
                 expected);
 }

@@ -179,10 +179,11 @@ static bool read_light(struct scene_reader *r, const struct place *place, const 
         return fail_place(r, place, "found %s, expected a light, { … }", json_kind(value, kind));
     }
     int type = LAM_LIGHT_POINT;
+    struct scene_word types[LAM_LIGHT_TYPE_COUNT + 1];
+    light_type_words(types);
     if (!json_object_get(value, "type"))
         return fail_place(r, place, "'type' is missing, expected ambient, hemisphere, point, directional or spot");
-    if (!take_word(r, place, value, "type", light_type_words, &type) ||
-        !check_light_keys(r, place, value, (lam_light_type)type))
+    if (!take_word(r, place, value, "type", types, &type) || !check_light_keys(r, place, value, (lam_light_type)type))
         return false;
     lam_light light = lam_light_default((lam_light_type)type);
     if (!take_text(r, place, value, "name", &light.name) || !read_frame(r, place, value, &light) ||

@@ -64,8 +64,9 @@ struct scene_word {
 bool take_word(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
                const struct scene_word *words, int *out);
 extern const struct scene_word color_words[], shading_words[], stage_words[], viewer_words[], flat_normal_words[],
-    normals_words[], cull_words[], up_words[], frame_words[], light_type_words[], tangent_words[];
+    normals_words[], cull_words[], up_words[], frame_words[], tangent_words[];
 
+void light_type_words(struct scene_word words[LAM_LIGHT_TYPE_COUNT + 1]);
 void reflection_words(struct scene_word words[LAM_REFLECTION_COUNT + 1]);
 
 // The key of a field, set in a material or light.

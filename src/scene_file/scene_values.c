@@ -245,10 +245,14 @@ const struct scene_word cull_words[] = {
 const struct scene_word up_words[] = {{"x", LAM_UP_X}, {"y", LAM_UP_Y}, {"z", LAM_UP_Z}, {NULL, 0}};
 const struct scene_word frame_words[] = {
     {"world", LAM_FRAME_WORLD}, {"camera", LAM_FRAME_CAMERA}, {"object", LAM_FRAME_OBJECT}, {NULL, 0}};
-const struct scene_word light_type_words[] = {{"ambient", LAM_LIGHT_AMBIENT}, {"hemisphere", LAM_LIGHT_HEMISPHERE},
-                                              {"point", LAM_LIGHT_POINT},     {"directional", LAM_LIGHT_DIRECTIONAL},
-                                              {"spot", LAM_LIGHT_SPOT},       {NULL, 0}};
 const struct scene_word tangent_words[] = {{"file", false}, {"field", true}, {NULL, 0}};
+
+void light_type_words(struct scene_word words[LAM_LIGHT_TYPE_COUNT + 1])
+{
+    for (int i = 0; i < LAM_LIGHT_TYPE_COUNT; i++)
+        words[i] = (struct scene_word){lam_light_type_describe((lam_light_type)i)->word, i};
+    words[LAM_LIGHT_TYPE_COUNT] = (struct scene_word){NULL, 0};
+}
 
 void reflection_words(struct scene_word words[LAM_REFLECTION_COUNT + 1])
 {

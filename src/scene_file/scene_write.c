@@ -349,7 +349,7 @@ static json_t *light_json(struct scene_writer *w, const lam_light *given)
     }
     json_t *out = json_object();
     put_name(w, out, "name", l->name);
-    put(w, out, "type", word(light_type_words, (int)l->type));
+    put(w, out, "type", json_string(lam_light_type_describe(l->type)->word));
     if (l->frame != LAM_FRAME_WORLD)
         put(w, out, "frame", word(frame_words, (int)l->frame));
     if (l->frame == LAM_FRAME_OBJECT)

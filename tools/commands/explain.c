@@ -17,12 +17,6 @@ const char *explain_shading(lam_shading shading)
     return names[shading];
 }
 
-const char *explain_light_type(lam_light_type type)
-{
-    static const char *const names[] = {"ambient", "hemisphere", "point", "directional", "spot"};
-    return names[type];
-}
-
 const char *explain_frame(lam_light_frame frame)
 {
     static const char *const names[] = {"world", "camera", "object", "model"};

@@ -10,7 +10,6 @@ void explain_json(const lam_explanation *explanation, const char *model);
 
 // The names that options have for these.
 const char *explain_shading(lam_shading shading);
-const char *explain_light_type(lam_light_type type);
 const char *explain_frame(lam_light_frame frame);
 
 #endif

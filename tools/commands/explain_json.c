@@ -63,7 +63,7 @@ static void tell_light(struct json *json, const lam_explained_light *l)
     json_open(json, NULL, '{');
     index_of(json, "light", l->light);
     json_text(json, "name", l->name);
-    json_text(json, "type", explain_light_type(l->type));
+    json_text(json, "type", lam_light_type_describe(l->type)->word);
     json_text(json, "frame", explain_frame(l->frame));
     matrix(json, "matrix", l->ambient, l->diffuse, l->specular);
     vector(json, "position", l->position);

@@ -122,7 +122,7 @@ static void tell_light(const lam_explanation *e, const lam_explained_fragment *f
     else
         printf("\n  light %d of the rig", number_in_list);
     named(l->name);
-    printf(", %s, fixed to the %s\n", explain_light_type(l->type), explain_frame(l->frame));
+    printf(", %s, fixed to the %s\n", lam_light_type_describe(l->type)->word, explain_frame(l->frame));
     heading(4, "matrix", "");
     color(4, "ambient La", l->ambient, "");
     color(4, "diffuse Ld", l->diffuse, "");

@@ -139,11 +139,12 @@ static bool add_lights_of(struct plot *plot, const char *path, lam_error *error)
 
 static bool is_light(const char *word)
 {
-    static const char *const types[] = {"ambient", "hemisphere", "point", "directional", "spot"};
-    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
-        if (strncmp(word, types[i], strlen(types[i])) == 0 &&
-            (word[strlen(types[i])] == ':' || !word[strlen(types[i])]))
+    for (int i = 0; i < LAM_LIGHT_TYPE_COUNT; i++) {
+        const char *type = lam_light_type_describe((lam_light_type)i)->word;
+        size_t length = strlen(type);
+        if (strncmp(word, type, length) == 0 && (word[length] == ':' || !word[length]))
             return true;
+    }
     return false;
 }
 

@@ -9,8 +9,6 @@
 #include "key_values.h"
 #include "suggest.h"
 
-static const char *const type_names[] = {"ambient", "hemisphere", "point", "directional", "spot", NULL};
-
 static const char *const keys[] = {"position", "direction",   "target", "color",  "intensity", "ambient", "diffuse",
                                    "specular", "attenuation", "range",  "cutoff", "exponent",  "inner",   "outer",
                                    "sky",      "ground",      "up",     "frame",  "name",      NULL};
@@ -329,19 +327,20 @@ static bool check_keys(const struct reading *reading, lam_error *error)
     for (int key = 0; key < KEY_COUNT; key++)
         if (reading->seen & ~keys_of_type[type] & BIT(key))
             return complain(error, LAM_BAD_ARGUMENT, "%s%s light has no '%s'", type == LAM_LIGHT_AMBIENT ? "an " : "a ",
-                            type_names[type], keys[key]);
+                            lam_light_type_describe(type)->word, keys[key]);
     return true;
 }
 
 static bool find_type(const char *name, lam_light_type *type, lam_error *error)
 {
     struct suggestion nearest = suggest_start(name);
-    for (int i = 0; type_names[i]; i++) {
-        if (strcmp(type_names[i], name) == 0) {
+    for (int i = 0; i < LAM_LIGHT_TYPE_COUNT; i++) {
+        const char *word = lam_light_type_describe((lam_light_type)i)->word;
+        if (strcmp(word, name) == 0) {
             *type = (lam_light_type)i;
             return true;
         }
-        suggest_try(&nearest, type_names[i]);
+        suggest_try(&nearest, word);
     }
     return complain(error, LAM_BAD_ARGUMENT, "unknown light '%.60s'%s%s%s", name,
                     nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",

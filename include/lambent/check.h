@@ -14,11 +14,11 @@ extern "C" {
 
 // A contract is a set of names by which shaders receive their inputs.
 typedef enum lam_check_contract {
-    LAM_CONTRACT_AUTO = 0, // recognised by the names of uniforms and attributes
-    LAM_CONTRACT_LAMBENT,  // those of `lambent shader`
-    LAM_CONTRACT_PITTSBURGH,
-    LAM_CONTRACT_OREGON,
-    LAM_CONTRACT_NYU,
+    LAM_CONTRACT_AUTO = 0,   // recognised by the names of uniforms and attributes
+    LAM_CONTRACT_LAMBENT,    // those of `lambent shader`
+    LAM_CONTRACT_PITTSBURGH, // vPosition, model_view, ambient_product …
+    LAM_CONTRACT_OREGON,     // gl_Vertex, uKa, uColor, uLightX …
+    LAM_CONTRACT_NYU,        // position, modelViewMatrix, lights[].lightPosition …
     LAM_CONTRACT_COUNT
 } lam_check_contract;
 
@@ -31,7 +31,7 @@ typedef struct lam_check_name {
     const char *meaning; // one line
     // Other accepted names, separated by blanks. NULL: none.
     const char *synonyms;
-    bool attribute;
+    bool attribute; // false: a uniform
     LAM_RESERVED(4);
 } lam_check_name;
 
@@ -58,8 +58,9 @@ typedef enum lam_check_draw_status {
     LAM_CHECK_DRAW_DONE = 0, // `result` holds the bytes from lam_check_draw
     LAM_CHECK_DRAW_FAILED,   // `error` says why
     LAM_CHECK_DRAW_TIMEOUT,  // it was stopped at its deadline
-    LAM_CHECK_DRAW_CRASHED,
+    LAM_CHECK_DRAW_CRASHED,  // the process crashed
 } lam_check_draw_status;
+// Runs lam_check_draw on `request`, usually in another process.
 typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *request, lam_bytes *result,
                                                 lam_error *error);
 
@@ -67,17 +68,20 @@ typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *req
 // It holds up to `max_bytes`; further pictures are drawn each time. For one thread at a time and one OpenGL device.
 // NULL: out of memory.
 typedef struct lam_check_cache lam_check_cache;
+
+// Makes an empty cache.
 LAM_API lam_check_cache *lam_check_cache_make(size_t max_bytes, lam_error *error);
 LAM_API void lam_check_cache_free(lam_check_cache *cache); // NULL is fine
 
+// The shaders to check, and how. Zero is the default of each field.
 typedef struct lam_check_params {
     const char *fragment;      // GLSL; required
     const char *fragment_name; // the file's name, for messages
     // NULL: a correct vertex shader is generated that writes what the fragment shader reads.
     const char *vertex;
-    const char *vertex_name;
-    lam_check_contract contract;
-    int size; // width and height of each picture, 32..1024 pixels; 0: 128
+    const char *vertex_name;     // as fragment_name
+    lam_check_contract contract; // the names that the shaders use
+    int size;                    // width and height of each picture, 32..1024 pixels; 0: 128
     // Largest allowed difference of a channel, 1 = full range; 0: 2/255. A scene passes when at most one pixel in 200
     // exceeds it and the mean difference is at most a quarter of it.
     double tolerance;
@@ -87,7 +91,7 @@ typedef struct lam_check_params {
     lam_reflection reflection;
     // Names of the scenes to use; NULL: all that the contract can express.
     const char *const *scenes;
-    int scene_count;
+    int scene_count;        // of `scenes`
     const char *gl_device;  // as lam_gl_params.device; NULL: the first usable one
     lam_check_cache *cache; // NULL: none
     // Runs lam_check_draw in another process. NULL: in this process, for trusted shaders.
@@ -96,9 +100,10 @@ typedef struct lam_check_params {
     LAM_RESERVED(16);
 } lam_check_params;
 
+// The result of a check.
 typedef enum lam_check_verdict {
-    LAM_CHECK_PASSES = 0,
-    LAM_CHECK_DIFFERS,
+    LAM_CHECK_PASSES = 0, // every scene matches the reference
+    LAM_CHECK_DIFFERS,    // at least one scene does not
     LAM_CHECK_REFUSED,    // does not compile or link
     LAM_CHECK_ENDLESS,    // exceeded its time
     LAM_CHECK_CRASHES,    // crashed the driver
@@ -108,13 +113,13 @@ typedef enum lam_check_verdict {
 // The result of one scene. Pixels are compared where they and their eight neighbours are inside the model; colours are
 // clamped to 0…1 first, as a screen does.
 typedef struct lam_check_scene {
-    const char *name, *description;
-    lam_image theirs, reference; // LAM_RGBA32F, straight alpha
-    double maximum, mean;        // difference of a channel
-    double share_over;           // fraction of the pixels over the tolerance
-    uint64_t pixels;             // compared
-    uint64_t not_numbers;        // pixels with NaN or infinity
-    bool passes;
+    const char *name, *description; // of the scene
+    lam_image theirs, reference;    // LAM_RGBA32F, straight alpha
+    double maximum, mean;           // difference of a channel
+    double share_over;              // fraction of the pixels over the tolerance
+    uint64_t pixels;                // compared
+    uint64_t not_numbers;           // pixels with NaN or infinity
+    bool passes;                    // within the tolerance
     // The mistake that explains this scene alone, by id. NULL: none, or the scene passes.
     const char *looks_like;
     LAM_RESERVED(8);
@@ -132,34 +137,38 @@ typedef struct lam_check_finding {
     LAM_RESERVED(8);
 } lam_check_finding;
 
+// The origin of a message.
 typedef enum lam_check_diagnostic_kind {
     LAM_CHECK_DIAGNOSTIC_COMPILER, // a message of the driver's compiler
     LAM_CHECK_DIAGNOSTIC_HINT,     // an explanation of such a message, or something unusual
     LAM_CHECK_DIAGNOSTIC_UNKNOWN,  // a name that the contract does not have
 } lam_check_diagnostic_kind;
+
+// A message about a shader.
 typedef struct lam_check_diagnostic {
-    lam_check_diagnostic_kind kind;
-    const char *file; // as given in lam_check_params; NULL: both or none
-    int line;         // 0: unknown
-    char *text;
+    lam_check_diagnostic_kind kind; // its origin
+    const char *file;               // as given in lam_check_params; NULL: both or none
+    int line;                       // 0: unknown
+    char *text;                     // a sentence
     LAM_RESERVED(4);
 } lam_check_diagnostic;
 
+// The result of a check, with a result for each scene.
 typedef struct lam_check_report {
-    lam_check_verdict verdict;
-    lam_check_contract contract;
-    bool vertex_lit;  // the vertex shader computes the lighting
-    bool made_vertex; // the vertex shader was generated
-    char driver[128];
-    lam_check_scene *scenes;
-    int scene_count;
-    double mean; // mean difference over all scenes
+    lam_check_verdict verdict;   // over all scenes
+    lam_check_contract contract; // given or recognised
+    bool vertex_lit;             // the vertex shader computes the lighting
+    bool made_vertex;            // the vertex shader was generated
+    char driver[128];            // OpenGL's name of its renderer
+    lam_check_scene *scenes;     // in the order of lam_check_scene_name
+    int scene_count;             // 0 where nothing was drawn
+    double mean;                 // mean difference over all scenes
     // In the order found: the first explains most.
     lam_check_finding *findings;
-    int finding_count;
-    lam_check_diagnostic *diagnostics;
-    int diagnostic_count;
-    void *memory; // owns the strings above
+    int finding_count;                 // 0: no known mistake
+    lam_check_diagnostic *diagnostics; // messages, in no order of importance
+    int diagnostic_count;              // of `diagnostics`
+    void *memory;                      // owns the strings above
     LAM_RESERVED(8);
 } lam_check_report;
 

@@ -1,4 +1,4 @@
-// aabb_tree.c: boxes around blocks of vertices, and boxes around those.
+// aabb_tree.c: a tree of boxes around blocks of vertices.
 #include "aabb_tree.h"
 
 #define LANES 4
@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum {
-    // Vertices of a box. A mesh with indices shares its vertices, so that as many of them span more of it.
+    // Vertices of a box. A mesh with indices shares its vertices, so that the same number spans more of it.
     BLOCK_SHARED = 64,
     BLOCK_CORNERS = 256,
     PIECE = 1 << 16, // vertices of one piece of parallel work: whole boxes of the two lowest levels
@@ -30,7 +30,7 @@ static void widen(box_of_six box, const float low[3], const float high[3])
     }
 }
 
-// Vertices in a row, four at a time: their twelve numbers are x, y and z in turn.
+// Consecutive vertices, four at a time: their twelve numbers are x, y and z in turn.
 static void box_of_row(const float *p, size_t count, box_of_six box)
 {
     num low[3], high[3];
@@ -75,7 +75,7 @@ static void box_of_boxes(const box_of_six *below, size_t count, box_of_six box)
         widen(box, below[i], below[i] + 3);
 }
 
-// The boxes `first` to `end` of a level from those below it.
+// Makes the boxes `first` to `end` of a level from those of the level below.
 static void box_level(const struct boxing *boxing, int level, size_t first, size_t end)
 {
     const struct aabb_tree *tree = boxing->tree;

@@ -1,5 +1,5 @@
-// aabb_tree.h: boxes around a mesh's vertices, and boxes around those: a search for the farthest vertex in some
-// direction looks into few of them.
+// aabb_tree.h: a tree of boxes around a mesh's vertices: a search for the farthest vertex in some direction opens few of
+// them.
 #ifndef AABB_TREE_H
 #define AABB_TREE_H
 
@@ -10,10 +10,10 @@
 
 enum {
     BOX_CHILDREN = 16, // boxes of one level in a box of the next
-    BOX_LEVELS = 8,    // 2³² vertices in blocks of 64, and one to spare
+    BOX_LEVELS = 8,    // enough for 2³² vertices in blocks of 64, with one to spare
 };
 
-// Minimum and maximum, without the mesh's origin.
+// Minimum and maximum, relative to the mesh's origin.
 typedef float box_of_six[6];
 
 // Box i of the lowest level holds `block` used vertices from number i · block on, one of the next level
@@ -26,7 +26,7 @@ struct aabb_tree {
     size_t first[BOX_LEVELS], count[BOX_LEVELS];
 };
 
-// `used` lists the vertices that count, in order (NULL: the first `count`). False when memory is out.
+// `used` lists the vertices of the tree, in order (NULL: the first `count`). False when memory is out.
 bool box_tree_make(struct aabb_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count,
                    struct arena *arena, struct pool *pool, lam_error *error);
 
@@ -38,7 +38,7 @@ static inline const box_of_six *boxes_of_level(const struct aabb_tree *tree, int
     return tree->boxes + tree->first[level];
 }
 
-// The end of what a box holds that begins at `first`, `each` things in a box, of `all` things.
+// The end of the items of a box that begins at `first`, with `each` items in a box, of `all` items.
 static inline size_t box_end(size_t first, size_t each, size_t all) { return all - first < each ? all : first + each; }
 
 #endif

@@ -1,9 +1,9 @@
 // triangulate.c: polygons of any size, convex or not, into triangles.
 //
 // Ear clipping (Meisters 1975): a corner is an ear when it is convex and no other corner lies in its triangle. Cutting
-// an ear changes only its two neighbours, so each corner is looked at about three times. Only corners that are not
-// convex can lie in an ear; they are kept in a tree of boxes over their Morton order, so that one look takes about
-// √count steps even for long thin ears, however unevenly the corners are spread.
+// an ear changes only its two neighbours, so each corner is tested about three times. Only corners that are not
+// convex can lie in an ear; they are kept in a tree of boxes over their Morton order, so that one test takes about √count
+// steps even for long thin ears, however unevenly the corners are spread.
 //
 // Decisions are exact: the corners are projected along the largest axis of the polygon's normal and snapped to
 // integers, 2^30 steps along the longer side (finer than a float), where a cross product fits into 64 bits.
@@ -17,8 +17,8 @@ enum {
     STEPS = 1 << 30, // grid steps along the polygon's longer side
 };
 
-// What a corner must satisfy to be cut. A corner that fails one test waits at the next level, and is only
-// looked at again when nothing is left to do at the levels above: simple polygons never leave the first two.
+// The conditions for cutting a corner. A corner that fails one test waits at the next level, and is tested again only when
+// the levels above are empty: simple polygons never leave the first two.
 enum level {
     LEVEL_EAR,    // convex, no other corner in its triangle or on its edges
     LEVEL_FLAT,   // as above, or without area: in line with its neighbours, a spike, a repeated point
@@ -36,7 +36,7 @@ struct corner {
     uint8_t level;           // LEVELS: in no queue
 };
 
-// A node's box around its points; `count` of them are still there.
+// A node's box around its points, of which `count` are left.
 struct box {
     int32_t min_x, min_y, max_x, max_y;
     uint32_t count;
@@ -191,7 +191,7 @@ static uint64_t spread(uint32_t x)
 static uint64_t morton(const struct corner *c) { return spread((uint32_t)c->x) | spread((uint32_t)c->y) << 1; }
 
 // Sorts corner numbers by Morton code: a stable radix sort, a byte of the code at a time.
-static void sort_points(const struct corner *corners, uint32_t *points, uint32_t *spare, uint32_t count)
+static void sort_points(const struct corner *corners, uint32_t *points, uint32_t *extra, uint32_t count)
 {
     for (int shift = 0; shift < 64; shift += 8) {
         uint32_t starts[257] = {0};
@@ -200,10 +200,10 @@ static void sort_points(const struct corner *corners, uint32_t *points, uint32_t
         for (int b = 0; b < 256; b++)
             starts[b + 1] += starts[b];
         for (uint32_t i = 0; i < count; i++)
-            spare[starts[morton(&corners[points[i]]) >> shift & 255]++] = points[i];
+            extra[starts[morton(&corners[points[i]]) >> shift & 255]++] = points[i];
         uint32_t *swap = points;
-        points = spare;
-        spare = swap;
+        points = extra;
+        extra = swap;
     } // eight rounds: the result is back in `points`
 }
 
@@ -254,13 +254,13 @@ static bool box_outside(const struct box *box, const struct corner *a, const str
     return touching ? side < 0 : side <= 0;
 }
 
-static int32_t least(int32_t a, int32_t b) { return a < b ? a : b; }
-static int32_t most(int32_t a, int32_t b) { return a > b ? a : b; }
+static int32_t min_int(int32_t a, int32_t b) { return a < b ? a : b; }
+static int32_t max_int(int32_t a, int32_t b) { return a > b ? a : b; }
 
 static bool point_inside(const struct corner *const triangle[3], const struct corner *p, bool touching)
 {
     for (int k = 0; k < 3; k++) {
-        // A hole's bridge comes back to the same point: it is not in its own way.
+        // A hole's bridge returns to the same point, which does not block its own ear.
         if (same_place(p, triangle[k]))
             return false;
         int64_t side = turn(triangle[k], triangle[k == 2 ? 0 : k + 1], p);
@@ -277,12 +277,12 @@ static bool blocked(const struct clip *clip, uint32_t i, bool touching)
         return false;
     const struct corner *tip = &clip->corners[i];
     const struct corner *const triangle[3] = {&clip->corners[tip->previous], tip, &clip->corners[tip->next]};
-    // A sliver's edges alone would not tell it from what lies on along its line.
+    // The edges of a sliver alone do not exclude points further along its line.
     const struct box around = {
-        least(least(triangle[0]->x, triangle[1]->x), triangle[2]->x),
-        least(least(triangle[0]->y, triangle[1]->y), triangle[2]->y),
-        most(most(triangle[0]->x, triangle[1]->x), triangle[2]->x),
-        most(most(triangle[0]->y, triangle[1]->y), triangle[2]->y),
+        min_int(min_int(triangle[0]->x, triangle[1]->x), triangle[2]->x),
+        min_int(min_int(triangle[0]->y, triangle[1]->y), triangle[2]->y),
+        max_int(max_int(triangle[0]->x, triangle[1]->x), triangle[2]->x),
+        max_int(max_int(triangle[0]->y, triangle[1]->y), triangle[2]->y),
         0,
     };
     uint32_t stack[64], depth = 0;
@@ -301,7 +301,7 @@ static bool blocked(const struct clip *clip, uint32_t i, bool touching)
             continue;
         }
         for (uint32_t slot = (node - clip->leaves) * LEAF; slot < (node - clip->leaves + 1) * LEAF; slot++) {
-            // Slots behind the last point belong to no one: such a leaf has the count 0, or is the last one used.
+            // Slots after the last point are unused: their leaf has the count 0, or is the last one in use.
             if (clip->points[slot] != NONE && point_inside(triangle, &clip->corners[clip->points[slot]], touching))
                 return true;
         }
@@ -375,7 +375,7 @@ static void cut(struct clip *clip, uint32_t i)
     }
 }
 
-// Cuts off corner after corner. False: the watch said stop.
+// Cuts off corner after corner. False: the call must end.
 static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *call, uint32_t *triples)
 {
     uint32_t left = count;
@@ -406,8 +406,8 @@ static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *ca
     return true;
 }
 
-// Memory for a polygon of `count` corners, cut from the scratch's one block, which only grows.
-static bool make_room(struct triangulator *scratch, uint32_t count, struct clip *clip, uint32_t **spare)
+// Suballocates memory for a polygon of `count` corners from the scratch's one block, which only grows.
+static bool reserve_memory(struct triangulator *scratch, uint32_t count, struct clip *clip, uint32_t **extra)
 {
     uint32_t leaves = 1;
     while ((uint64_t)leaves * LEAF < count)
@@ -416,20 +416,20 @@ static bool make_room(struct triangulator *scratch, uint32_t count, struct clip 
     size_t point_bytes = (size_t)leaves * LEAF * sizeof(uint32_t);
     size_t box_bytes = 2 * (size_t)leaves * sizeof(struct box);
     size_t wanted = corner_bytes + 2 * point_bytes + box_bytes;
-    if (wanted > scratch->room) {
-        size_t room = scratch->room * 2 > wanted ? scratch->room * 2 : wanted;
+    if (wanted > scratch->capacity) {
+        size_t capacity = scratch->capacity * 2 > wanted ? scratch->capacity * 2 : wanted;
         arena_free(&scratch->memory);
-        scratch->room = 0;
-        scratch->block = arena_alloc(&scratch->memory, room);
+        scratch->capacity = 0;
+        scratch->block = arena_alloc(&scratch->memory, capacity);
         if (!scratch->block)
             return false;
-        scratch->room = room;
+        scratch->capacity = capacity;
     }
     char *at = scratch->block;
     clip->corners = (struct corner *)at;
     clip->boxes = (struct box *)(at + corner_bytes);
     clip->points = (uint32_t *)(at + corner_bytes + box_bytes);
-    *spare = (uint32_t *)(at + corner_bytes + box_bytes + point_bytes);
+    *extra = (uint32_t *)(at + corner_bytes + box_bytes + point_bytes);
     return true;
 }
 
@@ -444,8 +444,8 @@ bool triangulate(struct triangulator *scratch, const float *positions, const uin
         return true;
 
     struct clip clip = {0};
-    uint32_t *spare;
-    if (!make_room(scratch, count, &clip, &spare))
+    uint32_t *extra;
+    if (!reserve_memory(scratch, count, &clip, &extra))
         return false;
     if (!snap(positions, corners, count, clip.corners)) {
         write_fan(count, triples);
@@ -463,7 +463,7 @@ bool triangulate(struct triangulator *scratch, const float *positions, const uin
         write_fan(count, triples);
         return true;
     }
-    sort_points(clip.corners, clip.points, spare, points);
+    sort_points(clip.corners, clip.points, extra, points);
     clip.leaves = 1;
     while ((uint64_t)clip.leaves * LEAF < points)
         clip.leaves *= 2;

@@ -1,10 +1,9 @@
 // triangulate.h: polygons of any size, convex or not, into triangles.
 //
-// A triangle stays as it is, a quad is cut along the diagonal that lies inside it, a larger convex polygon
-// becomes a fan; everything else is cut ear by ear in the polygon's dominant plane, snapped to a grid of
-// integers so that every decision is exact. Simple polygons, also with collinear, repeated or touching points
-// (holes joined by a bridge), come out exactly covered; what has no area, or crosses itself, still gives
-// count − 2 triangles. About count·√count steps at worst.
+// A triangle stays as it is, a quad is cut along the diagonal that lies inside it, a larger convex polygon becomes a fan;
+// every other polygon is cut ear by ear in its dominant plane, snapped to a grid of integers so that every decision is
+// exact. Simple polygons, also with collinear, repeated or touching points (holes joined by a bridge), are covered exactly;
+// a polygon that has no area or crosses itself still gives count − 2 triangles. About count·√count steps at worst.
 #ifndef TRIANGULATE_H
 #define TRIANGULATE_H
 
@@ -19,16 +18,15 @@ struct triangulator {
     struct arena memory;
     struct call_control *call;
     void *block;
-    size_t room; // bytes at block
+    size_t capacity; // bytes at block
 };
 
 void triangulator_start(struct triangulator *scratch, struct call_control *call); // `call` may be NULL
 void triangulator_stop(struct triangulator *scratch);
 
-// Cuts the polygon whose corner i lies at positions[3·corners[i] …] (finite numbers), count ≥ 3, and writes
-// count − 2 triples of corner numbers (0 … count − 1, so that every attribute can follow) to `triples`, wound
-// as the polygon is. False when memory is out or the watch says stop (call_should_continue then tells which); never for
-// up to four corners.
+// Cuts the polygon whose corner i lies at positions[3·corners[i] …] (finite numbers), count ≥ 3, and writes count − 2
+// triples of corner numbers (0 … count − 1, which hold for every attribute) to `triples`, wound like the polygon. False
+// when memory is out or the call must end (call_should_continue says which); never for up to four corners.
 bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
                  uint32_t *triples);
 

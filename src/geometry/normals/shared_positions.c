@@ -195,15 +195,15 @@ static void clear_caches(struct position_search *s)
 // Without indices the same positions come again and again, mostly soon after one another.
 static bool start_caches(struct position_search *s)
 {
-    size_t threads = (size_t)pool_threads(s->pool), room = 64;
-    while (room < CACHE_MAX && room < s->corners / 4)
-        room *= 2;
-    s->caches_mask = (uint32_t)room - 1;
+    size_t threads = (size_t)pool_threads(s->pool), capacity = 64;
+    while (capacity < CACHE_MAX && capacity < s->corners / 4)
+        capacity *= 2;
+    s->caches_mask = (uint32_t)capacity - 1;
     s->caches = search_alloc(s, &s->arena, threads, sizeof *s->caches);
     if (!s->caches)
         return false;
     for (size_t i = 0; i < threads; i++) {
-        s->caches[i] = search_alloc(s, &s->arena, room, sizeof **s->caches);
+        s->caches[i] = search_alloc(s, &s->arena, capacity, sizeof **s->caches);
         if (!s->caches[i])
             return false;
     }

@@ -14,10 +14,11 @@ results = []
 
 
 def check(name, ok, output=""):
-    results.append(ok)
+    results.append(bool(ok))
     print("%s %d - %s" % ("ok" if ok else "not ok", len(results), name))
     if not ok:
         print("# " + "\n# ".join(output.splitlines()[-20:]))
+    return ok
 
 
 def run(command, **more):
@@ -46,6 +47,38 @@ def installed(folder):
             "LD_LIBRARY_PATH": os.path.dirname(os.path.dirname(found[0]))}
 
 
+def installed_example(environment, name):
+    found = glob.glob(os.path.join(environment["PKG_CONFIG_SYSROOT_DIR"], "**", "doc", "lambent", "examples", name + ".c"), recursive=True)
+    check("example %s is installed" % name, len(found) == 1, str(found))
+    return found[0] if found else os.path.join(ROOT, "examples", name + ".c")
+
+
+def static(folder, environment):
+    """The static library alone, by `pkg-config --static`: it holds everything, and no name of its own that a program could have too."""
+    libraries = os.path.dirname(environment["PKG_CONFIG_PATH"])
+    library, alone = os.path.join(libraries, "liblambent.a"), os.path.join(folder, "alone")
+    if not check("the static library is installed", os.path.exists(library)):
+        return
+    lines = run(["nm", "-g", "--defined-only", library]).stdout.split("\n")
+    names = [line.split()[2] for line in lines if len(line.split()) == 3]
+    check("the static library defines lam_ names only", bool(names) and all(n.startswith("lam_") for n in names),
+          " ".join(n for n in names if not n.startswith("lam_")))
+    os.mkdir(alone)
+    os.symlink(library, os.path.join(alone, "liblambent.a"))
+    flags = run(["pkg-config", "--static", "--cflags", "--libs", "lambent"], env=environment)
+    check("pkg-config --static names what the library needs", flags.returncode == 0 and "-lspng" in flags.stdout, flags.stdout)
+    own = os.path.join(folder, "own.c")
+    open(own, "w").write("int fail(void); int fail(void) { return 1; }\n") # the library has a function of that name within
+    program, picture = os.path.join(folder, "static"), os.path.join(folder, "static.png")
+    words = [word for word in flags.stdout.split() if word != "-L" + libraries]
+    built = run(["cc", "-std=c11", installed_example(environment, "render"), own, "-o", program, "-L" + alone] + words, env=environment)
+    if check("example render links statically", built.returncode == 0, built.stdout):
+        plain = {k: v for k, v in environment.items() if k != "LD_LIBRARY_PATH"}
+        ran = run([program, os.path.join(ROOT, "tests", "models", "cube.obj"), picture], env=plain)
+        same = ran.returncode == 0 and open(picture, "rb").read() == open(os.path.join(folder, "render.png"), "rb").read()
+        check("it draws the shared library's picture, without it", same and "liblambent" not in run(["ldd", program]).stdout, ran.stdout)
+
+
 def examples(folder, environment):
     flags = run(["pkg-config", "--cflags", "--libs", "lambent"], env=environment)
     check("pkg-config knows lambent", flags.returncode == 0, flags.stdout)
@@ -53,7 +86,7 @@ def examples(folder, environment):
     cube = os.path.join(models, "cube.obj")
     arguments = {"render": [cube], "materials": [], "opengl": [cube]}
     for name, more in arguments.items():
-        source = os.path.join(ROOT, "examples", name + ".c")
+        source = installed_example(environment, name)
         program, picture = os.path.join(folder, name), os.path.join(folder, name + ".png")
         built = run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", source, "-o", program] + flags.stdout.split() +
                     (["-lEGL"] if name == "opengl" else []), env=environment)
@@ -79,7 +112,7 @@ def check_library(folder, environment):
     flags = run(["pkg-config", "--cflags", "--libs", "lambent-check"], env=environment)
     check("pkg-config knows lambent-check", flags.returncode == 0, flags.stdout)
     program, picture = os.path.join(folder, "check"), os.path.join(folder, "check.pfm")
-    built = run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", os.path.join(ROOT, "examples", "check.c"), "-o", program] +
+    built = run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", installed_example(environment, "check"), "-o", program] +
                 flags.stdout.split(), env=environment)
     check("example check compiles", built.returncode == 0, built.stdout)
     if built.returncode:
@@ -138,6 +171,7 @@ def main():
         environment = installed(folder)
         if environment:
             examples(folder, environment)
+            static(folder, environment)
             check_library(folder, environment)
             documentation(folder)
         symbols()

@@ -43,6 +43,35 @@ static lam_scene *load_with(const char *text, lam_load_params params, const stru
     return lam_scene_load_memory(text, strlen(text), "t.obj", &params, NULL, error);
 }
 
+// Bytes that are not from malloc, and a count of those that are still open.
+static bool open_constant(void *user, const char *name, struct lam_bytes *bytes, lam_error *error)
+{
+    (void)name, (void)error;
+    static char library[] = "newmtl a\nKd 1 0 0\n";
+    *bytes = (lam_bytes){library, sizeof library - 1};
+    ++*(int *)user;
+    return true;
+}
+
+static void release_constant(void *user, struct lam_bytes *bytes)
+{
+    assert_string_equal((char *)bytes->data, "newmtl a\nKd 1 0 0\n");
+    *(int *)user += 99;
+}
+
+static void releases_what_the_caller_opened(void **state)
+{
+    (void)state;
+    static const char text[] = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+    int calls = 0;
+    lam_load_params params = {.threads = 1, .open = open_constant, .release = release_constant, .user = &calls};
+    lam_scene *scene = lam_scene_load_memory(text, sizeof text - 1, "t.obj", &params, NULL, NULL);
+    assert_non_null(scene);
+    assert_int_equal(calls, 100); // opened once, released once
+    assert_true(lam_scene_material(scene, 0)->diffuse.r == 1);
+    lam_scene_free(scene);
+}
+
 static lam_scene *load(const char *text)
 {
     lam_error error;
@@ -642,6 +671,7 @@ static void test_control(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(releases_what_the_caller_opened),
         cmocka_unit_test(test_face_forms),
         cmocka_unit_test(test_attributes),
         cmocka_unit_test(test_missing_normals),

@@ -44,8 +44,11 @@ LAM_API void lam_image_free(lam_image *image);
 
 // The effort spent on a small PNG file. The picture is the same.
 typedef enum lam_compress {
-    LAM_COMPRESS_FAST, // the default: some milliseconds for a million pixels
-    LAM_COMPRESS_BEST, // about a third smaller, a hundred times slower
+    // The default: some milliseconds for a million pixels. The bytes depend on the picture alone.
+    LAM_COMPRESS_FAST,
+    // About a third smaller, some hundred times slower, by libdeflate, which is opened when it is used (LAM_UNSUPPORTED
+    // where it is not installed). The bytes depend on its version.
+    LAM_COMPRESS_BEST,
 } lam_compress;
 
 // How a picture is written. All zero: the defaults.

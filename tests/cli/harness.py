@@ -88,7 +88,7 @@ def covered(picture):
 
 
 def read_png(data):
-    """Decodes an 8-bit RGBA or RGB PNG without interlacing, checking every chunk."""
+    """Decodes an 8-bit PNG without a palette or interlacing to RGBA, checking every chunk."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n", data[:20]
     at, packed, texts = 8, b"", {}
     while at < len(data):
@@ -97,7 +97,7 @@ def read_png(data):
         assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0], kind
         if kind == b"IHDR":
             width, height, depth, color, _, _, interlace = struct.unpack(">IIBBBBB", body)
-            assert depth == 8 and color in (2, 6) and interlace == 0
+            assert depth == 8 and color in (0, 2, 4, 6) and interlace == 0
         elif kind == b"IDAT":
             packed += body
         elif kind == b"tEXt":
@@ -105,7 +105,7 @@ def read_png(data):
             texts[name.decode()] = text.decode()
         at += 12 + length
     assert texts.get("Software", "").startswith("lambent"), texts
-    step = 4 if color == 6 else 3
+    step = {0: 1, 4: 2, 2: 3, 6: 4}[color]
     raw, rows, before = zlib.decompress(packed), bytearray(), bytes(width * step)
     assert len(raw) == height * (width * step + 1)
     for y in range(height):
@@ -113,12 +113,19 @@ def read_png(data):
         row = bytearray(raw[start + 1:start + 1 + width * step])
         unfilter(raw[start], row, before, step)
         before = row
-        if step == 4:
-            rows += row
-        else:
-            for x in range(width):
-                rows += row[3 * x:3 * x + 3] + b"\xff"
+        for x in range(0, width * step, step):
+            rows += row[x:x + 1] * 3 if step < 3 else row[x:x + 3]
+            rows += row[x + step - 1:x + step] if step % 2 == 0 else b"\xff"
     return width, height, bytes(rows)
+
+
+def write_png(width, height, pixels):
+    """RGBA, unfiltered."""
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    raw = b"".join(b"\0" + pixels[y * width * 4:(y + 1) * width * 4] for y in range(height))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
 
 
 def unfilter(kind, row, before, step):

@@ -203,8 +203,9 @@ const struct option option_table[] = {
      color_words, .store = store_word, FIELD(color)},
     {"compress", 0, GROUP_PICTURE, "HOW", "fast", "How PNG files are compressed: fast or best.",
      "`best` makes a file that is about a third smaller and takes a second or two for a million pixels, "
-     "`fast` takes some milliseconds. The picture is the same, pixel for pixel; other formats take no "
-     "notice.",
+     "`fast` takes some milliseconds. The picture is the same, pixel for pixel; other formats ignore the option. "
+     "`best` needs libdeflate, and the bytes of the file depend on its version; those of `fast` depend on nothing "
+     "but the picture.",
      compress_words, .store = store_word, FIELD(compress)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0",
      "Make the picture brighter or darker: 1 doubles its light, -1 halves it.",

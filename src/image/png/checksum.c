@@ -47,6 +47,17 @@ void adler_byte(struct adler_part *part, uint8_t byte)
     adler_join(part, &next);
 }
 
+void adler_bytes(struct adler_part *part, const uint8_t *bytes, size_t size)
+{
+    uint64_t sum = 0, weighted = 0;
+    for (size_t i = 0; i < size; i++) {
+        sum += bytes[i];
+        weighted += sum;
+    }
+    struct adler_part next = {(uint32_t)(sum % ADLER_MODULUS), (uint32_t)(weighted % ADLER_MODULUS), size};
+    adler_join(part, &next);
+}
+
 void adler_zeros(struct adler_part *part, uint64_t count)
 {
     struct adler_part next = {0, 0, count};

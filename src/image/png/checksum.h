@@ -27,6 +27,7 @@ struct adler_part {
 // 32-bit words of which the first `bytes_per_pixel` bytes (3 or 4) are in the stream; with 3 the fourth must
 // be zero. The words after the row up to a multiple of 4 must be zero too.
 void adler_byte(struct adler_part *part, uint8_t byte);
+void adler_bytes(struct adler_part *part, const uint8_t *bytes, size_t size);
 void adler_zeros(struct adler_part *part, uint64_t count);
 void adler_row(struct adler_part *part, const uint32_t *row, int width, int bytes_per_pixel);
 void adler_join(struct adler_part *part, const struct adler_part *next);

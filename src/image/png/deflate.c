@@ -4,12 +4,11 @@
 #include <string.h>
 
 enum {
-    CHUNK = 16, // pixels that are looked at together
-    ROOM_BEFORE = 4,
+    CHUNK = 16, // pixels that are examined together
+    // Words beside a row, so that loops can read its neighbours.
+    PADDING_BEFORE = 4,
+    PADDING_AFTER = CHUNK,
 };
-
-// Tokens are made as 64-bit numbers, the first kind lowest. This one holds one thing only.
-#define ONE(kind) ((uint64_t)(kind) | (uint64_t)DEFLATE_NOTHING * 0x0001000100010000u)
 
 typedef uint8_t u8x16 __attribute__((vector_size(16)));
 typedef uint32_t u32x4 __attribute__((vector_size(16)));
@@ -18,9 +17,10 @@ typedef u32x4 u32x4_memory __attribute__((aligned(4), may_alias));
 
 static inline u32x4 load(const uint32_t *at) { return (u32x4) * (const u32x4_memory *)at; }
 
+// Tokens are made as 64-bit numbers, the first quarter lowest.
 static inline void put_token(struct token *at, uint64_t token) { memcpy(at, &token, sizeof token); }
 
-static size_t stride_of(int width) { return ROOM_BEFORE + (size_t)width + CHUNK; }
+static size_t stride_of(int width) { return PADDING_BEFORE + (size_t)width + PADDING_AFTER; }
 
 size_t deflate_scratch(int width, int rows)
 {
@@ -33,28 +33,35 @@ bool deflate_make(struct deflate *deflate, struct arena *arena, int width, int r
     deflate->bytes_per_pixel = bytes_per_pixel;
     deflate->stride = stride_of(width);
     uint32_t *words = arena_array(arena, (size_t)rows * deflate->stride, sizeof *words);
-    deflate->last_places = arena_array(arena, 1 << DEFLATE_HASH_BITS, sizeof *deflate->last_places);
-    // One more than there can be: a run's pixels write a token each before they know which is the last.
+    deflate->last_positions = arena_array(arena, 1 << DEFLATE_HASH_BITS, sizeof *deflate->last_positions);
+    // One more than is ever kept: find_runs writes a token for each pixel before it knows whether it stays.
     deflate->tokens = arena_array(arena, (size_t)rows * ((size_t)width + 1) + 1, sizeof *deflate->tokens);
-    if (!words || !deflate->last_places || !deflate->tokens)
+    if (!words || !deflate->last_positions || !deflate->tokens)
         return false;
-    deflate->words = words + ROOM_BEFORE;
+    deflate->words = words + PADDING_BEFORE;
     return true;
 }
 
-void deflate_start(struct deflate *deflate, uint8_t filter, bool pairs)
+void deflate_start(struct deflate *deflate, uint8_t filter, bool matches)
 {
     deflate->filter = filter;
     deflate->row = deflate->words;
-    deflate->pairs = pairs;
+    deflate->matches = matches;
     deflate->y = 0;
     deflate->end = deflate->tokens;
     memset(deflate->counts, 0, sizeof deflate->counts);
-    if (pairs)
-        memset(deflate->last_places, 0xFF, sizeof *deflate->last_places << DEFLATE_HASH_BITS); // nowhere
+    if (matches)
+        memset(deflate->last_positions, 0xFF, sizeof *deflate->last_positions << DEFLATE_HASH_BITS); // nowhere
 }
 
-// A distance's symbol and further bits (RFC 1951, 3.2.5): from 5 on, two symbols for each power of two.
+// A token whose quarters after the first `used` (1 … 4) hold nothing, and the others zero.
+static inline uint64_t unused_after(int used)
+{
+    const uint64_t all = (uint64_t)DEFLATE_NOTHING * 0x0001000100010001u;
+    return used == 4 ? 0 : all << 16 * used;
+}
+
+// A distance's symbol and extra bits (RFC 1951, 3.2.5): from 5 on, two symbols for each power of two.
 static inline uint64_t distance_of(uint32_t distance)
 {
     uint32_t before = distance - 1;
@@ -74,8 +81,8 @@ static inline uint64_t match_of(size_t length, uint64_t distance)
     return (DEFLATE_MATCH + length - DEFLATE_SHORTEST) | distance << 16;
 }
 
-// A match of any length as matches that can be told: the longest first, but never leaving 1 or 2 bytes.
-static struct token *tell_match(struct token *token, size_t left, uint64_t distance)
+// A match of any length as matches of at most 258 bytes: the longest first, but never leaving 1 or 2 bytes.
+static struct token *put_match(struct token *token, size_t left, uint64_t distance)
 {
     while (left) {
         size_t match = left <= DEFLATE_LONGEST                      ? left
@@ -87,7 +94,7 @@ static struct token *tell_match(struct token *token, size_t left, uint64_t dista
     return token;
 }
 
-// Whether the pixels from row[x] on all equal the one before.
+// Whether the CHUNK pixels from row[x] on all equal row[x - 1].
 static inline bool chunk_repeats(const uint32_t *row, int x)
 {
     const u32x4 pixel = (u32x4){0} + row[x - 1];
@@ -98,47 +105,43 @@ static inline bool chunk_repeats(const uint32_t *row, int x)
     return (halves[0] | halves[1]) == 0;
 }
 
-// What the pixels of a chunk are, each by itself and its neighbours: its bytes as a token; all bits set where
-// it equals the pixel before and so does the next one or did that one, else 0; 0 in a run that goes on,
-// else 1.
+// What the pixels of a chunk become, found from each one's neighbours.
 struct chunk {
-    uint64_t told[CHUNK];
-    uint32_t in_run[CHUNK];
-    int32_t step[CHUNK];
+    uint64_t literal[CHUNK]; // the pixel's bytes as a token
+    uint32_t in_run[CHUNK];  // all bits set: the pixel belongs to a run; else 0
+    int32_t step[CHUNK];     // 0: the run continues after the pixel; else 1
 };
 
-static inline void look_at(struct chunk *chunk, const uint32_t *at, uint64_t fourth)
+// A run repeats the pixel before it at least twice.
+static inline __attribute__((always_inline)) void examine(struct chunk *chunk, const uint32_t *at, int bytes_per_pixel)
 {
+    const u64x2 unused = (u64x2){0} + unused_after(bytes_per_pixel);
     for (int i = 0; i < CHUNK; i += 4) {
         const u32x4 here = load(at + i), before = load(at + i - 1);
         const u32x4 same = (u32x4)(here == before), next = (u32x4)(load(at + i + 1) == here);
-        const u32x4 was = (u32x4)(before == load(at + i - 2));
-        const u32x4 in_run = same & (was | next), step = (in_run & next) + 1;
+        const u32x4 previous = (u32x4)(before == load(at + i - 2));
+        const u32x4 in_run = same & (previous | next), step = (in_run & next) + 1;
         const u8x16 bytes = (u8x16)here, zero = {0};
-        const u64x2 extra = (u64x2){0} + fourth;
         // Each byte gets a zero byte above it.
-        const u64x2 low =
-            extra | (u64x2)__builtin_shufflevector(bytes, zero, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
-        const u64x2 high = extra | (u64x2)__builtin_shufflevector(bytes, zero, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13,
-                                                                  29, 14, 30, 15, 31);
-        memcpy(chunk->told + i, &low, sizeof low);
-        memcpy(chunk->told + i + 2, &high, sizeof high);
+        const u64x2 low = unused | (u64x2)__builtin_shufflevector(bytes, zero, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21,
+                                                                  6, 22, 7, 23);
+        const u64x2 high = unused | (u64x2)__builtin_shufflevector(bytes, zero, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28,
+                                                                   13, 29, 14, 30, 15, 31);
+        memcpy(chunk->literal + i, &low, sizeof low);
+        memcpy(chunk->literal + i + 2, &high, sizeof high);
         memcpy(chunk->in_run + i, &in_run, sizeof in_run);
         memcpy(chunk->step + i, &step, sizeof step);
     }
 }
 
-// A pixel belongs to a run if it equals the one before, and so does the next one or did the last one. Each
-// pixel writes the next token, but only a pixel told as it is or a run's last one keeps it: no branch, but
-// for whole chunks of one colour. A run that is pending at a chunk's start is shorter than a chunk, so that
-// it always fits a match.
+// Every pixel writes the next token, but only a literal or a run's last pixel keeps it: there is no branch except for
+// whole chunks of one colour. A run that is pending at a chunk's start is shorter than a chunk, so it fits a match.
 static inline __attribute__((always_inline)) void find_runs(struct deflate *deflate, unsigned bytes_per_pixel,
                                                             int first, int end)
 {
     const int width = deflate->width;
     const uint32_t *row = deflate->row;
     struct token *token = deflate->end;
-    const uint64_t fourth = bytes_per_pixel == 3 ? (uint64_t)DEFLATE_NOTHING << 48 : 0;
     const uint64_t distance = distance_of(bytes_per_pixel), shortest = match_of(DEFLATE_SHORTEST, distance);
     uint32_t pending = 0; // bytes of the run so far
     struct chunk chunk;
@@ -151,17 +154,17 @@ static inline __attribute__((always_inline)) void find_runs(struct deflate *defl
                 x += CHUNK;
             while (row[x] == row[x - 1])
                 x++;
-            token = tell_match(token, pending + (size_t)(x - start) * bytes_per_pixel, distance);
+            token = put_match(token, pending + (size_t)(x - start) * bytes_per_pixel, distance);
             pending = 0;
             continue;
         }
         const int count = width - x < CHUNK ? width - x : CHUNK;
-        look_at(&chunk, row + x, fourth);
+        examine(&chunk, row + x, (int)bytes_per_pixel);
         for (int i = 0; i < count; i++) {
             pending = (pending + bytes_per_pixel) & chunk.in_run[i];
-            uint64_t match = shortest + pending - DEFLATE_SHORTEST, told = chunk.told[i];
-            uint64_t run = (uint64_t)(int32_t)chunk.in_run[i];
-            put_token(token, told ^ ((told ^ match) & run)); // a choice without a branch
+            const uint64_t match = shortest + pending - DEFLATE_SHORTEST, literal = chunk.literal[i];
+            const uint64_t run = (uint64_t)(int32_t)chunk.in_run[i];
+            put_token(token, literal ^ ((literal ^ match) & run)); // a choice without a branch
             token += chunk.step[i];
         }
         x += count;
@@ -183,64 +186,92 @@ static inline uint64_t two_pixels(const uint32_t *at)
     return pair;
 }
 
-// How many pixels are the same from here and from there on, of which two are known to be, and `most` count.
-// One more is looked at: there is room behind a row.
-static inline int equal_pixels(const uint32_t *here, const uint32_t *there, int most)
+// The number of equal pixels from `a` and from `b` on, at most `max`. Reads up to two more: rows are padded.
+static inline int equal_pixels(const uint32_t *a, const uint32_t *b, int max)
 {
-    int count = 2;
+    int count = 0;
     uint64_t differ = 0;
-    while (count < most && (differ = two_pixels(here + count) ^ two_pixels(there + count)) == 0)
+    while (count < max && (differ = two_pixels(a + count) ^ two_pixels(b + count)) == 0)
         count += 2;
-    count += count < most && (uint32_t)differ == 0;
-    return count < most ? count : most;
+    count += count < max && (uint32_t)differ == 0;
+    return count < max ? count : max;
 }
 
-// Takes a run of two and more; else the last place of these two pixels, if the match is longer than a run of
-// one would be; else a run of one; else the pixel. Matches stay within a row on both sides, so that no
-// filter's byte is in them.
-static void find_pairs(struct deflate *deflate, int first, int end)
+// Limits of find_matches by bytes_per_pixel. Pixels of one or two bytes cost few bits as literals, so only longer matches
+// and runs make the file smaller (measured).
+static const int key_pixels[5] = {0, 8, 4, 2, 2};  // pixels that are hashed together
+static const int min_match[5] = {0, 20, 12, 2, 2}; // pixels
+static const int min_run[5] = {0, 8, 5, 2, 2};     // pixels that repeat the one before them
+
+// The next key_pixels pixels as one number.
+static inline uint64_t key_of(const uint32_t *at, int bytes_per_pixel)
+{
+    if (bytes_per_pixel >= 3)
+        return two_pixels(at);
+    uint64_t key = 0;
+    const int shift = 8 * bytes_per_pixel;
+    for (int i = 0; i < key_pixels[bytes_per_pixel]; i += 2) {
+        const uint64_t pair = two_pixels(at + i), mask = (1u << 2 * (unsigned)shift) - 1;
+        key |= ((pair | pair >> (32 - shift)) & mask) << i * shift;
+    }
+    return key;
+}
+
+// At each pixel, the first of these that is possible: a run; a match with the last position of the same key; literals,
+// as many pixels as a token holds. Where a match may be as short as one pixel, a single repetition is a match too. Matches
+// stay within a row on both sides, so they contain no filter byte.
+static inline __attribute__((always_inline)) void find_matches(struct deflate *deflate, const int bytes_per_pixel,
+                                                               int first, int end)
 {
     struct token *token = deflate->end;
-    const int width = deflate->width, bytes_per_pixel = deflate->bytes_per_pixel;
-    const int longest = DEFLATE_LONGEST / bytes_per_pixel;
+    const int width = deflate->width, max_match = DEFLATE_LONGEST / bytes_per_pixel;
     const uint32_t *row = deflate->row;
     const int64_t row_bytes = (int64_t)width * bytes_per_pixel + 1;
-    const uint64_t fourth = bytes_per_pixel == 3 ? (uint64_t)DEFLATE_NOTHING << 48 : 0;
     const uint64_t near = distance_of((uint32_t)bytes_per_pixel), one_more = match_of((size_t)bytes_per_pixel, near);
     for (int x = 0; x < width;) {
-        const uint64_t pair = two_pixels(row + x);
-        if (pair == two_pixels(row + x - 1)) {
+        if (two_pixels(row + x) == two_pixels(row + x - 1)) {
             int run = x < first ? first - x : x >= end ? width - x : 2;
             while (x + run + CHUNK <= width && chunk_repeats(row, x + run))
                 run += CHUNK;
             while (row[x + run] == row[x - 1])
                 run++;
-            token = tell_match(token, (size_t)run * (unsigned)bytes_per_pixel, near);
-            x += run;
-            continue;
+            if (run >= min_run[bytes_per_pixel]) {
+                token = put_match(token, (size_t)run * (unsigned)bytes_per_pixel, near);
+                x += run;
+                continue;
+            }
         }
-        if (x + 1 < width) {
-            uint32_t *last = &deflate->last_places[pair * 0x9E3779B97F4A7C15u >> (64 - DEFLATE_HASH_BITS)];
-            const uint32_t place = *last, there_y = place >> 16;
-            const int there_x = (int)(place & 0xFFFF);
+        const uint64_t key = key_of(row + x, bytes_per_pixel);
+        if (x + key_pixels[bytes_per_pixel] <= width) {
+            uint32_t *last = &deflate->last_positions[key * 0x9E3779B97F4A7C15u >> (64 - DEFLATE_HASH_BITS)];
+            const uint32_t position = *last, there_y = position >> 16;
+            const int there_x = (int)(position & 0xFFFF);
             *last = deflate->y << 16 | (uint32_t)x;
-            if (place != UINT32_MAX) {
+            if (position != UINT32_MAX) {
                 const int64_t back =
                     (int64_t)(deflate->y - there_y) * row_bytes + (int64_t)(x - there_x) * bytes_per_pixel;
-                // Its row goes on by two pixels at least: else it would not have been noted.
                 const uint32_t *there = deflate->words + there_y * deflate->stride + there_x;
-                if ((back <= DEFLATE_FARTHEST) & (two_pixels(there) == pair)) {
-                    int most = width - (x > there_x ? x : there_x);
-                    int count = equal_pixels(row + x, there, most < longest ? most : longest);
-                    put_token(token++, match_of((size_t)(count * bytes_per_pixel), distance_of((uint32_t)back)));
-                    x += count;
-                    continue;
+                if ((back <= DEFLATE_FARTHEST) & (key_of(there, bytes_per_pixel) == key)) {
+                    const int max = width - (x > there_x ? x : there_x);
+                    const int count = equal_pixels(row + x, there, max < max_match ? max : max_match);
+                    if (count >= min_match[bytes_per_pixel]) {
+                        put_token(token++, match_of((size_t)(count * bytes_per_pixel), distance_of((uint32_t)back)));
+                        x += count;
+                        continue;
+                    }
                 }
             }
         }
-        const uint64_t told = spread(row[x]) | fourth, run = 0 - (uint64_t)(row[x] == row[x - 1]);
-        put_token(token++, told ^ ((told ^ one_more) & run)); // a choice without a branch
-        x++;
+        if (bytes_per_pixel < DEFLATE_SHORTEST) {
+            const int left = (width - x) * bytes_per_pixel, bytes = left < 4 ? left : 4;
+            put_token(token++, (spread((uint32_t)key) & (UINT64_MAX >> (64 - 16 * bytes))) | unused_after(bytes));
+            x += 4 / bytes_per_pixel;
+        } else {
+            const uint64_t literal = spread(row[x]) | unused_after(bytes_per_pixel);
+            const uint64_t run = 0 - (uint64_t)(row[x] == row[x - 1]);
+            put_token(token++, literal ^ ((literal ^ one_more) & run)); // a choice without a branch
+            x++;
+        }
     }
     deflate->end = token;
 }
@@ -254,20 +285,26 @@ static inline void count(uint32_t counts[4][DEFLATE_KINDS], const struct token *
 void deflate_row(struct deflate *deflate, int first, int end)
 {
     struct token *token = deflate->end;
-    put_token(deflate->end++, ONE(deflate->filter));
-    // The first pixel repeats nothing: the filter's byte stands before it. Behind the last one every run ends.
+    put_token(deflate->end++, deflate->filter | unused_after(1));
+    // The first pixel repeats nothing, because the filter's byte precedes it; every run ends after the last pixel.
     uint32_t *row = deflate->row;
     row[-1] = ~row[0];
     row[deflate->width] = ~row[deflate->width - 1];
-    if (deflate->pairs)
-        find_pairs(deflate, first, end);
+    if (deflate->bytes_per_pixel == 1)
+        find_matches(deflate, 1, first, end);
+    else if (deflate->bytes_per_pixel == 2)
+        find_matches(deflate, 2, first, end);
+    else if (deflate->matches && deflate->bytes_per_pixel == 3)
+        find_matches(deflate, 3, first, end);
+    else if (deflate->matches)
+        find_matches(deflate, 4, first, end);
     else if (deflate->bytes_per_pixel == 4)
         find_runs(deflate, 4, first, end);
     else
         find_runs(deflate, 3, first, end);
     deflate->row += deflate->stride;
     deflate->y++;
-    // Two sets of counts: neighbours are often equal, and adding to what was just stored takes some cycles.
+    // Two sets of counts: neighbouring tokens are often equal, and adding to a number just stored takes some cycles.
     for (; token + 2 <= deflate->end; token += 2) {
         count(deflate->counts[0], token);
         count(deflate->counts[1], token + 1);

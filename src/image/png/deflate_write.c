@@ -1,7 +1,7 @@
 // deflate_write.c: counted tokens become bits: the strip's own Huffman codes, or the bytes as they are.
 #include "deflate_codes.h"
 
-size_t deflate_room(int width, int rows, int bytes_per_pixel)
+size_t deflate_capacity(int width, int rows, int bytes_per_pixel)
 {
     // Stored blocks, the ending one, and what the last 8-byte step may touch beyond.
     size_t bytes = (size_t)rows * ((size_t)width * (unsigned)bytes_per_pixel + 1);

@@ -1,134 +1,214 @@
-// png_best.c: PNG files that are as small as a second or two of work makes them.
+// png_best.c: the smallest files, through libdeflate, which is opened when it is used. The bytes depend on its version.
 //
-// Each strip is filtered in the way that compresses best by a quick estimate: all rows by one filter, or each
-// row by the one that leaves the least. Then the strip is squeezed (squeeze.h), with matches that reach into
-// the strips above; what stood there is filtered once more, so strips still go in parallel.
+// Each strip is filtered in six ways: all rows by one of the five filters, or each row by the filter of the lowest cost.
+// Level 7 finds out which way becomes smallest, and level 12 compresses that one.
 #include "png_encoding.h"
 
 #include "fail.h"
 #include "png_filter.h"
-#include "squeeze.h"
 
+#ifdef HAVE_LIBDEFLATE
+#include "dynamic_library.h"
+
+#include <libdeflate.h>
 #include <string.h>
+#include <zlib.h>
+
+#define LIBRARY "libdeflate.so.0"
+#define NEEDED  "the Debian package libdeflate0 has it"
 
 enum {
     FILTERS = PNG_FILTER_PAETH + 1,
-    EACH_ROW = FILTERS, // the way of filtering that chooses for each row
+    BY_ROW = FILTERS, // the way that chooses a filter for each row
     WAYS,
+    TRIAL_LEVEL = 7, // ranks the ways as level 12 does, to 1 %, in a twentieth of its time (measured)
+    BEST_LEVEL = 12,
+    BOUNDARY = 5, // bytes of an empty stored block at most
 };
 
-struct png_best {
-    struct squeeze *squeeze;
-    uint8_t *bytes;  // filtered rows: the window's and the strip's
-    uint32_t *words; // a filtered row, and another
-    size_t words_room;
+struct libdeflate {
+    void *library;
+    __typeof__(&libdeflate_alloc_compressor) alloc_compressor;
+    __typeof__(&libdeflate_free_compressor) free_compressor;
+    __typeof__(&libdeflate_deflate_compress) compress;
+    __typeof__(&libdeflate_deflate_compress_bound) bound;
 };
+
+struct best_thread {
+    const struct libdeflate *libdeflate;
+    struct libdeflate_compressor *trial, *best;
+    uint8_t *filtered, *smallest; // a strip's filtered rows: being tried, and the best so far
+    uint32_t *words;              // two filtered rows
+};
+
+// The threads' states stand behind what they share.
+struct best_state {
+    struct libdeflate libdeflate;
+    size_t count;
+    struct best_thread threads[];
+};
+
+static bool open_libdeflate(struct libdeflate *d, lam_error *error)
+{
+    d->library = library_open(LIBRARY, false, NULL);
+    if (!d->library)
+        return fail(error, LAM_UNSUPPORTED,
+                    "PNG: the best compression needs " LIBRARY ", which is not installed; " NEEDED);
+    void *l = d->library;
+    if (library_find(l, "libdeflate_alloc_compressor", &d->alloc_compressor) &&
+        library_find(l, "libdeflate_free_compressor", &d->free_compressor) &&
+        library_find(l, "libdeflate_deflate_compress", &d->compress) &&
+        library_find(l, "libdeflate_deflate_compress_bound", &d->bound))
+        return true;
+    return fail(error, LAM_UNSUPPORTED, "PNG: " LIBRARY " lacks functions of libdeflate 1.0; " NEEDED);
+}
+
+static size_t padded_width(const struct png_encoding *encoding) { return ((size_t)encoding->image->width + 3) / 4 * 4; }
 
 static size_t row_bytes(const struct png_encoding *encoding)
 {
     return 1 + (size_t)encoding->image->width * (unsigned)encoding->bytes_per_pixel;
 }
 
-static int window_rows(const struct png_encoding *encoding)
+static bool best_start(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error)
 {
-    return (int)((SQUEEZE_WINDOW - 1) / row_bytes(encoding)) + 1;
+    const size_t count = (size_t)pool_threads(pool), strip_bytes = (size_t)encoding->rows * row_bytes(encoding);
+    struct best_state *state = arena_alloc_zeroed(arena, sizeof *state + count * sizeof *state->threads);
+    encoding->threads = state;
+    if (!state)
+        return fail_memory(error, sizeof *state + count * sizeof *state->threads);
+    if (!open_libdeflate(&state->libdeflate, error))
+        return false;
+    state->count = count;
+    encoding->capacity = state->libdeflate.bound(NULL, strip_bytes) + BOUNDARY;
+    bool ok = true;
+    for (size_t i = 0; ok && i < count; i++) {
+        struct best_thread *t = &state->threads[i];
+        t->libdeflate = &state->libdeflate;
+        t->trial = state->libdeflate.alloc_compressor(TRIAL_LEVEL);
+        t->best = state->libdeflate.alloc_compressor(BEST_LEVEL);
+        t->filtered = arena_alloc(arena, strip_bytes);
+        t->smallest = arena_alloc(arena, strip_bytes);
+        t->words = arena_array(arena, 2 * padded_width(encoding), sizeof *t->words);
+        ok = t->trial && t->best && t->filtered && t->smallest && t->words;
+    }
+    return ok || fail_memory(error, count * (2 * strip_bytes + (10 << 20)));
 }
 
-size_t png_best_room(const struct png_encoding *encoding)
+static void best_end(struct png_encoding *encoding)
 {
-    return squeeze_room((size_t)encoding->rows * row_bytes(encoding));
+    struct best_state *state = encoding->threads;
+    for (size_t i = 0; state && i < state->count; i++) {
+        if (state->threads[i].trial)
+            state->libdeflate.free_compressor(state->threads[i].trial);
+        if (state->threads[i].best)
+            state->libdeflate.free_compressor(state->threads[i].best);
+    }
+    if (state)
+        library_close(state->libdeflate.library);
 }
 
-// Filters row y into best->words. Returns the filter.
-static enum png_filter filter_row(const struct png_encoding *encoding, struct png_best *best, int y, int way)
+// Filters row y into t->words. Returns the filter.
+static enum png_filter filter_row(const struct png_encoding *encoding, struct best_thread *t, int y, int way)
 {
     const uint8_t *row = png_pixel_row(encoding, y), *above = png_pixel_row(encoding, y - 1);
     const int width = encoding->image->width;
-    if (way != EACH_ROW) {
-        png_filter_row((enum png_filter)way, row, above, width, encoding->mask, best->words);
+    if (way != BY_ROW) {
+        png_filter_row((enum png_filter)way, row, above, width, encoding->bytes_per_pixel, t->words);
         return (enum png_filter)way;
     }
-    uint64_t least = UINT64_MAX;
+    uint32_t *trial = t->words + padded_width(encoding);
+    uint64_t min_cost = UINT64_MAX;
     enum png_filter chosen = PNG_FILTER_NONE;
-    for (int f = PNG_FILTER_NONE; f < FILTERS; f++) {
-        const enum png_filter filter = (enum png_filter)f;
-        uint32_t *words = best->words + best->words_room;
-        png_filter_row(filter, row, above, width, encoding->mask, words);
-        uint64_t cost = png_filter_cost(words, width);
-        if (cost < least) {
-            least = cost;
+    for (enum png_filter filter = PNG_FILTER_NONE; filter <= PNG_FILTER_PAETH; filter++) {
+        png_filter_row(filter, row, above, width, encoding->bytes_per_pixel, trial);
+        const uint64_t cost = png_filter_cost(trial, width);
+        if (cost < min_cost) {
+            min_cost = cost;
             chosen = filter;
-            memcpy(best->words, words, best->words_room * sizeof *words);
+            memcpy(t->words, trial, (size_t)width * sizeof *trial);
         }
     }
     return chosen;
 }
 
-// Row y as the stream has it, and added to `adler` where there is one.
-static void put_row(const struct png_encoding *encoding, struct png_best *best, int y, int way,
-                    struct adler_part *adler, uint8_t *out)
+// Filters a strip into t->filtered.
+static void filter_strip(const struct png_encoding *encoding, struct best_thread *t, int strip, int way)
 {
-    const int width = encoding->image->width;
-    *out++ = (uint8_t)filter_row(encoding, best, y, way);
-    if (adler) {
-        adler_byte(adler, out[-1]);
-        adler_row(adler, best->words, width, encoding->bytes_per_pixel);
+    const int top = strip * encoding->rows, rows = png_strip_rows(encoding, strip);
+    const size_t pixel = (size_t)encoding->bytes_per_pixel;
+    uint8_t *out = t->filtered;
+    for (int y = 0; y < rows; y++) {
+        *out++ = (uint8_t)filter_row(encoding, t, top + y, way);
+        for (int x = 0; x < encoding->image->width; x++, out += pixel)
+            memcpy(out, &t->words[x], pixel);
     }
-    if (encoding->bytes_per_pixel == 4) {
-        memcpy(out, best->words, (size_t)width * 4);
-        return;
-    }
-    for (int x = 0; x < width; x++, out += 3)
-        memcpy(out, &best->words[x], 3);
 }
 
-static void choose_way(void *user, size_t index, int thread)
+// Makes the last block of a deflate stream one that others can follow, and ends on a byte boundary with an empty stored
+// block. libdeflate writes whole streams only, so zlib finds where the last block starts. `scratch` has capacity for the
+// decompressed bytes. Returns the new size; 0: memory is out.
+static size_t open_stream(uint8_t *stream, size_t size, uint8_t *scratch, size_t capacity)
 {
-    struct png_encoding *encoding = user;
-    struct png_best *best = &encoding->best[thread];
-    const int rows = png_strip_rows(encoding, (int)index), top = (int)index * encoding->rows;
-    const size_t each = row_bytes(encoding);
-    uint64_t least = UINT64_MAX;
-    for (int way = 0; way < WAYS && call_should_continue(&encoding->call); way++) {
-        for (int y = 0; y < rows; y++)
-            put_row(encoding, best, top + y, way, NULL, best->bytes + (size_t)y * each);
-        uint64_t bits = squeeze_estimate(best->squeeze, best->bytes, (size_t)rows * each, each);
-        if (bits < least) {
-            least = bits;
-            encoding->filters[index] = (uint8_t)way;
+    enum { AT_BOUNDARY = 128, IN_LAST = 64, UNUSED_BITS = 7 }; // z_stream's data_type after inflate(…, Z_BLOCK)
+    z_stream z = {.next_in = stream, .avail_in = (uInt)size, .next_out = scratch, .avail_out = (uInt)capacity};
+    if (inflateInit2(&z, -15) != Z_OK) // a raw stream
+        return 0;
+    size_t last = 0; // the first bit of the last block
+    int code;
+    while ((code = inflate(&z, Z_BLOCK)) == Z_OK && (z.data_type & (AT_BOUNDARY | IN_LAST)) != (AT_BOUNDARY | IN_LAST))
+        if (z.data_type & AT_BOUNDARY)
+            last = 8 * (size_t)z.total_in - (unsigned)(z.data_type & UNUSED_BITS);
+    const unsigned unused = (unsigned)(z.data_type & UNUSED_BITS);
+    inflateEnd(&z);
+    if (code != Z_OK)
+        return 0;
+    stream[last / 8] &= (uint8_t)~(1u << last % 8);
+    // The three bits of a stored block's header are zero, and so are the stream's unused ones.
+    static const uint8_t boundary[BOUNDARY] = {0, 0, 0, 0xFF, 0xFF};
+    const size_t skipped = unused >= 3;
+    memcpy(stream + size, boundary + skipped, BOUNDARY - skipped);
+    return size + BOUNDARY - skipped;
+}
+
+static size_t best_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out)
+{
+    struct best_state *state = encoding->threads;
+    struct best_thread *t = &state->threads[thread];
+    const size_t size = (size_t)png_strip_rows(encoding, strip) * row_bytes(encoding);
+    size_t min_size = SIZE_MAX;
+    for (int way = 0; way < WAYS; way++) {
+        if (!call_should_continue(&encoding->call))
+            return 0;
+        filter_strip(encoding, t, strip, way);
+        const size_t compressed = t->libdeflate->compress(t->trial, t->filtered, size, out, encoding->capacity);
+        if (compressed < min_size) {
+            min_size = compressed;
+            uint8_t *smallest = t->filtered;
+            t->filtered = t->smallest;
+            t->smallest = smallest;
         }
     }
+    if (!call_should_continue(&encoding->call))
+        return 0;
+    adler_bytes(adler, t->smallest, size);
+    const size_t compressed = t->libdeflate->compress(t->best, t->smallest, size, out, encoding->capacity - BOUNDARY);
+    return open_stream(out, compressed, t->filtered, size);
 }
-
-bool png_best_start(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error)
+#else
+static bool best_start(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error)
 {
-    const size_t threads = (size_t)pool_threads(pool), strips = (size_t)encoding->strips;
-    const size_t room = (size_t)(window_rows(encoding) + encoding->rows) * row_bytes(encoding);
-    encoding->best = arena_array(arena, threads, sizeof *encoding->best);
-    encoding->filters = arena_alloc_zeroed(arena, strips);
-    bool ok = encoding->best && encoding->filters;
-    for (size_t i = 0; ok && i < threads; i++) {
-        struct png_best *best = &encoding->best[i];
-        best->words_room = ((size_t)encoding->image->width + 3) / 4 * 4;
-        best->squeeze = squeeze_make(arena);
-        best->bytes = arena_alloc(arena, room);
-        best->words = arena_array(arena, 2 * best->words_room, sizeof *best->words);
-        ok = best->squeeze && best->bytes && best->words;
-    }
-    if (!ok)
-        return fail_memory(error, threads * (room + (8 << 20)));
-    pool_run(pool, strips, choose_way, encoding);
-    return call_should_continue(&encoding->call) || call_error(&encoding->call, error);
+    (void)encoding, (void)pool, (void)arena;
+    return fail(error, LAM_UNSUPPORTED, "PNG: this build has no best compression: it was made without libdeflate");
 }
+#define best_strip NULL
+#define best_end   NULL
+#endif
 
-size_t png_best_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out)
-{
-    struct png_best *best = &encoding->best[thread];
-    const int top = strip * encoding->rows, rows = png_strip_rows(encoding, strip);
-    const int window = window_rows(encoding) < top ? window_rows(encoding) : top;
-    const size_t each = row_bytes(encoding);
-    for (int y = -window; y < rows; y++)
-        put_row(encoding, best, top + y, encoding->filters[(top + y) / encoding->rows], y < 0 ? NULL : adler,
-                best->bytes + (size_t)(y + window) * each);
-    return squeeze(best->squeeze, best->bytes, (size_t)window * each, (size_t)rows * each, each, out);
-}
+const struct png_method png_best = {
+    .strip_pixels = 1 << 18, // larger ones are not smaller in all, and cancel later
+    .zlib_flags = 0xDA,      // the slowest level
+    .start = best_start,
+    .strip = best_strip,
+    .end = best_end,
+};

@@ -1,54 +1,56 @@
-// png_encoding.h: what is shared while a picture becomes a PNG file: png_write.c leads, and makes the quick
-// kind; png_best.c makes the small kind.
+// png_encoding.h: what png_write.c shares with the two ways to compress: png_fast.c and png_best.c.
 #ifndef PNG_ENCODING_H
 #define PNG_ENCODING_H
 
 #include "arena.h"
-#include "checksum.h"
-#include "codec.h"
 #include "call_control.h"
+#include "checksum.h"
+#include "pool.h"
 
-enum { PNG_CHUNK = 12 }; // bytes of a chunk's length, type and CRC
+#include <lambent/image.h>
 
-struct png_strip {
-    struct adler_part adler;
-    size_t size; // of its chunk
-};
-
+// A picture that becomes a PNG file, in strips of rows that any thread can encode.
 struct png_encoding {
     const lam_image *image;
-    int bytes_per_pixel; // 4, or 3 where every pixel is opaque
-    uint32_t mask;       // of a pixel's bytes that are written
-    int rows;            // in a strip
+    const uint8_t *zeros; // the row above the first
+    int bytes_per_pixel;  // 1: grey, 2: grey and alpha, 3: RGB, 4: RGBA
+    int rows;             // of a strip; the last may have fewer
     int strips;
-    size_t room; // for one strip's chunk at worst
-    struct crc_tables crc;
-    const uint8_t *zeros;    // the row above the first
-    struct deflate *scratch; // of the quick kind, one for each thread
-    struct png_best *best;   // of the small kind, likewise
-    uint8_t *filters;        // of the small kind: how each strip is filtered
-    int translucent;         // touched atomically: set once a pixel was found that is not opaque
-
-    struct call_control call; // over the whole call
-    int first;                // strip of this batch
-    uint8_t *out;             // of this batch, `room` bytes for each strip
-    struct png_strip *done;   // one for each strip of a batch
+    size_t capacity;          // bytes that a strip's stream may need
+    void *threads;            // the method's state, one for each thread
+    struct call_control call; // of the whole encoding
 };
 
-// Completes a chunk whose `size` bytes of data already stand at out + 8. Returns the chunk's size.
-size_t png_close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size);
+// A way to compress.
+struct png_method {
+    int strip_pixels;   // about how many a strip has
+    uint8_t zlib_flags; // the second byte of zlib's header (RFC 1950): the level
 
-// A row's pixels; of row −1 those of a row of zeros.
-const uint8_t *png_pixel_row(const struct png_encoding *encoding, int y);
-int png_strip_rows(const struct png_encoding *encoding, int strip);
+    // Sets capacity and threads.
+    bool (*start)(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error);
 
-enum { PNG_BEST_PIXELS = 1 << 17 }; // of a strip of the small kind; matches reach into the strip above
+    // Writes one strip as deflate blocks that are not the last and end on a byte boundary, and adds its filtered rows to
+    // `adler`. Returns the number of bytes; 0: memory is out, or the call must stop.
+    size_t (*strip)(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out);
 
-// The room that a strip's stream takes at worst.
-size_t png_best_room(const struct png_encoding *encoding);
-// Gets memory and decides how each strip is filtered.
-bool png_best_start(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error);
-// Writes strip `strip`'s stream. Returns its bytes.
-size_t png_best_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out);
+    // Frees what the arena does not own; also after a start that failed. NULL: nothing.
+    void (*end)(struct png_encoding *encoding);
+};
+
+extern const struct png_method png_fast, png_best;
+
+// A row's RGBA pixels; row −1 is zero.
+static inline const uint8_t *png_pixel_row(const struct png_encoding *encoding, int y)
+{
+    if (y < 0)
+        return encoding->zeros;
+    return (const uint8_t *)encoding->image->pixels + (size_t)y * (size_t)encoding->image->width * 4;
+}
+
+static inline int png_strip_rows(const struct png_encoding *encoding, int strip)
+{
+    const int left = encoding->image->height - strip * encoding->rows;
+    return left < encoding->rows ? left : encoding->rows;
+}
 
 #endif

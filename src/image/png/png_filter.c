@@ -55,56 +55,63 @@ INLINE u8x16 filtered(enum png_filter filter, u8x16 here, u8x16 left, u8x16 abov
 
 enum { VECTOR = 16, BLOCK = 4 * VECTOR, BLOCK_PIXELS = BLOCK / 4 };
 
-INLINE void put(uint32_t *out, int at, u8x16 result) { *(u8x16_memory *)(out + at / 4) = result; }
-
-// One vector at a time; the first, which has nothing to its left, and the last, which may be short, go
-// through copies.
-INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t mask,
-                       uint32_t *out)
+// One vector at a time; the first, which has nothing to its left, and the last, which may be short, go through copies.
+// `low`: the bytes of a pixel that are kept; `gather`: alpha follows red.
+INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t low,
+                       bool gather, uint32_t *out)
 {
     const int bytes = 4 * width;
-    const u8x16 masks = (u8x16)((u32x4){0} + mask);
-    for (int at = 0; at < bytes;) {
+    for (int at = 0; at < bytes; at += VECTOR) {
+        u8x16 result;
         if (at > 0 && at + VECTOR <= bytes) {
-            for (; at + VECTOR <= bytes; at += VECTOR)
-                put(out, at,
-                    masks &
-                        filtered(filter, load(row + at), load(row + at - 4), load(above + at), load(above + at - 4)));
+            result = filtered(filter, load(row + at), load(row + at - 4), load(above + at), load(above + at - 4));
         } else {
             uint8_t near[VECTOR + 4] = {0}, far[VECTOR + 4] = {0}; // this row and the one above, from the left pixel on
-            const int before = at > 0 ? 4 : 0, behind = bytes - at < VECTOR ? bytes - at : VECTOR;
-            memcpy(near + 4 - before, row + at - before, (size_t)(before + behind));
-            memcpy(far + 4 - before, above + at - before, (size_t)(before + behind));
-            u8x16 result = filtered(filter, load(near + 4), load(near), load(far + 4), load(far));
-            for (int i = behind; i < VECTOR; i++)
+            const int before = at > 0 ? 4 : 0, after = bytes - at < VECTOR ? bytes - at : VECTOR;
+            memcpy(near + 4 - before, row + at - before, (size_t)(before + after));
+            memcpy(far + 4 - before, above + at - before, (size_t)(before + after));
+            result = filtered(filter, load(near + 4), load(near), load(far + 4), load(far));
+            for (int i = after; i < VECTOR; i++)
                 result[i] = 0;
-            put(out, at, result & masks);
-            at += VECTOR;
         }
+        u32x4 kept = (u32x4)result & ((u32x4){0} + low);
+        if (gather)
+            kept |= (u32x4)result >> 24 << 8;
+        *(u8x16_memory *)(out + at / 4) = (u8x16)kept;
     }
 }
 
-void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t mask,
-                    uint32_t *out)
+// Written out so that each loop is compiled for its filter.
+INLINE void filter_row_by(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t low,
+                          bool gather, uint32_t *out)
 {
-    // Written out so that each loop is made for its filter.
     switch (filter) {
     case PNG_FILTER_SUB:
-        filter_row(PNG_FILTER_SUB, row, above, width, mask, out);
+        filter_row(PNG_FILTER_SUB, row, above, width, low, gather, out);
         break;
     case PNG_FILTER_UP:
-        filter_row(PNG_FILTER_UP, row, above, width, mask, out);
+        filter_row(PNG_FILTER_UP, row, above, width, low, gather, out);
         break;
     case PNG_FILTER_AVERAGE:
-        filter_row(PNG_FILTER_AVERAGE, row, above, width, mask, out);
+        filter_row(PNG_FILTER_AVERAGE, row, above, width, low, gather, out);
         break;
     case PNG_FILTER_PAETH:
-        filter_row(PNG_FILTER_PAETH, row, above, width, mask, out);
+        filter_row(PNG_FILTER_PAETH, row, above, width, low, gather, out);
         break;
     default:
-        filter_row(PNG_FILTER_NONE, row, above, width, mask, out);
+        filter_row(PNG_FILTER_NONE, row, above, width, low, gather, out);
         break;
     }
+}
+
+void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, int bytes_per_pixel,
+                    uint32_t *out)
+{
+    static const uint32_t low[5] = {[1] = 0xFF, [3] = 0xFFFFFF, [4] = 0xFFFFFFFF};
+    if (bytes_per_pixel == 2)
+        filter_row_by(filter, row, above, width, 0xFF, true, out);
+    else
+        filter_row_by(filter, row, above, width, low[bytes_per_pixel], false, out);
 }
 
 static bool is_blank(const uint8_t *block)

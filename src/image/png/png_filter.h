@@ -4,36 +4,36 @@
 
 #include <stdint.h>
 
-// As they are numbered in the file.
+// Numbered as in the file.
 enum png_filter {
     PNG_FILTER_NONE,
     PNG_FILTER_SUB,     // minus the pixel to the left
     PNG_FILTER_UP,      // minus the one above
     PNG_FILTER_AVERAGE, // minus the mean of both
-    // minus that of left, above and above left which is nearest to left + above − above left
+    // minus the one of left, above and above left that is nearest to left + above − above left
     PNG_FILTER_PAETH,
 };
 
-// Filters a row of `width` RGBA pixels, `above` being the row before it (zeros for the first), into `out`,
-// which has room for a multiple of 4 pixels; the words from `width` up to there become zero. Each word is
-// masked by `mask`.
-void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t mask,
+// Filters a row of `width` RGBA pixels; `above` is the row before it (zeros for the first). `out` gets a word for each
+// pixel: its bytes_per_pixel bytes of the stream, the first lowest (1: red, 2: red and alpha, 3: red, green and blue, 4:
+// all), and zeros above them. It has capacity for a multiple of 4 words; those from `width` on become zero.
+void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, int bytes_per_pixel,
                     uint32_t *out);
 
-// The pixels of a row from `first` to before `end`; those on both sides are zero: the transparent background,
-// most of many a picture. Equal numbers: all are.
+// The pixels of a row from `first` up to, not including, `end`. Those on both sides are zero: the transparent background,
+// which is most of many pictures. Equal numbers: all pixels are zero.
 struct png_span {
     int first, end;
 };
 
-// Of a row of `width` pixels; pixels are looked at by blocks, so that some at its ends may be zero too.
+// The span of a row of `width` pixels. Whole blocks are examined, so some pixels at its ends may be zero too.
 struct png_span png_span_of(const uint8_t *row, int width);
 
-// What a filter can leave of such a row below such another one: it puts the difference to a pixel at the next
-// one, too.
+// The span of a row after filtering, from its own and that of the row above: a filter also changes the pixel that follows
+// a span.
 struct png_span png_span_filtered(struct png_span row, struct png_span above, int width);
 
-// How hard a filtered row looks to compress: Σ |byte| with bytes as −128…127.
+// An estimate of how badly a filtered row compresses: Σ |byte|, with bytes as −128…127.
 uint64_t png_filter_cost(const uint32_t *filtered, int width);
 
 #endif

@@ -1,24 +1,44 @@
-// png_write.c: pictures become PNG files, in parallel strips and yet always the same bytes.
+// png_write.c: pictures become PNG files: grey, grey and alpha, RGB or RGBA, whichever holds the picture exactly.
 //
-// Rows are cut into strips whose height depends on the width alone. A strip takes one row filter, is
-// compressed by itself (deflate.h) and becomes one IDAT chunk with its own CRC, so that any thread may take
-// any strip; only the Adler-32 of the whole is joined at the end. A filter looks at the row above, which is
-// there whichever strip it is in. The small kind (png_best.c) is made likewise, of larger strips.
-#include "png_encoding.h"
-
-#include "arena.h"
-#include "deflate.h"
+// The picture is cut into strips of rows, whose height depends on the width alone. Each strip is filtered and compressed
+// by itself (png_fast.c, png_best.c) and becomes one IDAT chunk with its own CRC, so any thread can take any strip and
+// the bytes do not depend on threads; only the Adler-32 of the whole is joined at the end.
+#include "codec.h"
 #include "fail.h"
-#include "png_filter.h"
+#include "png_encoding.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    STRIP_PIXELS = 32768, // a strip's words stay in the second-level cache; its Huffman code costs about 80 bytes
-    BATCH_STRIPS = 256,   // strips between two joinings: bounds the room that waits for the worst case
-    TRIAL_STEP = 8,       // each eighth row is tried with every filter
+    BATCH_STRIPS = 256, // strips between two joinings: bounds the memory reserved for the worst case
+    CHUNK_BYTES = 12,   // a chunk's length, type and CRC
+    ZLIB_HEADER = 2,    // in the first strip's chunk
+    HEAD_BYTES = 128,   // at most
+    TAIL_BYTES = 6 + 2 * CHUNK_BYTES,
 };
+
+enum channels { COLORED = 1, TRANSLUCENT = 2, ALL_CHANNELS = 3 };
+
+struct png_strip {
+    struct adler_part adler;
+    size_t size; // of its chunk; 0: it was not encoded
+};
+
+struct png_writer {
+    struct png_encoding encoding;
+    const struct png_method *method;
+    struct crc_tables crc;
+    int channels;           // enum channels; touched atomically
+    int first;              // strip of this batch
+    uint8_t *out;           // of this batch, chunk_capacity bytes for each strip
+    struct png_strip *done; // one for each strip of a batch
+};
+
+static size_t chunk_capacity(const struct png_writer *writer)
+{
+    return CHUNK_BYTES + ZLIB_HEADER + writer->encoding.capacity;
+}
 
 static void put_u32(uint8_t *at, uint32_t value)
 {
@@ -26,232 +46,161 @@ static void put_u32(uint8_t *at, uint32_t value)
         at[i] = (uint8_t)(value >> (24 - 8 * i));
 }
 
-size_t png_close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size)
+// Completes a chunk whose `size` bytes of data stand at out + 8. Returns the chunk's size.
+static size_t close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size)
 {
     put_u32(out, (uint32_t)size);
     memcpy(out + 4, type, 4);
     put_u32(out + 8 + size, crc_of(crc, out + 4, size + 4));
-    return size + PNG_CHUNK;
+    return size + CHUNK_BYTES;
 }
 
 static size_t put_chunk(const struct crc_tables *crc, const char *type, const void *data, size_t size, uint8_t *out)
 {
     if (size)
         memcpy(out + 8, data, size);
-    return png_close_chunk(crc, type, out, size);
+    return close_chunk(crc, type, out, size);
 }
 
-const uint8_t *png_pixel_row(const struct png_encoding *encoding, int y)
+typedef uint32_t u32x4 __attribute__((vector_size(16)));
+typedef u32x4 u32x4_memory __attribute__((aligned(4), may_alias));
+
+// The channels that some pixels need.
+static int channels_of(const uint8_t *pixels, size_t count)
 {
-    if (y < 0)
-        return encoding->zeros;
-    return (const uint8_t *)encoding->image->pixels + (size_t)y * (size_t)encoding->image->width * 4;
+    u32x4 differ = {0}, all = ~differ;
+    size_t i = 0;
+    for (; i + 16 <= count; i += 16)
+        for (size_t k = i; k < i + 16; k += 4) {
+            const u32x4 four = *(const u32x4_memory *)(pixels + 4 * k);
+            differ |= four ^ four >> 8; // red against green, green against blue
+            all &= four;
+        }
+    for (; i < count; i++) {
+        uint32_t pixel;
+        memcpy(&pixel, pixels + 4 * i, 4);
+        differ[0] |= pixel ^ pixel >> 8;
+        all[0] &= pixel;
+    }
+    const bool colored = (differ[0] | differ[1] | differ[2] | differ[3]) & 0xFFFF;
+    const bool opaque = (all[0] & all[1] & all[2] & all[3]) >> 24 == 255;
+    return (colored ? COLORED : 0) | (opaque ? 0 : TRANSLUCENT);
 }
 
-int png_strip_rows(const struct png_encoding *encoding, int strip)
-{
-    int left = encoding->image->height - strip * encoding->rows;
-    return left < encoding->rows ? left : encoding->rows;
-}
-
-static void look_for_translucent(void *user, size_t index, int thread)
+// Adds the channels that a strip's pixels need. A strip is left early only when every channel is needed already, so the
+// result does not depend on the order of the strips.
+static void find_channels(void *user, size_t index, int thread)
 {
     (void)thread;
-    struct png_encoding *encoding = user;
-    if (__atomic_load_n(&encoding->translucent, __ATOMIC_RELAXED))
-        return;
+    enum { BLOCK = 4096 };
+    struct png_writer *writer = user;
+    const struct png_encoding *encoding = &writer->encoding;
     const uint8_t *pixels = png_pixel_row(encoding, (int)index * encoding->rows);
-    size_t count = (size_t)png_strip_rows(encoding, (int)index) * (size_t)encoding->image->width;
-    for (size_t i = 0; i < count;) {
-        uint8_t all = 255;
-        for (size_t end = count - i < 4096 ? count : i + 4096; i < end; i++)
-            all &= pixels[4 * i + 3];
-        if (all != 255) {
-            __atomic_store_n(&encoding->translucent, 1, __ATOMIC_RELAXED);
-            return;
-        }
+    size_t left = (size_t)png_strip_rows(encoding, (int)index) * (size_t)encoding->image->width;
+    for (int known; left && (known = __atomic_load_n(&writer->channels, __ATOMIC_RELAXED)) != ALL_CHANNELS;) {
+        const size_t count = left < BLOCK ? left : BLOCK;
+        const int found = channels_of(pixels, count);
+        if (found & ~known)
+            __atomic_fetch_or(&writer->channels, found, __ATOMIC_RELAXED);
+        pixels += 4 * count;
+        left -= count;
     }
-}
-
-static int first_trial(int rows) { return rows < TRIAL_STEP ? 0 : TRIAL_STEP / 2; }
-
-static struct png_span span_at(const struct png_encoding *encoding, int y)
-{
-    const int width = encoding->image->width;
-    return png_span_filtered(png_span_of(png_pixel_row(encoding, y), width),
-                             png_span_of(png_pixel_row(encoding, y - 1), width), width);
-}
-
-static void filter_span(const struct png_encoding *encoding, enum png_filter filter, int y, struct png_span span,
-                        uint32_t *out)
-{
-    const size_t offset = 4 * (size_t)span.first;
-    png_filter_row(filter, png_pixel_row(encoding, y) + offset, png_pixel_row(encoding, y - 1) + offset,
-                   span.end - span.first, encoding->mask, out);
-}
-
-// The filter that leaves the least on some of the strip's rows; of equals the highest number.
-static enum png_filter best_filter(const struct png_encoding *encoding, struct deflate *scratch, int top, int rows)
-{
-    uint64_t cost[PNG_FILTER_PAETH + 1] = {0};
-    enum png_filter best = PNG_FILTER_PAETH;
-    for (int y = first_trial(rows); y < rows; y += TRIAL_STEP) {
-        const struct png_span span = span_at(encoding, top + y);
-        for (enum png_filter filter = PNG_FILTER_SUB; filter <= PNG_FILTER_PAETH; filter++) {
-            filter_span(encoding, filter, top + y, span, scratch->words);
-            cost[filter] += png_filter_cost(scratch->words, span.end - span.first);
-        }
-    }
-    for (enum png_filter filter = PNG_FILTER_PAETH; filter >= PNG_FILTER_SUB; filter--)
-        if (cost[filter] < cost[best])
-            best = filter;
-    return best;
-}
-
-// Whether the rows that were tried hold grey alone: what is no picture of coloured light.
-static bool is_grey(const struct png_encoding *encoding, int top, int rows)
-{
-    uint32_t differ = 0;
-    for (int y = first_trial(rows); y < rows; y += TRIAL_STEP) {
-        const uint8_t *row = png_pixel_row(encoding, top + y);
-        for (int x = 0; x < encoding->image->width; x++) {
-            uint32_t pixel;
-            memcpy(&pixel, row + 4 * (size_t)x, 4);
-            differ |= pixel ^ pixel >> 8; // green against red, blue against green
-        }
-    }
-    return (differ & 0xFFFF) == 0;
-}
-
-static size_t quick_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out)
-{
-    struct deflate *scratch = &encoding->scratch[thread];
-    const int width = encoding->image->width;
-    const size_t pixel = (size_t)encoding->bytes_per_pixel;
-    const int top = strip * encoding->rows, rows = png_strip_rows(encoding, strip);
-    const enum png_filter filter = best_filter(encoding, scratch, top, rows);
-    deflate_start(scratch, (uint8_t)filter, is_grey(encoding, top, rows));
-    struct png_span above = png_span_of(png_pixel_row(encoding, top - 1), width);
-    for (int y = 0; y < rows; y++) {
-        const struct png_span here = png_span_of(png_pixel_row(encoding, top + y), width);
-        const struct png_span span = png_span_filtered(here, above, width);
-        memset(scratch->row, 0, (size_t)span.first * 4);
-        filter_span(encoding, filter, top + y, span, scratch->row + span.first);
-        memset(scratch->row + span.end, 0, (size_t)(width - span.end) * 4);
-        adler_byte(adler, (uint8_t)filter);
-        adler_zeros(adler, (size_t)span.first * pixel);
-        adler_row(adler, scratch->row + span.first, span.end - span.first, encoding->bytes_per_pixel);
-        adler_zeros(adler, (size_t)(width - span.end) * pixel);
-        deflate_row(scratch, span.first, span.end);
-        above = here;
-    }
-    return deflate_write(scratch, out);
 }
 
 static void encode_strip(void *user, size_t index, int thread)
 {
-    struct png_encoding *encoding = user;
-    const int strip = encoding->first + (int)index;
-    struct png_strip *done = &encoding->done[index];
-    uint8_t *out = encoding->out + index * encoding->room;
-    done->adler = (struct adler_part){0};
-    done->size = 0;
-    if (!call_should_continue(&encoding->call))
+    struct png_writer *writer = user;
+    const int strip = writer->first + (int)index;
+    struct png_strip *done = &writer->done[index];
+    uint8_t *out = writer->out + index * chunk_capacity(writer);
+    *done = (struct png_strip){0};
+    if (!call_should_continue(&writer->encoding.call))
         return;
-    size_t size = 0;
+    size_t header = 0;
     if (strip == 0) {
-        // zlib's header (RFC 1950): deflate, a window of 32 KiB, the fastest level or the slowest.
+        // RFC 1950: deflate, a window of 32 KiB.
         out[8] = 0x78;
-        out[9] = encoding->best ? 0xDA : 0x01;
-        size = 2;
+        out[9] = writer->method->zlib_flags;
+        header = ZLIB_HEADER;
     }
-    size += encoding->best ? png_best_strip(encoding, strip, thread, &done->adler, out + 8 + size)
-                           : quick_strip(encoding, strip, thread, &done->adler, out + 8 + size);
-    done->size = png_close_chunk(&encoding->crc, "IDAT", out, size);
+    const size_t size = writer->method->strip(&writer->encoding, strip, thread, &done->adler, out + 8 + header);
+    if (size)
+        done->size = close_chunk(&writer->crc, "IDAT", out, header + size);
 }
-static size_t put_head(const struct png_encoding *encoding, bool raw, uint8_t *out)
+
+static size_t put_head(const struct png_writer *writer, bool raw, uint8_t *out)
 {
     static const uint8_t signature[8] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
-    static const uint8_t intent = 0; // perceptual
+    static const uint8_t color_types[5] = {0, 0, 4, 2, 6}; // by bytes_per_pixel
+    static const uint8_t intent = 0;                       // perceptual
     static const char software[] = "Software\0lambent";
     uint8_t header[13] = {0}, *at = out;
     memcpy(at, signature, sizeof signature);
     at += sizeof signature;
-    put_u32(header, (uint32_t)encoding->image->width);
-    put_u32(header + 4, (uint32_t)encoding->image->height);
-    header[8] = 8;                                      // bits
-    header[9] = encoding->bytes_per_pixel == 4 ? 6 : 2; // RGBA or RGB
-    at += put_chunk(&encoding->crc, "IHDR", header, sizeof header, at);
+    put_u32(header, (uint32_t)writer->encoding.image->width);
+    put_u32(header + 4, (uint32_t)writer->encoding.image->height);
+    header[8] = 8; // bits
+    header[9] = color_types[writer->encoding.bytes_per_pixel];
+    at += put_chunk(&writer->crc, "IHDR", header, sizeof header, at);
     if (!raw)
-        at += put_chunk(&encoding->crc, "sRGB", &intent, 1, at);
-    at += put_chunk(&encoding->crc, "tEXt", software, sizeof software - 1, at);
+        at += put_chunk(&writer->crc, "sRGB", &intent, 1, at);
+    at += put_chunk(&writer->crc, "tEXt", software, sizeof software - 1, at);
     return (size_t)(at - out);
 }
 
 // The last block, empty with fixed codes, and the checksum.
-static size_t put_tail(const struct png_encoding *encoding, const struct adler_part *adler, uint8_t *out)
+static size_t put_tail(const struct png_writer *writer, const struct adler_part *adler, uint8_t *out)
 {
     uint8_t end[6] = {3, 0};
     put_u32(end + 2, adler_value(adler));
-    size_t size = put_chunk(&encoding->crc, "IDAT", end, sizeof end, out);
-    return size + put_chunk(&encoding->crc, "IEND", NULL, 0, out + size);
+    size_t size = put_chunk(&writer->crc, "IDAT", end, sizeof end, out);
+    return size + put_chunk(&writer->crc, "IEND", NULL, 0, out + size);
 }
 
-enum { HEAD_ROOM = 128, TAIL_ROOM = 6 + 2 * PNG_CHUNK };
-
-// Memory that lives while the file is made. Bounded: per thread about 12 bytes for each pixel of a strip.
-static bool get_scratch(struct png_encoding *encoding, bool best, struct pool *pool, struct arena *arena,
-                        lam_error *error)
+// Encodes the strips of a batch, and moves their chunks together at bytes + *size. Strips are encoded at a distance that
+// fits the worst case; pages that none reaches are never touched, so the distance costs address space only.
+static bool encode_batch(struct png_writer *writer, int count, struct pool *pool, uint8_t *bytes, size_t *size,
+                         struct adler_part *adler, lam_error *error)
 {
-    const int threads = pool_threads(pool);
-    const int width = encoding->image->width;
-    const int batch = encoding->strips < BATCH_STRIPS ? encoding->strips : BATCH_STRIPS;
-    encoding->done = arena_array(arena, (size_t)batch, sizeof *encoding->done);
-    encoding->zeros = arena_alloc_zeroed(arena, (size_t)width * 4);
-    if (encoding->done && encoding->zeros && best)
-        return png_best_start(encoding, pool, arena, error);
-    encoding->scratch = arena_array(arena, (size_t)threads, sizeof *encoding->scratch);
-    bool ok = encoding->scratch && encoding->done && encoding->zeros;
-    for (int i = 0; ok && i < threads; i++)
-        ok = deflate_make(&encoding->scratch[i], arena, width, encoding->rows, encoding->bytes_per_pixel);
-    return ok || fail_memory(error, (size_t)threads * deflate_scratch(width, encoding->rows));
+    writer->out = bytes + *size;
+    pool_run(pool, (size_t)count, encode_strip, writer);
+    if (!call_should_continue(&writer->encoding.call))
+        return call_error(&writer->encoding.call, error);
+    for (int i = 0; i < count; i++) {
+        if (!writer->done[i].size)
+            return fail_memory(error, chunk_capacity(writer));
+        memmove(bytes + *size, writer->out + (size_t)i * chunk_capacity(writer), writer->done[i].size);
+        *size += writer->done[i].size;
+        adler_join(adler, &writer->done[i].adler);
+    }
+    return true;
 }
 
-// Strips are made at a distance that fits the worst case, then moved together. Pages that were not reached
-// are never touched, so the room costs address space only.
-static bool encode_strips(struct png_encoding *encoding, bool raw, struct pool *pool, lam_bytes *out, lam_error *error)
+static bool encode_strips(struct png_writer *writer, bool raw, struct pool *pool, lam_bytes *out, lam_error *error)
 {
+    const int strips = writer->encoding.strips;
     uint8_t *bytes = NULL;
     size_t size = 0;
     struct adler_part adler = {0};
-    for (encoding->first = 0; encoding->first < encoding->strips; encoding->first += BATCH_STRIPS) {
-        int left = encoding->strips - encoding->first, count = left < BATCH_STRIPS ? left : BATCH_STRIPS;
-        size_t wanted = (size ? size : HEAD_ROOM) + (size_t)count * encoding->room + TAIL_ROOM;
-        if (!call_should_continue(&encoding->call)) {
-            free(bytes);
-            return call_error(&encoding->call, error);
+    bool ok = true;
+    for (writer->first = 0; ok && writer->first < strips; writer->first += BATCH_STRIPS) {
+        const int left = strips - writer->first, count = left < BATCH_STRIPS ? left : BATCH_STRIPS;
+        const size_t wanted = (size ? size : HEAD_BYTES) + (size_t)count * chunk_capacity(writer) + TAIL_BYTES;
+        uint8_t *larger = realloc(bytes, wanted);
+        if (!larger) {
+            ok = fail_memory(error, wanted);
+            break;
         }
-        uint8_t *more = realloc(bytes, wanted);
-        if (!more) {
-            free(bytes);
-            return fail_memory(error, wanted);
-        }
-        bytes = more;
+        bytes = larger;
         if (size == 0)
-            size = put_head(encoding, raw, bytes);
-        encoding->out = bytes + size;
-        pool_run(pool, (size_t)count, encode_strip, encoding);
-        for (int i = 0; i < count; i++) {
-            memmove(bytes + size, encoding->out + (size_t)i * encoding->room, encoding->done[i].size);
-            size += encoding->done[i].size;
-            adler_join(&adler, &encoding->done[i].adler);
-        }
+            size = put_head(writer, raw, bytes);
+        ok = encode_batch(writer, count, pool, bytes, &size, &adler, error);
     }
-    if (!call_should_continue(&encoding->call)) {
+    if (!ok) {
         free(bytes);
-        return call_error(&encoding->call, error);
+        return false;
     }
-    size += put_tail(encoding, &adler, bytes + size);
+    size += put_tail(writer, &adler, bytes + size);
     uint8_t *fitted = realloc(bytes, size);
     *out = (lam_bytes){fitted ? fitted : bytes, size};
     return true;
@@ -260,33 +209,34 @@ static bool encode_strips(struct png_encoding *encoding, bool raw, struct pool *
 bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                lam_error *error)
 {
-    struct png_encoding encoding = {.image = image, .bytes_per_pixel = 4, .mask = 0xFFFFFFFFu};
-    call_start(&encoding.call, params->control);
-    const bool best = params->compress == LAM_COMPRESS_BEST;
-    encoding.rows = (best ? PNG_BEST_PIXELS : STRIP_PIXELS) / image->width;
-    if (encoding.rows < 1)
-        encoding.rows = 1;
-    if (encoding.rows > image->height)
-        encoding.rows = image->height;
-    encoding.strips = (image->height + encoding.rows - 1) / encoding.rows;
-    if (encoding.strips == 1)
+    struct png_writer writer = {.method = params->compress == LAM_COMPRESS_BEST ? &png_best : &png_fast};
+    struct png_encoding *encoding = &writer.encoding;
+    encoding->image = image;
+    call_start(&encoding->call, params->control);
+    encoding->rows = writer.method->strip_pixels / image->width;
+    if (encoding->rows < 1)
+        encoding->rows = 1;
+    if (encoding->rows > image->height)
+        encoding->rows = image->height;
+    encoding->strips = (image->height + encoding->rows - 1) / encoding->rows;
+    if (encoding->strips == 1)
         pool = NULL;
-    look_for_translucent(&encoding, 0, 0); // mostly the first pixel is, and then nobody needs to be woken
-    if (!encoding.translucent)
-        pool_run(pool, (size_t)encoding.strips, look_for_translucent, &encoding);
-    if (!encoding.translucent) {
-        encoding.bytes_per_pixel = 3;
-        encoding.mask = 0x00FFFFFFu;
-    }
-    encoding.room =
-        PNG_CHUNK + 2 +
-        (best ? png_best_room(&encoding) : deflate_room(image->width, encoding.rows, encoding.bytes_per_pixel));
-    crc_tables_make(&encoding.crc);
+    pool_run(pool, (size_t)encoding->strips, find_channels, &writer);
+    encoding->bytes_per_pixel = (writer.channels & COLORED ? 3 : 1) + (writer.channels & TRANSLUCENT ? 1 : 0);
+    crc_tables_make(&writer.crc);
 
     struct arena arena;
     arena_start(&arena, NULL);
-    bool ok =
-        get_scratch(&encoding, best, pool, &arena, error) && encode_strips(&encoding, params->raw, pool, out, error);
+    const int batch = encoding->strips < BATCH_STRIPS ? encoding->strips : BATCH_STRIPS;
+    writer.done = arena_array(&arena, (size_t)batch, sizeof *writer.done);
+    encoding->zeros = arena_alloc_zeroed(&arena, (size_t)image->width * 4);
+    bool ok = writer.done && encoding->zeros;
+    if (!ok)
+        fail_memory(error, (size_t)batch * sizeof *writer.done + (size_t)image->width * 4);
+    ok = ok && writer.method->start(encoding, pool, &arena, error) &&
+         encode_strips(&writer, params->raw, pool, out, error);
+    if (writer.method->end)
+        writer.method->end(encoding);
     arena_free(&arena);
     return ok;
 }

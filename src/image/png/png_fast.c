@@ -1,0 +1,104 @@
+// png_fast.c: the default compression: one filter for each strip, then deflate.h.
+#include "deflate.h"
+#include "fail.h"
+#include "png_encoding.h"
+#include "png_filter.h"
+
+#include <string.h>
+
+enum { TRIAL_STEP = 8 }; // every eighth row is tried with every filter
+
+static int first_trial(int rows) { return rows < TRIAL_STEP ? 0 : TRIAL_STEP / 2; }
+
+static struct png_span span_at(const struct png_encoding *encoding, int y)
+{
+    const int width = encoding->image->width;
+    return png_span_filtered(png_span_of(png_pixel_row(encoding, y), width),
+                             png_span_of(png_pixel_row(encoding, y - 1), width), width);
+}
+
+static void filter_span(const struct png_encoding *encoding, enum png_filter filter, int y, struct png_span span,
+                        uint32_t *out)
+{
+    const size_t offset = 4 * (size_t)span.first;
+    png_filter_row(filter, png_pixel_row(encoding, y) + offset, png_pixel_row(encoding, y - 1) + offset,
+                   span.end - span.first, encoding->bytes_per_pixel, out);
+}
+
+// The filter with the lowest cost over some of the strip's rows; of equal ones that with the highest number.
+static enum png_filter choose_filter(const struct png_encoding *encoding, struct deflate *scratch, int top, int rows)
+{
+    uint64_t cost[PNG_FILTER_PAETH + 1] = {0};
+    enum png_filter best = PNG_FILTER_PAETH;
+    for (int y = first_trial(rows); y < rows; y += TRIAL_STEP) {
+        const struct png_span span = span_at(encoding, top + y);
+        for (enum png_filter filter = PNG_FILTER_SUB; filter <= PNG_FILTER_PAETH; filter++) {
+            filter_span(encoding, filter, top + y, span, scratch->words);
+            cost[filter] += png_filter_cost(scratch->words, span.end - span.first);
+        }
+    }
+    for (enum png_filter filter = PNG_FILTER_PAETH; filter >= PNG_FILTER_SUB; filter--)
+        if (cost[filter] < cost[best])
+            best = filter;
+    return best;
+}
+
+// Whether the tried rows of a strip of a coloured picture are grey.
+static bool is_grey(const struct png_encoding *encoding, int top, int rows)
+{
+    uint32_t differ = 0;
+    for (int y = first_trial(rows); y < rows; y += TRIAL_STEP) {
+        const uint8_t *row = png_pixel_row(encoding, top + y);
+        for (int x = 0; x < encoding->image->width; x++) {
+            uint32_t pixel;
+            memcpy(&pixel, row + 4 * (size_t)x, 4);
+            differ |= pixel ^ pixel >> 8; // red against green, green against blue
+        }
+    }
+    return (differ & 0xFFFF) == 0;
+}
+
+static size_t fast_strip(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out)
+{
+    struct deflate *scratch = &((struct deflate *)encoding->threads)[thread];
+    const int width = encoding->image->width;
+    const size_t pixel = (size_t)encoding->bytes_per_pixel;
+    const int top = strip * encoding->rows, rows = png_strip_rows(encoding, strip);
+    const enum png_filter filter = choose_filter(encoding, scratch, top, rows);
+    deflate_start(scratch, (uint8_t)filter, encoding->bytes_per_pixel < 3 || is_grey(encoding, top, rows));
+    struct png_span above = png_span_of(png_pixel_row(encoding, top - 1), width);
+    for (int y = 0; y < rows; y++) {
+        const struct png_span here = png_span_of(png_pixel_row(encoding, top + y), width);
+        const struct png_span span = png_span_filtered(here, above, width);
+        memset(scratch->row, 0, (size_t)span.first * 4);
+        filter_span(encoding, filter, top + y, span, scratch->row + span.first);
+        memset(scratch->row + span.end, 0, (size_t)(width - span.end) * 4);
+        adler_byte(adler, (uint8_t)filter);
+        adler_zeros(adler, (size_t)span.first * pixel);
+        adler_row(adler, scratch->row + span.first, span.end - span.first, encoding->bytes_per_pixel);
+        adler_zeros(adler, (size_t)(width - span.end) * pixel);
+        deflate_row(scratch, span.first, span.end);
+        above = here;
+    }
+    return deflate_write(scratch, out);
+}
+
+// Memory for each thread: about 12 bytes for each pixel of a strip.
+static bool fast_start(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error)
+{
+    const size_t threads = (size_t)pool_threads(pool);
+    const int width = encoding->image->width, rows = encoding->rows;
+    struct deflate *scratch = encoding->threads = arena_array(arena, threads, sizeof *scratch);
+    bool ok = scratch != NULL;
+    for (size_t i = 0; ok && i < threads; i++)
+        ok = deflate_make(&scratch[i], arena, width, rows, encoding->bytes_per_pixel);
+    encoding->capacity = deflate_capacity(width, rows, encoding->bytes_per_pixel);
+    return ok || fail_memory(error, threads * deflate_scratch(width, rows));
+}
+
+const struct png_method png_fast = {
+    .strip_pixels = 1 << 15, // a strip's words stay in the second-level cache; its Huffman codes cost about 80 bytes
+    .zlib_flags = 0x01,      // the fastest level
+    .start = fast_start,
+    .strip = fast_strip,
+};

@@ -63,12 +63,12 @@ class Picture(Case):
 
     def test_color_types(self):
         for type, words in ((4, ()), (0, ("-b", "white")), (2, ("-b", "#102030")), (6, ("--material", "gold"))):
-            self.good("cube.obj", "-s", "40x30", *words, "-o", "a.png")
+            self.good("cone", "-s", "40x30", *words, "-o", "a.png")
             data = (self.folder / "a.png").read_bytes()
             self.assertEqual(data[25], type)
             pixels = read_png(data)[2]
             if type in (0, 2):  # the same numbers as in a format that always has three channels
-                self.good("cube.obj", "-s", "40x30", *words, "-o", "a.ppm")
+                self.good("cone", "-s", "40x30", *words, "-o", "a.ppm")
                 self.assertEqual(b"".join(pixels[i:i + 3] for i in range(0, len(pixels), 4)), (self.folder / "a.ppm").read_bytes()[-40 * 30 * 3:])
             (self.folder / "rgba.png").write_bytes(write_png(40, 30, pixels))
             self.assertIn(b"equal", self.good("diff", "a.png", "rgba.png").stdout)

@@ -432,7 +432,7 @@ static void the_fewest_channels_are_written(void **state)
             assert_int_equal(color_type(&image, 1, (lam_compress)compress), expected[content]);
             lam_save_params params = {.compress = (lam_compress)compress};
             assert_true(lam_image_save(&image, path, &params, NULL));
-            assert_true(lam_image_is_ours(path));
+            assert_true(lam_image_is_from_lambent(path));
             lam_image back;
             assert_true(lam_image_load(&back, path, NULL));
             assert_memory_equal(back.pixels, image.pixels, 90 * 40 * 4);

@@ -57,14 +57,13 @@ static void set_matrices(struct gl_frame *f, struct gl_program *program, const s
 // With GLSL_TEXTURE the head of a material's products is plain uniforms.
 static void set_head(struct gl_frame *f, struct gl_program *program, const lam_material *material, bool back)
 {
-    struct glsl_products head = glsl_products_of(f->frame, material);
-    int of_colors = back ? UNIFORM_BACK_AMBIENT_PRODUCT : UNIFORM_AMBIENT_PRODUCT,
-        of_numbers = back ? UNIFORM_BACK_SHININESS : UNIFORM_SHININESS;
-    const float *colors[] = {head.ambient_product, head.emission, head.diffuse, head.reflectivity};
-    for (int i = 0; i < 4; i++)
-        program_set(f, program, (enum uniform)(of_colors + i), colors[i], 4);
-    program_set(f, program, (enum uniform)of_numbers, &head.shininess, 1);
-    program_set(f, program, (enum uniform)(of_numbers + 1), &head.fibre, 1);
+    struct glsl_material_layout layout = glsl_material_layout(true);
+    float values[GLSL_MATERIAL_MAX];
+    glsl_material_values(f->frame, material, true, values);
+    for (int i = 0; i < layout.count; i++) {
+        enum uniform uniform = (enum uniform)((back ? UNIFORM_BACK_HEAD : UNIFORM_HEAD) + i);
+        program_set(f, program, uniform, values + layout.at[i], layout.fields[i]->field.type < LAM_FIELD_RGB ? 1 : 4);
+    }
 }
 
 static void use_block(struct gl_frame *f, enum block_point point, GLuint buffer, size_t offset, size_t size)

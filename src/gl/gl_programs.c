@@ -13,18 +13,6 @@ static const char *const uniform_names[UNIFORM_COUNT] = {
     [UNIFORM_NORMAL_MATRIX] = "normal_matrix",
     [UNIFORM_ENVIRONMENT_MATRIX] = "environment_matrix",
     [UNIFORM_OBJECT] = "object",
-    [UNIFORM_SHININESS] = "shininess",
-    [UNIFORM_FIBRE] = "fibre",
-    [UNIFORM_BACK_SHININESS] = "back_shininess",
-    [UNIFORM_BACK_FIBRE] = "back_fibre",
-    [UNIFORM_AMBIENT_PRODUCT] = "ambient_product",
-    [UNIFORM_EMISSION] = "emission",
-    [UNIFORM_DIFFUSE] = "diffuse",
-    [UNIFORM_REFLECTIVITY] = "reflectivity",
-    [UNIFORM_BACK_AMBIENT_PRODUCT] = "back_ambient_product",
-    [UNIFORM_BACK_EMISSION] = "back_emission",
-    [UNIFORM_BACK_DIFFUSE] = "back_diffuse",
-    [UNIFORM_BACK_REFLECTIVITY] = "back_reflectivity",
     [UNIFORM_FIRST_PRODUCT] = "first_product",
     [UNIFORM_BACK_FIRST_PRODUCT] = "back_first_product",
     [UNIFORM_FIRST_TRIANGLE] = "first_triangle",
@@ -78,7 +66,14 @@ static void look_up(struct gl_frame *f, struct gl_program *program)
     const struct gl *gl = f->gl;
     gl_use_program(f->device, program->name);
     for (int u = 0; u < UNIFORM_COUNT; u++)
-        program->locations[u] = gl->GetUniformLocation(program->name, uniform_names[u]);
+        program->locations[u] = uniform_names[u] ? gl->GetUniformLocation(program->name, uniform_names[u]) : -1;
+    struct glsl_material_layout head = glsl_material_layout(true);
+    for (int i = 0; i < head.count; i++) {
+        char back[64] = "back_";
+        const char *name = strcat(back, glsl_field_name(head.fields[i], true)) + strlen("back_");
+        program->locations[UNIFORM_HEAD + i] = gl->GetUniformLocation(program->name, name);
+        program->locations[UNIFORM_BACK_HEAD + i] = gl->GetUniformLocation(program->name, back);
+    }
     static const char *const textures[UNIT_COPY] = {"environment_faces", "light_list", "product_list", "nearer_places",
                                                     "opaque_places"};
     for (int unit = 0; unit < UNIT_COPY; unit++) {

@@ -220,9 +220,13 @@ static bool note_light(struct gl_frame *f, struct gl_colors *row, size_t *size, 
 static bool note_material(struct gl_frame *f, struct gl_colors *row, size_t *size, const lam_material *m,
                           lam_error *error)
 {
-    const int fibre = m->fibre;
-    return note(f, row, size, m, offsetof(lam_material, fibre), error) &&
-           note(f, row, size, &fibre, sizeof fibre, error);
+    for (int i = 0; lam_material_field(i); i++) {
+        double numbers[4];
+        size_t bytes = (size_t)lam_field_get(lam_material_field(i), m, numbers) * sizeof *numbers;
+        if (!note(f, row, size, numbers, bytes, error))
+            return false;
+    }
+    return true;
 }
 
 static bool note_surface(struct gl_frame *f, struct gl_colors *row, size_t *size, const struct frame_draw_range *s,

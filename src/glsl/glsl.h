@@ -11,6 +11,7 @@
 #ifndef GLSL_H
 #define GLSL_H
 
+#include "fields.h"
 #include "frame.h"
 
 enum glsl_version { GLSL_120, GLSL_330, GLSL_300_ES };
@@ -103,20 +104,17 @@ struct glsl_light {
     float diffuse[4], specular[4], ambient[4];
 };
 
-// struct Material, also the elements of the block Materials: front, and back where it has its own.
-struct glsl_material {
-    float ambient[4], diffuse[4], specular[4], emission[4], reflectivity[4];
-    float shininess, fibre; // in use: match_highlights and gl1 are counted in
-    float padding[2];
+// The fields of struct Material (and of an element of the block Materials), or with products those of the head of the
+// block Products: colours as vec4, then numbers. After the head: diffuse_product[lights], specular_product[lights], with
+// gl1 light_ambient_product[lights], sky_product[hemispheres], ground_product[hemispheres], 4 floats each.
+struct glsl_material_layout {
+    int count;
+    const struct material_field *fields[FIELDS_MAX];
+    int at[FIELDS_MAX]; // in floats
+    int size;           // in floats, a multiple of 4
 };
-
-// The head of the block Products. After it: diffuse_product[lights], specular_product[lights], with gl1
-// light_ambient_product[lights], sky_product[hemispheres], ground_product[hemispheres], 4 floats each.
-struct glsl_products {
-    float ambient_product[4], emission[4], diffuse[4], reflectivity[4];
-    float shininess, fibre;
-    float padding[2];
-};
+struct glsl_material_layout glsl_material_layout(bool products);
+enum { GLSL_MATERIAL_MAX = 4 * FIELDS_MAX };
 
 // Bytes of the block Lights (block: [ambient_light, where products are not] lights, hemispheres) or of the
 // texels of light_list (lights, hemispheres); at least 16. Then the values, from the frame: order by groups.
@@ -130,9 +128,11 @@ size_t glsl_products_bytes(const struct glsl_choices *choices);
 void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
                         float *out);
 
-// The head alone (with GLSL_TEXTURE and GLSL_ARRAY its members are plain uniforms), and struct Material.
-struct glsl_products glsl_products_of(const struct frame *frame, const lam_material *material);
-struct glsl_material glsl_material_of(const struct frame *frame, const lam_material *material);
+// The values of that layout (with GLSL_TEXTURE and GLSL_ARRAY the head's members are plain uniforms).
+void glsl_material_values(const struct frame *frame, const lam_material *material, bool products,
+                          float out[GLSL_MATERIAL_MAX]);
+// The name of a field there.
+const char *glsl_field_name(const struct material_field *field, bool products);
 
 // Light i of the text's list; −1 past the end. Lights of a group keep the frame's order.
 int glsl_frame_light(const struct glsl_choices *choices, const struct frame *frame, int i);

@@ -68,35 +68,48 @@ static void add_member(struct list *list, enum glsl_what what, const char *type,
 
 static void mean(struct list *list, const char *meaning) { list->rows[list->count - 1].meaning = meaning; }
 
+// Whether the equations read a field of the material.
+static bool is_read(const struct glsl_facts *f, const struct material_field *row)
+{
+    switch (row->reader) {
+    case FIELD_LIT:
+        return !f->paints;
+    case FIELD_ENVIRONMENT:
+        return f->environment;
+    case FIELD_HIGHLIGHT:
+        return f->highlights;
+    case FIELD_LOBE:
+        return glsl_lobe_reads(f, row->field.name);
+    default:
+        return true;
+    }
+}
+
+// The fields of the material: those of its struct, or (with products) rows of their own. A block has all of them.
+static void add_fields(struct list *list, const struct glsl_facts *f, const char *block, const char *prefix)
+{
+    bool products = f->choices->products;
+    struct glsl_material_layout layout = glsl_material_layout(products);
+    for (int i = 0; i < layout.count; i++) {
+        const struct material_field *row = layout.fields[i];
+        if (f->choices->storage != GLSL_BLOCK && !is_read(f, row))
+            continue;
+        add(list, products ? GLSL_HEAD : GLSL_MATERIAL, row->field.type < LAM_FIELD_RGB ? "float" : "vec4", 0, block,
+            "%s%s", prefix, glsl_field_name(row, products));
+        mean(list, products && row->product_summary ? row->product_summary : row->field.summary);
+        list->rows[list->count - 1].at = layout.at[i];
+    }
+}
+
 static void add_products(struct list *list, const struct glsl_facts *f, bool back)
 {
     const struct glsl_choices *c = f->choices;
     const char *p = back ? "back_" : "",
                *block = c->storage == GLSL_BLOCK ? (back ? "BackProducts" : "Products") : NULL;
-    bool all = block != NULL, lists = c->storage != GLSL_TEXTURE, sums = !f->paints;
+    bool all = block != NULL, lists = c->storage != GLSL_TEXTURE;
     int first = list->count, lights = f->lights && lists ? c->light_count : 0,
         skies = f->skies && lists ? c->hemisphere_count : 0;
-    if (all || sums) {
-        add(list, GLSL_AMBIENT_PRODUCT, "vec4", 0, block, "%sambient_product", p);
-        mean(list, "ka La: the material's ambient colour times all light from everywhere");
-        add(list, GLSL_EMISSION, "vec4", 0, block, "%semission", p);
-        mean(list, "light that the surface itself gives");
-    }
-    add(list, GLSL_DIFFUSE, "vec4", 0, block, "%sdiffuse", p);
-    mean(list, f->paints ? "kd: the colour, and the opacity in a"
-                         : "kd, and the opacity in a; only the opacity is looked at");
-    if (all || f->environment) {
-        add(list, GLSL_REFLECTIVITY, "vec4", 0, block, "%sreflectivity", p);
-        mean(list, "kr: share of the surroundings that is mirrored");
-    }
-    if (all || f->highlights) {
-        add(list, GLSL_SHININESS, "float", 0, block, "%sshininess", p);
-        mean(list, "the highlight's exponent");
-    }
-    if (all || glsl_lobe_reads(f, "fibre")) {
-        add(list, GLSL_FIBRE, "float", 0, block, "%sfibre", p);
-        mean(list, "1: threads in the air, lit from behind as well; 0: a solid surface");
-    }
+    add_fields(list, f, block, p);
     if (lights) {
         add(list, GLSL_DIFFUSE_PRODUCT, "vec4", lights, block, "%sdiffuse_product", p);
         mean(list, "kd Ld, for each light");
@@ -310,29 +323,7 @@ int glsl_members(const struct glsl_facts *f, const char *type, struct glsl_row r
         add_member(&list, GLSL_HEMISPHERES, "vec4", 4, "sky", "light from above");
         add_member(&list, GLSL_HEMISPHERES, "vec4", 8, "ground", "light from below");
     } else if (strcmp(type, "Material") == 0) {
-        if (all || !f->paints) {
-            add_member(&list, GLSL_MATERIAL, "vec4", 0, "ambient",
-                       "ka: share of the light from everywhere that is reflected");
-        }
-        add_member(&list, GLSL_MATERIAL, "vec4", 4, "diffuse",
-                   "kd: share that is reflected evenly, and the opacity in a");
-        if (all || f->highlights) {
-            add_member(&list, GLSL_MATERIAL, "vec4", 8, "specular", "ks: strength of the highlight");
-        }
-        if (all || !f->paints) {
-            add_member(&list, GLSL_MATERIAL, "vec4", 12, "emission", "light that the surface itself gives");
-        }
-        if (all || f->environment) {
-            add_member(&list, GLSL_MATERIAL, "vec4", 16, "reflectivity",
-                       "kr: share of the surroundings that is mirrored");
-        }
-        if (all || f->highlights) {
-            add_member(&list, GLSL_MATERIAL, "float", 20, "shininess", "the highlight's exponent");
-        }
-        if (all || glsl_lobe_reads(f, "fibre")) {
-            add_member(&list, GLSL_MATERIAL, "float", 21, "fibre",
-                       "1: threads in the air, lit from behind as well; 0: a solid surface");
-        }
+        add_fields(&list, f, NULL, "");
     }
     return list.count;
 }

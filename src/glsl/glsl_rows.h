@@ -20,12 +20,7 @@ enum glsl_what {
     GLSL_LIGHTS,      // of structs
     GLSL_HEMISPHERES, // of structs
     GLSL_MATERIAL,    // a struct
-    GLSL_AMBIENT_PRODUCT,
-    GLSL_EMISSION,
-    GLSL_DIFFUSE,
-    GLSL_REFLECTIVITY,
-    GLSL_SHININESS,
-    GLSL_FIBRE,
+    GLSL_HEAD,        // a field of the material beside products
     GLSL_DIFFUSE_PRODUCT,
     GLSL_SPECULAR_PRODUCT,
     GLSL_LIGHT_AMBIENT_PRODUCT,
@@ -43,9 +38,9 @@ struct glsl_row {
     const char *block; // NULL: a plain uniform
     const char *meaning;
     bool back; // of the back's material
-    int at;    // of a member: where it stands in struct glsl_light, glsl_material or up, sky, ground; in floats
+    int at; // of a member or a head: where it stands in struct glsl_light, the material or up, sky, ground; in floats
 };
-enum { GLSL_ROWS_MAX = 40 };
+enum { GLSL_ROWS_MAX = 24 + 2 * FIELDS_MAX };
 
 // What follows from choices for the templates and the tables.
 struct glsl_facts {

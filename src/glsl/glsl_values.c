@@ -76,17 +76,6 @@ struct glsl_light glsl_light_of(const struct frame_light *light)
     return out;
 }
 
-struct glsl_material glsl_material_of(const struct frame *frame, const lam_material *material)
-{
-    struct glsl_material out = {.shininess = frame_shininess(frame, material), .fibre = material->fibre};
-    set3(out.ambient, &material->ambient.r, 1);
-    memcpy(out.diffuse, &material->diffuse, sizeof out.diffuse);
-    set3(out.specular, &material->specular.r, 1);
-    set3(out.emission, &material->emission.r, 1);
-    set3(out.reflectivity, &material->reflectivity.r, 1);
-    return out;
-}
-
 static void product(float out[4], const float *a, const float *b)
 {
     for (int i = 0; i < 3; i++)
@@ -94,14 +83,46 @@ static void product(float out[4], const float *a, const float *b)
     out[3] = 1;
 }
 
-struct glsl_products glsl_products_of(const struct frame *frame, const lam_material *material)
+// --- materials
+
+static bool is_wide(const struct material_field *row) { return row->field.type >= LAM_FIELD_RGB; }
+
+struct glsl_material_layout glsl_material_layout(bool products)
 {
-    struct glsl_products out = {.shininess = frame_shininess(frame, material), .fibre = material->fibre};
-    product(out.ambient_product, &material->ambient.r, frame->ambient);
-    set3(out.emission, &material->emission.r, 1);
-    memcpy(out.diffuse, &material->diffuse, sizeof out.diffuse);
-    set3(out.reflectivity, &material->reflectivity.r, 1);
+    struct glsl_material_layout out = {0};
+    for (int wide = 1; wide >= 0; wide--)
+        for (int i = 0; material_field(i); i++) {
+            const struct material_field *row = material_field(i);
+            if (is_wide(row) != wide || row->reader == FIELD_NEVER || (products && row->product && !*row->product))
+                continue;
+            out.fields[out.count] = row;
+            out.at[out.count++] = out.size;
+            out.size += wide ? 4 : 1;
+        }
+    out.size = (out.size + 3) & ~3;
     return out;
+}
+
+const char *glsl_field_name(const struct material_field *row, bool products)
+{
+    return products && row->product ? row->product : row->field.name;
+}
+
+void glsl_material_values(const struct frame *frame, const lam_material *material, bool products,
+                          float out[GLSL_MATERIAL_MAX])
+{
+    struct glsl_material_layout layout = glsl_material_layout(products);
+    lam_material in_use = *material;
+    in_use.shininess = frame_shininess(frame, material);
+    memset(out, 0, (size_t)layout.size * sizeof *out);
+    for (int i = 0; i < layout.count; i++) {
+        double numbers[4] = {0, 0, 0, 1};
+        lam_field_get(&layout.fields[i]->field, &in_use, numbers);
+        for (int k = 0; k < (is_wide(layout.fields[i]) ? 4 : 1); k++)
+            out[layout.at[i] + k] = (float)numbers[k];
+        if (products && layout.fields[i]->product)
+            product(out + layout.at[i], out + layout.at[i], frame->ambient);
+    }
 }
 
 // --- lists
@@ -147,8 +168,8 @@ void glsl_pack_lights(const struct glsl_choices *c, const struct frame *frame, f
 size_t glsl_products_bytes(const struct glsl_choices *c)
 {
     size_t lists = (size_t)c->light_count * (c->gl1 ? 12 : 8) + (size_t)c->hemisphere_count * 8;
-    size_t head = c->storage == GLSL_BLOCK ? sizeof(struct glsl_products) : 0;
-    size_t all = head + lists * sizeof(float);
+    size_t head = c->storage == GLSL_BLOCK ? (size_t)glsl_material_layout(true).size : 0;
+    size_t all = (head + lists) * sizeof(float);
     return all ? all : 16;
 }
 
@@ -157,9 +178,11 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
 {
     bool block = c->storage == GLSL_BLOCK;
     if (block) {
-        struct glsl_products head = glsl_products_of(frame, material);
-        memcpy(out, &head, sizeof head);
-        out += sizeof head / sizeof *out;
+        float head[GLSL_MATERIAL_MAX];
+        size_t size = (size_t)glsl_material_layout(true).size;
+        glsl_material_values(frame, material, true, head);
+        memcpy(out, head, size * sizeof *out);
+        out += size;
     }
     // A block has an array of each product, a texture all products of a light side by side.
     size_t lights = (size_t)c->light_count, skies = (size_t)c->hemisphere_count, at = 0;

@@ -163,8 +163,6 @@ static int value_of(const struct making *m, const struct frame_draw_range *surfa
     const struct frame_draw *draw = surface ? &frame->draws[surface->draw] : NULL;
     int number = surface ? (row->back ? surface->back : surface->front) : 0;
     const lam_material *material = frame->materials[number];
-    struct glsl_products head = glsl_products_of(frame, material);
-    struct glsl_material whole = glsl_material_of(frame, material);
     bool of_light = row->what == GLSL_LIGHTS || row->what == GLSL_DIFFUSE_PRODUCT ||
                     row->what == GLSL_SPECULAR_PRODUCT || row->what == GLSL_LIGHT_AMBIENT_PRODUCT;
     struct glsl_light light = {0};
@@ -191,29 +189,21 @@ static int value_of(const struct making *m, const struct frame_draw_range *surfa
     case GLSL_HEMISPHERES:
         return put_sky(out, &frame->hemispheres[index], member);
     case GLSL_MATERIAL:
-        return put_member(out, whole.ambient, member);
-    case GLSL_AMBIENT_PRODUCT:
-        return put(out, head.ambient_product, 4);
-    case GLSL_EMISSION:
-        return put(out, head.emission, 4);
-    case GLSL_DIFFUSE:
-        return put(out, head.diffuse, 4);
-    case GLSL_REFLECTIVITY:
-        return put(out, head.reflectivity, 4);
-    case GLSL_SHININESS:
-        return put(out, &head.shininess, 1);
-    case GLSL_FIBRE:
-        return put(out, &head.fibre, 1);
+    case GLSL_HEAD: {
+        float whole[GLSL_MATERIAL_MAX];
+        glsl_material_values(frame, material, m->choices.products, whole);
+        return put_member(out, whole, row->what == GLSL_MATERIAL ? member : row);
+    }
     case GLSL_DIFFUSE_PRODUCT:
-        return put_product(out, whole.diffuse, light.diffuse);
+        return put_product(out, &material->diffuse.r, light.diffuse);
     case GLSL_SPECULAR_PRODUCT:
-        return put_product(out, whole.specular, light.specular);
+        return put_product(out, &material->specular.r, light.specular);
     case GLSL_LIGHT_AMBIENT_PRODUCT:
-        return put_product(out, whole.ambient, light.ambient);
+        return put_product(out, &material->ambient.r, light.ambient);
     case GLSL_SKY_PRODUCT:
-        return put_product(out, whole.ambient, frame->hemispheres[index].sky);
+        return put_product(out, &material->ambient.r, frame->hemispheres[index].sky);
     case GLSL_GROUND_PRODUCT:
-        return put_product(out, whole.ambient, frame->hemispheres[index].ground);
+        return put_product(out, &material->ambient.r, frame->hemispheres[index].ground);
     case GLSL_FIRST_PRODUCT:
         out[0] = (float)((size_t)number * glsl_products_bytes(&m->choices) / 16);
         return 1;
@@ -237,7 +227,7 @@ static bool is_of_draw(enum glsl_what what)
 {
     return what == GLSL_MODEL_VIEW_PROJECTION || what == GLSL_MODEL_VIEW || what == GLSL_NORMAL_MATRIX ||
            what == GLSL_OBJECT || what == GLSL_FIRST_PRODUCT || what == GLSL_MATERIAL ||
-           (what >= GLSL_AMBIENT_PRODUCT && what <= GLSL_GROUND_PRODUCT);
+           (what >= GLSL_HEAD && what <= GLSL_GROUND_PRODUCT);
 }
 
 static char *name_of(struct arena *arena, const struct glsl_row *row, const struct glsl_row *member, int index)

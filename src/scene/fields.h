@@ -2,26 +2,26 @@
 #ifndef FIELDS_H
 #define FIELDS_H
 
-#include <lambent/device.h>
 #include <lambent/fields.h>
+#include <lambent/light.h>
 
 // What of a shader reads a field of the material.
 enum field_reader {
     FIELD_ALWAYS,
     FIELD_LIT,         // whatever is lit
+    FIELD_HIGHLIGHT,   // reflection models with a highlight
+    FIELD_LOBE,        // reflection models that name it as a parameter
     FIELD_ENVIRONMENT, // the mirrored environment
-    FIELD_LOBE,        // the reflection models of `lobes`
     FIELD_NEVER,       // it is part of another field
 };
 
 struct material_field {
-    lam_field field;    // first
-    const char *shader; // its comment there
-    // Its name where materials come multiplied with the lights; NULL: its own, "": it stands in the lights' products alone.
-    const char *product;
+    lam_field field; // first
+    // Its name and comment in shaders whose materials come multiplied with the lights. NULL: as elsewhere; "": it stands
+    // in the lights' products alone.
+    const char *product, *product_summary;
     enum field_reader reader;
-    unsigned lobes; // bits 1 << lam_reflection
-    bool optional;  // a scene file leaves it out where it is 0, which is the default
+    bool optional; // a scene file leaves it out where it is 0, which is the default
 };
 const struct material_field *material_field(int index); // NULL past the end
 

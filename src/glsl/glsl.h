@@ -109,12 +109,12 @@ struct glsl_light {
 // gl1 light_ambient_product[lights], sky_product[hemispheres], ground_product[hemispheres], 4 floats each.
 struct glsl_material_layout {
     int count;
-    const struct material_field *fields[FIELDS_MAX];
-    int at[FIELDS_MAX]; // in floats
+    const struct material_field *fields[LAM_FIELDS_MAX];
+    int at[LAM_FIELDS_MAX]; // in floats
     int size;           // in floats, a multiple of 4
 };
 struct glsl_material_layout glsl_material_layout(bool products);
-enum { GLSL_MATERIAL_MAX = 4 * FIELDS_MAX };
+enum { GLSL_MATERIAL_MAX = 4 * LAM_FIELDS_MAX };
 
 // Bytes of the block Lights (block: [ambient_light, where products are not] lights, hemispheres) or of the
 // texels of light_list (lights, hemispheres); at least 16. Then the values, from the frame: order by groups.

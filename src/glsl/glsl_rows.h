@@ -40,7 +40,7 @@ struct glsl_row {
     bool back; // of the back's material
     int at; // of a member or a head: where it stands in struct glsl_light, the material or up, sky, ground; in floats
 };
-enum { GLSL_ROWS_MAX = 24 + 2 * FIELDS_MAX };
+enum { GLSL_ROWS_MAX = 24 + 2 * LAM_FIELDS_MAX };
 
 // What follows from choices for the templates and the tables.
 struct glsl_facts {

@@ -33,8 +33,6 @@ struct light_field {
 const struct light_field *light_field(int index);
 static inline bool field_is_of(const lam_field *field, lam_light_type type) { return field->light_types >> type & 1; }
 
-enum { FIELDS_MAX = 24 }; // of either table
-
 // The number of a field that lies outside of its range, its name and the range, as words for a sentence.
 struct field_fault {
     char name[48], expected[48];

@@ -57,7 +57,7 @@ static const struct light_field rows[] = {
      .cone = SOFT_CONE},
 };
 enum { COUNT = sizeof rows / sizeof *rows };
-_Static_assert((int)COUNT <= FIELDS_MAX, "more fields than FIELDS_MAX");
+_Static_assert((int)COUNT <= LAM_FIELDS_MAX, "more fields than LAM_FIELDS_MAX");
 
 const struct light_field *light_field(int index) { return (unsigned)index < COUNT ? &rows[index] : NULL; }
 

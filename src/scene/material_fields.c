@@ -44,7 +44,7 @@ static const struct material_field rows[] = {
      .optional = true},
 };
 enum { COUNT = sizeof rows / sizeof *rows };
-_Static_assert((int)COUNT <= FIELDS_MAX, "more fields than FIELDS_MAX");
+_Static_assert((int)COUNT <= LAM_FIELDS_MAX, "more fields than LAM_FIELDS_MAX");
 
 const struct material_field *material_field(int index) { return (unsigned)index < COUNT ? &rows[index] : NULL; }
 

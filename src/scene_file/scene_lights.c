@@ -25,7 +25,7 @@ enum { OTHER_KEYS = sizeof other_keys / sizeof *other_keys };
 static bool check_light_keys(struct scene_reader *r, const struct place *place, const json_t *value,
                              lam_light_type type)
 {
-    const char *keys[OTHER_KEYS + FIELDS_MAX + 1];
+    const char *keys[OTHER_KEYS + LAM_FIELDS_MAX + 1];
     int count = 0;
     for (int i = 0; i < OTHER_KEYS; i++)
         if (other_keys[i].light_types >> type & 1)

@@ -9,7 +9,7 @@
 bool read_material_keys(struct scene_reader *r, const struct place *place, const json_t *value, bool whole,
                         lam_material *material)
 {
-    const char *keys[FIELDS_MAX + 1];
+    const char *keys[LAM_FIELDS_MAX + 1];
     int count = 0;
     for (; lam_material_field(count); count++)
         keys[count] = lam_material_field(count)->key;

@@ -35,8 +35,12 @@ static bool dress_materials(const struct options *o, lam_scene *scene, lam_error
     if (!set_materials(&o->materials, false, "material", o, scene, error))
         return false;
     struct material_option plain;
-    material_option_plain(&plain, o->has_shininess, o->shininess, o->has_opacity, o->opacity);
-    if (plain.seen && !material_option_set(&plain, false, "shininess", scene, error))
+    material_option_start(&plain);
+    if (o->has_shininess)
+        material_option_set_number(&plain, "shininess", o->shininess);
+    if (o->has_opacity)
+        material_option_set_number(&plain, "opacity", o->opacity);
+    if (plain.given && !material_option_set(&plain, false, "shininess", scene, error))
         return false;
     return set_materials(&o->back_materials, true, "back-material", o, scene, error);
 }

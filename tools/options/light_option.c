@@ -9,103 +9,99 @@
 #include "key_values.h"
 #include "suggest.h"
 
-static const char *const keys[] = {"position", "direction",   "target", "color",  "intensity", "ambient", "diffuse",
-                                   "specular", "attenuation", "range",  "cutoff", "exponent",  "inner",   "outer",
-                                   "sky",      "ground",      "up",     "frame",  "name",      NULL};
-enum key {
-    POSITION,
-    DIRECTION,
-    TARGET,
-    COLOR,
-    INTENSITY,
-    AMBIENT,
-    DIFFUSE,
-    SPECULAR,
-    ATTENUATION,
-    RANGE,
-    CUTOFF,
-    EXPONENT,
-    INNER,
-    OUTER,
-    SKY,
-    GROUND,
-    UP,
-    FRAME,
-    NAME,
-    KEY_COUNT
-};
+// Keys: the fields by their index in the table of lam_light_field (the first row of a key), then these.
+enum { TARGET = LAM_FIELDS_MAX, COLOR, INTENSITY, FRAME, NAME, KEYS };
 
-#define BIT(key) (1u << (key))
-#define COLORS   (BIT(COLOR) | BIT(INTENSITY) | BIT(AMBIENT) | BIT(DIFFUSE) | BIT(SPECULAR) | BIT(FRAME) | BIT(NAME))
-#define PLACED   (COLORS | BIT(POSITION) | BIT(ATTENUATION) | BIT(RANGE))
+#define BIT(key) (1ull << (key))
 
-static const unsigned keys_of_type[] = {
-    [LAM_LIGHT_AMBIENT] = BIT(COLOR) | BIT(INTENSITY) | BIT(AMBIENT) | BIT(NAME),
-    [LAM_LIGHT_HEMISPHERE] = BIT(COLOR) | BIT(INTENSITY) | BIT(SKY) | BIT(GROUND) | BIT(UP) | BIT(FRAME) | BIT(NAME),
-    [LAM_LIGHT_POINT] = PLACED,
-    [LAM_LIGHT_DIRECTIONAL] = COLORS | BIT(POSITION) | BIT(DIRECTION) | BIT(TARGET),
-    [LAM_LIGHT_SPOT] = PLACED | BIT(DIRECTION) | BIT(TARGET) | BIT(CUTOFF) | BIT(EXPONENT) | BIT(INNER) | BIT(OUTER),
+static const struct {
+    const char *name;
+    unsigned light_types;
+} other_keys[] = {
+    [TARGET - LAM_FIELDS_MAX] = {"target", BIT(LAM_LIGHT_DIRECTIONAL) | BIT(LAM_LIGHT_SPOT)},
+    [COLOR - LAM_FIELDS_MAX] = {"color", ~0u},
+    [INTENSITY - LAM_FIELDS_MAX] = {"intensity", ~0u},
+    [FRAME - LAM_FIELDS_MAX] = {"frame", ~(unsigned)BIT(LAM_LIGHT_AMBIENT)},
+    [NAME - LAM_FIELDS_MAX] = {"name", ~0u},
 };
 
 // What was read on the way.
 struct reading {
     struct light_option *option;
     lam_color_mode mode;
-    unsigned seen; // BIT(key)
-    lam_rgb colors[KEY_COUNT];
-    double intensity, w;         // w: the position's fourth number
-    double cutoff, inner, outer; // degrees
+    uint64_t seen; // BIT(key)
+    double numbers[KEYS][4];
+    double w; // the position's fourth number
 };
 
-static bool seen(const struct reading *reading, enum key key) { return (reading->seen & BIT(key)) != 0; }
+// The index of the first row of a key; −1: it is no field's.
+static int field_index(const char *key)
+{
+    for (int i = 0; lam_light_field(i); i++)
+        if (strcmp(lam_light_field(i)->key, key) == 0)
+            return i;
+    return -1;
+}
+
+// The name of a key; NULL: no such key.
+static const char *key_name(int key)
+{
+    if (key >= LAM_FIELDS_MAX)
+        return other_keys[key - LAM_FIELDS_MAX].name;
+    const lam_field *field = lam_light_field(key);
+    return field && field_index(field->key) == key ? field->key : NULL;
+}
+
+static bool is_of_type(int key, lam_light_type type)
+{
+    if (key >= LAM_FIELDS_MAX)
+        return other_keys[key - LAM_FIELDS_MAX].light_types >> type & 1;
+    bool is = strcmp(key_name(key), "position") == 0 && type == LAM_LIGHT_DIRECTIONAL; // the place that it comes from
+    for (int i = key; lam_light_field(i); i++)
+        is |= strcmp(lam_light_field(i)->key, key_name(key)) == 0 && lam_light_field(i)->light_types >> type & 1;
+    return is;
+}
+
+static int find_key(const char *name, lam_error *error)
+{
+    const char *names[KEYS + 1];
+    int keys[KEYS], count = 0;
+    for (int key = 0; key < KEYS; key++)
+        if (key_name(key)) {
+            names[count] = key_name(key);
+            keys[count++] = key;
+        }
+    names[count] = NULL;
+    int found = key_find(name, names, error);
+    return found < 0 ? -1 : keys[found];
+}
+
+static bool key_seen(const struct reading *reading, int key) { return reading->seen >> key & 1; }
+
+static bool seen(const struct reading *reading, const char *name) { return key_seen(reading, field_index(name)); }
 
 // --- single values
 
-static bool number_for(enum key key, const char *value, double least, double most, double *out, lam_error *error)
-{
-    if (!read_one(value, out))
-        return complain(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected a number", keys[key], value);
-    if (!(*out >= least && *out <= most)) {
-        char range[64] = "of at least 0";
-        if (most < 1e29)
-            snprintf(range, sizeof range, "from %g to %g", least, most);
-        return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected a number %s", keys[key], value, range);
-    }
-    return true;
-}
-
-static bool vector_for(enum key key, const char *value, lam_vec3 *out, lam_error *error)
-{
-    double numbers[3];
-    int count;
-    if (!read_numbers(value, 3, 3, numbers, &count, NULL))
-        return complain(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected three numbers x/y/z", keys[key], value);
-    *out = (lam_vec3){numbers[0], numbers[1], numbers[2]};
-    if (out->x == 0 && out->y == 0 && out->z == 0)
-        return complain(error, LAM_BAD_ARGUMENT, "%s is 0/0/0, expected a direction", keys[key]);
-    return true;
-}
-
 // A point: in the model's units, or in radii of its sphere (a 0 may go without its r). `w` NULL: three numbers only.
-static bool point_for(enum key key, const char *value, lam_vec3 *out, bool *in_radii, double *w, lam_error *error)
+static bool point_for(const char *key, const char *value, lam_vec3 *out, bool *in_radii, double *w, lam_error *error)
 {
     double numbers[4];
     bool radii[4];
     int count;
     if (!read_numbers(value, 3, w ? 4 : 3, numbers, &count, radii) || (count == 4 && radii[3]))
         return complain(error, LAM_BAD_ARGUMENT,
-                        "found '%s=%.60s', expected three numbers x/y/z%s, each with r for radii", keys[key], value,
+                        "found '%s=%.60s', expected three numbers x/y/z%s, each with r for radii", key, value,
                         w ? " (or four, x/y/z/w)" : "");
     *in_radii = radii[0] || radii[1] || radii[2];
     for (int i = 0; i < 3; i++)
         if (*in_radii && !radii[i] && numbers[i] != 0)
             return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected r behind all of its numbers or behind none",
-                            keys[key], value);
+                            key, value);
     double divisor = 1;
     if (count == 4) {
         *w = numbers[3];
         if (*w < 0)
-            return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected w of at least 0", keys[key], value);
+            return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected w of at least 0", key, value);
         divisor = *w > 0 ? *w : 1;
     }
     *out = (lam_vec3){numbers[0] / divisor, numbers[1] / divisor, numbers[2] / divisor};
@@ -163,48 +159,36 @@ static bool read_frame(char *value, struct light_option *option, lam_error *erro
     return true;
 }
 
-static bool read_value(struct reading *reading, enum key key, char *value, lam_error *error)
+static bool read_value(struct reading *reading, int key, char *value, lam_error *error)
 {
     struct light_option *option = reading->option;
-    double exponent;
-    lam_rgba color;
+    const lam_field color = {.key = "color", .type = LAM_FIELD_RGB};
     switch (key) {
-    case POSITION:
-        return point_for(key, value, &option->light.position, &option->position_in_radii, &reading->w, error);
     case TARGET:
-        return point_for(key, value, &option->target, &option->target_in_radii, NULL, error);
-    case DIRECTION:
-        return vector_for(key, value, &option->light.direction, error);
-    case UP:
-        return vector_for(key, value, &option->light.up, error);
+        return point_for("target", value, &option->target, &option->target_in_radii, NULL, error);
+    case COLOR:
+        return read_field(&color, value, reading->mode, reading->numbers[COLOR], error);
     case INTENSITY:
-        return number_for(key, value, 0, 1e30, &reading->intensity, error);
-    case ATTENUATION:
-        return read_attenuation(value, option, error);
-    case RANGE:
-        return read_range(value, option, error);
-    case CUTOFF:
-        return number_for(key, value, 0, 180, &reading->cutoff, error);
-    case EXPONENT:
-        if (!number_for(key, value, 0, 1e30, &exponent, error))
-            return false;
-        option->light.exponent = (float)exponent;
-        return true;
-    case INNER:
-        return number_for(key, value, 0, 90, &reading->inner, error);
-    case OUTER:
-        return number_for(key, value, 0, 90, &reading->outer, error);
+        return read_number_of("intensity", value, 0, 1e30, reading->numbers[INTENSITY], error);
     case FRAME:
         return read_frame(value, option, error);
     case NAME:
         option->light.name = value;
         return *value || complain(error, LAM_BAD_ARGUMENT, "name is empty");
     default:
-        if (!read_color(keys[key], value, reading->mode, true, &color, error))
-            return false;
-        reading->colors[key] = (lam_rgb){color.r, color.g, color.b};
-        return true;
+        break;
     }
+    const lam_field *field = lam_light_field(key);
+    if (field->type == LAM_FIELD_POINT)
+        return point_for(field->key, value, &option->light.position, &option->position_in_radii, &reading->w, error);
+    if (field->type == LAM_FIELD_TRIPLE)
+        return read_attenuation(value, option, error);
+    if (strcmp(field->key, "range") == 0)
+        return read_range(value, option, error);
+    if (!read_field(field, value, reading->mode, reading->numbers[key], error))
+        return false;
+    set_field(field, &option->light, reading->numbers[key]);
+    return true;
 }
 
 static bool read_pair(struct reading *reading, char *pair, lam_error *error)
@@ -213,49 +197,51 @@ static bool read_pair(struct reading *reading, char *pair, lam_error *error)
     if (!value)
         return complain(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as position=1/2/3", pair);
     *value++ = 0;
-    int key = key_find(pair, keys, error);
+    int key = find_key(pair, error);
     if (key < 0)
         return false;
-    if (seen(reading, (enum key)key))
+    if (key_seen(reading, key))
         return complain(error, LAM_BAD_ARGUMENT, "'%s' is given twice", pair);
     reading->seen |= BIT(key);
-    return read_value(reading, (enum key)key, value, error);
+    return read_value(reading, key, value, error);
 }
 
 // --- what the values amount to
 
-static lam_rgb scaled(lam_rgb color, double factor)
-{
-    return (lam_rgb){(float)((double)color.r * factor), (float)((double)color.g * factor),
-                     (float)((double)color.b * factor)};
-}
-
-static void set_colors(struct reading *reading)
+// A colour that was not given by its own key.
+static void set_color(const struct reading *reading, const char *name, bool by_color, double factor)
 {
     lam_light *light = &reading->option->light;
-    double intensity = reading->intensity;
-    const lam_rgb *given = reading->colors;
-    switch (light->type) {
+    int index = field_index(name);
+    double numbers[4];
+    while (!(lam_light_field(index)->light_types >> light->type & 1))
+        index++;
+    lam_field_get(lam_light_field(index), light, numbers);
+    if (by_color && key_seen(reading, COLOR) && !seen(reading, name))
+        memcpy(numbers, reading->numbers[COLOR], sizeof numbers);
+    for (int i = 0; i < 3; i++)
+        numbers[i] *= factor;
+    lam_field_set(lam_light_field(index), light, numbers);
+}
+
+static void set_colors(const struct reading *reading)
+{
+    double intensity = key_seen(reading, INTENSITY) ? reading->numbers[INTENSITY][0] : 1;
+    switch (reading->option->light.type) {
     case LAM_LIGHT_AMBIENT:
-        light->ambient = seen(reading, AMBIENT)
-                             ? given[AMBIENT]
-                             : scaled(seen(reading, COLOR) ? given[COLOR] : light->ambient, intensity);
+        if (!seen(reading, "ambient"))
+            set_color(reading, "ambient", true, intensity);
         return;
-    case LAM_LIGHT_HEMISPHERE:
-        light->sky = scaled(seen(reading, SKY)     ? given[SKY]
-                            : seen(reading, COLOR) ? given[COLOR]
-                                                   : light->sky,
-                            intensity);
-        light->ground = scaled(seen(reading, GROUND) ? given[GROUND] : light->ground, intensity);
+    case LAM_LIGHT_HEMISPHERE: // whose own colours are multiplied too
+        set_color(reading, "sky", true, intensity);
+        set_color(reading, "ground", false, intensity);
         return;
     default:
-        break;
+        if (!seen(reading, "diffuse"))
+            set_color(reading, "diffuse", true, intensity);
+        if (!seen(reading, "specular"))
+            set_color(reading, "specular", true, intensity);
     }
-    lam_rgb color = scaled(seen(reading, COLOR) ? given[COLOR] : (lam_rgb){1, 1, 1}, intensity);
-    light->diffuse = seen(reading, DIFFUSE) ? given[DIFFUSE] : color;
-    light->specular = seen(reading, SPECULAR) ? given[SPECULAR] : color;
-    if (seen(reading, AMBIENT))
-        light->ambient = given[AMBIENT];
 }
 
 bool light_cone_check(const double *cutoff_deg, const double *inner_deg, const double *outer_deg, lam_error *error)
@@ -272,23 +258,18 @@ bool light_cone_check(const double *cutoff_deg, const double *inner_deg, const d
 static bool set_cone(struct reading *reading, lam_error *error)
 {
     lam_light *light = &reading->option->light;
-    bool soft = seen(reading, INNER) || seen(reading, OUTER);
-    if (soft && (seen(reading, CUTOFF) || seen(reading, EXPONENT)))
+    bool inner = seen(reading, "inner"), outer = seen(reading, "outer"), cutoff = seen(reading, "cutoff");
+    const double *degrees = reading->numbers[field_index("cutoff")];
+    if ((inner || outer) && (cutoff || seen(reading, "exponent")))
         return complain(error, LAM_BAD_ARGUMENT,
                         "both kinds of cone are given, expected cutoff and exponent, or inner and outer");
-    if (soft && !seen(reading, OUTER))
+    if (inner && !outer)
         return complain(error, LAM_BAD_ARGUMENT, "'inner' is given without 'outer', expected both");
-    if (!light_cone_check(seen(reading, CUTOFF) ? &reading->cutoff : NULL, &reading->inner,
-                          soft ? &reading->outer : NULL, error))
+    if (!light_cone_check(cutoff ? degrees : NULL, reading->numbers[field_index("inner")],
+                          outer ? reading->numbers[field_index("outer")] : NULL, error))
         return false;
-    if (soft) {
-        light->inner_rad = (float)radians(reading->inner);
-        light->outer_rad = (float)radians(reading->outer);
-    } else if (seen(reading, CUTOFF)) {
-        light->cutoff_rad = (float)radians(reading->cutoff);
-    } else if (seen(reading, EXPONENT)) {
+    if (!cutoff && !outer && seen(reading, "exponent"))
         light->cutoff_rad = 0; // no edge: the exponent alone shapes it
-    }
     return true;
 }
 
@@ -298,9 +279,9 @@ static bool set_place(struct reading *reading, lam_error *error)
     struct light_option *option = reading->option;
     lam_light *light = &option->light;
     lam_vec3 *p = &light->position;
-    option->has_position = seen(reading, POSITION);
-    option->has_direction = seen(reading, DIRECTION);
-    option->has_target = seen(reading, TARGET);
+    option->has_position = seen(reading, "position");
+    option->has_direction = seen(reading, "direction");
+    option->has_target = key_seen(reading, TARGET);
     if (option->has_direction && option->has_target)
         return complain(error, LAM_BAD_ARGUMENT, "'direction' and 'target' are given, expected one of them");
     if (option->has_position && reading->w == 0) {
@@ -324,10 +305,10 @@ static bool set_place(struct reading *reading, lam_error *error)
 static bool check_keys(const struct reading *reading, lam_error *error)
 {
     lam_light_type type = reading->option->light.type;
-    for (int key = 0; key < KEY_COUNT; key++)
-        if (reading->seen & ~keys_of_type[type] & BIT(key))
+    for (int key = 0; key < KEYS; key++)
+        if (key_seen(reading, key) && !is_of_type(key, type))
             return complain(error, LAM_BAD_ARGUMENT, "%s%s light has no '%s'", type == LAM_LIGHT_AMBIENT ? "an " : "a ",
-                            lam_light_type_describe(type)->word, keys[key]);
+                            lam_light_type_describe(type)->word, key_name(key));
     return true;
 }
 
@@ -364,7 +345,7 @@ bool light_option_parse(const char *text, lam_color_mode mode, struct light_opti
     if (!find_type(option->text, &type, error))
         return false;
     option->light = lam_light_default(type);
-    struct reading reading = {.option = option, .mode = mode, .intensity = 1, .w = 1};
+    struct reading reading = {.option = option, .mode = mode, .w = 1};
     for (char *pair; (pair = strsep(&rest, ",")) != NULL;)
         if (!read_pair(&reading, pair, error))
             return false;

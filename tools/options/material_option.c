@@ -8,75 +8,70 @@
 #include "key_values.h"
 #include "suggest.h"
 
-static const char *const keys[] = {"ambient", "diffuse",        "specular", "emission", "reflectivity",
-                                   "color",   "specular_color", "ka",       "kd",       "ks",
-                                   "kr",      "shininess",      "opacity",  "fibre",    NULL};
-enum key {
-    AMBIENT,
-    DIFFUSE,
-    SPECULAR,
-    EMISSION,
-    REFLECTIVITY,
-    COLOR,
-    SPECULAR_COLOR,
-    KA, // from here on single numbers
-    KD,
-    KS,
-    KR,
-    SHININESS,
-    OPACITY,
-    FIBRE,
-    KEY_COUNT
-};
+static bool given(const struct material_option *option, int key) { return option->given >> key & 1; }
 
-#define BIT(key) (1u << (key))
+static bool is_color(const lam_field *field) { return field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA; }
 
-static bool given(const struct material_option *option, enum key key) { return (option->seen & BIT(key)) != 0; }
+// Shares of light have a symbol; the surface's own light has none.
+static bool is_share(const lam_field *field) { return is_color(field) && field->symbol; }
 
-static double *number_of(struct material_option *option, enum key key) { return &option->numbers[key - KA]; }
+static int factor_of(int field) { return LAM_FIELDS_MAX + field; }
 
-static bool read_fibre(const char *value, struct material_option *option, lam_error *error)
+// The name of a key; NULL: no such key.
+static const char *key_name(int key)
 {
-    static const char *const words[] = {"no", "yes", "off", "on", "0", "1"};
-    for (int i = 0; i < 6; i++)
-        if (strcmp(value, words[i]) == 0) {
-            *number_of(option, FIBRE) = i & 1;
-            return true;
-        }
-    return complain(error, LAM_BAD_ARGUMENT, "found 'fibre=%.60s', expected yes or no", value);
+    if (key >= MATERIAL_COLOR)
+        return key == MATERIAL_COLOR ? "color" : "specular_color";
+    const lam_field *field = lam_material_field(key % LAM_FIELDS_MAX);
+    if (key < LAM_FIELDS_MAX || !field)
+        return field ? field->key : NULL;
+    return is_share(field) ? field->symbol : NULL;
 }
 
-static bool read_value(enum key key, const char *value, lam_color_mode mode, struct material_option *option,
-                       lam_error *error)
+static int find_key(const char *name, lam_error *error)
 {
-    if (key == FIBRE)
-        return read_fibre(value, option, error);
-    if (key < KA)
-        return read_color(keys[key], value, mode, key != DIFFUSE, &option->colors[key], error);
-    double *number = number_of(option, key);
-    if (!read_one(value, number))
-        return complain(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected a number", keys[key], value);
-    if (!(*number >= 0 && *number <= 1e30))
-        return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected a number of at least 0", keys[key], value);
-    if (key == OPACITY && *number > 1)
-        return complain(error, LAM_BAD_ARGUMENT, "opacity is %.60s, expected a number from 0 to 1", value);
-    return true;
+    const char *names[MATERIAL_KEYS + 1];
+    int keys[MATERIAL_KEYS], count = 0;
+    for (int key = 0; key < MATERIAL_KEYS; key++)
+        if (key_name(key)) {
+            names[count] = key_name(key);
+            keys[count++] = key;
+        }
+    names[count] = NULL;
+    int found = key_find(name, names, error);
+    return found < 0 ? -1 : keys[found];
+}
+
+// A flag may go without its value.
+static bool is_flag(const char *name, size_t length)
+{
+    for (int i = 0; lam_material_field(i); i++) {
+        const lam_field *field = lam_material_field(i);
+        if (field->type == LAM_FIELD_FLAG && strlen(field->key) == length && memcmp(field->key, name, length) == 0)
+            return true;
+    }
+    return false;
 }
 
 static bool read_pair(char *pair, lam_color_mode mode, struct material_option *option, lam_error *error)
 {
     char *value = strchr(pair, '=');
-    if (!value && strcmp(pair, "fibre") != 0)
+    if (!value && !is_flag(pair, strlen(pair)))
         return complain(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as shininess=50", pair);
     if (value)
         *value++ = 0;
-    int key = key_find(pair, keys, error);
+    int key = find_key(pair, error);
     if (key < 0)
         return false;
-    if (given(option, (enum key)key))
+    if (given(option, key))
         return complain(error, LAM_BAD_ARGUMENT, "'%s' is given twice", pair);
-    option->seen |= BIT(key);
-    return read_value((enum key)key, value ? value : "yes", mode, option, error);
+    option->given |= UINT64_C(1) << key;
+    if (key < LAM_FIELDS_MAX)
+        return read_field(lam_material_field(key), value ? value : "yes", mode, option->numbers[key], error);
+    if (key < MATERIAL_COLOR)
+        return read_number_of(pair, value, 0, 1e30, option->numbers[key], error);
+    const lam_field color = {.key = pair, .type = LAM_FIELD_RGB};
+    return read_field(&color, value, mode, option->numbers[key], error);
 }
 
 static bool unknown_material(const char *name, lam_error *error)
@@ -91,7 +86,7 @@ static bool unknown_material(const char *name, lam_error *error)
 
 bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error)
 {
-    *option = (struct material_option){.id = LAM_MATERIAL_COUNT};
+    material_option_start(option);
     if (strlen(text) >= sizeof option->text)
         return complain(error, LAM_BAD_ARGUMENT, "it is %zu letters long, expected less than %zu", strlen(text),
                         sizeof option->text);
@@ -107,7 +102,7 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
     if (!*rest)
         return complain(error, LAM_BAD_ARGUMENT, "its value is empty, expected a material's name or key=value");
     size_t first = strcspn(rest, ",");
-    if (!memchr(rest, '=', first) && !(first == 5 && memcmp(rest, "fibre", 5) == 0)) {
+    if (!memchr(rest, '=', first) && !is_flag(rest, first)) {
         char *name = strsep(&rest, ",");
         option->id = lam_material_find(name);
         if (option->id == LAM_MATERIAL_COUNT)
@@ -119,117 +114,103 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
     return true;
 }
 
-void material_option_plain(struct material_option *option, bool has_shininess, double shininess, bool has_opacity,
-                           double opacity)
+void material_option_start(struct material_option *option)
 {
     *option = (struct material_option){.id = LAM_MATERIAL_COUNT};
-    option->seen = (has_shininess ? BIT(SHININESS) : 0) | (has_opacity ? BIT(OPACITY) : 0);
-    *number_of(option, SHININESS) = shininess;
-    *number_of(option, OPACITY) = opacity;
 }
 
-static lam_rgb rgb(lam_rgba color) { return (lam_rgb){color.r, color.g, color.b}; }
-
-static void multiply(float *channels, double factor)
+void material_option_set_number(struct material_option *option, const char *key, double number)
 {
+    int at = find_key(key, NULL);
+    option->given |= UINT64_C(1) << at;
+    option->numbers[at][0] = number;
+}
+
+// Sets the first three numbers of a colour: an alpha stays.
+static void set_color(const lam_field *field, lam_material *m, const double color[4], double factor)
+{
+    double numbers[4];
+    lam_field_get(field, m, numbers);
     for (int i = 0; i < 3; i++)
-        channels[i] = (float)((double)channels[i] * factor);
+        numbers[i] = color[i] * factor;
+    lam_field_set(field, m, numbers);
+}
+
+static void set_factor(const struct material_option *option, int index, lam_material *m)
+{
+    static const double white[4] = {1, 1, 1, 1};
+    const lam_field *field = lam_material_field(index);
+    double color[4];
+    lam_field_get(field, m, color);
+    const double *from = color;
+    if (field->standard[0] == 0 && !given(option, index)) // of no light by default a share would be nothing
+        from = given(option, MATERIAL_SPECULAR_COLOR) ? option->numbers[MATERIAL_SPECULAR_COLOR] : white;
+    set_color(field, m, from, option->numbers[factor_of(index)][0]);
 }
 
 lam_material material_option_apply(const struct material_option *option, lam_material m)
 {
-    const lam_rgba *colors = option->colors;
-    const double *numbers = option->numbers;
-    if (option->id != LAM_MATERIAL_COUNT) {
+    if (option->id != LAM_MATERIAL_COUNT)
         m = lam_material_named(option->id);
+    const double *color = option->numbers[MATERIAL_COLOR], *specular = option->numbers[MATERIAL_SPECULAR_COLOR];
+    if (given(option, MATERIAL_COLOR)) {
+        m.ambient = (lam_rgb){(float)color[0], (float)color[1], (float)color[2]};
+        m.diffuse = (lam_rgba){m.ambient.r, m.ambient.g, m.ambient.b, m.diffuse.a};
     }
-    if (given(option, COLOR)) {
-        m.ambient = rgb(colors[COLOR]);
-        m.diffuse = (lam_rgba){colors[COLOR].r, colors[COLOR].g, colors[COLOR].b, m.diffuse.a};
-    }
-    if (given(option, AMBIENT))
-        m.ambient = rgb(colors[AMBIENT]);
-    if (given(option, DIFFUSE))
-        m.diffuse = colors[DIFFUSE];
-    if (given(option, SPECULAR_COLOR))
-        m.specular = rgb(colors[SPECULAR_COLOR]);
-    if (given(option, SPECULAR))
-        m.specular = rgb(colors[SPECULAR]);
-    if (given(option, EMISSION))
-        m.emission = rgb(colors[EMISSION]);
-    if (given(option, REFLECTIVITY))
-        m.reflectivity = rgb(colors[REFLECTIVITY]);
-    else if (given(option, KR))
-        m.reflectivity = given(option, SPECULAR_COLOR) ? rgb(colors[SPECULAR_COLOR]) : (lam_rgb){1, 1, 1};
-    if (given(option, KA))
-        multiply(&m.ambient.r, numbers[KA - KA]);
-    if (given(option, KD))
-        multiply(&m.diffuse.r, numbers[KD - KA]);
-    if (given(option, KS))
-        multiply(&m.specular.r, numbers[KS - KA]);
-    if (given(option, KR))
-        multiply(&m.reflectivity.r, numbers[KR - KA]);
-    if (given(option, SHININESS))
-        m.shininess = (float)numbers[SHININESS - KA];
-    if (given(option, OPACITY))
-        m.diffuse.a = (float)numbers[OPACITY - KA];
-    if (given(option, FIBRE))
-        m.fibre = numbers[FIBRE - KA] != 0;
+    if (given(option, MATERIAL_SPECULAR_COLOR))
+        m.specular = (lam_rgb){(float)specular[0], (float)specular[1], (float)specular[2]};
+    for (int i = 0; lam_material_field(i); i++)
+        if (given(option, i))
+            set_field(lam_material_field(i), &m, option->numbers[i]);
+    for (int i = 0; lam_material_field(i); i++)
+        if (given(option, factor_of(i)))
+            set_factor(option, i, &m);
     return m;
+}
+
+static double largest(const double color[4])
+{
+    double most = color[0] > color[1] ? color[0] : color[1];
+    return most > color[2] ? most : color[2];
 }
 
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene)
 {
-    for (int key = 0; key <= KR; key++) {
-        if (!given(option, (enum key)key) || key == EMISSION)
+    for (int key = 0; key < MATERIAL_KEYS; key++) {
+        bool single = key >= LAM_FIELDS_MAX && key < MATERIAL_COLOR;
+        if (!given(option, key) || (key < LAM_FIELDS_MAX && !is_share(lam_material_field(key))))
             continue;
-        const lam_rgba *c = &option->colors[key < KA ? key : 0];
-        double most = key >= KA ? option->numbers[key - KA] : (double)c->r;
-        if (key < KA && (double)c->g > most)
-            most = (double)c->g;
-        if (key < KA && (double)c->b > most)
-            most = (double)c->b;
+        double most = single ? option->numbers[key][0] : largest(option->numbers[key]);
         if (!(most > 1))
             continue;
         char text[200];
         snprintf(text, sizeof text, "option '--%s': %s is %g: a surface that returns more light than arrives (over 1)",
-                 name, keys[key], most);
+                 name, key_name(key), most);
         lam_scene_add_warning(scene, text);
     }
 }
 
-static double largest(lam_rgb c)
-{
-    float most = c.r > c.g ? c.r : c.g;
-    return (double)(most > c.b ? most : c.b);
-}
-
 void materials_warn(lam_scene *scene)
 {
-    enum { TOLD = 3 };
+    enum { REPORTED = 3 };
     int over = 0;
     for (int i = 0; i < lam_scene_material_count(scene); i++) {
         const lam_material *m = lam_scene_material(scene, i);
-        const struct {
-            const char *key;
-            lam_rgb color;
-        } terms[] = {{"ambient", m->ambient},
-                     {"diffuse", {m->diffuse.r, m->diffuse.g, m->diffuse.b}},
-                     {"specular", m->specular},
-                     {"reflectivity", m->reflectivity}};
-        for (size_t k = 0; k < sizeof terms / sizeof *terms; k++) {
-            if (!(largest(terms[k].color) > 1) || ++over > TOLD)
+        for (int k = 0; lam_material_field(k); k++) {
+            double color[4];
+            lam_field_get(lam_material_field(k), m, color);
+            if (!is_share(lam_material_field(k)) || !(largest(color) > 1) || ++over > REPORTED)
                 continue;
             char text[200];
             snprintf(text, sizeof text,
                      "material '%.60s': %s is %g: a surface that returns more light than arrives (over 1)",
-                     m->name ? m->name : "unnamed", terms[k].key, largest(terms[k].color));
+                     m->name ? m->name : "unnamed", lam_material_field(k)->key, largest(color));
             lam_scene_add_warning(scene, text);
         }
     }
-    if (over > TOLD) {
+    if (over > REPORTED) {
         char text[100];
-        snprintf(text, sizeof text, "%d more coefficients of materials are over 1", over - TOLD);
+        snprintf(text, sizeof text, "%d more coefficients of materials are over 1", over - REPORTED);
         lam_scene_add_warning(scene, text);
     }
 }

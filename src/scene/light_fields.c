@@ -16,13 +16,6 @@
 #define REACHING  (PLACED | BIT(DIRECTIONAL))
 
 static const struct light_field rows[] = {
-    {.field = {MEMBER(sky), .type = LAM_FIELD_RGB, .max = INFINITY, .standard = GREY(0.4f),
-               .light_types = BIT(HEMISPHERE), .summary = "light from above"}},
-    {.field = {MEMBER(ground), .type = LAM_FIELD_RGB, .max = INFINITY, .standard = GREY(0.1f),
-               .light_types = BIT(HEMISPHERE), .summary = "light from below"}},
-    {.field = {MEMBER(up), .type = LAM_FIELD_DIRECTION, .min = -INFINITY, .max = INFINITY,
-               .light_types = BIT(HEMISPHERE), .summary = "towards the sky; default: the scene's up axis"},
-     .optional = true},
     {.field = {MEMBER(position), .type = LAM_FIELD_POINT, .min = -INFINITY, .max = INFINITY, .light_types = PLACED,
                .unit = "model units",
                .summary =
@@ -55,6 +48,13 @@ static const struct light_field rows[] = {
     {.field = {ANGLE(outer_rad, "outer"), .max = 90, .light_types = BIT(SPOT),
                .summary = "half angle where the light ends, as in glTF; more than inner"},
      .cone = SOFT_CONE},
+    {.field = {MEMBER(sky), .type = LAM_FIELD_RGB, .max = INFINITY, .standard = GREY(0.4f),
+               .light_types = BIT(HEMISPHERE), .summary = "light from above"}},
+    {.field = {MEMBER(ground), .type = LAM_FIELD_RGB, .max = INFINITY, .standard = GREY(0.1f),
+               .light_types = BIT(HEMISPHERE), .summary = "light from below"}},
+    {.field = {MEMBER(up), .type = LAM_FIELD_DIRECTION, .min = -INFINITY, .max = INFINITY,
+               .light_types = BIT(HEMISPHERE), .summary = "towards the sky; default: the scene's up axis"},
+     .optional = true},
 };
 enum { COUNT = sizeof rows / sizeof *rows };
 _Static_assert((int)COUNT <= LAM_FIELDS_MAX, "more fields than LAM_FIELDS_MAX");

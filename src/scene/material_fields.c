@@ -16,7 +16,7 @@ static const struct material_field rows[] = {
      .product_summary = "ka La: the material's ambient colour times all light from everywhere",
      .reader = FIELD_LIT},
     {.field = {MEMBER(diffuse), .symbol = "kd", .source = "Kd", .type = LAM_FIELD_RGBA, .max = INFINITY,
-               .standard = GREY(0.72f), .summary = "kd: share that is returned evenly to all sides; a: the opacity"}},
+               .standard = GREY(0.72f), .summary = "kd: share that is returned evenly to all sides; a: opacity"}},
     {.field = {MEMBER(specular), .symbol = "ks", .source = "Ks", .type = LAM_FIELD_RGB, .max = INFINITY,
                .standard = GREY(0.12f), .summary = "ks: strength of the highlight"},
      .product = "",

@@ -1,5 +1,5 @@
 // scene_reader.h: what the readers of a scene file share: places in it, and values that are checked as they are taken.
-// docs/scene-file.md is the format for people, docs/scene.schema.json for programs.
+// docs/scene-file.md is the format for people, `lambent generate scene-schema` for programs.
 #ifndef SCENE_READER_H
 #define SCENE_READER_H
 

@@ -2,11 +2,12 @@
 import json
 import shutil
 import struct
+import subprocess
 import unittest
 
-from harness import OWN_MODELS, ROOT, SHARED_MODELS, Case, pixel, read_png
+from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, pixel, read_png
 
-SCHEMA = json.loads((ROOT / "docs" / "scene.schema.json").read_text())
+SCHEMA = json.loads(subprocess.run([PROGRAM, "generate", "scene-schema"], stdout=subprocess.PIPE, check=True).stdout)
 KNOWN = {"type", "enum", "const", "required", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
          "maximum", "exclusiveMinimum", "minLength", "anyOf", "$ref", "$defs", "$schema", "title", "description", "default"}
 KINDS = {"object": dict, "array": list, "string": str, "integer": int, "number": (int, float), "boolean": bool, "null": type(None)}
@@ -67,6 +68,22 @@ class Scene(Case):
         saved = json.loads((self.folder / "sub" / "saved.json").read_text())
         self.assertIsNone(misfit(saved, SCHEMA))
         return saved
+
+    def test_every_field_of_a_material(self):
+        """Each key of the schema is one of --material, is saved, read again, and explained."""
+        for key, field in SCHEMA["$defs"]["material"]["properties"].items():
+            word, value = {"boolean": ("yes", True), "number": ("0.5", 0.5)}.get(field.get("type"), ("0.5/0.25/0.125", [0.5, 0.25, 0.125]))
+            with self.subTest(key):
+                self.good("sphere", "-s", 8, "--material", f"{key}={word}", "-o", "a.png", "--save-scene", "a.json", "-q")
+                [thing] = json.loads((self.folder / "a.json").read_text())["objects"]
+                opacity = key == "opacity"  # which stands in the colour
+                self.assertEqual(thing["material"]["diffuse"][3] if opacity else thing["material"][key], value)
+                thing["material"] = {key: value}
+                (self.folder / "b.json").write_text(json.dumps({"lambent": 1, "objects": [thing]}))
+                told = json.loads(self.good("explain", "b.json", "4,4", "-s", 8, "--json").stdout)["triangles"][0]["material"]
+                rows = {"ambient": 0, "diffuse": 1, "specular": 2}
+                self.assertEqual(told["matrix"][rows[key]] if key in rows else told[key], value)
+        self.given |= {"a.png", "a.json", "b.json"}
 
     def test_example(self):
         width, height, data = self.png("scene.json")

@@ -39,8 +39,9 @@ const struct command command_table[] = {
     {"devices", NULL, "List what pictures can be drawn with on this machine, and why what cannot be used cannot.",
      ABOUT | TAKES_JSON, 0, 0, run_devices},
     {"help", "[COMMAND]", "Print the help, of a command where one is named.", ABOUT, 0, 1, run_help},
-    {"generate", "man|markdown|bash|zsh|fish", "Print the man page, its Markdown form, or a shell's completions.",
-     ABOUT, 1, 1, run_generate},
+    {"generate", "man|markdown|bash|zsh|fish|scene-schema",
+     "Print the man page, its Markdown form, a shell's completions, or the JSON Schema of scene files.", ABOUT, 1, 1,
+     run_generate},
     {.name = NULL},
 };
 

@@ -156,6 +156,22 @@ static void tell_point(struct json *json, const lam_explained_point *p)
     json_close(json, '}');
 }
 
+// The fields beside the matrix.
+static void tell_field(struct json *json, const lam_field *field, const lam_material *m)
+{
+    double numbers[4];
+    int count = lam_field_get(field, m, numbers);
+    bool in_matrix = field->offset == offsetof(lam_material, ambient) ||
+                     field->offset == offsetof(lam_material, diffuse) ||
+                     field->offset == offsetof(lam_material, specular);
+    if (field->type == LAM_FIELD_FLAG)
+        json_flag(json, field->key, numbers[0] != 0);
+    else if (count == 1)
+        json_number(json, field->key, numbers[0]);
+    else if (!in_matrix)
+        triple(json, field->key, numbers[0], numbers[1], numbers[2]);
+}
+
 static void tell_fragment(struct json *json, const lam_explained_fragment *f)
 {
     const lam_material *m = &f->surface;
@@ -189,10 +205,8 @@ static void tell_fragment(struct json *json, const lam_explained_fragment *f)
     index_of(json, "material", f->material);
     json_text(json, "name", m->name);
     matrix(json, "matrix", m->ambient, (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b}, m->specular);
-    color(json, "emission", m->emission);
-    real(json, "opacity", m->diffuse.a);
-    color(json, "reflectivity", m->reflectivity);
-    real(json, "shininess", m->shininess);
+    for (int i = 0; lam_material_field(i); i++)
+        tell_field(json, lam_material_field(i), m);
     json_close(json, '}');
     json_open(json, "points", '[');
     for (int i = 0; i < f->point_count; i++)

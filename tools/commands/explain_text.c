@@ -241,6 +241,35 @@ static void tell_point(const lam_explanation *e, const lam_explained_fragment *f
         color(4, "clamped", p->result, "to 0…1, as OpenGL 1 did");
 }
 
+static const char *field_label(const lam_field *field, char text[64])
+{
+    snprintf(text, 64, "%s%s%s", field->key, field->symbol ? " " : "", field->symbol ? field->symbol : "");
+    return text;
+}
+
+static void tell_color(const lam_explanation *e, const lam_field *field, const lam_material *m)
+{
+    double numbers[4];
+    char text[64];
+    bool mirrored = field->offset == offsetof(lam_material, reflectivity);
+    if (lam_field_get(field, m, numbers) > 1 && (e->has_environment || !mirrored))
+        three(4, field_label(field, text), numbers[0], numbers[1], numbers[2], "");
+}
+
+// The shininess, and other numbers where they are not the default.
+static void tell_number(const lam_explained_fragment *f, const lam_field *field, const lam_material *m)
+{
+    double numbers[4];
+    char text[64];
+    if (lam_field_get(field, m, numbers) > 1)
+        return;
+    if (field->offset == offsetof(lam_material, shininess))
+        number(4, field_label(field, text), (double)f->shininess,
+               f->shininess == m->shininess ? "" : "as changed by the options");
+    else if (numbers[0] != field->standard[0])
+        number(4, field_label(field, text), numbers[0], "");
+}
+
 static void tell_material(const lam_explanation *e, const lam_explained_fragment *f)
 {
     const lam_material *m = &f->surface;
@@ -251,15 +280,10 @@ static void tell_material(const lam_explanation *e, const lam_explained_fragment
     named(m->name);
     printf("\n");
     heading(4, "matrix", "");
-    color(4, "ambient ka", m->ambient, "");
-    three(4, "diffuse kd", (double)m->diffuse.r, (double)m->diffuse.g, (double)m->diffuse.b, "");
-    color(4, "specular ks", m->specular, "");
-    color(4, "emission", m->emission, "");
-    if (e->has_environment)
-        color(4, "reflectivity kr", m->reflectivity, "");
-    number(4, "shininess α", (double)f->shininess, f->shininess == m->shininess ? "" : "as changed by the options");
-    if (m->diffuse.a != 1)
-        number(4, "opacity", (double)m->diffuse.a, "");
+    for (int i = 0; lam_material_field(i); i++)
+        tell_color(e, lam_material_field(i), m);
+    for (int i = 0; lam_material_field(i); i++)
+        tell_number(f, lam_material_field(i), m);
     printf("\n");
 }
 

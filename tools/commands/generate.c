@@ -1,4 +1,4 @@
-// generate.c: the command `generate`: what is made from the table of options besides the help.
+// generate.c: the command `generate`: texts made from the tables of options and fields, besides the help.
 #include "generate.h"
 
 #include <string.h>
@@ -10,11 +10,8 @@
 static const struct {
     const char *name;
     void (*print)(void);
-} kinds[] = {{"man", generate_man},
-             {"markdown", generate_markdown},
-             {"bash", generate_bash},
-             {"zsh", generate_zsh},
-             {"fish", generate_fish}};
+} kinds[] = {{"man", generate_man}, {"markdown", generate_markdown}, {"bash", generate_bash},
+             {"zsh", generate_zsh}, {"fish", generate_fish},         {"scene-schema", generate_scene_schema}};
 
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
@@ -30,9 +27,9 @@ int run_generate(int operand_count, char **operands, const struct options *optio
         suggest_try(&nearest, kinds[i].name);
     }
     lam_error error;
-    complain(&error, LAM_BAD_ARGUMENT, "generate: found '%.100s', expected man, markdown, bash, zsh or fish%s%s%s",
-             operands[0], nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
-             nearest.best ? "'?" : "");
+    complain(&error, LAM_BAD_ARGUMENT,
+             "generate: found '%.100s', expected man, markdown, bash, zsh, fish or scene-schema%s%s%s", operands[0],
+             nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
     say_error(error.text);
     return exit_code_of(error.code)->code;
 }

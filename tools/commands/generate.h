@@ -9,5 +9,6 @@ void generate_markdown(void); // manual.c
 void generate_bash(void);     // completions.c
 void generate_zsh(void);
 void generate_fish(void);
+void generate_scene_schema(void); // scene_schema.c
 
 #endif

@@ -15,24 +15,6 @@
 
 enum { COLUMNS = 6, ROWS = (LAM_MATERIAL_COUNT + COLUMNS - 1) / COLUMNS };
 
-static void print_triple(float r, float g, float b) { printf("  %8g %8g %8g", (double)r, (double)g, (double)b); }
-
-static void print_list(void)
-{
-    printf("%-15s  %-26s  %-26s  %-26s  %s\n", "", "ambient", "diffuse", "specular", "shininess");
-    for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
-        lam_material m = lam_material_named((lam_material_id)i);
-        printf("%-15s", m.name);
-        print_triple(m.ambient.r, m.ambient.g, m.ambient.b);
-        print_triple(m.diffuse.r, m.diffuse.g, m.diffuse.b);
-        print_triple(m.specular.r, m.specular.g, m.specular.b);
-        printf("  %g\n", (double)m.shininess);
-    }
-    printf("\nSource: teapots.c, a demonstration program of OpenGL (Silicon Graphics, 1993 and 1997); the "
-           "shininess there is\n"
-           "a share of 128. The numbers are taken as linear. --material NAME gives one to a model.\n");
-}
-
 // The fewest digits that read back as the same float: as the table has it.
 static double decimal(float x)
 {
@@ -45,17 +27,55 @@ static double decimal(float x)
     return strtod(text, NULL);
 }
 
-static void tell_color(struct json *json, const char *key, float r, float g, float b)
+// The columns: fields that a classic material has another value of than the default. Of a colour three numbers, without
+// the alpha.
+static bool is_column(const lam_field *field)
 {
-    json_open(json, key, '[');
-    json_number(json, NULL, decimal(r));
-    json_number(json, NULL, decimal(g));
-    json_number(json, NULL, decimal(b));
-    json_close(json, ']');
+    bool differs = false;
+    for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
+        lam_material m = lam_material_named((lam_material_id)i);
+        double numbers[4];
+        for (int k = lam_field_get(field, &m, numbers) - 1; k >= 0; k--)
+            differs |= (float)numbers[k] != (float)field->standard[k];
+    }
+    return differs;
+}
+
+static void print_row(const lam_material *m)
+{
+    printf("%-15s", m ? m->name : "");
+    for (int i = 0; lam_material_field(i); i++) {
+        const lam_field *field = lam_material_field(i);
+        double numbers[4] = {0};
+        bool color = field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA;
+        if (!is_column(field))
+            continue;
+        if (m)
+            lam_field_get(field, m, numbers);
+        if (!m)
+            printf(color ? "  %-26s" : "  %s", field->key);
+        else if (color)
+            printf("  %8g %8g %8g", numbers[0], numbers[1], numbers[2]);
+        else
+            printf("  %g", numbers[0]);
+    }
+    printf("\n");
+}
+
+static void print_list(void)
+{
+    print_row(NULL);
+    for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
+        lam_material m = lam_material_named((lam_material_id)i);
+        print_row(&m);
+    }
+    printf("\nSource: teapots.c, a demonstration program of OpenGL (Silicon Graphics, 1993 and 1997); the "
+           "shininess there is\n"
+           "a share of 128. The numbers are taken as linear. --material NAME gives one to a model.\n");
 }
 
 // In the keys of a scene file's materials.
-static void tell_json(void)
+static void print_json(void)
 {
     struct json json = {.file = stdout};
     json_open(&json, NULL, '{');
@@ -64,10 +84,19 @@ static void tell_json(void)
         lam_material m = lam_material_named((lam_material_id)i);
         json_open(&json, NULL, '{');
         json_text(&json, "name", m.name);
-        tell_color(&json, "ambient", m.ambient.r, m.ambient.g, m.ambient.b);
-        tell_color(&json, "diffuse", m.diffuse.r, m.diffuse.g, m.diffuse.b);
-        tell_color(&json, "specular", m.specular.r, m.specular.g, m.specular.b);
-        json_number(&json, "shininess", decimal(m.shininess));
+        for (int k = 0; lam_material_field(k); k++) {
+            const lam_field *field = lam_material_field(k);
+            double numbers[4];
+            bool single = lam_field_get(field, &m, numbers) == 1;
+            if (!is_column(field))
+                continue;
+            if (!single)
+                json_open(&json, field->key, '[');
+            for (int n = 0; n < (single ? 1 : 3); n++)
+                json_number(&json, single ? field->key : NULL, decimal((float)numbers[n]));
+            if (!single)
+                json_close(&json, ']');
+        }
         json_close(&json, '}');
     }
     json_close(&json, ']');
@@ -78,7 +107,7 @@ static void tell_json(void)
 static void tell_list(const struct options *options)
 {
     if (options->json)
-        tell_json();
+        print_json();
     else
         print_list();
 }

@@ -1,6 +1,8 @@
 // manual.c: the man page and docs/command-line.md, from the tables of options and commands.
 #include "generate.h"
 
+#include "field_tables.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -111,6 +113,7 @@ void generate_man(void)
         printf("\"\n");
         roff_paragraphs(t->text);
     }
+    field_tables_man();
     printf(".SH \"EXIT STATUS\"\n");
     for (const struct exit_code *e = exit_codes; e->meaning; e++) {
         printf(".TP\n.B %d\n", e->code);
@@ -152,7 +155,7 @@ static void markdown_option(const struct option *o)
 
 void generate_markdown(void)
 {
-    printf("<!-- Made by `lambent generate markdown` from tools/option_table.c and tools/command_table.c. -->\n"
+    printf("<!-- Made by `lambent generate markdown` from the tables of options, commands and fields. -->\n"
            "# The command line\n\n"
            "    lambent [OPTIONS] MODEL...\n"
            "    lambent COMMAND [ARGUMENTS]\n\n"
@@ -185,6 +188,7 @@ void generate_markdown(void)
             fputs(*s == '\n' ? "\n\n" : (char[]){*s, 0}, stdout);
         putchar('\n');
     }
+    field_tables_markdown();
     printf("\n## Exit codes\n\n| code | meaning |\n|---|---|\n");
     for (const struct exit_code *e = exit_codes; e->meaning; e++)
         printf("| %d | %s |\n", e->code, e->meaning);

@@ -293,7 +293,8 @@ const struct option option_table[] = {
      "How it fades: `attenuation=a/b/c` is 1/(a + b d + c d^2), where b and c may carry r: distance in radii "
      "(`1/2.7r/5r`); `range` (also with r) lets it end there. A spot's cone: `cutoff` (half angle in "
      "degrees, 45) and `exponent`, or "
-     "`inner` and `outer` half angles. `name` is for reports.",
+     "`inner` and `outer` half angles. `name` is for reports.\n"
+     "The fields of lights have a table of their own.",
      .store = store_light, FIELD(lights)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A ready-made set of lights: studio, headlight, three-point, lecture, file (the model's), none or auto.",
@@ -325,15 +326,11 @@ const struct option option_table[] = {
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@WHERE]", "the model's",
      "Another material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
      "A name of the classic table, or keys with commas between them, or a name and then keys "
-     "(`gold,shininess=80`). What keys leave out stays as the model has it. The keys: `ambient`, `diffuse` "
-     "(with alpha as a "
-     "fourth number), `specular`, `emission`, `reflectivity` (colours: `#rrggbb`, a name, `r/g/b` or one "
-     "number), `shininess`, "
-     "`opacity` (0 to 1), `fibre` (yes or no: Kajiya-Kay without the gate, for hair); or `color` (ambient "
-     "and diffuse) and "
-     "`specular_color` with the factors `ka`, `kd`, `ks` and `kr`, which multiply ambient, diffuse, specular "
-     "and mirrored light "
-     "(`kr` the specular colour, white where it is left out).\n"
+     "(`gold,shininess=80`). What keys leave out stays as the model has it. The keys are the fields of materials, "
+     "which "
+     "have a table of their own (colours are `#rrggbb`, a name, `r/g/b` or one number); or `color` (ambient and "
+     "diffuse) and `specular_color` with the factors `ka`, `kd`, `ks` and `kr`, which multiply ambient, diffuse, "
+     "specular and mirrored light (`kr` the specular colour, white where it is left out).\n"
      "`@WHERE` limits it to the objects of that name, else to the parts (OBJ groups, STL solids), else to "
      "the model's materials: "
      "`ruby@handle`. The option may be repeated; a later one wins.",

@@ -1,0 +1,14 @@
+// field_tables.h: the tables of the fields of materials and lights in the documentation.
+#ifndef FIELD_TABLES_H
+#define FIELD_TABLES_H
+
+#include <lambent/lambent.h>
+
+void field_tables_markdown(void);
+void field_tables_man(void);
+
+// The default and the range in words.
+const char *field_standard(const lam_field *field, char text[80]);
+const char *field_range(const lam_field *field, char text[80]);
+
+#endif

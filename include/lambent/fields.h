@@ -39,7 +39,8 @@ typedef struct lam_field {
     LAM_RESERVED(8);
 } lam_field;
 
-enum { LAM_FIELDS_MAX = 24 }; // rows of either table, at most
+// The most rows of either table.
+enum { LAM_FIELDS_MAX = 24 };
 
 // A row of a table; NULL past the end. Of lights a key may have several rows, with different defaults for
 // different types.

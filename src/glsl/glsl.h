@@ -111,7 +111,7 @@ struct glsl_material_layout {
     int count;
     const struct material_field *fields[LAM_FIELDS_MAX];
     int at[LAM_FIELDS_MAX]; // in floats
-    int size;           // in floats, a multiple of 4
+    int size;               // in floats, a multiple of 4
 };
 struct glsl_material_layout glsl_material_layout(bool products);
 enum { GLSL_MATERIAL_MAX = 4 * LAM_FIELDS_MAX };

@@ -194,12 +194,12 @@ static bool read_light(struct scene_reader *r, const struct place *place, const 
     if (type == LAM_LIGHT_SPOT && !check_cone(r, place, value, &light))
         return false;
     lam_error reason;
-    if (!lam_light_check(&light, &reason)) // what the keys could not say by themselves
+    if (!lam_light_check(&light, &reason)) // rules between keys
         return fail_place(r, place, "%s", reason.text);
     return scene_take_light(r->scene, &light, r->error) >= 0;
 }
 
-// The names are to tell lights apart in reports and tables. The first two of one name are told.
+// Names distinguish lights in reports and tables. Warns of the first two that share one.
 static bool warn_of_names(struct scene_reader *r, const json_t *list)
 {
     json_t *met = json_object();

@@ -38,7 +38,7 @@ static bool open_nested(const struct import_source *source, const char *name, st
     return ok;
 }
 
-// The inner scene's items behind those of the outer one, their indices shifted.
+// Appends the inner scene's items to those of the outer one, their indices shifted.
 static bool merge(struct scene_reader *r, struct lam_scene *inner)
 {
     struct lam_scene *scene = r->scene;
@@ -122,7 +122,7 @@ static bool add_file(struct scene_reader *r, const struct place *place, const ch
     return ok;
 }
 
-// --- what all objects have
+// --- keys of all objects
 
 // "materials": changes of the model's own materials, by their names.
 static bool change_materials(struct scene_reader *r, const struct place *place, const json_t *value,

@@ -1,4 +1,4 @@
-// scene_reader.h: what the readers of a scene file share: places in it, and values that are checked as they are taken.
+// scene_reader.h: shared by the readers of a scene file: places in it, and values that are checked as they are taken.
 // docs/scene-file.md is the format for people, `lambent generate scene-schema` for programs.
 #ifndef SCENE_READER_H
 #define SCENE_READER_H
@@ -13,7 +13,7 @@ struct scene_reader {
     struct lam_scene *scene;
     lam_picture_settings *settings; // in the scene's arena
     bool has_lights;                // the file lists its lights: the models' own are left out
-    lam_color_mode color;           // what colours in this file and its models are read as
+    lam_color_mode color;           // of colours in this file and its models
     json_t *materials;              // the file's named materials; NULL: none
     int *material_at;               // of each, in the file's order: its index in the scene
     lam_error *error;
@@ -39,11 +39,11 @@ const char *json_kind(const json_t *value, char out[32]);
 bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys);
 
 // The value of a key of `object`, checked; *out stays as it is where the key is missing. False: it is wrong.
-// Numbers lie in [least, most].
-bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double least,
-                 double most, double *out);
-bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int least,
-                int most, int *out);
+// Numbers lie in [min, max].
+bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double min,
+                 double max, double *out);
+bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int min,
+                int max, int *out);
 bool take_bool(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, bool *out);
 bool take_vector(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
                  lam_vec3 *out);
@@ -73,8 +73,8 @@ void reflection_words(struct scene_word words[LAM_REFLECTION_COUNT + 1]);
 bool take_field(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,
                 void *out);
 
-// Numbers of a list, which has from `least` to `most` of them. *count may be NULL.
-bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t least, size_t most,
+// Numbers of a list, which has from `min` to `max` of them. *count may be NULL.
+bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t min, size_t max,
                 double *out, size_t *count);
 
 // The parts of the file. Each fills the scene.
@@ -82,11 +82,11 @@ bool read_materials(struct scene_reader *r, const json_t *root);
 bool read_objects(struct scene_reader *r, const json_t *root);
 bool read_lights(struct scene_reader *r, const json_t *root);
 
-// A material by name (of the file, or a classic one) or written out; what it leaves out is `base`'s (NULL: each key has
+// A material by name (of the file, or a classic one) or written out; keys left out are `base`'s (NULL: each key has
 // its own default). *index: in the scene.
 bool read_material_value(struct scene_reader *r, const struct place *place, const json_t *value,
                          const lam_material *base, int *index);
-// The keys of a material over what `material` holds.
+// The keys of a material, set in `material`.
 bool read_material_keys(struct scene_reader *r, const struct place *place, const json_t *value, bool whole,
                         lam_material *material);
 

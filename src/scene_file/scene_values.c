@@ -10,15 +10,15 @@
 
 // --- places and sentences
 
-static size_t print_place(const struct place *place, char *out, size_t room)
+static size_t print_place(const struct place *place, char *out, size_t capacity)
 {
     if (!place)
         return 0;
-    size_t used = print_place(place->within, out, room);
-    if (used >= room)
+    size_t used = print_place(place->within, out, capacity);
+    if (used >= capacity)
         return used;
-    int length = place->key ? snprintf(out + used, room - used, "%s%s", used ? "." : "", place->key)
-                            : snprintf(out + used, room - used, "[%zu]", place->index);
+    int length = place->key ? snprintf(out + used, capacity - used, "%s%s", used ? "." : "", place->key)
+                            : snprintf(out + used, capacity - used, "[%zu]", place->index);
     return used + (length > 0 ? (size_t)length : 0);
 }
 
@@ -92,41 +92,41 @@ bool check_keys(struct scene_reader *r, const struct place *place, const json_t 
 
 // --- numbers
 
-static bool number_of(struct scene_reader *r, const struct place *place, const json_t *value, double least, double most,
+static bool number_of(struct scene_reader *r, const struct place *place, const json_t *value, double min, double max,
                       double *out)
 {
     char expected[100];
     if (!json_is_number(value))
         return unexpected(r, place, value, "a number");
     double number = json_number_value(value);
-    if (number >= least && number <= most) {
+    if (number >= min && number <= max) {
         *out = number;
         return true;
     }
-    if (least > -1e30 && most < 1e30)
-        snprintf(expected, sizeof expected, "a number from %.10g to %.10g", least, most);
-    else if (least > -1e30)
-        snprintf(expected, sizeof expected, "a number of at least %.10g", least);
+    if (min > -1e30 && max < 1e30)
+        snprintf(expected, sizeof expected, "a number from %.10g to %.10g", min, max);
+    else if (min > -1e30)
+        snprintf(expected, sizeof expected, "a number of at least %.10g", min);
     else
-        snprintf(expected, sizeof expected, "a number of at most %.10g", most);
+        snprintf(expected, sizeof expected, "a number of at most %.10g", max);
     return unexpected(r, place, value, expected);
 }
 
-bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double least,
-                 double most, double *out)
+bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double min,
+                 double max, double *out)
 {
     const json_t *value = json_object_get(object, key);
-    return !value || number_of(r, KEY_OF(place, key), value, least, most, out);
+    return !value || number_of(r, KEY_OF(place, key), value, min, max, out);
 }
 
-bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int least,
-                int most, int *out)
+bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int min,
+                int max, int *out)
 {
     const json_t *value = json_object_get(object, key);
     double number = 0;
     if (!value)
         return true;
-    if (!number_of(r, KEY_OF(place, key), value, least, most, &number))
+    if (!number_of(r, KEY_OF(place, key), value, min, max, &number))
         return false;
     *out = (int)number;
     return (double)*out == number || unexpected(r, KEY_OF(place, key), value, "a whole number");
@@ -141,16 +141,16 @@ bool take_bool(struct scene_reader *r, const struct place *place, const json_t *
     return json_is_boolean(value) || unexpected(r, KEY_OF(place, key), value, "true or false");
 }
 
-bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t least, size_t most,
+bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t min, size_t max,
                 double *out, size_t *count)
 {
     char expected[60];
     size_t size = json_is_array(list) ? json_array_size(list) : 0;
-    if (least == most)
-        snprintf(expected, sizeof expected, "a list of %zu numbers", least);
+    if (min == max)
+        snprintf(expected, sizeof expected, "a list of %zu numbers", min);
     else
-        snprintf(expected, sizeof expected, "a list of %zu to %zu numbers", least, most);
-    if (!json_is_array(list) || size < least || size > most)
+        snprintf(expected, sizeof expected, "a list of %zu to %zu numbers", min, max);
+    if (!json_is_array(list) || size < min || size > max)
         return unexpected(r, place, list, expected);
     for (size_t i = 0; i < size; i++)
         if (!number_of(r, ELEMENT_OF(place, i), json_array_get(list, i), -1e30, 1e30, &out[i]))
@@ -263,7 +263,7 @@ void reflection_words(struct scene_word words[LAM_REFLECTION_COUNT + 1])
 
 // --- colours
 
-static bool color_of(struct scene_reader *r, const struct place *place, const json_t *value, size_t most, lam_rgba *out)
+static bool color_of(struct scene_reader *r, const struct place *place, const json_t *value, size_t max, lam_rgba *out)
 {
     double part[4] = {0, 0, 0, 1};
     if (json_is_string(value)) {
@@ -271,9 +271,9 @@ static bool color_of(struct scene_reader *r, const struct place *place, const js
         if (json_string_length(value) > 40 || !lam_color_parse(json_string_value(value), r->color, out, &reason))
             return unexpected(r, place, value,
                               "a colour: \"#rrggbb\", a name such as \"white\", or a list of linear numbers");
-        return most == 4 || out->a == 1 || fail_place(r, place, "has an alpha, expected a colour of three parts");
+        return max == 4 || out->a == 1 || fail_place(r, place, "has an alpha, expected a colour of three parts");
     }
-    if (!numbers_of(r, place, value, 3, most, part, NULL))
+    if (!numbers_of(r, place, value, 3, max, part, NULL))
         return false;
     for (size_t i = 0; i < 4; i++)
         if (part[i] < 0 || (i == 3 && part[i] > 1))

@@ -101,7 +101,7 @@ static void put_name(struct scene_writer *w, json_t *object, const char *key, co
 // --- paths
 
 // The path from `folder` to `file`, both absolute and free of links.
-static bool relative_path(const char *folder, const char *file, char *out, size_t room)
+static bool relative_path(const char *folder, const char *file, char *out, size_t capacity)
 {
     size_t common = 0, i = 0, used = 0;
     for (; folder[i] && folder[i] == file[i]; i++)
@@ -116,12 +116,12 @@ static bool relative_path(const char *folder, const char *file, char *out, size_
     for (const char *c = rest; *c; c++)
         up += *c == '/' && c[1];
     for (; up > 0; up--, used += 3) {
-        if (used + 4 > room)
+        if (used + 4 > capacity)
             return false;
         memcpy(out + used, "../", 4);
     }
     size_t length = strlen(file + common);
-    if (used + length + 1 > room)
+    if (used + length + 1 > capacity)
         return false;
     memcpy(out + used, file + common, length + 1);
     return true;
@@ -173,7 +173,7 @@ static void put_field(struct scene_writer *w, json_t *out, const lam_field *fiel
     }
 }
 
-// `whole`: what is left out would be another material's, so that every field is written; else its default.
+// `whole`: keys left out would take another material's values, so every field is written; else they take the default.
 static json_t *material_json(struct scene_writer *w, const lam_material *m, bool whole)
 {
     json_t *out = json_object();
@@ -195,7 +195,7 @@ static bool same_material(const lam_material *a, const lam_material *b)
     return true;
 }
 
-// What has become of the model's own materials since it was read.
+// Changes of the model's own materials since it was read.
 static bool put_changes(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
 {
     json_t *changes = NULL;
@@ -263,7 +263,7 @@ static bool is_identity(const lam_mat4 *m)
 static void put_transform(struct scene_writer *w, json_t *entry, const lam_object *object, const lam_object *own)
 {
     lam_mat4 matrix = object->transform, inverse;
-    // A file's own transform stays in the file: what came on top of it is written.
+    // A file's own transform stays in the file: only the transform on top of it is written.
     if (!is_identity(&own->transform) && mat4_inverse_affine(&own->transform, &inverse))
         matrix =
             memcmp(&matrix, &own->transform, sizeof matrix) == 0 ? lam_mat4_identity() : mat4_mul(&matrix, &inverse);
@@ -355,7 +355,7 @@ static json_t *light_json(struct scene_writer *w, const lam_light *given)
     if (l->frame == LAM_FRAME_OBJECT)
         put_name(w, out, "object", l->object);
     if (l->attenuation.constant == 0 && l->attenuation.linear == 0 && l->attenuation.quadratic == 0)
-        l->attenuation.constant = 1; // what three zeros stand for
+        l->attenuation.constant = 1; // the meaning of three zeros
     int cone = l->outer_rad > 0 ? SOFT_CONE : HARD_CONE;
     for (int i = 0; light_field(i); i++) {
         const struct light_field *row = light_field(i);

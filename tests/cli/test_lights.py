@@ -116,7 +116,7 @@ class Lights(Pictures):
         for value, says in {
             "pont": "did you mean 'point'?", "": "unknown light", "point:positon=1/2/3": "did you mean 'position'?",
             "point:zzz=1": "expected position, direction", "point:position": "expected key=value",
-            "point:position=1/2": "three numbers", "point:position=nan/0/0": "three numbers", "point:position=1r/2/3": "or behind none",
+            "point:position=1/2": "three numbers", "point:position=nan/0/0": "three numbers", "point:position=1r/2/3": "or after none",
             "point:position=1/2/3/-1": "w of at least 0", "point:position=0/0/0/0": "expected a direction",
             "spot:position=1/2/3/0": "has a place", "point:position=1/2/3,position=1/2/3": "given twice",
             "directional:position=1/2/3": "directional light takes", "directional:direction=0/0/0": "expected a direction",

@@ -52,15 +52,14 @@ const char *field_range(const lam_field *field, char text[80])
     return text;
 }
 
-static const char *const type_names[] = {"ambient", "hemisphere", "point", "directional", "spot"};
-
 static const char *types_of(const lam_field *field, char text[80])
 {
     text[0] = 0;
     for (int i = 0; i <= LAM_LIGHT_SPOT; i++)
         if (field->light_types >> i & 1) {
             size_t used = strlen(text);
-            snprintf(text + used, 80 - used, "%s%s", used ? ", " : "", type_names[i]);
+            snprintf(text + used, 80 - used, "%s%s", used ? ", " : "",
+                     lam_light_type_describe((lam_light_type)i)->word);
         }
     return text;
 }

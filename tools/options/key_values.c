@@ -1,10 +1,9 @@
-// key_values.c: what the values "key=value,key=value" of options are made of.
+// key_values.c: the parts of option values such as "key=value,key=value".
 #include "key_values.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "camera_option.h"
 #include "console.h"
 #include "options.h"
 #include "suggest.h"
@@ -27,9 +26,9 @@ int key_find(const char *name, const char *const *names, lam_error *error)
     return -1;
 }
 
-bool read_numbers(const char *text, int least, int most, double *numbers, int *count, bool *radii)
+bool read_numbers(const char *text, int min, int max, double *numbers, int *count, bool *radii)
 {
-    for (*count = 0; *count < most;) {
+    for (*count = 0; *count < max;) {
         text = read_number(text, &numbers[*count]);
         if (!text)
             return false;
@@ -39,7 +38,7 @@ bool read_numbers(const char *text, int least, int most, double *numbers, int *c
         }
         ++*count;
         if (!*text)
-            return *count >= least;
+            return *count >= min;
         if (*text++ != '/')
             return false;
     }

@@ -1,4 +1,4 @@
-// key_values.h: what the values "key=value,key=value" of options are made of.
+// key_values.h: the parts of option values such as "key=value,key=value".
 #ifndef KEY_VALUES_H
 #define KEY_VALUES_H
 
@@ -7,9 +7,9 @@
 // The index of `name` in a list that ends with NULL; −1 with the nearest one, or all of them, in the error.
 int key_find(const char *name, const char *const *names, lam_error *error);
 
-// Numbers with '/' between them, `least` to `most` of them. Where `radii` is not NULL, each may end in 'r', which
+// Numbers with '/' between them, `min` to `max` of them. Where `radii` is not NULL, each may end in 'r', which
 // sets radii[i].
-bool read_numbers(const char *text, int least, int most, double *numbers, int *count, bool *radii);
+bool read_numbers(const char *text, int min, int max, double *numbers, int *count, bool *radii);
 
 // One number.
 bool read_one(const char *text, double *number);

@@ -25,7 +25,7 @@ static const struct {
     [NAME - LAM_FIELDS_MAX] = {"name", ~0u},
 };
 
-// What was read on the way.
+// The keys read so far.
 struct reading {
     struct light_option *option;
     lam_color_mode mode;
@@ -95,7 +95,7 @@ static bool point_for(const char *key, const char *value, lam_vec3 *out, bool *i
     *in_radii = radii[0] || radii[1] || radii[2];
     for (int i = 0; i < 3; i++)
         if (*in_radii && !radii[i] && numbers[i] != 0)
-            return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected r behind all of its numbers or behind none",
+            return complain(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected r after all of its numbers or after none",
                             key, value);
     double divisor = 1;
     if (count == 4) {
@@ -149,7 +149,7 @@ static bool read_frame(char *value, struct light_option *option, lam_error *erro
         light->frame = name ? LAM_FRAME_OBJECT : LAM_FRAME_MODEL;
         light->object = name;
         return !name || *name ||
-               complain(error, LAM_BAD_ARGUMENT, "frame is 'object:', expected an object's name behind it");
+               complain(error, LAM_BAD_ARGUMENT, "frame is 'object:', expected an object's name after it");
     }
     bool camera = strcmp(value, "camera") == 0;
     if (name || (!camera && strcmp(value, "world") != 0))
@@ -206,7 +206,7 @@ static bool read_pair(struct reading *reading, char *pair, lam_error *error)
     return read_value(reading, key, value, error);
 }
 
-// --- what the values amount to
+// --- the light from its values
 
 // A colour that was not given by its own key.
 static void set_color(const struct reading *reading, const char *name, bool by_color, double factor)
@@ -273,7 +273,7 @@ static bool set_cone(struct reading *reading, lam_error *error)
     return true;
 }
 
-// w = 0, and what a directional light's place means.
+// The place and the direction: w = 0 and directional lights have rules of their own.
 static bool set_place(struct reading *reading, lam_error *error)
 {
     struct light_option *option = reading->option;

@@ -4,7 +4,7 @@
 
 #include <lambent/lambent.h>
 
-// A light as written: complete but for what depends on the model and the camera.
+// A light as written, without the parts that depend on the model and the camera.
 struct light_option {
     bool none; // "none": no light at all
     bool adds; // "+TYPE": the rig stays
@@ -28,7 +28,7 @@ struct model_sphere {
 bool light_option_add(const struct light_option *option, const struct model_sphere *sphere, const lam_camera *camera,
                       lam_scene *scene, lam_error *error);
 
-// Whether angles make a cone; NULL: that kind is not asked for. Errors tell degrees.
+// Whether angles make a cone; NULL: that kind is not asked for. Errors are in degrees.
 bool light_cone_check(const double *cutoff_deg, const double *inner_deg, const double *outer_deg, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// material_apply.c: what --material and --back-material do to a scene's objects.
+// material_apply.c: the effect of --material and --back-material on a scene's objects.
 #include "material_option.h"
 
 #include <string.h>
@@ -47,7 +47,7 @@ static int users_of(const lam_scene *scene, int mesh, int index, bool *first)
 // Each part's own material, changed. Neighbours that shared one share the new one.
 static bool change_parts(const struct material_option *option, int mesh, lam_scene *scene, lam_error *error)
 {
-    bool whole = option->id != LAM_MATERIAL_COUNT; // leaves nothing of what was there
+    bool whole = option->id != LAM_MATERIAL_COUNT; // replaces every field
     int from = -2, changed = -1;
     for (uint32_t i = 0; i < lam_scene_mesh(scene, mesh)->part_count; i++) {
         int material = lam_scene_mesh(scene, mesh)->parts[i].material;

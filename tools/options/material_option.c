@@ -170,8 +170,8 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
 
 static double largest(const double color[4])
 {
-    double most = color[0] > color[1] ? color[0] : color[1];
-    return most > color[2] ? most : color[2];
+    double highest = color[0] > color[1] ? color[0] : color[1];
+    return highest > color[2] ? highest : color[2];
 }
 
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene)
@@ -180,12 +180,12 @@ void material_option_warn(const struct material_option *option, const char *name
         bool single = key >= LAM_FIELDS_MAX && key < MATERIAL_COLOR;
         if (!given(option, key) || (key < LAM_FIELDS_MAX && !is_share(lam_material_field(key))))
             continue;
-        double most = single ? option->numbers[key][0] : largest(option->numbers[key]);
-        if (!(most > 1))
+        double highest = single ? option->numbers[key][0] : largest(option->numbers[key]);
+        if (!(highest > 1))
             continue;
         char text[200];
         snprintf(text, sizeof text, "option '--%s': %s is %g: a surface that returns more light than arrives (over 1)",
-                 name, key_name(key), most);
+                 name, key_name(key), highest);
         lam_scene_add_warning(scene, text);
     }
 }

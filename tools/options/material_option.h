@@ -1,4 +1,4 @@
-// material_option.h: the values of --material and --back-material, and what they do to a scene.
+// material_option.h: the values of --material and --back-material, and their effect on a scene.
 #ifndef MATERIAL_OPTION_H
 #define MATERIAL_OPTION_H
 
@@ -10,7 +10,7 @@ enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KE
 
 struct material_option {
     const char *target; // name of an object, part or material of the model; NULL: the whole model
-    lam_material_id id; // a named material; LAM_MATERIAL_COUNT: none, what is left out stays
+    lam_material_id id; // a named material; LAM_MATERIAL_COUNT: none, keys left out stay as they are
     uint64_t given;     // bit for each key
     double numbers[MATERIAL_KEYS][4];
     char text[1024]; // `target` points into it: the struct must not be copied

@@ -1,6 +1,8 @@
 // mtl.c: MTL, the material files that OBJ files name. docs/formats.md says what each statement becomes.
 #include "mtl.h"
 
+#include <lambent/fields.h>
+
 #include "srgb.h"
 #include "number.h"
 #include "text_cursor.h"
@@ -258,18 +260,13 @@ static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at,
 
 enum statement {
     NEWMTL,
-    KA,
-    KD,
-    KS,
-    KE,
-    NS,
-    D,
     TR,
     ILLUM,
     MAP,                           // + enum lam_map
     NOTHING = MAP + LAM_MAP_COUNT, // known, without a part in the classic models
     OTHER_MAP,
     UNKNOWN,
+    FIELD, // + the index of the material's field that it is the source of
 };
 
 static const struct {
@@ -277,12 +274,6 @@ static const struct {
     enum statement statement;
 } words[] = {
     {"newmtl", NEWMTL},
-    {"ka", KA},
-    {"kd", KD},
-    {"ks", KS},
-    {"ke", KE},
-    {"ns", NS},
-    {"d", D},
     {"tr", TR},
     {"illum", ILLUM},
     {"map_ka", MAP + LAM_MAP_AMBIENT},
@@ -316,19 +307,50 @@ static const struct {
     {"map_aat", NOTHING},
 };
 
-static enum statement statement_of(const uint8_t *at, const uint8_t *end)
+static int statement_of(const uint8_t *at, const uint8_t *end)
 {
+    for (int i = 0; lam_material_field(i); i++) {
+        const char *source = lam_material_field(i)->source;
+        size_t length = (size_t)(text_skip_word(at, end) - at);
+        if (source && strlen(source) == length && strncasecmp((const char *)at, source, length) == 0)
+            return FIELD + i;
+    }
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         if (text_is_word(at, end, words[i].word))
-            return words[i].statement;
+            return (int)words[i].statement;
     }
     bool map = end - at > 4 && strncasecmp((const char *)at, "map_", 4) == 0;
     return map || text_is_word(at, end, "decal") ? OTHER_MAP : UNKNOWN;
 }
 
+// A colour (of one with an alpha the first three numbers), or a number brought into its range.
+static void read_material_field(struct reader *reader, const lam_field *field, const uint8_t *at, const uint8_t *end)
+{
+    lam_material *m = &reader->material;
+    double numbers[4];
+    if (lam_field_get(field, m, numbers) == 1) {
+        float number, max = field->max < 1e6 ? (float)field->max : 1e6f;
+        if (text_is_word(at, end, "-halo")) // of d
+            at = text_skip_white(text_skip_word(at, end), end);
+        if (read_numbers(reader, at, end, &number, 1, 1) != 1)
+            return;
+        numbers[0] = (double)within(reader, at, number, (float)field->min, max, field->source);
+    } else {
+        lam_rgb color;
+        if (!read_color(reader, at, end, field->source, &color))
+            return;
+        numbers[0] = (double)color.r, numbers[1] = (double)color.g, numbers[2] = (double)color.b;
+    }
+    lam_field_set(field, m, numbers);
+    if (field->offset == offsetof(lam_material, ambient)) // 1 1 1 is a habit, not a choice
+        reader->ka = !(numbers[0] == 1 && numbers[1] == 1 && numbers[2] == 1);
+    reader->kd |= field->offset == offsetof(lam_material, diffuse);
+    reader->d |= field->offset == offsetof(lam_material, diffuse.a);
+}
+
 static bool read_statement(struct reader *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
 {
-    enum statement statement = statement_of(at, end);
+    int statement = statement_of(at, end);
     const uint8_t *word = at;
     at = text_skip_white(text_skip_word(at, end), end);
     if (statement == NEWMTL)
@@ -345,37 +367,11 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
     }
     lam_material *m = &reader->material;
     float number;
-    lam_rgb color;
+    if (statement >= FIELD) {
+        read_material_field(reader, lam_material_field(statement - FIELD), at, end);
+        return true;
+    }
     switch (statement) {
-    case KA:
-        if (read_color(reader, at, end, "Ka", &m->ambient))
-            reader->ka =
-                !(m->ambient.r == 1 && m->ambient.g == 1 && m->ambient.b == 1); // 1 1 1 is a habit, not a choice
-        break;
-    case KD:
-        if (read_color(reader, at, end, "Kd", &color)) {
-            m->diffuse = (lam_rgba){color.r, color.g, color.b, m->diffuse.a};
-            reader->kd = true;
-        }
-        break;
-    case KS:
-        read_color(reader, at, end, "Ks", &m->specular);
-        break;
-    case KE:
-        read_color(reader, at, end, "Ke", &m->emission);
-        break;
-    case NS:
-        if (read_numbers(reader, at, end, &number, 1, 1) == 1)
-            m->shininess = within(reader, at, number, 0, 1e6f, "Ns");
-        break;
-    case D:
-        if (text_is_word(at, end, "-halo"))
-            at = text_skip_white(text_skip_word(at, end), end);
-        if (read_numbers(reader, at, end, &number, 1, 1) == 1) {
-            m->diffuse.a = within(reader, at, number, 0, 1, "d");
-            reader->d = true;
-        }
-        break;
     case TR: // d decides where both are there, in whatever order
         if (!reader->d && read_numbers(reader, at, end, &number, 1, 1) == 1)
             m->diffuse.a = 1 - within(reader, at, number, 0, 1, "Tr");

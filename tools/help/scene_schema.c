@@ -76,6 +76,14 @@ static void print_fields(const char *name, size_t length)
     }
 }
 
+static void print_reflections(void)
+{
+    printf("      \"enum\": [");
+    for (int i = 0; i < LAM_REFLECTION_COUNT; i++)
+        printf("%s\"%s\"", i ? ", " : "", lam_reflection_describe((lam_reflection)i)->word);
+    printf("]");
+}
+
 static bool is(const char *name, size_t length, const char *word)
 {
     return strlen(word) == length && memcmp(name, word, length) == 0;
@@ -97,6 +105,8 @@ void generate_scene_schema(void)
             fputs(every_light, stdout);
         else if (is(name, name_length, "colored_light"))
             fputs(colored_light, stdout);
+        else if (is(name, name_length, "reflection"))
+            print_reflections();
         else
             print_fields(name, name_length);
         printf(next[strspn(next, " ")] == '}' ? "\n" : ",\n");

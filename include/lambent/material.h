@@ -29,8 +29,8 @@ typedef struct lam_reflection_info {
     // unless light from behind counts.
     const char *diffuse;
     const char *base; // of the highlight: "max(n·h, 0)"; NULL: no highlight
-    // it reads the mesh's tangents, or a direction field where there are none Whether light from behind the surface (n·l ≤ 0) counts: always, or where the material is a fibre.
-    bool tangents;
+    bool tangents;    // it reads the mesh's tangents, or a direction field where there are none
+    // Whether light from behind the surface (n·l ≤ 0) counts: always, or where the material is a fibre.
     bool backlit, backlit_fibre;
     LAM_RESERVED(8);
 } lam_reflection_info;

@@ -1,4 +1,4 @@
-// text_cursor.c: words and places in text files: keywords, names, what to show in a message.
+// text_cursor.c: words, lines and names of text files.
 #include "text_cursor.h"
 
 #include <stdio.h>
@@ -38,7 +38,7 @@ const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUN
     while (at + length < end && length < 33 && !text_white(at[length]))
         length++;
     bool cut = length > 32;
-    for (length -= cut; cut && length > 0 && (at[length] & 0xc0) == 0x80;) // never inside a UTF-8 character
+    for (length -= cut; cut && length > 0 && (at[length] & 0xc0) == 0x80;) // not inside a UTF-8 character
         length--;
     if (length > 0)
         snprintf(out, TEXT_FOUND_SIZE, "'%.*s%s'", length, (const char *)at, cut ? "…" : "");

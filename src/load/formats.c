@@ -101,10 +101,10 @@ const struct importer *importer_for_stream(const char *name, const uint8_t *head
 {
     if (wanted) {
         const struct importer *importer = importer_for(name, NULL, wanted, NULL);
-        return importer && importer->load_parts ? importer : NULL;
+        return importer && importer->load_stream ? importer : NULL;
     }
-    for (int i = 0; i < IMPORTERS; i++) // importers with load_parts probe the head only
-        if (importers[i]->probe(head, importers[i]->load_parts ? size : FILE_HEAD) == 2)
-            return importers[i]->load_parts ? importers[i] : NULL;
+    for (int i = 0; i < IMPORTERS; i++) // importers with load_stream probe the head only
+        if (importers[i]->probe(head, importers[i]->load_stream ? size : FILE_HEAD) == 2)
+            return importers[i]->load_stream ? importers[i] : NULL;
     return NULL;
 }

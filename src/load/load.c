@@ -85,7 +85,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
 }
 
 // Streams a large file of a supported layout. NULL: not such a file; no error is reported.
-static struct lam_scene *load_parts(struct import_source *source, const struct importer **importer)
+static struct lam_scene *load_stream(struct import_source *source, const struct importer **importer)
 {
     uint8_t *head = malloc(FILE_HEAD + FILE_PADDING);
     struct file_parts file;
@@ -96,7 +96,7 @@ static struct lam_scene *load_parts(struct import_source *source, const struct i
         *importer = importer_for_stream(source->name, head, file.size, source->params->format);
         if (*importer)
             scene = start_scene(source, *importer, NULL);
-        if (scene && !(*importer)->load_parts(source, &file, scene)) {
+        if (scene && !(*importer)->load_stream(source, &file, scene)) {
             lam_scene_free(scene);
             scene = NULL;
         }
@@ -137,7 +137,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     const struct importer *importer = NULL;
     bool ok = source.pool || fail(error, LAM_LIMIT, "%s: out of memory for threads", name);
     if (ok)
-        scene = load_parts(&source, &importer);
+        scene = load_stream(&source, &importer);
     ok = ok && (scene  ? true
                 : path ? file_read(path, source.pool, &call, &file, error)
                        : file_copy(bytes, size, &call, &file, error));

@@ -249,28 +249,27 @@ static void test_warnings(void **unused)
 {
     (void)unused;
     expect_warning(TRIANGLE "f 1 2 3\nf 1 2\nf\nf 3\n", NULL,
-                   "t.obj:5: faces of one or two corners are left out: this is the first of 3");
+                   "t.obj:5: a face of fewer than three corners is ignored, the first of 3");
     expect_warning(TRIANGLE "l 1 2\nf 1 2 3\np 1\nl 2 3\n", NULL,
-                   "t.obj:4: 2 line and 1 point elements are not drawn, only faces are");
+                   "t.obj:4: 2 line and 1 point elements are not drawn, only faces");
     expect_warning(TRIANGLE "f 1 2 3\ncstype bezier\ncurv 0 1 1 2 3\n", NULL,
-                   "t.obj:5: free-form curves and surfaces are not drawn: 'cstype' is the first of 2 "
-                   "statements that make them");
+                   "t.obj:5: free-form curves and surfaces are not drawn: 'cstype' is the first of 2 such statements");
     expect_warning(TRIANGLE "f 1 2 3\nfoo bar\n\nbaz\n", NULL,
-                   "t.obj:5: the statement 'foo' is not known; it is the first of 2 that are passed over");
+                   "t.obj:5: unknown statement 'foo', the first of 2 that are ignored");
     expect_warning(TRIANGLE "f 1/1 2/2 3/3\n", NULL, "t.obj: faces name texture coordinates, but the file has none");
     expect_warning(TRIANGLE "f 1//1 2//1 3//1\n", NULL,
-                   "t.obj: faces name normals, but the file has none; smooth ones are made");
+                   "t.obj: faces name normals, but the file has none; smooth normals are used");
     expect_warning(TRIANGLE "vn 0 0 1\nvn nan 0 0\nf 1//1 2//1 3//1\n", NULL,
-                   "t.obj:5: normals or texture coordinates that are not finite are taken as 0: the first of 1");
+                   "t.obj:5: a normal or texture coordinate that is not finite is set to 0, the first of 1");
     expect_warning("mtllib a.mtl\n" TRIANGLE "usemtl x\nf 1 2 3\nusemtl y\n", NULL,
-                   "a.mtl: no such file; what uses its materials is drawn in neutral grey");
+                   "a.mtl: no such file; its materials are drawn in neutral grey");
     expect_warning(TRIANGLE "usemtl x\nf 1 2 3\nusemtl y\n", NULL,
                    "t.obj:4: uses the material 'x' but names no material file; it is drawn in neutral grey");
     static const struct library libraries[] = {{"a.mtl", "newmtl x\n"}, {NULL, NULL}};
     expect_warning("mtllib a.mtl\n" TRIANGLE "usemtl x\nf 1 2 3\nusemtl y\nf 1 2 3\n", libraries,
-                   "t.obj:7: no material file has the material 'y'; it is drawn in neutral grey");
+                   "t.obj:7: no material file defines the material 'y'; it is drawn in neutral grey");
     expect_warning("v 0 0 0 255 0 0\nv 1 0 0 0 255 0\nv 0 1 0 0 0 255\nf 1 2 3\n", NULL,
-                   "t.obj: vertex colours go up to 255: they are taken as 0 to 255, not 0 to 1");
+                   "t.obj: vertex colours reach 255; they are read as 0 to 255, not 0 to 1");
 }
 
 static void test_errors(void **unused)
@@ -287,25 +286,25 @@ static void test_errors(void **unused)
     expect_error(TRIANGLE "v 1 2 -1e39\nf 1 2 3\n", LAM_CANNOT_READ,
                  "t.obj:4: found '-1e39', expected a finite coordinate");
     expect_error(TRIANGLE "v 1 2 3 red\nf 1 2 3\n", LAM_CANNOT_READ,
-                 "t.obj:4: found 'red', expected a weight or a colour behind the position");
-    expect_error(TRIANGLE "f 0 1 2\n", LAM_CANNOT_READ, "t.obj:4: a face names vertex 0; they are counted from 1");
-    expect_error(TRIANGLE "\n\nf 1 2 4\n", LAM_CANNOT_READ, "t.obj:6: a face names vertex '4'; the file has 3");
+                 "t.obj:4: found 'red', expected a weight or a colour after the position");
+    expect_error(TRIANGLE "f 0 1 2\n", LAM_CANNOT_READ, "t.obj:4: a face names vertex 0, expected an index from 1");
+    expect_error(TRIANGLE "\n\nf 1 2 4\n", LAM_CANNOT_READ, "t.obj:6: a face names vertex '4', but the file has 3");
     expect_error(TRIANGLE "f 1 2 99999999999999999999\n", LAM_CANNOT_READ,
                  "t.obj:4: found '99999999999999999999', expected a vertex");
     expect_error(TRIANGLE "f -1 -2 -4\n", LAM_CANNOT_READ,
-                 "t.obj:4: a face names vertex '-4', counted back; 3 are above it");
+                 "t.obj:4: a face names vertex '-4', counted back, but only 3 precede it");
     expect_error(TRIANGLE "f 1 2 x\n", LAM_CANNOT_READ, "t.obj:4: found 'x', expected a vertex");
     expect_error(TRIANGLE "f 1 2 3x\n", LAM_CANNOT_READ,
                  "t.obj:4: found 'x', expected a space between a face's corners (v, v/t, v//n or v/t/n)");
     expect_error(TRIANGLE "f 1 2 2.5\n", LAM_CANNOT_READ,
                  "t.obj:4: found '.5', expected a space between a face's corners (v, v/t, v//n or v/t/n)");
     expect_error(TRIANGLE "vt 0 0\nf 1/1 2/1 3/2\n", LAM_CANNOT_READ,
-                 "t.obj:5: a face names texture coordinate '2'; the file has 1");
+                 "t.obj:5: a face names texture coordinate '2', but the file has 1");
     expect_error(TRIANGLE "vn 0 0 1\nf 1//1 2//1 3//y\n", LAM_CANNOT_READ, "t.obj:5: found 'y', expected a normal");
     expect_error(TRIANGLE "vn 0 0\nf 1//1 2//1 3//1\n", LAM_CANNOT_READ,
                  "t.obj:4: found the end of the line, expected a normal's coordinate (vn x y z)");
     expect_error(TRIANGLE "f 1 2 3\nf 1 2 7\nf 8 1 2\n", LAM_CANNOT_READ,
-                 "t.obj:5: a face names vertex '7'; the file has 3");
+                 "t.obj:5: a face names vertex '7', but the file has 3");
     expect_error("", LAM_CANNOT_READ, "t.obj: holds no triangles");
     expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: holds no triangles (3 points only)");
     expect_error(TRIANGLE "l 1 2\np 1 2 3\n", LAM_CANNOT_READ, "t.obj: holds no triangles, only 1 line and 1 point");
@@ -355,8 +354,7 @@ static void test_parts(void **unused)
     // Several files on one line, the first one missing.
     scene =
         load_with("mtllib a.mtl b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n", (lam_load_params){0}, libraries, &error);
-    assert_string_equal(lam_scene_warning(scene, 0),
-                        "a.mtl: no such file; what uses its materials is drawn in neutral grey");
+    assert_string_equal(lam_scene_warning(scene, 0), "a.mtl: no such file; its materials are drawn in neutral grey");
     expect_part(lam_scene_mesh(scene, 0), 0, NULL, 0, 1, 0);
     lam_scene_free(scene);
 
@@ -494,18 +492,18 @@ static void test_mtl_warnings(void **unused)
     static const struct {
         const char *mtl, *sentence;
     } rows[] = {
-        {"Kd 1 1 1\nnewmtl a\n", "a.mtl:1: 'Kd' stands before any newmtl and is left out"},
-        {"newmtl a\nKq 1\nKz 2\n", "a.mtl:2: the statement 'Kq' is not known, nor are others"},
-        {"newmtl a\nNs -3\n", "a.mtl:2: Ns -3 is out of range; 0 is used"},
-        {"newmtl a\nNs nan\n", "a.mtl:2: Ns nan is out of range; 0 is used"},
-        {"newmtl a\nd 1.5\n", "a.mtl:2: d 1.5 is out of range; 1 is used"},
-        {"newmtl a\nKd -1 0 0\n", "a.mtl:2: Kd -1 is out of range; 0 is used"},
-        {"newmtl a\nKd red\n", "a.mtl:2: found 'red', expected a number; the statement is left out"},
-        {"newmtl a\nKd\n", "a.mtl:2: found the end of the line, expected a number; the statement is left out"},
-        {"newmtl a\nKd spectral x.rfl\n", "a.mtl:2: Kd as a spectral curve is not read, only r g b"},
-        {"newmtl a\nKs xyz 1 1 1\n", "a.mtl:2: Ks as a CIE XYZ colour is not read, only r g b"},
-        {"newmtl a\nillum 99\n", "a.mtl:2: illum is not one of the models 0 to 10; it is left out"},
-        {"newmtl a\nd 0\n", "a.mtl: material 'a' is wholly clear (d 0 or Tr 1)"},
+        {"Kd 1 1 1\nnewmtl a\n", "a.mtl:1: 'Kd' before the first newmtl is ignored"},
+        {"newmtl a\nKq 1\nKz 2\n", "a.mtl:2: unknown statement 'Kq' and others"},
+        {"newmtl a\nNs -3\n", "a.mtl:2: Ns -3 is out of range, 0 is used"},
+        {"newmtl a\nNs nan\n", "a.mtl:2: Ns nan is out of range, 0 is used"},
+        {"newmtl a\nd 1.5\n", "a.mtl:2: d 1.5 is out of range, 1 is used"},
+        {"newmtl a\nKd -1 0 0\n", "a.mtl:2: Kd -1 is out of range, 0 is used"},
+        {"newmtl a\nKd red\n", "a.mtl:2: found 'red', expected a number; the statement is ignored"},
+        {"newmtl a\nKd\n", "a.mtl:2: found the end of the line, expected a number; the statement is ignored"},
+        {"newmtl a\nKd spectral x.rfl\n", "a.mtl:2: Kd as a spectral curve is not supported, expected r g b"},
+        {"newmtl a\nKs xyz 1 1 1\n", "a.mtl:2: Ks as a CIE XYZ colour is not supported, expected r g b"},
+        {"newmtl a\nillum 99\n", "a.mtl:2: illum is not one of the models 0 to 10; it is ignored"},
+        {"newmtl a\nd 0\n", "a.mtl: material 'a' is fully transparent (d 0 or Tr 1)"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct library libraries[] = {{"a.mtl", rows[i].mtl}, {NULL, NULL}};

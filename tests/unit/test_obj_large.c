@@ -109,7 +109,7 @@ static bool served(int threads)
         .name = path, .path = path, .bytes = head, .size = FILE_HEAD, .params = &params, .pool = pool, .call = &call};
     struct lam_scene *scene = scene_make(&call, NULL);
     assert_non_null(scene);
-    bool done = importer_obj.load_parts(&source, &file, scene);
+    bool done = importer_obj.load_stream(&source, &file, scene);
     lam_scene_free(scene);
     assert_int_equal(call.memory_used, 0); // all that was charged came back
     file_close_parts(&file);

@@ -67,8 +67,8 @@ static void check(size_t size, uint64_t positions, uint64_t triangles)
             at = all[r](&reader, at, end);
             assert_non_null(at);
         }
-        assert_int_equal(reader.at.positions, positions);
-        assert_int_equal(reader.at.triangles, triangles);
+        assert_int_equal(reader.next.positions, positions);
+        assert_int_equal(reader.next.triangles, triangles);
         assert_memory_equal(found, expected, 3 * positions * sizeof *found);
         assert_memory_equal(found_corners, expected_corners, 3 * triangles * sizeof *found_corners);
         float low[3] = {0}, high[3] = {0};
@@ -199,8 +199,8 @@ static void others(void **state)
             while (at && at < end)
                 at = all[r](&reader, at, end);
             if ((at == NULL) != (lines[l].positions < 0) ||
-                (at && (reader.at.positions != (uint64_t)lines[l].positions ||
-                        reader.at.triangles != (uint64_t)lines[l].triangles)))
+                (at && (reader.next.positions != (uint64_t)lines[l].positions ||
+                        reader.next.triangles != (uint64_t)lines[l].triangles)))
                 fail_msg("reader %d: %s: %s", r, lines[l].line, at ? "read" : "refused");
         }
     }

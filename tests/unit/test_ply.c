@@ -199,7 +199,7 @@ static void test_mixed_of_triangle_size(void **state)
     lam_scene *scene = load(&file, "a.ply");
     assert_int_equal(mesh_of(scene)->triangle_count, 2);
     assert_string_equal(lam_scene_warning(scene, 0),
-                        "a.ply: 1 of 2 faces have fewer than three corners and are left out");
+                        "a.ply: 1 of 2 faces have fewer than three corners and are ignored");
     lam_scene_free(scene);
     check_allocations(file.bytes, file.size, "a.ply");
 }
@@ -425,9 +425,10 @@ static void test_header_errors(void **state)
                 "\"list uchar int vertex_indices\"");
     refuse_text(HEADER("ascii") "element vertex 1\n" XYZ "element face 1\nproperty list uchar float vertex_indices\n"
                                 "end_header\n0 0 0\n3 0 0 0\n",
-                "a.ply", "a.ply:7: element face has corners that are not whole numbers, expected an integer type");
+                "a.ply",
+                "a.ply:7: element face has a list of corners of a floating-point type, expected an integer type");
     refuse_text(HEADER("ascii") "element vertex 1\n" XYZ "element vertex 1\n" XYZ FACE("1") "end_header\n0 0 0\n",
-                "a.ply", "a.ply:7: element vertex is there twice, expected it once");
+                "a.ply", "a.ply:7: element vertex appears twice, expected one");
 }
 
 static void test_body_errors(void **state)
@@ -439,7 +440,7 @@ static void test_body_errors(void **state)
     refuse_text(VERTICES FACE("1") "end_header\n" SQUARE "3 0 -1 2\n", "a.ply",
                 "a.ply:14: face 1 of 1: found '-1' as vertex_indices, expected an index from 0 to 3");
     refuse_text(VERTICES FACE("2") "end_header\n" SQUARE "3 0 1 2\n-3 0 1 2\n", "a.ply",
-                "a.ply:15: face 2 of 2: found '-3' as vertex_indices, expected the number of its items");
+                "a.ply:15: face 2 of 2: found '-3' as vertex_indices, expected the number of items");
     refuse_text(VERTICES FACE("1") "end_header\n0 0 0\n1 zero 0\n1 1 0\n0 1 0\n3 0 1 2\n", "a.ply",
                 "a.ply:11: vertex 2 of 4: found 'zero' as y, expected a number");
     refuse_text(VERTICES FACE("1") "end_header\n0 0 0\n1 nan 0\n1 1 0\n0 1 0\n3 0 1 2\n", "a.ply",
@@ -447,11 +448,11 @@ static void test_body_errors(void **state)
     refuse_text(VERTICES "property uchar red\n" FACE("1") "end_header\n0 0 0 256\n1 0 0 0\n1 1 0 0\n0 1 0 0\n3 0 1 2\n",
                 "a.ply", "a.ply:11: vertex 1 of 4: found '256' as red, expected a whole number from 0 to 255");
     refuse_text(VERTICES FACE("2") "end_header\n" SQUARE "3 0 1 2\n", "a.ply",
-                "a.ply: the file is cut short: its header promises 2 rows of element \"face\", found 1 in 186 bytes");
+                "a.ply: the file is truncated: its header declares 2 rows of element \"face\", found 1 in 186 bytes");
     refuse_text(VERTICES FACE("1") "end_header\n" SQUARE "9 0 1 2\n", "a.ply",
-                "a.ply: the file is cut short: its header promises 1 rows of element \"face\", found 0 in 186 bytes");
+                "a.ply: the file is truncated: its header declares 1 rows of element \"face\", found 0 in 186 bytes");
     refuse_text(HEADER("ascii") "element vertex 99999999999\n" XYZ FACE("1") "end_header\n" SQUARE, "a.ply",
-                "a.ply: the file is cut short: its header promises 99999999999 rows of element \"vertex\", "
+                "a.ply: the file is truncated: its header declares 99999999999 rows of element \"vertex\", "
                 "found 4 in "
                 "188 bytes");
     refuse_text(VERTICES "end_header\n" SQUARE, "a.ply",
@@ -475,7 +476,7 @@ static void test_binary_errors(void **state)
     }
     char sentence[256];
     snprintf(sentence, sizeof sentence,
-             "a.ply: the file is cut short: its header promises 2 rows of element \"face\", found 1 in %zu bytes",
+             "a.ply: the file is truncated: its header declares 2 rows of element \"face\", found 1 in %zu bytes",
              file.size - 1);
     refuse(file.bytes, file.size - 1, "a.ply", LAM_CANNOT_READ, sentence);
 

@@ -124,7 +124,7 @@ static void test_ascii_errors(void **state)
                 "enough for "
                 "a header.\n",
                 "a.stl",
-                "a.stl: no STL file: found 'Dear' at its start and 112 bytes, expected \"solid\" and facets, "
+                "a.stl: not an STL file: found 'Dear' at its start and 112 bytes, expected \"solid\" and facets, "
                 "or a binary "
                 "header of 84 bytes and facets");
     refuse_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 O 0\n", "a.stl",
@@ -144,7 +144,7 @@ static void test_ascii_errors(void **state)
     refuse_text("solid a\ntriangle\nfacet\n", "a.stl",
                 "a.stl:2: facet 1: found 'triangle', expected \"facet\", \"endsolid\" or \"solid\"");
     refuse_text("solid a\nfacet outer loop vertex 1e300 0 0 vertex -1e300 0 0 vertex 0 0 0 endloop endfacet\n", "a.stl",
-                "a.stl: facet 1: corner 1 lies too far from the others for a float");
+                "a.stl: facet 1: corner 1 is too far from the others for a float");
 }
 
 static void test_binary(void **state)
@@ -172,7 +172,7 @@ static void test_binary(void **state)
     put_text(&file, "more");
     scene = load(&file, "a.stl");
     assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, 2);
-    assert_string_equal(lam_scene_warning(scene, 0), "a.stl: 4 bytes behind the last of 2 facets are ignored");
+    assert_string_equal(lam_scene_warning(scene, 0), "a.stl: 4 bytes after the last of 2 facets are ignored");
     lam_scene_free(scene);
 }
 
@@ -184,7 +184,7 @@ static void test_binary_errors(void **state)
     put_facet(&file, 0, 0);
     put_facet(&file, 1, 0);
     refuse(file.bytes, file.size - 1, "a.stl", LAM_CANNOT_READ,
-           "a.stl: the file is cut short: its header promises 3 facets (234 bytes), found 1 (183 bytes)");
+           "a.stl: the file is truncated: its header declares 3 facets (234 bytes), found 1 (183 bytes)");
     float nan;
     uint32_t bits = 0x7fc00000;
     memcpy(&nan, &bits, 4);

@@ -1,5 +1,5 @@
-// byte_masks.h: 64 bytes of text at a time, as sets of bits: where lines end, where words begin. With
-// obj_lines.c the one place of the importers with intrinsics; the plain version gives the same bits.
+// byte_masks.h: bit masks of the line ends, white space and special characters in 64 bytes of text. SSE2 where the
+// compiler has it; the scalar version returns the same masks.
 #ifndef BYTE_MASKS_H
 #define BYTE_MASKS_H
 
@@ -14,12 +14,12 @@
 // Bit i stands for byte i.
 struct byte_masks {
     uint64_t newline; // '\n'
-    uint64_t white;   // up to the space, '\n' too
+    uint64_t white;   // all bytes up to the space, '\n' included
     uint64_t slash;   // '/'
     uint64_t special; // '#' or '\\'
 };
 
-// Bits set. The compiler's own is a call into a table where the processor may lack the instruction.
+// Population count. Without the instruction, the compiler's builtin is a call that looks up a table.
 static inline unsigned byte_masks_count(uint64_t bits)
 {
 #if defined(__POPCNT__) || defined(__aarch64__)
@@ -50,7 +50,7 @@ static inline struct byte_masks byte_masks_of(const uint8_t *at)
     return masks;
 }
 
-// The set of '\n' alone.
+// The newline mask alone.
 static inline uint64_t byte_masks_newlines(const uint8_t *at)
 {
     const __m128i newline = _mm_set1_epi8('\n');

@@ -1,4 +1,4 @@
-// mtl.c: MTL, the material files that OBJ files name. docs/formats.md says what each statement becomes.
+// mtl.c: reads MTL, the material files of OBJ. docs/formats.md documents each statement.
 #include "mtl.h"
 
 #include <lambent/fields.h>
@@ -10,7 +10,7 @@
 #include <string.h>
 #include <strings.h>
 
-// --- materials by name: open addressing
+// --- materials by name: a hash table with open addressing
 
 static uint32_t hash(const char *name)
 {
@@ -20,7 +20,7 @@ static uint32_t hash(const char *name)
     return h;
 }
 
-// The entry of a name, or the free one where it belongs.
+// The entry of a name, or the free entry for it.
 static struct mtl_entry *entry_of(const struct mtl_set *set, const char *name)
 {
     for (uint32_t i = hash(name);; i++) {
@@ -38,7 +38,7 @@ int32_t mtl_find(const struct mtl_set *set, const char *name)
     return entry->name ? entry->material : -1;
 }
 
-static bool remember(struct mtl_set *set, const char *name, int32_t material)
+static bool add_entry(struct mtl_set *set, const char *name, int32_t material)
 {
     if (2 * (set->count + 1) > set->capacity) {
         struct mtl_set larger = *set;
@@ -68,18 +68,19 @@ struct reader {
     struct lam_scene *scene;
     const char *name; // of the file
     const uint8_t *begin, *end;
-    const uint8_t *counted_to; // the place whose line number is known (line_of)
+    // Line number cache (line_of): `line` is the number of the line at `counted_to`.
+    const uint8_t *counted_to;
     size_t line;
     bool raw; // colours are not converted
-    // The material that is being read, and which of its statements were there.
+    // The current material and which of its statements were read.
     lam_material material;
     bool open, ka, kd, d;
-    // What is told once for each file.
+    // Warned of once per file: unknown statements, and statements before the first newmtl. The first of each.
     const uint8_t *unknown, *stray;
     size_t unknown_count, stray_count;
 };
 
-// The line that a place is in, for warnings: counted on from the one before, so that a file of mistakes costs one pass.
+// The line number of `at`, for warnings. Counts on from the previous call: many warnings take one pass over the file.
 static size_t line_of(struct reader *reader, const uint8_t *at)
 {
     if (at < reader->counted_to || !reader->counted_to) {
@@ -91,50 +92,50 @@ static size_t line_of(struct reader *reader, const uint8_t *at)
     return reader->line;
 }
 
-// Reads `min` to `max` numbers, and says how many there were; fewer are −1, with a warning.
+// Reads up to `max` numbers and returns their count; −1, with a warning, if there are fewer than `min`.
 static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t *end, float *to, int min, int max)
 {
     int count = 0;
     while (count < max) {
         at = text_skip_white(at, end);
-        const uint8_t *after = number_float(at, end, &to[count]);
-        if (!after || (after < end && !text_white(*after)))
+        const uint8_t *next = number_float(at, end, &to[count]);
+        if (!next || (next < end && !text_white(*next)))
             break;
         count++;
-        at = after;
+        at = next;
     }
     if (count >= min)
         return count;
     char found[TEXT_FOUND_SIZE];
-    scene_warn(reader->scene, "%s:%zu: found %s, expected a number; the statement is left out", reader->name,
+    scene_warn(reader->scene, "%s:%zu: found %s, expected a number; the statement is ignored", reader->name,
                line_of(reader, at), at < end ? text_found(at, end, found) : "the end of the line");
     return -1;
 }
 
-// A number brought into a range, with a warning where it was not.
+// Clamps a number to a range, with a warning if it is outside.
 static float within(struct reader *reader, const uint8_t *at, float x, float low, float high, const char *what)
 {
     if (x >= low && x <= high)
         return x;
     float to = x > high ? high : low; // NaN goes to the lower end
-    scene_warn(reader->scene, "%s:%zu: %s %g is out of range; %g is used", reader->name, line_of(reader, at), what,
+    scene_warn(reader->scene, "%s:%zu: %s %g is out of range, %g is used", reader->name, line_of(reader, at), what,
                (double)x, (double)to);
     return to;
 }
 
-// A colour as linear light. From 1 on, where sRGB ends, numbers are taken as they are.
+// A channel as linear light. Values from 1 on, where sRGB ends, are kept unchanged.
 static float linear(const struct reader *reader, float c)
 {
     return reader->raw || c >= 1 ? c : (float)srgb_linear((double)c);
 }
 
-// K… r [g b]; one number stands for three. False: not read.
+// K… r [g b]; one number sets all three channels. False: ignored, with a warning.
 static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *end, const char *what, lam_rgb *out)
 {
     at = text_skip_white(at, end);
     if (text_is_word(at, end, "spectral") || text_is_word(at, end, "xyz")) {
-        scene_warn(reader->scene, "%s:%zu: %s as a %s is not read, only r g b", reader->name, line_of(reader, at), what,
-                   text_is_word(at, end, "xyz") ? "CIE XYZ colour" : "spectral curve");
+        scene_warn(reader->scene, "%s:%zu: %s as a %s is not supported, expected r g b", reader->name,
+                   line_of(reader, at), what, text_is_word(at, end, "xyz") ? "CIE XYZ colour" : "spectral curve");
         return false;
     }
     float c[3];
@@ -149,12 +150,11 @@ static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *
     return true;
 }
 
-// Ends the material that is open and puts it into the scene.
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-// A material whose colours are all 0 shows nothing but a hole. Exporters write it where the colours are in textures, or
-// nowhere: the neutral colours are taken, and the file's user is told.
-static void mend_black(struct reader *reader, lam_material *m)
+// Replaces a material whose colours are all 0 by the neutral grey, with a warning: exporters write such materials where
+// textures hold the colours, or by mistake.
+static void replace_black(struct reader *reader, lam_material *m)
 {
     lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
     if (!reader->kd || !is_black(kd) || !is_black(m->ambient) || !is_black(m->specular) || !is_black(m->emission))
@@ -162,17 +162,18 @@ static void mend_black(struct reader *reader, lam_material *m)
     lam_material neutral = lam_material_default();
     m->ambient = neutral.ambient;
     m->diffuse = (lam_rgba){neutral.diffuse.r, neutral.diffuse.g, neutral.diffuse.b, m->diffuse.a};
-    scene_warn(reader->scene, "%s: material '%s' is black in every colour; a neutral grey is drawn", reader->name,
+    scene_warn(reader->scene, "%s: material '%s' is black in every colour; it is drawn in neutral grey", reader->name,
                m->name);
 }
 
+// Completes the current material and adds it to the scene.
 static bool close_material(struct reader *reader, lam_error *error)
 {
     if (!reader->open)
         return true;
     lam_material *m = &reader->material;
-    mend_black(reader, m);
-    // A texture that is not drawn yet multiplies its colour: without one the colour is the texture's own.
+    replace_black(reader, m);
+    // A texture multiplies the colour, which is white by default. Textures are not drawn yet.
     if (!reader->kd && m->map_names[LAM_MAP_DIFFUSE])
         m->diffuse.r = m->diffuse.g = m->diffuse.b = 1;
     if (!reader->ka)
@@ -186,12 +187,12 @@ static bool close_material(struct reader *reader, lam_error *error)
     if (m->illum == 0 || m->illum == 1)
         m->specular = (lam_rgb){0, 0, 0};
     if (m->diffuse.a == 0)
-        scene_warn(reader->scene, "%s: material '%s' is wholly clear (d 0 or Tr 1)", reader->name, m->name);
+        scene_warn(reader->scene, "%s: material '%s' is fully transparent (d 0 or Tr 1)", reader->name, m->name);
     int index = scene_take_material(reader->scene, m, error);
     if (index < 0)
         return false;
     reader->open = false;
-    return remember(reader->set, m->name, index) ||
+    return add_entry(reader->set, m->name, index) ||
            call_memory_error(reader->scene->arena.call, reader->set->capacity * sizeof(struct mtl_entry), error);
 }
 
@@ -210,12 +211,12 @@ static bool start_material(struct reader *reader, const uint8_t *at, const uint8
     return true;
 }
 
-// Where a map's options end and its file name begins. Names may hold spaces.
-static const uint8_t *behind_options(const uint8_t *at, const uint8_t *end)
+// Skips a map's options and returns the begin of its file name, which may contain spaces.
+static const uint8_t *skip_options(const uint8_t *at, const uint8_t *end)
 {
     static const struct {
         const char *word;
-        int min, max; // what follows: words, or numbers where the two differ
+        int min, max; // number of arguments; optional ones must be numbers
     } options[] = {
         {"-blendu", 1, 1}, {"-blendv", 1, 1},     {"-boost", 1, 1},   {"-bm", 1, 1},   {"-cc", 1, 1},
         {"-clamp", 1, 1},  {"-colorspace", 1, 1}, {"-imfchan", 1, 1}, {"-mm", 2, 2},   {"-o", 1, 3},
@@ -233,7 +234,7 @@ static const uint8_t *behind_options(const uint8_t *at, const uint8_t *end)
         for (int i = 0; i < options[option].max && at < end; i++) {
             float unused;
             const uint8_t *word = text_skip_word(at, end);
-            // A number that is the last word is the file's name.
+            // The last word is the file name, even if it is a number.
             if (i >= options[option].min &&
                 (number_float(at, end, &unused) != word || text_skip_white(word, end) == end))
                 break;
@@ -244,7 +245,7 @@ static const uint8_t *behind_options(const uint8_t *at, const uint8_t *end)
 
 static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at, const uint8_t *end, lam_error *error)
 {
-    const uint8_t *name = behind_options(at, end), *last = name;
+    const uint8_t *name = skip_options(at, end), *last = name;
     if (name == end)
         return true; // an empty map statement, as exporters write for "none"
     while (last > at && text_white(last[-1]))
@@ -381,7 +382,7 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
         if (number_int(at, end, &model) && model >= 0 && model <= 10)
             m->illum = (int)model;
         else
-            scene_warn(reader->scene, "%s:%zu: illum is not one of the models 0 to 10; it is left out", reader->name,
+            scene_warn(reader->scene, "%s:%zu: illum is not one of the models 0 to 10; it is ignored", reader->name,
                        line_of(reader, word));
         break;
     }
@@ -423,10 +424,10 @@ bool mtl_read(struct mtl_set *set, const struct import_source *source, struct la
     }
     char found[TEXT_FOUND_SIZE];
     if (reader.unknown_count)
-        scene_warn(scene, "%s:%zu: the statement %s is not known%s", name, text_line(reader.begin, reader.unknown),
-                   text_found(reader.unknown, reader.end, found), reader.unknown_count > 1 ? ", nor are others" : "");
+        scene_warn(scene, "%s:%zu: unknown statement %s%s", name, text_line(reader.begin, reader.unknown),
+                   text_found(reader.unknown, reader.end, found), reader.unknown_count > 1 ? " and others" : "");
     if (reader.stray_count)
-        scene_warn(scene, "%s:%zu: %s stands before any newmtl and is left out", name,
-                   text_line(reader.begin, reader.stray), text_found(reader.stray, reader.end, found));
+        scene_warn(scene, "%s:%zu: %s before the first newmtl is ignored", name, text_line(reader.begin, reader.stray),
+                   text_found(reader.stray, reader.end, found));
     return close_material(&reader, error);
 }

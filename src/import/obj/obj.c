@@ -1,4 +1,4 @@
-// obj.c: OBJ: tells the format by its content, and leads the passes over the file (obj.h has the plan).
+// obj.c: the OBJ importer: recognises the format and runs the passes over the file (obj.h has the overview).
 #include "obj.h"
 
 #include "fail.h"
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-// --- telling the format
+// --- recognising the format
 
 static bool first_word_known(const uint8_t *at, const uint8_t *end)
 {
@@ -19,7 +19,7 @@ static bool first_word_known(const uint8_t *at, const uint8_t *end)
     return false;
 }
 
-// Certain when the first statements are all OBJ's and one of them can be nothing else.
+// Certain if all of the first statements are known and one of them occurs in no other format.
 static int obj_probe(const uint8_t *bytes, size_t size)
 {
     enum { SAMPLE = 64 << 10, STATEMENTS = 32 };
@@ -53,7 +53,7 @@ static int obj_probe(const uint8_t *bytes, size_t size)
 
 // --- reading
 
-static bool take_array(struct obj *obj, struct arena *arena, void *out, uint64_t count, size_t size, lam_error *error)
+static bool alloc_array(struct obj *obj, struct arena *arena, void *out, uint64_t count, size_t size, lam_error *error)
 {
     void *array = arena_array(arena, (size_t)count, size);
     if (!array)
@@ -62,24 +62,24 @@ static bool take_array(struct obj *obj, struct arena *arena, void *out, uint64_t
     return true;
 }
 
-static bool take_arrays(struct obj *obj, lam_error *error)
+static bool alloc_arrays(struct obj *obj, lam_error *error)
 {
-    struct arena *kept = &obj->scene->arena, *spare = &obj->memory;
+    struct arena *kept = &obj->scene->arena, *scratch = &obj->memory;
     const struct obj_counts *total = &obj->total;
     uint64_t corners = 3 * total->triangles;
-    return take_array(obj, kept, &obj->positions, 3 * total->positions, sizeof(float), error) &&
-           take_array(obj, kept, &obj->indices, corners, sizeof(uint32_t), error) &&
-           take_array(obj, spare, &obj->polygons, total->polygons, sizeof *obj->polygons, error) &&
-           take_array(obj, spare, &obj->statements, total->others, sizeof *obj->statements, error) &&
-           (!obj->colors_present || take_array(obj, kept, &obj->colors, 4 * total->positions, sizeof(float), error)) &&
-           (!total->texcoords || (take_array(obj, kept, &obj->texcoords, 2 * total->texcoords, sizeof(float), error) &&
-                                  take_array(obj, kept, &obj->texcoord_indices, corners, sizeof(uint32_t), error))) &&
-           (!total->normals || (take_array(obj, kept, &obj->normals, 3 * total->normals, sizeof(float), error) &&
-                                take_array(obj, kept, &obj->normal_indices, corners, sizeof(uint32_t), error)));
+    return alloc_array(obj, kept, &obj->positions, 3 * total->positions, sizeof(float), error) &&
+           alloc_array(obj, kept, &obj->indices, corners, sizeof(uint32_t), error) &&
+           alloc_array(obj, scratch, &obj->polygons, total->polygons, sizeof *obj->polygons, error) &&
+           alloc_array(obj, scratch, &obj->statements, total->others, sizeof *obj->statements, error) &&
+           (!obj->colors_present || alloc_array(obj, kept, &obj->colors, 4 * total->positions, sizeof(float), error)) &&
+           (!total->texcoords || (alloc_array(obj, kept, &obj->texcoords, 2 * total->texcoords, sizeof(float), error) &&
+                                  alloc_array(obj, kept, &obj->texcoord_indices, corners, sizeof(uint32_t), error))) &&
+           (!total->normals || (alloc_array(obj, kept, &obj->normals, 3 * total->normals, sizeof(float), error) &&
+                                alloc_array(obj, kept, &obj->normal_indices, corners, sizeof(uint32_t), error)));
 }
 
-// Files of old Macintosh programs end their lines with '\r' alone: read a copy that ends them with '\n'.
-static bool modern_line_ends(struct obj *obj, lam_error *error)
+// Old Macintosh programs end lines with '\r' alone: such a file is copied, with '\n' for '\r'.
+static bool convert_line_ends(struct obj *obj, lam_error *error)
 {
     size_t size = (size_t)(obj->end - obj->begin);
     if (size == 0 || memchr(obj->begin, '\n', size) || !memchr(obj->begin, '\r', size))
@@ -98,8 +98,8 @@ static bool modern_line_ends(struct obj *obj, lam_error *error)
 static bool load(struct obj *obj, size_t chunk_bytes, lam_error *error)
 {
     struct call_control *call = obj->source->call;
-    if (!modern_line_ends(obj, error) || !obj_cut(obj, chunk_bytes, error) || !obj_scan(obj, error) ||
-        !take_arrays(obj, error))
+    if (!convert_line_ends(obj, error) || !obj_split(obj, chunk_bytes, error) || !obj_scan(obj, error) ||
+        !alloc_arrays(obj, error))
         return false;
     call_progress(call, 0.2, "read");
     if (!obj_parse(obj, error) || !obj_find_origin(obj, error) || !obj_convert_colors(obj, error))
@@ -135,5 +135,5 @@ const struct importer importer_obj = {
     .up = LAM_UP_Y,
     .probe = obj_probe,
     .load = obj_load,
-    .load_parts = obj_load_large,
+    .load_stream = obj_load_stream,
 };

@@ -1,11 +1,16 @@
-// obj.h: the inside of the OBJ importer: obj.c leads, obj_scan.c counts, obj_parse.c and obj_lines.c read
-// numbers, obj_faces.c cuts polygons and completes normals, obj_groups.c makes named parts of the statements
-// in between.
+// obj.h: internals of the OBJ importer.
 //
-// The file is cut at line ends into chunks of a fixed size, and each pass goes over all chunks in parallel.
-// Pass one counts what each chunk holds; sums over the chunks then say where its vertices and triangles go,
-// so that pass two writes every number straight into its place. Nothing depends on the number of threads.
-// Large files that are on disk take one pass over pieces of them (obj_stream.c).
+//   obj.c                      recognises the format, runs the passes
+//   obj_scan.c                 pass one: chunks and their element counts
+//   obj_parse.c, obj_line(s).c pass two: vertices and faces
+//   obj_faces.c                triangulates polygons, completes normals and texture coordinates
+//   obj_groups.c               statements between the faces: named parts, materials, smoothing groups
+//   obj_mesh.c                 the scene's mesh
+//   obj_stream.c               large files on disk: one pass, piece by piece
+//
+// The file is split at line ends into chunks of about OBJ_CHUNK bytes, and each pass processes the chunks in parallel.
+// Pass one counts the elements of each chunk; prefix sums of the counts give each chunk's first index in every array,
+// so that pass two writes each number to its final position. The result does not depend on the number of threads.
 #ifndef OBJ_H
 #define OBJ_H
 
@@ -13,19 +18,19 @@
 #include "mtl.h"
 
 enum {
-    OBJ_CHUNK = 256 << 10,    // bytes: some hundred microseconds of work
+    OBJ_CHUNK = 256 << 10,    // bytes: about a hundred microseconds of work
     OBJ_MISSING = UINT32_MAX, // a corner without this attribute
-    OBJ_POLYGONS_A_PIECE = 1024,
+    OBJ_POLYGONS_PER_PIECE = 1024,
 };
 
-// What a statement is, by its first word.
+// Kinds of statements.
 enum obj_kind {
     OBJ_EMPTY, // nothing, or a comment
     OBJ_POSITION,
     OBJ_TEXCOORD,
     OBJ_NORMAL,
     OBJ_FACE,
-    OBJ_OTHER, // looked at one by one, later
+    OBJ_OTHER, // recorded; obj_groups.c reads it
 };
 
 struct obj_counts {
@@ -35,26 +40,32 @@ struct obj_counts {
 };
 
 struct obj_chunk {
-    const uint8_t *begin, *end;      // whole lines
-    struct obj_counts holds, before; // read in pieces: room for what it holds; what it did hold, when parsed
-    bool colors, slashes;            // pass one: some vertex has a colour; some '/' is there
-    // Pass two:
-    float low[3], high[3];              // box of the positions; low > high where there are none
-    double low_exact[3], high_exact[3]; // the same in double, where an origin is needed
+    const uint8_t *begin, *end; // whole lines
+    // Elements in this chunk. While a stream is parsed (obj_stream.c): the capacity of its arrays.
+    struct obj_counts counts;
+    struct obj_counts before; // elements in the chunks before this one
+    // Pass one: some vertex has a colour; the text contains a '/'.
+    bool colors, slashes;
+    // Pass two. Bounding box of the positions; low > high if there are none.
+    float low[3], high[3];
+    double low_exact[3], high_exact[3]; // in double, if an origin is needed
     float brightest;                    // the largest colour channel
-    bool texcoord_used, texcoord_missing, normal_used, normal_missing; // by some corner
-    bool texcoord_unknown, normal_unknown;                             // named although the file has none at all
-    uint64_t short_faces;                                              // of one or two corners
-    uint64_t odd_numbers;                   // normals and texture coordinates that are not finite
-    const uint8_t *short_face, *odd_number; // the first ones
+    // Some corner names, or does not name, a texture coordinate or a normal.
+    bool texcoord_used, texcoord_missing, normal_used, normal_missing;
+    // Some corner names one although the file has none.
+    bool texcoord_unknown, normal_unknown;
+    uint64_t short_faces;                              // of one or two corners
+    uint64_t nonfinite_numbers;                        // normals and texture coordinates that are not finite
+    const uint8_t *first_short_face, *first_nonfinite; // the first of each
 };
 
-// A face of more than three corners: `count` of them stand at the begin of its triangles' places.
+// A face of more than three corners: its `count` corners are stored at indices[3 * first_triangle] and after, in the
+// range of its triangles, until obj_faces.c triangulates it.
 struct obj_polygon {
     uint32_t first_triangle, count;
 };
 
-// A statement of OBJ_OTHER and how many triangles stand before it.
+// A statement of OBJ_OTHER and the number of triangles before it.
 struct obj_statement {
     const uint8_t *at;
     uint32_t triangle;
@@ -63,101 +74,101 @@ struct obj_statement {
 struct obj {
     const struct import_source *source;
     struct lam_scene *scene;
-    struct arena memory; // what goes at the end of the load
+    struct arena memory; // freed after the load
     const uint8_t *begin, *end;
 
     struct obj_chunk *chunks;
     size_t chunk_count;
     struct obj_counts total;
     bool colors_present;
-    bool in_pieces;   // of the text only the chunk at hand is there: nothing is known of what stands above it
-    bool line_missed; // then: somebody wanted to know a line's number
+    bool streamed;       // obj_stream.c: the text before the current piece is not in memory
+    bool line_requested; // a message needs a line number, which a stream does not have
 
-    float *positions, *texcoords, *normals, *colors; // colors: 4 a vertex
+    float *positions, *texcoords, *normals, *colors; // colors: RGBA
     uint32_t *indices, *texcoord_indices, *normal_indices;
     struct obj_polygon *polygons;
     struct obj_statement *statements;
     uint32_t *smoothing_groups;
     lam_part *parts;
     uint32_t part_count;
-    const char *object_name; // where the file has just one
+    const char *object_name; // if the file has one object; else NULL
 
     double origin[3];
     bool has_origin;
-    float color_scale; // 1/255 where colours go beyond 1
+    float color_scale; // 1/255 if some channel is above 1
 
     struct mtl_set materials;
 };
 
-// obj_scan.c Where a logical line ends: behind its '\n', or at `end`. A backslash before the '\n' continues it.
-const uint8_t *obj_line_after(const uint8_t *at, const uint8_t *end);
-// The next word of the statement, or its end: at '\n' or `end`. Steps over white space, continued lines and a comment.
-const uint8_t *obj_next_slowly(const uint8_t *at, const uint8_t *end);
-bool obj_cut(struct obj *obj, size_t chunk_bytes, lam_error *error);
-bool obj_scan(struct obj *obj, lam_error *error); // pass one, and the sums
+// obj_scan.c. The begin of the next logical line, or `end`. A backslash before '\n' continues a line.
+const uint8_t *obj_next_line(const uint8_t *at, const uint8_t *end);
+// The next word of the statement, or its end ('\n' or `end`). Skips white space, line continuations and a comment.
+const uint8_t *obj_next_word_slow(const uint8_t *at, const uint8_t *end);
+bool obj_split(struct obj *obj, size_t chunk_bytes, lam_error *error);
+bool obj_scan(struct obj *obj, lam_error *error); // pass one
 
-// One chunk while it is read.
+// The state of reading one chunk.
 struct obj_reader {
     struct obj *obj;
     struct obj_chunk *chunk;
     const uint8_t *end;      // of the file
-    struct obj_counts at;    // where the next of each kind goes
-    struct obj_counts limit; // where this chunk's places end
-    float low[4], high[4];   // box of the positions; the fourth is spare
+    struct obj_counts next;  // index of the next element of each kind
+    struct obj_counts limit; // end of the chunk's index ranges
+    float low[4], high[4];   // bounding box of the positions; the fourth component is unused
     lam_error *error;
 };
 
-// obj_lines.c, compiled for several instruction sets: reads lines up to the first that is continued. Returns
-// the place behind them, at most `end`, where a line begins; NULL: something is wrong.
+// obj_lines.c, compiled for several instruction sets: reads lines up to the first with a continuation. Returns the
+// begin of the next line, at most `end`; NULL: error.
 typedef const uint8_t *obj_lines_reader(struct obj_reader *reader, const uint8_t *line, const uint8_t *end);
 obj_lines_reader obj_read_lines_scalar, obj_read_lines_avx512;
 
-// obj_line.c Any line: returns the place behind it, which is behind a later line's end where it is
-// continued; NULL: wrong.
+// obj_line.c. Reads one logical line of any kind and returns the begin of the next; NULL: error.
 const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at);
 // obj_parse.c
 bool obj_parse(struct obj *obj, lam_error *error); // pass two
-// One chunk: from before on, at most what it holds. `error` may be NULL.
+// Parses one chunk into the index ranges that its counts give. `error` may be NULL.
 bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error);
-bool obj_find_origin(struct obj *obj, lam_error *error); // reads positions again where they lie far from zero
+// Chooses the origin; reads positions far from zero again, in double.
+bool obj_find_origin(struct obj *obj, lam_error *error);
 bool obj_convert_colors(struct obj *obj, lam_error *error);
 
 // obj_faces.c
-bool obj_cut_polygons(struct obj *obj, lam_error *error);
+bool obj_triangulate_polygons(struct obj *obj, lam_error *error);
 bool obj_complete_texcoords(struct obj *obj, lam_error *error);
 bool obj_complete_normals(struct obj *obj, lam_error *error);
 
 // obj_groups.c
 bool obj_read_statements(struct obj *obj, lam_error *error);
 
-// obj_stream.c: the importer's load_parts.
-bool obj_load_large(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
+// obj_stream.c: the importer's load_stream.
+bool obj_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 
-// obj_mesh.c: completes the mesh once positions and faces are read.
+// obj_mesh.c: builds the mesh after positions and faces are read.
 bool obj_complete(struct obj *obj, lam_error *error);
 
-// For tests: loads with chunks of that many bytes.
+// For tests: loads with chunks of `chunk_bytes`.
 bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes,
                       lam_error *error);
 
-// Line number of a place in the file; 0, and noted, where the file is read in pieces.
-size_t obj_line(struct obj *obj, const uint8_t *at);
+// The line number of `at`; in a stream 0, and line_requested is set.
+size_t obj_line_number(struct obj *obj, const uint8_t *at);
 
 static inline bool obj_white(uint8_t c) { return c <= ' ' && c != '\n' && c != 0; }
 
-static inline const uint8_t *obj_next(const uint8_t *at, const uint8_t *end)
+static inline const uint8_t *obj_next_word(const uint8_t *at, const uint8_t *end)
 {
-    while (obj_white(*at)) // the zero behind the file's end stops it
+    while (obj_white(*at)) // ends at the zero padding after the file
         at++;
     // Digits, signs and '.' lie above '#'.
-    return *at > '#' && *at != '\\' ? at : obj_next_slowly(at, end);
+    return *at > '#' && *at != '\\' ? at : obj_next_word_slow(at, end);
 }
 
-// Whether obj_next found the statement's end.
-static inline bool obj_over(const uint8_t *at, const uint8_t *end) { return *at == '\n' || at >= end; }
+// Whether `at` is the statement's end, after obj_next_word.
+static inline bool obj_at_line_end(const uint8_t *at, const uint8_t *end) { return *at == '\n' || at >= end; }
 
-// Whether a word ends here.
-static inline bool obj_word_over(const uint8_t *at)
+// Whether a word ends at `at`.
+static inline bool obj_at_word_end(const uint8_t *at)
 {
     return *at <= ' ' || (*at == '\\' && (at[1] == '\n' || (at[1] == '\r' && at[2] == '\n')));
 }
@@ -176,14 +187,14 @@ static inline enum obj_kind obj_kind_of(const uint8_t *at)
     return *at == '\n' || *at == '#' || *at == 0 ? OBJ_EMPTY : OBJ_OTHER;
 }
 
-// Behind the statement: steps over words that mean nothing to us.
-static inline const uint8_t *obj_finish_line(const uint8_t *at, const uint8_t *end)
+// Skips the rest of the statement and returns the begin of the next line.
+static inline const uint8_t *obj_skip_line(const uint8_t *at, const uint8_t *end)
 {
-    while (!obj_over(at, end)) {
-        while (at < end && !obj_word_over(at))
+    while (!obj_at_line_end(at, end)) {
+        while (at < end && !obj_at_word_end(at))
             at++;
-        const uint8_t *next = obj_next(at, end);
-        at = next == at && !obj_over(at, end) ? at + 1 : next; // a zero byte
+        const uint8_t *next = obj_next_word(at, end);
+        at = next == at && !obj_at_line_end(at, end) ? at + 1 : next; // a zero byte
     }
     return at < end ? at + 1 : end;
 }

@@ -1,5 +1,5 @@
-// obj_faces.c: what an OBJ file's faces need once all vertices are read: polygons cut into triangles, and
-// normals and texture coordinates for the corners that name none.
+// obj_faces.c: completes an OBJ file's faces after all vertices are read: triangulates polygons, and adds normals and
+// texture coordinates for corners without.
 #include "obj.h"
 
 #include "linear.h"
@@ -10,100 +10,100 @@
 
 // --- polygons
 
-struct cutting {
+struct triangulation {
     struct obj *obj;
-    struct triangulator *scratch; // one for each thread
-    struct arena *spare;          // likewise: for corners of large polygons
-    int failed;                   // touched atomically
+    struct triangulator *triangulators; // one per thread
+    struct arena *scratch;              // one per thread, for large polygons
+    int failed;                         // atomic
 };
 
-enum { SMALL = 64 };
+enum { SMALL_POLYGON = 64 };
 
-// Puts the corners in the order of their triangles. `corners` is a copy of what stands at the begin of `at`.
-static void spread_corners(uint32_t *at, const uint32_t *corners, const uint32_t *triples, uint32_t slots)
+// Writes the polygon's corners to `at` in the order of its triangles. `corners`: a copy of the polygon at `at`.
+static void reorder_corners(uint32_t *at, const uint32_t *corners, const uint32_t *triples, uint32_t corner_count)
 {
-    for (uint32_t i = 0; i < slots; i++)
+    for (uint32_t i = 0; i < corner_count; i++)
         at[i] = corners[triples[i]];
 }
 
-static bool cut_polygon(struct cutting *cutting, struct obj_polygon polygon, int thread)
+static bool triangulate_polygon(struct triangulation *triangulation, struct obj_polygon polygon, int thread)
 {
-    struct obj *obj = cutting->obj;
-    uint32_t count = polygon.count, slots = 3 * (count - 2);
-    uint32_t small_corners[SMALL], small_triples[3 * (SMALL - 2)];
+    struct obj *obj = triangulation->obj;
+    uint32_t count = polygon.count, corner_count = 3 * (count - 2);
+    uint32_t small_corners[SMALL_POLYGON], small_triples[3 * (SMALL_POLYGON - 2)];
     uint32_t *corners = small_corners, *triples = small_triples;
-    if (count > SMALL) {
-        struct arena *spare = &cutting->spare[thread];
-        arena_free(spare);
-        corners = arena_array(spare, count, sizeof *corners);
-        triples = arena_array(spare, slots, sizeof *triples);
+    if (count > SMALL_POLYGON) {
+        struct arena *scratch = &triangulation->scratch[thread];
+        arena_free(scratch);
+        corners = arena_array(scratch, count, sizeof *corners);
+        triples = arena_array(scratch, corner_count, sizeof *triples);
         if (!corners || !triples)
             return false;
     }
     size_t first = 3 * (size_t)polygon.first_triangle;
     memcpy(corners, obj->indices + first, count * sizeof *corners);
-    if (!triangulate(&cutting->scratch[thread], obj->positions, corners, count, triples))
+    if (!triangulate(&triangulation->triangulators[thread], obj->positions, corners, count, triples))
         return false;
-    spread_corners(obj->indices + first, corners, triples, slots);
+    reorder_corners(obj->indices + first, corners, triples, corner_count);
     if (obj->texcoord_indices) {
         memcpy(corners, obj->texcoord_indices + first, count * sizeof *corners);
-        spread_corners(obj->texcoord_indices + first, corners, triples, slots);
+        reorder_corners(obj->texcoord_indices + first, corners, triples, corner_count);
     }
     if (obj->normal_indices) {
         memcpy(corners, obj->normal_indices + first, count * sizeof *corners);
-        spread_corners(obj->normal_indices + first, corners, triples, slots);
+        reorder_corners(obj->normal_indices + first, corners, triples, corner_count);
     }
     return true;
 }
 
-static void cut_piece(void *user, size_t index, int thread)
+static void triangulate_piece(void *user, size_t index, int thread)
 {
-    struct cutting *cutting = user;
-    struct obj *obj = cutting->obj;
-    uint64_t last = (index + 1) * OBJ_POLYGONS_A_PIECE;
+    struct triangulation *triangulation = user;
+    struct obj *obj = triangulation->obj;
+    uint64_t last = (index + 1) * OBJ_POLYGONS_PER_PIECE;
     if (last > obj->total.polygons)
         last = obj->total.polygons;
     if (!call_should_continue(obj->source->call))
         return;
-    for (uint64_t i = index * OBJ_POLYGONS_A_PIECE; i < last; i++) {
-        if (__atomic_load_n(&cutting->failed, __ATOMIC_RELAXED))
+    for (uint64_t i = index * OBJ_POLYGONS_PER_PIECE; i < last; i++) {
+        if (__atomic_load_n(&triangulation->failed, __ATOMIC_RELAXED))
             return;
-        if (!cut_polygon(cutting, obj->polygons[i], thread))
-            __atomic_store_n(&cutting->failed, 1, __ATOMIC_RELAXED);
+        if (!triangulate_polygon(triangulation, obj->polygons[i], thread))
+            __atomic_store_n(&triangulation->failed, 1, __ATOMIC_RELAXED);
     }
 }
 
-bool obj_cut_polygons(struct obj *obj, lam_error *error)
+bool obj_triangulate_polygons(struct obj *obj, lam_error *error)
 {
     if (obj->total.polygons == 0)
         return true;
     struct call_control *call = obj->source->call;
     size_t threads = (size_t)pool_threads(obj->source->pool);
-    struct cutting cutting = {.obj = obj};
-    cutting.scratch = arena_array(&obj->memory, threads, sizeof *cutting.scratch);
-    cutting.spare = arena_array(&obj->memory, threads, sizeof *cutting.spare);
-    if (!cutting.scratch || !cutting.spare)
-        return call_memory_error(call, threads * sizeof *cutting.scratch, error);
+    struct triangulation triangulation = {.obj = obj};
+    triangulation.triangulators = arena_array(&obj->memory, threads, sizeof *triangulation.triangulators);
+    triangulation.scratch = arena_array(&obj->memory, threads, sizeof *triangulation.scratch);
+    if (!triangulation.triangulators || !triangulation.scratch)
+        return call_memory_error(call, threads * sizeof *triangulation.triangulators, error);
     for (size_t t = 0; t < threads; t++) {
-        triangulator_start(&cutting.scratch[t], call);
-        arena_start(&cutting.spare[t], call);
+        triangulator_start(&triangulation.triangulators[t], call);
+        arena_start(&triangulation.scratch[t], call);
     }
-    pool_run(obj->source->pool, (obj->total.polygons + OBJ_POLYGONS_A_PIECE - 1) / OBJ_POLYGONS_A_PIECE, cut_piece,
-             &cutting);
+    pool_run(obj->source->pool, (obj->total.polygons + OBJ_POLYGONS_PER_PIECE - 1) / OBJ_POLYGONS_PER_PIECE,
+             triangulate_piece, &triangulation);
     for (size_t t = 0; t < threads; t++) {
-        triangulator_stop(&cutting.scratch[t]);
-        arena_free(&cutting.spare[t]);
+        triangulator_stop(&triangulation.triangulators[t]);
+        arena_free(&triangulation.scratch[t]);
     }
     if (!call_should_continue(call))
         return call_error(call, error);
-    if (cutting.failed)
+    if (triangulation.failed)
         return call_memory_error(call, obj->polygons[0].count * sizeof(uint32_t), error);
     return true;
 }
 
 // --- attributes that some corners name and others do not
 
-// The same array with room for `more` elements behind its `count`.
+// Copies the array with capacity for `more` elements after its `count`.
 static float *grow(struct obj *obj, const float *array, size_t count, size_t more, size_t width, lam_error *error)
 {
     float *larger = arena_array(&obj->scene->arena, count + more, width * sizeof *larger);
@@ -150,9 +150,9 @@ static bool lacks_normal(const uint32_t *corners)
     return corners[0] == OBJ_MISSING || corners[1] == OBJ_MISSING || corners[2] == OBJ_MISSING;
 }
 
-// Makes smooth normals for the triangles that lack one at some corner, from those triangles alone, behind the
-// file's own.
-static bool make_missing(struct obj *obj, lam_error *error)
+// Computes smooth normals for the triangles with a corner without normal, from these triangles alone, and appends them
+// to the file's.
+static bool make_missing_normals(struct obj *obj, lam_error *error)
 {
     const struct import_source *source = obj->source;
     size_t triangles = (size_t)obj->total.triangles, lacking = 0;
@@ -209,8 +209,8 @@ bool obj_complete_normals(struct obj *obj, lam_error *error)
         missing |= obj->chunks[c].normal_missing;
     }
     if (used && missing && obj->source->params->normals == LAM_NORMALS_FILE)
-        return make_missing(obj, error);
-    if (!used || missing) { // the scene makes them all
+        return make_missing_normals(obj, error);
+    if (!used || missing) { // the scene computes all normals
         obj->normals = NULL;
         obj->normal_indices = NULL;
         obj->total.normals = 0;

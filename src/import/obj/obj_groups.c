@@ -1,8 +1,8 @@
-// obj_groups.c: an OBJ file's statements between its vertices and faces, in order: object, group, material,
-// smoothing group, material files; and what is not drawn.
+// obj_groups.c: an OBJ file's statements between vertices and faces, in file order: object, group, material, smoothing
+// group, material files, and elements that are not drawn.
 //
-// A part is a run of triangles of the same object, group and material, named "object/group", or by the one
-// there is. A new object ends the group.
+// A part is a run of triangles of the same object, group and material. Its name is "object/group", or the one of the
+// two that the file gives. A new object ends the group.
 #include "obj.h"
 
 #include "fail.h"
@@ -19,8 +19,8 @@ enum statement {
     SMOOTHING,
     LINES,
     POINTS,
-    FREE_FORM, // curves and surfaces, with their points and parameters
-    NOTHING,   // known, without meaning for a picture made here
+    FREE_FORM, // curves and surfaces with their points and parameters
+    IGNORED,   // known, without effect here
     UNKNOWN,
     STATEMENTS,
 };
@@ -28,7 +28,7 @@ enum statement {
 static const struct {
     const char *word;
     enum statement statement;
-} words[] = {
+} keywords[] = {
     {"o", OBJECT},           {"g", GROUP},           {"usemtl", MATERIAL}, {"mtllib", LIBRARY},
     {"s", SMOOTHING},        {"l", LINES},           {"p", POINTS},        {"vp", FREE_FORM},
     {"cstype", FREE_FORM},   {"deg", FREE_FORM},     {"bmat", FREE_FORM},  {"step", FREE_FORM},
@@ -36,23 +36,23 @@ static const struct {
     {"trim", FREE_FORM},     {"hole", FREE_FORM},    {"scrv", FREE_FORM},  {"sp", FREE_FORM},
     {"end", FREE_FORM},      {"con", FREE_FORM},     {"ctech", FREE_FORM}, {"stech", FREE_FORM},
     {"bzp", FREE_FORM},      {"bsp", FREE_FORM},     {"cdc", FREE_FORM},   {"cdp", FREE_FORM},
-    {"res", FREE_FORM},      {"mg", NOTHING},        {"bevel", NOTHING},   {"c_interp", NOTHING},
-    {"d_interp", NOTHING},   {"lod", NOTHING},       {"maplib", NOTHING},  {"usemap", NOTHING},
-    {"shadow_obj", NOTHING}, {"trace_obj", NOTHING},
+    {"res", FREE_FORM},      {"mg", IGNORED},        {"bevel", IGNORED},   {"c_interp", IGNORED},
+    {"d_interp", IGNORED},   {"lod", IGNORED},       {"maplib", IGNORED},  {"usemap", IGNORED},
+    {"shadow_obj", IGNORED}, {"trace_obj", IGNORED},
 };
 
-// What was met while the statements were read.
+// The state after the statements read so far.
 struct state {
     struct obj *obj;
     const char *object, *group;
     int32_t material;
-    const char *part_object, *part_group; // of the part that is open
-    const char *part_name;                // made of the two
-    uint32_t smoothing, smoothing_from;   // the group since that triangle
+    const char *part_object, *part_group; // of the last part
+    const char *part_name;                // "object/group"
+    uint32_t smoothing, smoothing_from;   // the smoothing group, and its first triangle
     uint32_t objects;
     bool libraries, library_missing;
-    size_t counts[STATEMENTS];
-    const uint8_t *first[STATEMENTS];
+    size_t counts[STATEMENTS];        // of each kind
+    const uint8_t *first[STATEMENTS]; // of each kind
     size_t unknown_materials;
     const char *unknown_material; // the first one
     const uint8_t *unknown_material_at;
@@ -65,18 +65,18 @@ static bool no_memory(const struct state *state, size_t bytes, lam_error *error)
 
 static enum statement statement_of(const uint8_t *at, const uint8_t *end)
 {
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        if (text_is_word(at, end, words[i].word))
-            return words[i].statement;
+    for (size_t i = 0; i < sizeof keywords / sizeof *keywords; i++) {
+        if (text_is_word(at, end, keywords[i].word))
+            return keywords[i].statement;
     }
     return UNKNOWN;
 }
 
-// The rest of a statement as a name: without white space around it, a continued line joined by a space. NULL
-// in `*out` for an empty one.
+// Reads the rest of a statement as a name, trimmed; lines joined by a backslash are separated by spaces. *out is NULL
+// for an empty name.
 static bool read_name(struct state *state, const uint8_t *at, const char **out, lam_error *error)
 {
-    const uint8_t *end = obj_line_after(at, state->obj->end);
+    const uint8_t *end = obj_next_line(at, state->obj->end);
     at = text_skip_word(at, end);
     at = text_skip_white(at, end);
     while (end > at && text_white(end[-1]))
@@ -87,7 +87,7 @@ static bool read_name(struct state *state, const uint8_t *at, const char **out, 
     char *name = text_name(&state->obj->scene->arena, at, (size_t)(end - at));
     if (!name)
         return no_memory(state, (size_t)(end - at), error);
-    // A line end inside was continued: "\\\n" has become "\\?".
+    // Line continuations, "\\\n", have become "\\?": replace them by spaces.
     for (const uint8_t *c = at; c < end; c++) {
         if (*c == '\n') {
             for (char *back = name + (c - at); back >= name && (*back == '?' || *back == '\\'); back--)
@@ -120,7 +120,7 @@ static bool name_part(struct state *state, lam_error *error)
     return true;
 }
 
-// Ends the run of triangles that the state described up to `triangle`.
+// Ends the run of triangles before `triangle`, of the state's object, group and material.
 static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
 {
     struct obj *obj = state->obj;
@@ -157,7 +157,7 @@ static void fill_smoothing(struct state *state, uint32_t triangle)
 
 // --- materials
 
-// Opens and reads one material file. False in `*found` with the reason in `why`.
+// Opens and reads one material file. *found is false if it cannot be opened; `why` then says why.
 static bool read_library(struct state *state, const char *name, bool *found, lam_error *why, lam_error *error)
 {
     struct obj *obj = state->obj;
@@ -177,7 +177,7 @@ static bool read_library(struct state *state, const char *name, bool *found, lam
     return ok;
 }
 
-// A mtllib line names one file, perhaps with spaces in its name, or several.
+// A mtllib statement names one file, possibly with spaces in its name, or several files.
 static bool read_libraries(struct state *state, const uint8_t *at, lam_error *error)
 {
     struct obj *obj = state->obj;
@@ -204,7 +204,7 @@ static bool read_libraries(struct state *state, const uint8_t *at, lam_error *er
         if (found)
             continue;
         state->library_missing = true;
-        scene_warn(obj->scene, "%s; what uses its materials is drawn in neutral grey", why.text);
+        scene_warn(obj->scene, "%s; its materials are drawn in neutral grey", why.text);
     }
     return true;
 }
@@ -226,7 +226,7 @@ static bool use_material(struct state *state, const uint8_t *at, lam_error *erro
 
 // --- the statements in order
 
-// The group of an s statement; 0: off.
+// The group of an "s" statement; 0: off.
 static uint32_t read_smoothing(const struct obj *obj, const uint8_t *at)
 {
     const uint8_t *end = text_line_end(at, obj->end);
@@ -237,8 +237,8 @@ static uint32_t read_smoothing(const struct obj *obj, const uint8_t *at)
     return number_int(at, end, &group) ? (uint32_t)group : 0; // "off", or nothing
 }
 
-static bool take_statement(struct state *state, enum statement statement, const struct obj_statement *s,
-                           lam_error *error)
+static bool apply_statement(struct state *state, enum statement statement, const struct obj_statement *s,
+                            lam_error *error)
 {
     if (state->counts[statement]++ == 0)
         state->first[statement] = s->at;
@@ -271,27 +271,25 @@ static void warn_elements(struct state *state)
     const char *name = obj->source->name;
     size_t lines = state->counts[LINES], points = state->counts[POINTS], free_form = state->counts[FREE_FORM];
     if (lines + points)
-        scene_warn(obj->scene, "%s:%zu: %zu line and %zu point elements are not drawn, only faces are", name,
-                   obj_line(obj, !points || (lines && state->first[LINES] < state->first[POINTS])
-                                     ? state->first[LINES]
-                                     : state->first[POINTS]),
+        scene_warn(obj->scene, "%s:%zu: %zu line and %zu point elements are not drawn, only faces", name,
+                   obj_line_number(obj, !points || (lines && state->first[LINES] < state->first[POINTS])
+                                            ? state->first[LINES]
+                                            : state->first[POINTS]),
                    lines, points);
     char found[TEXT_FOUND_SIZE];
     if (free_form)
         scene_warn(obj->scene,
-                   "%s:%zu: free-form curves and surfaces are not drawn: %s is the first of %zu statements "
-                   "that make them",
-                   name, obj_line(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found),
+                   "%s:%zu: free-form curves and surfaces are not drawn: %s is the first of %zu such statements", name,
+                   obj_line_number(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found),
                    free_form);
     if (state->counts[UNKNOWN])
-        scene_warn(obj->scene, "%s:%zu: the statement %s is not known; it is the first of %zu that are passed over",
-                   name, obj_line(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found),
+        scene_warn(obj->scene, "%s:%zu: unknown statement %s, the first of %zu that are ignored", name,
+                   obj_line_number(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found),
                    state->counts[UNKNOWN]);
 }
 
-// A file without triangles that does hold something to be seen is told what that is. What holds less is
-// reported by load.c as for every format.
-static bool explain_nothing(struct state *state, lam_error *error)
+// The error for a file without triangles that contains other elements. load.c reports files without any.
+static bool fail_without_triangles(struct state *state, lam_error *error)
 {
     struct obj *obj = state->obj;
     const char *name = obj->source->name;
@@ -300,7 +298,8 @@ static bool explain_nothing(struct state *state, lam_error *error)
     if (state->counts[FREE_FORM])
         return fail(error, LAM_UNSUPPORTED,
                     "%s:%zu: holds no faces, only free-form curves and surfaces (%s), which this version cannot draw",
-                    name, obj_line(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found));
+                    name, obj_line_number(obj, state->first[FREE_FORM]),
+                    text_found(state->first[FREE_FORM], obj->end, found));
     if (lines && points)
         return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu line%s and %zu point%s", name, lines,
                     lines == 1 ? "" : "s", points, points == 1 ? "" : "s");
@@ -310,7 +309,7 @@ static bool explain_nothing(struct state *state, lam_error *error)
     if (state->counts[UNKNOWN])
         return fail(error, LAM_CANNOT_READ,
                     "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file holds no triangles", name,
-                    obj_line(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found));
+                    obj_line_number(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found));
     return true;
 }
 
@@ -319,19 +318,18 @@ static void warn_materials(struct state *state)
     struct obj *obj = state->obj;
     const char *name = obj->source->name;
     if (state->unknown_materials && !state->library_missing) {
-        size_t line = obj_line(obj, state->unknown_material_at);
+        size_t line = obj_line_number(obj, state->unknown_material_at);
         if (!state->libraries)
             scene_warn(obj->scene,
                        "%s:%zu: uses the material '%s' but names no material file; it is drawn in neutral grey", name,
                        line, state->unknown_material);
         else if (state->unknown_materials == 1)
-            scene_warn(obj->scene, "%s:%zu: no material file has the material '%s'; it is drawn in neutral grey", name,
-                       line, state->unknown_material);
+            scene_warn(obj->scene, "%s:%zu: no material file defines the material '%s'; it is drawn in neutral grey",
+                       name, line, state->unknown_material);
         else
             scene_warn(obj->scene,
-                       "%s:%zu: no material file has the material '%s', the first of %zu uses of materials "
-                       "that are drawn "
-                       "in neutral grey",
+                       "%s:%zu: no material file defines the material '%s', the first of %zu uses of undefined "
+                       "materials, which are drawn in neutral grey",
                        name, line, state->unknown_material, state->unknown_materials);
     }
     size_t maps = obj->materials.maps;
@@ -354,9 +352,9 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
             return call_error(call, error);
         kinds[i] = (uint8_t)statement_of(obj->statements[i].at, obj->end);
         parts += kinds[i] == OBJECT || kinds[i] == GROUP || kinds[i] == MATERIAL;
-        // "Off" is how every file begins: one that never says more has no groups.
+        // A file in which all are off has no smoothing groups.
         smoothing |= kinds[i] == SMOOTHING && read_smoothing(obj, obj->statements[i].at) != 0;
-        // All material files first: some writers name them behind their first use.
+        // All material files are read first: some programs name them after the first use.
         if (kinds[i] == LIBRARY && !read_libraries(&state, obj->statements[i].at, error))
             return false;
     }
@@ -373,14 +371,14 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
     for (size_t i = 0; i < count; i++) {
         if (i % 4096 == 4095 && !call_should_continue(call))
             return call_error(call, error);
-        if (!take_statement(&state, (enum statement)kinds[i], &obj->statements[i], error))
+        if (!apply_statement(&state, (enum statement)kinds[i], &obj->statements[i], error))
             return false;
     }
     fill_smoothing(&state, triangles);
     if (!end_part(&state, triangles, error))
         return false;
     if (triangles == 0)
-        return explain_nothing(&state, error);
+        return fail_without_triangles(&state, error);
     warn_elements(&state);
     warn_materials(&state);
     return true;

@@ -1,4 +1,4 @@
-// obj_line.c: reads one line of an OBJ file: a vertex, a texture coordinate, a normal or a face, straight into its place.
+// obj_line.c: reads one line of an OBJ file of any kind: vertex, texture coordinate, normal, face.
 #include "obj.h"
 
 #include "number_scan.h"
@@ -6,10 +6,10 @@
 
 #include <string.h>
 
-size_t obj_line(struct obj *obj, const uint8_t *at)
+size_t obj_line_number(struct obj *obj, const uint8_t *at)
 {
-    if (obj->in_pieces) {
-        obj->line_missed = true;
+    if (obj->streamed) {
+        obj->line_requested = true;
         return 0;
     }
     size_t lines = 1;
@@ -18,57 +18,60 @@ size_t obj_line(struct obj *obj, const uint8_t *at)
     return lines;
 }
 
-// What went wrong at `at`: "found 'x', expected WHAT".
-static const uint8_t *wrong(struct obj_reader *reader, const uint8_t *at, const char *expected)
+// Expected where pass two finds more elements than pass one counted.
+static const char changed[] = "the text of a moment ago: the file has changed while it was read";
+
+// Fills the reader's error: "found 'x', expected …". Returns NULL.
+static const uint8_t *fail_expected(struct obj_reader *reader, const uint8_t *at, const char *expected)
 {
-    if (!reader->error) // the line's number takes a pass
+    if (!reader->error) // the line number costs a pass over the text
         return NULL;
     char found[TEXT_FOUND_SIZE];
     struct obj *obj = reader->obj;
     const char *what = at < reader->end && *at == '\n' ? "the end of the line" : text_found(at, reader->end, found);
-    fail_line(reader->error, obj->source, obj_line(obj, at), "found %s, expected %s", what, expected);
+    fail_line(reader->error, obj->source, obj_line_number(obj, at), "found %s, expected %s", what, expected);
     return NULL;
 }
 
-// Reads `count` numbers; a missing one is 0 where `min` are there. Returns the place of the word behind
-// them; NULL: wrong. `expected` names them.
+// Reads `count` numbers, of which those after the first `min` are optional and 0 by default. Returns the next word;
+// NULL: error. `expected` describes a number for the message.
 static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8_t *at, float *to, int min, int count,
                                           const char *expected)
 {
     const uint8_t *end = reader->end;
     for (int i = 0; i < count; i++) {
-        at = obj_next(at, end);
-        if (i >= min && obj_over(at, end)) {
+        at = obj_next_word(at, end);
+        if (i >= min && obj_at_line_end(at, end)) {
             to[i] = 0;
             continue;
         }
-        const uint8_t *after = number_float_quick(at, end, &to[i]);
-        if (__builtin_expect(!after || !obj_word_over(after), 0))
-            return wrong(reader, at, expected);
-        at = after;
+        const uint8_t *next = number_float_quick(at, end, &to[i]);
+        if (__builtin_expect(!next || !obj_at_word_end(next), 0))
+            return fail_expected(reader, at, expected);
+        at = next;
     }
-    return obj_next(at, end);
+    return obj_next_word(at, end);
 }
 
-static float clean(float x) { return x > 0 ? x : 0; } // NaN too
+static float non_negative(float x) { return x > 0 ? x : 0; } // NaN becomes 0
 
-// What may follow x y z: nothing; w, which only rational curves use; r g b, perhaps with more behind.
+// Reads the numbers after x y z: none; w, which only rational curves use; or r g b, possibly with more.
 static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, float *color)
 {
     const uint8_t *end = reader->end;
     float extra[4];
     int count = 0;
-    while (count < 4 && !obj_over(at, end)) {
-        const uint8_t *after = number_float_quick(at, end, &extra[count]);
-        if (!after || !obj_word_over(after))
-            return wrong(reader, at, "a weight or a colour behind the position");
+    while (count < 4 && !obj_at_line_end(at, end)) {
+        const uint8_t *next = number_float_quick(at, end, &extra[count]);
+        if (!next || !obj_at_word_end(next))
+            return fail_expected(reader, at, "a weight or a colour after the position");
         count++;
-        at = obj_next(after, end);
+        at = obj_next_word(next, end);
     }
     reader->chunk->colors |= count >= 3;
     if (color && count >= 3) {
         for (int i = 0; i < 3; i++) {
-            color[i] = clean(extra[i]);
+            color[i] = non_negative(extra[i]);
             reader->chunk->brightest = color[i] > reader->chunk->brightest ? color[i] : reader->chunk->brightest;
         }
     }
@@ -78,9 +81,9 @@ static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, f
 static const uint8_t *read_position(struct obj_reader *reader, const uint8_t *at)
 {
     struct obj *obj = reader->obj;
-    if (reader->at.positions >= reader->limit.positions)
-        return wrong(reader, at, "what was there a moment ago");
-    float *to = obj->positions + 3 * reader->at.positions;
+    if (reader->next.positions >= reader->limit.positions)
+        return fail_expected(reader, at, changed);
+    float *to = obj->positions + 3 * reader->next.positions;
     const uint8_t *begin = at;
     at = read_numbers(reader, at + 1, to, 3, 3, "a coordinate (v x y z)");
     if (!at)
@@ -94,42 +97,42 @@ static const uint8_t *read_position(struct obj_reader *reader, const uint8_t *at
     if (__builtin_expect(sum != 0, 0)) { // inf − inf and nan are not 0
         const uint8_t *word = begin + 1;
         for (int i = 0; i < 3; i++) {
-            word = obj_next(word, reader->end);
+            word = obj_next_word(word, reader->end);
             if (to[i] - to[i] != 0)
                 break;
-            while (!obj_word_over(word))
+            while (!obj_at_word_end(word))
                 word++;
         }
-        return wrong(reader, word, "a finite coordinate");
+        return fail_expected(reader, word, "a finite coordinate");
     }
-    float *color = obj->colors ? obj->colors + 4 * reader->at.positions : NULL;
+    float *color = obj->colors ? obj->colors + 4 * reader->next.positions : NULL;
     if (color) {
-        color[0] = color[1] = color[2] = -1; // none given
+        color[0] = color[1] = color[2] = -1; // no colour
         color[3] = 1;
     }
-    if (__builtin_expect(!obj_over(at, reader->end), 0)) {
+    if (__builtin_expect(!obj_at_line_end(at, reader->end), 0)) {
         at = read_color(reader, at, color);
         if (!at)
             return NULL;
-        at = obj_finish_line(at, reader->end);
+        at = obj_skip_line(at, reader->end);
     } else {
         at += at < reader->end;
     }
-    reader->at.positions++;
+    reader->next.positions++;
     return at;
 }
 
-// Texture coordinates and normals: what is not finite becomes 0 and is told once, since exporters do write
-// "nan" here.
+// Reads a texture coordinate or a normal. Vectors with numbers that are not finite become 0, with one warning: some
+// exporters write "nan".
 static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *at, bool normal)
 {
     struct obj *obj = reader->obj;
     float *array = normal ? obj->normals : obj->texcoords;
     if (!array)
-        return obj_finish_line(at, reader->end);
-    uint64_t *next = normal ? &reader->at.normals : &reader->at.texcoords;
+        return obj_skip_line(at, reader->end);
+    uint64_t *next = normal ? &reader->next.normals : &reader->next.texcoords;
     if (*next >= (normal ? reader->limit.normals : reader->limit.texcoords))
-        return wrong(reader, at, "what was there a moment ago");
+        return fail_expected(reader, at, changed);
     int width = normal ? 3 : 2;
     float *to = array + (size_t)width * *next;
     const uint8_t *begin = at;
@@ -144,28 +147,28 @@ static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *a
         for (int i = 0; i < width; i++)
             to[i] = 0;
         struct obj_chunk *chunk = reader->chunk;
-        if (chunk->odd_numbers++ == 0)
-            chunk->odd_number = begin;
+        if (chunk->nonfinite_numbers++ == 0)
+            chunk->first_nonfinite = begin;
     }
     ++*next;
-    return obj_finish_line(at, reader->end);
+    return obj_skip_line(at, reader->end);
 }
 
-// Reads a number of a corner: 1 is the first, −1 the last above. NULL: wrong. `what` names it, `so_far` are
-// above it.
+// Reads an index of a corner: 1 is the first element, −1 the last of the `so_far` before this line. `what`: the kind of
+// element, for messages. NULL: error.
 static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t *at, uint64_t total, uint64_t so_far,
                                         const char *what, uint32_t *out)
 {
     uint64_t eight = number_load8(at);
     unsigned digits = number_digit_count(eight);
     uint64_t index = number_digits_value(eight, digits) - 1;
-    const uint8_t *after = at + digits;
+    const uint8_t *next = at + digits;
     if (__builtin_expect(digits - 1 >= 7, 0)) { // a sign, eight digits or more, or no number
         int64_t value;
-        after = number_int(at, reader->end, &value);
-        if (!after)
-            return wrong(reader, at, what);
-        bool relative = value < 0 && !reader->obj->in_pieces;
+        next = number_int(at, reader->end, &value);
+        if (!next)
+            return fail_expected(reader, at, what);
+        bool relative = value < 0 && !reader->obj->streamed;
         index = value > 0 ? (uint64_t)value - 1 : relative ? so_far + (uint64_t)value : UINT64_MAX;
     }
     if (__builtin_expect(index >= total, 0)) {
@@ -176,45 +179,45 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
         number_int(at, reader->end, &value);
         const char *name = what + 2; // without the article
         struct obj *obj = reader->obj;
-        size_t line = obj_line(obj, at);
-        text_found(at, after, found);
+        size_t line = obj_line_number(obj, at);
+        text_found(at, next, found);
         if (value == 0)
-            fail_line(reader->error, obj->source, line, "a face names %s 0; they are counted from 1", name);
+            fail_line(reader->error, obj->source, line, "a face names %s 0, expected an index from 1", name);
         else if (value > 0)
-            fail_line(reader->error, obj->source, line, "a face names %s %s; the file has %llu", name, found,
+            fail_line(reader->error, obj->source, line, "a face names %s %s, but the file has %llu", name, found,
                       (unsigned long long)total);
         else
-            fail_line(reader->error, obj->source, line, "a face names %s %s, counted back; %llu are above it", name,
-                      found, (unsigned long long)so_far);
+            fail_line(reader->error, obj->source, line, "a face names %s %s, counted back, but only %llu precede it",
+                      name, found, (unsigned long long)so_far);
         return NULL;
     }
     *out = (uint32_t)index;
-    return after;
+    return next;
 }
 
-static const char what_position[] = "a vertex", what_texcoord[] = "a texture coordinate", what_normal[] = "a normal";
+static const char name_position[] = "a vertex", name_texcoord[] = "a texture coordinate", name_normal[] = "a normal";
 
-// One face: v, v/t, v//n or v/t/n for each corner, each corner by itself.
+// Reads a face: v, v/t, v//n or v/t/n for each corner; the forms may be mixed.
 static const uint8_t *read_face(struct obj_reader *reader, const uint8_t *at)
 {
     struct obj *obj = reader->obj;
     struct obj_chunk *chunk = reader->chunk;
     const uint8_t *begin = at, *end = reader->end;
-    const uint64_t first = 3 * reader->at.triangles, limit = 3 * reader->limit.triangles;
+    const uint64_t first = 3 * reader->next.triangles, limit = 3 * reader->limit.triangles;
     uint32_t *texcoords = obj->texcoord_indices, *normals = obj->normal_indices;
     uint64_t count = 0;
     bool texcoord_used = false, texcoord_missing = false, normal_used = false, normal_missing = false;
-    at = obj_next(at + 1, end);
-    for (; !obj_over(at, end); count++) {
+    at = obj_next_word(at + 1, end);
+    for (; !obj_at_line_end(at, end); count++) {
         uint32_t position, texcoord = OBJ_MISSING, normal = OBJ_MISSING;
-        at = read_index(reader, at, obj->total.positions, reader->at.positions, what_position, &position);
+        at = read_index(reader, at, obj->total.positions, reader->next.positions, name_position, &position);
         if (!at)
             return NULL;
         if (*at == '/') {
             at++;
-            if (*at != '/' && !obj_word_over(at)) {
+            if (*at != '/' && !obj_at_word_end(at)) {
                 if (texcoords) {
-                    at = read_index(reader, at, obj->total.texcoords, reader->at.texcoords, what_texcoord, &texcoord);
+                    at = read_index(reader, at, obj->total.texcoords, reader->next.texcoords, name_texcoord, &texcoord);
                     if (!at)
                         return NULL;
                 } else {
@@ -222,15 +225,15 @@ static const uint8_t *read_face(struct obj_reader *reader, const uint8_t *at)
                     const uint8_t *number = at;
                     at = number_int(at, end, &unused);
                     if (!at)
-                        return wrong(reader, number, what_texcoord);
+                        return fail_expected(reader, number, name_texcoord);
                     chunk->texcoord_unknown = true;
                 }
             }
             if (*at == '/') {
                 at++;
-                if (!obj_word_over(at)) {
+                if (!obj_at_word_end(at)) {
                     if (normals) {
-                        at = read_index(reader, at, obj->total.normals, reader->at.normals, what_normal, &normal);
+                        at = read_index(reader, at, obj->total.normals, reader->next.normals, name_normal, &normal);
                         if (!at)
                             return NULL;
                     } else {
@@ -238,14 +241,14 @@ static const uint8_t *read_face(struct obj_reader *reader, const uint8_t *at)
                         const uint8_t *number = at;
                         at = number_int(at, end, &unused);
                         if (!at)
-                            return wrong(reader, number, what_normal);
+                            return fail_expected(reader, number, name_normal);
                         chunk->normal_unknown = true;
                     }
                 }
             }
         }
-        if (__builtin_expect(!obj_word_over(at), 0))
-            return wrong(reader, at, "a space between a face's corners (v, v/t, v//n or v/t/n)");
+        if (__builtin_expect(!obj_at_word_end(at), 0))
+            return fail_expected(reader, at, "a space between a face's corners (v, v/t, v//n or v/t/n)");
         if (first + count < limit) {
             obj->indices[first + count] = position;
             if (texcoords)
@@ -257,21 +260,21 @@ static const uint8_t *read_face(struct obj_reader *reader, const uint8_t *at)
         normal_used |= normal != OBJ_MISSING;
         texcoord_missing |= texcoord == OBJ_MISSING;
         normal_missing |= normal == OBJ_MISSING;
-        at = obj_next(at, end);
+        at = obj_next_word(at, end);
     }
     chunk->texcoord_used |= texcoord_used;
     chunk->normal_used |= normal_used;
     chunk->texcoord_missing |= texcoord_missing;
     chunk->normal_missing |= normal_missing;
     if (count >= 3) {
-        if (first + 3 * (count - 2) > limit || (count > 3 && reader->at.polygons >= reader->limit.polygons))
-            return wrong(reader, begin, "what was there a moment ago");
+        if (first + 3 * (count - 2) > limit || (count > 3 && reader->next.polygons >= reader->limit.polygons))
+            return fail_expected(reader, begin, changed);
         if (count > 3)
-            obj->polygons[reader->at.polygons++] =
-                (struct obj_polygon){(uint32_t)reader->at.triangles, (uint32_t)count};
-        reader->at.triangles += count - 2;
+            obj->polygons[reader->next.polygons++] =
+                (struct obj_polygon){(uint32_t)reader->next.triangles, (uint32_t)count};
+        reader->next.triangles += count - 2;
     } else if (chunk->short_faces++ == 0) {
-        chunk->short_face = begin;
+        chunk->first_short_face = begin;
     }
     return at < end ? at + 1 : end;
 }
@@ -291,13 +294,13 @@ const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at)
     case OBJ_NORMAL:
         return read_attribute(reader, at, true);
     case OBJ_OTHER:
-        if (reader->at.others >= reader->limit.others)
-            return wrong(reader, at, "what was there a moment ago");
-        reader->obj->statements[reader->at.others++] = (struct obj_statement){at, (uint32_t)reader->at.triangles};
-        return obj_line_after(at, end);
+        if (reader->next.others >= reader->limit.others)
+            return fail_expected(reader, at, changed);
+        reader->obj->statements[reader->next.others++] = (struct obj_statement){at, (uint32_t)reader->next.triangles};
+        return obj_next_line(at, end);
     case OBJ_EMPTY:
         if (*at == 0 && at < end)
-            return wrong(reader, at, "text (this is a zero byte)");
+            return fail_expected(reader, at, "text (this is a zero byte)");
         at = memchr(at, '\n', (size_t)(end - at));
         return at ? at + 1 : end;
     }

@@ -1,6 +1,6 @@
-// obj_lines.c: the lines that OBJ files are full of, "v x y z" and "f a b c", by straight code; all others
-// are handed to obj_parse.c. Compiled for several instruction sets (meson.build, with ISA), which give the
-// same numbers: where one is not sure of a number's last bit, base/number.c decides.
+// obj_lines.c: a fast path for the most frequent lines, "v x y z" and "f a b c"; obj_line.c reads all others. Compiled
+// for several instruction sets (meson.build defines ISA) with identical results: numbers whose last bit is uncertain
+// are left to base/number.c.
 #include "byte_masks.h"
 #include "number_scan.h"
 #include "obj.h"
@@ -15,11 +15,11 @@
 #include "obj_lines_avx512.h"
 #else
 
-// Numbers that every line needs; none here but:
+// Constants of the loop over the lines.
 struct constants {
-    uint32_t max;
+    uint32_t index_limit; // indices of faces are below it
 };
-static inline struct constants constants_of(uint32_t max) { return (struct constants){max}; }
+static inline struct constants constants_of(uint32_t index_limit) { return (struct constants){index_limit}; }
 
 static inline uint64_t newlines_of(const struct constants *c, const uint8_t *block)
 {
@@ -27,7 +27,8 @@ static inline uint64_t newlines_of(const struct constants *c, const uint8_t *blo
     return byte_masks_newlines(block);
 }
 
-static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *stop, uint32_t to[3])
+static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *line_end,
+                                 uint32_t to[3])
 {
     const uint8_t *at = line + 1;
     for (int i = 0; i < 3; i++) {
@@ -36,31 +37,32 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
         uint64_t eight = number_load8(++at);
         unsigned digits = number_digit_count(eight);
         uint64_t index = number_digits_value(eight, digits) - 1;
-        if (digits == 0 || index >= c->max)
+        if (digits == 0 || index >= c->index_limit)
             return false;
         to[i] = (uint32_t)index;
         at += digits;
     }
-    return at + (*at == '\r') == stop;
+    return at + (*at == '\r') == line_end;
 }
 
-static inline bool read_coordinates(const struct constants *c, const uint8_t *line, const uint8_t *stop, float out[3])
+static inline bool read_coordinates(const struct constants *c, const uint8_t *line, const uint8_t *line_end,
+                                    float out[3])
 {
     (void)c;
     const uint8_t *at = line + 1;
     for (int i = 0; i < 3; i++) {
-        at = *at == ' ' ? number_float_quick(at + 1, stop, &out[i]) : NULL;
+        at = *at == ' ' ? number_float_quick(at + 1, line_end, &out[i]) : NULL;
         if (!at)
             return false;
     }
     float sum = (out[0] - out[0]) + (out[1] - out[1]) + (out[2] - out[2]);
-    return at + (*at == '\r') == stop && sum == 0; // all are finite
+    return at + (*at == '\r') == line_end && sum == 0; // all are finite
 }
 
 #endif
 
-// Where plain lines go, at hand: the compiler keeps it in registers, which `reader` may not be kept in.
-struct hand {
+// The output position of the fast path. As a local variable it stays in registers, unlike `reader`.
+struct output {
     float *position, *positions_end;
     uint32_t *corners, *corners_end;
     struct box {
@@ -72,90 +74,92 @@ struct hand {
     } box;
 };
 
-static inline struct hand take_up(const struct obj_reader *reader)
+static inline struct output load_output(const struct obj_reader *reader)
 {
     const struct obj *obj = reader->obj;
-    struct hand hand = {
-        .position = obj->positions + 3 * reader->at.positions,
+    struct output output = {
+        .position = obj->positions + 3 * reader->next.positions,
         .positions_end = obj->positions + 3 * (obj->colors ? 0 : reader->limit.positions),
-        .corners = obj->indices + 3 * reader->at.triangles,
+        .corners = obj->indices + 3 * reader->next.triangles,
         .corners_end = obj->indices + 3 * reader->limit.triangles,
     };
-    memcpy(&hand.box.low, reader->low, sizeof reader->low);
-    memcpy(&hand.box.high, reader->high, sizeof reader->high);
-    return hand;
+    memcpy(&output.box.low, reader->low, sizeof reader->low);
+    memcpy(&output.box.high, reader->high, sizeof reader->high);
+    return output;
 }
 
-static inline void put_down(const struct hand *hand, struct obj_reader *reader)
+static inline void store_output(const struct output *output, struct obj_reader *reader)
 {
     const struct obj *obj = reader->obj;
-    reader->at.positions = (uint64_t)(hand->position - obj->positions) / 3;
-    reader->at.triangles = (uint64_t)(hand->corners - obj->indices) / 3;
-    memcpy(reader->low, &hand->box.low, sizeof reader->low);
-    memcpy(reader->high, &hand->box.high, sizeof reader->high);
+    reader->next.positions = (uint64_t)(output->position - obj->positions) / 3;
+    reader->next.triangles = (uint64_t)(output->corners - obj->indices) / 3;
+    memcpy(reader->low, &output->box.low, sizeof reader->low);
+    memcpy(reader->high, &output->box.high, sizeof reader->high);
 }
 
-static inline bool take_triangle(struct hand *hand, const struct constants *c, const uint8_t *line, const uint8_t *stop)
+static inline bool append_triangle(struct output *output, const struct constants *c, const uint8_t *line,
+                                   const uint8_t *line_end)
 {
-    if (hand->corners >= hand->corners_end || !read_triangle(c, line, stop, hand->corners))
+    if (output->corners >= output->corners_end || !read_triangle(c, line, line_end, output->corners))
         return false;
-    hand->corners += 3;
+    output->corners += 3;
     return true;
 }
 
-static inline bool take_position(struct hand *hand, const struct constants *c, const uint8_t *line, const uint8_t *stop)
+static inline bool append_position(struct output *output, const struct constants *c, const uint8_t *line,
+                                   const uint8_t *line_end)
 {
-    if (hand->position >= hand->positions_end)
+    if (output->position >= output->positions_end)
         return false;
-    struct box *box = &hand->box;
+    struct box *box = &output->box;
 #if defined(__AVX512VBMI__)
     __m128 three;
-    if (!read_coordinates(c, line, stop, &three))
+    if (!read_coordinates(c, line, line_end, &three))
         return false;
-    _mm_storel_pi((__m64 *)(void *)hand->position, three);
-    _mm_store_ss(hand->position + 2, _mm_movehl_ps(three, three));
+    _mm_storel_pi((__m64 *)(void *)output->position, three);
+    _mm_store_ss(output->position + 2, _mm_movehl_ps(three, three));
     box->low = _mm_min_ps(three, box->low);
     box->high = _mm_max_ps(three, box->high);
 #else
-    float *three = hand->position;
-    if (!read_coordinates(c, line, stop, three))
+    float *three = output->position;
+    if (!read_coordinates(c, line, line_end, three))
         return false;
     for (int i = 0; i < 3; i++) {
         box->low[i] = three[i] < box->low[i] ? three[i] : box->low[i];
         box->high[i] = three[i] > box->high[i] ? three[i] : box->high[i];
     }
 #endif
-    hand->position += 3;
+    output->position += 3;
     return true;
 }
 
-// Line ends are found 64 bytes at a time, so that no line's reading waits for the numbers of the one before.
+// Line ends are found 64 bytes at a time: reading a line does not depend on the numbers of the line before.
 const uint8_t *JOIN(obj_read_lines_, ISA)(struct obj_reader *reader, const uint8_t *line, const uint8_t *end)
 {
     const struct obj *obj = reader->obj;
     const bool plain_faces = !obj->texcoord_indices && !obj->normal_indices;
     const struct constants constants = constants_of(plain_faces ? (uint32_t)obj->total.positions : 0);
-    struct hand hand = take_up(reader);
+    struct output output = load_output(reader);
     for (const uint8_t *block = line;; block += 64) {
         for (uint64_t ends = newlines_of(&constants, block); ends; ends &= ends - 1) {
-            const uint8_t *stop = block + __builtin_ctzll(ends);
-            if (!(line[0] == 'f'   ? take_triangle(&hand, &constants, line, stop)
-                  : line[0] == 'v' ? take_position(&hand, &constants, line, stop)
+            const uint8_t *line_end = block + __builtin_ctzll(ends);
+            if (!(line[0] == 'f'   ? append_triangle(&output, &constants, line, line_end)
+                  : line[0] == 'v' ? append_position(&output, &constants, line, line_end)
                                    : false)) {
-                put_down(&hand, reader);
-                const uint8_t *after = obj_read_line(reader, line);
-                if (after != stop + 1)
-                    return after;
-                hand = take_up(reader);
+                store_output(&output, reader);
+                const uint8_t *next = obj_read_line(reader, line);
+                if (next != line_end + 1)
+                    return next;
+                output = load_output(reader);
             }
-            line = stop + 1;
+            line = line_end + 1;
             if (line >= end) {
-                put_down(&hand, reader);
+                store_output(&output, reader);
                 return line;
             }
         }
-        if (block + 64 >= end) { // the file's last line, without an end
-            put_down(&hand, reader);
+        if (block + 64 >= end) { // the file's last line, without a line end
+            store_output(&output, reader);
             return obj_read_line(reader, line);
         }
     }

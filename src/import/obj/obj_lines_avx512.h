@@ -1,8 +1,8 @@
 // obj_lines_avx512.h: the readers of obj_lines.c for AVX-512 with VBMI, which moves bytes within a register.
 //
-// A line's bytes are one register: sets of bits say what is a digit, a space or a point. Where the numbers
-// begin and end is packed into bytes; from there each byte of each number's lane knows its place in the line:
-// digits stand at the lane's end, behind zeros.
+// A line is loaded into one register, and bit masks of its digits, spaces and points are made. The numbers' begins and
+// ends, packed into bytes, give the index from which each byte of a lane is permuted: every number gets a lane of its
+// own, right-aligned, with leading zeros.
 #ifndef OBJ_LINES_AVX512_H
 #define OBJ_LINES_AVX512_H
 
@@ -11,10 +11,10 @@
 #include <immintrin.h>
 #include <stdbool.h>
 
-static inline unsigned first_of(uint64_t set) { return (unsigned)__builtin_ctzll(set); }
-static inline uint64_t but_first(uint64_t set) { return set & (set - 1); }
-// Kept from the compiler, which would reckon with sets where they are made, in registers that are slow to do so.
-static inline uint64_t set_of(__mmask64 bytes)
+static inline unsigned lowest_bit(uint64_t set) { return (unsigned)__builtin_ctzll(set); }
+static inline uint64_t without_lowest(uint64_t set) { return set & (set - 1); }
+// Moves a mask to a general register. Without the barrier, the compiler computes in the slower mask registers.
+static inline uint64_t mask_bits(__mmask64 bytes)
 {
     uint64_t set = bytes;
     __asm__("" : "+r"(set));
@@ -22,19 +22,19 @@ static inline uint64_t set_of(__mmask64 bytes)
 }
 static inline uint32_t pack(unsigned a, unsigned b, unsigned c) { return a | b << 8 | c << 16; }
 
-// What stays in registers from line to line. The compiler would make each anew where it is used.
+// Constants that stay in registers from line to line; the compiler would otherwise reload each where it is used.
 struct constants {
     __m512i newline, zero, nine, space, point, minus, one;
-    __m512i lanes_of_8, lanes_of_16;       // to each byte of lane k the byte k of a packed number
-    __m512i back_8, back_16;               // of each byte of a lane: how far it is before the lane's end
+    __m512i lanes_of_8, lanes_of_16;       // shuffle: byte k of a packed number to each byte of lane k
+    __m512i back_8, back_16;               // each byte's offset from its lane's end, negative
     __m512i tens, hundreds, ten_thousands; // pairs of weights
     __m512d tenths_to_6, tenths_to_14;     // 10 to the power of 1 − i
-    __m256i cut, middle, doubt;            // of number_rounds_surely
+    __m256i cut, middle, doubt;            // number_rounds_surely
     __m256i hundred_millions;
     __m128 sign;
-    __m128i one_32, max; // most: of a face's number
+    __m128i one_32, index_limit; // index_limit: of faces
 };
-static inline struct constants constants_of(uint32_t max)
+static inline struct constants constants_of(uint32_t index_limit)
 {
     const double *t = number_tenths;
     struct constants c = {
@@ -62,79 +62,81 @@ static inline struct constants constants_of(uint32_t max)
         .hundred_millions = _mm256_set1_epi64x(100000000),
         .sign = _mm_set1_ps(-0.0f),
         .one_32 = _mm_set1_epi32(1),
-        .max = _mm_set1_epi32((int)max),
+        .index_limit = _mm_set1_epi32((int)index_limit),
     };
     // Opaque to the compiler from here on.
     __asm__("" : "+v"(c.newline), "+v"(c.zero), "+v"(c.nine), "+v"(c.space), "+v"(c.point), "+v"(c.minus));
     __asm__("" : "+v"(c.lanes_of_8), "+v"(c.lanes_of_16), "+v"(c.back_8), "+v"(c.back_16));
     __asm__("" : "+v"(c.tens), "+v"(c.hundreds), "+v"(c.ten_thousands), "+v"(c.tenths_to_6), "+v"(c.tenths_to_14));
     __asm__("" : "+v"(c.cut), "+v"(c.middle), "+v"(c.doubt), "+v"(c.hundred_millions), "+v"(c.sign));
-    __asm__("" : "+v"(c.one), "+v"(c.one_32), "+v"(c.max));
+    __asm__("" : "+v"(c.one), "+v"(c.one_32), "+v"(c.index_limit));
     return c;
 }
 
 static inline uint64_t newlines_of(const struct constants *c, const uint8_t *block)
 {
-    return set_of(_mm512_cmpeq_epi8_mask(_mm512_loadu_epi8(block), c->newline));
+    return mask_bits(_mm512_cmpeq_epi8_mask(_mm512_loadu_epi8(block), c->newline));
 }
 
-// Three numbers of one to eight digits, one space between them, each from 1 to `max`. Whether that is the
-// line, which ends at `stop`.
-static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *stop, uint32_t to[3])
+// Reads three numbers of one to eight digits, separated by one space, each from 1 to the index limit. False: the line,
+// which ends at `line_end`, has another form.
+static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *line_end,
+                                 uint32_t to[3])
 {
     const uint8_t *at = line + 2;
-    unsigned length = (unsigned)(stop - at) - (stop[-1] == '\r');
+    unsigned length = (unsigned)(line_end - at) - (line_end[-1] == '\r');
     if (line[1] != ' ' || length > 31)
         return false;
     __m256i bytes = _mm256_loadu_epi8(at), values = _mm256_sub_epi8(bytes, _mm512_castsi512_si256(c->zero));
     uint32_t inside = _bzhi_u32(UINT32_MAX, length);
     uint32_t digits = _mm256_cmple_epu8_mask(values, _mm512_castsi512_si256(c->nine)) & inside;
     uint32_t spaces = _mm256_cmpeq_epi8_mask(bytes, _mm512_castsi512_si256(c->space)) & inside;
-    uint32_t second = (uint32_t)but_first(spaces);
-    if ((digits | spaces) != inside || !second || but_first(second))
+    uint32_t second = (uint32_t)without_lowest(spaces);
+    if ((digits | spaces) != inside || !second || without_lowest(second))
         return false;
-    uint32_t ends = pack(first_of(spaces), first_of(second), length), begins = (ends << 8) + 0x010100;
+    uint32_t ends = pack(lowest_bit(spaces), lowest_bit(second), length), begins = (ends << 8) + 0x010100;
     if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf8f8f8) // not 1 to 8 digits each
         return false;
     const __m256i lanes = _mm512_castsi512_si256(c->lanes_of_8);
     __m256i from =
         _mm256_add_epi8(_mm256_shuffle_epi8(_mm256_set1_epi32((int)ends), lanes), _mm512_castsi512_si256(c->back_8));
     __mmask32 is = _mm256_cmpge_epi8_mask(from, _mm256_shuffle_epi8(_mm256_set1_epi32((int)begins), lanes));
-    // Neighbours are joined: digits to pairs, pairs to fours, fours to numbers.
+    // Adjacent values are combined: digits to pairs, pairs to fours, fours to numbers.
     __m256i pairs =
         _mm256_maddubs_epi16(_mm256_maskz_permutexvar_epi8(is, from, values), _mm512_castsi512_si256(c->tens));
     __m256i fours = _mm256_madd_epi16(pairs, _mm512_castsi512_si256(c->hundreds));
     __m128i numbers = _mm_madd_epi16(_mm256_cvtepi32_epi16(fours), _mm512_castsi512_si128(c->ten_thousands));
     __m128i indices = _mm_sub_epi32(numbers, c->one_32);
-    if (_mm_mask_cmpge_epu32_mask(7, indices, c->max))
+    if (_mm_mask_cmpge_epu32_mask(7, indices, c->index_limit))
         return false;
     _mm_storel_epi64((__m128i *)(void *)to, indices);
     to[2] = (uint32_t)_mm_extract_epi32(indices, 2);
     return true;
 }
 
-// Three numbers like -12.3456, of 2 to 15 digits with some on both sides of the point, one space between them.
-static inline bool read_coordinates(const struct constants *c, const uint8_t *line, const uint8_t *stop, __m128 *out)
+// Reads three numbers like -12.3456, separated by one space: 2 to 15 digits, at least one on each side of the point.
+static inline bool read_coordinates(const struct constants *c, const uint8_t *line, const uint8_t *line_end,
+                                    __m128 *out)
 {
     const uint8_t *at = line + 2;
-    unsigned length = (unsigned)(stop - at) - (stop[-1] == '\r');
+    unsigned length = (unsigned)(line_end - at) - (line_end[-1] == '\r');
     if (line[1] != ' ' || length > 63)
         return false;
     __m512i bytes = _mm512_loadu_epi8(at), values = _mm512_sub_epi8(bytes, c->zero);
     uint64_t inside = _bzhi_u64(UINT64_MAX, length);
-    uint64_t digits = set_of(_mm512_cmple_epu8_mask(values, c->nine)) & inside;
-    uint64_t spaces = set_of(_mm512_cmpeq_epi8_mask(bytes, c->space)) & inside;
-    uint64_t points = set_of(_mm512_cmpeq_epi8_mask(bytes, c->point)) & inside;
-    uint64_t starts = spaces << 1 | 1, signs = set_of(_mm512_cmpeq_epi8_mask(bytes, c->minus)) & starts & inside;
-    // Nothing else; digits begin where a number does, and behind each sign and point, and nowhere else;
+    uint64_t digits = mask_bits(_mm512_cmple_epu8_mask(values, c->nine)) & inside;
+    uint64_t spaces = mask_bits(_mm512_cmpeq_epi8_mask(bytes, c->space)) & inside;
+    uint64_t points = mask_bits(_mm512_cmpeq_epi8_mask(bytes, c->point)) & inside;
+    uint64_t starts = spaces << 1 | 1, signs = mask_bits(_mm512_cmpeq_epi8_mask(bytes, c->minus)) & starts & inside;
+    // No other bytes; runs of digits begin only at a number's begin or after its sign or point; the separators are
     // point, space, point, space, point.
-    uint64_t between = spaces | points, strange = (digits | signs | between) ^ inside;
-    strange |= (digits & ~(digits << 1)) ^ ((starts & ~signs) | (signs | points) << 1);
-    if (strange | (_pext_u64(points, between) ^ 21) | (_pext_u64(spaces, between) ^ 10))
+    uint64_t between = spaces | points, invalid = (digits | signs | between) ^ inside;
+    invalid |= (digits & ~(digits << 1)) ^ ((starts & ~signs) | (signs | points) << 1);
+    if (invalid | (_pext_u64(points, between) ^ 21) | (_pext_u64(spaces, between) ^ 10))
         return false;
-    uint64_t points_2 = but_first(points), negative = _pext_u64(signs, starts);
-    uint32_t ends = pack(first_of(spaces), first_of(but_first(spaces)), length);
-    uint32_t middles = pack(first_of(points), first_of(points_2), first_of(but_first(points_2)));
+    uint64_t points_2 = without_lowest(points), negative = _pext_u64(signs, starts);
+    uint32_t ends = pack(lowest_bit(spaces), lowest_bit(without_lowest(spaces)), length);
+    uint32_t middles = pack(lowest_bit(points), lowest_bit(points_2), lowest_bit(without_lowest(points_2)));
     uint32_t begins = (ends << 8) + 0x010100 + (uint32_t)_pdep_u64(negative, 0x010101);
     if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf0f0f0) // more than 15 digits, and the point
         return false;
@@ -145,13 +147,13 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
     __m512i lanes = _mm512_maskz_permutexvar_epi8(_mm512_cmpge_epi8_mask(from, begin_at), from, values);
     __m512i fours = _mm512_madd_epi16(_mm512_maddubs_epi16(lanes, c->tens), c->hundreds);
     __m256i eights = _mm256_madd_epi16(_mm512_cvtepi32_epi16(fours), _mm512_castsi512_si256(c->ten_thousands));
-    // Of each two the first counts 10⁸.
+    // whole = first · 10⁸ + second of each pair
     __m256i whole = _mm256_add_epi64(_mm256_mul_epu32(eights, c->hundred_millions), _mm256_srli_epi64(eights, 32));
-    __m512i after = _mm512_cvtepu8_epi64(_mm_cvtsi32_si128((int)(ends - middles))); // digits there, and one
-    __m256d tenths = _mm512_castpd512_pd256(_mm512_permutex2var_pd(c->tenths_to_6, after, c->tenths_to_14));
-    __m256d product = _mm256_mul_pd(_mm256_cvtepi64_pd(whole), tenths); // as number_float_quick has it
+    __m512i decimals = _mm512_cvtepu8_epi64(_mm_cvtsi32_si128((int)(ends - middles))); // digits after the point, plus 1
+    __m256d tenths = _mm512_castpd512_pd256(_mm512_permutex2var_pd(c->tenths_to_6, decimals, c->tenths_to_14));
+    __m256d product = _mm256_mul_pd(_mm256_cvtepi64_pd(whole), tenths); // as in number_float_quick
     __m256i off = _mm256_sub_epi64(_mm256_and_si256(_mm256_castpd_si256(product), c->cut), c->middle);
-    if (_mm256_cmple_epu64_mask(off, c->doubt)) // number_rounds_surely; the fourth is 0, and sure
+    if (_mm256_cmple_epu64_mask(off, c->doubt)) // number_rounds_surely; the unused fourth lane is 0
         return false;
     __m128 result = _mm256_cvtpd_ps(product);
     *out = _mm_mask_xor_ps(result, (__mmask8)negative, result, c->sign);

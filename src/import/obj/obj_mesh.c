@@ -1,4 +1,4 @@
-// obj_mesh.c: from the arrays that were read to the scene's mesh, with warnings about the faces.
+// obj_mesh.c: builds the scene's mesh from the arrays that were read, and warns about faces.
 #include "obj.h"
 
 static void warn_faces(struct obj *obj)
@@ -9,24 +9,24 @@ static void warn_faces(struct obj *obj)
     for (size_t c = 0; c < obj->chunk_count; c++) {
         const struct obj_chunk *chunk = &obj->chunks[c];
         faces += chunk->short_faces;
-        numbers += chunk->odd_numbers;
-        face = face ? face : chunk->short_faces ? chunk->short_face : NULL;
-        number = number ? number : chunk->odd_numbers ? chunk->odd_number : NULL;
+        numbers += chunk->nonfinite_numbers;
+        face = face ? face : chunk->short_faces ? chunk->first_short_face : NULL;
+        number = number ? number : chunk->nonfinite_numbers ? chunk->first_nonfinite : NULL;
         texcoords |= chunk->texcoord_unknown;
         normals |= chunk->normal_unknown;
     }
     const char *name = obj->source->name;
     if (faces)
-        scene_warn(obj->scene, "%s:%zu: faces of one or two corners are left out: this is the first of %llu", name,
-                   obj_line(obj, face), (unsigned long long)faces);
+        scene_warn(obj->scene, "%s:%zu: a face of fewer than three corners is ignored, the first of %llu", name,
+                   obj_line_number(obj, face), (unsigned long long)faces);
     if (numbers)
         scene_warn(obj->scene,
-                   "%s:%zu: normals or texture coordinates that are not finite are taken as 0: the first of %llu", name,
-                   obj_line(obj, number), (unsigned long long)numbers);
+                   "%s:%zu: a normal or texture coordinate that is not finite is set to 0, the first of %llu", name,
+                   obj_line_number(obj, number), (unsigned long long)numbers);
     if (texcoords)
         scene_warn(obj->scene, "%s: faces name texture coordinates, but the file has none", name);
     if (normals)
-        scene_warn(obj->scene, "%s: faces name normals, but the file has none; smooth ones are made", name);
+        scene_warn(obj->scene, "%s: faces name normals, but the file has none; smooth normals are used", name);
 }
 
 static bool add_mesh(struct obj *obj, lam_error *error)
@@ -61,8 +61,8 @@ static bool add_mesh(struct obj *obj, lam_error *error)
 bool obj_complete(struct obj *obj, lam_error *error)
 {
     call_progress(obj->source->call, 0.7, "read");
-    if (!obj_cut_polygons(obj, error) || !obj_read_statements(obj, error) || !obj_complete_texcoords(obj, error) ||
-        !obj_complete_normals(obj, error))
+    if (!obj_triangulate_polygons(obj, error) || !obj_read_statements(obj, error) ||
+        !obj_complete_texcoords(obj, error) || !obj_complete_normals(obj, error))
         return false;
     warn_faces(obj);
     return add_mesh(obj, error);

@@ -1,4 +1,4 @@
-// obj_parse.c: pass two over an OBJ file: numbers and face corners, straight into their places.
+// obj_parse.c: pass two over an OBJ file: reads vertices and faces into their arrays.
 #include "obj.h"
 
 #include "cpu_features.h"
@@ -24,29 +24,29 @@ bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error)
         .obj = obj,
         .chunk = chunk,
         .end = obj->end,
-        .at = chunk->before,
+        .next = chunk->before,
         .low = {__FLT_MAX__, __FLT_MAX__, __FLT_MAX__},
         .high = {-__FLT_MAX__, -__FLT_MAX__, -__FLT_MAX__},
         .error = error,
     };
     obj_lines_reader *read_lines = lines_reader();
-    chunk->short_faces = chunk->odd_numbers = 0;
+    chunk->short_faces = chunk->nonfinite_numbers = 0;
     chunk->brightest = 0;
     reader.limit = (struct obj_counts){
-        .positions = chunk->before.positions + chunk->holds.positions,
-        .texcoords = chunk->before.texcoords + chunk->holds.texcoords,
-        .normals = chunk->before.normals + chunk->holds.normals,
-        .triangles = chunk->before.triangles + chunk->holds.triangles,
-        .polygons = chunk->before.polygons + chunk->holds.polygons,
-        .others = chunk->before.others + chunk->holds.others,
+        .positions = chunk->before.positions + chunk->counts.positions,
+        .texcoords = chunk->before.texcoords + chunk->counts.texcoords,
+        .normals = chunk->before.normals + chunk->counts.normals,
+        .triangles = chunk->before.triangles + chunk->counts.triangles,
+        .polygons = chunk->before.polygons + chunk->counts.polygons,
+        .others = chunk->before.others + chunk->counts.others,
     };
     const uint8_t *at = chunk->begin;
     while (at && at < chunk->end)
         at = read_lines(&reader, at, chunk->end);
     memcpy(chunk->low, reader.low, sizeof chunk->low);
     memcpy(chunk->high, reader.high, sizeof chunk->high);
-    if (obj->in_pieces)
-        chunk->holds = reader.at; // before it stood nothing
+    if (obj->streamed)
+        chunk->counts = reader.next; // `before` is 0
     return at != NULL;
 }
 
@@ -63,12 +63,12 @@ bool obj_parse(struct obj *obj, lam_error *error)
 
 // --- positions far from zero: read again, as doubles
 
-// Calls for each position of the chunk, in order. The text is known to be right.
+// Calls `visit` for each position of the chunk, in order. The text has been parsed without error before.
 static void each_position(struct obj *obj, struct obj_chunk *chunk,
-                          void (*take)(struct obj *, struct obj_chunk *, uint64_t, const double[3]))
+                          void (*visit)(struct obj *, struct obj_chunk *, uint64_t, const double[3]))
 {
     const uint8_t *at = chunk->begin, *end = obj->end;
-    uint64_t index = chunk->before.positions, limit = index + chunk->holds.positions;
+    uint64_t index = chunk->before.positions, limit = index + chunk->counts.positions;
     while (at < chunk->end && index < limit) {
         while (obj_white(*at))
             at++;
@@ -77,27 +77,27 @@ static void each_position(struct obj *obj, struct obj_chunk *chunk,
             double p[3] = {0, 0, 0};
             const uint8_t *number = at + 1;
             for (int i = 0; i < 3 && number; i++) {
-                number = obj_next(number, end);
+                number = obj_next_word(number, end);
                 number = number_double(number, end, &p[i]);
             }
-            take(obj, chunk, index++, p);
-            at = obj_finish_line(at, end);
+            visit(obj, chunk, index++, p);
+            at = obj_skip_line(at, end);
             break;
         }
         case OBJ_OTHER:
-            at = obj_line_after(at, end);
+            at = obj_next_line(at, end);
             break;
         case OBJ_EMPTY:
             at = memchr(at, '\n', (size_t)(end - at));
             at = at ? at + 1 : end;
             break;
         default:
-            at = obj_finish_line(at, end);
+            at = obj_skip_line(at, end);
         }
     }
 }
 
-static void take_box(struct obj *obj, struct obj_chunk *chunk, uint64_t index, const double p[3])
+static void extend_box(struct obj *obj, struct obj_chunk *chunk, uint64_t index, const double p[3])
 {
     (void)obj;
     for (int i = 0; i < 3; i++) {
@@ -108,7 +108,7 @@ static void take_box(struct obj *obj, struct obj_chunk *chunk, uint64_t index, c
     }
 }
 
-static void take_relative(struct obj *obj, struct obj_chunk *chunk, uint64_t index, const double p[3])
+static void store_relative(struct obj *obj, struct obj_chunk *chunk, uint64_t index, const double p[3])
 {
     (void)chunk;
     for (int i = 0; i < 3; i++)
@@ -119,15 +119,15 @@ static bool box_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     struct obj *obj = user;
-    each_position(obj, &obj->chunks[index], take_box);
+    each_position(obj, &obj->chunks[index], extend_box);
     return true;
 }
 
-static bool move_chunk(void *user, size_t index, lam_error *error)
+static bool recenter_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     struct obj *obj = user;
-    each_position(obj, &obj->chunks[index], take_relative);
+    each_position(obj, &obj->chunks[index], store_relative);
     return true;
 }
 
@@ -138,7 +138,7 @@ bool obj_find_origin(struct obj *obj, lam_error *error)
         bool any = false;
         for (size_t c = 0; c < obj->chunk_count; c++) {
             const struct obj_chunk *chunk = &obj->chunks[c];
-            if (chunk->holds.positions == 0)
+            if (chunk->counts.positions == 0)
                 continue;
             for (int i = 0; i < 3; i++) {
                 double l = pass ? chunk->low_exact[i] : (double)chunk->low[i];
@@ -153,7 +153,7 @@ bool obj_find_origin(struct obj *obj, lam_error *error)
         if (pass == 0 && !parallel_rows_run(obj->source, obj->chunk_count, box_chunk, obj, error))
             return false;
     }
-    return parallel_rows_run(obj->source, obj->chunk_count, move_chunk, obj, error);
+    return parallel_rows_run(obj->source, obj->chunk_count, recenter_chunk, obj, error);
 }
 
 // --- colours
@@ -185,7 +185,7 @@ bool obj_convert_colors(struct obj *obj, lam_error *error)
         brightest = obj->chunks[c].brightest > brightest ? obj->chunks[c].brightest : brightest;
     obj->color_scale = brightest > 1 ? 1.0f / 255.0f : 1.0f;
     if (brightest > 1)
-        scene_warn(obj->scene, "%s: vertex colours go up to %g: they are taken as 0 to 255, not 0 to 1",
-                   obj->source->name, (double)brightest);
+        scene_warn(obj->scene, "%s: vertex colours reach %g; they are read as 0 to 255, not 0 to 1", obj->source->name,
+                   (double)brightest);
     return parallel_rows_run(obj->source, parallel_rows_count(obj->total.positions), convert_piece, obj, error);
 }

@@ -1,4 +1,4 @@
-// obj_scan.c: pass one over an OBJ file: cuts it into chunks and counts what each holds, 64 bytes at a time.
+// obj_scan.c: pass one over an OBJ file: splits it into chunks and counts their elements, 64 bytes at a time.
 #include "obj.h"
 
 #include "byte_masks.h"
@@ -20,7 +20,7 @@ static bool continued(const uint8_t *begin, const uint8_t *newline)
     return newline > begin && newline[-1] == '\\';
 }
 
-const uint8_t *obj_line_after(const uint8_t *at, const uint8_t *end)
+const uint8_t *obj_next_line(const uint8_t *at, const uint8_t *end)
 {
     for (;;) {
         const uint8_t *newline = newline_or(at, end);
@@ -32,22 +32,22 @@ const uint8_t *obj_line_after(const uint8_t *at, const uint8_t *end)
     }
 }
 
-const uint8_t *obj_next_slowly(const uint8_t *at, const uint8_t *end)
+const uint8_t *obj_next_word_slow(const uint8_t *at, const uint8_t *end)
 {
     for (;;) {
         while (at < end && obj_white(*at))
             at++;
         if (at >= end)
             return end;
-        if (*at == '#') // a comment runs to the end of its line; it is not continued
+        if (*at == '#') // a comment ends with its line and has no continuation
             return newline_or(at, end);
-        if (*at != '\\' || !obj_word_over(at))
+        if (*at != '\\' || !obj_at_word_end(at))
             return at;
-        at = newline_or(at, end) + 1; // obj_word_over has seen the newline
+        at = newline_or(at, end) + 1; // obj_at_word_end found the newline
     }
 }
 
-bool obj_cut(struct obj *obj, size_t chunk_bytes, lam_error *error)
+bool obj_split(struct obj *obj, size_t chunk_bytes, lam_error *error)
 {
     size_t size = (size_t)(obj->end - obj->begin);
     obj->chunk_count = size / chunk_bytes + 1;
@@ -60,25 +60,25 @@ bool obj_cut(struct obj *obj, size_t chunk_bytes, lam_error *error)
         size_t nominal = (i + 1) * chunk_bytes;
         if (nominal >= size)
             at = obj->end;
-        else if (obj->begin + nominal > at) // else a line so long that this chunk stays empty
-            at = obj_line_after(obj->begin + nominal, obj->end);
-        // obj_line_behind may have begun behind the backslash of a continued line.
+        else if (obj->begin + nominal > at) // else a long line leaves this chunk empty
+            at = obj_next_line(obj->begin + nominal, obj->end);
+        // obj_next_line may have begun after the backslash of a line continuation.
         while (at < obj->end && continued(obj->begin, at - 1))
-            at = obj_line_after(at, obj->end);
+            at = obj_next_line(at, obj->end);
         obj->chunks[i].end = at;
     }
     return true;
 }
 
-static void count_face(struct obj_counts *holds, uint64_t corners)
+static void count_face(struct obj_counts *counts, uint64_t corners)
 {
     if (corners < 3)
         return;
-    holds->triangles += corners - 2;
-    holds->polygons += corners > 3;
+    counts->triangles += corners - 2;
+    counts->polygons += corners > 3;
 }
 
-// One statement with a comment, a continued line, or without an end. Returns the place behind it.
+// Counts a statement with a comment or a continuation, or the last one. Returns the begin of the next line.
 static const uint8_t *count_slowly(struct obj_chunk *chunk, const uint8_t *at, const uint8_t *end)
 {
     while (at < end && obj_white(*at))
@@ -87,30 +87,30 @@ static const uint8_t *count_slowly(struct obj_chunk *chunk, const uint8_t *at, c
         return end;
     enum obj_kind kind = obj_kind_of(at);
     if (kind == OBJ_OTHER) {
-        chunk->holds.others++;
-        return obj_line_after(at, end);
+        chunk->counts.others++;
+        return obj_next_line(at, end);
     }
     if (kind == OBJ_EMPTY) {
         const uint8_t *newline = newline_or(at, end);
         return newline < end ? newline + 1 : end;
     }
     uint64_t words = 0;
-    while (!obj_over(at, end)) {
+    while (!obj_at_line_end(at, end)) {
         words++;
-        while (at < end && !obj_word_over(at))
+        while (at < end && !obj_at_word_end(at))
             at++;
-        const uint8_t *next = obj_next(at, end);
-        if (next == at && !obj_over(at, end))
-            at++; // a zero byte: no word; the next pass refuses it
+        const uint8_t *next = obj_next_word(at, end);
+        if (next == at && !obj_at_line_end(at, end))
+            at++; // a zero byte is no word; pass two reports it
         else
             at = next;
     }
-    struct obj_counts *holds = &chunk->holds;
-    holds->positions += kind == OBJ_POSITION;
-    holds->texcoords += kind == OBJ_TEXCOORD;
-    holds->normals += kind == OBJ_NORMAL;
+    struct obj_counts *counts = &chunk->counts;
+    counts->positions += kind == OBJ_POSITION;
+    counts->texcoords += kind == OBJ_TEXCOORD;
+    counts->normals += kind == OBJ_NORMAL;
     if (kind == OBJ_FACE)
-        count_face(holds, words - 1);
+        count_face(counts, words - 1);
     chunk->colors |= kind == OBJ_POSITION && words >= 7;
     return at < end ? at + 1 : end;
 }
@@ -121,17 +121,17 @@ static bool scan_chunk(void *user, size_t index, lam_error *error)
     struct obj *obj = user;
     struct obj_chunk *chunk = &obj->chunks[index];
     const uint8_t *line = chunk->begin, *end = chunk->end;
-    // Counted here, not in memory that the compiler must write each time.
-    struct obj_counts holds = {0};
-    chunk->holds = holds;
+    // A local copy, which the compiler keeps in registers.
+    struct obj_counts counts = {0};
+    chunk->counts = counts;
     bool colors = false;
     uint64_t slashes = 0;
     while (line < end) {
-        // Begins at a line's begin: the byte before counts as white.
+        // At a line's begin: the byte before counts as white space.
         const uint8_t *block = line;
         uint64_t white_before = 1, special_before = 0;
-        uint64_t words = 0, words_at_line = 0; // that began before the block; before the line
-        bool leave = false;                    // this run of blocks, for the next line or the chunk's end
+        uint64_t words = 0, words_at_line = 0; // words that begin before the block; before the line
+        bool leave = false;                    // this run of blocks, at a slow line or the chunk's end
         for (;; block += 64) {
             struct byte_masks masks = byte_masks_of(block);
             uint64_t begins = ~masks.white & (masks.white << 1 | white_before);
@@ -149,22 +149,22 @@ static bool scan_chunk(void *user, size_t index, lam_error *error)
                     line++;
                 switch (obj_kind_of(line)) {
                 case OBJ_POSITION:
-                    holds.positions++;
+                    counts.positions++;
                     colors |= words_here - words_at_line >= 7;
                     break;
                 case OBJ_TEXCOORD:
-                    holds.texcoords++;
+                    counts.texcoords++;
                     break;
                 case OBJ_NORMAL:
-                    holds.normals++;
+                    counts.normals++;
                     break;
                 case OBJ_FACE:
-                    count_face(&holds, words_here - words_at_line - 1);
+                    count_face(&counts, words_here - words_at_line - 1);
                     break;
                 case OBJ_EMPTY:
                     break;
                 case OBJ_OTHER:
-                    holds.others++;
+                    counts.others++;
                     break;
                 }
                 words_at_line = words_here;
@@ -179,18 +179,18 @@ static bool scan_chunk(void *user, size_t index, lam_error *error)
                 break;
             special_before |= masks.special;
             words += byte_masks_count(begins);
-            if (block + 64 >= end) { // the file's last line, without an end
+            if (block + 64 >= end) { // the file's last line, without a line end
                 line = count_slowly(chunk, line, end);
                 break;
             }
         }
     }
-    chunk->holds.positions += holds.positions;
-    chunk->holds.texcoords += holds.texcoords;
-    chunk->holds.normals += holds.normals;
-    chunk->holds.triangles += holds.triangles;
-    chunk->holds.polygons += holds.polygons;
-    chunk->holds.others += holds.others;
+    chunk->counts.positions += counts.positions;
+    chunk->counts.texcoords += counts.texcoords;
+    chunk->counts.normals += counts.normals;
+    chunk->counts.triangles += counts.triangles;
+    chunk->counts.polygons += counts.polygons;
+    chunk->counts.others += counts.others;
     chunk->colors |= colors;
     chunk->slashes = slashes != 0;
     return true;
@@ -205,26 +205,26 @@ bool obj_scan(struct obj *obj, lam_error *error)
     for (size_t i = 0; i < obj->chunk_count; i++) {
         struct obj_chunk *chunk = &obj->chunks[i];
         chunk->before = sum;
-        sum.positions += chunk->holds.positions;
-        sum.texcoords += chunk->holds.texcoords;
-        sum.normals += chunk->holds.normals;
-        sum.triangles += chunk->holds.triangles;
-        sum.polygons += chunk->holds.polygons;
-        sum.others += chunk->holds.others;
+        sum.positions += chunk->counts.positions;
+        sum.texcoords += chunk->counts.texcoords;
+        sum.normals += chunk->counts.normals;
+        sum.triangles += chunk->counts.triangles;
+        sum.polygons += chunk->counts.polygons;
+        sum.others += chunk->counts.others;
         obj->colors_present |= chunk->colors;
         slashes |= chunk->slashes;
     }
     obj->total = sum;
-    if (!slashes) // no face names any
+    if (!slashes) // no face names a texture coordinate or a normal
         obj->total.texcoords = obj->total.normals = 0;
     const char *name = obj->source->name;
-    uint64_t max = sum.positions > sum.texcoords ? sum.positions : sum.texcoords;
-    max = max > sum.normals ? max : sum.normals;
-    if (max >= UINT32_MAX)
-        return fail(error, LAM_LIMIT, "%s: holds %llu vertices of a kind; at most 4294967294 can be held", name,
-                    (unsigned long long)max);
+    uint64_t largest = sum.positions > sum.texcoords ? sum.positions : sum.texcoords;
+    largest = largest > sum.normals ? largest : sum.normals;
+    if (largest >= UINT32_MAX)
+        return fail(error, LAM_LIMIT, "%s: %llu positions, normals or texture coordinates, expected at most 4294967294",
+                    name, (unsigned long long)largest);
     if (sum.triangles > UINT32_MAX / 3)
-        return fail(error, LAM_LIMIT, "%s: holds %llu triangles; at most %u can be held", name,
+        return fail(error, LAM_LIMIT, "%s: %llu triangles, expected at most %u", name,
                     (unsigned long long)sum.triangles, UINT32_MAX / 3);
     return true;
 }

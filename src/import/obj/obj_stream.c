@@ -1,11 +1,11 @@
 // obj_stream.c: large OBJ files, read piece by piece.
 //
-// A thread reads a piece of the text into a room of its own and makes numbers of it there, all within the
-// second-level cache; when the pieces before it are counted, it knows their places and copies them there. So
-// the text is looked at once, and the file is never held as a whole. The arrays get as much address space as
-// a file of this size could fill; what was not touched goes back.
-// Files that say one thing in several ways (colours, corners with and without normals, counting back, lines
-// longer than TAIL), and whatever is wrong or is to be warned of with its line, are left to obj.c.
+// Each thread reads a piece of the text and parses it into scratch arrays, all within the second-level cache. Once the
+// pieces before it are counted, its elements' indices are known, and it copies them to the final arrays. So the text is
+// read once, and the file is never in memory as a whole. The final arrays reserve the address space that a file of this
+// size could fill; pages that were not touched are released.
+// obj.c reads all other files: those with vertex colours, a mix of corners with and without normals, relative indices,
+// or lines longer than TAIL, and all files with errors or with warnings that name a line.
 #include "loop_status.h"
 #include "obj.h"
 #include "origin.h"
@@ -15,60 +15,60 @@
 #include <string.h>
 
 enum {
-    PIECE = 256 << 10,
-    TAIL = 16 << 10,       // bytes that are read behind a piece, for its last line
-    STATEMENTS = 4096,     // at most in a piece
-    MOST = UINT32_MAX - 1, // of a kind, while it is not known how many there are
+    PIECE = 256 << 10,          // bytes
+    TAIL = 16 << 10,            // bytes read after a piece, for its last line
+    STATEMENTS = 4096,          // per piece, at most
+    COUNT_MAX = UINT32_MAX - 1, // elements of a kind, at most
 };
 
 enum array { POSITIONS, TEXCOORDS, NORMALS, CORNERS, CORNER_TEXCOORDS, CORNER_NORMALS, POLYGONS, ARRAYS };
 static const struct {
-    size_t line; // bytes of the shortest line that makes a row
-    size_t row;  // bytes
-} kinds[ARRAYS] = {
+    size_t line; // bytes of the shortest line of this kind
+    size_t row;  // bytes per element in the array
+} array_kinds[ARRAYS] = {
     [POSITIONS] = {8, 12}, // "v 0 0 0"
     [TEXCOORDS] = {5, 8},  // "vt 0"
     [NORMALS] = {9, 12},   // "vn 0 0 0"
-    [CORNERS] = {8, 12},   // "f 1 1 1"; polygons make more, but not of usual lines
+    [CORNERS] = {8, 12},   // "f 1 1 1"; a larger polygon with such short indices fails the capacity check
     [CORNER_TEXCOORDS] = {8, 12}, [CORNER_NORMALS] = {8, 12}, [POLYGONS] = {10, sizeof(struct obj_polygon)},
 };
 
-// What a thread has.
-struct scratch {
-    struct obj obj; // its arrays lie here
+// A thread's scratch memory.
+struct piece_scratch {
+    struct obj obj; // parses into these arrays
     uint8_t *text;
     void *arrays[ARRAYS];
     struct obj_statement statements[STATEMENTS];
-    bool texcoords, normals; // the faces name them
-    uint32_t highest[3];     // position, texture coordinate, normal named by a face
+    bool texcoords, normals; // faces name them
+    uint32_t index_max[3];   // largest index of a face: position, texture coordinate, normal
 };
 
-struct large_statement {
+struct stream_statement {
     size_t offset; // in the texts
     uint32_t triangle;
 };
 
-struct large {
+struct stream {
     struct obj *obj;
     const struct file_parts *file;
     struct loop_status loop;
-    int wrong; // touched atomically
-    struct scratch *scratches;
+    int unsupported; // atomic; the file must be left to obj.c
+    struct piece_scratch *scratch;
     uint8_t *arrays[ARRAYS];
-    size_t held[ARRAYS];
-    size_t turn; // the piece that is counted next; touched atomically. What follows belongs to its thread.
+    size_t reserved[ARRAYS];
+    size_t next_piece; // atomic; the piece to be counted next. Only its thread accesses the members below.
     struct obj_counts total;
     size_t charged;
-    int layout; // of the faces; 0: none so far
+    int layout; // 1 + texture coordinates + 2 · normals in the faces; 0: no face so far
     float low[3], high[3];
-    struct large_statement *statements;
-    uint8_t *texts; // of the statements, one after another
+    struct stream_statement *statements;
+    uint8_t *texts; // of the statements, concatenated
     size_t statements_capacity, texts_used, texts_capacity;
 };
 
-static bool still_right(struct large *large)
+static bool stream_continues(struct stream *stream)
 {
-    return !__atomic_load_n(&large->wrong, __ATOMIC_RELAXED) && should_continue(&large->loop);
+    return !__atomic_load_n(&stream->unsupported, __ATOMIC_RELAXED) && should_continue(&stream->loop);
 }
 
 static uint64_t count_of(const struct obj_counts *counts, enum array kind)
@@ -80,17 +80,17 @@ static uint64_t count_of(const struct obj_counts *counts, enum array kind)
                                : counts->triangles;
 }
 
-static size_t max_of(enum array kind, size_t bytes) { return bytes / kinds[kind].line + 1; }
+static size_t rows_max(enum array kind, size_t bytes) { return bytes / array_kinds[kind].line + 1; }
 
 // --- one piece
 
-// The whole lines that begin in the piece.
-static bool read_text(const struct large *large, struct scratch *scratch, size_t index, struct obj_chunk *piece)
+// Reads the whole lines that begin in the piece.
+static bool read_text(const struct stream *stream, struct piece_scratch *scratch, size_t index, struct obj_chunk *piece)
 {
-    size_t size = large->file->size, nominal = index * PIECE, from = index ? nominal - 1 : 0;
+    size_t size = stream->file->size, nominal = index * PIECE, from = index ? nominal - 1 : 0;
     size_t to = size - nominal < PIECE + TAIL ? size : nominal + PIECE + TAIL;
     uint8_t *text = scratch->text, *end = text + (to - from);
-    if (!file_read_part(large->file, from, text, to - from))
+    if (!file_read_part(stream->file, from, text, to - from))
         return false;
     memset(end, 0, FILE_PADDING);
     const uint8_t *first = text, *last = end;
@@ -109,14 +109,14 @@ static bool read_text(const struct large *large, struct scratch *scratch, size_t
     }
     if (first > last)
         return false;
-    // A line that goes on in the next piece?
+    // The last line may continue in the next piece.
     if (last - first >= 3 && (last[-2] == '\\' || last[-3] == '\\'))
         return false;
     *piece = (struct obj_chunk){.begin = first, .end = last};
     return true;
 }
 
-static bool parse(struct scratch *scratch, struct obj_chunk *piece)
+static bool parse(struct piece_scratch *scratch, struct obj_chunk *piece)
 {
     struct obj *obj = &scratch->obj;
     const struct obj_chunk unread = *piece;
@@ -124,12 +124,12 @@ static bool parse(struct scratch *scratch, struct obj_chunk *piece)
     obj->end = piece->end;
     for (;;) {
         *piece = unread;
-        piece->holds = (struct obj_counts){
-            .positions = max_of(POSITIONS, PIECE),
-            .texcoords = max_of(TEXCOORDS, PIECE),
-            .normals = max_of(NORMALS, PIECE),
-            .triangles = max_of(CORNERS, PIECE),
-            .polygons = max_of(POLYGONS, PIECE),
+        piece->counts = (struct obj_counts){
+            .positions = rows_max(POSITIONS, PIECE),
+            .texcoords = rows_max(TEXCOORDS, PIECE),
+            .normals = rows_max(NORMALS, PIECE),
+            .triangles = rows_max(CORNERS, PIECE),
+            .polygons = rows_max(POLYGONS, PIECE),
             .others = STATEMENTS,
         };
         obj->texcoord_indices = scratch->texcoords ? scratch->arrays[CORNER_TEXCOORDS] : NULL;
@@ -138,18 +138,18 @@ static bool parse(struct scratch *scratch, struct obj_chunk *piece)
             return false;
         if (!piece->texcoord_unknown && !piece->normal_unknown)
             break;
-        scratch->texcoords |= piece->texcoord_unknown; // the first faces that this thread sees
+        scratch->texcoords |= piece->texcoord_unknown; // the thread's first faces name them: parse again
         scratch->normals |= piece->normal_unknown;
     }
-    return !piece->colors && !piece->short_faces && !piece->odd_numbers &&
+    return !piece->colors && !piece->short_faces && !piece->nonfinite_numbers &&
            !(scratch->texcoords && piece->texcoord_missing) && !(scratch->normals && piece->normal_missing);
 }
 
-// --- its place
+// --- copying a piece to the final arrays
 
-static bool grow(struct arena *arena, void *array, size_t *scratch, size_t used, size_t more, size_t item)
+static bool grow(struct arena *arena, void *array, size_t *capacity, size_t used, size_t more, size_t item)
 {
-    if (used + more <= *scratch)
+    if (used + more <= *capacity)
         return true;
     size_t wanted = 2 * (used + more) + 1024;
     void *old, *larger = arena_array(arena, wanted, item);
@@ -159,142 +159,144 @@ static bool grow(struct arena *arena, void *array, size_t *scratch, size_t used,
     if (used)
         memcpy(larger, old, used * item);
     memcpy(array, &larger, sizeof larger);
-    *scratch = wanted;
+    *capacity = wanted;
     return true;
 }
 
-static bool keep_statements(struct large *large, const struct scratch *scratch, uint64_t count, uint32_t triangle)
+static bool append_statements(struct stream *stream, const struct piece_scratch *scratch, uint64_t count,
+                              uint32_t triangle)
 {
-    struct arena *memory = &large->obj->memory;
-    size_t kept = (size_t)large->total.others;
-    if (!grow(memory, &large->statements, &large->statements_capacity, kept, (size_t)count, sizeof *large->statements))
+    struct arena *memory = &stream->obj->memory;
+    size_t kept = (size_t)stream->total.others;
+    if (!grow(memory, &stream->statements, &stream->statements_capacity, kept, (size_t)count,
+              sizeof *stream->statements))
         return false;
     for (uint64_t i = 0; i < count; i++) {
         const uint8_t *at = scratch->statements[i].at;
-        size_t length = (size_t)(obj_line_after(at, scratch->obj.end) - at);
-        if (!grow(memory, &large->texts, &large->texts_capacity, large->texts_used, length + 1 + FILE_PADDING, 1))
+        size_t length = (size_t)(obj_next_line(at, scratch->obj.end) - at);
+        if (!grow(memory, &stream->texts, &stream->texts_capacity, stream->texts_used, length + 1 + FILE_PADDING, 1))
             return false;
-        large->statements[kept + i] =
-            (struct large_statement){large->texts_used, triangle + scratch->statements[i].triangle};
-        memcpy(large->texts + large->texts_used, at, length);
-        large->texts_used += length;
+        stream->statements[kept + i] =
+            (struct stream_statement){stream->texts_used, triangle + scratch->statements[i].triangle};
+        memcpy(stream->texts + stream->texts_used, at, length);
+        stream->texts_used += length;
     }
     return true;
 }
 
-// Counts the piece, in the pieces' order. `before` gets what stands above it.
-static bool count_piece(struct large *large, struct scratch *scratch, size_t index, const struct obj_chunk *piece,
-                        struct obj_counts *before)
+// Adds the piece to the totals, in the order of the pieces. *before: the totals before it.
+static bool count_piece(struct stream *stream, struct piece_scratch *scratch, size_t index,
+                        const struct obj_chunk *piece, struct obj_counts *before)
 {
-    while (__atomic_load_n(&large->turn, __ATOMIC_ACQUIRE) != index) {
-        if (!still_right(large))
+    while (__atomic_load_n(&stream->next_piece, __ATOMIC_ACQUIRE) != index) {
+        if (!stream_continues(stream))
             return false;
         sched_yield();
     }
-    const struct obj_counts *holds = &piece->holds;
-    struct obj_counts *total = &large->total;
+    const struct obj_counts *counts = &piece->counts;
+    struct obj_counts *total = &stream->total;
     *before = *total;
     int layout = 1 + scratch->texcoords + 2 * scratch->normals;
-    if (holds->triangles) {
-        if (large->layout && large->layout != layout)
+    if (counts->triangles) {
+        if (stream->layout && stream->layout != layout)
             return false;
-        large->layout = layout;
+        stream->layout = layout;
     }
-    if (holds->others && !keep_statements(large, scratch, holds->others, (uint32_t)total->triangles))
+    if (counts->others && !append_statements(stream, scratch, counts->others, (uint32_t)total->triangles))
         return false;
-    total->positions += holds->positions;
-    total->texcoords += holds->texcoords;
-    total->normals += holds->normals;
-    total->triangles += holds->triangles;
-    total->polygons += holds->polygons;
-    total->others += holds->others;
+    total->positions += counts->positions;
+    total->texcoords += counts->texcoords;
+    total->normals += counts->normals;
+    total->triangles += counts->triangles;
+    total->polygons += counts->polygons;
+    total->others += counts->others;
     size_t bytes = 0;
     for (enum array kind = 0; kind < ARRAYS; kind++) {
-        if (count_of(total, kind) > max_of(kind, large->file->size))
+        if (count_of(total, kind) > rows_max(kind, stream->file->size))
             return false;
-        bytes += (size_t)count_of(holds, kind) * kinds[kind].row;
+        bytes += (size_t)count_of(counts, kind) * array_kinds[kind].row;
     }
-    if (!call_charge(large->loop.call, bytes))
+    if (!call_charge(stream->loop.call, bytes))
         return false;
-    large->charged += bytes;
+    stream->charged += bytes;
     for (int i = 0; i < 3; i++) {
-        large->low[i] = piece->low[i] < large->low[i] ? piece->low[i] : large->low[i];
-        large->high[i] = piece->high[i] > large->high[i] ? piece->high[i] : large->high[i];
+        stream->low[i] = piece->low[i] < stream->low[i] ? piece->low[i] : stream->low[i];
+        stream->high[i] = piece->high[i] > stream->high[i] ? piece->high[i] : stream->high[i];
     }
-    __atomic_store_n(&large->turn, index + 1, __ATOMIC_RELEASE);
+    __atomic_store_n(&stream->next_piece, index + 1, __ATOMIC_RELEASE);
     return true;
 }
 
-static void copy_corners(const struct large *large, struct scratch *scratch, enum array kind, uint64_t first,
+static void copy_corners(const struct stream *stream, struct piece_scratch *scratch, enum array kind, uint64_t first,
                          uint64_t triangles)
 {
     const uint32_t *from = scratch->arrays[kind];
-    uint32_t *to = (uint32_t *)(void *)large->arrays[kind] + 3 * first;
-    uint32_t highest = scratch->highest[kind - CORNERS];
+    uint32_t *to = (uint32_t *)(void *)stream->arrays[kind] + 3 * first;
+    uint32_t index_max = scratch->index_max[kind - CORNERS];
     for (size_t i = 0; i < 3 * triangles; i++) {
-        highest = from[i] > highest ? from[i] : highest;
+        index_max = from[i] > index_max ? from[i] : index_max;
         to[i] = from[i];
     }
-    scratch->highest[kind - CORNERS] = highest;
+    scratch->index_max[kind - CORNERS] = index_max;
 }
 
-static void copy_piece(const struct large *large, struct scratch *scratch, const struct obj_counts *holds,
+static void copy_piece(const struct stream *stream, struct piece_scratch *scratch, const struct obj_counts *counts,
                        const struct obj_counts *before)
 {
     for (enum array kind = POSITIONS; kind <= NORMALS; kind++)
-        memcpy(large->arrays[kind] + count_of(before, kind) * kinds[kind].row, scratch->arrays[kind],
-               (size_t)count_of(holds, kind) * kinds[kind].row);
-    copy_corners(large, scratch, CORNERS, before->triangles, holds->triangles);
+        memcpy(stream->arrays[kind] + count_of(before, kind) * array_kinds[kind].row, scratch->arrays[kind],
+               (size_t)count_of(counts, kind) * array_kinds[kind].row);
+    copy_corners(stream, scratch, CORNERS, before->triangles, counts->triangles);
     if (scratch->texcoords)
-        copy_corners(large, scratch, CORNER_TEXCOORDS, before->triangles, holds->triangles);
+        copy_corners(stream, scratch, CORNER_TEXCOORDS, before->triangles, counts->triangles);
     if (scratch->normals)
-        copy_corners(large, scratch, CORNER_NORMALS, before->triangles, holds->triangles);
+        copy_corners(stream, scratch, CORNER_NORMALS, before->triangles, counts->triangles);
     const struct obj_polygon *from = scratch->arrays[POLYGONS];
-    struct obj_polygon *to = (struct obj_polygon *)(void *)large->arrays[POLYGONS] + before->polygons;
-    for (size_t i = 0; i < holds->polygons; i++)
+    struct obj_polygon *to = (struct obj_polygon *)(void *)stream->arrays[POLYGONS] + before->polygons;
+    for (size_t i = 0; i < counts->polygons; i++)
         to[i] = (struct obj_polygon){(uint32_t)before->triangles + from[i].first_triangle, from[i].count};
 }
 
-static void take_piece(void *user, size_t index, int thread)
+static void load_piece(void *user, size_t index, int thread)
 {
-    struct large *large = user;
-    struct scratch *scratch = &large->scratches[thread];
+    struct stream *stream = user;
+    struct piece_scratch *scratch = &stream->scratch[thread];
     struct obj_chunk piece;
     struct obj_counts before;
-    if (!still_right(large))
+    if (!stream_continues(stream))
         return;
-    if (read_text(large, scratch, index, &piece) && parse(scratch, &piece) &&
-        count_piece(large, scratch, index, &piece, &before))
-        copy_piece(large, scratch, &piece.holds, &before);
+    if (read_text(stream, scratch, index, &piece) && parse(scratch, &piece) &&
+        count_piece(stream, scratch, index, &piece, &before))
+        copy_piece(stream, scratch, &piece.counts, &before);
     else
-        __atomic_store_n(&large->wrong, 1, __ATOMIC_RELAXED);
+        __atomic_store_n(&stream->unsupported, 1, __ATOMIC_RELAXED);
 }
 
-// --- the whole
+// --- all pieces
 
-static bool make_rooms(struct large *large)
+static bool alloc_scratch(struct stream *stream)
 {
-    struct obj *obj = large->obj;
+    struct obj *obj = stream->obj;
     size_t threads = (size_t)pool_threads(obj->source->pool);
-    large->scratches = arena_alloc_zeroed(&obj->memory, threads * sizeof *large->scratches);
+    stream->scratch = arena_alloc_zeroed(&obj->memory, threads * sizeof *stream->scratch);
     size_t text = PIECE + TAIL + FILE_PADDING, bytes = text;
     for (enum array kind = 0; kind < ARRAYS; kind++)
-        bytes += (max_of(kind, PIECE) + 1) * kinds[kind].row / 64 * 64 + 64;
+        bytes += (rows_max(kind, PIECE) + 1) * array_kinds[kind].row / 64 * 64 + 64;
     uint8_t *memory = arena_array(&obj->memory, threads, bytes);
-    if (!large->scratches || !memory)
+    if (!stream->scratch || !memory)
         return false;
     for (size_t t = 0; t < threads; t++) {
-        struct scratch *scratch = &large->scratches[t];
+        struct piece_scratch *scratch = &stream->scratch[t];
         scratch->text = memory;
         memory += text;
         for (enum array kind = 0; kind < ARRAYS; kind++) {
             scratch->arrays[kind] = memory;
-            memory += (max_of(kind, PIECE) + 1) * kinds[kind].row / 64 * 64 + 64;
+            memory += (rows_max(kind, PIECE) + 1) * array_kinds[kind].row / 64 * 64 + 64;
         }
         scratch->obj = (struct obj){
             .source = obj->source,
-            .in_pieces = true,
-            .total = {.positions = MOST, .texcoords = MOST, .normals = MOST},
+            .streamed = true,
+            .total = {.positions = COUNT_MAX, .texcoords = COUNT_MAX, .normals = COUNT_MAX},
             .positions = scratch->arrays[POSITIONS],
             .texcoords = scratch->arrays[TEXCOORDS],
             .normals = scratch->arrays[NORMALS],
@@ -306,106 +308,106 @@ static bool make_rooms(struct large *large)
     return true;
 }
 
-static bool make_arrays(struct large *large)
+static bool reserve_arrays(struct stream *stream)
 {
     for (enum array kind = 0; kind < ARRAYS; kind++) {
-        size_t bytes = max_of(kind, large->file->size) * kinds[kind].row;
-        large->arrays[kind] = pages_get(bytes, &large->held[kind]);
-        if (!large->arrays[kind])
+        size_t bytes = rows_max(kind, stream->file->size) * array_kinds[kind].row;
+        stream->arrays[kind] = pages_get(bytes, &stream->reserved[kind]);
+        if (!stream->arrays[kind])
             return false;
     }
     return true;
 }
 
-// Every face names what is there?
-static bool corners_known(const struct large *large)
+// Whether all indices of the faces exist, and the counts are in range.
+static bool indices_valid(const struct stream *stream)
 {
-    const struct obj_counts *total = &large->total;
+    const struct obj_counts *total = &stream->total;
     const uint64_t limits[3] = {total->positions, total->texcoords, total->normals};
-    const bool named[3] = {true, (large->layout - 1) & 1, (large->layout - 1) & 2};
-    for (int t = 0; t < pool_threads(large->obj->source->pool); t++) {
+    const bool named[3] = {true, (stream->layout - 1) & 1, (stream->layout - 1) & 2};
+    for (int t = 0; t < pool_threads(stream->obj->source->pool); t++) {
         for (int k = 0; k < 3; k++) {
-            if (named[k] && large->scratches[t].highest[k] >= limits[k])
+            if (named[k] && stream->scratch[t].index_max[k] >= limits[k])
                 return false;
         }
     }
-    return total->triangles > 0 && total->positions < MOST && total->triangles <= UINT32_MAX / 3;
+    return total->triangles > 0 && total->positions < COUNT_MAX && total->triangles <= UINT32_MAX / 3;
 }
 
-// The arena owns the array from now on, as far as it is filled. NULL: there is none, or no memory.
-static void *hand_over(struct large *large, enum array kind, struct arena *arena)
+// Trims the array to its elements and passes its ownership to the arena. NULL: out of memory.
+static void *pass_to_arena(struct stream *stream, enum array kind, struct arena *arena)
 {
-    size_t bytes = (size_t)count_of(&large->total, kind) * kinds[kind].row;
-    pages_trim(large->arrays[kind], &large->held[kind], bytes);
-    struct file_bytes block = {large->arrays[kind], bytes, large->held[kind], large->loop.call};
-    if (!call_charge(large->loop.call, bytes + FILE_PADDING))
+    size_t bytes = (size_t)count_of(&stream->total, kind) * array_kinds[kind].row;
+    pages_trim(stream->arrays[kind], &stream->reserved[kind], bytes);
+    struct file_bytes block = {stream->arrays[kind], bytes, stream->reserved[kind], stream->loop.call};
+    if (!call_charge(stream->loop.call, bytes + FILE_PADDING))
         return NULL;
     if (!arena_adopt(arena, &block)) {
-        call_refund(large->loop.call, bytes + FILE_PADDING);
+        call_refund(stream->loop.call, bytes + FILE_PADDING);
         return NULL;
     }
-    large->held[kind] = 0;
-    return large->arrays[kind];
+    stream->reserved[kind] = 0;
+    return stream->arrays[kind];
 }
 
-static bool hand_over_all(struct large *large)
+static bool pass_arrays(struct stream *stream)
 {
-    struct obj *obj = large->obj;
+    struct obj *obj = stream->obj;
     struct arena *kept = &obj->scene->arena;
-    bool texcoords = (large->layout - 1) & 1, normals = (large->layout - 1) & 2;
-    call_refund(large->loop.call, large->charged);
-    large->charged = 0;
-    obj->total = large->total;
-    obj->positions = hand_over(large, POSITIONS, kept);
-    obj->indices = hand_over(large, CORNERS, kept);
-    obj->polygons = hand_over(large, POLYGONS, &obj->memory);
+    bool texcoords = (stream->layout - 1) & 1, normals = (stream->layout - 1) & 2;
+    call_refund(stream->loop.call, stream->charged);
+    stream->charged = 0;
+    obj->total = stream->total;
+    obj->positions = pass_to_arena(stream, POSITIONS, kept);
+    obj->indices = pass_to_arena(stream, CORNERS, kept);
+    obj->polygons = pass_to_arena(stream, POLYGONS, &obj->memory);
     bool done = obj->positions && obj->indices && obj->polygons;
     if (texcoords) {
-        obj->texcoords = hand_over(large, TEXCOORDS, kept);
-        obj->texcoord_indices = hand_over(large, CORNER_TEXCOORDS, kept);
+        obj->texcoords = pass_to_arena(stream, TEXCOORDS, kept);
+        obj->texcoord_indices = pass_to_arena(stream, CORNER_TEXCOORDS, kept);
         done = done && obj->texcoords && obj->texcoord_indices;
     }
     if (normals) {
-        obj->normals = hand_over(large, NORMALS, kept);
-        obj->normal_indices = hand_over(large, CORNER_NORMALS, kept);
+        obj->normals = pass_to_arena(stream, NORMALS, kept);
+        obj->normal_indices = pass_to_arena(stream, CORNER_NORMALS, kept);
         done = done && obj->normals && obj->normal_indices;
     }
-    size_t count = (size_t)large->total.others;
+    size_t count = (size_t)stream->total.others;
     obj->statements = arena_array(&obj->memory, count, sizeof *obj->statements);
     if (!done || !obj->statements)
         return false;
     for (size_t i = 0; i < count; i++)
         obj->statements[i] =
-            (struct obj_statement){large->texts + large->statements[i].offset, large->statements[i].triangle};
+            (struct obj_statement){stream->texts + stream->statements[i].offset, stream->statements[i].triangle};
     if (count == 0)
         return true;
-    memset(large->texts + large->texts_used, 0, FILE_PADDING);
-    obj->begin = large->texts;
-    obj->end = large->texts + large->texts_used;
+    memset(stream->texts + stream->texts_used, 0, FILE_PADDING);
+    obj->begin = stream->texts;
+    obj->end = stream->texts + stream->texts_used;
     return true;
 }
 
-static bool near_zero(const struct large *large)
+static bool fits_floats(const struct stream *stream)
 {
     double low[3], high[3], origin[3];
     for (int i = 0; i < 3; i++) {
-        low[i] = (double)large->low[i];
-        high[i] = (double)large->high[i];
+        low[i] = (double)stream->low[i];
+        high[i] = (double)stream->high[i];
     }
     return !origin_choose(low, high, origin);
 }
 
-static bool load(struct large *large)
+static bool load(struct stream *stream)
 {
-    struct obj *obj = large->obj;
-    if (!PAGES_WHEN_TOUCHED || !make_rooms(large) || !make_arrays(large))
+    struct obj *obj = stream->obj;
+    if (!PAGES_WHEN_TOUCHED || !alloc_scratch(stream) || !reserve_arrays(stream))
         return false;
     for (int i = 0; i < 3; i++) {
-        large->low[i] = __FLT_MAX__;
-        large->high[i] = -__FLT_MAX__;
+        stream->low[i] = __FLT_MAX__;
+        stream->high[i] = -__FLT_MAX__;
     }
-    pool_run(obj->source->pool, (large->file->size + PIECE - 1) / PIECE, take_piece, large);
-    if (!still_right(large) || !corners_known(large) || !near_zero(large) || !hand_over_all(large))
+    pool_run(obj->source->pool, (stream->file->size + PIECE - 1) / PIECE, load_piece, stream);
+    if (!stream_continues(stream) || !indices_valid(stream) || !fits_floats(stream) || !pass_arrays(stream))
         return false;
     struct obj_chunk whole = {
         .texcoord_used = obj->texcoords != NULL,
@@ -413,21 +415,21 @@ static bool load(struct large *large)
     };
     obj->chunks = &whole;
     obj->chunk_count = 1;
-    return obj_complete(obj, NULL) && !obj->line_missed;
+    return obj_complete(obj, NULL) && !obj->line_requested;
 }
 
-bool obj_load_large(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)
+bool obj_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)
 {
-    struct obj obj = {.source = source, .scene = scene, .in_pieces = true};
-    struct large large = {.obj = &obj, .file = file, .loop = {.call = source->call}};
+    struct obj obj = {.source = source, .scene = scene, .streamed = true};
+    struct stream stream = {.obj = &obj, .file = file, .loop = {.call = source->call}};
     arena_start(&obj.memory, source->call);
     obj.materials.memory = &obj.memory;
-    bool done = load(&large);
+    bool done = load(&stream);
     for (enum array kind = 0; kind < ARRAYS; kind++) {
-        if (large.held[kind])
-            pages_free(large.arrays[kind], large.held[kind]);
+        if (stream.reserved[kind])
+            pages_free(stream.arrays[kind], stream.reserved[kind]);
     }
-    call_refund(source->call, large.charged);
+    call_refund(source->call, stream.charged);
     arena_free(&obj.memory);
     return done;
 }

@@ -1,10 +1,13 @@
-// ply.h: what the parts of the PLY reader share.
+// ply.h: internals of the PLY importer.
 //
-//   ply_header.c   the header: which elements with which properties
-//   ply_binary.c   ┐ one element's rows, of either kind of body, as a table: scalars at a fixed stride, and
-//   the items of ply_ascii.c    ┘ one list (a face's corners) apart, already checked ply_positions.c,
-//   ply_columns.c   columns of a table as positions; as vectors and colours ply_faces.c    faces and strips
-//   to triangles ply.c          the whole in order
+//   ply.c            reads the elements in order and builds the mesh
+//   ply_header.c     the header: elements and their properties
+//   ply_binary.c     rows of an element of a binary file, as a ply_table
+//   ply_ascii.c      rows of an element of an ASCII file, as a ply_table
+//   ply_positions.c  positions from the columns of a table
+//   ply_columns.c    normals, tangents, texture coordinates and colours from the columns of a table
+//   ply_faces.c      triangles from faces and strips
+//   ply_stream.c     large files of the usual layout, part by part
 #ifndef PLY_H
 #define PLY_H
 
@@ -23,19 +26,19 @@ struct ply_property {
 struct ply_element {
     const char *name;
     uint64_t count;
-    size_t line; // in the header
+    size_t line; // of the header
     const struct ply_property *properties;
     int property_count;
     int list_count;      // properties that are lists
-    size_t scalar_bytes; // a binary row without its lists
-    size_t min_bytes;    // a binary row with its lists empty
+    size_t scalar_bytes; // of a binary row without its lists
+    size_t min_bytes;    // of a binary row with empty lists
 };
 
 struct ply_header {
     enum ply_format format;
     const struct ply_element *elements;
     int element_count;
-    size_t body; // offset of the first byte behind the header
+    size_t body; // offset of the first byte after the header
 };
 
 // Reads the header into `arena`.
@@ -49,38 +52,38 @@ static inline bool ply_type_is_integer(enum ply_type type) { return type < PLY_F
 // Index of a property of that name, list or scalar; −1: none.
 int ply_find(const struct ply_element *element, bool list, const char *name);
 
-// What x, y and z become. An ASCII file's type says little about its decimals, so there they are read as
-// floats and, where the model turns out to lie far from zero, once more as doubles.
+// The type of x, y and z in a table. The declared types of an ASCII file say little about its decimals: positions are
+// read as floats, and again as doubles if the model lies far from zero.
 enum ply_positions_as { PLY_AS_DECLARED, PLY_AS_FLOAT, PLY_AS_DOUBLE };
 
 // An element's rows in memory.
 struct ply_table {
     const struct ply_element *element;
     size_t count;
-    const uint8_t *rows; // count · stride bytes; NULL where nothing was asked for
+    const uint8_t *rows; // count · stride bytes; NULL: scalars were not requested
     size_t stride;
-    bool swapped;               // numbers lie in the other byte order than the machine's
-    const uint32_t *offsets;    // in a row, for each scalar property
-    const enum ply_type *types; // for each property, as it lies in `rows`
+    bool swapped;               // the byte order is not the machine's
+    const uint32_t *offsets;    // of each scalar property in a row
+    const enum ply_type *types; // of each property in `rows`
     enum ply_positions_as positions;
-    // The list that was asked for: row r has items[starts[r]] … items[starts[r + 1] − 1]; `starts` NULL:
-    // three each.
+    // The requested list, indices checked: row r has items[starts[r]] … items[starts[r + 1] − 1]; three items per row
+    // if `starts` is NULL.
     const uint32_t *items;
     const uint32_t *starts;
 };
 
-// What to take from an element.
+// The data to read from an element.
 struct ply_request {
     bool scalars;
-    int list;            // property; −1: none
-    uint32_t item_limit; // each item is to be below it
-    bool restarts;       // item −1 is allowed, and becomes PLY_RESTART
+    int list;            // index of the property; −1: none
+    uint32_t item_limit; // items must be below it
+    bool restarts;       // item −1 is valid and becomes PLY_RESTART
     enum ply_positions_as positions;
 };
 #define PLY_RESTART UINT32_MAX
 
-// Read the element that begins at offset *at of the file, or skip it (`table` NULL), and move *at behind it.
-// What is made comes from `keep` (list items) and `scratch` (the rest); tables may point into the file.
+// Read the element at offset *at of the file, or skip it (`table` is NULL), and set *at to the byte after it. Items of
+// lists are allocated from `keep`, the rest from `scratch`; tables may point into the file.
 bool ply_read_binary(const struct import_source *source, const struct ply_header *header,
                      const struct ply_element *element, const struct ply_request *request, struct arena *keep,
                      struct arena *scratch, size_t *at, struct ply_table *table, lam_error *error);
@@ -88,32 +91,32 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
                     const struct ply_request *request, struct arena *keep, struct arena *scratch, size_t *at,
                     struct ply_table *table, lam_error *error);
 
-// What both kinds of body share. Sets offsets, types and stride for rows without their lists.
+// Shared by ply_binary.c and ply_ascii.c. Sets offsets, types and stride for rows without their lists.
 bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,
                    struct ply_table *table, lam_error *error);
-// The file ends before the element's row `row`, counted from 0, is whole.
-bool ply_fail_short(const struct import_source *source, const struct ply_element *element, uint64_t row,
-                    lam_error *error);
-// More than 32-bit numbers can tell apart: LAM_LIMIT.
+// The error for a file that ends within the element's row `row`, counted from 0.
+bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row,
+                        lam_error *error);
+// The error for more elements than 32-bit indices can address: LAM_LIMIT.
 bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error);
 
-// Indices of the scalar properties of these names (−1: none); whether all are there.
+// Finds the scalar properties of these names (−1: none). Returns whether all exist.
 bool ply_find_all(const struct ply_table *table, const char *const *names, int count, int *properties);
-// Whether the properties lie side by side as floats of this machine, so that rows can be copied whole.
-bool ply_side_by_side(const struct ply_table *table, const int *properties, int count);
-// Likewise red, green, blue and alpha, by any of their usual names; whether the first three are there.
+// Whether the properties are adjacent floats in the machine's byte order, so that memcpy can copy them.
+bool ply_contiguous(const struct ply_table *table, const int *properties, int count);
+// Finds red, green, blue and alpha by any of their usual names. Returns whether the first three exist.
 bool ply_find_colors(const struct ply_table *table, int properties[4]);
-// A scalar property of rows [first, last) as floats, each divided by `divisor`, to every `step`-th of `out`.
+// Copies a scalar property of rows [first, last) as floats, divided by `divisor`, to every `step`-th element of `out`.
 void ply_copy_column(const struct ply_table *table, int property, size_t first, size_t last, float divisor, float *out,
                      size_t step);
 
-// Positions: origin, positions (from `arena`) and vertex_count of the mesh. *far_out: the table holds an
-// ASCII file's numbers as floats, and they are to be read once more as doubles; nothing else is done then.
+// Sets origin, positions (from `arena`) and vertex_count of the mesh. *needs_doubles: the table holds an ASCII file's
+// positions as floats, which are not exact enough; the caller must read them again as doubles.
 bool ply_positions(const struct import_source *source, const struct ply_table *table, struct arena *arena,
-                   lam_mesh *mesh, bool *far_out, lam_error *error);
+                   lam_mesh *mesh, bool *needs_doubles, lam_error *error);
 
-// Other columns, from `arena`; NULL columns (*out) where the element has none such; false only for an error.
-// Numbers that are not finite become 0.
+// Other columns, from `arena`; *out stays NULL if the element does not have them. Numbers that are not finite become 0.
+// False: error.
 bool ply_normals(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                  const float **out, lam_error *error);
 bool ply_tangents(const struct import_source *source, const struct ply_table *table, struct arena *arena,
@@ -123,14 +126,14 @@ bool ply_texcoords(const struct import_source *source, const struct ply_table *t
 bool ply_colors(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                 const void **out, lam_colors_format *format, lam_error *error);
 
-// Triangles of the mesh, whose positions are there: indices and triangle_count; from faces, with their own
-// colours and normals where the vertices have none, or from strips.
+// Set indices and triangle_count of a mesh with positions: from faces, with colours and normals of the faces if the
+// vertices have none, or from strips.
 bool ply_faces(const struct import_source *source, const struct ply_table *faces, struct lam_scene *scene,
                lam_mesh *mesh, lam_error *error);
 bool ply_strips(const struct import_source *source, const struct ply_table *strips, struct lam_scene *scene,
                 lam_mesh *mesh, lam_error *error);
 
-// ply_stream.c: the importer's load_parts.
-bool ply_load_parts(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
+// ply_stream.c: the importer's load_stream.
+bool ply_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 
 #endif

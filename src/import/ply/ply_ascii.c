@@ -1,7 +1,7 @@
-// ply_ascii.c: the rows of one element of an ASCII PLY, as if they had been binary.
+// ply_ascii.c: converts the rows of one element of an ASCII PLY to a table of binary rows.
 //
-// Numbers are separated by white space of any kind, so a row need not be a line. A first walk finds where
-// each piece of rows begins and how long its lists are; then the pieces are read in parallel.
+// Numbers are separated by white space of any kind: a row need not be a line. A first, serial pass finds the begin of
+// each piece of rows and the lengths of its lists; then the pieces are read in parallel.
 #include "parallel_rows.h"
 #include "fail.h"
 #include "number.h"
@@ -11,38 +11,38 @@
 #include <stdio.h>
 #include <string.h>
 
-struct reading {
+struct reader {
     const struct import_source *source;
     const struct ply_element *element;
     const struct ply_request *request;
     struct ply_table *table;
-    const uint8_t *first, *end; // where the rows begin; the file's end
-    const uint8_t **pieces;     // where each piece begins
-    uint32_t *items, *starts;   // of the list that was asked for
-    uint8_t *rows;              // scalars; NULL: not wanted
+    const uint8_t *first, *end; // the first row; the file's end
+    const uint8_t **pieces;     // begin of each piece
+    uint32_t *items, *starts;   // of the requested list
+    uint8_t *rows;              // scalars; NULL: not requested
 };
 
-static bool fail_number(const struct reading *reading, size_t row, int property, const uint8_t *at,
-                        const char *expected, lam_error *error)
+static bool fail_number(const struct reader *reader, size_t row, int property, const uint8_t *at, const char *expected,
+                        lam_error *error)
 {
     if (!error)
         return false;
     char found[TEXT_FOUND_SIZE];
-    return fail_line(error, reading->source, text_line(reading->source->bytes, at),
-                     "%s %zu of %llu: found %s as %s, expected %s", reading->element->name, row + 1,
-                     (unsigned long long)reading->element->count, text_found(at, reading->end, found),
-                     reading->element->properties[property].name, expected);
+    return fail_line(error, reader->source, text_line(reader->source->bytes, at),
+                     "%s %zu of %llu: found %s as %s, expected %s", reader->element->name, row + 1,
+                     (unsigned long long)reader->element->count, text_found(at, reader->end, found),
+                     reader->element->properties[property].name, expected);
 }
 
-// Reads a whole number that fills its word; NULL: there is none.
-static const uint8_t *read_integer(const struct reading *reading, const uint8_t *at, int64_t *value)
+// Reads a word that is an integer; NULL: it is none.
+static const uint8_t *read_integer(const struct reader *reader, const uint8_t *at, int64_t *value)
 {
-    const uint8_t *next = number_int(at, reading->end, value);
-    return next && (next == reading->end || text_white(*next)) ? next : NULL;
+    const uint8_t *next = number_int(at, reader->end, value);
+    return next && (next == reader->end || text_white(*next)) ? next : NULL;
 }
 
-// Reads one scalar as it would lie in a binary file; NULL for an error, which is then filled.
-static const uint8_t *read_scalar(const struct reading *reading, size_t row, int property, const uint8_t *at,
+// Reads one scalar and writes it in binary; NULL: error.
+static const uint8_t *read_scalar(const struct reader *reader, size_t row, int property, const uint8_t *at,
                                   uint8_t *out, lam_error *error)
 {
     static const struct {
@@ -56,26 +56,26 @@ static const uint8_t *read_scalar(const struct reading *reading, size_t row, int
         [PLY_I32] = {INT32_MIN, INT32_MAX, "a whole number from -2147483648 to 2147483647"},
         [PLY_U32] = {0, UINT32_MAX, "a whole number from 0 to 4294967295"},
     };
-    enum ply_type type = reading->table->types[property];
+    enum ply_type type = reader->table->types[property];
     const uint8_t *next;
     if (type == PLY_F32 || type == PLY_F64) {
         float narrow = 0.0f;
         double wide = 0.0;
-        next = type == PLY_F32 ? number_float(at, reading->end, &narrow) : number_double(at, reading->end, &wide);
-        if (!next || (next < reading->end && !text_white(*next))) {
-            fail_number(reading, row, property, at, "a number", error);
+        next = type == PLY_F32 ? number_float(at, reader->end, &narrow) : number_double(at, reader->end, &wide);
+        if (!next || (next < reader->end && !text_white(*next))) {
+            fail_number(reader, row, property, at, "a number", error);
             return NULL;
         }
         memcpy(out, type == PLY_F32 ? (const void *)&narrow : &wide, ply_type_size(type));
         return next;
     }
     int64_t value = 0;
-    next = read_integer(reading, at, &value);
+    next = read_integer(reader, at, &value);
     if (!next || value < ranges[type].min || value > ranges[type].max) {
-        fail_number(reading, row, property, at, ranges[type].expected, error);
+        fail_number(reader, row, property, at, ranges[type].expected, error);
         return NULL;
     }
-    // Two's complement, cut to the type's size.
+    // Two's complement, truncated to the type's size.
     uint8_t value8 = (uint8_t)value;
     uint16_t value16 = (uint16_t)value;
     uint32_t value32 = (uint32_t)value;
@@ -84,17 +84,17 @@ static const uint8_t *read_scalar(const struct reading *reading, size_t row, int
     return next;
 }
 
-static const uint8_t *read_item(const struct reading *reading, size_t row, const uint8_t *at, uint32_t *item,
+static const uint8_t *read_item(const struct reader *reader, size_t row, const uint8_t *at, uint32_t *item,
                                 lam_error *error)
 {
     int64_t value = 0;
-    const uint8_t *next = read_integer(reading, at, &value);
-    if (next && value == -1 && reading->request->restarts) {
+    const uint8_t *next = read_integer(reader, at, &value);
+    if (next && value == -1 && reader->request->restarts) {
         *item = PLY_RESTART;
-    } else if (!next || value < 0 || value >= (int64_t)reading->request->item_limit) {
+    } else if (!next || value < 0 || value >= (int64_t)reader->request->item_limit) {
         char expected[48];
-        snprintf(expected, sizeof expected, "an index from 0 to %u", reading->request->item_limit - 1);
-        fail_number(reading, row, reading->request->list, at, expected, error);
+        snprintf(expected, sizeof expected, "an index from 0 to %u", reader->request->item_limit - 1);
+        fail_number(reader, row, reader->request->list, at, expected, error);
         return NULL;
     } else {
         *item = (uint32_t)value;
@@ -102,83 +102,83 @@ static const uint8_t *read_item(const struct reading *reading, size_t row, const
     return next;
 }
 
-// Walks over the rows: where each piece begins, how many items each row's list has. *at ends behind the last row.
-static bool walk(struct reading *reading, bool *threes, const uint8_t **at, lam_error *error)
+// The serial pass: sets the begin of each piece and the starts of the list, and *at to the end of the last row.
+static bool index_rows(struct reader *reader, bool *all_triangles, const uint8_t **at, lam_error *error)
 {
-    const struct ply_element *element = reading->element;
-    const uint8_t *word = reading->first, *end = reading->end;
+    const struct ply_element *element = reader->element;
+    const uint8_t *word = reader->first, *end = reader->end;
     uint64_t total = 0;
-    *threes = true;
+    *all_triangles = true;
     for (size_t row = 0; row < element->count && element->property_count > 0; row++) {
         if (row % PARALLEL_ROWS == 0) {
-            if (reading->pieces)
-                reading->pieces[row / PARALLEL_ROWS] = word;
-            if (!call_should_continue(reading->source->call))
-                return call_error(reading->source->call, error);
+            if (reader->pieces)
+                reader->pieces[row / PARALLEL_ROWS] = word;
+            if (!call_should_continue(reader->source->call))
+                return call_error(reader->source->call, error);
         }
-        if (reading->starts)
-            reading->starts[row] = (uint32_t)total;
+        if (reader->starts)
+            reader->starts[row] = (uint32_t)total;
         for (int i = 0; i < element->property_count; i++) {
             word = text_skip_white(word, end);
             if (word == end)
-                return ply_fail_short(reading->source, element, row, error);
+                return ply_fail_truncated(reader->source, element, row, error);
             const uint8_t *next = text_skip_word(word, end);
             if (element->properties[i].list) {
                 int64_t items = 0;
-                if (!read_integer(reading, word, &items) || items < 0)
-                    return fail_number(reading, row, i, word, "the number of its items", error);
-                if (items > (end - next) / 2) // each takes a space and a digit at least
-                    return ply_fail_short(reading->source, element, row, error);
+                if (!read_integer(reader, word, &items) || items < 0)
+                    return fail_number(reader, row, i, word, "the number of items", error);
+                if (items > (end - next) / 2) // each takes at least two bytes
+                    return ply_fail_truncated(reader->source, element, row, error);
                 for (int64_t item = 0; item < items; item++) {
                     next = text_skip_white(next, end);
                     if (next == end)
-                        return ply_fail_short(reading->source, element, row, error);
+                        return ply_fail_truncated(reader->source, element, row, error);
                     next = text_skip_word(next, end);
                 }
-                if (i == reading->request->list) {
+                if (i == reader->request->list) {
                     total += (uint64_t)items;
-                    *threes &= items == 3;
+                    *all_triangles &= items == 3;
                 }
             }
             word = next;
         }
         if (total >= UINT32_MAX)
-            return ply_fail_too_many(reading->source, element, error);
+            return ply_fail_too_many(reader->source, element, error);
     }
-    if (reading->starts)
-        reading->starts[element->count] = (uint32_t)total;
+    if (reader->starts)
+        reader->starts[element->count] = (uint32_t)total;
     *at = word;
     return true;
 }
 
 static bool read_piece(void *user, size_t index, lam_error *error)
 {
-    const struct reading *reading = user;
-    const struct ply_element *element = reading->element;
+    const struct reader *reader = user;
+    const struct ply_element *element = reader->element;
     size_t first, last;
-    parallel_rows_range(reading->table->count, index, &first, &last);
-    const uint8_t *at = reading->pieces[index], *end = reading->end;
+    parallel_rows_range(reader->table->count, index, &first, &last);
+    const uint8_t *at = reader->pieces[index], *end = reader->end;
     for (size_t row = first; row < last; row++) {
         for (int i = 0; i < element->property_count; i++) {
             at = text_skip_white(at, end);
             if (!element->properties[i].list) {
-                if (!reading->rows) {
+                if (!reader->rows) {
                     at = text_skip_word(at, end);
                     continue;
                 }
-                at = read_scalar(reading, row, i, at,
-                                 reading->rows + row * reading->table->stride + reading->table->offsets[i], error);
+                at = read_scalar(reader, row, i, at,
+                                 reader->rows + row * reader->table->stride + reader->table->offsets[i], error);
                 if (!at)
                     return false;
                 continue;
             }
             int64_t count = 0;
-            at = read_integer(reading, at, &count); // the walk has seen it
+            at = read_integer(reader, at, &count); // checked by index_rows
             for (int64_t item = 0; item < count; item++) {
                 at = text_skip_white(at, end);
-                if (i != reading->request->list)
+                if (i != reader->request->list)
                     at = text_skip_word(at, end);
-                else if (!(at = read_item(reading, row, at, &reading->items[reading->starts[row] + item], error)))
+                else if (!(at = read_item(reader, row, at, &reader->items[reader->starts[row] + item], error)))
                     return false;
             }
         }
@@ -186,43 +186,43 @@ static bool read_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-static bool read_rows(struct reading *reading, struct arena *keep, struct arena *scratch, const uint8_t **at,
+static bool read_rows(struct reader *reader, struct arena *keep, struct arena *scratch, const uint8_t **at,
                       lam_error *error)
 {
-    struct ply_table *table = reading->table;
-    const struct ply_request *request = reading->request;
-    struct call_control *call = reading->source->call;
+    struct ply_table *table = reader->table;
+    const struct ply_request *request = reader->request;
+    struct call_control *call = reader->source->call;
     size_t pieces = parallel_rows_count(table->count);
-    if (!ply_plan_rows(reading->source, request, scratch, table, error))
+    if (!ply_plan_rows(reader->source, request, scratch, table, error))
         return false;
-    reading->pieces = arena_array(scratch, pieces, sizeof *reading->pieces);
-    if (!reading->pieces)
-        return call_memory_error(call, pieces * sizeof *reading->pieces, error);
+    reader->pieces = arena_array(scratch, pieces, sizeof *reader->pieces);
+    if (!reader->pieces)
+        return call_memory_error(call, pieces * sizeof *reader->pieces, error);
     if (request->list >= 0) {
-        reading->starts = arena_array(scratch, table->count + 1, sizeof *reading->starts);
-        if (!reading->starts)
-            return call_memory_error(call, table->count * sizeof *reading->starts, error);
+        reader->starts = arena_array(scratch, table->count + 1, sizeof *reader->starts);
+        if (!reader->starts)
+            return call_memory_error(call, table->count * sizeof *reader->starts, error);
     }
-    bool threes;
-    if (!walk(reading, &threes, at, error))
+    bool all_triangles;
+    if (!index_rows(reader, &all_triangles, at, error))
         return false;
-    threes = threes && !request->restarts;
+    all_triangles = all_triangles && !request->restarts;
     if (request->list >= 0) {
-        size_t total = reading->starts[table->count];
-        reading->items = arena_array(threes ? keep : scratch, total, sizeof *reading->items);
-        if (!reading->items)
-            return call_memory_error(call, total * sizeof *reading->items, error);
+        size_t total = reader->starts[table->count];
+        reader->items = arena_array(all_triangles ? keep : scratch, total, sizeof *reader->items);
+        if (!reader->items)
+            return call_memory_error(call, total * sizeof *reader->items, error);
     }
     if (request->scalars) {
-        reading->rows = arena_array(scratch, table->count, table->stride);
-        if (!reading->rows)
+        reader->rows = arena_array(scratch, table->count, table->stride);
+        if (!reader->rows)
             return call_memory_error(call, table->count * table->stride, error);
     }
-    if (!parallel_rows_run(reading->source, pieces, read_piece, reading, error))
+    if (!parallel_rows_run(reader->source, pieces, read_piece, reader, error))
         return false;
-    table->rows = reading->rows;
-    table->items = reading->items;
-    table->starts = threes ? NULL : reading->starts;
+    table->rows = reader->rows;
+    table->items = reader->items;
+    table->starts = all_triangles ? NULL : reader->starts;
     return true;
 }
 
@@ -230,25 +230,25 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
                     const struct ply_request *request, struct arena *keep, struct arena *scratch, size_t *at,
                     struct ply_table *table, lam_error *error)
 {
-    // Nothing is asked for before the bytes that it would come from are known to be there: a number takes
-    // two, a digit and white space, which only the last one can lack.
+    // Check the file's size before any allocation: a number takes at least two bytes, a digit and white space, which
+    // only the last number can lack.
     uint64_t left = (uint64_t)(source->size - *at) + 1, row_bytes = 2 * (uint64_t)element->property_count;
     if (row_bytes > 0 && element->count > left / row_bytes)
-        return ply_fail_short(source, element, left / row_bytes, error);
+        return ply_fail_truncated(source, element, left / row_bytes, error);
 
     static const struct ply_request nothing = {.list = -1};
-    struct reading reading = {.source = source, .element = element, .request = table ? request : &nothing};
-    reading.table = table;
-    reading.first = source->bytes + *at;
-    reading.end = source->bytes + source->size;
-    const uint8_t *end = reading.first;
+    struct reader reader = {.source = source, .element = element, .request = table ? request : &nothing};
+    reader.table = table;
+    reader.first = source->bytes + *at;
+    reader.end = source->bytes + source->size;
+    const uint8_t *end = reader.first;
     if (table) {
         *table = (struct ply_table){.element = element, .count = (size_t)element->count};
-        if (!read_rows(&reading, keep, scratch, &end, error))
+        if (!read_rows(&reader, keep, scratch, &end, error))
             return false;
     } else {
-        bool threes;
-        if (!walk(&reading, &threes, &end, error))
+        bool all_triangles;
+        if (!index_rows(&reader, &all_triangles, &end, error))
             return false;
     }
     *at = (size_t)(end - source->bytes);

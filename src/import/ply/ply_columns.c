@@ -37,7 +37,7 @@ void ply_copy_column(const struct ply_table *table, int property, size_t first, 
 #undef COLUMN
 }
 
-bool ply_side_by_side(const struct ply_table *table, const int *properties, int count)
+bool ply_contiguous(const struct ply_table *table, const int *properties, int count)
 {
     for (int i = 0; i < count; i++) {
         if (properties[i] < 0 || table->types[properties[i]] != PLY_F32 || table->swapped ||
@@ -62,10 +62,10 @@ enum kind { NORMALS, TANGENTS, TEXCOORDS, COLORS, COLORS_RAW };
 struct vectors {
     const struct ply_table *table;
     enum kind kind;
-    int properties[4]; // −1: 1 everywhere
+    int properties[4]; // −1: the constant 1
     float divisors[4];
     int width; // numbers in each vector
-    bool together;
+    bool contiguous;
     float *out;
 };
 
@@ -76,7 +76,7 @@ static void clean_vector(const struct vectors *vectors, float *v)
             v[c] = v[c] >= 0.0f ? (v[c] <= FLT_MAX ? v[c] : FLT_MAX) : 0.0f; // NaN becomes 0
             if (c == 3)
                 v[c] = v[c] < 1.0f ? v[c] : 1.0f;
-            else if (vectors->kind == COLORS && v[c] <= 1.0f) // above, sRGB says nothing: light as it is
+            else if (vectors->kind == COLORS && v[c] <= 1.0f) // above 1, sRGB is not defined: linear
                 v[c] = (float)srgb_linear((double)v[c]);
         }
         return;
@@ -103,7 +103,7 @@ static bool vector_piece(void *user, size_t index, lam_error *error)
     size_t first, last, width = (size_t)vectors->width;
     parallel_rows_range(table->count, index, &first, &last);
     float *out = vectors->out + width * first;
-    if (vectors->together) {
+    if (vectors->contiguous) {
         const uint8_t *at = table->rows + first * table->stride + table->offsets[vectors->properties[0]];
         for (size_t row = first; row < last; row++, at += table->stride, out += width)
             memcpy(out, at, width * sizeof(float));
@@ -122,7 +122,7 @@ static bool vector_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// `numbers` are properties, the rest up to `width` is 1.
+// Reads vectors whose first `numbers` components are properties; the others are 1.
 static bool read_vectors(const struct import_source *source, struct vectors *vectors, int numbers, struct arena *arena,
                          const float **out, lam_error *error)
 {
@@ -135,7 +135,7 @@ static bool read_vectors(const struct import_source *source, struct vectors *vec
             vectors->divisors[i] = 1.0f;
         whole &= vectors->divisors[i] == 1.0f;
     }
-    vectors->together = whole && ply_side_by_side(vectors->table, vectors->properties, vectors->width);
+    vectors->contiguous = whole && ply_contiguous(vectors->table, vectors->properties, vectors->width);
     vectors->out = arena_alloc(arena, bytes);
     if (!vectors->out)
         return call_memory_error(source->call, bytes, error);
@@ -159,7 +159,7 @@ bool ply_tangents(const struct import_source *source, const struct ply_table *ta
     return !ply_find_all(table, names, 3, vectors.properties) || read_vectors(source, &vectors, 3, arena, out, error);
 }
 
-// What integers are divided by: bytes and 16-bit numbers span 0…1.
+// The divisor that maps 8- and 16-bit integers to 0…1.
 static float divisor_of(enum ply_type type)
 {
     static const float divisors[PLY_TYPE_COUNT] = {

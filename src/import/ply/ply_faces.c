@@ -1,4 +1,4 @@
-// ply_faces.c: the faces of a PLY file, and its triangle strips, as triangles.
+// ply_faces.c: triangulates the faces and the triangle strips of a PLY file.
 #include "parallel_rows.h"
 #include "fail.h"
 #include "ply.h"
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { TRIANGLES_MAX = 1431655765 }; // (2³² − 1) ÷ 3: corners are told apart by 32-bit numbers
+enum { TRIANGLES_MAX = 1431655765 }; // (2³² − 1) ÷ 3: corners have 32-bit indices
 
 static bool fail_too_many(const struct import_source *source, uint64_t triangles, lam_error *error)
 {
@@ -20,7 +20,7 @@ struct polygons {
     const float *positions;
     uint32_t *first_triangles; // of each piece
     uint32_t *indices;
-    uint32_t *face_of; // each triangle's face; NULL: not asked for
+    uint32_t *face_of; // each triangle's face; NULL: not needed
 };
 
 static uint32_t corners_of(const struct ply_table *faces, size_t face)
@@ -28,14 +28,14 @@ static uint32_t corners_of(const struct ply_table *faces, size_t face)
     return faces->starts[face + 1] - faces->starts[face];
 }
 
-static bool cut_piece(void *user, size_t index, lam_error *error)
+static bool triangulate_piece(void *user, size_t index, lam_error *error)
 {
     const struct polygons *polygons = user;
     const struct ply_table *faces = polygons->faces;
     size_t first, last, triangle = polygons->first_triangles[index];
     parallel_rows_range(faces->count, index, &first, &last);
-    struct triangulator cutter;
-    triangulator_start(&cutter, polygons->source->call);
+    struct triangulator triangulator;
+    triangulator_start(&triangulator, polygons->source->call);
     bool done = true;
     for (size_t face = first; done && face < last; face++) {
         uint32_t count = corners_of(faces, face);
@@ -45,14 +45,14 @@ static bool cut_piece(void *user, size_t index, lam_error *error)
         uint32_t *out = polygons->indices + 3 * triangle;
         if (count == 3)
             memcpy(out, corners, 3 * sizeof *out);
-        else if ((done = triangulate(&cutter, polygons->positions, corners, count, out)))
+        else if ((done = triangulate(&triangulator, polygons->positions, corners, count, out)))
             for (uint32_t i = 0; i < 3 * (count - 2); i++)
                 out[i] = corners[out[i]];
         for (uint32_t i = 0; polygons->face_of && i < count - 2; i++)
             polygons->face_of[triangle + i] = (uint32_t)face;
         triangle += count - 2;
     }
-    triangulator_stop(&cutter);
+    triangulator_stop(&triangulator);
     if (done)
         return true;
     if (!call_should_continue(polygons->source->call))
@@ -60,13 +60,13 @@ static bool cut_piece(void *user, size_t index, lam_error *error)
     return call_memory_error(polygons->source->call, 0, error);
 }
 
-// Polygons of any size: mesh->indices and triangle_count, and each triangle's face where asked.
-static bool cut_polygons(struct polygons *polygons, bool want_faces, struct lam_scene *scene, struct arena *scratch,
-                         lam_mesh *mesh, lam_error *error)
+// Triangulates polygons of any size: sets mesh->indices and triangle_count, and face_of if `want_faces`.
+static bool triangulate_polygons(struct polygons *polygons, bool want_faces, struct lam_scene *scene,
+                                 struct arena *scratch, lam_mesh *mesh, lam_error *error)
 {
     const struct import_source *source = polygons->source;
     const struct ply_table *faces = polygons->faces;
-    size_t pieces = parallel_rows_count(faces->count), poor = 0;
+    size_t pieces = parallel_rows_count(faces->count), degenerate = 0;
     polygons->first_triangles = arena_array(scratch, pieces, sizeof *polygons->first_triangles);
     if (!polygons->first_triangles)
         return call_memory_error(source->call, pieces * sizeof *polygons->first_triangles, error);
@@ -75,27 +75,27 @@ static bool cut_polygons(struct polygons *polygons, bool want_faces, struct lam_
         if (face % PARALLEL_ROWS == 0)
             polygons->first_triangles[face / PARALLEL_ROWS] = (uint32_t)triangles;
         uint32_t count = corners_of(faces, face);
-        poor += count < 3;
+        degenerate += count < 3;
         triangles += count < 3 ? 0 : count - 2;
     }
     if (triangles > TRIANGLES_MAX)
         return fail_too_many(source, triangles, error);
-    if (poor > 0)
-        scene_warn(scene, "%s: %zu of %zu faces have fewer than three corners and are left out", source->name, poor,
-                   faces->count);
+    if (degenerate > 0)
+        scene_warn(scene, "%s: %zu of %zu faces have fewer than three corners and are ignored", source->name,
+                   degenerate, faces->count);
     polygons->indices = arena_array(&scene->arena, triangles, 3 * sizeof *polygons->indices);
     if (want_faces)
         polygons->face_of = arena_array(&scene->arena, triangles, sizeof *polygons->face_of);
     if (!polygons->indices || (want_faces && !polygons->face_of))
         return call_memory_error(source->call, triangles * 4 * sizeof *polygons->indices, error);
-    if (!parallel_rows_run(source, pieces, cut_piece, polygons, error))
+    if (!parallel_rows_run(source, pieces, triangulate_piece, polygons, error))
         return false;
     mesh->indices = polygons->indices;
     mesh->triangle_count = (uint32_t)triangles;
     return true;
 }
 
-// Face normals serve where the vertices have none: one element a face, named by each of its corners.
+// Uses the normals of the faces if the vertices have none: one normal per face, indexed by its corners.
 static bool face_normals(const struct import_source *source, const struct ply_table *faces, const uint32_t *face_of,
                          struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
@@ -119,7 +119,7 @@ static bool face_normals(const struct import_source *source, const struct ply_ta
     return true;
 }
 
-// Face colours likewise; the triangles of a polygon repeat its own.
+// Uses the colours of the faces if the vertices have none: one colour per triangle.
 static bool face_colors(const struct import_source *source, const struct ply_table *faces, const uint32_t *face_of,
                         struct lam_scene *scene, struct arena *scratch, lam_mesh *mesh, lam_error *error)
 {
@@ -154,7 +154,7 @@ static bool load_faces(const struct import_source *source, const struct ply_tabl
     if (faces->starts) {
         bool own_normals = !mesh->normals && ply_find(faces->element, false, "nx") >= 0;
         bool own_colors = !mesh->colors && ply_find_colors(faces, (int[4]){0});
-        if (!cut_polygons(&polygons, own_normals || own_colors, scene, scratch, mesh, error))
+        if (!triangulate_polygons(&polygons, own_normals || own_colors, scene, scratch, mesh, error))
             return false;
     } else {
         if (faces->count > TRIANGLES_MAX)
@@ -176,12 +176,12 @@ bool ply_faces(const struct import_source *source, const struct ply_table *faces
     return done;
 }
 
-// In a strip each corner from the third on makes a triangle with the two before it, every second one turned
-// round. One that names a vertex twice only joins two pieces of strip. Writes to `out` unless NULL; returns
-// the number.
+// Writes the triangles of a strip to `out` (may be NULL) and returns their number. Each item from the third on makes a
+// triangle with the two before it, with the winding of every second one reversed. Triangles with equal corners only
+// join pieces of a strip and are skipped.
 static size_t strip_triangles(const uint32_t *items, size_t count, uint32_t *out)
 {
-    size_t triangles = 0, length = 0; // of the strip, so far
+    size_t triangles = 0, length = 0; // items of the strip so far
     for (size_t i = 0; i < count; i++) {
         length = items[i] == PLY_RESTART ? 0 : length + 1;
         if (length < 3)

@@ -1,14 +1,15 @@
-// ply_header.c: the header of a PLY file: which elements with which properties.
+// ply_header.c: reads the header of a PLY file: its elements and their properties.
 //
 //   ply
 //   format ascii 1.0                    or binary_little_endian, binary_big_endian
-//   comment …                           also obj_info; anywhere
+//   comment …                           or obj_info; on any line
 //   element vertex 8
 //   property float x                    scalars: a type and a name
 //   property list uchar int corners     lists: type of the count, type of the items, name
 //   end_header
-// Lines may be indented, blank, and end in "\n" or "\r\n"; in "\r" if the first one does: the byte behind the
-// last line's end is the body's.
+//
+// Lines may be indented or blank. They end in "\n" or "\r\n", or in "\r" if the first line does. The body begins after
+// the last line's end.
 #include "ply.h"
 #include "fail.h"
 #include "number.h"
@@ -40,10 +41,10 @@ int ply_find(const struct ply_element *element, bool list, const char *name)
 struct lines {
     const struct import_source *source;
     struct arena *arena;
-    const uint8_t *at, *end; // what is left of the line; the line's end
+    const uint8_t *at, *end; // the rest of the current line
     const uint8_t *next;     // the next line
-    size_t number;           // of this line
-    char ending;             // '\n', before which a '\r' is white space; or '\r'
+    size_t number;           // of the current line
+    char ending;             // '\n' (a '\r' before it is white space) or '\r'
 };
 
 // Goes to the next line; false at the end of the file.
@@ -66,8 +67,8 @@ static bool is_word(const uint8_t *word, const uint8_t *end, const char *expecte
     return (size_t)(end - word) == strlen(expected) && memcmp(word, expected, (size_t)(end - word)) == 0;
 }
 
-// The next word of the line, empty at its end.
-static void take_word(struct lines *lines, const uint8_t **word, const uint8_t **end)
+// Reads the next word of the line; empty at its end.
+static void next_word(struct lines *lines, const uint8_t **word, const uint8_t **end)
 {
     *word = text_skip_white(lines->at, lines->end);
     *end = lines->at = text_skip_word(*word, lines->end);
@@ -83,7 +84,7 @@ static bool fail_word(const struct lines *lines, const uint8_t *word, const char
 static bool read_type(struct lines *lines, enum ply_type *type, lam_error *error)
 {
     const uint8_t *word, *end;
-    take_word(lines, &word, &end);
+    next_word(lines, &word, &end);
     for (int i = 0; i < PLY_TYPE_COUNT; i++) {
         if (is_word(word, end, types[i].name) || is_word(word, end, types[i].sized_name)) {
             *type = (enum ply_type)i;
@@ -96,7 +97,7 @@ static bool read_type(struct lines *lines, enum ply_type *type, lam_error *error
 static bool read_name(struct lines *lines, const char **name, lam_error *error)
 {
     const uint8_t *word, *end;
-    take_word(lines, &word, &end);
+    next_word(lines, &word, &end);
     if (word == end)
         return fail_word(lines, word, "a name", error);
     *name = text_name(lines->arena, word, (size_t)(end - word));
@@ -107,14 +108,14 @@ static bool read_format(struct lines *lines, enum ply_format *format, lam_error 
 {
     static const char *const names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
     const uint8_t *word, *end;
-    take_word(lines, &word, &end);
+    next_word(lines, &word, &end);
     int found = 0;
     while (found < 3 && !is_word(word, end, names[found]))
         found++;
     if (found == 3)
         return fail_word(lines, word, "ascii, binary_little_endian or binary_big_endian", error);
     *format = (enum ply_format)found;
-    take_word(lines, &word, &end);
+    next_word(lines, &word, &end);
     return is_word(word, end, "1.0") || fail_word(lines, word, "version 1.0", error);
 }
 
@@ -124,7 +125,7 @@ static bool read_element(struct lines *lines, struct ply_element *element, lam_e
     if (!read_name(lines, &element->name, error))
         return false;
     const uint8_t *word, *end;
-    take_word(lines, &word, &end);
+    next_word(lines, &word, &end);
     int64_t count = 0;
     if (word == end || number_int(word, end, &count) != end || count < 0)
         return fail_word(lines, word, "the number of rows", error);
@@ -137,7 +138,7 @@ static bool read_property(struct lines *lines, struct ply_element *element, stru
 {
     *property = (struct ply_property){0};
     const uint8_t *before = lines->at, *word, *end;
-    take_word(lines, &word, &end);
+    next_word(lines, &word, &end);
     property->list = is_word(word, end, "list");
     if (property->list) {
         before = lines->at;
@@ -159,7 +160,7 @@ static bool read_property(struct lines *lines, struct ply_element *element, stru
 
 enum keyword { BLANK, REMARK, FORMAT, ELEMENT, PROPERTY, END, UNKNOWN };
 
-// Reads the word that a line begins with; *word is where it stands.
+// Reads a line's first word, and sets *word to it.
 static enum keyword read_keyword(struct lines *lines, const uint8_t **word)
 {
     static const struct {
@@ -168,7 +169,7 @@ static enum keyword read_keyword(struct lines *lines, const uint8_t **word)
     } keywords[] = {{"comment", REMARK},  {"obj_info", REMARK},   {"format", FORMAT},
                     {"element", ELEMENT}, {"property", PROPERTY}, {"end_header", END}};
     const uint8_t *end;
-    take_word(lines, word, &end);
+    next_word(lines, word, &end);
     if (*word == end)
         return BLANK;
     for (size_t i = 0; i < sizeof keywords / sizeof *keywords; i++) {
@@ -178,7 +179,7 @@ static enum keyword read_keyword(struct lines *lines, const uint8_t **word)
     return UNKNOWN;
 }
 
-// The reader at the line behind the first, "ply".
+// Begins at the second line, after "ply".
 static struct lines start(const struct import_source *source, struct arena *arena)
 {
     struct lines lines = {.source = source, .arena = arena, .next = source->bytes, .ending = '\n'};
@@ -192,7 +193,7 @@ static struct lines start(const struct import_source *source, struct arena *aren
 bool ply_read_header(const struct import_source *source, struct arena *arena, struct ply_header *header,
                      lam_error *error)
 {
-    // First how many elements and properties there are, then what they are.
+    // Two passes: count elements and properties, then read them.
     size_t element_capacity = 0, property_capacity = 0;
     enum keyword keyword = BLANK;
     const uint8_t *word;

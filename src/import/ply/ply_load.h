@@ -1,4 +1,4 @@
-// ply_load.h: one number of a binary PLY, of any type, in either byte order, at any alignment.
+// ply_load.h: loads a number of a binary PLY of any type, byte order and alignment.
 #ifndef PLY_LOAD_H
 #define PLY_LOAD_H
 
@@ -38,7 +38,7 @@ static inline float ply_load_f32(const uint8_t *at, bool swapped)
     return value;
 }
 
-// Of an integer type.
+// A number of an integer type.
 static inline int64_t ply_load_integer(const uint8_t *at, enum ply_type type, bool swapped)
 {
     switch (type) {
@@ -57,7 +57,7 @@ static inline int64_t ply_load_integer(const uint8_t *at, enum ply_type type, bo
     }
 }
 
-// Of any type; exact.
+// A number of any type; exact.
 static inline double ply_load_double(const uint8_t *at, enum ply_type type, bool swapped)
 {
     if (type == PLY_F32)

@@ -1,4 +1,4 @@
-// ply_positions.c: the positions of a PLY table: floats as they are, doubles relative to an origin.
+// ply_positions.c: copies the positions of a PLY table: floats unchanged, doubles relative to an origin.
 #include "parallel_rows.h"
 #include "fail.h"
 #include "origin.h"
@@ -10,7 +10,7 @@ struct positions {
     const struct import_source *source;
     const struct ply_table *table;
     int properties[3];
-    bool together; // side_by_side
+    bool contiguous; // ply_contiguous
     float *out;
     struct box {
         double minimum[3], maximum[3];
@@ -25,7 +25,7 @@ static bool fail_position(const struct positions *positions, size_t row, int axi
     const uint8_t *at = table->rows + row * table->stride + table->offsets[positions->properties[axis]];
     const struct import_source *source = positions->source;
     uintptr_t offset = (uintptr_t)at - (uintptr_t)source->bytes;
-    if (offset < source->size) // a binary row where it lies in the file
+    if (offset < source->size) // a binary row within the file
         return fail_byte(error, source, offset, "vertex %zu of %zu: found %s as %c, expected a finite number", row + 1,
                          table->count, found, "xyz"[axis]);
     return fail(error, LAM_CANNOT_READ, "%s: vertex %zu of %zu: found %s as %c, expected a finite number", source->name,
@@ -42,7 +42,7 @@ static double position_at(const struct positions *positions, size_t row, int axi
 
 static bool is_finite(double value) { return value >= -DBL_MAX && value <= DBL_MAX; }
 
-// Floats, and integers that floats hold: as they are.
+// Copies floats, and integers that floats represent exactly.
 static bool copy_piece(void *user, size_t index, lam_error *error)
 {
     const struct positions *positions = user;
@@ -50,7 +50,7 @@ static bool copy_piece(void *user, size_t index, lam_error *error)
     size_t first, last;
     parallel_rows_range(table->count, index, &first, &last);
     float *out = positions->out + 3 * first;
-    if (positions->together) {
+    if (positions->contiguous) {
         const uint8_t *at = table->rows + first * table->stride + table->offsets[positions->properties[0]];
         for (size_t row = first; row < last; row++, at += table->stride, out += 3)
             memcpy(out, at, 3 * sizeof(float));
@@ -59,15 +59,15 @@ static bool copy_piece(void *user, size_t index, lam_error *error)
             ply_copy_column(table, positions->properties[axis], first, last, 1.0f, out + axis, 3);
     }
 
-    uint32_t wrong = 0; // its top bit: an exponent of all ones was met
+    uint32_t nonfinite = 0; // bit 31: some number is NaN or infinite
     for (size_t i = 3 * first; i < 3 * last; i++) {
         uint32_t bits;
         memcpy(&bits, &positions->out[i], sizeof bits);
-        wrong |= (bits & 0x7fffffff) + 0x00800000;
+        nonfinite |= (bits & 0x7fffffff) + 0x00800000;
     }
-    if (positions->boxes) { // of an ASCII file, to tell whether floats will do
+    if (positions->boxes) { // an ASCII file: choose_origin decides whether floats are exact enough
         struct box *box = &positions->boxes[index];
-        box->finite = !(wrong & 0x80000000);
+        box->finite = !(nonfinite & 0x80000000);
         for (int axis = 0; axis < 3; axis++) {
             float minimum = FLT_MAX, maximum = -FLT_MAX;
             for (size_t row = first; row < last; row++) {
@@ -80,7 +80,7 @@ static bool copy_piece(void *user, size_t index, lam_error *error)
         }
         return true;
     }
-    if (!(wrong & 0x80000000))
+    if (!(nonfinite & 0x80000000))
         return true;
     for (size_t i = 3 * first; i < 3 * last; i++) {
         double value = position_at(positions, i / 3, (int)(i % 3));
@@ -90,7 +90,7 @@ static bool copy_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Doubles and wide integers: the box first, which decides the origin, then what is left as floats.
+// Doubles and 32-bit integers take two passes: their bounding box, which decides the origin, then the rounding.
 static bool measure_piece(void *user, size_t index, lam_error *error)
 {
     const struct positions *positions = user;
@@ -119,14 +119,14 @@ static bool round_piece(void *user, size_t index, lam_error *error)
         for (int axis = 0; axis < 3; axis++) {
             double value = position_at(positions, row, axis) - positions->origin[axis];
             if (!(value >= -(double)FLT_MAX && value <= (double)FLT_MAX))
-                return fail_position(positions, row, axis, "a number beyond a float's range", error);
+                return fail_position(positions, row, axis, "a number outside a float's range", error);
             positions->out[3 * row + (size_t)axis] = (float)value;
         }
     }
     return true;
 }
 
-// Joins the pieces' boxes and chooses the origin. Returns whether floats are not enough.
+// Unites the pieces' boxes and chooses the origin. Returns whether floats are not exact enough.
 static bool choose_origin(struct positions *positions, size_t pieces)
 {
     struct box all = positions->boxes[0];
@@ -144,11 +144,11 @@ static bool choose_origin(struct positions *positions, size_t pieces)
 }
 
 bool ply_positions(const struct import_source *source, const struct ply_table *table, struct arena *arena,
-                   lam_mesh *mesh, bool *far_out, lam_error *error)
+                   lam_mesh *mesh, bool *needs_doubles, lam_error *error)
 {
     static const char *const names[] = {"x", "y", "z"};
     struct positions positions = {.source = source, .table = table};
-    *far_out = false;
+    *needs_doubles = false;
     if (!ply_find_all(table, names, 3, positions.properties)) {
         int missing = positions.properties[0] < 0 ? 0 : positions.properties[1] < 0 ? 1 : 2;
         return fail_line(error, source, table->element->line, "element vertex has no property %s, expected x, y and z",
@@ -162,7 +162,7 @@ bool ply_positions(const struct import_source *source, const struct ply_table *t
         exact |= type == PLY_I32 || type == PLY_U32 || type == PLY_F64;
     }
     size_t pieces = parallel_rows_count(table->count);
-    positions.together = ply_side_by_side(table, positions.properties, 3);
+    positions.contiguous = ply_contiguous(table, positions.properties, 3);
     positions.out = arena_array(arena, table->count, 3 * sizeof(float));
     if (!positions.out)
         return call_memory_error(source->call, table->count * 3 * sizeof(float), error);
@@ -181,7 +181,7 @@ bool ply_positions(const struct import_source *source, const struct ply_table *t
         done = done && parallel_rows_run(source, pieces, round_piece, &positions, error);
     } else {
         done = done && parallel_rows_run(source, pieces, copy_piece, &positions, error);
-        *far_out = done && positions.boxes && pieces > 0 && choose_origin(&positions, pieces);
+        *needs_doubles = done && positions.boxes && pieces > 0 && choose_origin(&positions, pieces);
     }
     arena_free(&scratch);
     memcpy(mesh->origin, positions.origin, sizeof mesh->origin);

@@ -1,4 +1,4 @@
-// stl.c: STL, binary and ASCII, told apart by content. The readers are stl_binary.c and stl_ascii.c.
+// stl.c: the STL importer: recognises binary and ASCII files by content. stl_binary.c and stl_ascii.c read them.
 #include "stl.h"
 
 #include "text_cursor.h"
@@ -7,19 +7,19 @@
 
 enum kind { NEITHER, ASCII, BINARY_EXACT, BINARY_LOOSE };
 
-static uint32_t facets_promised(const uint8_t *bytes)
+static uint32_t declared_facets(const uint8_t *bytes)
 {
     const uint8_t *at = bytes + STL_HEADER;
     return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
 }
 
-enum { SAMPLE = 1024 }; // bytes that are looked at
+enum { SAMPLE = 1024 }; // bytes that are inspected
 
-// No text holds a zero byte, and no binary STL lacks one: at least the number of facets has one, up to 16 million.
+// Text contains no zero byte; a binary STL does: up to 16 million facets, the number of facets has one.
 static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
 
-// ASCII files begin with "solid" (or, carelessly made, "facet"), hold no zero byte, and soon say "facet" or
-// "endsolid". Binary ones often begin with "solid" too, so the word alone proves nothing.
+// ASCII files begin with "solid" (some with "facet"), contain no zero byte, and have "facet" or "endsolid" near the
+// begin. "solid" alone proves nothing: many binary files begin with it too.
 static bool looks_ascii(const uint8_t *bytes, size_t size)
 {
     const uint8_t *end = bytes + (size < SAMPLE ? size : SAMPLE), *at = bytes;
@@ -34,25 +34,26 @@ static bool looks_ascii(const uint8_t *bytes, size_t size)
            (size < SAMPLE || text_count_word(at, end, "facet") || text_count_word(at, end, "endsolid"));
 }
 
-// The size decides first: 84 + 50 · count bytes cannot be met by chance in a text, whose count would be above 10⁸.
-static enum kind tell_kind(const uint8_t *bytes, size_t size)
+// The size decides first. A text cannot have 84 + 50 · count bytes by chance: its characters, read as the count, give
+// more than 10⁸.
+static enum kind detect_kind(const uint8_t *bytes, size_t size)
 {
-    bool capacity = size >= STL_FACETS;
-    uint64_t expected = capacity ? STL_FACETS + (uint64_t)STL_FACET * facets_promised(bytes) : 0;
-    if (capacity && size == expected)
+    bool has_header = size >= STL_FACETS;
+    uint64_t expected = has_header ? STL_FACETS + (uint64_t)STL_FACET * declared_facets(bytes) : 0;
+    if (has_header && size == expected)
         return BINARY_EXACT;
     if (looks_ascii(bytes, size))
         return ASCII;
-    return capacity && has_zero(bytes, size) ? BINARY_LOOSE : NEITHER;
+    return has_header && has_zero(bytes, size) ? BINARY_LOOSE : NEITHER;
 }
 
 static int stl_probe(const uint8_t *bytes, size_t size)
 {
-    switch (tell_kind(bytes, size)) {
+    switch (detect_kind(bytes, size)) {
     case BINARY_EXACT:
     case ASCII:
         return 2;
-    // cut short, or with bytes behind the last facet: the file's name must say that it is STL
+    // truncated, or with bytes after the last facet: the file's extension decides
     case BINARY_LOOSE:
         return 1;
     default:
@@ -64,16 +65,15 @@ static bool stl_load(const struct import_source *source, struct lam_scene *scene
 {
     char found[TEXT_FOUND_SIZE];
     lam_mesh mesh = {0};
-    switch (tell_kind(source->bytes, source->size)) {
+    switch (detect_kind(source->bytes, source->size)) {
     case ASCII:
         if (!stl_load_ascii(source, scene, &mesh, error))
             return false;
         break;
     case NEITHER:
         return fail(error, LAM_CANNOT_READ,
-                    "%s: no STL file: found %s at its start and %zu bytes, expected \"solid\" and facets, or "
-                    "a binary "
-                    "header of %d bytes and facets",
+                    "%s: not an STL file: found %s at its start and %zu bytes, expected \"solid\" and facets, or a "
+                    "binary header of %d bytes and facets",
                     source->name, text_found(source->bytes, source->bytes + source->size, found), source->size,
                     STL_FACETS);
     default:
@@ -93,5 +93,5 @@ const struct importer importer_stl = {
     .up = LAM_UP_Z,
     .probe = stl_probe,
     .load = stl_load,
-    .load_parts = stl_load_parts,
+    .load_stream = stl_load_stream,
 };

@@ -1,30 +1,30 @@
-// stl.h: what the two kinds of STL share.
+// stl.h: internals of the STL importer.
 #ifndef STL_H
 #define STL_H
 
 #include "fail.h"
 #include "importer.h"
 
-// A binary STL is a header of 80 bytes, the number of facets (32 bits, little-endian) and that many facets of
-// 50 bytes: normal and three corners, three floats each, and an attribute of 16 bits.
+// A binary STL is a header of 80 bytes, the number of facets (32 bits, little-endian), and the facets of 50 bytes each:
+// normal and three corners (three floats each) and an attribute of 16 bits.
 enum {
     STL_HEADER = 80,
     STL_FACETS = 84,
     STL_FACET = 50,
-    STL_CORNERS = 12,   // in a facet, behind its normal
-    STL_ATTRIBUTE = 48, // in a facet
+    STL_CORNERS = 12,   // offset in a facet, after its normal
+    STL_ATTRIBUTE = 48, // offset in a facet
 };
 
-// Each fills the mesh but its name; triangle_count stays 0 for a file without facets.
+// Each sets all members of the mesh except its name; triangle_count stays 0 for a file without facets.
 bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
 bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
 
-// stl_stream.c: the importer's load_parts.
-bool stl_load_parts(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
+// stl_stream.c: the importer's load_stream.
+bool stl_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 
-enum { STL_FACETS_MAX = 1431655765 }; // (2³² − 1) ÷ 3: corners are numbered with 32 bits
+enum { STL_FACETS_MAX = 1431655765 }; // (2³² − 1) ÷ 3: corners have 32-bit indices
 
-// LAM_LIMIT: more facets than that. Returns false.
+// The error for more than STL_FACETS_MAX facets: LAM_LIMIT. Returns false.
 static inline bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error)
 {
     return fail(error, LAM_LIMIT, "%s: %llu facets, expected at most %d", source->name, (unsigned long long)facets,

@@ -1,34 +1,37 @@
-// stl_binary.c: binary STL: facets to corner positions, attribute words to colours.
+// stl_binary.c: reads binary STL: positions from the facets, colours from their attribute words.
 //
-// Two dialects put a colour of 3 × 5 bits into a facet's attribute word:
-//   VisCAM, SolidView   bits 0–4 blue, 5–9 green, 10–14 red; bit 15 set: this facet has a colour
-//   Materialise Magics  the header holds "COLOR=" and four bytes RGBA, the colour of the whole; bits 0–4 red,
-//   5–9 green,
-//                       10–14 blue; bit 15 clear: this facet has its own colour
-// The words of other programs are counters, or junk; see colors_of for what is believed.
+// Two dialects store a colour of 3 × 5 bits in a facet's attribute word:
+//
+//   VisCAM, SolidView   bits 0–4 blue, 5–9 green, 10–14 red
+//                       bit 15 set: the facet has a colour
+//   Materialise Magics  bits 0–4 red, 5–9 green, 10–14 blue
+//                       bit 15 clear: the facet has its own colour
+//                       the header contains "COLOR=" and four bytes RGBA, the colour of the other facets
+//
+// The words of other programs are counters or undefined; see colors_of for the rule.
 #include "stl.h"
 #include "parallel_rows.h"
 #include "fail.h"
 
 #include <string.h>
 
-// What a piece has seen of its attribute words.
+// Statistics of the attribute words of a piece.
 struct words {
-    uint32_t marked;          // how many have bit 15 set
-    uint32_t unmarked_values; // of those without bit 15: 0: all zero; 1: one value, or zero; 2: several values
-    uint16_t unmarked;        // that value
-    bool any;                 // a word that is not 0
+    uint32_t marked;          // words with bit 15 set
+    uint32_t unmarked_values; // distinct nonzero words without bit 15: 0, 1, or 2 for more than one
+    uint16_t unmarked;        // the first of them
+    bool any;                 // some word is not 0
 };
 
-struct reading {
+struct reader {
     const struct import_source *source;
     const uint8_t *facets;
     size_t count;
     float *positions;
-    struct words *words; // one for each piece
+    struct words *words; // one per piece
     // For the pass over colours
     uint8_t *colors;
-    uint8_t fallback[4]; // of facets that have none of their own
+    uint8_t fallback[4]; // of facets without a colour of their own
     bool magics;
 };
 
@@ -37,7 +40,7 @@ static uint16_t word_of(const uint8_t *facet)
     return (uint16_t)(facet[STL_ATTRIBUTE] | facet[STL_ATTRIBUTE + 1] << 8);
 }
 
-static void words_add(struct words *words, uint16_t value)
+static void add_word(struct words *words, uint16_t value)
 {
     if (value == 0)
         return;
@@ -52,17 +55,17 @@ static void words_add(struct words *words, uint16_t value)
     }
 }
 
-static bool fail_not_finite(const struct reading *reading, size_t first, size_t last, lam_error *error)
+static bool fail_not_finite(const struct reader *reader, size_t first, size_t last, lam_error *error)
 {
     for (size_t i = first; i < last; i++) {
         for (int c = 0; c < 9; c++) {
             uint32_t bits;
-            memcpy(&bits, &reading->positions[9 * i + (size_t)c], 4);
+            memcpy(&bits, &reader->positions[9 * i + (size_t)c], 4);
             if ((bits & 0x7f800000) != 0x7f800000)
                 continue;
-            const uint8_t *facet = reading->facets + i * STL_FACET;
-            return fail_byte(error, reading->source,
-                             (size_t)(facet - reading->source->bytes) + STL_CORNERS + 4 * (size_t)c,
+            const uint8_t *facet = reader->facets + i * STL_FACET;
+            return fail_byte(error, reader->source,
+                             (size_t)(facet - reader->source->bytes) + STL_CORNERS + 4 * (size_t)c,
                              "facet %zu: found %s as %c of corner %d, expected a finite number", i + 1,
                              bits & 0x007fffff ? "NaN" : "infinity", "xyz"[c % 3], c / 3 + 1);
         }
@@ -72,23 +75,23 @@ static bool fail_not_finite(const struct reading *reading, size_t first, size_t 
 
 static bool read_piece(void *user, size_t index, lam_error *error)
 {
-    const struct reading *reading = user;
+    const struct reader *reader = user;
     size_t first, last;
-    parallel_rows_range(reading->count, index, &first, &last);
+    parallel_rows_range(reader->count, index, &first, &last);
     struct words words = {0};
-    uint32_t wrong = 0; // its top bit: an exponent of all ones was met
-    const uint8_t *facet = reading->facets + first * STL_FACET;
-    float *corners = reading->positions + 9 * first;
+    uint32_t nonfinite = 0; // bit 31: some number is NaN or infinite
+    const uint8_t *facet = reader->facets + first * STL_FACET;
+    float *corners = reader->positions + 9 * first;
     for (size_t i = first; i < last; i++, facet += STL_FACET, corners += 9) {
         uint32_t bits[9];
         memcpy(bits, facet + STL_CORNERS, sizeof bits);
         memcpy(corners, bits, sizeof bits);
         for (int c = 0; c < 9; c++)
-            wrong |= (bits[c] & 0x7fffffff) + 0x00800000;
-        words_add(&words, word_of(facet));
+            nonfinite |= (bits[c] & 0x7fffffff) + 0x00800000;
+        add_word(&words, word_of(facet));
     }
-    reading->words[index] = words;
-    return !(wrong & 0x80000000) || fail_not_finite(reading, first, last, error);
+    reader->words[index] = words;
+    return !(nonfinite & 0x80000000) || fail_not_finite(reader, first, last, error);
 }
 
 static uint8_t five_bits(unsigned value) { return (uint8_t)((value * 255 + 15) / 31); }
@@ -96,109 +99,109 @@ static uint8_t five_bits(unsigned value) { return (uint8_t)((value * 255 + 15) /
 static bool color_piece(void *user, size_t index, lam_error *error)
 {
     (void)error;
-    const struct reading *reading = user;
+    const struct reader *reader = user;
     size_t first, last;
-    parallel_rows_range(reading->count, index, &first, &last);
+    parallel_rows_range(reader->count, index, &first, &last);
     for (size_t i = first; i < last; i++) {
-        unsigned word = word_of(reading->facets + i * STL_FACET);
-        bool own = (word >> 15) != (unsigned)reading->magics;
+        unsigned word = word_of(reader->facets + i * STL_FACET);
+        bool own = (word >> 15) != (unsigned)reader->magics;
         uint8_t low = five_bits(word & 31), middle = five_bits(word >> 5 & 31), high = five_bits(word >> 10 & 31);
-        uint8_t color[4] = {reading->magics ? low : high, middle, reading->magics ? high : low, 255};
-        memcpy(reading->colors + 4 * i, own ? color : reading->fallback, 4);
+        uint8_t color[4] = {reader->magics ? low : high, middle, reader->magics ? high : low, 255};
+        memcpy(reader->colors + 4 * i, own ? color : reader->fallback, 4);
     }
     return true;
 }
 
-// Decides whether the attribute words are colours, and sets dialect and fallback. They are, with "COLOR=" in
-// the header, unless all are zero (then that colour serves for all); without it, if some have bit 15 set and
-// those that do not are all zero or all the same, a default: anything more varied is no colour.
-static bool colors_of(struct reading *reading, const struct words *words, bool *uniform)
+// Whether the file has colours; sets dialect and fallback. With "COLOR=" in the header it has; if all words are zero,
+// all facets have the header's colour (*uniform). Without "COLOR=" it has if some words have bit 15 set and the others
+// are zero or equal, a default; more varied words are not colours.
+static bool colors_of(struct reader *reader, const struct words *words, bool *uniform)
 {
     static const char key[] = "COLOR=";
     enum { KEY = sizeof key - 1 };
-    const uint8_t *header = reading->source->bytes;
-    memset(reading->fallback, 255, 4); // white: the material's own colour
+    const uint8_t *header = reader->source->bytes;
+    memset(reader->fallback, 255, 4); // white: the material's own colour
     for (int at = 0; at + KEY + 4 <= STL_HEADER; at++) {
         if (memcmp(header + at, key, KEY) != 0)
             continue;
-        // The fourth byte, its opacity, is left out: programs write 0 there and mean an opaque part.
-        memcpy(reading->fallback, header + at + KEY, 3);
-        reading->magics = true;
+        // The fourth byte, opacity, is ignored: programs write 0 for an opaque part.
+        memcpy(reader->fallback, header + at + KEY, 3);
+        reader->magics = true;
         *uniform = !words->any;
         return true;
     }
     return words->marked > 0 && words->unmarked_values < 2;
 }
 
-static bool read_colors(struct reading *reading, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
+static bool read_colors(struct reader *reader, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
     struct words all = {0};
-    for (size_t i = 0; i < parallel_rows_count(reading->count); i++) {
-        const struct words *piece = &reading->words[i];
+    for (size_t i = 0; i < parallel_rows_count(reader->count); i++) {
+        const struct words *piece = &reader->words[i];
         all.any |= piece->any;
         all.marked |= piece->marked;
         if (piece->unmarked_values)
-            words_add(&all, piece->unmarked);
+            add_word(&all, piece->unmarked);
         if (piece->unmarked_values == 2)
             all.unmarked_values = 2;
     }
     bool uniform = false;
-    if (!colors_of(reading, &all, &uniform))
+    if (!colors_of(reader, &all, &uniform))
         return true;
-    reading->colors = arena_array(&scene->arena, reading->count, 4);
-    if (!reading->colors)
-        return call_memory_error(reading->source->call, 4 * reading->count, error);
+    reader->colors = arena_array(&scene->arena, reader->count, 4);
+    if (!reader->colors)
+        return call_memory_error(reader->source->call, 4 * reader->count, error);
     if (uniform) {
-        for (size_t i = 0; i < reading->count; i++)
-            memcpy(reading->colors + 4 * i, reading->fallback, 4);
-    } else if (!parallel_rows_run(reading->source, parallel_rows_count(reading->count), color_piece, reading, error)) {
+        for (size_t i = 0; i < reader->count; i++)
+            memcpy(reader->colors + 4 * i, reader->fallback, 4);
+    } else if (!parallel_rows_run(reader->source, parallel_rows_count(reader->count), color_piece, reader, error)) {
         return false;
     }
-    mesh->colors = reading->colors;
-    mesh->color_count = (uint32_t)reading->count;
-    mesh->colors_format = reading->source->params->color == LAM_COLOR_RAW ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
+    mesh->colors = reader->colors;
+    mesh->color_count = (uint32_t)reader->count;
+    mesh->colors_format = reader->source->params->color == LAM_COLOR_RAW ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
     mesh->colors_rate = LAM_PER_TRIANGLE;
     return true;
 }
 
 bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
-    uint32_t promised;
-    memcpy(&promised, source->bytes + STL_HEADER, 4);
+    uint32_t declared;
+    memcpy(&declared, source->bytes + STL_HEADER, 4);
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
-#error "positions are copied as they lie in the file: this reader needs a little-endian machine"
+#error "positions are copied without byte swapping: this reader needs a little-endian machine"
 #endif
-    size_t capacity = source->size - STL_FACETS, present = capacity / STL_FACET;
-    if (promised > present)
+    size_t body = source->size - STL_FACETS, present = body / STL_FACET;
+    if (declared > present)
         return fail(error, LAM_CANNOT_READ,
-                    "%s: the file is cut short: its header promises %u facets (%llu bytes), found %zu (%zu bytes)",
-                    source->name, promised, (unsigned long long)STL_FACETS + (unsigned long long)STL_FACET * promised,
+                    "%s: the file is truncated: its header declares %u facets (%llu bytes), found %zu (%zu bytes)",
+                    source->name, declared, (unsigned long long)STL_FACETS + (unsigned long long)STL_FACET * declared,
                     present, source->size);
-    if (promised > STL_FACETS_MAX)
-        return stl_fail_too_many(source, promised, error);
-    if (promised == 0)
+    if (declared > STL_FACETS_MAX)
+        return stl_fail_too_many(source, declared, error);
+    if (declared == 0)
         return true;
 
     struct arena scratch;
     arena_start(&scratch, source->call);
-    struct reading reading = {.source = source, .facets = source->bytes + STL_FACETS, .count = promised};
-    size_t pieces = parallel_rows_count(promised);
-    reading.positions = arena_array(&scene->arena, promised, 9 * sizeof(float));
-    reading.words = arena_array(&scratch, pieces, sizeof *reading.words);
-    bool done = reading.positions && reading.words;
+    struct reader reader = {.source = source, .facets = source->bytes + STL_FACETS, .count = declared};
+    size_t pieces = parallel_rows_count(declared);
+    reader.positions = arena_array(&scene->arena, declared, 9 * sizeof(float));
+    reader.words = arena_array(&scratch, pieces, sizeof *reader.words);
+    bool done = reader.positions && reader.words;
     if (!done)
-        call_memory_error(source->call, promised * 9 * sizeof(float), error);
-    done = done && parallel_rows_run(source, pieces, read_piece, &reading, error) &&
-           read_colors(&reading, scene, mesh, error);
+        call_memory_error(source->call, declared * 9 * sizeof(float), error);
+    done = done && parallel_rows_run(source, pieces, read_piece, &reader, error) &&
+           read_colors(&reader, scene, mesh, error);
     arena_free(&scratch);
     if (!done)
         return false;
 
-    size_t extra = capacity - (size_t)promised * STL_FACET;
+    size_t extra = body - (size_t)declared * STL_FACET;
     if (extra > 0)
-        scene_warn(scene, "%s: %zu bytes behind the last of %u facets are ignored", source->name, extra, promised);
-    mesh->positions = reading.positions;
-    mesh->vertex_count = 3 * promised;
-    mesh->triangle_count = promised;
+        scene_warn(scene, "%s: %zu bytes after the last of %u facets are ignored", source->name, extra, declared);
+    mesh->positions = reader.positions;
+    mesh->vertex_count = 3 * declared;
+    mesh->triangle_count = declared;
     return true;
 }

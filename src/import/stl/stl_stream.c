@@ -1,7 +1,7 @@
-// stl_stream.c: large binary STL files without colours, read part by part.
+// stl_stream.c: reads large binary STL files without colours part by part.
 //
-// A part is converted while it is in the second-level cache, and the file is never held as a whole. Whatever
-// is not so, and whatever is wrong, is left to stl_binary.c.
+// A part is converted while it is in the second-level cache, and the file is never in memory as a whole. stl_binary.c
+// reads files with colours and files with errors.
 #include "loop_status.h"
 #include "stl.h"
 
@@ -9,43 +9,43 @@
 
 enum { PART_FACETS = 4096 };
 
-struct parts {
+struct stream {
     const struct file_parts *file;
     struct loop_status loop;
-    int wrong;         // touched atomically
-    uint8_t *capacity; // PART_FACETS · STL_FACET bytes for each thread
+    int unsupported;  // atomic; the file must be left to stl_binary.c
+    uint8_t *buffers; // PART_FACETS · STL_FACET bytes per thread
     float *positions;
     size_t count;
 };
 
 static void read_facets(void *user, size_t index, int thread)
 {
-    struct parts *parts = user;
-    if (__atomic_load_n(&parts->wrong, __ATOMIC_RELAXED) || !should_continue(&parts->loop))
+    struct stream *stream = user;
+    if (__atomic_load_n(&stream->unsupported, __ATOMIC_RELAXED) || !should_continue(&stream->loop))
         return;
-    size_t first = index * PART_FACETS, count = parts->count - first;
+    size_t first = index * PART_FACETS, count = stream->count - first;
     count = count < PART_FACETS ? count : PART_FACETS;
-    const uint8_t *facet = parts->capacity + (size_t)thread * PART_FACETS * STL_FACET;
+    const uint8_t *facet = stream->buffers + (size_t)thread * PART_FACETS * STL_FACET;
     bool read =
-        file_read_part(parts->file, STL_FACETS + first * STL_FACET, (uint8_t *)(uintptr_t)facet, count * STL_FACET);
-    uint32_t odd = 0; // its top bit: an exponent of all ones was met
+        file_read_part(stream->file, STL_FACETS + first * STL_FACET, (uint8_t *)(uintptr_t)facet, count * STL_FACET);
+    uint32_t nonfinite = 0; // bit 31: some number is NaN or infinite
     uint16_t words = 0;
-    float *out = parts->positions + 9 * first;
+    float *out = stream->positions + 9 * first;
     for (size_t i = 0; read && i < count; i++, facet += STL_FACET, out += 9) {
         uint32_t bits[9];
         uint16_t word;
         memcpy(bits, facet + STL_CORNERS, sizeof bits);
         memcpy(out, bits, sizeof bits);
         for (int c = 0; c < 9; c++)
-            odd |= (bits[c] & 0x7fffffff) + 0x00800000;
+            nonfinite |= (bits[c] & 0x7fffffff) + 0x00800000;
         memcpy(&word, facet + STL_ATTRIBUTE, sizeof word);
         words |= word;
     }
-    if (!read || words || odd & 0x80000000)
-        __atomic_store_n(&parts->wrong, 1, __ATOMIC_RELAXED);
+    if (!read || words || nonfinite & 0x80000000)
+        __atomic_store_n(&stream->unsupported, 1, __ATOMIC_RELAXED);
 }
 
-// "COLOR=" in the header: Materialise Magics' colours.
+// Whether the header contains "COLOR=": colours of Materialise Magics.
 static bool has_color(const uint8_t *header)
 {
     for (int at = 0; at + 6 <= STL_HEADER; at++)
@@ -54,7 +54,7 @@ static bool has_color(const uint8_t *header)
     return false;
 }
 
-bool stl_load_parts(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)
+bool stl_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)
 {
     uint32_t count;
     memcpy(&count, source->bytes + STL_HEADER, sizeof count);
@@ -62,18 +62,18 @@ bool stl_load_parts(const struct import_source *source, const struct file_parts 
         return false;
     struct arena scratch;
     arena_start(&scratch, source->call);
-    struct parts parts = {.file = file, .loop = {.call = source->call}, .count = count};
-    parts.positions = arena_array(&scene->arena, count, 9 * sizeof(float));
-    parts.capacity = arena_array(&scratch, (size_t)pool_threads(source->pool), PART_FACETS * STL_FACET);
-    bool done = parts.positions && parts.capacity;
+    struct stream stream = {.file = file, .loop = {.call = source->call}, .count = count};
+    stream.positions = arena_array(&scene->arena, count, 9 * sizeof(float));
+    stream.buffers = arena_array(&scratch, (size_t)pool_threads(source->pool), PART_FACETS * STL_FACET);
+    bool done = stream.positions && stream.buffers;
     if (done) {
-        pool_run(source->pool, (parts.count + PART_FACETS - 1) / PART_FACETS, read_facets, &parts);
-        done = !parts.wrong && should_continue(&parts.loop);
+        pool_run(source->pool, (stream.count + PART_FACETS - 1) / PART_FACETS, read_facets, &stream);
+        done = !stream.unsupported && should_continue(&stream.loop);
     }
     arena_free(&scratch);
     if (!done)
         return false;
-    lam_mesh mesh = {.positions = parts.positions, .vertex_count = 3 * count, .triangle_count = count};
+    lam_mesh mesh = {.positions = stream.positions, .vertex_count = 3 * count, .triangle_count = count};
     lam_object object = lam_object_default();
     object.mesh = scene_take_mesh(scene, &mesh, NULL);
     return object.mesh >= 0 && scene_take_object(scene, &object, NULL) >= 0;

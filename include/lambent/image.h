@@ -27,11 +27,13 @@ typedef enum lam_pixel_format {
 // otherwise. The pixels are the library's (lam_image_make, lam_image_load: `owned` is set) or the caller's:
 //     lam_image window = {.width = 800, .height = 600, .format = LAM_BGRA8, .pixels = memory, .stride = pitch};
 typedef struct lam_image {
-    int width, height; // pixels, 1..65535
-    lam_pixel_format format;
-    bool owned;       // lam_image_free frees `pixels`; false: they are the caller's, and stay as they are
-    void *pixels;     // formats of floats: aligned to 4 bytes
-    ptrdiff_t stride; // bytes from a row to the next lower one; 0: rows without padding; negative: bottom row first
+    int width, height;       // pixels, 1..65535
+    lam_pixel_format format; // decides the bytes a pixel
+    // true: lam_image_free frees `pixels`. false: they are the caller's, and stay as they are.
+    bool owned;
+    void *pixels; // formats of floats: aligned to 4 bytes
+    // Bytes from a row to the next lower one. 0: rows without padding; negative: bottom row first.
+    ptrdiff_t stride;
     LAM_RESERVED(8);
 } lam_image;
 
@@ -53,21 +55,25 @@ typedef enum lam_compress {
 
 // How a picture is written. All zero: the defaults.
 typedef struct lam_save_params {
-    const lam_control *control; // cancel flag and time limit, checked while encoding; NULL: none
+    // Cancel flag and time limit, checked while encoding. NULL: none.
+    const lam_control *control;
     // Formats without alpha (PPM) hold the picture over this colour, linear. Default black.
     lam_rgb background;
-    int threads; // threads to encode with; 0: one for each processor. The bytes do not depend on it.
-    bool raw;    // the numbers are not sRGB-encoded: PNG gets no sRGB chunk, PPM is composed without conversion
+    // Threads to encode with; 0: one for each processor. The bytes do not depend on it.
+    int threads;
+    // The numbers are not sRGB-encoded: PNG gets no sRGB chunk, PPM is composed without conversion.
+    bool raw;
     lam_compress compress; // of PNG; ignored for other formats
     LAM_RESERVED(8);
 } lam_save_params;
 
 // A block of bytes that the caller frees with lam_bytes_free.
 typedef struct lam_bytes {
-    void *data;
-    size_t size;
+    void *data;  // from malloc; NULL: empty
+    size_t size; // bytes
 } lam_bytes;
 
+// Frees the block and zeroes the struct. NULL and a zeroed struct are fine.
 LAM_API void lam_bytes_free(lam_bytes *bytes);
 
 // Encodes a picture. `format` is "png" or "ppm" (from formats of 8 bits), "pfm" (from floats; RGB, linear, bottom row
@@ -83,10 +89,11 @@ LAM_API bool lam_image_save(const lam_image *image, const char *path, const lam_
 
 // A layer of an EXR picture.
 typedef struct lam_layer {
-    const char *name;       // "diffuse": channels diffuse.R, …; NULL or "": the picture itself, R, …
-    const lam_image *image; // LAM_RGBA32F, of the same size as the others
-    // a letter for each number of a pixel that is written, in their order: "XYZ"; NULL: "RGB", of the picture
-    // itself "RGBA"
+    // "diffuse" gives the channels diffuse.R, …; NULL or "" is the picture itself, with the channels R, …
+    const char *name;
+    const lam_image *image; // floats, of the same size as the others
+    // A letter for each number of a pixel that is written, in their order: "XYZ". NULL: "RGB", of the picture itself
+    // "RGBA".
     const char *channels;
     LAM_RESERVED(4);
 } lam_layer;
@@ -121,13 +128,16 @@ LAM_API bool lam_image_is_from_lambent(const char *path);
 // a channel's unit is 1 = full range (255 steps of a byte). A number and NaN, and a number and another infinity, differ
 // infinitely.
 typedef struct lam_difference {
+    // Largest, mean and root mean square difference of a channel.
     double maximum, mean, rmse;
-    double psnr_db; // 20·log10(1 / rmse); infinity for equal pictures, −infinity for infinitely different ones
-    double share_over_1, share_over_2; // share of pixels, 0..1, with a channel off by more than 1/255, 2/255
+    // 20·log10(1 / rmse): infinity for equal pictures, −infinity for infinitely different ones.
+    double psnr_db;
+    // Fraction of the pixels with a channel that differs by more than 1/255, by more than 2/255.
+    double share_over_1, share_over_2;
     LAM_RESERVED(8);
 } lam_difference;
 
-// LAM_BAD_ARGUMENT when sizes or formats differ.
+// Measures the difference of two pictures. False: LAM_BAD_ARGUMENT (sizes or formats differ).
 LAM_API bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference, lam_error *error);
 
 // A picture of the differences of two pictures of the same size and format, LAM_RGBA8 or LAM_RGBA32F: each colour channel

@@ -35,5 +35,6 @@
 #include "scene.h"
 #include "scene_file.h"
 #include "shader.h"
+#include "words.h"
 
 #endif

@@ -22,8 +22,8 @@ typedef enum lam_up {
     LAM_UP_Z,        // +z
 } lam_up;
 
-// Reads a colour: "#rgb", "#rrggbb", "#rrggbbaa", a colour name of HTML 4 or "orange", "transparent", or linear numbers
-// "r/g/b" or "r/g/b/a". Hexadecimal colours and names are sRGB: LAM_COLOR_SRGB decodes them to linear light, and
+// Reads a colour: "#rgb", "#rrggbb", "#rrggbbaa", a colour name of HTML 4 or "orange", "transparent", linear numbers
+// "r/g/b" or "r/g/b/a", or one linear number for all three channels. Hexadecimal colours and names are sRGB: LAM_COLOR_SRGB decodes them to linear light, and
 // LAM_COLOR_RAW leaves their numbers as they are. False: LAM_BAD_ARGUMENT.
 LAM_API bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam_error *error);
 

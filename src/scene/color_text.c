@@ -56,7 +56,7 @@ static bool read_hex(const char *text, uint32_t *rgba)
     return true;
 }
 
-// "r/g/b" or "r/g/b/a", not negative; a up to 1.
+// One number for all three channels, "r/g/b" or "r/g/b/a", not negative; a up to 1.
 static bool read_numbers(const char *text, lam_rgba *color)
 {
     float part[4] = {0, 0, 0, 1};
@@ -69,8 +69,10 @@ static bool read_numbers(const char *text, lam_rgba *color)
         if (at == end || *at++ != '/')
             break;
     }
+    if (count == 0)
+        part[1] = part[2] = part[0];
     *color = (lam_rgba){part[0], part[1], part[2], part[3]};
-    return at == end && (count == 2 || count == 3) && part[3] <= 1;
+    return at == end && count != 1 && part[3] <= 1;
 }
 
 static bool same_word(const char *a, const char *b)
@@ -104,7 +106,8 @@ bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam
         *color = numbers;
         return true;
     }
-    return fail(error, LAM_BAD_ARGUMENT,
-                "found '%.60s', expected a colour: #rrggbb, #rrggbbaa, r/g/b, transparent, or a name such as white",
-                text);
+    return fail(
+        error, LAM_BAD_ARGUMENT,
+        "found '%.60s', expected a colour: #rrggbb, #rrggbbaa, r/g/b, one number, transparent, or a name such as white",
+        text);
 }

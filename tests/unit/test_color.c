@@ -60,13 +60,14 @@ static void colors_in_every_form(void **state)
     assert_color(parsed("transparent", LAM_COLOR_SRGB), 0, 0, 0, 0);
     assert_color(parsed("0.25/2/0", LAM_COLOR_SRGB), 0.25, 2, 0, 1); // numbers are linear, and may be over 1
     assert_color(parsed("0.25/1e-1/0/0.5", LAM_COLOR_RAW), 0.25, 0.1, 0, 0.5);
+    assert_color(parsed("0.25", LAM_COLOR_SRGB), 0.25, 0.25, 0.25, 1); // one number for all three
 }
 
 static void wrong_colors_are_told(void **state)
 {
     (void)state;
     static const char *const wrong[] = {"",         "#",          "#1",      "#12",       "#1234",   "#12345",
-                                        "#1234567", "#123456789", "#gggggg", "whit",      "whitee",  "1",
+                                        "#1234567", "#123456789", "#gggggg", "whit",      "whitee",  "-1",
                                         "1/2",      "1/2/",       "1/2/3/",  "1/2/3/4/5", "1/2/3/2", "-1/0/0",
                                         "nan/0/0",  "inf/0/0",    "1/2/x",   "1 /2/3",    " white",  "255,0,0"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {

@@ -236,6 +236,63 @@ static void cameras_in_words(void **state)
     lam_scene_free(scene);
 }
 
+// Materials and lights in words. (tests/cli has every error.)
+static void materials_in_words(void **state)
+{
+    (void)state;
+    lam_material ruby = lam_material_named(LAM_MATERIAL_RUBY), m = lam_material_default();
+    lam_error error;
+    assert_true(lam_material_parse("Ruby,shininess=9,kd=0.5,opacity=0.25", LAM_COLOR_SRGB, &m, &error));
+    assert_string_equal(m.name, ruby.name);
+    assert_true(m.shininess == 9 && m.diffuse.a == 0.25f && m.specular.r == ruby.specular.r);
+    near((double)m.diffuse.r, 0.5 * (double)ruby.diffuse.r, 1e-7);
+    m = lam_material_default();
+    float shininess = m.shininess;
+    assert_true(lam_material_parse("diffuse=0.1/0.2/0.3", LAM_COLOR_SRGB, &m, &error));
+    assert_true(m.shininess == shininess && m.diffuse.g == 0.2f); // the others stay
+    lam_material before = m;
+    static const char *const wrong[] = {"rubi", "", "shininess=-1", "kd=1,kd=2", "gold,ruby"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_false(lam_material_parse(wrong[i], LAM_COLOR_SRGB, &m, &error));
+        assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+        assert_memory_equal(&m, &before, sizeof m);
+    }
+}
+
+static void lights_in_words(void **state)
+{
+    (void)state;
+    lam_scene *scene = shape_scene("sphere", 2), *empty = lam_scene_make(NULL);
+    lam_mat4 move = lam_mat4_identity();
+    move.m[1][3] = 10;
+    assert_true(lam_scene_transform(scene, &move, NULL));
+    lam_error error;
+    const char *text = "spot:position=1r/2r/0,range=3r,cutoff=30,color=0.5,attenuation=1/0/1r,name=lamp";
+    assert_int_equal(lam_scene_add_light_text(scene, text, NULL, &error), 0);
+    const lam_light *light = lam_scene_light(scene, 0);
+    near(light->position.x, 2, 1e-5);
+    near(light->position.y, 14, 1e-5);
+    near((double)light->range, 6, 1e-5);
+    near((double)light->attenuation.quadratic, 0.25, 1e-6); // 1 at a distance of one radius
+    near((double)light->cutoff_rad, PI_HALF / 3, 1e-6);
+    near(light->direction.y, -4, 1e-5); // towards the middle of the scene
+    assert_true(light->diffuse.g == 0.5f && light->specular.b == 0.5f);
+    assert_string_equal(light->name, "lamp");
+    lam_light_text_params params = {.centre = {1, 0, 0}, .radius = 5};
+    assert_int_equal(lam_scene_add_light_text(scene, "point:position=0/1r/0", &params, &error), 1);
+    near(lam_scene_light(scene, 1)->position.x, 1, 1e-12);
+    near(lam_scene_light(scene, 1)->position.y, 5, 1e-12);
+    assert_int_equal(lam_scene_add_light_text(NULL, text, NULL, &error), 0); // only checked
+    assert_int_equal(lam_scene_add_light_text(NULL, "spot:cutof=3", NULL, &error), -1);
+    assert_non_null(strstr(error.text, "did you mean 'cutoff'?"));
+    assert_int_equal(lam_scene_add_light_text(empty, text, NULL, &error), -1);
+    assert_non_null(strstr(error.text, "without r"));
+    assert_int_equal(lam_scene_add_light_text(empty, "directional:direction=0/-1/0", NULL, &error), 0);
+    assert_int_equal(lam_scene_light_count(empty), 1);
+    lam_scene_free(scene);
+    lam_scene_free(empty);
+}
+
 static void turning_and_moving(void **state)
 {
     (void)state;
@@ -483,6 +540,8 @@ int main(void)
         cmocka_unit_test(camera_fits_the_picture),
         cmocka_unit_test(sides_have_names),
         cmocka_unit_test(cameras_in_words),
+        cmocka_unit_test(materials_in_words),
+        cmocka_unit_test(lights_in_words),
         cmocka_unit_test(turning_and_moving),
         cmocka_unit_test(rigs_stand_about_the_scene),
         cmocka_unit_test(lights_go_with_the_model),

@@ -9,7 +9,6 @@
 #include "command.h"
 #include "console.h"
 #include "json.h"
-#include "light_option.h"
 #include "output.h"
 #include "report.h"
 #include "suggest.h"
@@ -98,20 +97,26 @@ static bool add_faded(struct plot *plot, const lam_light *light, const char *nam
 
 static bool fades(const lam_light *light) { return light->type == LAM_LIGHT_POINT || light->type == LAM_LIGHT_SPOT; }
 
-// A light as --light takes it: "point:attenuation=1/0.5/0.2,name=lamp".
-static bool add_light(struct plot *plot, const char *word, lam_error *error)
+// Adds the curve of a light in words, with `add`.
+static bool add_words(struct plot *plot, const char *kind, const char *word, const char *light,
+                      bool add(struct plot *plot, const lam_light *light, const char *word, lam_error *error),
+                      lam_error *error)
 {
-    struct light_option option;
     lam_error reason;
-    if (!light_option_parse(word, LAM_COLOR_SRGB, &option, &reason))
-        return complain(error, LAM_BAD_ARGUMENT, "plot attenuation: '%.60s': %.300s", word, reason.text);
-    if (option.none || !fades(&option.light))
+    lam_scene *scene = lam_scene_make(&reason); // without triangles: lengths in r are refused
+    bool read = scene && lam_scene_add_light_text(scene, light, NULL, &reason) == 0;
+    bool ok = read ? add(plot, lam_scene_light(scene, 0), word, error)
+                   : complain(error, reason.code, "plot %s: '%.60s': %.300s", kind, word, reason.text);
+    lam_scene_free(scene);
+    return ok;
+}
+
+// A light as --light takes it: "point:attenuation=1/0.5/0.2,name=lamp".
+static bool add_fading(struct plot *plot, const lam_light *light, const char *word, lam_error *error)
+{
+    if (!fades(light))
         return wrong(error, "attenuation", word, "a point or spot light: the others do not fade");
-    if (option.linear_in_radii || option.quadratic_in_radii || option.range_in_radii)
-        return wrong(error, "attenuation", word, "numbers without r: there is no model whose radius it could be");
-    if (!lam_light_check(&option.light, &reason))
-        return complain(error, LAM_BAD_ARGUMENT, "plot attenuation: '%.60s': %.300s", word, reason.text);
-    return add_faded(plot, &option.light, option.light.name, error);
+    return add_faded(plot, light, light->name, error);
 }
 
 // The lights of a model or scene file.
@@ -155,7 +160,7 @@ static bool add_attenuation(struct plot *plot, const char *word, lam_error *erro
     int count = 0;
     const char *rest = word;
     if (is_light(word))
-        return add_light(plot, word, error);
+        return add_words(plot, "attenuation", word, word + (*word == '+'), add_fading, error);
     if (access(word, F_OK) == 0)
         return add_lights_of(plot, word, error);
     do {
@@ -178,44 +183,34 @@ static bool add_attenuation(struct plot *plot, const char *word, lam_error *erro
 }
 
 // "cutoff=30,exponent=8" or "inner=20,outer=35", as in a light.
-static bool add_spot(struct plot *plot, const char *word, lam_error *error)
+static bool add_spot_light(struct plot *plot, const lam_light *light, const char *word, lam_error *error)
 {
-    static const char *const keys[] = {"cutoff", "exponent", "inner", "outer"};
-    double part[4] = {0};
-    bool given[4] = {0};
-    for (const char *s = word; s; s = *s == ',' ? s + 1 : NULL) {
-        size_t length = strcspn(s, "=,");
-        int key = 0;
-        while (key < 4 && (strlen(keys[key]) != length || memcmp(keys[key], s, length) != 0))
-            key++;
-        const char *rest = key < 4 && s[length] == '=' ? read_number(s + length + 1, &part[key]) : NULL;
-        if (!rest || (*rest && *rest != ',') || given[key])
-            return wrong(error, "spot", word, "cutoff=DEGREES,exponent=E or inner=DEGREES,outer=DEGREES");
-        given[key] = true;
-        s = rest;
-    }
-    if ((given[0] || given[1]) == (given[2] || given[3]) || (given[2] && !given[3]))
-        return wrong(error, "spot", word, "either cutoff and exponent or inner and outer");
-    lam_error reason;
-    if (!light_cone_check(given[0] ? &part[0] : NULL, &part[2], given[3] ? &part[3] : NULL, &reason))
-        return complain(error, LAM_BAD_ARGUMENT, "plot spot: '%.60s': %.300s", word, reason.text);
+    const double degrees = 180 / 3.14159265358979323846;
+    if (light->outer_rad == 0 && !strstr(word, "cutoff") && !strstr(word, "exponent"))
+        return wrong(error, "spot", word, "cutoff=DEGREES,exponent=E or inner=DEGREES,outer=DEGREES");
     struct curve *curve = add_curve(plot, spot_value, error);
     if (!curve)
         return false;
-    curve->light = lam_light_default(LAM_LIGHT_SPOT);
-    curve->light.cutoff_rad = (float)radians(part[0]);
-    curve->light.exponent = (float)part[1];
-    curve->light.inner_rad = (float)radians(part[2]);
-    curve->light.outer_rad = (float)radians(part[3]);
-    if (!lam_light_check(&curve->light, &reason))
-        return complain(error, LAM_BAD_ARGUMENT, "plot spot: '%.60s': %.300s", word, reason.text);
-    if (given[3])
-        snprintf(curve->label, sizeof curve->label, "inner %.5g°, outer %.5g°", part[2], part[3]);
-    else if (part[0] > 0)
-        snprintf(curve->label, sizeof curve->label, "cutoff %.5g°, exponent %.5g", part[0], part[1]);
+    curve->light = *light;
+    curve->light.name = curve->light.object = NULL; // they belong to the scene
+    if (light->outer_rad > 0)
+        snprintf(curve->label, sizeof curve->label, "inner %.5g°, outer %.5g°", (double)light->inner_rad * degrees,
+                 (double)light->outer_rad * degrees);
+    else if (light->cutoff_rad > 0)
+        snprintf(curve->label, sizeof curve->label, "cutoff %.5g°, exponent %.5g", (double)light->cutoff_rad * degrees,
+                 (double)light->exponent);
     else
-        snprintf(curve->label, sizeof curve->label, "exponent %.5g, no cutoff", part[1]);
+        snprintf(curve->label, sizeof curve->label, "exponent %.5g, no cutoff", (double)light->exponent);
     return true;
+}
+
+// The cone of a spot light, in the keys of --light.
+static bool add_spot(struct plot *plot, const char *word, lam_error *error)
+{
+    char light[200];
+    if (snprintf(light, sizeof light, "spot:%s", word) >= (int)sizeof light)
+        return wrong(error, "spot", word, "cutoff=DEGREES,exponent=E or inner=DEGREES,outer=DEGREES");
+    return add_words(plot, "spot", word, light, add_spot_light, error);
 }
 
 static bool add_highlight(struct plot *plot, const char *word, lam_error *error)

@@ -1,9 +1,11 @@
 // job_scene.c: what the options do to a model between reading and drawing: materials, turns, lights.
 #include "job_scene.h"
 
+#include <stdio.h>
+#include <string.h>
+
 #include "options.h"
 #include "console.h"
-#include "key_values.h"
 #include "material_option.h"
 
 bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg)
@@ -11,7 +13,8 @@ bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg)
     if (!(text[0] >= 'x' && text[0] <= 'z') || text[1] != ':')
         return false;
     *axis = (lam_vec3){text[0] == 'x', text[0] == 'y', text[0] == 'z'};
-    return read_one(text + 2, angle_deg) && *angle_deg >= -1e6 && *angle_deg <= 1e6;
+    text = read_number(text + 2, angle_deg);
+    return text && !*text && *angle_deg >= -1e6 && *angle_deg <= 1e6;
 }
 
 // --- materials
@@ -34,14 +37,18 @@ static bool dress_materials(const struct options *o, lam_scene *scene, lam_error
 {
     if (!set_materials(&o->materials, false, "material", o, scene, error))
         return false;
-    struct material_option plain;
-    material_option_start(&plain);
+    char text[100] = "", *at = text;
     if (o->has_shininess)
-        material_option_set_number(&plain, "shininess", o->shininess);
+        at += sprintf(at, "shininess=%.17g,", o->shininess);
     if (o->has_opacity)
-        material_option_set_number(&plain, "opacity", o->opacity);
-    if (plain.given && !material_option_set(&plain, false, "shininess", scene, error))
-        return false;
+        at += sprintf(at, "opacity=%.17g,", o->opacity);
+    if (at > text) {
+        at[-1] = 0;
+        struct material_option plain;
+        if (!material_option_parse(text, (lam_color_mode)o->color, &plain, error) ||
+            !material_option_set(&plain, false, "shininess", scene, error))
+            return false;
+    }
     return set_materials(&o->back_materials, true, "back-material", o, scene, error);
 }
 
@@ -152,15 +159,18 @@ static bool scale_lights(lam_scene *scene, double factor, lam_error *error)
 bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *error)
 {
     const struct options *o = job->options;
+    lam_light_text_params params = {
+        .color = (lam_color_mode)o->color, .camera = &job->camera, .centre = sphere->centre, .radius = sphere->radius};
     for (int i = 0; i < o->lights.count; i++) {
-        struct light_option option;
-        if (!light_option_parse(o->lights.items[i], (lam_color_mode)o->color, &option, error) ||
-            (!option.none && !light_option_add(&option, sphere, &job->camera, job->scene, error)))
-            return false;
+        const char *text = o->lights.items[i];
+        lam_error reason;
+        if (strcmp(text, "none") != 0 &&
+            lam_scene_add_light_text(job->scene, text + (*text == '+'), &params, &reason) < 0)
+            return complain(error, reason.code, "option '--light': %s", reason.text);
     }
     if (o->ambient) {
         lam_rgba color;
-        if (!read_color("ambient", o->ambient, (lam_color_mode)o->color, true, &color, error))
+        if (!lam_color_parse(o->ambient, (lam_color_mode)o->color, &color, error))
             return false;
         lam_scene_set_ambient(job->scene, (lam_rgb){color.r, color.g, color.b});
     }

@@ -3,10 +3,15 @@
 #define JOB_SCENE_H
 
 #include "job.h"
-#include "light_option.h"
 
 // "x:30".
 bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg);
+
+// The sphere that the unit r counts by: of the model before --rotate.
+struct model_sphere {
+    lam_vec3 centre;
+    double radius;
+};
 
 // Everything that the camera depends on, and what needs no camera. `sphere` is the model's as it was before it was
 // turned.

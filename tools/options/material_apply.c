@@ -47,7 +47,7 @@ static int users_of(const lam_scene *scene, int mesh, int index, bool *first)
 // Each part's own material, changed. Neighbours that shared one share the new one.
 static bool change_parts(const struct material_option *option, int mesh, lam_scene *scene, lam_error *error)
 {
-    bool whole = option->id != LAM_MATERIAL_COUNT; // replaces every field
+    bool whole = option->named; // replaces every field
     int from = -2, changed = -1;
     for (uint32_t i = 0; i < lam_scene_mesh(scene, mesh)->part_count; i++) {
         int material = lam_scene_mesh(scene, mesh)->parts[i].material;
@@ -64,7 +64,7 @@ static bool set_front(const struct material_option *option, const char *name, in
                       lam_error *error)
 {
     lam_object object = *lam_scene_object(scene, index);
-    bool whole = option->id != LAM_MATERIAL_COUNT, first;
+    bool whole = option->named, first;
     int front = front_of(scene, &object), users = users_of(scene, object.mesh, index, &first);
     bool by_part = object.material < 0 && lam_scene_mesh(scene, object.mesh)->part_count;
     if (by_part && users == 1) // so that another option can still change one of them
@@ -87,7 +87,7 @@ static bool set_back(const struct material_option *option, const char *name, int
 {
     lam_object object = *lam_scene_object(scene, index);
     int front = front_of(scene, &object);
-    if (front == -2 && option->id == LAM_MATERIAL_COUNT)
+    if (front == -2 && !option->named)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--%s': the front of '%.100s' has several materials, so what is left out cannot be the "
                         "front's; begin with a material's name: %s gold,…",

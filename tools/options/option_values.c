@@ -7,8 +7,6 @@
 
 #include "console.h"
 #include "job_scene.h"
-#include "key_values.h"
-#include "light_option.h"
 #include "material_option.h"
 #include "suggest.h"
 
@@ -231,8 +229,8 @@ static bool append(const struct option *option, const char *value, struct option
 
 bool store_light(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
-    struct light_option light;
-    return light_option_parse(value, LAM_COLOR_SRGB, &light, error) && append(option, value, options, error);
+    bool ok = strcmp(value, "none") == 0 || lam_scene_add_light_text(NULL, value + (*value == '+'), NULL, error) == 0;
+    return ok && append(option, value, options, error);
 }
 
 bool store_material(const struct option *option, const char *value, struct options *options, lam_error *error)
@@ -260,8 +258,10 @@ bool store_across(const struct option *option, const char *value, struct options
 bool store_light_color(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_rgba color;
-    if (!read_color(option->name, value, LAM_COLOR_SRGB, true, &color, error))
+    if (!lam_color_parse(value, LAM_COLOR_SRGB, &color, error))
         return false;
+    if (color.a != 1)
+        return complain(error, LAM_BAD_ARGUMENT, "found '%.60s', expected a colour without alpha", value);
     *(const char **)field_of(options, option->field) = value;
     return true;
 }

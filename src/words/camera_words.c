@@ -1,12 +1,11 @@
-// camera_text.c: cameras as people write them, and the named sides of a scene.
+// camera_words.c: cameras as people write them, and the named sides of a scene.
 #include <lambent/camera.h>
 
 #include <string.h>
 
 #include "fail.h"
 #include "linear.h"
-#include "number.h"
-#include "spelling.h"
+#include "word_values.h"
 
 // --- sides
 
@@ -46,35 +45,12 @@ lam_view lam_view_of_side(lam_side side)
 // --- cameras
 
 enum key { EYE, TARGET, UP, FOVY, ORTHO, NEAR, FAR, KEY_COUNT };
-static const char *const keys[KEY_COUNT] = {"eye", "target", "up", "fovy", "ortho", "near", "far"};
+static const char *const keys[] = {"eye", "target", "up", "fovy", "ortho", "near", "far", NULL};
 
 struct reading {
     lam_camera camera; // with fovy in degrees
     bool seen[KEY_COUNT];
 };
-
-// The plain forms of a decimal number: not "inf", not "nan", and nothing that overflows.
-static const char *read_number(const char *text, double *out)
-{
-    const char *digits = text + (*text == '-' || *text == '+');
-    if (!((*digits >= '0' && *digits <= '9') || *digits == '.'))
-        return NULL;
-    const uint8_t *end = (const uint8_t *)text + strlen(text);
-    text = (const char *)number_double((const uint8_t *)text, end, out);
-    return text && *out - *out == 0 ? text : NULL;
-}
-
-// Numbers with '/' between them.
-static bool read_numbers(const char *text, int count, double *out)
-{
-    for (int i = 0; i < count; i++) {
-        text = read_number(text, &out[i]);
-        if (!text || *text != (i < count - 1 ? '/' : 0))
-            return false;
-        text++;
-    }
-    return true;
-}
 
 static bool read_pair(char *pair, struct reading *reading, lam_error *error)
 {
@@ -82,14 +58,9 @@ static bool read_pair(char *pair, struct reading *reading, lam_error *error)
     if (!value)
         return fail(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as eye=2/1/4", pair);
     *value++ = 0;
-    int key = 0;
-    while (key < KEY_COUNT && strcmp(keys[key], pair) != 0)
-        key++;
-    if (key == KEY_COUNT) {
-        const char *nearest = nearest_word(pair, keys, KEY_COUNT);
-        return fail(error, LAM_BAD_ARGUMENT, "unknown key '%.60s'%s%s%s", pair, nearest ? "; did you mean '" : "",
-                    nearest ? nearest : "", nearest ? "'?" : "; expected eye, target, up, fovy, ortho, near or far");
-    }
+    int key = word_key(pair, keys, error);
+    if (key < 0)
+        return false;
     if (reading->seen[key])
         return fail(error, LAM_BAD_ARGUMENT, "'%s' is given twice", pair);
     reading->seen[key] = true;
@@ -100,7 +71,8 @@ static bool read_pair(char *pair, struct reading *reading, lam_error *error)
                                  [NEAR] = &camera->near_plane,
                                  [FAR] = &camera->far_plane};
     double found[3];
-    if (!read_numbers(value, vector[key] ? 3 : 1, found))
+    int count = vector[key] ? 3 : 1;
+    if (!word_numbers(value, count, count, found, &count, NULL))
         return fail(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected %s", pair, value,
                     vector[key] ? "three numbers x/y/z" : "a number");
     if (vector[key])
@@ -141,13 +113,11 @@ bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *came
 {
     struct reading reading = {.camera = lam_camera_default()};
     reading.camera.fovy_rad = 30;
-    char copy[1024];
+    char copy[WORDS_MAX];
     if (!text || !camera)
         return fail(error, LAM_BAD_ARGUMENT, "lam_camera_parse: %s is NULL", text ? "camera" : "text");
-    if (strlen(text) >= sizeof copy)
-        return fail(error, LAM_BAD_ARGUMENT, "it is %zu letters long, expected less than %zu", strlen(text),
-                    sizeof copy);
-    strcpy(copy, text);
+    if (!word_copy(text, copy, error))
+        return false;
     for (char *rest = copy, *pair; (pair = strsep(&rest, ",")) != NULL;)
         if (!read_pair(pair, &reading, error))
             return false;

@@ -1,0 +1,52 @@
+// lambent/words.h: materials and lights as people write them: the values of the options of `lambent`.
+//
+// A text is at most 1023 bytes long. Errors are LAM_BAD_ARGUMENT, and the sentence says what was found and what was
+// expected. lam_color_parse (scene.h) and lam_camera_parse (camera.h) belong here too.
+#ifndef LAMBENT_WORDS_H
+#define LAMBENT_WORDS_H
+
+#include "camera.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Changes a material as a text says:
+//   ruby                   becomes a named material (lam_material_name)
+//   shininess=9,ks=0.5     changes fields: the keys of scene files, with their ranges (lam_material_field)
+//   gold,opacity=0.5       both, the name first
+// Colours are as lam_color_parse takes them, or one number for all three channels. The symbols of colours (ka, kd, ks,
+// kr) multiply them; `color` sets ambient and diffuse, `specular_color` the highlight's colour for ks and kr. False: the
+// material is unchanged.
+LAM_API bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *material, lam_error *error);
+
+// How lam_scene_add_light_text reads a light. All zero is the default.
+typedef struct lam_light_text_params {
+    lam_color_mode color; // of hexadecimal colours and names
+    // The camera of lights in the frame of the camera, whose targets and radii need it. NULL: lam_camera_default().
+    const lam_camera *camera;
+    // The point that positions in `r` are counted from; it counts where `radius` is not 0.
+    lam_vec3 centre;
+    // The length `r`. 0: radius and centre of lam_scene_sphere for the whole scene.
+    double radius;
+    LAM_RESERVED(8);
+} lam_light_text_params;
+
+// Adds a light to a scene as a text says, such as "spot:position=-2r/3r/2r,cutoff=20,color=#ffeecc":
+//   ambient, hemisphere, point, directional or spot, then after ':' the keys of scene files (lam_light_field), and
+//   target=x/y/z           the point that it shines at; for a spot the middle of the scene unless there is a direction
+//   position=x/y/z/w       w = 0: a directional light from there
+//   color=…,intensity=…    diffuse and specular at once; ambient, sky and ground of their types
+//   frame=world|camera|object|object:NAME, name=…
+// Angles are in degrees. A number with r, "2r", is in radii of the scene's sphere: in positions and targets from its
+// centre, in ranges and in the second and third number of an attenuation as a length. A point or spot light without a
+// position stands at 1r/2r/3r, in the camera's frame at the eye.
+//
+// Returns the light's index, −1 on failure. `params` may be NULL. `scene` NULL: the text is checked, and 0 is returned.
+LAM_API int lam_scene_add_light_text(lam_scene *scene, const char *text, const lam_light_text_params *params,
+                                     lam_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

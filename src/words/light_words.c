@@ -1,0 +1,472 @@
+// light_words.c: lights as people write them.
+#include <lambent/words.h>
+
+#include <stdio.h>
+#include <string.h>
+
+#include "fail.h"
+#include "linear.h"
+#include "spelling.h"
+#include "word_values.h"
+
+// Keys: the fields by their index in the table of lam_light_field (the first row of a key), then these.
+enum { TARGET = LAM_FIELDS_MAX, COLOR, INTENSITY, FRAME, NAME, KEYS };
+
+#define BIT(key) (1ull << (key))
+
+static const struct {
+    const char *name;
+    unsigned light_types;
+} other_keys[] = {
+    [TARGET - LAM_FIELDS_MAX] = {"target", BIT(LAM_LIGHT_DIRECTIONAL) | BIT(LAM_LIGHT_SPOT)},
+    [COLOR - LAM_FIELDS_MAX] = {"color", ~0u},
+    [INTENSITY - LAM_FIELDS_MAX] = {"intensity", ~0u},
+    [FRAME - LAM_FIELDS_MAX] = {"frame", ~(unsigned)BIT(LAM_LIGHT_AMBIENT)},
+    [NAME - LAM_FIELDS_MAX] = {"name", ~0u},
+};
+
+// The keys read so far.
+struct reading {
+    lam_light light;
+    lam_vec3 target;
+    bool has_position, has_direction, has_target;
+    bool position_in_radii, target_in_radii, linear_in_radii, quadratic_in_radii, range_in_radii;
+    lam_color_mode mode;
+    uint64_t seen; // BIT(key)
+    double numbers[KEYS][4];
+    double w; // the position's fourth number
+};
+
+// The index of the first row of a key; −1: it is no field's.
+static int field_index(const char *key)
+{
+    for (int i = 0; lam_light_field(i); i++)
+        if (strcmp(lam_light_field(i)->key, key) == 0)
+            return i;
+    return -1;
+}
+
+// The name of a key; NULL: no such key.
+static const char *key_name(int key)
+{
+    if (key >= LAM_FIELDS_MAX)
+        return other_keys[key - LAM_FIELDS_MAX].name;
+    const lam_field *field = lam_light_field(key);
+    return field && field_index(field->key) == key ? field->key : NULL;
+}
+
+static bool is_of_type(int key, lam_light_type type)
+{
+    if (key >= LAM_FIELDS_MAX)
+        return other_keys[key - LAM_FIELDS_MAX].light_types >> type & 1;
+    bool is = strcmp(key_name(key), "position") == 0 && type == LAM_LIGHT_DIRECTIONAL; // the place that it comes from
+    for (int i = key; lam_light_field(i); i++)
+        is |= strcmp(lam_light_field(i)->key, key_name(key)) == 0 && lam_light_field(i)->light_types >> type & 1;
+    return is;
+}
+
+static int find_key(const char *name, lam_error *error)
+{
+    const char *names[KEYS + 1];
+    int keys[KEYS], count = 0;
+    for (int key = 0; key < KEYS; key++)
+        if (key_name(key)) {
+            names[count] = key_name(key);
+            keys[count++] = key;
+        }
+    names[count] = NULL;
+    int found = word_key(name, names, error);
+    return found < 0 ? -1 : keys[found];
+}
+
+static bool key_seen(const struct reading *reading, int key) { return reading->seen >> key & 1; }
+
+static bool seen(const struct reading *reading, const char *name) { return key_seen(reading, field_index(name)); }
+
+// --- single values
+
+// A point: in the model's units, or in radii of its sphere (a 0 may go without its r). `w` NULL: three numbers only.
+static bool point_for(const char *key, const char *value, lam_vec3 *out, bool *in_radii, double *w, lam_error *error)
+{
+    double numbers[4];
+    bool radii[4];
+    int count;
+    if (!word_numbers(value, 3, w ? 4 : 3, numbers, &count, radii) || (count == 4 && radii[3]))
+        return fail(error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected three numbers x/y/z%s, each with r for radii",
+                    key, value, w ? " (or four, x/y/z/w)" : "");
+    *in_radii = radii[0] || radii[1] || radii[2];
+    for (int i = 0; i < 3; i++)
+        if (*in_radii && !radii[i] && numbers[i] != 0)
+            return fail(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected r after all of its numbers or after none", key,
+                        value);
+    double divisor = 1;
+    if (count == 4) {
+        *w = numbers[3];
+        if (*w < 0)
+            return fail(error, LAM_BAD_ARGUMENT, "%s is %.60s, expected w of at least 0", key, value);
+        divisor = *w > 0 ? *w : 1;
+    }
+    *out = (lam_vec3){numbers[0] / divisor, numbers[1] / divisor, numbers[2] / divisor};
+    return true;
+}
+
+static bool read_attenuation(const char *value, struct reading *reading, lam_error *error)
+{
+    double numbers[3];
+    bool radii[3];
+    int count;
+    if (!word_numbers(value, 3, 3, numbers, &count, radii) || radii[0])
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "found 'attenuation=%.60s', expected three numbers a/b/c, b and c with r for distances in radii",
+                    value);
+    if (numbers[0] < 0 || numbers[1] < 0 || numbers[2] < 0)
+        return fail(error, LAM_BAD_ARGUMENT, "attenuation is %.60s, expected numbers of at least 0", value);
+    if (numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0)
+        return fail(error, LAM_BAD_ARGUMENT, "attenuation is %.60s, expected a + b d + c d2 above 0", value);
+    reading->light.attenuation = (lam_attenuation){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
+    reading->linear_in_radii = radii[1];
+    reading->quadratic_in_radii = radii[2];
+    return true;
+}
+
+static bool read_range(const char *value, struct reading *reading, lam_error *error)
+{
+    double number;
+    int count;
+    if (!word_numbers(value, 1, 1, &number, &count, &reading->range_in_radii))
+        return fail(error, LAM_BAD_ARGUMENT, "found 'range=%.60s', expected a distance, with r for radii", value);
+    if (!(number > 0))
+        return fail(error, LAM_BAD_ARGUMENT, "range is %.60s, expected a distance above 0", value);
+    reading->light.range = (float)number;
+    return true;
+}
+
+static bool read_frame(char *value, struct reading *reading, lam_error *error)
+{
+    char *name = strchr(value, ':');
+    if (name)
+        *name++ = 0;
+    lam_light *light = &reading->light;
+    if (strcmp(value, "object") == 0) {
+        light->frame = name ? LAM_FRAME_OBJECT : LAM_FRAME_MODEL;
+        light->object = name;
+        return !name || *name ||
+               fail(error, LAM_BAD_ARGUMENT, "frame is 'object:', expected an object's name after it");
+    }
+    bool camera = strcmp(value, "camera") == 0;
+    if (name || (!camera && strcmp(value, "world") != 0))
+        return fail(error, LAM_BAD_ARGUMENT, "found 'frame=%.60s', expected world, camera, object or object:NAME",
+                    value);
+    light->frame = camera ? LAM_FRAME_CAMERA : LAM_FRAME_WORLD;
+    return true;
+}
+
+static bool read_value(struct reading *reading, int key, char *value, lam_error *error)
+{
+    const lam_field color = {.key = "color", .type = LAM_FIELD_RGB};
+    switch (key) {
+    case TARGET:
+        return point_for("target", value, &reading->target, &reading->target_in_radii, NULL, error);
+    case COLOR:
+        return word_field(&color, value, reading->mode, reading->numbers[COLOR], error);
+    case INTENSITY:
+        return word_number_of("intensity", value, 0, 1e30, reading->numbers[INTENSITY], error);
+    case FRAME:
+        return read_frame(value, reading, error);
+    case NAME:
+        reading->light.name = value;
+        return *value || fail(error, LAM_BAD_ARGUMENT, "name is empty");
+    default:
+        break;
+    }
+    const lam_field *field = lam_light_field(key);
+    if (field->type == LAM_FIELD_POINT)
+        return point_for(field->key, value, &reading->light.position, &reading->position_in_radii, &reading->w, error);
+    if (field->type == LAM_FIELD_TRIPLE)
+        return read_attenuation(value, reading, error);
+    if (strcmp(field->key, "range") == 0)
+        return read_range(value, reading, error);
+    if (!word_field(field, value, reading->mode, reading->numbers[key], error))
+        return false;
+    word_set_field(field, &reading->light, reading->numbers[key]);
+    return true;
+}
+
+static bool read_pair(struct reading *reading, char *pair, lam_error *error)
+{
+    char *value = strchr(pair, '=');
+    if (!value)
+        return fail(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as position=1/2/3", pair);
+    *value++ = 0;
+    int key = find_key(pair, error);
+    if (key < 0)
+        return false;
+    if (key_seen(reading, key))
+        return fail(error, LAM_BAD_ARGUMENT, "'%s' is given twice", pair);
+    reading->seen |= BIT(key);
+    return read_value(reading, key, value, error);
+}
+
+// --- the light from its values
+
+// A colour that was not given by its own key.
+static void set_color(struct reading *reading, const char *name, bool by_color, double factor)
+{
+    lam_light *light = &reading->light;
+    int index = field_index(name);
+    double numbers[4];
+    while (!(lam_light_field(index)->light_types >> light->type & 1))
+        index++;
+    lam_field_get(lam_light_field(index), light, numbers);
+    if (by_color && key_seen(reading, COLOR) && !seen(reading, name))
+        memcpy(numbers, reading->numbers[COLOR], sizeof numbers);
+    for (int i = 0; i < 3; i++)
+        numbers[i] *= factor;
+    lam_field_set(lam_light_field(index), light, numbers);
+}
+
+static void set_colors(struct reading *reading)
+{
+    double intensity = key_seen(reading, INTENSITY) ? reading->numbers[INTENSITY][0] : 1;
+    switch (reading->light.type) {
+    case LAM_LIGHT_AMBIENT:
+        if (!seen(reading, "ambient"))
+            set_color(reading, "ambient", true, intensity);
+        return;
+    case LAM_LIGHT_HEMISPHERE: // whose own colours are multiplied too
+        set_color(reading, "sky", true, intensity);
+        set_color(reading, "ground", false, intensity);
+        return;
+    default:
+        if (!seen(reading, "diffuse"))
+            set_color(reading, "diffuse", true, intensity);
+        if (!seen(reading, "specular"))
+            set_color(reading, "specular", true, intensity);
+    }
+}
+
+static bool check_cone(const double *cutoff_deg, const double *inner_deg, const double *outer_deg, lam_error *error)
+{
+    if (outer_deg && !(*inner_deg < *outer_deg))
+        return fail(error, LAM_BAD_ARGUMENT, "inner is %g and outer is %g degrees, expected inner < outer", *inner_deg,
+                    *outer_deg);
+    if (cutoff_deg && !((*cutoff_deg > 0 && *cutoff_deg <= 90) || *cutoff_deg == 180))
+        return fail(error, LAM_BAD_ARGUMENT, "cutoff is %g degrees, expected a half angle above 0 and up to 90, or 180",
+                    *cutoff_deg);
+    return true;
+}
+
+static bool set_cone(struct reading *reading, lam_error *error)
+{
+    lam_light *light = &reading->light;
+    bool inner = seen(reading, "inner"), outer = seen(reading, "outer"), cutoff = seen(reading, "cutoff");
+    const double *degrees = reading->numbers[field_index("cutoff")];
+    if ((inner || outer) && (cutoff || seen(reading, "exponent")))
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "both kinds of cone are given, expected cutoff and exponent, or inner and outer");
+    if (inner && !outer)
+        return fail(error, LAM_BAD_ARGUMENT, "'inner' is given without 'outer', expected both");
+    if (!check_cone(cutoff ? degrees : NULL, reading->numbers[field_index("inner")],
+                    outer ? reading->numbers[field_index("outer")] : NULL, error))
+        return false;
+    if (!cutoff && !outer && seen(reading, "exponent"))
+        light->cutoff_rad = 0; // no edge: the exponent alone shapes it
+    return true;
+}
+
+// The place and the direction: w = 0 and directional lights have rules of their own.
+static bool set_place(struct reading *reading, lam_error *error)
+{
+    lam_light *light = &reading->light;
+    lam_vec3 *p = &light->position;
+    reading->has_position = seen(reading, "position");
+    reading->has_direction = seen(reading, "direction");
+    reading->has_target = key_seen(reading, TARGET);
+    if (reading->has_direction && reading->has_target)
+        return fail(error, LAM_BAD_ARGUMENT, "'direction' and 'target' are given, expected one of them");
+    if (reading->has_position && reading->w == 0) {
+        if (light->type == LAM_LIGHT_SPOT)
+            return fail(error, LAM_BAD_ARGUMENT, "a spot light has a place, expected w above 0");
+        if (reading->has_direction || reading->has_target)
+            return fail(error, LAM_BAD_ARGUMENT, "position with w = 0 is a direction already, found another");
+        if (p->x == 0 && p->y == 0 && p->z == 0)
+            return fail(error, LAM_BAD_ARGUMENT, "position is 0/0/0/0, expected a direction");
+        light->type = LAM_LIGHT_DIRECTIONAL;
+        light->direction = (lam_vec3){-p->x, -p->y, -p->z};
+        reading->has_position = false;
+        reading->has_direction = true;
+    } else if (light->type == LAM_LIGHT_DIRECTIONAL && reading->has_position != reading->has_target) {
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "a directional light takes direction=x/y/z, position=x/y/z/0, or both position and target");
+    }
+    return true;
+}
+
+static bool check_keys(const struct reading *reading, lam_error *error)
+{
+    lam_light_type type = reading->light.type;
+    for (int key = 0; key < KEYS; key++)
+        if (key_seen(reading, key) && !is_of_type(key, type))
+            return fail(error, LAM_BAD_ARGUMENT, "%s%s light has no '%s'", type == LAM_LIGHT_AMBIENT ? "an " : "a ",
+                        lam_light_type_describe(type)->word, key_name(key));
+    return true;
+}
+
+static bool find_type(const char *name, lam_light_type *type, lam_error *error)
+{
+    const char *words[LAM_LIGHT_TYPE_COUNT];
+    for (int i = 0; i < LAM_LIGHT_TYPE_COUNT; i++) {
+        words[i] = lam_light_type_describe((lam_light_type)i)->word;
+        if (strcmp(words[i], name) == 0) {
+            *type = (lam_light_type)i;
+            return true;
+        }
+    }
+    const char *nearest = nearest_word(name, words, LAM_LIGHT_TYPE_COUNT);
+    return fail(error, LAM_BAD_ARGUMENT, "unknown light '%.60s'%s%s%s", name, nearest ? "; did you mean '" : "",
+                nearest ? nearest : "", nearest ? "'?" : "; expected ambient, hemisphere, point, directional or spot");
+}
+
+static bool read_light(char *text, struct reading *reading, lam_error *error)
+{
+    char *rest = strchr(text, ':');
+    if (rest)
+        *rest++ = 0;
+    lam_light_type type = LAM_LIGHT_POINT;
+    if (!find_type(text, &type, error))
+        return false;
+    reading->light = lam_light_default(type);
+    for (char *pair; (pair = strsep(&rest, ",")) != NULL;)
+        if (!read_pair(reading, pair, error))
+            return false;
+    if (!set_place(reading, error) || !check_keys(reading, error))
+        return false;
+    set_colors(reading);
+    return set_cone(reading, error);
+}
+
+// --- from radii and targets to a light of the scene
+
+struct sphere {
+    lam_vec3 centre;
+    double radius;
+};
+
+static lam_vec3 about(const struct sphere *sphere, lam_vec3 v)
+{
+    return v3_add(sphere->centre, v3_scale(v, sphere->radius));
+}
+
+static int find_object(const lam_scene *scene, const char *name, lam_error *error)
+{
+    const char *nearest = NULL;
+    int found = -1, named = 0;
+    for (int i = 0, best = (int)strlen(name) / 3 + 2; i < lam_scene_object_count(scene); i++) {
+        const char *other = lam_scene_object(scene, i)->name;
+        int distance = other ? lam_edit_distance(name, other) : best;
+        if (distance == 0 && named++ == 0)
+            found = i;
+        if (distance < best) {
+            best = distance;
+            nearest = other;
+        }
+    }
+    if (named == 1)
+        return found;
+    if (named > 1)
+        fail(error, LAM_BAD_ARGUMENT, "%d objects are named '%.60s', expected one", named, name);
+    else
+        fail(error, LAM_BAD_ARGUMENT, "the model has no object '%.60s'%s%.60s%s", name,
+             nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
+    return -1;
+}
+
+// The sphere as the light's frame sees it.
+static bool sphere_in_frame(const lam_light *light, const lam_light_text_params *params, const lam_scene *scene,
+                            struct sphere *out, lam_error *error)
+{
+    if (light->frame == LAM_FRAME_CAMERA) {
+        lam_camera camera = params->camera ? *params->camera : lam_camera_default();
+        lam_mat4 view = lam_camera_view_matrix(&camera);
+        out->centre = mat4_point(&view, out->centre);
+    } else if (light->frame == LAM_FRAME_OBJECT) {
+        int object = find_object(scene, light->object, error);
+        if (object < 0)
+            return false;
+        lam_scene_sphere(scene, object, &out->centre, &out->radius);
+        if (!(out->radius > 0))
+            out->radius = 1;
+    }
+    return true;
+}
+
+static bool place_light(struct reading *reading, const lam_light_text_params *params, struct sphere model,
+                        const lam_scene *scene, lam_error *error)
+{
+    lam_light *light = &reading->light;
+    struct sphere here = model;
+    if (!sphere_in_frame(light, params, scene, &here, error))
+        return false;
+    bool stands = light->type == LAM_LIGHT_POINT || light->type == LAM_LIGHT_SPOT;
+    if (reading->has_position && reading->position_in_radii)
+        light->position = about(&here, light->position);
+    else if (stands && !reading->has_position && light->frame != LAM_FRAME_CAMERA)
+        light->position = about(&here, v3(1, 2, 3)); // a light of the camera stands at the eye
+    lam_vec3 target = !reading->has_target       ? here.centre
+                      : reading->target_in_radii ? about(&here, reading->target)
+                                                 : reading->target;
+    if (reading->has_target || (light->type == LAM_LIGHT_SPOT && !reading->has_direction)) {
+        lam_vec3 way = v3_sub(target, light->position);
+        if (way.x != 0 || way.y != 0 || way.z != 0)
+            light->direction = way;
+        else if (reading->has_target)
+            return fail(error, LAM_BAD_ARGUMENT, "position and target are the same point");
+    }
+    double r = model.radius;
+    if (reading->linear_in_radii)
+        light->attenuation.linear = (float)((double)light->attenuation.linear / r);
+    if (reading->quadratic_in_radii)
+        light->attenuation.quadratic = (float)((double)light->attenuation.quadratic / (r * r));
+    if (reading->range_in_radii)
+        light->range = (float)((double)light->range * r);
+    return true;
+}
+
+static bool in_radii(const struct reading *reading)
+{
+    return reading->position_in_radii || reading->target_in_radii || reading->linear_in_radii ||
+           reading->quadratic_in_radii || reading->range_in_radii;
+}
+
+static bool add_light(lam_scene *scene, const char *text, const lam_light_text_params *params, int *index,
+                      lam_error *error)
+{
+    struct reading reading = {.mode = params->color, .w = 1};
+    char copy[WORDS_MAX];
+    if (!text)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_light_text: text is NULL");
+    if (!check_reserved("lam_light_text_params", params, error) || !word_copy(text, copy, error) ||
+        !read_light(copy, &reading, error))
+        return false;
+    if (!scene)
+        return true;
+    struct sphere model = {params->centre, params->radius};
+    if (!(model.radius > 0)) {
+        bool found = lam_scene_sphere(scene, -1, &model.centre, &model.radius);
+        if (!found && in_radii(&reading))
+            return fail(error, LAM_BAD_ARGUMENT,
+                        "expected numbers without r: there is no model whose radius it could be");
+        model.radius = model.radius > 0 ? model.radius : 1;
+    }
+    if (!place_light(&reading, params, model, scene, error))
+        return false;
+    *index = lam_scene_add_light(scene, &reading.light, error);
+    return *index >= 0;
+}
+
+int lam_scene_add_light_text(lam_scene *scene, const char *text, const lam_light_text_params *params, lam_error *error)
+{
+    static const lam_light_text_params plain = {0};
+    int index = 0;
+    return add_light(scene, text, params ? params : &plain, &index, error) ? index : -1;
+}

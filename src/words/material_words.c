@@ -1,0 +1,160 @@
+// material_words.c: materials as people write them.
+#include <lambent/words.h>
+
+#include <string.h>
+
+#include "fail.h"
+#include "spelling.h"
+#include "word_values.h"
+
+// Keys: the fields by their index in the table of lam_material_field, then a factor for each (of colours, named by their
+// symbols: ka, kd, ks, kr), then shorthands.
+enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KEYS };
+
+struct reading {
+    lam_material_id id; // a named material; LAM_MATERIAL_COUNT: none
+    uint64_t given;     // bit for each key
+    double numbers[MATERIAL_KEYS][4];
+};
+
+static bool given(const struct reading *reading, int key) { return reading->given >> key & 1; }
+
+static bool is_color(const lam_field *field) { return field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA; }
+
+// Shares of light have a symbol; the surface's own light has none.
+static bool is_share(const lam_field *field) { return is_color(field) && field->symbol; }
+
+static int factor_of(int field) { return LAM_FIELDS_MAX + field; }
+
+// The name of a key; NULL: no such key.
+static const char *key_name(int key)
+{
+    if (key >= MATERIAL_COLOR)
+        return key == MATERIAL_COLOR ? "color" : "specular_color";
+    const lam_field *field = lam_material_field(key % LAM_FIELDS_MAX);
+    if (key < LAM_FIELDS_MAX || !field)
+        return field ? field->key : NULL;
+    return is_share(field) ? field->symbol : NULL;
+}
+
+static int find_key(const char *name, lam_error *error)
+{
+    const char *names[MATERIAL_KEYS + 1];
+    int keys[MATERIAL_KEYS], count = 0;
+    for (int key = 0; key < MATERIAL_KEYS; key++)
+        if (key_name(key)) {
+            names[count] = key_name(key);
+            keys[count++] = key;
+        }
+    names[count] = NULL;
+    int found = word_key(name, names, error);
+    return found < 0 ? -1 : keys[found];
+}
+
+// A flag may go without its value.
+static bool is_flag(const char *name, size_t length)
+{
+    for (int i = 0; lam_material_field(i); i++) {
+        const lam_field *field = lam_material_field(i);
+        if (field->type == LAM_FIELD_FLAG && strlen(field->key) == length && memcmp(field->key, name, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool read_pair(char *pair, lam_color_mode mode, struct reading *reading, lam_error *error)
+{
+    char *value = strchr(pair, '=');
+    if (!value && !is_flag(pair, strlen(pair)))
+        return fail(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as shininess=50", pair);
+    if (value)
+        *value++ = 0;
+    int key = find_key(pair, error);
+    if (key < 0)
+        return false;
+    if (given(reading, key))
+        return fail(error, LAM_BAD_ARGUMENT, "'%s' is given twice", pair);
+    reading->given |= UINT64_C(1) << key;
+    if (key < LAM_FIELDS_MAX)
+        return word_field(lam_material_field(key), value ? value : "yes", mode, reading->numbers[key], error);
+    if (key < MATERIAL_COLOR)
+        return word_number_of(pair, value, 0, 1e30, reading->numbers[key], error);
+    const lam_field color = {.key = pair, .type = LAM_FIELD_RGB};
+    return word_field(&color, value, mode, reading->numbers[key], error);
+}
+
+static bool unknown_material(const char *name, lam_error *error)
+{
+    const char *names[LAM_MATERIAL_COUNT];
+    for (int i = 0; i < LAM_MATERIAL_COUNT; i++)
+        names[i] = lam_material_name((lam_material_id)i);
+    const char *nearest = nearest_word(name, names, LAM_MATERIAL_COUNT);
+    return fail(error, LAM_BAD_ARGUMENT, "unknown material '%.60s'%s%s%s", name, nearest ? "; did you mean '" : "",
+                nearest ? nearest : "", nearest ? "'?" : "; `lambent materials` lists them");
+}
+
+// Sets the first three numbers of a colour: an alpha stays.
+static void set_color(const lam_field *field, lam_material *m, const double color[4], double factor)
+{
+    double numbers[4];
+    lam_field_get(field, m, numbers);
+    for (int i = 0; i < 3; i++)
+        numbers[i] = color[i] * factor;
+    lam_field_set(field, m, numbers);
+}
+
+static void set_factor(const struct reading *reading, int index, lam_material *m)
+{
+    static const double white[4] = {1, 1, 1, 1};
+    const lam_field *field = lam_material_field(index);
+    double color[4];
+    lam_field_get(field, m, color);
+    const double *from = color;
+    if (field->standard[0] == 0 && !given(reading, index)) // of no light by default a share would be nothing
+        from = given(reading, MATERIAL_SPECULAR_COLOR) ? reading->numbers[MATERIAL_SPECULAR_COLOR] : white;
+    set_color(field, m, from, reading->numbers[factor_of(index)][0]);
+}
+
+static lam_material apply(const struct reading *reading, lam_material m)
+{
+    if (reading->id != LAM_MATERIAL_COUNT)
+        m = lam_material_named(reading->id);
+    const double *color = reading->numbers[MATERIAL_COLOR], *specular = reading->numbers[MATERIAL_SPECULAR_COLOR];
+    if (given(reading, MATERIAL_COLOR)) {
+        m.ambient = (lam_rgb){(float)color[0], (float)color[1], (float)color[2]};
+        m.diffuse = (lam_rgba){m.ambient.r, m.ambient.g, m.ambient.b, m.diffuse.a};
+    }
+    if (given(reading, MATERIAL_SPECULAR_COLOR))
+        m.specular = (lam_rgb){(float)specular[0], (float)specular[1], (float)specular[2]};
+    for (int i = 0; lam_material_field(i); i++)
+        if (given(reading, i))
+            word_set_field(lam_material_field(i), &m, reading->numbers[i]);
+    for (int i = 0; lam_material_field(i); i++)
+        if (given(reading, factor_of(i)))
+            set_factor(reading, i, &m);
+    return m;
+}
+
+bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *material, lam_error *error)
+{
+    struct reading reading = {.id = LAM_MATERIAL_COUNT};
+    char copy[WORDS_MAX], *rest = copy;
+    if (!text || !material)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_material_parse: %s is NULL", text ? "material" : "text");
+    if (!word_copy(text, copy, error))
+        return false;
+    if (!*rest)
+        return fail(error, LAM_BAD_ARGUMENT, "its value is empty, expected a material's name or key=value");
+    size_t first = strcspn(rest, ",");
+    if (!memchr(rest, '=', first) && !is_flag(rest, first)) {
+        char *name = strsep(&rest, ",");
+        reading.id = lam_material_find(name);
+        if (reading.id == LAM_MATERIAL_COUNT)
+            return unknown_material(name, error);
+    }
+    for (char *pair; (pair = strsep(&rest, ",")) != NULL;)
+        if (!read_pair(pair, mode, &reading, error))
+            return false;
+    *material = apply(&reading, *material);
+    return true;
+}

@@ -29,7 +29,8 @@ typedef struct lam_reflection_info {
     // unless light from behind counts.
     const char *diffuse;
     const char *base; // of the highlight: "max(n·h, 0)"; NULL: no highlight
-    bool tangents;    // it reads the mesh's tangents, or a direction field where there are none
+    // It reads the mesh's tangents, or a direction field where there are none.
+    bool tangents;
     // Whether light from behind the surface (n·l ≤ 0) counts: always, or where the material is a fibre.
     bool backlit, backlit_fibre;
     LAM_RESERVED(8);

@@ -10,8 +10,8 @@
 
 #define NEEDED "captions need the Debian packages libfreetype6 and fonts-dejavu-core, or a font named by LAMBENT_FONT"
 
-// What Debian's packages fonts-dejavu-core, fonts-liberation2, fonts-liberation, fonts-noto-core,
-// fonts-freefont-ttf and fonts-roboto-unhinted install.
+// The fonts of Debian's packages fonts-dejavu-core, fonts-liberation2, fonts-liberation, fonts-noto-core,
+// fonts-freefont-ttf and fonts-roboto-unhinted.
 static const char *const places[] = {
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
     "/usr/share/fonts/truetype/liberation2/LiberationSans-Regular.ttf",
@@ -33,7 +33,7 @@ const char *lam_font_path(int index)
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
-// FreeType's functions that are used here, by the types of its own declarations.
+// The FreeType functions that are used here, with the types of its own declarations.
 struct freetype {
     void *handle;
     __typeof__(&FT_Init_FreeType) init;
@@ -116,7 +116,7 @@ void lam_font_free(lam_font *font)
     free(font);
 }
 
-// The code point at *text, which moves on; U+FFFD for a byte that does not belong.
+// Returns the code point at *text and advances *text; U+FFFD for an invalid byte.
 static FT_ULong next_letter(const char **text)
 {
     const unsigned char *s = (const unsigned char *)*text;
@@ -141,7 +141,7 @@ static FT_ULong next_letter(const char **text)
 
 static float clamped(float x) { return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; }
 
-// One colour over one pixel with a share of coverage, both not premultiplied.
+// Draws a colour with some coverage over a pixel; neither is premultiplied.
 static void blend_bytes(uint8_t *pixel, lam_rgba color, float cover)
 {
     float from = color.a * cover, under = (float)pixel[3] / 255.0f, alpha = from + under * (1.0f - from);
@@ -155,7 +155,7 @@ static void blend_bytes(uint8_t *pixel, lam_rgba color, float cover)
     pixel[3] = (uint8_t)(clamped(alpha) * 255.0f + 0.5f);
 }
 
-// The same for premultiplied floats.
+// As above, over premultiplied floats.
 static void blend_floats(float *pixel, lam_rgba color, float cover)
 {
     float from = color.a * cover;
@@ -184,8 +184,8 @@ static void stamp(lam_image *image, const FT_Bitmap *bitmap, int left, int top, 
         }
 }
 
-// Walks along the line; draws where there is a picture. The pen moves in 1/64 pixel. A letter that the font
-// cannot give is left out.
+// Advances the pen, in units of 1/64 pixel, along the line, and draws the letters where there is a picture. A letter
+// that the font cannot load is left out.
 static double walk(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
                    const char *text)
 {

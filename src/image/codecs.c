@@ -13,9 +13,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Those that can be written come first.
+// Formats that can be written come first.
 static const struct codec *const codecs[] = {&codec_png, &codec_ppm, &codec_pfm, &codec_exr, &codec_jpeg, &codec_hdr};
-enum { CODECS = sizeof codecs / sizeof *codecs, WRITTEN = 4, THREADS_MOST = 1024, LIST_ROOM = 128 };
+enum { CODECS = sizeof codecs / sizeof *codecs, WRITTEN = 4, MAX_THREADS = 1024, LIST_BYTES = 128 };
 
 static const struct codec *codec_named(const char *name)
 {
@@ -26,14 +26,14 @@ static const struct codec *codec_named(const char *name)
 }
 
 // "png, ppm, pfm or exr", each with `before` in front.
-static const char *list_names(const char *before, char list[LIST_ROOM])
+static const char *list_names(const char *before, char list[LIST_BYTES])
 {
     list[0] = 0;
     size_t used = 0;
     for (int i = 0; i < WRITTEN; i++) {
         const char *parts[] = {i == 0 ? "" : i == WRITTEN - 1 ? " or " : ", ", before, codecs[i]->name};
         for (int part = 0; part < 3; part++)
-            for (const char *letter = parts[part]; *letter && used < LIST_ROOM - 1; letter++)
+            for (const char *letter = parts[part]; *letter && used < LIST_BYTES - 1; letter++)
                 list[used++] = *letter;
     }
     list[used] = 0;
@@ -45,7 +45,7 @@ static bool fail_unknown(lam_error *error, const char *subject, const char *befo
     const char *names[WRITTEN], *nearest;
     for (int i = 0; i < WRITTEN; i++)
         names[i] = codecs[i]->name;
-    char list[LIST_ROOM];
+    char list[LIST_BYTES];
     list_names(before, list);
     if ((nearest = nearest_word(word, names, WRITTEN)))
         return fail(error, LAM_UNSUPPORTED,
@@ -59,11 +59,11 @@ static const struct codec *codec_for(const char *path, lam_error *error)
 {
     const char *ending = path_ending(path);
     const struct codec *codec = codec_named(ending);
-    char list[LIST_ROOM];
+    char list[LIST_BYTES];
     if (!codec && *ending)
         fail_unknown(error, path, ".", ending);
     else if (!codec)
-        fail(error, LAM_UNSUPPORTED, "%s: the name has no ending that tells the picture's format, expected %s", path,
+        fail(error, LAM_UNSUPPORTED, "%s: the name has no ending for a picture format, expected %s", path,
              list_names(".", list));
     return codec;
 }
@@ -80,17 +80,17 @@ static bool encode(const struct codec *codec, const lam_image *image, const lam_
         return fail(error, LAM_BAD_ARGUMENT, "image: %s is made from %s, the picture has %s", codec->title,
                     codec->pixels == LAM_RGBA8 ? "bytes (LAM_RGBA8)" : "floats (LAM_RGBA32F)",
                     format_is_float(image->format) ? "floats" : "bytes");
-    if (params->threads < 0 || params->threads > THREADS_MOST)
-        return fail(error, LAM_BAD_ARGUMENT, "threads: %d, expected 0 to %d", params->threads, THREADS_MOST);
+    if (params->threads < 0 || params->threads > MAX_THREADS)
+        return fail(error, LAM_BAD_ARGUMENT, "threads: %d, expected 0 to %d", params->threads, MAX_THREADS);
     lam_image working;
     if (!image_working(image, &working, error))
         return false;
     uint64_t state = float_state_enter();
     // Starting a thread takes as long as encoding some thousand pixels: none gets fewer than 65536.
-    int64_t most = (int64_t)image->width * image->height >> 16;
+    int64_t max_threads = (int64_t)image->width * image->height >> 16;
     int threads = params->threads ? params->threads : processor_count();
-    if (threads > most)
-        threads = (int)most;
+    if (threads > max_threads)
+        threads = (int)max_threads;
     struct pool *pool = threads > 1 ? pool_make(threads) : NULL; // NULL: this thread alone
     bool ok = codec->write(&working, params, pool, out, error);
     pool_free(pool);
@@ -157,7 +157,7 @@ static const struct codec *codec_of(const uint8_t *bytes, size_t size)
     return NULL;
 }
 
-// Reads a picture as its codec gives it; with `wide` not NULL in all of its bits (read_wide).
+// Reads a picture with its codec; where `wide` is not NULL, with all of its bits (read_wide).
 static bool load(lam_image *image, const char *path, bool *wide, lam_error *error)
 {
     if (!image || !path)
@@ -206,7 +206,7 @@ bool lam_image_is_from_lambent(const char *path)
 {
     if (!path)
         return false;
-    // Not blocking: a pipe that nobody writes to must not stop us.
+    // Non-blocking: opening a pipe that nobody writes to must not wait.
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (file < 0)
         return false;

@@ -1,7 +1,7 @@
 // encoding.h: linear light to sRGB and back (IEC 61966-2-1), and to bytes, many values at a time (LANES, lanes.h).
 //
-// Both curves are within 1e-6 of the standard's formulas for 0…1; what lies outside is clamped, NaN gives 0.
-// A byte goes through srgb_decode and back unchanged.
+// Both curves are within 1e-6 of the standard's formulas for 0…1; numbers outside are clamped, NaN gives 0. A byte that
+// is decoded and encoded again stays the same.
 #ifndef ENCODING_H
 #define ENCODING_H
 

@@ -1,7 +1,7 @@
 // exr.c: OpenEXR, floats in named layers, written and read through OpenEXR's C core, which is opened (dlopen) when a
 // file is at hand and not before. Written: one part of scanlines, 32-bit floats, ZIP compression. The picture's
-// channels are R, G, B, A, linear and premultiplied as OpenEXR has it; a layer's are NAME.R and so on. No time and no
-// place is written down: the same picture gives the same bytes with the same library.
+// channels are R, G, B, A, linear and premultiplied as OpenEXR defines it; a layer's are NAME.R and so on. Neither time
+// nor path is stored: the same picture gives the same bytes with the same library.
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHANNELS_MOST = 1024, NAME_ROOM = 256 };
+enum { MAX_CHANNELS = 1024, NAME_BYTES = 256 };
 
 static bool exr_probe(const uint8_t *bytes, size_t size)
 {
@@ -24,7 +24,7 @@ static bool exr_probe(const uint8_t *bytes, size_t size)
 
 #define LIBRARY "libOpenEXRCore-3_1.so.30"
 
-// The core's functions that are used here: each a member of struct core by the type of its own declaration.
+// The core's functions that are used here: each is a member of struct core with the type of its own declaration.
 #define FUNCTIONS(each)                                                                                                \
     each(exr_start_write) each(exr_add_part) each(exr_initialize_required_attr_simple) each(exr_add_channel)           \
         each(exr_attr_set_string) each(exr_write_header) each(exr_get_scanlines_per_chunk)                             \
@@ -59,7 +59,7 @@ static bool open_core(struct core *core, lam_error *error)
                 "libopenexr-3-1-30 has them");
 }
 
-// The core would print to standard error.
+// Replaces the core's own handler, which prints to standard error.
 static void stay_silent(exr_const_context_t context, exr_result_t code, const char *text)
 {
     (void)context, (void)code, (void)text;
@@ -69,7 +69,7 @@ static void stay_silent(exr_const_context_t context, exr_result_t code, const ch
 
 struct sink {
     uint8_t *bytes;
-    size_t size, room;
+    size_t size, capacity;
 };
 
 static int64_t write_sink(exr_const_context_t context, void *user, const void *from, uint64_t size, uint64_t offset,
@@ -80,13 +80,13 @@ static int64_t write_sink(exr_const_context_t context, void *user, const void *f
     uint64_t end;
     if (__builtin_add_overflow(offset, size, &end) || end > SIZE_MAX / 2)
         return -1;
-    if (end > sink->room) {
-        size_t room = (size_t)end > 2 * sink->room ? (size_t)end : 2 * sink->room;
-        uint8_t *larger = realloc(sink->bytes, room);
+    if (end > sink->capacity) {
+        size_t capacity = (size_t)end > 2 * sink->capacity ? (size_t)end : 2 * sink->capacity;
+        uint8_t *larger = realloc(sink->bytes, capacity);
         if (!larger)
             return -1;
         sink->bytes = larger;
-        sink->room = room;
+        sink->capacity = capacity;
     }
     if (offset > sink->size)
         memset(sink->bytes + sink->size, 0, (size_t)offset - sink->size);
@@ -95,9 +95,9 @@ static int64_t write_sink(exr_const_context_t context, void *user, const void *f
     return (int64_t)size;
 }
 
-// A channel of the file: its name, and its first number.
+// A channel of the file: its name and the address of its first number.
 struct channel {
-    char name[NAME_ROOM];
+    char name[NAME_BYTES];
     const float *from;
 };
 
@@ -107,7 +107,7 @@ static const char *letters_of(const lam_layer *layer)
     return layer->channels ? layer->channels : named ? "RGB" : "RGBA";
 }
 
-// Lists the channels of all layers. NULL: an error, and nothing is left to free.
+// Lists the channels of all layers. NULL: an error; nothing is left to free.
 static struct channel *list_channels(const lam_layer *layers, int count, int *channel_count, lam_error *error)
 {
     struct channel *channels = calloc(4 * (size_t)count, sizeof *channels);
@@ -123,9 +123,9 @@ static struct channel *list_channels(const lam_layer *layers, int count, int *ch
         if (letter_count < 1 || letter_count > 4)
             ok = fail(error, LAM_BAD_ARGUMENT, "layer '%.100s': channels are '%.20s', expected one to four letters",
                       name, letters);
-        else if (length > NAME_ROOM - 3)
+        else if (length > NAME_BYTES - 3)
             ok = fail(error, LAM_BAD_ARGUMENT, "layer '%.100s…': the name has %zu bytes, expected at most %d", name,
-                      length, NAME_ROOM - 3);
+                      length, NAME_BYTES - 3);
         for (size_t k = 0; ok && k < letter_count; k++) {
             struct channel *c = &channels[used++];
             memcpy(c->name, name, length);
@@ -139,8 +139,8 @@ static struct channel *list_channels(const lam_layer *layers, int count, int *ch
                     ok = fail(error, LAM_BAD_ARGUMENT, "layers: two have a channel '%.100s'", c->name);
         }
     }
-    if (ok && used > CHANNELS_MOST)
-        ok = fail(error, LAM_LIMIT, "layers: %d channels, expected at most %d", used, CHANNELS_MOST);
+    if (ok && used > MAX_CHANNELS)
+        ok = fail(error, LAM_LIMIT, "layers: %d channels, expected at most %d", used, MAX_CHANNELS);
     *channel_count = used;
     if (ok)
         return channels;
@@ -258,7 +258,7 @@ static int64_t size_of_source(exr_const_context_t context, void *user)
     return (int64_t)((const struct source *)user)->size;
 }
 
-// Where a channel of the file belongs in the picture's pixels; −1: nowhere. Y is luminance, for all three colours.
+// The position of a channel of the file in a pixel of the picture; −1: none. Y is luminance, for all three colours.
 static int place_of(const char *name)
 {
     static const char letters[] = "RGBA";
@@ -399,8 +399,8 @@ static bool exr_write(const lam_image *image, const lam_save_params *params, str
 
 bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error)
 {
-    if (!layers || count < 1 || count > CHANNELS_MOST || !out)
-        return fail(error, LAM_BAD_ARGUMENT, "layers: expected 1 to %d, and a place for the bytes", CHANNELS_MOST);
+    if (!layers || count < 1 || count > MAX_CHANNELS || !out)
+        return fail(error, LAM_BAD_ARGUMENT, "layers: expected 1 to %d, and a place for the bytes", MAX_CHANNELS);
     *out = (lam_bytes){0};
     for (int i = 0; i < count; i++) {
         const lam_image *image = layers[i].image, *first = layers[0].image;

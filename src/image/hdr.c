@@ -1,13 +1,13 @@
 // hdr.c: Radiance pictures (.hdr, RGBE), read only: three mantissas and one exponent for a pixel, linear light.
 //
-// Lines of text up to an empty one, a line with the size ("-Y 512 +X 1024"), then rows of pixels, each in one of three
-// ways:
-//   new runs   2, 2, width as two bytes (8 … 32767), then the row's red, green, blue and exponent bytes one after the other: a
-//              count above 128 is a run of count − 128 equal bytes, up to 128 that many bytes as they are
-//   old runs   pixels; 1, 1, 1, n repeats the one before n times, and straight behind another such, n · 256 times, and so on
+// Lines of text up to an empty one, a line with the size ("-Y 512 +X 1024"), then rows of pixels, each in one of
+// three ways:
+//   new runs   2, 2, width as two bytes (8 … 32767), then the row's red, green, blue and exponent bytes one after the
+//              other: a count above 128 is a run of count − 128 equal bytes, up to 128 that many bytes as they are
+//   old runs   pixels; 1, 1, 1, n repeats the pixel before n times; directly after another run n · 256 times, and so on
 //   plain      pixels
 // A pixel is mantissa · 2^(exponent − 136), black where the exponent is 0. EXPOSURE lines are not applied (like PFM's
-// scale): programs do not agree about them.
+// scale), because programs do not agree about them.
 #include "codec.h"
 #include "fail.h"
 
@@ -25,14 +25,14 @@ struct header {
     size_t pixels; // where they start
 };
 
-// The line that starts at `at`, without its end; NULL: the file ends in it.
+// The end of the line that starts at `at`; NULL: the file ends within the line.
 static const uint8_t *line_end(const uint8_t *at, const uint8_t *end)
 {
     const uint8_t *found = memchr(at, '\n', (size_t)(end - at));
     return found;
 }
 
-// " 512" to 512, moving on; −1: no number of 1 … 65535.
+// Parses a number such as " 512" and advances; −1: no number of 1 … 65535.
 static int side_at(const uint8_t **at, const uint8_t *end)
 {
     int value = 0;
@@ -91,7 +91,8 @@ static bool read_header(const uint8_t *bytes, size_t size, const char *name, str
     return read_size(at, stop, name, header, error);
 }
 
-// Row readers give where the row ends, NULL where it is broken or the file ends in it. `row` takes 4 bytes a pixel.
+// Row readers return the end of the row; NULL where the row is invalid or the file ends within it. `row` has 4 bytes a
+// pixel.
 
 static const uint8_t *read_new_runs(const uint8_t *at, const uint8_t *end, int width, uint8_t *row)
 {
@@ -150,7 +151,7 @@ static void store_row(const struct header *header, const uint8_t *row, const flo
     }
 }
 
-// 2^(exponent − 136); what would be below the normal numbers of a float, and the exponent 0, are 0.
+// 2^(exponent − 136); 0 for the exponent 0 and for results below the smallest normal float.
 static void fill_scale(float scale[256])
 {
     double value = 0x1p119;
@@ -164,7 +165,7 @@ static bool read_rows(const uint8_t *bytes, size_t size, const char *name, const
     const uint8_t *end = bytes + size;
     float scale[256];
     fill_scale(scale);
-    // Twice: a row can be very short, so a small file that claims a huge picture is told before memory is asked for.
+    // Every row is read twice: the first pass finds a small file that claims a huge picture before memory is allocated.
     for (int pass = 0; pass < 2; pass++) {
         const uint8_t *at = bytes + header->pixels;
         if (pass == 1 && !lam_image_make(image, header->width, header->height, LAM_RGBA32F, error))

@@ -8,9 +8,9 @@
 #include <string.h>
 #include <sys/mman.h>
 
-enum { SIDE_MOST = 65535 };
+enum { MAX_SIDE = 65535 };
 
-// Large pictures lie in huge pages where the system gives them: first touch is three times as fast.
+// Large pictures get huge pages where the system has them: first touch is three times as fast.
 static void *get_pixels(size_t bytes)
 {
     const size_t huge = (size_t)2 << 20;
@@ -34,11 +34,12 @@ bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format fo
         return fail(error, LAM_BAD_ARGUMENT, "image: pixel format %d is not one of lam_pixel_format", (int)format);
     if (width < 1 || height < 1)
         return fail(error, LAM_BAD_ARGUMENT, "image: %d×%d pixels, expected at least 1×1", width, height);
-    if (width > SIDE_MOST || height > SIDE_MOST)
-        return fail(error, LAM_LIMIT, "image: %d×%d pixels, expected at most %d×%d", width, height, SIDE_MOST,
-                    SIDE_MOST);
+    if (width > MAX_SIDE || height > MAX_SIDE)
+        return fail(error, LAM_LIMIT, "image: %d×%d pixels, expected at largest %d×%d", width, height, MAX_SIDE,
+                    MAX_SIDE);
     uint64_t bytes = (uint64_t)width * (uint64_t)height * pixel_bytes(format); // below 2³⁶
-    // The system lends memory that is not there and kills the process that uses it; drawing and encoding need some too.
+    // The system promises more memory than it has and kills the process that uses it; drawing and encoding need
+    // some too.
     void *pixels = bytes <= SIZE_MAX && bytes <= pages_of_machine() / 2 ? get_pixels((size_t)bytes) : NULL;
     if (!pixels)
         return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which could not be had", width,
@@ -89,7 +90,7 @@ static double log10_of(double x)
     return exponent * log10_2 + 2.0 * s * series * log10_e;
 }
 
-// Differences added up.
+// Sums of differences.
 struct tally {
     double sum, squares, maximum;
     uint64_t over_1, over_2; // pixels
@@ -100,17 +101,17 @@ static void tally_bytes(struct tally *tally, const uint8_t *a, const uint8_t *b,
     uint64_t sum = 0, squares = 0;
     unsigned maximum = 0;
     for (size_t i = 0; i < pixels; i++) {
-        unsigned most = 0;
+        unsigned largest = 0;
         for (int channel = 0; channel < 4; channel++) {
             int difference = a[4 * i + (size_t)channel] - b[4 * i + (size_t)channel];
             unsigned size = (unsigned)(difference < 0 ? -difference : difference);
             sum += size;
             squares += size * size;
-            most = size > most ? size : most;
+            largest = size > largest ? size : largest;
         }
-        maximum = most > maximum ? most : maximum;
-        tally->over_1 += most > 1;
-        tally->over_2 += most > 2;
+        maximum = largest > maximum ? largest : maximum;
+        tally->over_1 += largest > 1;
+        tally->over_2 += largest > 2;
     }
     tally->sum = (double)sum / 255.0;
     tally->squares = (double)squares / (255.0 * 255.0);
@@ -120,7 +121,7 @@ static void tally_bytes(struct tally *tally, const uint8_t *a, const uint8_t *b,
 static void tally_floats(struct tally *tally, const float *a, const float *b, size_t pixels)
 {
     for (size_t i = 0; i < pixels; i++) {
-        double most = 0.0;
+        double largest = 0.0;
         for (size_t at = 4 * i; at < 4 * i + 4; at++) {
             bool nan_a = a[at] != a[at], nan_b = b[at] != b[at];
             double size = 0.0;
@@ -130,11 +131,11 @@ static void tally_floats(struct tally *tally, const float *a, const float *b, si
                 size = a[at] < b[at] ? (double)b[at] - (double)a[at] : (double)a[at] - (double)b[at];
             tally->sum += size;
             tally->squares += size * size;
-            most = size > most ? size : most;
+            largest = size > largest ? size : largest;
         }
-        tally->maximum = most > tally->maximum ? most : tally->maximum;
-        tally->over_1 += most > 1.0 / 255.0;
-        tally->over_2 += most > 2.0 / 255.0;
+        tally->maximum = largest > tally->maximum ? largest : tally->maximum;
+        tally->over_1 += largest > 1.0 / 255.0;
+        tally->over_2 += largest > 2.0 / 255.0;
     }
 }
 

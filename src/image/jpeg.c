@@ -8,9 +8,9 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
-enum { SCANS_MOST = 200 }; // a progressive picture has about ten; each one passes over all of it
+enum { MAX_SCANS = 200 }; // a progressive picture has about ten; each one covers the whole picture
 
-// What libjpeg's callbacks find behind its own structs.
+// libjpeg's structs, which its callbacks get, and our members after them.
 struct reader {
     struct jpeg_error_mgr errors;
     struct jpeg_progress_mgr progress;
@@ -26,7 +26,7 @@ _Noreturn static void give_up(j_common_ptr jpeg)
     longjmp(reader->out, 1);
 }
 
-// Warnings (level −1) that tell of lost picture end the reading; others are habits of cameras and old programs.
+// Warnings (level −1) about lost parts of the picture end the reading; others are habits of cameras and old programs.
 static void take_message(j_common_ptr jpeg, int level)
 {
     int code = jpeg->err->msg_code;
@@ -39,8 +39,8 @@ static void print_nothing(j_common_ptr jpeg) { (void)jpeg; }
 static void count_scans(j_common_ptr jpeg)
 {
     struct reader *reader = (struct reader *)jpeg->err;
-    if (reader->jpeg.input_scan_number > SCANS_MOST) {
-        snprintf(reader->message, sizeof reader->message, "more than %d scans", SCANS_MOST);
+    if (reader->jpeg.input_scan_number > MAX_SCANS) {
+        snprintf(reader->message, sizeof reader->message, "more than %d scans", MAX_SCANS);
         longjmp(reader->out, 1);
     }
 }
@@ -50,14 +50,14 @@ static bool jpeg_probe(const uint8_t *bytes, size_t size)
     return size >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
-// A block of 64 pixels takes a bit at the least, in the component with the most blocks; that may have 1/16 of the
-// pixels.
+// A block of 64 pixels takes at least one bit, in the component with the most blocks, which may cover 1/16 of
+// the pixels.
 static bool jpeg_fits(const struct jpeg_decompress_struct *jpeg, size_t size)
 {
     return (uint64_t)jpeg->image_width * jpeg->image_height / (8 * 64 * 16) <= size;
 }
 
-// The part that libjpeg may jump out of; what it changes lies behind pointers.
+// The part that libjpeg may jump out of (longjmp): it changes nothing but what its pointers lead to.
 static bool decode(struct reader *reader, const uint8_t *bytes, size_t size, const char *name, lam_image *image,
                    lam_error *error)
 {

@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-// What the numbers 0 … last stand for.
+// The linear values of the numbers 0 … last.
 static float *make_table(int last, lam_color_mode color, lam_error *error)
 {
     size_t bytes = ((size_t)last + 1) * sizeof(float);

@@ -21,7 +21,7 @@ static const uint8_t *skip_space(const uint8_t *at, const uint8_t *end)
 bool netpbm_read_header(const uint8_t *bytes, size_t size, const char *title, const char *name,
                         struct netpbm_header *header, lam_error *error)
 {
-    static const char *const words[3] = {"width", "height", "number behind the height"};
+    static const char *const words[3] = {"width", "height", "number after the height"};
     const uint8_t *at = bytes + 2, *end = bytes + size;
     double values[3];
     for (int i = 0; i < 3; i++) {

@@ -10,9 +10,8 @@ struct netpbm_header {
     size_t pixels;     // where they start
 };
 
-// Reads the header of a file whose first two bytes have been recognised: width, height and one more number,
-// apart by white space and comments from '#' to the line's end, then one white-space character. `title` is
-// the format's name.
+// Reads the header of a file whose first two bytes have been recognised: width, height and one more number, separated
+// by white space and comments from '#' to the line's end, then one white-space character. `title`: the format's name.
 bool netpbm_read_header(const uint8_t *bytes, size_t size, const char *title, const char *name,
                         struct netpbm_header *header, lam_error *error);
 

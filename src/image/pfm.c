@@ -1,8 +1,8 @@
 // pfm.c: PFM, floats with a three-line header (Debevec's portable float map), bottom row first.
 //
-// "PF", width and height, then a number whose sign tells the byte order: negative is little-endian. Its size
-// is a scale that programs do not agree about; it is written as 1 and not applied when read. PFM has no alpha
-// and no place for a remark, so a PFM never says who wrote it.
+// "PF", width and height, then a number whose sign is the byte order: negative is little-endian. Its absolute value is
+// a scale that programs do not agree about; it is written as 1 and not applied when read. PFM has neither alpha nor
+// comments, so no PFM says which program wrote it.
 #include "codec.h"
 #include "fail.h"
 #include "netpbm.h"

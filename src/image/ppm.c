@@ -10,10 +10,10 @@
 
 static const char remark[] = "P6\n# lambent\n";
 
-// How channels are laid over a background: in linear light, unless the numbers are raw.
+// Composes channels over a background: in linear light, unless the numbers are raw.
 struct over {
     double linear[256]; // of a byte
-    double from[256];   // the least linear number that is rounded to byte i, for i > 0: that of (i − ½)/255
+    double from[256];   // for i > 0 the smallest linear number that is rounded to byte i: that of (i − ½)/255
 };
 
 static void make_over(struct over *over, bool raw)
@@ -24,7 +24,7 @@ static void make_over(struct over *over, bool raw)
     }
 }
 
-// The nearest byte by halving; what is outside 0…1 is clamped, NaN is 0.
+// The nearest byte, by bisection; numbers outside 0…1 are clamped, NaN gives 0.
 static uint8_t byte_of(const struct over *over, double linear)
 {
     int byte = 0;
@@ -63,7 +63,7 @@ static bool ppm_write(const lam_image *image, const lam_save_params *params, str
     uint8_t *at = bytes + head;
     for (uint64_t i = 0; i < pixels; i++, pixel += 4, at += 3)
         for (int channel = 0; channel < 3; channel++)
-            at[channel] = pixel[3] == 255 ? pixel[channel] // as it is
+            at[channel] = pixel[3] == 255 ? pixel[channel] // unchanged
                           : pixel[3] == 0 ? clear[channel]
                                           : lay(&over, pixel[channel], pixel[3], background[channel]);
     *out = (lam_bytes){bytes, (size_t)wanted};

@@ -388,7 +388,7 @@ static void refusals_say_why(void **state)
         {"P6\n1 1e300\n255\n", LAM_LIMIT, "65535"},
         {"P6\n1 1\n65535\nabcdef", LAM_UNSUPPORTED, "65535"},
         {"P6\n# no end", LAM_CANNOT_READ, "no width"},
-        {"P6\n1 1 x", LAM_CANNOT_READ, "no number behind the height"},
+        {"P6\n1 1 x", LAM_CANNOT_READ, "no number after the height"},
         {"PF\n60000 60000\n-1\nxx", LAM_CANNOT_READ, "60000×60000"},
         {"PF\n1 1\n0\nabcdabcdabcd", LAM_CANNOT_READ, "scale of 0"},
     };

@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The tables that let CRC-32 take eight bytes a step (8 KiB). They are made anew for each encoding (about a
-// microsecond) because the library keeps no global state.
+// Tables for CRC-32 of eight bytes a step (8 KiB). They are made for each encoding (about a microsecond), because the
+// library keeps no global state.
 struct crc_tables {
     uint32_t row[8][256];
 };
@@ -16,16 +16,17 @@ void crc_tables_make(struct crc_tables *tables);
 // CRC-32 (polynomial 0xEDB88320 reflected, PNG specification annex D) of `size` bytes.
 uint32_t crc_of(const struct crc_tables *tables, const uint8_t *bytes, size_t size);
 
-// Adler-32 of a run of bytes in a form in which neighbouring runs, made by different threads, can be joined:
-// sum = Σ byte, weighted = Σ (size − position)·byte, both modulo 65521.
+// Adler-32 of a run of bytes, in a form in which neighbouring runs from different threads can be joined, modulo 65521:
+//   sum      = Σ byte
+//   weighted = Σ (size − position)·byte
 struct adler_part {
     uint32_t sum, weighted;
     uint64_t size;
 };
 
-// Lengthen a part by one byte, by zeros, by a row of pixels, by the part that follows it. A row is `width`
-// 32-bit words of which the first `bytes_per_pixel` bytes (3 or 4) are in the stream; with 3 the fourth must
-// be zero. The words after the row up to a multiple of 4 must be zero too.
+// Lengthen a part by one byte, by some, by zeros, by a row of pixels, by the part that follows it. A row is `width`
+// 32-bit words whose first `bytes_per_pixel` bytes (1 … 4) are in the stream; the others must be zero, and so must the
+// words after the row up to a multiple of 4.
 void adler_byte(struct adler_part *part, uint8_t byte);
 void adler_bytes(struct adler_part *part, const uint8_t *bytes, size_t size);
 void adler_zeros(struct adler_part *part, uint64_t count);

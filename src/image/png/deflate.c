@@ -197,8 +197,8 @@ static inline int equal_pixels(const uint32_t *a, const uint32_t *b, int max)
     return count < max ? count : max;
 }
 
-// Limits of find_matches by bytes_per_pixel. Pixels of one or two bytes cost few bits as literals, so only longer matches
-// and runs make the file smaller (measured).
+// Limits of find_matches by bytes_per_pixel. Pixels of one or two bytes cost few bits as literals, so only longer
+// matches and runs make the file smaller (measured).
 static const int key_pixels[5] = {0, 8, 4, 2, 2};  // pixels that are hashed together
 static const int min_match[5] = {0, 20, 12, 2, 2}; // pixels
 static const int min_run[5] = {0, 8, 5, 2, 2};     // pixels that repeat the one before them
@@ -218,8 +218,8 @@ static inline uint64_t key_of(const uint32_t *at, int bytes_per_pixel)
 }
 
 // At each pixel, the first of these that is possible: a run; a match with the last position of the same key; literals,
-// as many pixels as a token holds. Where a match may be as short as one pixel, a single repetition is a match too. Matches
-// stay within a row on both sides, so they contain no filter byte.
+// as many pixels as a token holds. Where a match may be as short as one pixel, a single repetition is a match too.
+// Matches stay within a row on both sides, so they contain no filter byte.
 static inline __attribute__((always_inline)) void find_matches(struct deflate *deflate, const int bytes_per_pixel,
                                                                int first, int end)
 {

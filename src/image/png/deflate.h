@@ -4,12 +4,12 @@
 // numbers. There are two ways to look for matches:
 //   runs     only the pixel before, repeated at least twice. Coloured noise becomes smallest as Huffman codes: matches
 //            over a distance make it larger (measured: 5–20 %).
-//   matches  also the last position of the same few pixels. The caller takes this way for grey pictures and for grey strips
-//            of coloured ones, where the three channels repeat each other, which codes of single bytes cannot use
-//            (measured: 20 % smaller).
+//   matches  also the last position of the same few pixels. The caller takes this way for grey pictures and for grey
+//            strips of coloured ones, where the three channels repeat each other, which codes of single bytes cannot
+//            use (measured: 20 % smaller).
 // No match leaves the strip, so a strip can be encoded by itself, with Huffman codes from its own counts. Between the
-// filter and the bits stands a flat list of tokens. The loops over it, and the search for runs, have no branch that depends
-// on the picture: a mispredicted one costs as much as writing two pixels.
+// filter and the bits stands a flat list of tokens. The loops over it, and the search for runs, have no branch that
+// depends on the picture: a mispredicted one costs as much as writing two pixels.
 #ifndef DEFLATE_H
 #define DEFLATE_H
 
@@ -21,8 +21,8 @@ enum {
     DEFLATE_SHORTEST = 3, // bytes of a match
     DEFLATE_LONGEST = 258,
     DEFLATE_FARTHEST = 32768, // bytes back
-    // A quarter of a token is one of these: a byte; a match's length of 3 … 258 bytes; the symbol of its distance; n ≤ 8
-    // raw bits of value v, as DEFLATE_BITS + 2ⁿ + v.
+    // A quarter of a token is one of these: a byte; a match's length of 3 … 258 bytes; the symbol of its distance; n ≤
+    // 8 raw bits of value v, as DEFLATE_BITS + 2ⁿ + v.
     DEFLATE_MATCH = 256, // + length − 3
     DEFLATE_DISTANCE = DEFLATE_MATCH + 256,
     DEFLATE_BITS = DEFLATE_DISTANCE + 30,
@@ -59,8 +59,8 @@ size_t deflate_scratch(int width, int rows);
 
 // Starts a strip whose rows have one filter. Then, for each row in order, the caller writes its pixels at deflate->row,
 // those before `first` and from `end` on being zero, and calls deflate_row, which advances deflate->row. The bytes of a
-// word above its bytes_per_pixel must be zero; they are no part of the stream. The padding is overwritten. Pixels of one
-// or two bytes need `matches`.
+// word above its bytes_per_pixel must be zero; they are no part of the stream. The padding is overwritten. Pixels of
+// one or two bytes need `matches`.
 void deflate_start(struct deflate *deflate, uint8_t filter, bool matches);
 void deflate_row(struct deflate *deflate, int first, int end);
 

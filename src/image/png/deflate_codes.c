@@ -1,9 +1,9 @@
-// deflate_codes.c: a block's prefix codes: made from counts, and told.
+// deflate_codes.c: a block's prefix codes: made from counts, and written.
 #include "deflate_codes.h"
 
 #include "huffman.h"
 
-// Lengths over 10 come in groups of four symbols with as many extra bits as it takes; 258 has a symbol of its own.
+// Lengths above 10 have groups of four symbols with the same number of extra bits; 258 has a symbol of its own.
 unsigned length_symbol(unsigned length, unsigned *extra)
 {
     unsigned beyond = length - DEFLATE_SHORTEST;
@@ -17,35 +17,36 @@ unsigned length_symbol(unsigned length, unsigned *extra)
     return FIRST_LENGTH + 4 * (top - 1) + (beyond >> (top - 2) & 3);
 }
 
-static const uint8_t told_order[19] = {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};
-static const uint8_t told_extra[19] = {[16] = 2, [17] = 3, [18] = 7};
+static const uint8_t code_length_order[CODE_LENGTHS] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                                        11, 4,  12, 3, 13, 2, 14, 1, 15};
+static const uint8_t code_length_extra[CODE_LENGTHS] = {[16] = 2, [17] = 3, [18] = 7};
 
-static void tell(struct codes *codes, uint8_t symbol, unsigned more)
+static void put_length(struct codes *codes, uint8_t symbol, unsigned extra)
 {
-    codes->told[codes->told_count] = symbol;
-    codes->more[codes->told_count++] = (uint8_t)more;
+    codes->length_symbols[codes->length_symbol_count] = symbol;
+    codes->length_extra[codes->length_symbol_count++] = (uint8_t)extra;
 }
 
 // Run-length code of the code lengths (RFC 1951, 3.2.7): 16 repeats the last 3–6 times, 17 and 18 are 3–10
 // and 11–138 zeros.
-static void tell_lengths(struct codes *codes, const uint8_t *lengths, unsigned count)
+static void encode_lengths(struct codes *codes, const uint8_t *lengths, unsigned count)
 {
     for (unsigned i = 0, end; i < count; i = end) {
         for (end = i + 1; end < count && lengths[end] == lengths[i];)
             end++;
         unsigned left = end - i;
         if (lengths[i]) {
-            tell(codes, lengths[i], 0);
+            put_length(codes, lengths[i], 0);
             left--;
         }
         while (left >= 3) {
-            unsigned most = lengths[i] ? 6 : left > 10 ? 138 : 10;
-            unsigned n = left < most ? left : most;
-            tell(codes, lengths[i] ? 16 : left > 10 ? 18 : 17, n - (!lengths[i] && left > 10 ? 11 : 3));
+            unsigned max = lengths[i] ? 6 : left > 10 ? 138 : 10;
+            unsigned n = left < max ? left : max;
+            put_length(codes, lengths[i] ? 16 : left > 10 ? 18 : 17, n - (!lengths[i] && left > 10 ? 11 : 3));
             left -= n;
         }
         for (; left; left--)
-            tell(codes, lengths[i], 0);
+            put_length(codes, lengths[i], 0);
     }
 }
 
@@ -62,7 +63,7 @@ void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint
         codes->bits += (uint64_t)counts[i] * codes->length[i];
     for (int i = 0; i < DISTANCES; i++)
         codes->bits += (uint64_t)distance_counts[i] * (codes->distance_length[i] + distance_extra(i));
-    // Lengths of zero at the end are not told, but for the first: alone it says that there is no distance.
+    // Zeros at the end are not written, except for the first distance: alone, it says that there is none.
     for (codes->literals = LITERALS; !codes->length[codes->literals - 1];)
         codes->literals--;
     for (codes->distances = DISTANCES; codes->distances > 1 && !codes->distance_length[codes->distances - 1];)
@@ -71,20 +72,20 @@ void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint
     uint8_t all[LITERALS + DISTANCES];
     memcpy(all, codes->length, codes->literals);
     memcpy(all + codes->literals, codes->distance_length, codes->distances);
-    codes->told_count = 0;
-    tell_lengths(codes, all, codes->literals + codes->distances);
+    codes->length_symbol_count = 0;
+    encode_lengths(codes, all, codes->literals + codes->distances);
 
-    uint32_t told_counts[19] = {0};
-    for (unsigned i = 0; i < codes->told_count; i++)
-        told_counts[codes->told[i]]++;
-    huffman_lengths(told_counts, 19, 7, codes->told_length);
-    huffman_codes(codes->told_length, 19, codes->told_code);
-    codes->told_lengths = 19;
-    while (codes->told_lengths > 4 && !codes->told_length[told_order[codes->told_lengths - 1]])
-        codes->told_lengths--;
-    codes->bits += 3 + 5 + 5 + 4 + 3 * codes->told_lengths;
-    for (int i = 0; i < 19; i++)
-        codes->bits += (uint64_t)told_counts[i] * (codes->told_length[i] + told_extra[i]);
+    uint32_t counts_of_lengths[CODE_LENGTHS] = {0};
+    for (unsigned i = 0; i < codes->length_symbol_count; i++)
+        counts_of_lengths[codes->length_symbols[i]]++;
+    huffman_lengths(counts_of_lengths, CODE_LENGTHS, 7, codes->code_length_length);
+    huffman_codes(codes->code_length_length, CODE_LENGTHS, codes->code_length_code);
+    codes->code_lengths = CODE_LENGTHS;
+    while (codes->code_lengths > 4 && !codes->code_length_length[code_length_order[codes->code_lengths - 1]])
+        codes->code_lengths--;
+    codes->bits += 3 + 5 + 5 + 4 + 3 * codes->code_lengths;
+    for (int i = 0; i < CODE_LENGTHS; i++)
+        codes->bits += (uint64_t)counts_of_lengths[i] * (codes->code_length_length[i] + code_length_extra[i]);
 }
 
 void put_codes(struct bits *bits, const struct codes *codes)
@@ -92,12 +93,12 @@ void put_codes(struct bits *bits, const struct codes *codes)
     put(bits, 0 | 2 << 1, 3); // not the last block; codes of its own
     put(bits, codes->literals - 257, 5);
     put(bits, codes->distances - 1, 5);
-    put(bits, codes->told_lengths - 4, 4);
-    for (unsigned i = 0; i < codes->told_lengths; i++)
-        put(bits, codes->told_length[told_order[i]], 3);
-    for (unsigned i = 0; i < codes->told_count; i++) {
-        uint8_t symbol = codes->told[i];
-        put(bits, codes->told_code[symbol], codes->told_length[symbol]);
-        put(bits, codes->more[i], told_extra[symbol]);
+    put(bits, codes->code_lengths - 4, 4);
+    for (unsigned i = 0; i < codes->code_lengths; i++)
+        put(bits, codes->code_length_length[code_length_order[i]], 3);
+    for (unsigned i = 0; i < codes->length_symbol_count; i++) {
+        uint8_t symbol = codes->length_symbols[i];
+        put(bits, codes->code_length_code[symbol], codes->code_length_length[symbol]);
+        put(bits, codes->length_extra[i], code_length_extra[symbol]);
     }
 }

@@ -1,4 +1,4 @@
-// deflate_codes.h: a block's prefix codes (RFC 1951, 3.2.7): made from counts, told, and the bits they become.
+// deflate_codes.h: a block's prefix codes (RFC 1951, 3.2.7): made from counts, and written as bits.
 #ifndef DEFLATE_CODES_H
 #define DEFLATE_CODES_H
 
@@ -11,11 +11,12 @@ enum {
     END_OF_BLOCK = 256,
     FIRST_LENGTH = 257,
     DISTANCES = 30,
-    CODE_LIMIT = 14, // a token in one 64-bit step: four codes, 4·14 bits, and the 7 bits still waiting
-    STORED_MOST = 65535,
+    CODE_LENGTHS = 19,
+    CODE_LIMIT = 14,    // a token goes out in one 64-bit step: four codes, 4·14 bits, and the 7 bits still waiting
+    MAX_STORED = 65535, // bytes of a stored block
 };
 
-// Bits waiting to become bytes, the first lowest. After put() fewer than 8 wait.
+// A writer of bits; those that do not fill a byte yet wait, the first lowest. After put() fewer than 8 wait.
 struct bits {
     uint8_t *at;
     uint64_t waiting;
@@ -42,32 +43,36 @@ static inline uint8_t *put_boundary(struct bits *bits)
     return bits->at;
 }
 
-// A block's two codes and how they are told.
+// A block's two codes and their encoded code lengths.
 struct codes {
     uint8_t length[LITERALS], distance_length[DISTANCES];
     uint16_t code[LITERALS], distance_code[DISTANCES];
-    unsigned literals, distances;       // how many lengths are told
-    uint8_t told[LITERALS + DISTANCES]; // the lengths' own symbols 0…18, in order …
-    uint8_t more[LITERALS + DISTANCES]; // … and what follows each in extra bits
-    unsigned told_count;
-    uint8_t told_length[19];
-    uint16_t told_code[19];
-    unsigned told_lengths; // how many of told_length, in the format's order
-    uint64_t bits;         // of the whole block
+    unsigned literals, distances; // number of code lengths that are written
+
+    // The code lengths as symbols 0…18 of the code length code, and the value of each one's extra bits.
+    uint8_t length_symbols[LITERALS + DISTANCES], length_extra[LITERALS + DISTANCES];
+    unsigned length_symbol_count;
+
+    // The code length code.
+    uint8_t code_length_length[CODE_LENGTHS];
+    uint16_t code_length_code[CODE_LENGTHS];
+    unsigned code_lengths; // number of code_length_length that are written, in the format's order
+
+    uint64_t bits; // of the whole block
 };
 
-// The symbol and the number of extra bits of a match of 3 … 258 bytes.
+// The symbol of a match of 3 … 258 bytes, and the number of its extra bits.
 unsigned length_symbol(unsigned length, unsigned *extra);
 
-// Further bits of a distance symbol.
+// Number of extra bits of a distance symbol.
 static inline unsigned distance_extra(int symbol) { return symbol < 4 ? 0 : (unsigned)symbol / 2 - 1; }
 
-// Makes the codes of a block in which symbols occur so often, the block's end once, with `extra_bits` of
-// lengths in all; those of distances are added here.
+// Makes the codes of a block from the number of times that each symbol occurs; the end of the block occurs once.
+// `extra_bits`: those of all lengths; those of the distances are added here.
 void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint32_t distance_counts[DISTANCES],
                 uint64_t extra_bits);
 
-// Begins a block that is not the last.
+// Writes the header of a block that is not the last: its codes.
 void put_codes(struct bits *bits, const struct codes *codes);
 
 #endif

@@ -3,9 +3,9 @@
 
 size_t deflate_capacity(int width, int rows, int bytes_per_pixel)
 {
-    // Stored blocks, the ending one, and what the last 8-byte step may touch beyond.
+    // Stored blocks, the empty one at the end, and the bytes that the last 8-byte step touches after it.
     size_t bytes = (size_t)rows * ((size_t)width * (unsigned)bytes_per_pixel + 1);
-    return bytes + 5 * (bytes / STORED_MOST + 2) + 8;
+    return bytes + 5 * (bytes / MAX_STORED + 2) + 8;
 }
 
 static uint32_t count_of(const struct deflate *deflate, int kind)
@@ -34,7 +34,7 @@ static void make_codes(struct codes *codes, const struct deflate *deflate)
     codes_make(codes, counts, distance_counts, extra_bits);
 }
 
-// A kind as it is written.
+// A kind's bits.
 struct entry {
     uint32_t bits, count;
 };
@@ -51,7 +51,7 @@ static void make_entries(struct entry entries[DEFLATE_KINDS], const struct codes
     }
     for (int i = 0; i < DISTANCES; i++)
         entries[DEFLATE_DISTANCE + i] = (struct entry){codes->distance_code[i], codes->distance_length[i]};
-    entries[DEFLATE_BITS] = (struct entry){0}; // no kind
+    entries[DEFLATE_BITS] = (struct entry){0}; // not a kind
     for (uint32_t n = 0; n <= 8; n++)
         for (uint32_t value = 0; value < 1u << n; value++)
             entries[DEFLATE_BITS + (1u << n) + value] = (struct entry){value, n};
@@ -63,7 +63,7 @@ static uint8_t *put_tokens(const struct deflate *deflate, const struct codes *co
     put_codes(&head, codes);
     struct entry entries[DEFLATE_KINDS];
     make_entries(entries, codes);
-    struct bits bits = head; // a copy whose address nobody has, so that it stays in registers
+    struct bits bits = head; // a copy whose address is not taken, so that it stays in registers
     for (const struct token *token = deflate->tokens, *end = deflate->end; token < end; token++) {
         const struct entry a = entries[token->kind[0]], b = entries[token->kind[1]];
         const struct entry c = entries[token->kind[2]], d = entries[token->kind[3]];
@@ -81,16 +81,16 @@ static size_t stream_bytes(const struct deflate *deflate)
     return ((size_t)deflate->width * (unsigned)deflate->bytes_per_pixel + 1) * deflate->y;
 }
 
-// The stream's bytes, stored as they are in blocks of at most STORED_MOST.
+// Writes the stream's bytes unchanged, in blocks of at most MAX_STORED.
 struct storing {
     uint8_t *at;
-    size_t left, in_block; // bytes still to come, of them in this block
+    size_t left, in_block; // bytes still to come, and those of them in this block
 };
 
 static void store(struct storing *storing, uint8_t byte)
 {
     if (storing->in_block == 0) {
-        size_t n = storing->in_block = storing->left < STORED_MOST ? storing->left : STORED_MOST;
+        size_t n = storing->in_block = storing->left < MAX_STORED ? storing->left : MAX_STORED;
         const uint8_t head[5] = {0, (uint8_t)n, (uint8_t)(n >> 8), (uint8_t)~n, (uint8_t)(~n >> 8)};
         memcpy(storing->at, head, sizeof head);
         storing->at += sizeof head;
@@ -100,7 +100,7 @@ static void store(struct storing *storing, uint8_t byte)
     storing->left--;
 }
 
-// Where codes would only make it longer: noise, and pictures of a few pixels.
+// For strips that codes would make longer: noise, and pictures of a few pixels.
 static uint8_t *put_stored(const struct deflate *deflate, uint8_t *out)
 {
     struct storing storing = {out, stream_bytes(deflate), 0};

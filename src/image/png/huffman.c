@@ -1,4 +1,4 @@
-// huffman.c: prefix codes of limited length: Huffman's tree, then a repair of what is too deep.
+// huffman.c: prefix codes of limited length: Huffman's tree, then a repair of leaves that are too deep.
 #include "huffman.h"
 
 #include <string.h>
@@ -17,9 +17,9 @@ static void sort(uint32_t *keys, int count)
         }
 }
 
-// The depth of each leaf in Huffman's tree over weights that ascend; two and more. Leaves are nodes 0 …
-// leaves−1; each further node joins the two lightest that are left, which stand at the front of one of two
-// queues: the leaves, and the joined nodes in the order they were made.
+// The depth of each leaf in Huffman's tree over at least two ascending weights. Leaves are nodes 0 … leaves−1; each
+// further node joins the two lightest that are left. These stand at the front of one of two queues: the leaves, and the
+// joined nodes in the order they were made.
 static void tree_depths(const uint32_t *weights, int leaves, uint8_t *depths)
 {
     uint32_t weight[2 * HUFFMAN_SYMBOLS];
@@ -62,9 +62,9 @@ void huffman_lengths(const uint32_t *counts, int symbols, int limit, uint8_t *le
         weights[i] = keys[i] >> 9;
     tree_depths(weights, used, depths);
 
-    // How many codes of each length; those that are too long are cut to the limit. A code of length l takes 2^(limit−l)
-    // of 2^limit places. What the cut overdraws is paid back place by place: one code of the longest length below the
-    // limit becomes one bit longer and shares its place with one taken from the limit.
+    // The number of codes of each length, with longer ones cut to the limit. A code of length l takes 2^(limit−l) of
+    // 2^limit positions. The positions that the cut takes too many are given back one by one: a code of the longest
+    // length below the limit becomes one bit longer, and shares its position with one taken from the limit.
     uint32_t of_length[64] = {0}, taken = 0;
     for (int i = 0; i < used; i++) {
         int length = depths[i] < limit ? depths[i] : limit;
@@ -79,7 +79,7 @@ void huffman_lengths(const uint32_t *counts, int symbols, int limit, uint8_t *le
         of_length[length + 1] += 2;
         of_length[limit]--;
     }
-    // The rarest get the longest.
+    // The rarest symbols get the longest codes.
     int next = 0;
     for (int length = limit; length > 0; length--)
         for (uint32_t i = 0; i < of_length[length]; i++)

@@ -1,7 +1,7 @@
 // png_best.c: the smallest files, through libdeflate, which is opened when it is used. The bytes depend on its version.
 //
-// Each strip is filtered in six ways: all rows by one of the five filters, or each row by the filter of the lowest cost.
-// Level 7 finds out which way becomes smallest, and level 12 compresses that one.
+// Each strip is filtered in six ways: all rows by one of the five filters, or each row by the filter of the lowest
+// cost. Level 7 finds out which way becomes smallest, and level 12 compresses that one.
 #include "png_encoding.h"
 
 #include "fail.h"
@@ -41,7 +41,7 @@ struct best_thread {
     uint32_t *words;              // two filtered rows
 };
 
-// The threads' states stand behind what they share.
+// What the threads share, and their own states.
 struct best_state {
     struct libdeflate libdeflate;
     size_t count;
@@ -146,8 +146,8 @@ static void filter_strip(const struct png_encoding *encoding, struct best_thread
 }
 
 // Makes the last block of a deflate stream one that others can follow, and ends on a byte boundary with an empty stored
-// block. libdeflate writes whole streams only, so zlib finds where the last block starts. `scratch` has capacity for the
-// decompressed bytes. Returns the new size; 0: memory is out.
+// block. libdeflate writes whole streams only, so zlib finds where the last block starts. `scratch` has capacity for
+// the decompressed bytes. Returns the new size; 0: memory is out.
 static size_t open_stream(uint8_t *stream, size_t size, uint8_t *scratch, size_t capacity)
 {
     enum { AT_BOUNDARY = 128, IN_LAST = 64, UNUSED_BITS = 7 }; // z_stream's data_type after inflate(…, Z_BLOCK)

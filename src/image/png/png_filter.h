@@ -15,13 +15,13 @@ enum png_filter {
 };
 
 // Filters a row of `width` RGBA pixels; `above` is the row before it (zeros for the first). `out` gets a word for each
-// pixel: its bytes_per_pixel bytes of the stream, the first lowest (1: red, 2: red and alpha, 3: red, green and blue, 4:
-// all), and zeros above them. It has capacity for a multiple of 4 words; those from `width` on become zero.
+// pixel: its bytes_per_pixel bytes of the stream, the first lowest (1: red, 2: red and alpha, 3: red, green and blue,
+// 4: all), and zeros above them. It has capacity for a multiple of 4 words; those from `width` on become zero.
 void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, int bytes_per_pixel,
                     uint32_t *out);
 
-// The pixels of a row from `first` up to, not including, `end`. Those on both sides are zero: the transparent background,
-// which is most of many pictures. Equal numbers: all pixels are zero.
+// The pixels of a row from `first` up to, not including, `end`. Those on both sides are zero: the transparent
+// background, which is most of many pictures. Equal numbers: all pixels are zero.
 struct png_span {
     int first, end;
 };
@@ -29,8 +29,8 @@ struct png_span {
 // The span of a row of `width` pixels. Whole blocks are examined, so some pixels at its ends may be zero too.
 struct png_span png_span_of(const uint8_t *row, int width);
 
-// The span of a row after filtering, from its own and that of the row above: a filter also changes the pixel that follows
-// a span.
+// The span of a row after filtering, from its own and that of the row above: a filter also changes the pixel that
+// follows a span.
 struct png_span png_span_filtered(struct png_span row, struct png_span above, int width);
 
 // An estimate of how badly a filtered row compresses: Σ |byte|, with bytes as −128…127.

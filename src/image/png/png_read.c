@@ -36,8 +36,8 @@ static bool png_ours(const uint8_t *bytes, size_t size)
     return false;
 }
 
-// Deflate makes at most 1032 bytes of one, so a small file that claims a huge picture is told before memory
-// is asked for.
+// Deflate expands a byte to at most 1032, so a small file that claims a huge picture is refused before memory is
+// allocated.
 static bool fits(const struct spng_ihdr *header, size_t size)
 {
     static const int channels[7] = {1, 0, 3, 1, 2, 0, 4};
@@ -60,13 +60,13 @@ static void widen(lam_image *image)
     }
 }
 
-// `wide`: where to tell that there were 16 bits, which then are kept; NULL: they are cut to 8.
+// `wide`: set to whether the file has 16 bits, which then are kept; NULL: they are cut to 8.
 static bool decode(spng_ctx *spng, const uint8_t *bytes, size_t size, const char *name, lam_image *image, bool *wide,
                    lam_error *error)
 {
     struct spng_ihdr header;
-    enum { CHUNK_MOST = 64 << 20 }; // texts and profiles, decompressed
-    int code = spng_set_chunk_limits(spng, CHUNK_MOST, CHUNK_MOST);
+    enum { MAX_CHUNK_BYTES = 64 << 20 }; // texts and profiles, decompressed
+    int code = spng_set_chunk_limits(spng, MAX_CHUNK_BYTES, MAX_CHUNK_BYTES);
     if (!code)
         code = spng_set_png_buffer(spng, bytes, size);
     if (!code)
@@ -87,7 +87,7 @@ static bool decode(spng_ctx *spng, const uint8_t *bytes, size_t size, const char
         keep ? spng_decode_image(spng, (char *)image->pixels + 8 * count, 8 * count, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS)
              : spng_decode_image(spng, image->pixels, 4 * count, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS);
     if (!code)
-        code = spng_decode_chunks(spng); // to the file's end, so that one cut behind the pixels is told too
+        code = spng_decode_chunks(spng); // to the file's end, so that a file cut off after the pixels is an error too
     if (code)
         return fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", name, spng_strerror(code));
     if (keep)

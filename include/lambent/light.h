@@ -25,6 +25,7 @@ typedef enum lam_light_type {
 typedef struct lam_light_type_info {
     const char *word;    // in options, scene files and reports: "point"
     const char *summary; // one line
+    LAM_RESERVED(8);
 } lam_light_type_info;
 
 // NULL: no such kind.

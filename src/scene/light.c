@@ -19,11 +19,11 @@ lam_light lam_light_default(lam_light_type type)
 // --- Checks
 
 static const lam_light_type_info types[LAM_LIGHT_TYPE_COUNT] = {
-    [LAM_LIGHT_AMBIENT] = {"ambient", "the same from everywhere"},
-    [LAM_LIGHT_HEMISPHERE] = {"hemisphere", "from a sky over a ground"},
-    [LAM_LIGHT_POINT] = {"point", "from a position in all directions"},
-    [LAM_LIGHT_DIRECTIONAL] = {"directional", "parallel, from infinitely far"},
-    [LAM_LIGHT_SPOT] = {"spot", "from a position in a cone"},
+    [LAM_LIGHT_AMBIENT] = {.word = "ambient", .summary = "the same from everywhere"},
+    [LAM_LIGHT_HEMISPHERE] = {.word = "hemisphere", .summary = "from a sky over a ground"},
+    [LAM_LIGHT_POINT] = {.word = "point", .summary = "from a position in all directions"},
+    [LAM_LIGHT_DIRECTIONAL] = {.word = "directional", .summary = "parallel, from infinitely far"},
+    [LAM_LIGHT_SPOT] = {.word = "spot", .summary = "from a position in a cone"},
 };
 
 const lam_light_type_info *lam_light_type_describe(lam_light_type type)

@@ -19,9 +19,9 @@ lam_mat4 lam_camera_view_matrix(const lam_camera *camera)
     return view;
 }
 
-// Turns a direction given with Y up, front +Z, into the scene's up axis. Z up has its front at −Y, as CAD has; X up at
-// +Z.
-static lam_vec3 turn_up(lam_up up, lam_vec3 d)
+// Rotates a direction from Y up and front +Z to the scene's up axis. With Z up the front is −Y, as in CAD; with X
+// up +Z.
+static lam_vec3 rotate_up(lam_up up, lam_vec3 d)
 {
     switch (up) {
     case LAM_UP_Z:
@@ -37,62 +37,70 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view)
 {
     double azimuth = view->from_angles ? view->azimuth_rad : math_radians(30);
     double elevation = view->from_angles ? view->elevation_rad : math_radians(20);
-    double sa = math_sin(azimuth), ca = math_cos(azimuth), se = math_sin(elevation), ce = math_cos(elevation);
+    double sin_azimuth = math_sin(azimuth), cos_azimuth = math_cos(azimuth), sin_elevation = math_sin(elevation),
+           cos_elevation = math_cos(elevation);
     lam_up up = lam_scene_up(scene);
-    // From above, "right" still follows the azimuth, so the view never tumbles.
+    // Seen from above, `right` still follows the azimuth: the view does not tumble.
     return (struct view_axes){
-        .right = turn_up(up, v3(ca, 0, -sa)),
-        .above = turn_up(up, v3(-sa * se, ce, -ca * se)),
-        .back = turn_up(up, v3(sa * ce, se, ca * ce)),
+        .right = rotate_up(up, v3(cos_azimuth, 0, -sin_azimuth)),
+        .above = rotate_up(up, v3(-sin_azimuth * sin_elevation, cos_elevation, -cos_azimuth * sin_elevation)),
+        .back = rotate_up(up, v3(sin_azimuth * cos_elevation, sin_elevation, cos_azimuth * cos_elevation)),
     };
 }
 
-// Orthographic: half the box over the fill, centred.
+// Orthographic: centred on the box of the view extents, half its size divided by the fill.
 static lam_camera fit_orthographic(const lam_scene *scene, const struct view_axes *axes, double aspect, double fill)
 {
-    struct reach box = {0};
+    struct view_extents box = {0};
     view_extents_find(scene, axes, &box);
-    double right = box.value[REACH_RIGHT], left = box.value[REACH_LEFT], top = box.value[REACH_TOP],
-           bottom = box.value[REACH_BOTTOM];
+    double right = box.value[EXTENT_RIGHT], left = box.value[EXTENT_LEFT], top = box.value[EXTENT_TOP],
+           bottom = box.value[EXTENT_BOTTOM];
     double half_width = (right + left) / 2, half_height = (top + bottom) / 2;
     double half = half_height > half_width / aspect ? half_height : half_width / aspect;
     double size = half > 0 ? half : 1;
     lam_vec3 centre = v3_add(v3_scale(axes->right, (right - left) / 2), v3_scale(axes->above, (top - bottom) / 2));
-    lam_vec3 target = v3_add(centre, v3_scale(axes->back, box.value[REACH_FRONT]));
+    lam_vec3 target = v3_add(centre, v3_scale(axes->back, box.value[EXTENT_FRONT]));
     return (lam_camera){.eye = v3_add(target, v3_scale(axes->back, 2 * size)),
                         .target = target,
                         .up = axes->above,
                         .ortho_half_height = size / fill};
 }
 
-// Perspective, for one axis across the view: a vertex is inside when ±(x − ex) ≤ k·(ez − z), that is ±x + k·z ≤ ±ex +
-// k·ez. With R and L the largest of x + k·z and −x + k·z, both sides touch at ex = (R − L)/2 and ez = (R + L)/(2k):
-// exact, from one pass over the vertices. The axis that asks for the larger ez decides it; the other is centred by
-// finding the smaller k at which it would touch at that ez (a few passes, each from the last one's answer).
+// Perspective, for one axis of the picture. A vertex is visible if
+//
+//   ±(x − ex) ≤ k·(ez − z),   that is   ±x + k·z ≤ ±ex + k·ez
+//
+// With R and L the maxima of x + k·z and −x + k·z, both sides touch the frame at
+//
+//   ex = (R − L)/2,   ez = (R + L)/(2k)
+//
+// which is exact and takes one pass over the vertices. The axis with the larger ez determines it. The other axis
+// is centred with the smaller k at which it would touch the frame at this ez, found by a few passes of
+// fixed-point iteration.
 static lam_camera fit_perspective(const lam_scene *scene, const struct view_axes *axes, double fovy, double aspect,
                                   double fill)
 {
-    struct reach reach = {.ky = math_tan(fovy / 2) * fill};
-    reach.kx = reach.ky * aspect;
-    view_extents_find(scene, axes, &reach);
-    const double *at = reach.value, front = at[REACH_FRONT];
-    double ez_x = (at[REACH_RIGHT] + at[REACH_LEFT]) / (2 * reach.kx),
-           ez_y = (at[REACH_TOP] + at[REACH_BOTTOM]) / (2 * reach.ky);
+    struct view_extents extents = {.ky = math_tan(fovy / 2) * fill};
+    extents.kx = extents.ky * aspect;
+    view_extents_find(scene, axes, &extents);
+    const double *at = extents.value, front = at[EXTENT_FRONT];
+    double ez_x = (at[EXTENT_RIGHT] + at[EXTENT_LEFT]) / (2 * extents.kx),
+           ez_y = (at[EXTENT_TOP] + at[EXTENT_BOTTOM]) / (2 * extents.ky);
     double ez = ez_x > ez_y ? ez_x : ez_y;
     if (!(ez > front)) // a single point, or a line along the view
         ez = front + 1;
     for (int pass = 0; pass < 4; pass++) {
-        double x = at[REACH_RIGHT] - at[REACH_LEFT], y = at[REACH_TOP] - at[REACH_BOTTOM];
+        double x = at[EXTENT_RIGHT] - at[EXTENT_LEFT], y = at[EXTENT_TOP] - at[EXTENT_BOTTOM];
         if (ez_x > ez_y)
-            reach_upwards(scene, axes, (at[REACH_TOP] + at[REACH_BOTTOM]) / (2 * ez), &reach);
+            view_extents_vertical(scene, axes, (at[EXTENT_TOP] + at[EXTENT_BOTTOM]) / (2 * ez), &extents);
         else
-            reach_across(scene, axes, (at[REACH_RIGHT] + at[REACH_LEFT]) / (2 * ez), &reach);
-        double moved = (at[REACH_RIGHT] - at[REACH_LEFT]) - x + (at[REACH_TOP] - at[REACH_BOTTOM]) - y;
+            view_extents_horizontal(scene, axes, (at[EXTENT_RIGHT] + at[EXTENT_LEFT]) / (2 * ez), &extents);
+        double moved = (at[EXTENT_RIGHT] - at[EXTENT_LEFT]) - x + (at[EXTENT_TOP] - at[EXTENT_BOTTOM]) - y;
         if (moved < 1e-6 * (ez - front) && moved > -1e-6 * (ez - front))
             break;
     }
-    lam_vec3 across = v3_add(v3_scale(axes->right, (at[REACH_RIGHT] - at[REACH_LEFT]) / 2),
-                             v3_scale(axes->above, (at[REACH_TOP] - at[REACH_BOTTOM]) / 2));
+    lam_vec3 across = v3_add(v3_scale(axes->right, (at[EXTENT_RIGHT] - at[EXTENT_LEFT]) / 2),
+                             v3_scale(axes->above, (at[EXTENT_TOP] - at[EXTENT_BOTTOM]) / 2));
     return (lam_camera){.eye = v3_add(across, v3_scale(axes->back, ez)),
                         .target = v3_add(across, v3_scale(axes->back, front)),
                         .up = axes->above,
@@ -101,9 +109,9 @@ static lam_camera fit_perspective(const lam_scene *scene, const struct view_axes
 
 lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view)
 {
-    static const lam_view plain = {0};
+    static const lam_view defaults = {0};
     if (!view)
-        view = &plain;
+        view = &defaults;
     if (!check_reserved("lam_view", view, NULL)) {
         lam_camera refused = lam_camera_default();
         refused.reserved[0] = 1;
@@ -120,7 +128,7 @@ lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const l
     double zoom = view->zoom > 0 ? view->zoom : 1;
     lam_camera camera = view->orthographic ? fit_orthographic(scene, &axes, aspect, fill)
                                            : fit_perspective(scene, &axes, fovy, aspect, fill);
-    // Zoom narrows the view instead of moving the eye, so that it never walks into the model.
+    // Zoom narrows the view instead of moving the eye, which could enter the model.
     if (camera.ortho_half_height > 0)
         camera.ortho_half_height /= zoom;
     else

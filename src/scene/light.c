@@ -1,11 +1,11 @@
-// light.c: default lights, their checks, and the ready-made rigs.
+// light.c: default lights, checks of lights, and the built-in rigs.
 #include "fail.h"
 #include "fields.h"
 #include "linear.h"
 
 #include <lambent/light.h>
 
-// Fields that the type does not have get a default too: a program may change the type afterwards.
+// Fields of other types get defaults too: a program may change the type later.
 lam_light lam_light_default(lam_light_type type)
 {
     lam_light light = {.type = type};
@@ -31,21 +31,21 @@ const lam_light_type_info *lam_light_type_describe(lam_light_type type)
     return (unsigned)type < LAM_LIGHT_TYPE_COUNT ? &types[type] : NULL;
 }
 
-static bool bad(lam_error *error, const lam_light *light, const char *field, double found, const char *expected)
+static bool fail_field(lam_error *error, const lam_light *light, const char *field, double found, const char *expected)
 {
     return fail(error, LAM_BAD_ARGUMENT, "%s light%s%s%s: %s is %g, expected %s", types[light->type].word,
                 light->name ? " '" : "", light->name ? light->name : "", light->name ? "'" : "", field, found,
                 expected);
 }
 
-// Between the angles of a spot, whose own ranges are right.
-static bool cone_fits(const lam_light *light, lam_error *error)
+// Checks the relations between a spot's angles; their ranges are checked before.
+static bool check_cone(const lam_light *light, lam_error *error)
 {
     double inner = (double)light->inner_rad, outer = (double)light->outer_rad, cutoff = (double)light->cutoff_rad;
     if ((outer > 0 || inner > 0) && inner >= outer)
-        return bad(error, light, "inner_rad", inner, "less than outer_rad");
+        return fail_field(error, light, "inner_rad", inner, "less than outer_rad");
     if (cutoff > PI / 2 + 1e-6 && cutoff <= PI - 1e-6)
-        return bad(error, light, "cutoff_rad", cutoff, "a half angle in 0 to π/2, or π");
+        return fail_field(error, light, "cutoff_rad", cutoff, "a half angle in 0 to π/2, or π");
     return true;
 }
 
@@ -59,18 +59,18 @@ bool lam_light_check(const lam_light *light, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "light: type is %d, expected 0 to %d", (int)light->type,
                     (int)LAM_LIGHT_SPOT);
     if ((unsigned)light->frame > LAM_FRAME_MODEL)
-        return bad(error, light, "frame", (double)light->frame, "0 (world), 1 (camera), 2 (object) or 3 (model)");
+        return fail_field(error, light, "frame", (double)light->frame,
+                          "0 (world), 1 (camera), 2 (object) or 3 (model)");
     struct field_fault fault;
     for (int i = 0; lam_light_field(i); i++)
         if (field_is_of(lam_light_field(i), light->type) && !field_fits(lam_light_field(i), light, &fault))
-            return bad(error, light, fault.name, fault.found, fault.expected);
-    return light->type != LAM_LIGHT_SPOT || cone_fits(light, error);
+            return fail_field(error, light, fault.name, fault.found, fault.expected);
+    return light->type != LAM_LIGHT_SPOT || check_cone(light, error);
 }
 
 // --- Rigs
 
-// A directional light that moves with the camera. `from` points to where the light comes from: x right, y up, z
-// towards the viewer.
+// A directional light in the camera's frame. `from`: the direction to the light; x right, y up, z towards the viewer.
 static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, float specular)
 {
     lam_light light = lam_light_default(LAM_LIGHT_DIRECTIONAL);
@@ -82,12 +82,14 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
     return light;
 }
 
-// The default look. What a point returns is its ka or kd times at most
-//   0.74 (key) + 0.24·cos 79° (fill, where the key is full) + 0.17 (sky, seen from there) = 0.96
-// (0.9 on top, where the rim light joins in), so that even a white material keeps its form and does not blow out; the
-// default material's 0.72 ends at 0.69 (sRGB 215), with a highlight above it. A point that only the ground lights still
-// has 0.72·0.06 (sRGB 58), and between the two stand the fill's side (about 0.2, sRGB 124) and the rim, which draws a
-// line of light along the upper edges so that a model stands out from a dark page.
+// The default rig. A point reflects ka or kd times at most
+//
+//   0.74 (key) + 0.24·cos 79° (fill, at the key's maximum) + 0.17 (sky, there) = 0.96
+//
+// and at most 0.9 on top, where the rim light contributes: even a white material keeps its shading and does not clip.
+// With the default material's 0.72 the maximum is 0.69 (sRGB 215), plus the highlight; a point lit by the ground alone
+// has 0.72·0.06 (sRGB 58); the side of the fill has about 0.2 (sRGB 124). The rim light brightens the upper edges, so
+// that a model stands out from a dark page.
 static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = camera_light("key", v3(-0.65, 0.75, 0.80), 0.74f, 0.9f);
@@ -106,8 +108,8 @@ static int headlight(lam_light lights[LAM_RIG_LIGHTS_MAX])
     return 1;
 }
 
-// A portrait's three lights. Where key and fill both arrive in full a point returns its kd times 0.8 + 0.4·cos 73° +
-// 0.05, below 1; on the fill's own side the ratio of key to fill is 2 to 1.
+// The three lights of a portrait. The sum of all lights is at most 0.8 + 0.4·cos 73° + 0.05, below 1; the ratio of key
+// to fill is 2 to 1.
 static int three_point(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = camera_light("key", v3(-1.0, 1.0, 1.0), 0.8f, 0.8f);
@@ -119,7 +121,7 @@ static int three_point(lam_light lights[LAM_RIG_LIGHTS_MAX])
     return 4;
 }
 
-// What a first program of a lighting course sets up.
+// The light of the first program in a lighting course.
 static int lecture(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = lam_light_default(LAM_LIGHT_POINT);

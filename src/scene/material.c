@@ -11,10 +11,10 @@ struct named_material {
     float shininess;
 };
 
-// The last column of the published table is a share of OpenGL's largest exponent.
+// The published shininess is a fraction of OpenGL's maximum exponent, 128.
 #define SHININESS(share) ((float)((share) * 128.0))
 
-// The numbers of SGI's demonstration teapots.c, unchanged.
+// The numbers of SGI's demo teapots.c, unchanged.
 static const struct named_material named[LAM_MATERIAL_COUNT] = {
     [LAM_MATERIAL_EMERALD] = {"emerald",
                               {0.0215f, 0.1745f, 0.0215f},
@@ -99,8 +99,8 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
         {"yellow-rubber", {0.05f, 0.05f, 0.0f}, {0.5f, 0.5f, 0.4f}, {0.7f, 0.7f, 0.04f}, SHININESS(0.078125)},
 };
 
-// A grey that the studio rig lights from sRGB 80 in the shade to 230 in the light, with room above for a
-// highlight that shows the form without looking like metal or wet clay.
+// A grey that ranges from sRGB 80 to 230 under the studio rig, with headroom for a highlight that shows the form but
+// does not look like metal or wet clay.
 lam_material lam_material_default(void)
 {
     lam_material material = {.illum = -1};
@@ -127,8 +127,8 @@ lam_material lam_material_named(lam_material_id id)
 
 const char *lam_material_name(lam_material_id id) { return known(id) ? named[id].name : NULL; }
 
-// A letter as the table writes it. Only ASCII, so the locale has no say.
-static char plain_letter(char c)
+// A letter in the table's spelling. ASCII only, independent of the locale.
+static char canonical_letter(char c)
 {
     if (c >= 'A' && c <= 'Z')
         return (char)(c - 'A' + 'a');
@@ -139,7 +139,7 @@ lam_material_id lam_material_find(const char *name)
 {
     for (int id = 0; name && id < LAM_MATERIAL_COUNT; id++) {
         const char *a = name, *b = named[id].name;
-        while (*a && plain_letter(*a) == *b) {
+        while (*a && canonical_letter(*a) == *b) {
             a++;
             b++;
         }

@@ -1,12 +1,12 @@
-// mesh_bounds.c: which vertices a mesh's triangles use, the boxes around meshes and scenes, and which colours are
-// translucent.
+// mesh_bounds.c: the vertices that a mesh's triangles use, bounding boxes of meshes and scenes, and translucency of
+// vertex colours.
 #include "scene_internal.h"
 
 #include "linear.h"
 
 #include <string.h>
 
-// Triangles and vertices of one piece of parallel work; fixed, so that nothing depends on the threads.
+// Corners or colours per parallel piece; constant, so that the result does not depend on the number of threads.
 enum { PIECE = 1 << 16 };
 
 struct marking {
@@ -29,7 +29,7 @@ static void mark_piece(void *user, size_t index, int thread)
         __atomic_store_n(&used[indices[i]], 1, __ATOMIC_RELAXED);
 }
 
-// The list of used vertices where some are not used. False when memory is out.
+// Sets the list of used vertices if some are unused. False: out of memory.
 static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                       lam_error *error)
 {
@@ -62,16 +62,16 @@ static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scen
     return ok;
 }
 
-struct clearing {
+struct alpha_search {
     const lam_mesh *mesh;
-    int found; // touched atomically
+    int found; // atomic
 };
 
-static void clear_piece(void *user, size_t index, int thread)
+static void search_piece(void *user, size_t index, int thread)
 {
     (void)thread;
-    struct clearing *clearing = user;
-    const lam_mesh *mesh = clearing->mesh;
+    struct alpha_search *alpha_search = user;
+    const lam_mesh *mesh = alpha_search->mesh;
     size_t first = index * (size_t)PIECE, end = first + PIECE;
     if (end > mesh->color_count)
         end = mesh->color_count;
@@ -86,22 +86,22 @@ static void clear_piece(void *user, size_t index, int thread)
             found |= alpha[4 * i] < 255;
     }
     if (found)
-        __atomic_store_n(&clearing->found, 1, __ATOMIC_RELAXED);
+        __atomic_store_n(&alpha_search->found, 1, __ATOMIC_RELAXED);
 }
 
-// Whether a mesh has a colour that lets light through.
-static bool has_clear_colors(const lam_mesh *mesh, struct pool *pool)
+// Whether a mesh has a colour with an alpha below 1.
+static bool has_translucent_colors(const lam_mesh *mesh, struct pool *pool)
 {
-    struct clearing clearing = {.mesh = mesh};
+    struct alpha_search alpha_search = {.mesh = mesh};
     if (mesh->colors)
-        pool_run(pool, ((size_t)mesh->color_count + PIECE - 1) / PIECE, clear_piece, &clearing);
-    return clearing.found;
+        pool_run(pool, ((size_t)mesh->color_count + PIECE - 1) / PIECE, search_piece, &alpha_search);
+    return alpha_search.found;
 }
 
 static bool measure(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                     lam_error *error)
 {
-    *extent = (struct scene_extent){.translucent = has_clear_colors(mesh, pool)};
+    *extent = (struct scene_extent){.translucent = has_translucent_colors(mesh, pool)};
     if (!find_used(scene, mesh, extent, pool, error))
         return false;
     if (!box_tree_make(&extent->boxes, mesh, extent->used, extent->used_count, &scene->arena, pool, error))
@@ -137,7 +137,7 @@ static lam_vec3 upper(lam_vec3 a, lam_vec3 b)
     return v3(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
 }
 
-// True where the box of a transformed mesh is the transformed box: the matrix only scales and swaps axes.
+// Whether the transform maps boxes to boxes: it only scales and permutes axes.
 static bool keeps_boxes(const lam_mat4 *m)
 {
     for (int i = 0; i < 3; i++)

@@ -1,4 +1,4 @@
-// output.c: what a frame can show, by name, and the lights that it has.
+// output_names.c: names of the outputs of a frame, and the lights of a frame.
 #include "scene_internal.h"
 
 #include <lambent/device.h>
@@ -12,18 +12,18 @@ static const char *const names[LAM_OUTPUT_COUNT] = {
     [LAM_OUTPUT_OVERDRAW] = "overdraw", [LAM_OUTPUT_CLIPPED] = "clipped",
 };
 
-const char *lam_output_name(lam_output show) { return (unsigned)show < LAM_OUTPUT_COUNT ? names[show] : NULL; }
+const char *lam_output_name(lam_output output) { return (unsigned)output < LAM_OUTPUT_COUNT ? names[output] : NULL; }
 
-bool lam_output_is_light(lam_output show) { return (unsigned)show <= LAM_OUTPUT_LIGHT; }
+bool lam_output_is_light(lam_output output) { return (unsigned)output <= LAM_OUTPUT_LIGHT; }
 
-int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int room)
+int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int capacity)
 {
     int count = lam_scene_light_count(scene);
-    for (int i = 0; lights && i < count && i < room; i++)
+    for (int i = 0; lights && i < count && i < capacity; i++)
         lights[i] = *lam_scene_light(scene, i);
-    lam_light of_rig[LAM_RIG_LIGHTS_MAX];
-    int more = lam_scene_rig_lights(scene, rig, of_rig);
-    for (int i = 0; lights && i < more && count + i < room; i++)
-        lights[count + i] = of_rig[i];
-    return count + more;
+    lam_light rig_lights[LAM_RIG_LIGHTS_MAX];
+    int rig_count = lam_scene_rig_lights(scene, rig, rig_lights);
+    for (int i = 0; lights && i < rig_count && count + i < capacity; i++)
+        lights[count + i] = rig_lights[i];
+    return count + rig_count;
 }

@@ -1,4 +1,4 @@
-// scene.c: the scene's storage: what it holds, adding to it, looking into it.
+// scene.c: the scene's storage: creation, growth, preparation and access.
 #include "scene_internal.h"
 
 #include "cube_map.h"
@@ -58,41 +58,40 @@ void scene_token_release(struct scene_token *token)
         free(token);
 }
 
-// Appends an item; −1 when memory is out.
 int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error)
 {
-    if (list->count == list->room) {
-        int room = list->room ? list->room * 2 : 8;
-        void *items = list->room > INT32_MAX / 4 ? NULL : arena_array(&scene->arena, (size_t)room, size);
+    if (list->count == list->capacity) {
+        int capacity = list->capacity ? list->capacity * 2 : 8;
+        void *items = list->capacity > INT32_MAX / 4 ? NULL : arena_array(&scene->arena, (size_t)capacity, size);
         if (!items) {
-            call_memory_error(scene->arena.call, (size_t)room * size, error);
+            call_memory_error(scene->arena.call, (size_t)capacity * size, error);
             return -1;
         }
         if (list->count)
             memcpy(items, list->items, (size_t)list->count * size);
         list->items = items;
-        list->room = room;
+        list->capacity = capacity;
     }
     memcpy((char *)list->items + (size_t)list->count * size, item, size);
     return list->count++;
 }
 
-int scene_take_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error)
+int scene_adopt_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error)
 {
     return scene_append(scene, &scene->meshes, mesh, sizeof *mesh, error);
 }
 
-int scene_take_material(struct lam_scene *scene, const lam_material *material, lam_error *error)
+int scene_adopt_material(struct lam_scene *scene, const lam_material *material, lam_error *error)
 {
     return scene_append(scene, &scene->materials, material, sizeof *material, error);
 }
 
-int scene_take_object(struct lam_scene *scene, const lam_object *object, lam_error *error)
+int scene_adopt_object(struct lam_scene *scene, const lam_object *object, lam_error *error)
 {
     return scene_append(scene, &scene->objects, object, sizeof *object, error);
 }
 
-int scene_take_light(struct lam_scene *scene, const lam_light *light, lam_error *error)
+int scene_adopt_light(struct lam_scene *scene, const lam_light *light, lam_error *error)
 {
     return scene_append(scene, &scene->lights, light, sizeof *light, error);
 }
@@ -104,12 +103,11 @@ void scene_warn(struct lam_scene *scene, const char *format, ...)
     bool full = scene->warnings.count == SCENE_WARNINGS_MAX - 1;
     va_list arguments;
     va_start(arguments, format);
-    const char *text =
-        full ? "more warnings follow, which are not kept" : arena_vformat(&scene->arena, format, arguments);
+    const char *text = full ? "further warnings are omitted" : arena_vformat(&scene->arena, format, arguments);
     va_end(arguments);
     if (text)
         scene_append(scene, &scene->warnings, &text, sizeof text,
-                     NULL); // without memory a warning is not worth failing for
+                     NULL); // a lost warning is no reason to fail
 }
 
 bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error)
@@ -183,7 +181,7 @@ lam_object lam_object_default(void)
     return (lam_object){.transform = lam_mat4_identity(), .material = -1, .back_material = -1};
 }
 
-// --- looking
+// --- access
 
 int lam_scene_mesh_count(const lam_scene *scene) { return scene ? scene->meshes.count : 0; }
 int lam_scene_material_count(const lam_scene *scene) { return scene ? scene->materials.count : 0; }
@@ -247,10 +245,10 @@ void lam_scene_add_warning(lam_scene *scene, const char *text)
 
 bool lam_scene_picture_settings(const lam_scene *scene, lam_picture_settings *settings)
 {
-    bool there = scene && scene->settings;
+    bool present = scene && scene->settings;
     if (settings)
-        *settings = there ? *scene->settings : (lam_picture_settings){0};
-    return there;
+        *settings = present ? *scene->settings : (lam_picture_settings){0};
+    return present;
 }
 
 lam_up lam_scene_up(const lam_scene *scene) { return scene ? scene->up : LAM_UP_Y; }
@@ -275,10 +273,10 @@ bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environm
     if (!scene || !math_finite(rotation_rad))
         return fail(error, LAM_BAD_ARGUMENT, "environment: %s",
                     scene ? "the rotation is not finite" : "the scene is NULL");
-    struct lam_environment *before = scene->environment;
+    struct lam_environment *previous = scene->environment;
     scene->environment = cube_share(environment);
     scene->environment_rotation_rad = rotation_rad;
-    lam_environment_free(before);
+    lam_environment_free(previous);
     return true;
 }
 

@@ -1,4 +1,4 @@
-// scene_add.c: adding to a scene by hand, and changing it: everything is checked and copied.
+// scene_add.c: public functions that add to a scene or change it: arguments are checked and copied.
 #include "scene_internal.h"
 
 #include "fail.h"
@@ -25,7 +25,7 @@ static bool indices_below(const uint32_t *indices, size_t count, uint32_t limit)
     return true;
 }
 
-// One attribute of a mesh under check: its array, how many there are, its index array.
+// Checks an attribute of a mesh: its values and its indices (`own`; NULL: those of the positions).
 static bool check_attribute(const char *name, const float *values, uint32_t count, int width, const uint32_t *own,
                             const lam_mesh *mesh, lam_error *error)
 {
@@ -33,9 +33,9 @@ static bool check_attribute(const char *name, const float *values, uint32_t coun
     if (!values)
         return true;
     if (!finite_floats(values, (size_t)count * (size_t)width))
-        return fail(error, LAM_BAD_ARGUMENT, "mesh: %s hold a number that is not finite", name);
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: %s contain a number that is not finite", name);
     if (own ? !indices_below(own, corners, count) : count < (mesh->indices ? mesh->vertex_count : corners))
-        return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner refers to %s beyond the %u there are", name, count);
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner's index of %s is not below their count, %u", name, count);
     return true;
 }
 
@@ -45,8 +45,7 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
         return false;
     size_t corners = (size_t)mesh->triangle_count * 3;
     if (corners > UINT32_MAX)
-        return fail(error, LAM_LIMIT, "mesh: %u triangles, at most %u can be held", mesh->triangle_count,
-                    UINT32_MAX / 3);
+        return fail(error, LAM_LIMIT, "mesh: %u triangles, expected at most %u", mesh->triangle_count, UINT32_MAX / 3);
     if (!mesh->positions && mesh->triangle_count)
         return fail(error, LAM_BAD_ARGUMENT, "mesh: positions are NULL");
     if (!math_finite(mesh->origin[0]) || !math_finite(mesh->origin[1]) || !math_finite(mesh->origin[2]))
@@ -57,7 +56,7 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
         return fail(error, LAM_BAD_ARGUMENT, "mesh: %u triangles without indices need %zu vertices, found %u",
                     mesh->triangle_count, corners, mesh->vertex_count);
     if (mesh->positions && !finite_floats(mesh->positions, (size_t)mesh->vertex_count * 3))
-        return fail(error, LAM_BAD_ARGUMENT, "mesh: positions hold a number that is not finite");
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: positions contain a number that is not finite");
     if (!check_attribute("normals", mesh->normals, mesh->normal_count, 3, mesh->normal_indices, mesh, error) ||
         !check_attribute("texcoords", mesh->texcoords, mesh->texcoord_count, 2, mesh->texcoord_indices, mesh, error) ||
         !check_attribute("tangents", mesh->tangents, mesh->tangent_count, 4, mesh->tangent_indices, mesh, error))
@@ -68,13 +67,13 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
                         mesh->colors_format);
         const float *as_floats = mesh->colors_format == LAM_COLORS_LINEAR_F32 ? mesh->colors : NULL;
         if (as_floats && !finite_floats(as_floats, (size_t)mesh->color_count * 4))
-            return fail(error, LAM_BAD_ARGUMENT, "mesh: colors hold a number that is not finite");
+            return fail(error, LAM_BAD_ARGUMENT, "mesh: colors contain a number that is not finite");
         size_t needed = mesh->colors_rate == LAM_PER_TRIANGLE ? mesh->triangle_count
                         : mesh->indices                       ? mesh->vertex_count
                                                               : corners;
         bool by_index = mesh->color_indices && mesh->colors_rate == LAM_PER_VERTEX;
         if (by_index ? !indices_below(mesh->color_indices, corners, mesh->color_count) : mesh->color_count < needed)
-            return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner refers to colors beyond the %u there are",
+            return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner's index of colors is not below their count, %u",
                         mesh->color_count);
     }
     if (mesh->part_count && !mesh->parts)
@@ -101,15 +100,15 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
 // Replaces *pointer by a copy in the scene's arena.
 static bool copy_array(struct lam_scene *scene, const void *pointer, size_t count, size_t size)
 {
-    const void **at = (const void **)(uintptr_t)pointer;
-    if (!*at)
+    const void **target = (const void **)(uintptr_t)pointer;
+    if (!*target)
         return true;
     void *copy = arena_array(&scene->arena, count, size);
     if (!copy)
         return false;
     if (count)
-        memcpy(copy, *at, count * size);
-    *at = copy;
+        memcpy(copy, *target, count * size);
+    *target = copy;
     return true;
 }
 
@@ -157,7 +156,7 @@ int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error)
         ok = call_memory_error(scene->arena.call, 0, error);
     if (ok && !copy.normals)
         ok = normals_smooth(&copy, math_radians(40), &scene->arena, NULL, NULL, error);
-    int index = ok ? scene_take_mesh(scene, &copy, error) : -1;
+    int index = ok ? scene_adopt_mesh(scene, &copy, error) : -1;
     if (index >= 0 && !scene_measure(scene, NULL, error)) {
         scene->meshes.count--;
         index = -1;
@@ -166,8 +165,8 @@ int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error)
     return index;
 }
 
-// Checks a material and copies what it points to. False: the error says why.
-static bool own_material(lam_scene *scene, const lam_material *material, lam_material *out, lam_error *error)
+// Checks a material and copies it with its strings. False: error.
+static bool copy_material(lam_scene *scene, const lam_material *material, lam_material *out, lam_error *error)
 {
     if (!scene || !material)
         return fail(error, LAM_BAD_ARGUMENT, "material: the %s is NULL", scene ? "material" : "scene");
@@ -188,7 +187,7 @@ static bool own_material(lam_scene *scene, const lam_material *material, lam_mat
 int lam_scene_add_material(lam_scene *scene, const lam_material *material, lam_error *error)
 {
     lam_material own;
-    return own_material(scene, material, &own, error) ? scene_take_material(scene, &own, error) : -1;
+    return copy_material(scene, material, &own, error) ? scene_adopt_material(scene, &own, error) : -1;
 }
 
 bool lam_scene_set_material(lam_scene *scene, int index, const lam_material *material, lam_error *error)
@@ -196,7 +195,7 @@ bool lam_scene_set_material(lam_scene *scene, int index, const lam_material *mat
     lam_material own;
     if (index < 0 || index >= lam_scene_material_count(scene))
         return fail(error, LAM_BAD_ARGUMENT, "material: %d of %d", index, lam_scene_material_count(scene));
-    if (!own_material(scene, material, &own, error))
+    if (!copy_material(scene, material, &own, error))
         return false;
     ((lam_material *)scene->materials.items)[index] = own;
     return true;
@@ -218,13 +217,13 @@ bool lam_scene_set_part_material(lam_scene *scene, int mesh, uint32_t part, int 
 bool lam_scene_set_default_material(lam_scene *scene, const lam_material *material, lam_error *error)
 {
     lam_material own;
-    if (!own_material(scene, material, &own, error))
+    if (!copy_material(scene, material, &own, error))
         return false;
     scene->default_material = own;
     return true;
 }
 
-static bool own_light(lam_scene *scene, const lam_light *light, lam_light *out, lam_error *error)
+static bool copy_light(lam_scene *scene, const lam_light *light, lam_light *out, lam_error *error)
 {
     if (!scene || !light)
         return fail(error, LAM_BAD_ARGUMENT, "light: the %s is NULL", scene ? "light" : "scene");
@@ -238,7 +237,7 @@ static bool own_light(lam_scene *scene, const lam_light *light, lam_light *out, 
 int lam_scene_add_light(lam_scene *scene, const lam_light *light, lam_error *error)
 {
     lam_light own;
-    return own_light(scene, light, &own, error) ? scene_take_light(scene, &own, error) : -1;
+    return copy_light(scene, light, &own, error) ? scene_adopt_light(scene, &own, error) : -1;
 }
 
 bool lam_scene_set_light(lam_scene *scene, int index, const lam_light *light, lam_error *error)
@@ -246,7 +245,7 @@ bool lam_scene_set_light(lam_scene *scene, int index, const lam_light *light, la
     lam_light own;
     if (index < 0 || index >= lam_scene_light_count(scene))
         return fail(error, LAM_BAD_ARGUMENT, "light: %d of %d", index, lam_scene_light_count(scene));
-    if (!own_light(scene, light, &own, error))
+    if (!copy_light(scene, light, &own, error))
         return false;
     ((lam_light *)scene->lights.items)[index] = own;
     return true;
@@ -285,7 +284,7 @@ static bool check_object(const struct lam_scene *scene, const lam_object *object
     return true;
 }
 
-static bool own_object(lam_scene *scene, const lam_object *object, lam_object *out, lam_error *error)
+static bool copy_object(lam_scene *scene, const lam_object *object, lam_object *out, lam_error *error)
 {
     if (!scene || !object)
         return fail(error, LAM_BAD_ARGUMENT, "object: the %s is NULL", scene ? "object" : "scene");
@@ -298,7 +297,7 @@ static bool own_object(lam_scene *scene, const lam_object *object, lam_object *o
 int lam_scene_add_object(lam_scene *scene, const lam_object *object, lam_error *error)
 {
     lam_object own;
-    return own_object(scene, object, &own, error) ? scene_take_object(scene, &own, error) : -1;
+    return copy_object(scene, object, &own, error) ? scene_adopt_object(scene, &own, error) : -1;
 }
 
 bool lam_scene_set_object(lam_scene *scene, int index, const lam_object *object, lam_error *error)
@@ -306,7 +305,7 @@ bool lam_scene_set_object(lam_scene *scene, int index, const lam_object *object,
     lam_object own;
     if (index < 0 || index >= lam_scene_object_count(scene))
         return fail(error, LAM_BAD_ARGUMENT, "object: %d of %d", index, lam_scene_object_count(scene));
-    if (!own_object(scene, object, &own, error))
+    if (!copy_object(scene, object, &own, error))
         return false;
     ((lam_object *)scene->objects.items)[index] = own;
     return true;

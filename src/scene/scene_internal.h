@@ -1,4 +1,4 @@
-// scene_internal.h: the inside of lam_scene, for importers, shapes and the frame.
+// scene_internal.h: internals of lam_scene, for importers, shapes and the frame.
 #ifndef SCENE_INTERNAL_H
 #define SCENE_INTERNAL_H
 
@@ -9,44 +9,46 @@
 
 #include <lambent/scene_file.h>
 
-// A growing array in an arena: doubling leaves the old half behind in the arena until the scene goes.
+// A growing array in an arena, which keeps the outgrown arrays until the scene is freed.
 struct scene_list {
     void *items;
-    int count, room;
+    int count, capacity;
 };
 
-// What a mesh's triangles span, and whether any of its colours has an alpha below 1. `used` lists the vertices that
-// triangles refer to, in order; NULL: all of them.
+// Bounds of a mesh's triangles.
 struct scene_extent {
     lam_vec3 minimum, maximum; // mesh coordinates, origin included
+    // The vertices that triangles refer to, in order; NULL: all vertices.
     const uint32_t *used;
     uint32_t used_count;
-    struct aabb_tree boxes; // of those vertices
-    bool translucent;
+    struct aabb_tree boxes; // of the used vertices
+    bool translucent;       // some colour has an alpha below 1
 };
 
-// Where meshes came from, for writing them as a scene file: a model file or a built-in shape, and how it was read.
+// The source of meshes, for writing a scene file: a model file or a built-in shape, and the parameters it was
+// read with.
 struct scene_origin {
-    const char *path;  // as it can be opened from here; NULL: a shape, or bytes in memory
+    const char *path;  // that opens the file; NULL: a shape, or a file from memory
     const char *shape; // its name; NULL: a file
     lam_shape_params segments;
     lam_normals normals;
     double crease_angle_rad; // 0: the default
-    bool field_tangents;     // the file's tangents were left out
+    bool field_tangents;     // the file's tangents were dropped
     int first_mesh, mesh_count;
     int first_material, material_count;
-    const lam_material *materials; // as the file had them
-    const lam_object *objects;     // as the file had them, object_count, in order
+    // Copies of the file's materials, objects and parts' materials, before any change by the program.
+    const lam_material *materials;
+    const lam_object *objects;
     int object_count;
-    const int *part_materials; // of all parts of its meshes, in order: the material as the file had it
+    const int *part_materials; // of all parts of the meshes, in order
     int part_count;
 };
 
-// Stands for a scene in the caches of devices: whoever holds it knows that no other scene has the same one,
-// though another may come to lie at the same address, and sees when it is gone.
+// Identifies a scene in the caches of devices. A token is unique, unlike the scene's address, which a later scene may
+// reuse, and it outlives the scene.
 struct scene_token {
-    int references; // touched atomically
-    int gone;       // likewise: the scene was freed
+    int references; // atomic
+    int gone;       // atomic; the scene was freed
 };
 
 struct lam_scene {
@@ -61,54 +63,54 @@ struct lam_scene {
     struct scene_list origins;            // struct scene_origin, in the order of their meshes
     const lam_picture_settings *settings; // of a scene file; NULL: none
     lam_up up;
-    lam_mat4 placement; // what lam_scene_transform did so far
+    lam_mat4 placement; // the product of all lam_scene_transform calls
     lam_rgb ambient;
-    lam_material default_material;   // of parts that name none
+    lam_material default_material;   // of parts without a material
     lam_environment *environment;    // shared with others; NULL: none
     double environment_rotation_rad; // about the up axis
-    lam_color_mode color;            // what the file's colours were read as
+    lam_color_mode color;            // the interpretation of the file's colours
     const char *format;
     double read_ms, prepare_ms;
-    // meshes without normals get theirs from the device that draws them, creased at this angle; 0: there are none
+    // The crease angle of meshes whose normals are left to the device; 0: all meshes have normals.
     double deferred_crease_rad;
 };
 
-// As lam_scene_make, charging `call` (may be NULL) while the scene is being built; scene_built ends that.
+// As lam_scene_make, but allocations are charged to `call` (may be NULL) until scene_built.
 struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
 struct scene_token *scene_token_hold(struct scene_token *token);
-void scene_token_release(struct scene_token *token); // NULL is fine
+void scene_token_release(struct scene_token *token); // `token` may be NULL
 
-// Take what already lies in the scene's arena, without copying and without making normals. Return the index, −1 when
-// memory is out.
-int scene_take_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error);
-int scene_take_material(struct lam_scene *scene, const lam_material *material, lam_error *error);
-int scene_take_object(struct lam_scene *scene, const lam_object *object, lam_error *error);
-int scene_take_light(struct lam_scene *scene, const lam_light *light, lam_error *error);
+// Add an item whose arrays and strings are in the scene's arena, without copying them and without computing normals.
+// Return its index; −1: out of memory.
+int scene_adopt_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error);
+int scene_adopt_material(struct lam_scene *scene, const lam_material *material, lam_error *error);
+int scene_adopt_object(struct lam_scene *scene, const lam_object *object, lam_error *error);
+int scene_adopt_light(struct lam_scene *scene, const lam_light *light, lam_error *error);
 
-// Appends one item of a list; its index, −1 when memory is out.
+// Appends an item to a list. Returns its index; −1: out of memory.
 int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error);
 
-// Adds a warning, formatted. At most SCENE_WARNINGS_MAX are kept; the last one then says that more follow.
+// Adds a warning, formatted. At most SCENE_WARNINGS_MAX are kept; the last of them says that others are omitted.
 enum { SCENE_WARNINGS_MAX = 64 };
 void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// Notes where the meshes and materials from these numbers on came from. False when memory is out.
+// Records the origin of the meshes and materials from origin.first_… on. False: out of memory.
 bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error);
 
-// A built-in shape as a new mesh, charged to the scene's own watch. Its index, −1 on failure.
+// Adds a built-in shape as a mesh, charged to the call of the scene's arena. Returns its index; −1 on failure.
 int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params,
                     struct call_control *call, lam_error *error);
 
-// Makes every mesh ready to draw: normals where they are missing or asked for, degenerate ones told.
+// Prepares every mesh for drawing: computes normals that are missing, or all of them if `normals` asks for it.
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,
                    struct call_control *call, lam_error *error);
 // The same, but leaves smooth normals to the device.
 void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad);
 
-// Works out the extents of meshes that have none yet; every public call that adds meshes ends with it, so that readers
-// never write. False when memory is out.
+// Computes the extents of new meshes. Every public function that adds meshes ends with it, so that read access never
+// writes. False: out of memory.
 bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error);
 
 static inline const lam_mesh *scene_mesh(const struct lam_scene *scene, int i)

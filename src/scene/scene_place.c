@@ -1,13 +1,13 @@
-// scene_place.c: where a scene's objects stand as a whole: the sphere around them, moving them, and the lights of a rig
-// about them.
+// scene_place.c: bounding sphere and transforms of a whole scene, and the positions of a rig's lights.
 #include "scene_internal.h"
 
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
 
-// Widens *radius so that the mesh's vertices, under the transform, lie in the sphere about the centre.
-static void widen(const lam_scene *scene, int mesh_index, const lam_mat4 *transform, lam_vec3 centre, double *radius)
+// Extends *radius so that the sphere contains the transformed vertices of a mesh.
+static void extend_radius(const lam_scene *scene, int mesh_index, const lam_mat4 *transform, lam_vec3 centre,
+                          double *radius)
 {
     const lam_mesh *mesh = scene_mesh(scene, mesh_index);
     const struct scene_extent *extent = scene_extent(scene, mesh_index);
@@ -21,7 +21,7 @@ static void widen(const lam_scene *scene, int mesh_index, const lam_mat4 *transf
     }
 }
 
-static lam_vec3 middle(lam_vec3 a, lam_vec3 b)
+static lam_vec3 midpoint(lam_vec3 a, lam_vec3 b)
 {
     return v3(a.x + (b.x - a.x) * 0.5, a.y + (b.y - a.y) * 0.5, a.z + (b.z - a.z) * 0.5);
 }
@@ -30,26 +30,26 @@ bool lam_scene_sphere(const lam_scene *scene, int object, lam_vec3 *centre, doub
 {
     uint64_t state = float_state_enter();
     lam_vec3 low, high, at = v3(0, 0, 0);
-    double reach = 0;
+    double distance_max = 0;
     bool found = false;
     const lam_object *one = object >= 0 ? lam_scene_object(scene, object) : NULL;
     if (one && scene_extent(scene, one->mesh)->used_count) {
         const struct scene_extent *extent = scene_extent(scene, one->mesh);
         lam_mat4 identity = lam_mat4_identity();
-        at = middle(extent->minimum, extent->maximum);
-        widen(scene, one->mesh, &identity, at, &reach);
+        at = midpoint(extent->minimum, extent->maximum);
+        extend_radius(scene, one->mesh, &identity, at, &distance_max);
         found = true;
     } else if (object < 0 && scene && lam_scene_bounds(scene, &low, &high)) {
-        at = middle(low, high);
+        at = midpoint(low, high);
         for (int i = 0; i < scene->objects.count; i++)
-            widen(scene, scene_object(scene, i)->mesh, &scene_object(scene, i)->transform, at, &reach);
+            extend_radius(scene, scene_object(scene, i)->mesh, &scene_object(scene, i)->transform, at, &distance_max);
         found = true;
     }
     float_state_leave(state);
     if (centre)
         *centre = at;
     if (radius)
-        *radius = reach;
+        *radius = distance_max;
     return found;
 }
 
@@ -69,11 +69,11 @@ static bool check_transform(const lam_mat4 *transform, lam_error *error)
     return true;
 }
 
-static bool place(lam_scene *scene, const lam_mat4 *transform, lam_error *error)
+static bool transform_objects(lam_scene *scene, const lam_mat4 *transform, lam_error *error)
 {
     if (!check_transform(transform, error))
         return false;
-    // All of them are tried before any is moved: a product may overflow.
+    // All products are checked before any object changes: they may overflow.
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < scene->objects.count; i++) {
             lam_object *object = (lam_object *)scene->objects.items + i;
@@ -94,7 +94,7 @@ bool lam_scene_transform(lam_scene *scene, const lam_mat4 *transform, lam_error 
     if (!scene || !transform)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_transform: the %s is NULL", scene ? "transform" : "scene");
     uint64_t state = float_state_enter();
-    bool ok = place(scene, transform, error);
+    bool ok = transform_objects(scene, transform, error);
     float_state_leave(state);
     return ok;
 }
@@ -111,7 +111,7 @@ bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, double a
              back = mat4_translate(centre.x, centre.y, centre.z);
     lam_mat4 turn = mat4_rotate(angle_rad, axis), turned = mat4_mul(&turn, &away);
     lam_mat4 whole = mat4_mul(&back, &turned);
-    bool ok = place(scene, &whole, error);
+    bool ok = transform_objects(scene, &whole, error);
     float_state_leave(state);
     return ok;
 }

@@ -1,9 +1,12 @@
-// tangents.c: tangents of meshes that have texture coordinates and none of their own.
+// tangents.c: computes tangents from texture coordinates.
 //
-// A triangle's tangent is ∂p/∂s, the way in which the first texture coordinate grows (from p = p0 + ∂p/∂s·Δs + ∂p/∂t·Δt
-// along two edges). Corners that share position, normal, texture coordinate and the sense of the mapping share the mean
-// of their triangles' tangents, weighted by the corner's angle, so that the result does not depend on how a flat face is
-// cut. Corners are listed by vertex with a counting sort and worked through in one order: the same bits on every run.
+// A triangle's tangent is ∂p/∂s, the direction in which the first texture coordinate grows, from
+//
+//   p = p0 + ∂p/∂s·Δs + ∂p/∂t·Δt
+//
+// along two edges. Corners with the same position, normal, texture coordinate and orientation of the mapping share the
+// mean of their triangles' tangents, weighted by the corner's angle: the result does not depend on the triangulation of
+// a planar face. A counting sort lists the corners by vertex, in a fixed order: every run gives the same bits.
 #include "scene_internal.h"
 
 #include "fail.h"
@@ -13,12 +16,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOOK = 1 << 13 }; // vertices or triangles between two looks at the watch
+enum { CHECK_INTERVAL = 1 << 13 }; // vertices or triangles between two checks of the call
 
-// One corner of the mesh with what decides whether it shares a tangent with another.
+// A corner of the mesh. Corners with equal keys (normal, texcoord, mirrored) share a tangent.
 struct corner {
     uint32_t normal, texcoord, number;
-    bool turned; // the mapping is mirrored: its bitangent is −n × t
+    bool mirrored; // the mapping is mirrored: its bitangent is −n × t
 };
 
 static int by_key(const void *a, const void *b)
@@ -28,20 +31,20 @@ static int by_key(const void *a, const void *b)
         return x->normal < y->normal ? -1 : 1;
     if (x->texcoord != y->texcoord)
         return x->texcoord < y->texcoord ? -1 : 1;
-    if (x->turned != y->turned)
-        return x->turned ? 1 : -1;
+    if (x->mirrored != y->mirrored)
+        return x->mirrored ? 1 : -1;
     return (x->number > y->number) - (x->number < y->number);
 }
 
-struct making {
+struct tangents {
     const lam_mesh *mesh;
     size_t corners;
-    float (*faces)[4];      // of each triangle: unit ∂p/∂s, and ±1 for the sense; all zero where none can be told
+    float (*faces)[4];      // of each triangle: unit ∂p/∂s, and ±1 for the orientation; zeros if undefined
     uint32_t *first, *list; // corners by vertex: list[first[v]] … list[first[v + 1] − 1]
     float *tangents;        // the result, 4 per element
     uint32_t *indices;      // the result, one per corner
     uint32_t count;
-    struct corner *shared; // of one vertex
+    struct corner *shared; // scratch: the corners of one vertex
 };
 
 static uint32_t element(const uint32_t *own, const uint32_t *common, size_t corner)
@@ -73,14 +76,14 @@ static void face_tangent(const lam_mesh *mesh, size_t triangle, float out[4])
         p[k] = position_of(mesh, corner);
     }
     double area = (s[1] - s[0]) * (t[2] - t[0]) - (s[2] - s[0]) * (t[1] - t[0]);
-    double sense = area > 0 ? 1 : area < 0 ? -1 : 0;
+    double orientation = area > 0 ? 1 : area < 0 ? -1 : 0;
     lam_vec3 along = v3_sub(v3_scale(v3_sub(p[1], p[0]), t[2] - t[0]), v3_scale(v3_sub(p[2], p[0]), t[1] - t[0]));
-    along = v3_unit(v3_scale(along, sense));
-    bool known = sense != 0 && v3_finite(along) && v3_length(along) > 0.5;
-    out[0] = known ? (float)along.x : 0;
-    out[1] = known ? (float)along.y : 0;
-    out[2] = known ? (float)along.z : 0;
-    out[3] = known ? (float)sense : 0;
+    along = v3_unit(v3_scale(along, orientation));
+    bool defined = orientation != 0 && v3_finite(along) && v3_length(along) > 0.5;
+    out[0] = defined ? (float)along.x : 0;
+    out[1] = defined ? (float)along.y : 0;
+    out[2] = defined ? (float)along.z : 0;
+    out[3] = defined ? (float)orientation : 0;
 }
 
 // The angle of a triangle at one of its corners.
@@ -93,16 +96,16 @@ static double angle_at(const lam_mesh *mesh, uint32_t corner)
     return math_acos(v3_dot(a, b));
 }
 
-// The direction of meshes that tell none: round the y axis, along x where the normal is along y; as src/cpu/light.inc
-// has it.
-static lam_vec3 field(lam_vec3 n)
+// The tangent without texture coordinates: around the y axis, or along x if the normal is along y; as in
+// src/cpu/shade/light.inc.
+static lam_vec3 field_tangent(lam_vec3 n)
 {
     lam_vec3 around = v3_cross(v3(0, 1, 0), n);
     return v3_dot(around, around) < 1e-8 ? v3(1, 0, 0) : v3_unit(around);
 }
 
-// One tangent for the corners [0, count) of the same key.
-static void share(struct making *m, const struct corner *corners, uint32_t count)
+// Adds one tangent for `count` corners of the same key.
+static void add_tangent(struct tangents *m, const struct corner *corners, uint32_t count)
 {
     lam_vec3 sum = v3(0, 0, 0), n = normal_of(m->mesh, corners[0].normal);
     for (uint32_t i = 0; i < count; i++) {
@@ -112,18 +115,18 @@ static void share(struct making *m, const struct corner *corners, uint32_t count
     }
     sum = v3_unit(sum);
     sum = v3_sub(sum, v3_scale(n, v3_dot(n, sum)));
-    sum = v3_dot(sum, sum) < 1e-12 ? field(n) : v3_unit(sum);
+    sum = v3_dot(sum, sum) < 1e-12 ? field_tangent(n) : v3_unit(sum);
     float *out = m->tangents + 4 * (size_t)m->count;
     out[0] = (float)sum.x;
     out[1] = (float)sum.y;
     out[2] = (float)sum.z;
-    out[3] = corners[0].turned ? -1.0f : 1.0f;
+    out[3] = corners[0].mirrored ? -1.0f : 1.0f;
     for (uint32_t i = 0; i < count; i++)
         m->indices[corners[i].number] = m->count;
     m->count++;
 }
 
-static void share_vertex(struct making *m, uint32_t vertex)
+static void add_vertex_tangents(struct tangents *m, uint32_t vertex)
 {
     const lam_mesh *mesh = m->mesh;
     uint32_t count = m->first[vertex + 1] - m->first[vertex];
@@ -137,35 +140,35 @@ static void share_vertex(struct making *m, uint32_t vertex)
     for (uint32_t from = 0, to; from < count; from = to) {
         for (to = from + 1; to < count; to++)
             if (m->shared[to].normal != m->shared[from].normal || m->shared[to].texcoord != m->shared[from].texcoord ||
-                m->shared[to].turned != m->shared[from].turned)
+                m->shared[to].mirrored != m->shared[from].mirrored)
                 break;
-        share(m, &m->shared[from], to - from);
+        add_tangent(m, &m->shared[from], to - from);
     }
 }
 
-// Lists the corners by vertex; returns the most that one vertex has.
-static uint32_t list_corners(struct making *m, uint32_t vertices)
+// Lists the corners by vertex. Returns the maximum number of corners of a vertex.
+static uint32_t list_corners(struct tangents *m, uint32_t vertices)
 {
-    uint32_t most = 0;
+    uint32_t max = 0;
     for (size_t i = 0; i < m->corners; i++)
         m->first[element(NULL, m->mesh->indices, i) + 1]++;
     for (uint32_t v = 0; v < vertices; v++) {
-        most = m->first[v + 1] > most ? m->first[v + 1] : most;
+        max = m->first[v + 1] > max ? m->first[v + 1] : max;
         m->first[v + 1] += m->first[v];
     }
-    // Filling moves each start to its end; they are moved back afterwards.
+    // Filling advances each start to its end; the loop after it restores them.
     for (size_t i = 0; i < m->corners; i++)
         m->list[m->first[element(NULL, m->mesh->indices, i)]++] = (uint32_t)i;
     for (uint32_t v = vertices; v > 0; v--)
         m->first[v] = m->first[v - 1];
     m->first[0] = 0;
-    return most;
+    return max;
 }
 
 static bool make(struct lam_scene *scene, lam_mesh *mesh, struct arena *scratch, struct call_control *call,
                  lam_error *error)
 {
-    struct making m = {.mesh = mesh, .corners = (size_t)mesh->triangle_count * 3};
+    struct tangents m = {.mesh = mesh, .corners = (size_t)mesh->triangle_count * 3};
     uint32_t vertices = mesh->indices ? mesh->vertex_count : (uint32_t)m.corners;
     size_t starts = (size_t)vertices + 1;
     m.faces = arena_array(scratch, mesh->triangle_count, sizeof *m.faces);
@@ -177,7 +180,7 @@ static bool make(struct lam_scene *scene, lam_mesh *mesh, struct arena *scratch,
         return call_memory_error(call, m.corners * 4 * sizeof *tangents, error);
     m.tangents = tangents;
     for (size_t i = 0; i < mesh->triangle_count; i++) {
-        if (i % LOOK == 0 && !call_should_continue(call))
+        if (i % CHECK_INTERVAL == 0 && !call_should_continue(call))
             return call_error(call, error);
         face_tangent(mesh, i, m.faces[i]);
     }
@@ -185,9 +188,9 @@ static bool make(struct lam_scene *scene, lam_mesh *mesh, struct arena *scratch,
     if (!m.shared)
         return call_memory_error(call, 0, error);
     for (uint32_t v = 0; v < vertices; v++) {
-        if (v % LOOK == 0 && !call_should_continue(call))
+        if (v % CHECK_INTERVAL == 0 && !call_should_continue(call))
             return call_error(call, error);
-        share_vertex(&m, v);
+        add_vertex_tangents(&m, v);
     }
     float *kept = arena_array(&scene->arena, m.count, 4 * sizeof *kept);
     if (!kept)

@@ -1,28 +1,29 @@
-// view_extents.h: how far a scene's vertices reach in the axes of a view.
+// view_extents.h: extents of a scene's vertices along the axes of a view.
 #ifndef VIEW_EXTENTS_H
 #define VIEW_EXTENTS_H
 
 #include <lambent/scene.h>
 
-// The axes of the view: world directions of the picture's right and top, and from the model to the eye.
+// The axes of the view as world directions: the picture's right and top, and from the model to the eye.
 struct view_axes {
     lam_vec3 right, above, back;
 };
 
-// The largest values over all vertices of ±x + kx·z, ±y + ky·z and z, in the axes of the view; k = 0 gives
-// the plain box.
-enum reach_direction { REACH_RIGHT, REACH_LEFT, REACH_TOP, REACH_BOTTOM, REACH_FRONT, REACH_DIRECTIONS };
+// The maxima over all vertices of ±x + kx·z, ±y + ky·z and z, in the axes of the view. k = 0: the bounding box.
+enum extent_direction { EXTENT_RIGHT, EXTENT_LEFT, EXTENT_TOP, EXTENT_BOTTOM, EXTENT_FRONT, EXTENT_DIRECTIONS };
 
-struct reach {
+struct view_extents {
     double kx, ky;
-    double value[REACH_DIRECTIONS];
+    double value[EXTENT_DIRECTIONS];
 };
 
-// All of a reach, for its kx and ky.
-void view_extents_find(const lam_scene *scene, const struct view_axes *axes, struct reach *reach);
+// Sets all extents for the given kx and ky.
+void view_extents_find(const lam_scene *scene, const struct view_axes *axes, struct view_extents *extents);
 
-// The same for another kx (ky): what depends on it.
-void reach_across(const lam_scene *scene, const struct view_axes *axes, double kx, struct reach *reach);
-void reach_upwards(const lam_scene *scene, const struct view_axes *axes, double ky, struct reach *reach);
+// Set kx (ky) and update the extents that depend on it.
+void view_extents_horizontal(const lam_scene *scene, const struct view_axes *axes, double kx,
+                             struct view_extents *extents);
+void view_extents_vertical(const lam_scene *scene, const struct view_axes *axes, double ky,
+                           struct view_extents *extents);
 
 #endif

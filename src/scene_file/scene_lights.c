@@ -196,7 +196,7 @@ static bool read_light(struct scene_reader *r, const struct place *place, const 
     lam_error reason;
     if (!lam_light_check(&light, &reason)) // rules between keys
         return fail_place(r, place, "%s", reason.text);
-    return scene_take_light(r->scene, &light, r->error) >= 0;
+    return scene_adopt_light(r->scene, &light, r->error) >= 0;
 }
 
 // Names distinguish lights in reports and tables. Warns of the first two that share one.

@@ -80,7 +80,7 @@ bool read_material_value(struct scene_reader *r, const struct place *place, cons
     } else if (!read_material_keys(r, place, value, !base, &material)) {
         return false;
     }
-    *index = scene_take_material(r->scene, &material, r->error);
+    *index = scene_adopt_material(r->scene, &material, r->error);
     return *index >= 0;
 }
 

@@ -45,24 +45,24 @@ static bool merge(struct scene_reader *r, struct lam_scene *inner)
     int meshes = scene->meshes.count, materials = scene->materials.count;
     bool ok = true;
     for (int i = 0; ok && i < inner->materials.count; i++)
-        ok = scene_take_material(scene, (lam_material *)inner->materials.items + i, r->error) >= 0;
+        ok = scene_adopt_material(scene, (lam_material *)inner->materials.items + i, r->error) >= 0;
     for (int i = 0; ok && i < inner->meshes.count; i++) {
         const lam_mesh *mesh = scene_mesh(inner, i);
         for (uint32_t p = 0; p < mesh->part_count; p++) {
             lam_part *part = (lam_part *)(uintptr_t)&mesh->parts[p]; // in the scene's arena
             part->material += part->material >= 0 ? materials : 0;
         }
-        ok = scene_take_mesh(scene, mesh, r->error) >= 0;
+        ok = scene_adopt_mesh(scene, mesh, r->error) >= 0;
     }
     for (int i = 0; ok && i < inner->objects.count; i++) {
         lam_object object = *scene_object(inner, i);
         object.mesh += meshes;
         object.material += object.material >= 0 ? materials : 0;
         object.back_material += object.back_material >= 0 ? materials : 0;
-        ok = scene_take_object(scene, &object, r->error) >= 0;
+        ok = scene_adopt_object(scene, &object, r->error) >= 0;
     }
     for (int i = 0; ok && !r->has_lights && i < inner->lights.count; i++)
-        ok = scene_take_light(scene, (lam_light *)inner->lights.items + i, r->error) >= 0;
+        ok = scene_adopt_light(scene, (lam_light *)inner->lights.items + i, r->error) >= 0;
     for (int i = 0; ok && i < inner->warnings.count; i++)
         scene_warn(scene, "%s", ((const char **)inner->warnings.items)[i]);
     return ok;
@@ -252,12 +252,12 @@ static bool add_shape(struct scene_reader *r, const struct place *place, const j
     struct lam_scene one = {.arena = r->scene->arena};
     lam_mesh *mesh = (lam_mesh *)r->scene->meshes.items + meshes;
     bool ok =
-        scene_take_mesh(&one, mesh, r->error) >= 0 &&
+        scene_adopt_mesh(&one, mesh, r->error) >= 0 &&
         scene_prepare(&one, origin->normals, origin->crease_angle_rad, r->source->pool, r->source->call, r->error);
     if (ok)
         *mesh = *scene_mesh(&one, 0);
     r->scene->arena = one.arena;
-    return ok && scene_take_object(r->scene, &object, r->error) >= 0;
+    return ok && scene_adopt_object(r->scene, &object, r->error) >= 0;
 }
 
 static bool read_object(struct scene_reader *r, const struct place *place, const json_t *value)

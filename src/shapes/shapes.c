@@ -1,8 +1,7 @@
-// shapes.c: the table of built-in shapes, and the public calls that make meshes from formulas.
+// shapes.c: the table of built-in shapes, and the public functions that tessellate surfaces.
 //
-// Every shape is made for a radius of 1, touches the cube from (−1, −1, −1) to (1, 1, 1) from inside and is
-// scaled last. Round shapes turn about Y; their seam is at the back (−Z), so that a texture's middle faces
-// the viewer.
+// Every shape is built with radius 1, inscribed in the cube from (−1, −1, −1) to (1, 1, 1), and scaled at the end.
+// Round shapes have Y as their axis; their seam is at the back (−Z), so that a texture's middle faces the viewer.
 #include "shapes.h"
 
 #include "fail.h"
@@ -17,7 +16,7 @@ struct circle_point circle(double steps, double around)
 {
     double four = 4 * steps;
     long long quarter = (long long)(four / around + (four >= 0 ? 0.5 : -0.5));
-    double rest = (four - (double)quarter * around) / around; // of a quarter turn, −½…½; the numerator is exact
+    double rest = (four - (double)quarter * around) / around; // quarter turns, −½…½; the numerator is exact
     double c = math_cos(rest * (PI / 2)), s = math_sin(rest * (PI / 2));
     switch (quarter & 3) {
     case 0:
@@ -31,12 +30,12 @@ struct circle_point circle(double steps, double around)
     }
 }
 
-// What the formulas below need to know; u counts slices, v counts stacks.
+// Parameters of the formulas below; u counts slices, v counts stacks.
 struct segments {
     double slices, stacks;
 };
 
-// The level direction after u slices, starting at the back and turning to the left, and its derivative by the angle.
+// The horizontal direction after u slices, from the back to the left, and its derivative with respect to the angle.
 static lam_vec3 around(const struct segments *n, double u, lam_vec3 *sideways)
 {
     struct circle_point at = circle(u, n->slices);
@@ -49,34 +48,34 @@ static lam_vec3 up(double y) { return v3(0, y, 0); }
 static void sphere_point(void *user, double u, double v, lam_surface_point *out)
 {
     const struct segments *n = user;
-    lam_vec3 sideways, out_level = around(n, u, &sideways);
+    lam_vec3 sideways, outward = around(n, u, &sideways);
     struct circle_point latitude = circle(2 * v - n->stacks, 4 * n->stacks);
     double c = latitude.c, s = latitude.s;
-    out->p = v3_add(v3_scale(out_level, c), up(s));
-    out->dp_du = v3_scale(sideways, (c > 0 ? c : 1) * (2 * PI / n->slices)); // at the poles the limit's direction
-    out->dp_dv = v3_scale(v3_add(v3_scale(out_level, -s), up(c)), PI / n->stacks);
+    out->p = v3_add(v3_scale(outward, c), up(s));
+    out->dp_du = v3_scale(sideways, (c > 0 ? c : 1) * (2 * PI / n->slices)); // at the poles: the direction of the limit
+    out->dp_dv = v3_scale(v3_add(v3_scale(outward, -s), up(c)), PI / n->stacks);
 }
 
-#define TORUS_RING 0.7 // radius of the circle that the tube's centre runs on
+#define TORUS_RING 0.7 // radius of the tube's centre line
 #define TORUS_TUBE 0.3
 
 static void torus_point(void *user, double u, double v, lam_surface_point *out)
 {
     const struct segments *n = user;
-    lam_vec3 sideways, out_level = around(n, u, &sideways);
+    lam_vec3 sideways, outward = around(n, u, &sideways);
     struct circle_point tube = circle(v, n->stacks);
-    double c = -tube.c, s = -tube.s; // the seam lies at the hole
+    double c = -tube.c, s = -tube.s; // the seam faces the hole
     double distance = TORUS_RING + TORUS_TUBE * c;
-    out->p = v3_add(v3_scale(out_level, distance), up(TORUS_TUBE * s));
+    out->p = v3_add(v3_scale(outward, distance), up(TORUS_TUBE * s));
     out->dp_du = v3_scale(sideways, distance * (2 * PI / n->slices));
-    out->dp_dv = v3_scale(v3_add(v3_scale(out_level, -s), up(c)), TORUS_TUBE * (2 * PI / n->stacks));
+    out->dp_dv = v3_scale(v3_add(v3_scale(outward, -s), up(c)), TORUS_TUBE * (2 * PI / n->stacks));
 }
 
 static void cylinder_side(void *user, double u, double v, lam_surface_point *out)
 {
     const struct segments *n = user;
-    lam_vec3 sideways, out_level = around(n, u, &sideways);
-    out->p = v3_add(out_level, up((2 * v - n->stacks) / n->stacks));
+    lam_vec3 sideways, outward = around(n, u, &sideways);
+    out->p = v3_add(outward, up((2 * v - n->stacks) / n->stacks));
     out->dp_du = v3_scale(sideways, 2 * PI / n->slices);
     out->dp_dv = up(2 / n->stacks);
 }
@@ -84,34 +83,34 @@ static void cylinder_side(void *user, double u, double v, lam_surface_point *out
 static void cone_side(void *user, double u, double v, lam_surface_point *out)
 {
     const struct segments *n = user;
-    lam_vec3 sideways, out_level = around(n, u, &sideways);
+    lam_vec3 sideways, outward = around(n, u, &sideways);
     double radius = (n->stacks - v) / n->stacks;
-    out->p = v3_add(v3_scale(out_level, radius), up((2 * v - n->stacks) / n->stacks));
-    out->dp_du = v3_scale(sideways, 2 * PI / n->slices); // its direction at the apex too
-    out->dp_dv = v3_scale(v3_sub(up(2), out_level), 1 / n->stacks);
+    out->p = v3_add(v3_scale(outward, radius), up((2 * v - n->stacks) / n->stacks));
+    out->dp_du = v3_scale(sideways, 2 * PI / n->slices); // the limit's direction at the apex
+    out->dp_dv = v3_scale(v3_sub(up(2), outward), 1 / n->stacks);
 }
 
-// Discs: from the rim (v = 0) to the middle above, from the middle to the rim (v = 1) below, so that ∂p/∂u ×
-// ∂p/∂v points out of the body.
+// Discs. v runs from rim to centre on the top disc and from centre to rim on the bottom disc, so that ∂p/∂u × ∂p/∂v
+// points outward.
 static void top_disc(void *user, double u, double v, lam_surface_point *out)
 {
     const struct segments *n = user;
-    lam_vec3 sideways, out_level = around(n, u, &sideways);
-    out->p = v3_add(v3_scale(out_level, 1 - v), up(1));
+    lam_vec3 sideways, outward = around(n, u, &sideways);
+    out->p = v3_add(v3_scale(outward, 1 - v), up(1));
     out->dp_du = v3_scale(sideways, 2 * PI / n->slices);
-    out->dp_dv = v3_scale(out_level, -1);
+    out->dp_dv = v3_scale(outward, -1);
 }
 
 static void bottom_disc(void *user, double u, double v, lam_surface_point *out)
 {
     const struct segments *n = user;
-    lam_vec3 sideways, out_level = around(n, u, &sideways);
-    out->p = v3_add(v3_scale(out_level, v), up(-1));
+    lam_vec3 sideways, outward = around(n, u, &sideways);
+    out->p = v3_add(v3_scale(outward, v), up(-1));
     out->dp_du = v3_scale(sideways, 2 * PI / n->slices);
-    out->dp_dv = out_level;
+    out->dp_dv = outward;
 }
 
-// A square of side 2 in the plane of two axes around a middle.
+// A square of side 2: its centre and two axes.
 struct square {
     lam_vec3 middle, u, v;
 };
@@ -124,9 +123,8 @@ static void square_point(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = square->v;
 }
 
-// The torus knot winds KNOT_TURNS times around Y while it winds KNOT_LOOPS times around the tube of a torus:
-// a trefoil. Its own tube stands on the torus's outward normal m, which is perpendicular to the curve since
-// that lies on the torus.
+// The torus knot winds KNOT_TURNS times around Y and KNOT_LOOPS times around the tube of a torus: a trefoil. The frame
+// of its own tube is the torus's outward normal m, which is perpendicular to the curve, and b = m × t.
 enum { KNOT_TURNS = 2, KNOT_LOOPS = 3 };
 #define KNOT_RING 0.6
 #define KNOT_LOOP 0.25
@@ -136,7 +134,7 @@ static void knot_point(void *user, double u, double v, lam_surface_point *out)
 {
     const struct segments *n = user;
     const double p = KNOT_TURNS, q = KNOT_LOOPS;
-    // e: level direction, f: its derivative by the angle pθ (f′ = −e); c, s: of the angle qθ.
+    // e: horizontal direction; f: its derivative with respect to pθ (f′ = −e); c, s: cosine and sine of qθ.
     lam_vec3 f, e = around(n, p * u, &f);
     struct circle_point loop = circle(q * u, n->slices), tube = circle(v, n->stacks);
     double c = loop.c, s = loop.s;
@@ -156,11 +154,14 @@ static void knot_point(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = v3_scale(v3_sub(v3_scale(b, tube.c), v3_scale(m, tube.s)), KNOT_TUBE * (2 * PI / n->stacks));
 }
 
-// The gyroid g = sin x cos y + sin y cos z + sin z cos x as a wall of some thickness, |g| < GYROID_WALL, cut
-// by a sphere: the greater of a = (g² − wall²)·scale (about the distance from the wall) and b = |p| −
-// GYROID_REACH, made smooth at the rim by f = (a + b + √((a − b)² + rim²))/2, which is never less than
-// either. Where a is least (g = 0), f vanishes at b = rim²/4a; the sphere is larger by that, so that the rim
-// just reaches 1.
+// The gyroid g = sin x cos y + sin y cos z + sin z cos x as a wall |g| < GYROID_WALL, intersected with a sphere. With
+//
+//   a = (g² − wall²)·scale    about the distance to the wall
+//   b = |p| − GYROID_REACH    the distance to the sphere
+//   f = (a + b + √((a − b)² + rim²))/2
+//
+// f is a smooth maximum of a and b and never less than either. At the minimum of a (g = 0), f = 0 at b = rim²/4a: the
+// sphere is larger by this amount, so that the rim has radius 1.
 #define GYROID_WAVES 1.0 // along a radius
 #define GYROID_WALL  0.5
 #define GYROID_RIM   0.08
@@ -181,7 +182,7 @@ static double gyroid_value(void *user, lam_vec3 p)
 {
     (void)user;
     double b = v3_length(p) - GYROID_REACH;
-    if (b > GYROID_RIM) // well outside, where only the sign counts
+    if (b > GYROID_RIM) // far outside: only the sign matters
         return b;
     double g = gyroid_terms(p, NULL);
     double a = (g * g - GYROID_WALL * GYROID_WALL) * GYROID_SCALE;
@@ -199,7 +200,7 @@ static lam_vec3 gyroid_gradient(void *user, lam_vec3 p)
     return v3_scale(v3_add(v3_scale(da, 1 + share), v3_scale(db, 1 - share)), 0.5);
 }
 
-// Balls that run together: f = level − Σ (1 − d²/R²)³ over the balls within whose reach R the point lies.
+// Metaballs: f = level − Σ (1 − d²/R²)³ over the balls whose distance d is less than their radius of influence R.
 static const struct ball {
     double x, y, z, reach;
 } balls[] = {
@@ -235,7 +236,7 @@ static lam_vec3 balls_gradient(void *user, lam_vec3 p)
 
 // --- Builders
 
-// A surface of `n->slices` segments around and `stacks` along, its domain counted in segments.
+// A surface of `n->slices` segments around and `stacks` along; u and v count segments.
 static lam_parametric round_surface(lam_surface_fn *surface, struct segments *n, int stacks)
 {
     return (lam_parametric){.surface = surface,
@@ -252,17 +253,17 @@ static bool build_round(const struct shape_request *request, lam_surface_fn *sur
 {
     slices = request->slices ? request->slices : slices;
     stacks = request->stacks ? request->stacks : stacks;
-    int min = v_closed ? 3 : 2; // fewer do not enclose anything
+    int min = v_closed ? 3 : 2; // fewer enclose no volume
     if (stacks < min)
-        return fail(request->error, LAM_BAD_ARGUMENT, "shape: stacks is %d, expected at least %d for this one", stacks,
-                    min);
+        return fail(request->error, LAM_BAD_ARGUMENT, "shape: stacks is %d, expected at least %d for this shape",
+                    stacks, min);
     struct segments n = {slices, stacks};
     lam_parametric one = round_surface(surface, &n, stacks);
     one.v_closed = v_closed;
     return tessellate_parametric(&one, 1, request->arena, request->call, mesh, request->error);
 }
 
-// Segments: with 192 around, the outline at 1024 pixels is nowhere more than a sixteenth of a pixel off the circle.
+// With 192 segments, the outline at 1024 pixels deviates from the circle by less than a sixteenth of a pixel.
 static bool sphere_build(const struct shape_request *request, lam_mesh *mesh)
 {
     return build_round(request, sphere_point, 192, 96, false, mesh);
@@ -298,7 +299,7 @@ static bool plane_build(const struct shape_request *request, lam_mesh *mesh)
     return tessellate_parametric(&one, 1, request->arena, request->call, mesh, request->error);
 }
 
-// The six faces, each with its texture upright. Edges along X and Z have `slices` segments, along Y `stacks`.
+// Six faces with upright textures. Edges along X and Z have `slices` segments, edges along Y `stacks`.
 static bool cube_build(const struct shape_request *request, lam_mesh *mesh)
 {
     struct square faces[6] = {
@@ -313,7 +314,7 @@ static bool cube_build(const struct shape_request *request, lam_mesh *mesh)
     return tessellate_parametric(surfaces, 6, request->arena, request->call, mesh, request->error);
 }
 
-static bool build_turned(const struct shape_request *request, lam_surface_fn *side, bool has_top, lam_mesh *mesh)
+static bool build_revolved(const struct shape_request *request, lam_surface_fn *side, bool has_top, lam_mesh *mesh)
 {
     int slices = request->slices ? request->slices : 192, stacks = request->stacks ? request->stacks : 1;
     struct segments n = {slices, stacks};
@@ -324,22 +325,22 @@ static bool build_turned(const struct shape_request *request, lam_surface_fn *si
 
 static bool cylinder_build(const struct shape_request *request, lam_mesh *mesh)
 {
-    return build_turned(request, cylinder_side, true, mesh);
+    return build_revolved(request, cylinder_side, true, mesh);
 }
 
 static bool cone_build(const struct shape_request *request, lam_mesh *mesh)
 {
-    return build_turned(request, cone_side, false, mesh);
+    return build_revolved(request, cone_side, false, mesh);
 }
 
-// Implicit shapes have one count of cells: `slices` along the longest side.
+// Implicit shapes have `slices` cells along the longest side.
 static bool build_implicit(const struct shape_request *request, double (*value)(void *, lam_vec3),
                            lam_vec3 (*gradient)(void *, lam_vec3), int cells, lam_mesh *mesh)
 {
     if (request->slices > 1024)
         return fail(request->error, LAM_BAD_ARGUMENT,
                     "shape: slices is %d, expected at most 1024 for an implicit surface", request->slices);
-    // A little more than the surface, so that it is not cut and its symmetric points do not fall on the lattice.
+    // Slightly larger than the surface: it is not clipped, and its symmetric points do not fall on the lattice.
     const double side = 1.03;
     lam_implicit one = {.value = value,
                         .gradient = gradient,
@@ -396,10 +397,10 @@ int lam_shape_find(const char *name)
 
 // --- Adding to a scene
 
-// Puts a mesh that was made in the scene's arena into the scene. −1 on failure.
-static int take(struct lam_scene *scene, bool made, const lam_mesh *mesh, lam_error *error)
+// Adds a mesh, whose arrays are in the scene's arena, if it was made. Returns its index; −1 on failure.
+static int add_mesh(struct lam_scene *scene, bool made, const lam_mesh *mesh, lam_error *error)
 {
-    int index = made ? scene_take_mesh(scene, mesh, error) : -1;
+    int index = made ? scene_adopt_mesh(scene, mesh, error) : -1;
     if (index >= 0 && !scene_measure(scene, NULL, error)) {
         scene->meshes.count--;
         return -1;
@@ -407,7 +408,7 @@ static int take(struct lam_scene *scene, bool made, const lam_mesh *mesh, lam_er
     return index;
 }
 
-// Between begin and end the scene's arena is charged to the call's own watch.
+// Between begin and end, allocations of the scene's arena are charged to the call.
 static uint64_t begin(struct lam_scene *scene, struct call_control *call, const lam_control *control)
 {
     call_start(call, control);
@@ -424,7 +425,7 @@ static int end(struct lam_scene *scene, uint64_t state, int index)
 
 static void scale_mesh(lam_mesh *mesh, double radius)
 {
-    float *positions = (float *)(uintptr_t)mesh->positions; // made by this file's callers, in the arena
+    float *positions = (float *)(uintptr_t)mesh->positions; // the arena's, writable
     for (size_t i = 0; i < 3 * (size_t)mesh->vertex_count; i++)
         positions[i] = (float)((double)positions[i] * radius);
 }
@@ -445,7 +446,7 @@ static bool check_params(const char *name, const lam_shape_params *params, lam_e
     return true;
 }
 
-static bool unknown_shape(const char *name, lam_error *error)
+static bool fail_unknown_shape(const char *name, lam_error *error)
 {
     const char *names[SHAPES];
     for (int i = 0; i < SHAPES; i++)
@@ -462,7 +463,7 @@ int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_
     params = params ? params : &plain;
     int row = lam_shape_find(shape);
     if (row < 0) {
-        unknown_shape(shape, error);
+        fail_unknown_shape(shape, error);
         return -1;
     }
     if (!check_params(shape, params, error))
@@ -477,7 +478,7 @@ int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_
                                   .segments = {params->radius, params->slices, params->stacks, NULL},
                                   .first_mesh = scene->meshes.count,
                                   .first_material = scene->materials.count};
-    int index = take(scene, made, &mesh, error);
+    int index = add_mesh(scene, made, &mesh, error);
     if (index < 0 || scene_note_origin(scene, origin, scene->objects.count, error))
         return index;
     scene->meshes.count--;
@@ -509,7 +510,7 @@ int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, co
     uint64_t state = begin(scene, &call, control);
     lam_mesh mesh = {0};
     bool made = tessellate_parametric(surface, 1, &scene->arena, &call, &mesh, error);
-    return end(scene, state, take(scene, made, &mesh, error));
+    return end(scene, state, add_mesh(scene, made, &mesh, error));
 }
 
 int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const lam_control *control, lam_error *error)
@@ -524,5 +525,5 @@ int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const 
     uint64_t state = begin(scene, &call, control);
     lam_mesh mesh = {0};
     bool made = tessellate_implicit(surface, &scene->arena, &call, &mesh, error);
-    return end(scene, state, take(scene, made, &mesh, error));
+    return end(scene, state, add_mesh(scene, made, &mesh, error));
 }

@@ -1,4 +1,4 @@
-// shapes.h: meshes from formulas: the tessellators that the built-in shapes and the public calls share.
+// shapes.h: tessellators of parametric and implicit surfaces, for the built-in shapes and the public functions.
 #ifndef SHAPES_H
 #define SHAPES_H
 
@@ -7,12 +7,11 @@
 
 #include <lambent/mesh.h>
 
-// The largest mesh that is made from a formula; more is LAM_LIMIT.
+// The vertices of a tessellated mesh, at most; more is LAM_LIMIT.
 enum { SHAPE_VERTICES_MAX = 1 << 28 };
 
-// Tessellates parametric surfaces into one mesh: positions welded within each surface, normals, tangents and
-// texture coordinates (0…1 over each domain) on a grid of their own. shapes_parametric.c says what happens at
-// seams and poles.
+// Tessellates parametric surfaces into one mesh: positions, welded within each surface, and normals, tangents and
+// texture coordinates (0…1 over each domain) with indices of their own. shapes_parametric.c explains seams and poles.
 bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
                            lam_mesh *mesh, lam_error *error);
 
@@ -20,16 +19,14 @@ bool tessellate_parametric(const lam_parametric *surfaces, int count, struct are
 bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct call_control *call, lam_mesh *mesh,
                          lam_error *error);
 
-// The point of the unit circle after `steps` of `around` steps a turn, from (1, 0) towards (0, 1). Exact at
-// quarter turns, and mirrored steps give mirrored bits, so that round shapes close, and are symmetric, to the
-// last bit.
+// The point of the unit circle after `steps` of `around` steps per turn, from (1, 0) towards (0, 1). Quarter turns are
+// exact and mirrored steps give mirrored bits: round shapes are closed and symmetric to the last bit.
 struct circle_point {
     double c, s;
 };
 struct circle_point circle(double steps, double around);
 
-// What a row of the table of built-in shapes (shapes.c) is asked for: `mesh` for a radius of 1. Segments of 0
-// stand for the shape's own.
+// Arguments of a built-in shape's builder, which makes a mesh of radius 1. Segments of 0: the shape's default.
 struct shape_request {
     int slices, stacks;
     struct arena *arena;

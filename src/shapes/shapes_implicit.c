@@ -1,19 +1,17 @@
-// shapes_implicit.c: meshes from implicit surfaces f(p) = 0, by marching cubes with a table that is derived here.
+// shapes_implicit.c: tessellates implicit surfaces f(p) = 0 by marching cubes, with a table that is computed here.
 //
-// The box is cut into cells. A lattice point is inside where f < 0 (0 and NaN count as outside); where the
-// two ends of a cell's edge differ, the surface crosses it, at one vertex that all cells around the edge
-// share. The vertex is moved along the edge until f vanishes there, so it lies on the surface to rounding,
-// and takes its normal from ∇f.
+// The box is divided into cells. A lattice point is inside if f < 0; 0 and NaN are outside. An edge of a cell whose
+// ends differ is crossed by the surface: it has one vertex, shared by all cells at the edge. Root finding along the
+// edge puts the vertex on the surface up to rounding; its normal comes from ∇f.
 //
-// How the vertices of a cell join (the table). Go round a face of the cell counter-clockwise, seen from
-// outside the cell: each run of inside corners is entered by one crossed edge and left by another. The
-// surface cuts the face along a line from the one where it is entered to the one where it is left. A face
-// with two opposite inside corners has two such lines, each cutting off its corner; since that depends on the
-// face alone, the two cells at it agree, and the mesh has no holes. An edge is entered in one of its two
-// faces and left in the other, so the lines join into closed loops, which run counter-clockwise seen from
-// outside the surface. The loops are cut into triangles by diagonals that do not lie in a face (there the
-// neighbour might have the same), and of those by the ones whose triangles agree best with the normals at
-// their corners.
+// The table connects the vertices of a cell. Going around a face of the cell counter-clockwise, seen from outside the
+// cell, each run of inside corners begins after one crossed edge and ends before another. The surface intersects the
+// face in a line from the first of these edges to the second. A face with two opposite inside corners has two such
+// lines, each cutting off its corner: the rule depends on the face alone, so that both cells at it agree and the mesh
+// has no holes. A crossed edge begins a line in one of its two faces and ends one in the other: the lines form closed
+// loops, counter-clockwise seen from outside the surface. Loops are triangulated with diagonals that do not lie in a
+// face, where the neighbouring cell might have the same one; among these, the triangles that agree best with the
+// normals at their corners are chosen.
 #include "shapes.h"
 
 #include "fail.h"
@@ -22,11 +20,10 @@
 
 #include <string.h>
 
-// Lattice corners of a cell are numbered x + 2y + 4z; its edges 4·axis + the two other coordinates, lower
-// axis first.
+// Numbers of a cell's corners: x + 2y + 4z. Of its edges: 4·axis + a + 2b, a and b the other coordinates, in order.
 enum { CORNERS = 8, EDGES = 12, LOOPS_MAX = EDGES / 3 };
 
-// The loops of one of the 256 cases, their edges one after another.
+// The loops of one of the 256 cases; their edges are concatenated.
 struct cell_case {
     uint8_t loops;
     uint8_t counts[LOOPS_MAX];
@@ -54,7 +51,7 @@ static int face_corner(int face, int k)
     return side << axis | steps[turn][0] << u | steps[turn][1] << v;
 }
 
-// next[e]: the edge that the surface's line leads to from edge e. −1: the edge is not crossed.
+// next[e]: the edge at which the surface's line from edge e ends. −1: the edge is not crossed.
 static void link_edges(int inside, int next[EDGES])
 {
     for (int e = 0; e < EDGES; e++)
@@ -65,14 +62,14 @@ static void link_edges(int inside, int next[EDGES])
             bool leaves = (inside >> from & 1) && !(inside >> to & 1);
             if (!leaves)
                 continue;
-            int entry = k; // back to where the run began
+            int entry = k; // the first corner of the run
             while (inside >> face_corner(face, (entry + 3) % 4) & 1)
                 entry = (entry + 3) % 4;
             next[edge_between(face_corner(face, (entry + 3) % 4), face_corner(face, entry))] = edge_between(from, to);
         }
 }
 
-// Do two edges lie in one face of the cell? Each lies in the two faces that its number's other coordinates name.
+// Whether two edges share a face of the cell. An edge lies in the two faces given by its other coordinates.
 static bool share_face(int a, int b)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -117,18 +114,18 @@ struct march {
     const lam_implicit *surface;
     int cells[3];
     double origin[3];
-    struct arena *scratch; // growing lists and planes
+    struct arena *scratch; // lists and planes
     struct call_control *call;
     lam_error *error;
 
     double *values[2];       // f at the lattice points of the plane below and above
     uint32_t *crossed[2][2]; // vertices on the x and y edges of the two planes
     uint32_t *upright;       // vertices on the z edges between them
-    uint32_t *corners[2];    // vertices that fell on a lattice point of the two planes
+    uint32_t *corners[2];    // vertices on lattice points of the two planes
 
     float *positions, *normals;
     uint32_t *indices;
-    size_t vertices, vertex_capacity, count, index_capacity; // count: of indices
+    size_t vertices, vertex_capacity, count, index_capacity; // count: number of indices
 };
 
 static double coordinate(const struct march *m, int axis, int i)
@@ -150,20 +147,20 @@ static lam_vec3 lattice(const struct march *m, int x, int y, int z)
 
 static bool is_inside(double value) { return value < 0; }
 
-// Where on the way from a (0) to b (1) f vanishes: the secant rule that halves the value of an end which
-// stays twice (Illinois), which always keeps the root between its ends.
+// The root of f between a (0) and b (1), by the Illinois method: regula falsi that halves the value at an end which is
+// kept twice.
 static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa, double fb)
 {
     const lam_implicit *s = m->surface;
-    lam_vec3 way = v3_sub(b, a);
+    lam_vec3 edge = v3_sub(b, a);
     double low = 0, high = 1, before = -1;
     bool a_inside = is_inside(fa);
-    int stayed = 0; // which end was replaced last: −1 low, 1 high
+    int replaced = 0; // the end replaced last: −1 low, 1 high
     for (int step = 0; step < 64; step++) {
         double t = low + (high - low) * (fa / (fa - fb));
         if (!(t > low && t < high) || !math_finite(t))
             t = 0.5 * low + 0.5 * high;
-        double f = s->value(s->user, v3_add(a, v3_scale(way, t)));
+        double f = s->value(s->user, v3_add(a, v3_scale(edge, t)));
         double change = t - before;
         if (f == 0 || (change > -1e-12 && change < 1e-12))
             return t;
@@ -171,15 +168,15 @@ static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa
         if (is_inside(f) == a_inside) {
             low = t;
             fa = f;
-            if (stayed < 0)
+            if (replaced < 0)
                 fb *= 0.5;
-            stayed = -1;
+            replaced = -1;
         } else {
             high = t;
             fb = f;
-            if (stayed > 0)
+            if (replaced > 0)
                 fa *= 0.5;
-            stayed = 1;
+            replaced = 1;
         }
         if (high - low < 1e-12)
             return high;
@@ -187,7 +184,7 @@ static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa
     return before;
 }
 
-// ∇f made unit; where it vanishes or is not finite, from differences of f a hundredth of a cell to either side.
+// The unit ∇f; if it is zero or not finite, central differences of f over a hundredth of a cell instead.
 static lam_vec3 normal_at(const struct march *m, lam_vec3 p)
 {
     const lam_implicit *s = m->surface;
@@ -201,7 +198,7 @@ static lam_vec3 normal_at(const struct march *m, lam_vec3 p)
     return v3_finite(n) ? v3_unit(n) : v3(0, 0, 0);
 }
 
-// Room for one more vertex, or for the triangles of one more cell.
+// Grows a list to a capacity of at least `needed`.
 static bool grow(struct march *m, void **list, size_t *capacity, size_t needed, size_t size)
 {
     if (needed <= *capacity)
@@ -224,7 +221,7 @@ static void to_float(const struct march *m, lam_vec3 p, float out[3])
     out[2] = (float)(p.z - m->origin[2] + 0.0);
 }
 
-// A vertex at p. Where `corner` is given and p falls on the lattice point `at`, that point's one vertex.
+// Adds a vertex at p; if p rounds to the lattice point `at`, that point's vertex, *corner, is shared.
 static bool add_vertex(struct march *m, lam_vec3 p, lam_vec3 at, uint32_t *corner, uint32_t *id)
 {
     float position[3], lattice_position[3];
@@ -253,7 +250,7 @@ static bool add_vertex(struct march *m, lam_vec3 p, lam_vec3 at, uint32_t *corne
     return true;
 }
 
-// The vertex on the edge between two neighbouring lattice points, if the surface crosses it.
+// Adds the vertex on the edge between two neighbouring lattice points, if the surface crosses it.
 static bool cross_edge(struct march *m, const int from[3], const int to[3], int plane_from, int plane_to, uint32_t *id)
 {
     size_t row = (size_t)m->cells[0] + 1;
@@ -326,8 +323,8 @@ static uint32_t edge_vertex(const struct march *m, int edge, size_t at, int belo
     }
 }
 
-// How far a triangle turns away from the normal at one of its corners: 0 not at all, 2 the other way.
-static double misfit(const struct march *m, uint32_t a, uint32_t b, uint32_t c)
+// 1 − the smallest cosine between a triangle's normal and the normals at its corners: 0 equal, 2 opposite.
+static double normal_deviation(const struct march *m, uint32_t a, uint32_t b, uint32_t c)
 {
     const float *p[3] = {m->positions + 3 * (size_t)a, m->positions + 3 * (size_t)b, m->positions + 3 * (size_t)c};
     const uint32_t ids[3] = {a, b, c};
@@ -353,9 +350,9 @@ static void add_triangle(struct march *m, uint32_t a, uint32_t b, uint32_t c)
     m->count += 3;
 }
 
-// Cuts a loop into triangles at the least cost: by intervals, the cost of the part from i to j, given that
-// i–j is a line already, is that of the best triangle i–k–j and of the parts on both its sides.
-static void cut_loop(struct march *m, const uint8_t *edges, const uint32_t *ids, int count)
+// Triangulates a loop at minimum cost by dynamic programming: the cost of the polygon from i to j is the minimum over k
+// of the costs of triangle i–k–j and of the polygons from i to k and from k to j.
+static void triangulate_loop(struct march *m, const uint8_t *edges, const uint32_t *ids, int count)
 {
     const double in_a_face = 1000;
     double cost[EDGES][EDGES] = {{0}};
@@ -369,7 +366,7 @@ static void cut_loop(struct march *m, const uint8_t *edges, const uint32_t *ids,
             int j = i + span;
             cost[i][j] = 1e9;
             for (int k = i + 1; k < j; k++) {
-                double c = cost[i][k] + cost[k][j] + misfit(m, ids[i], ids[k], ids[j]);
+                double c = cost[i][k] + cost[k][j] + normal_deviation(m, ids[i], ids[k], ids[j]);
                 c += k > i + 1 && share_face(edges[i], edges[k]) ? in_a_face : 0;
                 c += k < j - 1 && share_face(edges[k], edges[j]) ? in_a_face : 0;
                 if (c < cost[i][j]) {
@@ -392,7 +389,7 @@ static void cut_loop(struct march *m, const uint8_t *edges, const uint32_t *ids,
     }
 }
 
-// The triangles of the cells between two planes.
+// Adds the triangles of the cells between two planes.
 static bool fill_layer(struct march *m, const struct cell_case *table, int below, int above)
 {
     size_t row = (size_t)m->cells[0] + 1;
@@ -414,7 +411,7 @@ static bool fill_layer(struct march *m, const struct cell_case *table, int below
                 uint32_t ids[EDGES];
                 for (int k = 0; k < cell->counts[loop]; k++)
                     ids[k] = edge_vertex(m, edges[k], at, below, above);
-                cut_loop(m, edges, ids, cell->counts[loop]);
+                triangulate_loop(m, edges, ids, cell->counts[loop]);
             }
         }
     return true;

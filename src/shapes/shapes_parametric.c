@@ -1,18 +1,18 @@
-// shapes_parametric.c: meshes from parametric surfaces p(u, v).
+// shapes_parametric.c: tessellates parametric surfaces p(u, v).
 //
-// The domain is cut into u_segments × v_segments cells, two triangles each, counter-clockwise seen from where
-// ∂p/∂u × ∂p/∂v points.
+// The domain is divided into u_segments × v_segments cells of two triangles each, counter-clockwise seen from the side
+// that ∂p/∂u × ∂p/∂v points to.
 //
-// Seams: where u (or v) is closed, the last column (row) takes position, normal and tangent of the first, bit
-// for bit; only the texture coordinate differs.
+// Seams: if u (or v) is closed, the last column (row) has the position, normal and tangent of the first, bit for bit;
+// only the texture coordinate differs.
 //
-// Poles: a row whose points coincide (or the first or last column) is one vertex. Triangles that lose their
-// area there are left out. Each remaining triangle has a corner of its own at the pole, with the texture
-// coordinate, tangent and normal of its middle column. If the normals from all sides agree, the pole is
-// smooth and all corners get their mean; else it is a tip, as a cone's, and each keeps its own.
+// Poles: a row, or the first or last column, whose points coincide is one vertex. Degenerate triangles there are
+// skipped. Each remaining triangle has a corner of its own at the pole, with the texture coordinate, tangent and normal
+// at the middle of its cell. If these normals agree, the pole is smooth and all corners get their mean; else it is a
+// tip, as of a cone, and each corner keeps its normal.
 //
-// A derivative that vanishes tells nothing of the tangent plane. Its direction is then taken from a point a
-// ten-thousandth of the domain further inside (the one-sided limit), the other derivative staying as it is.
+// A derivative that vanishes does not determine the tangent plane. It is replaced by the derivative at a point a
+// ten-thousandth of the domain further inside, an approximation of the one-sided limit.
 #include "shapes.h"
 
 #include "fail.h"
@@ -21,32 +21,33 @@
 
 #include <string.h>
 
-// Points nearer to each other than this share of the surface's size are one; a float position cannot tell
-// them apart.
-#define SAME_POINT 1e-9
-// A derivative shorter than this share of size per domain has vanished.
+// Points closer than this fraction of the surface's size coincide; floats cannot represent the difference.
+#define COINCIDENT 1e-9
+// A derivative below this fraction of size per domain length is zero.
 #define VANISHED 1e-9
-// How far inside the domain the one-sided limit is looked for.
-#define NUDGE 1e-4
-// Normals around a pole whose cosine with their mean is above this (0.08°) are one normal.
+// The distance of the one-sided limit from the boundary, as a fraction of the domain.
+#define INSET 1e-4
+// A pole is smooth if the cosines of its normals with their mean are above this (0.08°).
 #define SMOOTH_POLE (1 - 1e-6)
 
 struct tessellation {
     const lam_parametric *surface;
-    lam_mesh *mesh; // arrays writable below
+    lam_mesh *mesh;
+    // The mesh's arrays, writable.
     float *positions, *normals, *tangents, *texcoords;
     uint32_t *indices, *attributes;
     double origin[3];
-    double size;           // longest side of the box of a coarse sample
-    double u_unit, v_unit; // a derivative of ordinary length
+    double size;           // longest side of the bounding box of a coarse sample
+    double u_unit, v_unit; // the typical length of a derivative
     uint32_t vertex, attribute_base;
     size_t corner;
     bool first_column_pole, last_column_pole;
     lam_surface_point *row;
-    uint32_t *ids[3]; // vertices of the row before, of this one, and of the first
+    uint32_t *ids[3]; // vertices of the previous row, of this row and of the first
 };
 
-// Parameter of step i of n, from a to b; the ends exact, mirrored steps of a symmetric domain mirrored bits.
+// The parameter at step i of n from a to b. The ends are exact; mirrored steps of a symmetric domain give
+// mirrored bits.
 static double parameter(double a, double b, int i, int n)
 {
     if (i <= 0)
@@ -56,7 +57,7 @@ static double parameter(double a, double b, int i, int n)
     return (a * (n - i) + b * i) / n;
 }
 
-// At ½ steps: the middle of cell i.
+// The middle of cell i.
 static double middle(double a, double b, int i, int n) { return parameter(a, b, 2 * i + 1, 2 * n); }
 
 static lam_surface_point evaluate(const struct tessellation *t, double u, double v)
@@ -70,17 +71,17 @@ static bool shorter(lam_vec3 v, double length) { return v3_dot(v, v) <= length *
 
 static bool coincide(const struct tessellation *t, lam_vec3 a, lam_vec3 b)
 {
-    return shorter(v3_sub(a, b), SAME_POINT * t->size);
+    return shorter(v3_sub(a, b), COINCIDENT * t->size);
 }
 
-// Inside the domain by NUDGE, towards its middle.
+// x, moved by INSET of the domain towards its middle.
 static double inside(double x, double low, double high)
 {
-    double step = NUDGE * (high - low);
+    double step = INSET * (high - low);
     return x > 0.5 * low + 0.5 * high ? x - step : x + step;
 }
 
-// Normal and tangent, unit, and the bitangent's sign. The normal is zero where no side tells it.
+// The unit normal and tangent at a point. The normal is zero if no derivative determines it.
 static void frame_at(const struct tessellation *t, double u, double v, const lam_surface_point *point, lam_vec3 *normal,
                      lam_vec3 *tangent)
 {
@@ -104,14 +105,14 @@ static void frame_at(const struct tessellation *t, double u, double v, const lam
         cross = v3_cross(v3_unit(inner.dp_du), v3_unit(inner.dp_dv));
     }
     *normal = v3_unit(cross);
-    // Perpendicular to the normal: ∂p/∂u lies in the tangent plane but for rounding and the limit's error.
+    // Orthogonalize: rounding and the limit's error move ∂p/∂u out of the tangent plane.
     lam_vec3 n = *normal;
     *tangent = v3_unit(v3_sub(du, v3_scale(n, v3_dot(n, du))));
     if (shorter(*tangent, 0.5))
         *tangent = v3_unit(n.x * n.x < 0.5 ? v3_cross(v3(1, 0, 0), n) : v3_cross(v3(0, 1, 0), n));
 }
 
-// Does the boundary column at u consist of one point?
+// Whether all points of the boundary column at u coincide.
 static bool column_is_pole(const struct tessellation *t, double u)
 {
     const lam_parametric *s = t->surface;
@@ -132,7 +133,7 @@ static bool row_is_pole(const struct tessellation *t)
 
 static bool add_position(struct tessellation *t, lam_vec3 p, uint32_t *id, lam_error *error)
 {
-    const double limit = 1e38; // room below the largest float for sizes and lengths
+    const double limit = 1e38; // below FLT_MAX, so that differences and lengths do not overflow
     double q[3] = {p.x - t->origin[0], p.y - t->origin[1], p.z - t->origin[2]};
     float *at = t->positions + 3 * (size_t)t->vertex;
     for (int a = 0; a < 3; a++) {
@@ -162,7 +163,7 @@ static size_t attribute_at(const struct tessellation *t, int i, int j)
     return t->attribute_base + (size_t)j * (size_t)(t->surface->u_segments + 1) + (size_t)i;
 }
 
-// One normal for a smooth pole: the mean over its columns, if they agree with it.
+// Gives a smooth pole one normal: the mean over its columns, if they agree with it.
 static void smooth_pole(struct tessellation *t, int j)
 {
     int count = t->surface->u_segments;
@@ -185,7 +186,7 @@ static void smooth_pole(struct tessellation *t, int j)
     }
 }
 
-// Attributes of row j; `pole`: at the middles of the cells, whose corners they serve.
+// Adds the attributes of row j; at a pole (`pole`), those at the middles of the cells.
 static void add_attributes(struct tessellation *t, int j, bool pole)
 {
     const lam_parametric *s = t->surface;
@@ -198,12 +199,12 @@ static void add_attributes(struct tessellation *t, int j, bool pole)
         double at_v = column_pole && j < s->v_segments ? middle(s->v_min, s->v_max, j, s->v_segments) : v;
         t->texcoords[2 * at] = (float)((u - s->u_min) / (s->u_max - s->u_min));
         t->texcoords[2 * at + 1] = (float)((at_v - s->v_min) / (s->v_max - s->v_min));
-        size_t twin = s->v_closed && j == s->v_segments ? attribute_at(t, i, 0)
+        size_t same = s->v_closed && j == s->v_segments ? attribute_at(t, i, 0)
                       : s->u_closed && i == count       ? attribute_at(t, 0, j)
                                                         : at;
-        if (twin != at) {
-            memcpy(t->normals + 3 * at, t->normals + 3 * twin, 3 * sizeof(float));
-            memcpy(t->tangents + 4 * at, t->tangents + 4 * twin, 4 * sizeof(float));
+        if (same != at) {
+            memcpy(t->normals + 3 * at, t->normals + 3 * same, 3 * sizeof(float));
+            memcpy(t->tangents + 4 * at, t->tangents + 4 * same, 4 * sizeof(float));
             continue;
         }
         lam_surface_point moved;
@@ -220,7 +221,7 @@ static void add_attributes(struct tessellation *t, int j, bool pole)
         smooth_pole(t, j);
 }
 
-// The vertices of row j into ids[1].
+// Adds the vertices of row j and stores them in ids[1].
 static bool add_vertices(struct tessellation *t, int j, bool pole, lam_error *error)
 {
     const lam_parametric *s = t->surface;
@@ -256,7 +257,7 @@ static void add_triangle(struct tessellation *t, struct cell_corner a, struct ce
     }
 }
 
-// A corner of cell (cell_i, cell_j). At a pole the cell has a corner of its own, kept under its own number.
+// The corner (i, j) of cell (cell_i, cell_j). At a pole, each cell has its own attributes, at the index of the cell.
 static struct cell_corner corner_of(const struct tessellation *t, int i, int j, int cell_i, int cell_j, uint32_t vertex,
                                     bool row_pole)
 {
@@ -322,7 +323,7 @@ static bool check(const lam_parametric *s, lam_error *error)
     return true;
 }
 
-// The box of all surfaces from a coarse sample, for tolerances and the origin.
+// The bounding box of a coarse sample of all surfaces, for tolerances and the origin.
 static bool sample_box(const lam_parametric *surfaces, int count, double low[3], double high[3], lam_error *error)
 {
     enum { STEPS = 8 };
@@ -363,7 +364,7 @@ bool tessellate_parametric(const lam_parametric *surfaces, int count, struct are
         widest = s->u_segments > widest ? s->u_segments : widest;
     }
     if (attributes > SHAPE_VERTICES_MAX)
-        return fail(error, LAM_LIMIT, "parametric surface: %llu vertices, at most %d are made",
+        return fail(error, LAM_LIMIT, "parametric surface: %llu vertices, expected at most %d",
                     (unsigned long long)attributes, SHAPE_VERTICES_MAX);
     double low[3], high[3];
     if (!sample_box(surfaces, count, low, high, error))

@@ -1,18 +1,16 @@
 // teapot.c: the Utah teapot from its Bézier patches.
 //
-// Patches that continue each other become one parametric surface: u goes around (4 patches for body and lid,
-// 2 for handle and spout), v along (from the bottom's middle over body and rim, from the lid's edge to its
-// top, from the body outward). All joints are smooth in the data, so positions and normals there are shared.
-// As published, the pot is open: the lid lies in the rim without touching it, handle and spout end inside the
-// body's wall.
+// Adjacent patches form one parametric surface. u goes around: 4 patches for body and lid, 2 for handle and spout. v
+// goes along: from the centre of the bottom over body and rim, from the lid's edge to its top, from the body outward.
+// All joints are smooth in the data and share positions and normals. As published, the pot is open: the lid lies in the
+// rim without touching it, and handle and spout end inside the body's wall.
 #include "shapes.h"
 
 #include "fail.h"
 #include "linear.h"
 #include "teapot_data.h"
 
-// From Newell's coordinates: Y up, middle of the box at the origin, from handle (−3) to spout (3.434075) 2
-// units wide.
+// Converts Newell's coordinates: Y up, centred, and scaled to a width of 2 from handle (−3) to spout (3.434075).
 #define TEAPOT_MIDDLE_X   0.2170375625
 #define TEAPOT_MIDDLE_Z   1.575
 #define TEAPOT_HALF_WIDTH 3.2170375625
@@ -31,7 +29,7 @@ struct patches {
     int u_steps, v_steps; // segments of one patch
 };
 
-// Bernstein's cubics and their derivatives, with exact ends.
+// Cubic Bernstein polynomials and their derivatives, exact at 0 and 1.
 static void bernstein(double t, double b[4], double d[4])
 {
     double s = 1 - t;
@@ -45,7 +43,7 @@ static void bernstein(double t, double b[4], double d[4])
     d[3] = 3 * t * t;
 }
 
-// Which patch a parameter falls into, and where in it; a joint belongs to the patch that follows.
+// The patch of a parameter, and the parameter within it. A joint belongs to the next patch.
 static int patch_of(double x, int steps, int count, double *within)
 {
     int patch = (int)(x / steps);
@@ -77,17 +75,17 @@ static void patch_point(void *user, double u, double v, lam_surface_point *out)
     }
 }
 
-// The four quarters, from the back (+y) to the left, the front and the right, so that ∂p/∂u × ∂p/∂v points outward.
-static void turn(struct patches *patches, const struct teapot_ring (*bands)[4], int count)
+// Four quarters, from the back (+y) to the left, the front and the right: ∂p/∂u × ∂p/∂v points outward.
+static void revolve(struct patches *patches, const struct teapot_ring (*bands)[4], int count)
 {
-    static const double way[5][2] = {{0, 1}, {-1, 0}, {0, -1}, {1, 0}, {0, 1}};
+    static const double axes[5][2] = {{0, 1}, {-1, 0}, {0, -1}, {1, 0}, {0, 1}};
     patches->bands = count;
     patches->around = 4;
     for (int band = 0; band < count; band++)
         for (int quarter = 0; quarter < 4; quarter++)
             for (int j = 0; j < 4; j++) {
                 struct teapot_ring r = bands[band][j];
-                const double *a = way[quarter], *b = way[quarter + 1];
+                const double *a = axes[quarter], *b = axes[quarter + 1];
                 lam_vec3 *row = patches->control[band][quarter][j];
                 row[0] = place(a[0] * r.radius, a[1] * r.radius, r.height);
                 row[1] = place(a[0] * r.radius + b[0] * r.step, a[1] * r.radius + b[1] * r.step, r.height);
@@ -96,7 +94,7 @@ static void turn(struct patches *patches, const struct teapot_ring (*bands)[4], 
             }
 }
 
-// The two halves: a to b on the viewer's side (−y), then back on the other.
+// Two halves: from a to b on the viewer's side (−y), and back on the other.
 static void mirror(struct patches *patches, const struct teapot_section (*bands)[4], int count)
 {
     patches->bands = count;
@@ -121,8 +119,8 @@ bool teapot_build(const struct shape_request *request, lam_mesh *mesh)
                     "shape 'teapot': stacks is %d, expected at most %d along each patch", request->stacks,
                     16384 / BANDS_MAX);
     struct patches parts[4];
-    turn(&parts[0], teapot_body, 4);
-    turn(&parts[1], teapot_lid, 2);
+    revolve(&parts[0], teapot_body, 4);
+    revolve(&parts[1], teapot_lid, 2);
     mirror(&parts[2], teapot_handle, 2);
     mirror(&parts[3], teapot_spout, 2);
     int slices = request->slices ? request->slices : 128;

@@ -1,15 +1,14 @@
 // teapot_data.c: Martin Newell's teapot (University of Utah, 1975), the control points of its 32 bicubic
 // Bézier patches.
 //
-// The published list has 306 points, most of them turned or mirrored copies of each other: body, rim, lid and
-// bottom are four quarters around the vertical axis, handle and spout two mirrored halves. Here each is
-// written once. The numbers are the published ones: z is up, the spout points along +x, the pot stands on z =
-// 0. The bottom's four patches are a later addition to Newell's 28.
+// The published list has 306 points, most of them rotated or mirrored copies: body, rim, lid and bottom are four
+// quarters around the vertical axis, handle and spout two mirrored halves. This file lists each once, with the
+// published numbers: z is up, the spout points along +x, the pot stands on z = 0. The bottom's four patches were added
+// to Newell's 28 later.
 #include "teapot_data.h"
 
-// A quarter around the axis from direction a to direction b has the control points ra, ra + kb, ka + rb, rb.
-// k is 0.56 r for a circle-like quarter (a true one would have 0.5523 r); in the lid's knob Newell took 0.45
-// for 0.8.
+// A quarter around the axis from direction a to direction b has the control points ra, ra + kb, ka + rb, rb. k is 0.56
+// r, close to a circle's 0.5523 r; for the lid's knob, with r = 0.8, Newell chose 0.45.
 const struct teapot_ring teapot_body[4][4] = {
     // bottom, from its middle
     {{0, 0, 0}, {1.425, 0.798, 0}, {1.5, 0.84, 0.075}, {1.5, 0.84, 0.15}},

@@ -1,14 +1,14 @@
-// teapot_data.h: the teapot's control points, in bands of patches that follow each other.
+// teapot_data.h: the teapot's control points, in bands of adjacent patches.
 #ifndef TEAPOT_DATA_H
 #define TEAPOT_DATA_H
 
-// A ring of control points around the vertical axis: distance from it, the length of the inner points'
-// sideways step, and height.
+// A ring of control points around the vertical axis: their radius, the tangential offset of the inner points,
+// and height.
 struct teapot_ring {
     double radius, step, height;
 };
 
-// A flat ring of control points across handle or spout, between two points a and b in the plane of symmetry.
+// A planar ring of control points across handle or spout, from a to b in the plane of symmetry.
 struct teapot_section {
     double ax, az, bx, bz, width;
 };

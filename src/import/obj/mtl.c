@@ -188,7 +188,7 @@ static bool close_material(struct reader *reader, lam_error *error)
         m->specular = (lam_rgb){0, 0, 0};
     if (m->diffuse.a == 0)
         scene_warn(reader->scene, "%s: material '%s' is fully transparent (d 0 or Tr 1)", reader->name, m->name);
-    int index = scene_take_material(reader->scene, m, error);
+    int index = scene_adopt_material(reader->scene, m, error);
     if (index < 0)
         return false;
     reader->open = false;

@@ -54,8 +54,8 @@ static bool add_mesh(struct obj *obj, lam_error *error)
     };
     lam_object object = lam_object_default();
     object.name = obj->object_name;
-    object.mesh = scene_take_mesh(obj->scene, &mesh, error);
-    return object.mesh >= 0 && scene_take_object(obj->scene, &object, error) >= 0;
+    object.mesh = scene_adopt_mesh(obj->scene, &mesh, error);
+    return object.mesh >= 0 && scene_adopt_object(obj->scene, &object, error) >= 0;
 }
 
 bool obj_complete(struct obj *obj, lam_error *error)

@@ -174,8 +174,8 @@ static bool build(struct reader *reader, lam_error *error)
     if (!done || mesh.triangle_count == 0)
         return done;
     lam_object object = lam_object_default();
-    object.mesh = scene_take_mesh(scene, &mesh, error);
-    return object.mesh >= 0 && scene_take_object(scene, &object, error) >= 0;
+    object.mesh = scene_adopt_mesh(scene, &mesh, error);
+    return object.mesh >= 0 && scene_adopt_object(scene, &object, error) >= 0;
 }
 
 static bool ply_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)

@@ -161,8 +161,8 @@ static bool load(struct stream *stream, struct lam_scene *scene, struct arena *s
     mesh.indices = stream->indices;
     mesh.triangle_count = (uint32_t)faces->count;
     lam_object object = lam_object_default();
-    object.mesh = scene_take_mesh(scene, &mesh, NULL);
-    return object.mesh >= 0 && scene_take_object(scene, &object, NULL) >= 0;
+    object.mesh = scene_adopt_mesh(scene, &mesh, NULL);
+    return object.mesh >= 0 && scene_adopt_object(scene, &object, NULL) >= 0;
 }
 
 bool ply_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)

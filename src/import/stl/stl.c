@@ -83,8 +83,8 @@ static bool stl_load(const struct import_source *source, struct lam_scene *scene
     if (mesh.triangle_count == 0)
         return true;
     lam_object object = lam_object_default();
-    object.mesh = scene_take_mesh(scene, &mesh, error);
-    return object.mesh >= 0 && scene_take_object(scene, &object, error) >= 0;
+    object.mesh = scene_adopt_mesh(scene, &mesh, error);
+    return object.mesh >= 0 && scene_adopt_object(scene, &object, error) >= 0;
 }
 
 const struct importer importer_stl = {

@@ -75,6 +75,6 @@ bool stl_load_stream(const struct import_source *source, const struct file_parts
         return false;
     lam_mesh mesh = {.positions = stream.positions, .vertex_count = 3 * count, .triangle_count = count};
     lam_object object = lam_object_default();
-    object.mesh = scene_take_mesh(scene, &mesh, NULL);
-    return object.mesh >= 0 && scene_take_object(scene, &object, NULL) >= 0;
+    object.mesh = scene_adopt_mesh(scene, &mesh, NULL);
+    return object.mesh >= 0 && scene_adopt_object(scene, &object, NULL) >= 0;
 }

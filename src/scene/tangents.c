@@ -96,8 +96,8 @@ static double angle_at(const lam_mesh *mesh, uint32_t corner)
     return math_acos(v3_dot(a, b));
 }
 
-// The tangent without texture coordinates: around the y axis, or along x if the normal is along y; as in
-// src/cpu/shade/light.inc.
+// The tangent without texture coordinates: around the y axis, or along x if the normal is along y. The same as in
+// src/cpu/shade/attributes.inc.
 static lam_vec3 field_tangent(lam_vec3 n)
 {
     lam_vec3 around = v3_cross(v3(0, 1, 0), n);

@@ -1,7 +1,7 @@
 // replay.c: plays a corpus through a fuzz target in the normal test run, without libFuzzer.
 //
-// Every file of the folder CORPUS goes in as it is, cut after each of its bytes, and in some hundred changed forms, the
-// same in every run. An input that kills the program is left in the current folder as "fuzz-failure".
+// The target gets every file of the folder CORPUS unchanged, truncated after each of its bytes, and in CHANGES
+// mutations, the same in every run. An input that crashes the program is saved in the current folder as "fuzz-failure".
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -17,8 +17,8 @@ void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak)
 enum {
     SEEDS_MAX = 64,
     SEED_BYTES = 16384,
-    CUTS_MAX = 1500, // a longer file is cut at this many places
-    CHANGES = 2000,  // changed forms of each file
+    CUTS_MAX = 1500, // truncations of a longer file
+    CHANGES = 2000,  // mutations of each file
 };
 
 static struct seed {
@@ -45,7 +45,7 @@ static void die(int number)
     raise(number);
 }
 
-// The input lies in a block of exactly its size, so that a sanitizer sees every read beyond it.
+// The input is in a block of exactly its size: a sanitizer detects every read beyond it.
 static void run(const uint8_t *bytes, size_t size)
 {
     uint8_t *copy = malloc(size + (size == 0));
@@ -64,7 +64,7 @@ static uint32_t below(uint64_t *random, uint32_t limit)
     return limit ? (uint32_t)(*random >> 33) % limit : 0;
 }
 
-// Replaces bytes [at, at + removed) by `piece`, as far as there is room.
+// Replaces bytes [at, at + removed) by `piece`, as far as the capacity allows.
 static void put_in_place(struct seed *seed, size_t at, size_t removed, const uint8_t *piece, size_t length)
 {
     if (at > seed->size || removed > seed->size - at || seed->size - removed + length > SEED_BYTES)

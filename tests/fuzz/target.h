@@ -1,6 +1,5 @@
-// target.h: what the fuzz targets share. Each target_*.c defines LLVMFuzzerTestOneInput for one format, so it
-// links with libFuzzer (clang -fsanitize=fuzzer) or with replay.c, which plays the corpus and changes of it
-// in the normal test run.
+// target.h: shared by the fuzz targets. Each target_*.c defines LLVMFuzzerTestOneInput for one format and links with
+// libFuzzer (clang -fsanitize=fuzzer) or with replay.c, which runs the corpus and its mutations in the normal test run.
 #ifndef TARGET_H
 #define TARGET_H
 
@@ -12,8 +11,8 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-// What must hold for every input: a scene that is whole, or an error with its sentence. Bounded in memory and
-// time, so that an input that makes the library run away is found as one.
+// Invariant for every input: a valid scene, or an error with a sentence. Memory and time are limited, so that inputs
+// with excessive cost are found.
 static inline void load_model(const uint8_t *data, size_t size, const char *name, lam_open_fn *open, void *user)
 {
     lam_load_params params = {.threads = 1, .open = open, .user = user};

@@ -1,4 +1,4 @@
-// target_obj.c: fuzz target for OBJ files; what stands behind a zero byte is the MTL file that the model may name.
+// target_obj.c: fuzz target for OBJ files; bytes after a zero byte are the MTL file that the model may name.
 #include "target.h"
 
 #include <lambent/image.h>

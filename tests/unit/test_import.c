@@ -1,5 +1,4 @@
-// test_import.c: from a file to a scene: which format it is, what is not one, companions, and the models of
-// the corpus.
+// test_import.c: recognising formats, companion files, and the models of the corpus.
 #include <lambent/lambent.h>
 
 #include <setjmp.h>
@@ -35,7 +34,7 @@ static void test_formats(void **unused)
     assert_null(lam_model_format_extensions(4));
 }
 
-// Content decides; the name only helps.
+// The content decides the format; the extension only resolves ambiguity.
 static void test_choice(void **unused)
 {
     (void)unused;
@@ -151,7 +150,7 @@ static void write_text(const char *path, const char *text)
     fclose(file);
 }
 
-// Files on disk: material files are looked for beside the model, and nowhere else.
+// Files on disk: material files are opened in the model's folder only.
 static void test_files(void **unused)
 {
     (void)unused;

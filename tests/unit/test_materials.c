@@ -15,8 +15,7 @@
 #include <lambent/material.h>
 #include <lambent/scene.h>
 
-// The published table again, as it is printed: ambient, diffuse, specular, share of 128. Typed apart from the
-// library's.
+// The published table: ambient, diffuse, specular, shininess/128. Typed independently of the library's.
 static const struct {
     lam_material_id id;
     const char *name;
@@ -153,7 +152,7 @@ static void accepted(const lam_light *light)
         fail_msg("%s", error.text);
 }
 
-// Sets one field of a light to a bad number, expects it named, and that a light without use for it does not mind.
+// Sets a field of a light to an invalid number and expects an error that names it; lights of other types accept it.
 #define BAD(type, field, value)                                                                                        \
     do {                                                                                                               \
         lam_light wrong_ = lam_light_default(type);                                                                    \
@@ -211,7 +210,7 @@ static void test_light_checks(void **state)
     GOOD(LAM_LIGHT_SPOT, cutoff_rad, (float)M_PI_2);
     GOOD(LAM_LIGHT_SPOT, outer_rad, (float)M_PI_2);
     GOOD(LAM_LIGHT_SPOT, exponent, 1000.0f);
-    // Fields that the type has no use for.
+    // Fields of other types.
     GOOD(LAM_LIGHT_AMBIENT, diffuse.r, NAN);
     GOOD(LAM_LIGHT_POINT, direction, ((lam_vec3){0, 0, 0}));
     GOOD(LAM_LIGHT_DIRECTIONAL, range, -1.0f);
@@ -248,8 +247,8 @@ static void test_rigs(void **state)
     assert_true(lights[0].direction.x > 0 && lights[0].direction.y < 0 && lights[0].direction.z < 0);
 }
 
-// What the rig gives for the default material, diffuse and ambient, over all directions that a viewer can
-// see, with the scene's up axis tilted as cameras tilt it: never near black, never over the top.
+// Diffuse and ambient light of the rig on the default material, over all visible directions and camera elevations:
+// never near black, never clipped.
 static void test_studio_range(void **state)
 {
     (void)state;
@@ -283,7 +282,7 @@ static void test_studio_range(void **state)
     assert_true(most > 8 * least); // and the form shows
 }
 
-// Of each number of a row: the default passes, and numbers outside of the range are refused by the field's name.
+// For each number of a row: the default is valid; numbers outside the range give an error with the field's name.
 static void check_material_field(lam_scene *scene, const lam_field *field)
 {
     const double wrong[] = {field->min - 1, field->max + 1, NAN};

@@ -1,4 +1,4 @@
-// test_number.c: numbers in text are read correctly rounded: against the C library, on random and on hard cases.
+// test_number.c: numbers are correctly rounded: compared with the C library on random and hard cases.
 #include "number.h"
 #include "number_scan.h"
 
@@ -38,8 +38,8 @@ static uint32_t bits_of_float(float x)
     return bits;
 }
 
-// Reads the text by all our ways from a block that ends with it (so that reading past the end is seen by the
-// sanitizer), and compares bits and length with the C library's.
+// Reads the text with every function, from a block that ends with it, so that the sanitizer detects reads past the end.
+// Compares bits and length with the C library's.
 static void check(const char *text)
 {
     size_t length = strlen(text);
@@ -228,7 +228,7 @@ static void test_random(void **unused)
     }
 }
 
-// The middle between two neighbours, in full, and a hair to each side of it.
+// The exact midpoint of two neighbours, and numbers just above and below it.
 static void test_middles(void **unused)
 {
     (void)unused;

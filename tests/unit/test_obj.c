@@ -1,5 +1,5 @@
-// test_obj.c: OBJ and MTL: each form of statement, each mistake's sentence, and the same result for any
-// threads and chunks.
+// test_obj.c: OBJ and MTL: every form of statement, every error and warning, and results that do not depend on the
+// number of threads and the size of chunks.
 // Above 600 lines: one table-like test for each feature and sentence of one format.
 #include "obj.h"
 
@@ -43,7 +43,7 @@ static lam_scene *load_with(const char *text, lam_load_params params, const stru
     return lam_scene_load_memory(text, strlen(text), "t.obj", &params, NULL, error);
 }
 
-// Bytes that are not from malloc, and a count of those that are still open.
+// Bytes that are not from malloc, and the number of open files.
 static bool open_constant(void *user, const char *name, struct lam_bytes *bytes, lam_error *error)
 {
     (void)name, (void)error;
@@ -180,7 +180,7 @@ static void test_attributes(void **unused)
     lam_scene_free(scene);
 }
 
-// Faces without normals beside faces with: the former get made ones, the latter keep theirs.
+// Corners with normals keep them; faces without get computed normals.
 static void test_missing_normals(void **unused)
 {
     (void)unused;
@@ -358,7 +358,7 @@ static void test_parts(void **unused)
     expect_part(lam_scene_mesh(scene, 0), 0, NULL, 0, 1, 0);
     lam_scene_free(scene);
 
-    // A name that leaves the model's folder is looked for inside it.
+    // A path that leaves the model's folder is confined to it.
     scene =
         load_with("mtllib ..\\x\\b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n", (lam_load_params){0}, libraries, &error);
     assert_int_equal(lam_scene_material_count(scene), 2);
@@ -373,7 +373,7 @@ static void test_smoothing(void **unused)
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_memory_equal(mesh->smoothing_groups, groups, sizeof groups);
     lam_scene_free(scene);
-    scene = load(SQUARE "s off\nf 1 2 3\n"); // says no more than a file that says nothing
+    scene = load(SQUARE "s off\nf 1 2 3\n"); // the same as no smoothing group
     assert_null(lam_scene_mesh(scene, 0)->smoothing_groups);
     lam_scene_free(scene);
 }
@@ -399,7 +399,7 @@ static void test_colors(void **unused)
     lam_scene_free(scene);
 }
 
-// 500 km from zero, a millimetre is still there.
+// A detail of a millimetre is kept 500 km from zero.
 static void test_origin(void **unused)
 {
     (void)unused;
@@ -446,7 +446,7 @@ static void test_mtl(void **unused)
     assert_null(lam_scene_warning(scene, 0));
     lam_scene_free(scene);
 
-    // Ka 1 1 1 is a habit; sRGB is decoded; no Ks, no highlight; d wins whatever the order.
+    // Ka 1 1 1 is ignored; sRGB is decoded; without Ks there is no highlight; d takes precedence in either order.
     m = load_material("newmtl a\nKa 1 1 1\nKd 0.5 0.5 0.5\nd 0.5\nTr 0.1\n", LAM_COLOR_SRGB, &scene);
     assert_true(m->diffuse.r > 0.2140f && m->diffuse.r < 0.2141f);
     assert_true(m->ambient.r == m->diffuse.r && m->specular.r == 0 && m->diffuse.a == 0.5f);
@@ -511,7 +511,7 @@ static void test_mtl_warnings(void **unused)
     }
 }
 
-// --- the same for any threads, any chunks
+// --- threads and chunks
 
 #define MIXED                                                                                                          \
     "# a model\nmtllib a.mtl\no thing\n" SQUARE                                                                        \
@@ -593,7 +593,7 @@ static void test_threads_and_chunks(void **unused)
             expect_equal(plain, scene);
             lam_scene_free(scene);
         }
-        // The first mistake is the one that is told.
+        // The first error is reported.
         static const char wrong[] = TRIANGLE MIXED "f 1 2 x\nf 1 2 y\nf 1 2 z\n" MIXED "v a\n";
         for (int c = 0; c < 5; c++) {
             assert_null(load_chunked(wrong, strlen(wrong), chunks[c], pool, &error));
@@ -604,7 +604,7 @@ static void test_threads_and_chunks(void **unused)
     lam_scene_free(plain);
 }
 
-// Every beginning of a file loads or fails with a sentence, and so does the file with any one byte changed.
+// Every prefix of a file loads or fails with an error, and so does the file with any one byte changed.
 static void test_damage(void **unused)
 {
     (void)unused;
@@ -642,7 +642,7 @@ static void test_memory(void **unused)
             assert_int_equal(error.code, LAM_LIMIT);
             continue;
         }
-        // A warning that found no memory is not worth failing for; all the rest was there.
+        // A warning may be lost for lack of memory; all other allocations must succeed.
         bool all = lam_scene_warning(scene, 3) != NULL;
         lam_scene_free(scene);
         if (all)

@@ -1,4 +1,4 @@
-// test_obj_large.c: large OBJ files are read piece by piece; what comes of it is what comes of reading them whole.
+// test_obj_large.c: large OBJ files that are read piece by piece give the same scene as files that are read whole.
 #include "loading.h"
 
 #include "obj.h"
@@ -11,7 +11,7 @@ static char path[] = "/tmp/lambent-large-XXXXXX";
 static char *text;
 static size_t size, faces_begin;
 
-// What a file is made with.
+// The style of a generated file.
 struct style {
     const char *first;    // stands before all
     const char *corner;   // of a face, by printf: its number, up to three times
@@ -95,7 +95,7 @@ static void write_file(void)
     assert_int_equal(fclose(file), 0);
 }
 
-// Whether obj_stream.c serves the file.
+// Whether obj_stream.c reads the file.
 static bool served(int threads)
 {
     lam_load_params params = {0};
@@ -111,7 +111,7 @@ static bool served(int threads)
     assert_non_null(scene);
     bool done = importer_obj.load_stream(&source, &file, scene);
     lam_scene_free(scene);
-    assert_int_equal(call.memory_used, 0); // all that was charged came back
+    assert_int_equal(call.memory_used, 0); // all charges are refunded
     file_close_parts(&file);
     pool_free(pool);
     free(head);
@@ -143,7 +143,7 @@ static void assert_same_scene(const lam_scene *a, const lam_scene *b)
         assert_same_text(lam_scene_warning(a, w), lam_scene_warning(b, w));
 }
 
-// Loads the file, and its bytes by the same name: both scenes, or both errors, are equal. Whether it loaded.
+// Loads the file from disk and from memory, and compares the scenes or the errors. Returns whether it loaded.
 static bool load_both(void)
 {
     bool loaded = false;
@@ -167,7 +167,7 @@ static bool load_both(void)
     return loaded;
 }
 
-// Files of usual kinds are served.
+// Usual files are read piece by piece.
 static void usual_files(void **state)
 {
     (void)state;
@@ -194,14 +194,14 @@ static void usual_files(void **state)
     for (size_t i = 0; i < sizeof styles / sizeof *styles; i++) {
         make(styles[i]);
         assert_true(load_both());
-        bool lines = styles[i].first && styles[i].first[0] == 'l'; // are told of, with their place
+        bool lines = styles[i].first && styles[i].first[0] == 'l'; // warned of, with a line number
         for (int threads = 1; threads <= 3; threads++)
             assert_int_equal(served(threads), !lines);
     }
 }
 
-// Groups, materials and smoothing groups between the faces. A material that is not there is told with its
-// line, and takes reading it whole.
+// Groups, materials and smoothing groups between the faces. The warning about an undefined material names its line, so
+// the file is read whole.
 static void statements(void **state)
 {
     (void)state;
@@ -215,7 +215,7 @@ static void statements(void **state)
     assert_true(served(3));
 }
 
-// Right, but unusual: read whole.
+// Valid but unusual files are read whole.
 static void unusual_files(void **state)
 {
     (void)state;
@@ -240,7 +240,7 @@ static void unusual_files(void **state)
     assert_true(load_both());
     assert_false(served(2));
     make((struct style){0});
-    add("# %0*d\nf 1 2 3\n", 40000, 1); // a line longer than is looked ahead
+    add("# %0*d\nf 1 2 3\n", 40000, 1); // a line longer than TAIL
     assert_true(load_both());
     make((struct style){0});
     for (int i = 0; i < 6000; i++)
@@ -249,7 +249,7 @@ static void unusual_files(void **state)
     assert_true(load_both());
 }
 
-// At every place around the edge of two pieces: a line's end, a continued line, a comment.
+// Line ends, continuations and comments at every position around the border of two pieces.
 static void edges(void **state)
 {
     (void)state;
@@ -262,7 +262,7 @@ static void edges(void **state)
     memcpy(copy, text, whole);
     for (size_t l = 0; l < sizeof lines / sizeof *lines; l++) {
         for (size_t shift = 0; shift < 14; shift++) {
-            // A comment fills up, so that the line begins somewhat before the edge.
+            // A comment as padding: the line begins shortly before the border.
             size_t edge = 256 << 10, at = edge - 400;
             memcpy(text, copy, whole);
             size = whole;
@@ -279,7 +279,7 @@ static void edges(void **state)
             memmove(text + at + comment + length, copy + next, whole - next);
             memcpy(text + at + comment, lines[l], length);
             size = at + comment + length + (whole - next);
-            // Vertices are missing now; what names the last ones goes.
+            // Fewer vertices: faces of the last ones go too.
             size = (size_t)(strstr(text, "f 41") - text);
             assert_true(load_both());
         }
@@ -335,7 +335,7 @@ static void can_be_stopped(void **state)
     assert_int_equal(error.code, LAM_LIMIT);
 }
 
-// Each allocation fails in turn: the file is then not served, or read whole; nothing leaks.
+// Each allocation fails in turn: the file is refused, or read whole; nothing leaks.
 static void memory(void **state)
 {
     (void)state;

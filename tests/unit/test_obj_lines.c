@@ -1,5 +1,5 @@
-// test_obj_lines.c: the quick readers of OBJ's lines, each that this machine can run: the same numbers as the
-// C library reads.
+// test_obj_lines.c: the fast readers of OBJ lines for every instruction set of this machine read the same numbers as
+// the C library.
 #include "loading.h"
 
 #include "cpu_features.h"
@@ -136,7 +136,7 @@ static void triangles(void **state)
     check(size, 0, LINES);
 }
 
-// What is not three numbers is handed on: it is refused, or is something else.
+// Lines of another form are refused by the fast path.
 static void others(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-// test_ply.c: PLY: all kinds and layouts, polygons, strips, colours, normals, origins, and what is said about
-// broken files.
+// test_ply.c: PLY: all formats and layouts, polygons, strips, colours, normals, origins, and errors.
 // Above 600 lines: one table-like test for each feature and sentence of one format.
 #include "loading.h"
 
@@ -172,7 +171,7 @@ static void test_binary_triangles(void **state)
             assert_memory_equal(mesh_of(scene)->indices, square_faces, sizeof square_faces);
             assert_memory_equal(mesh_of(scene)->positions, square, sizeof square);
             lam_scene_free(scene);
-            // Bytes behind the end change nothing.
+            // Bytes after the end are ignored.
             put_text(&file, "and more");
             scene = load(&file, "a.ply");
             assert_memory_equal(mesh_of(scene)->indices, square_faces, sizeof square_faces);
@@ -182,7 +181,7 @@ static void test_binary_triangles(void **state)
     }
 }
 
-// Faces that take as many bytes as triangles would, and are not.
+// Faces that take as many bytes as triangles, but are not.
 static void test_mixed_of_triangle_size(void **state)
 {
     (void)state;
@@ -274,7 +273,7 @@ static void test_colors_floats(void **state)
             double numbers[] = {i / 500.0, i * 65 / 65535.0};
             for (int c = 0; c < 2; c++) {
                 double s = numbers[c], linear = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
-                double expected = raw || s > 1 ? s : linear; // above 1, where sRGB ends, light as it is
+                double expected = raw || s > 1 ? s : linear; // linear above 1, where sRGB ends
                 assert_near((double)colors[4 * i + c], expected, raw ? 1e-7 * expected : 1e-6);
             }
             assert_true(colors[4 * i + 2] == 0);
@@ -339,7 +338,7 @@ static void test_strips(void **state)
                                                "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
                                                "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n"
                                                "10 0 1 2 3 -1 2 3 4 4 5\n";
-    // Every second triangle is turned round; those with a corner twice are left out.
+    // Every second triangle has reversed winding; those with equal corners are skipped.
     static const uint32_t indices[] = {0, 1, 2, 2, 1, 3, 2, 3, 4};
     lam_scene *scene = load_text(text, "a.ply");
     assert_int_equal(mesh_of(scene)->triangle_count, 3);
@@ -380,8 +379,8 @@ static void test_far_from_zero(void **state)
     lam_scene_free(binary);
     lam_scene_free(text);
 
-    // Nothing of this for a model near zero: its floats are the file's numbers, rounded once. The second
-    // number lies just above the middle of two floats, where rounding by way of a double gives the wrong one.
+    // A model near zero has no origin: its floats are the file's numbers, rounded once. The second number is just above
+    // the midpoint of two floats, where rounding through a double gives the wrong one.
     lam_scene *near =
         load_text(HEADER("ascii") "element vertex 3\nproperty double x\nproperty double y\nproperty double z\n" FACE(
                       "1") "end_header\n0.1 1.00000005960464477540 0\n1 0 0\n0 0 1\n3 0 1 2\n",
@@ -480,7 +479,7 @@ static void test_binary_errors(void **state)
              file.size - 1);
     refuse(file.bytes, file.size - 1, "a.ply", LAM_CANNOT_READ, sentence);
 
-    // The same place is told for the layout of most files and for rows that are walked.
+    // The offset is the same for the usual layout and for indexed rows.
     for (int walked = 0; walked < 2; walked++) {
         struct made bad = file;
         size_t second = body + 48 + 13;

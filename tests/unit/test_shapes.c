@@ -1,4 +1,4 @@
-// test_shapes.c: built-in shapes, and meshes from parametric and implicit formulas.
+// test_shapes.c: built-in shapes, and tessellation of parametric and implicit surfaces.
 // Above 600 lines: each shape's own facts are listed, and the checks that all shapes share.
 #include <setjmp.h>
 #include <stdarg.h>
@@ -125,7 +125,7 @@ static void bounds(const lam_mesh *mesh, double low[3], double high[3])
     }
 }
 
-// FNV-1a over what a picture can see of a mesh.
+// FNV-1a of the parts of a mesh that affect pictures.
 static uint64_t hash_bytes(uint64_t h, const void *bytes, size_t size)
 {
     for (size_t i = 0; i < size; i++)
@@ -176,7 +176,7 @@ static void check_attributes(const lam_mesh *mesh, const char *name)
     }
 }
 
-// The tangents follow the texture: along them s grows, across them (n × tangent) t grows.
+// Tangents follow the texture: s grows along them, t along n × tangent.
 static void check_texture_frame(const lam_mesh *mesh, const char *name)
 {
     for (size_t t = 0; t < mesh->triangle_count; t++) {
@@ -278,7 +278,7 @@ static void test_shape_options(void **state)
     (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     for (int i = 0; i < lam_shape_count(); i++) {
-        // The coarsest, an odd one and a finer one hold together as the default does.
+        // The coarsest, an odd and a finer tessellation are closed too.
         static const lam_shape_params tries[] = {{.slices = 3, .stacks = 3},
                                                  {.slices = 17, .stacks = 5, .radius = 250},
                                                  {.slices = 40, .stacks = 21, .radius = 1e-3}};
@@ -516,7 +516,7 @@ static void cone_point(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = (lam_vec3){-out->dp_dv.x, -out->dp_dv.y, -out->dp_dv.z};
 }
 
-// A tip is no smooth pole: each triangle's corner there has the normal of its own side.
+// A tip is not a smooth pole: each triangle's corner there has the normal of its own side.
 static void test_tip(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// test_stl.c: STL: both kinds, how they are told apart, colours, parts, and what is said about broken files.
+// test_stl.c: STL: recognising binary and ASCII files, colours, parts, and errors.
 #include "loading.h"
 
 static const char one_facet[] = "solid thing\n"
@@ -168,7 +168,7 @@ static void test_binary(void **state)
     assert_corner(mesh, 1, 2, -7, 1, 0.5);
     lam_scene_free(scene);
 
-    // Bytes behind the last facet are told, and the name's ending decides.
+    // Bytes after the last facet give a warning, and the extension decides the format.
     put_text(&file, "more");
     scene = load(&file, "a.stl");
     assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, 2);
@@ -205,7 +205,7 @@ static void test_binary_errors(void **state)
     assert_non_null(strstr(error.text, "no triangles"));
 }
 
-// The first mistake is told whatever the threads, far into the file.
+// The first error is reported for any number of threads.
 static void test_first_mistake(void **state)
 {
     (void)state;
@@ -259,7 +259,7 @@ static void test_colors_magics(void **state)
     assert_color(lam_scene_mesh(scene, 0), 1, 0x10, 0x20, 0x30);
     lam_scene_free(scene);
 
-    // No word says anything: the header's colour is for all, not black.
+    // All words are zero: all facets have the header's colour, not black.
     memset(file.bytes + 84 + 48, 0, 2);
     memset(file.bytes + 134 + 48, 0, 2);
     scene = load(&file, "a.stl");
@@ -268,7 +268,7 @@ static void test_colors_magics(void **state)
     lam_scene_free(scene);
 }
 
-// Attribute words that are no colours: counters, and junk of which some happens to have bit 15.
+// Attribute words that are not colours: counters, and random words, some with bit 15 set.
 static void test_colors_junk(void **state)
 {
     (void)state;

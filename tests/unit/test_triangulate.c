@@ -1,4 +1,4 @@
-// test_triangulate.c: polygons into triangles: exactly covered, wound as they were, whatever their shape.
+// test_triangulate.c: triangles cover their polygon exactly and keep its winding, for polygons of any shape.
 #include "triangulate.h"
 
 #include <math.h>
@@ -46,8 +46,8 @@ static void normal_of(const float *a, const float *b, const float *c, double n[3
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Cuts and checks: numbers in range, every corner used, no triangle turned over, areas adding up to the
-// polygon's: together the triangles cover the polygon once. Returns how many triangles have no area.
+// Triangulates a polygon and checks: indices in range, every corner used, no reversed triangle, and the sum of areas,
+// so that the triangles cover the polygon once. Returns the number of triangles without area.
 static uint32_t check(const double (*points)[2], uint32_t count, int plane)
 {
     float *positions = lay(points, count, plane);
@@ -194,7 +194,7 @@ static void test_random(void **unused)
     }
 }
 
-// Large ones: the time limit of the test run is what bounds the time.
+// Large polygons; the time limit of the test run bounds the time.
 static void test_large(void **unused)
 {
     (void)unused;
@@ -209,7 +209,7 @@ static void test_large(void **unused)
     free(points);
 }
 
-// What has no area or crosses itself still gives its triangles.
+// Polygons without area or with self-intersections are triangulated too.
 static void test_hopeless(void **unused)
 {
     (void)unused;

@@ -10,8 +10,8 @@
 #include "help.h"
 #include "report.h"
 
-// What a command line asks for in case it cannot be read: whether there is to be a report, and where.
-static struct options foresee(int count, char **words)
+// Scans a command line for --json and -o -, so that an error while reading it is reported where the user expects it.
+static struct options scan_report_options(int count, char **words)
 {
     struct options options = {0};
     for (int i = 0; i < count && strcmp(words[i], "--") != 0; i++) {
@@ -25,7 +25,7 @@ static struct options foresee(int count, char **words)
     return options;
 }
 
-// The first word names the command, if it is one.
+// Removes the command's name from the front of the words; the default command where they name none.
 static const struct command *take_command(int *count, char **words)
 {
     const struct command *command = *count ? find_command(words[0]) : NULL;
@@ -37,17 +37,17 @@ static const struct command *take_command(int *count, char **words)
 
 static bool check_operands(const struct command *command, int count, char **operands, lam_error *error)
 {
-    if (count < command->least && command == command_table)
-        return complain(error, LAM_BAD_ARGUMENT, "no model is given, expected a file, a shape's name or -");
-    if (count < command->least)
-        return complain(error, LAM_BAD_ARGUMENT, "%s: an argument is missing: %s", command->name, command->operands);
-    if (command->most >= 0 && count > command->most)
+    if (count < command->min_operands && command == command_table)
+        return complain(error, LAM_BAD_ARGUMENT, "no model given, expected a file, a shape's name or -");
+    if (count < command->min_operands)
+        return complain(error, LAM_BAD_ARGUMENT, "%s: missing argument: %s", command->name, command->operands);
+    if (command->max_operands >= 0 && count > command->max_operands)
         return complain(error, LAM_BAD_ARGUMENT, "%s: unexpected argument '%s'", command->name,
-                        operands[command->most]);
+                        operands[command->max_operands]);
     return true;
 }
 
-static int run_command(const struct command *command, int operands, char **words, struct options *options)
+static int execute(const struct command *command, int operands, char **words, struct options *options)
 {
     lam_error error = {0};
     if (options->help) {
@@ -59,20 +59,22 @@ static int run_command(const struct command *command, int operands, char **words
         return 0;
     }
     if (options->output && strcmp(options->output, "/dev/stdout") == 0)
-        options->output = "-"; // so that nothing else is written there
+        options->output = "-"; // nothing but the picture may be written there
     if (!check_operands(command, operands, words, &error))
         return tell_failure(&error, options);
-    return command->run(operands, words, options);
+#define RUN(name) run_##name,
+    static command_fn *const functions[] = {COMMANDS(RUN)};
+    return functions[command - command_table](operands, words, options);
 }
 
 static int run(int count, char **words)
 {
     struct options options = option_defaults();
     lam_error error = {0};
-    struct options foreseen = foresee(count, words);
+    struct options scanned = scan_report_options(count, words);
     const struct command *command = take_command(&count, words);
     int operands = options_parse(count, words, command->groups, &options, &error);
-    int code = operands < 0 ? tell_failure(&error, &foreseen) : run_command(command, operands, words, &options);
+    int code = operands < 0 ? tell_failure(&error, &scanned) : execute(command, operands, words, &options);
     options_free(&options);
     return code;
 }
@@ -85,7 +87,7 @@ int main(int count, char **words)
     option_table_fill();
     int code = run(count - (count > 0), words + (count > 0));
     lam_error error;
-    if (!finish_output(&error) && code == 0) { // else the failure was told already
+    if (!finish_output(&error) && code == 0) { // an earlier failure has been reported
         say_error(error.text);
         code = exit_code_of(error.code)->code;
     }

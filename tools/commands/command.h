@@ -1,28 +1,35 @@
-// command.h: the commands of the program, one table; one file for each command.
+// command.h: the commands of the program. A command is one word of COMMANDS, one row of command_table.c and one file.
 #ifndef COMMAND_H
 #define COMMAND_H
 
 #include "options.h"
 
-// Runs a command. Returns the program's exit code; whatever failed has been told.
+// In the order of the help. The first one runs when the command line names none.
+#define COMMANDS(row)                                                                                                  \
+    row(render) row(compare) row(explain) row(check) row(shader) row(diff) row(plot) row(lights) row(shapes)           \
+        row(formats) row(materials) row(devices) row(help) row(generate)
+
+#define COMMAND_INDEX(name) COMMAND_##name,
+enum command_index { COMMANDS(COMMAND_INDEX) COMMAND_COUNT };
+
+// Runs a command. Reports its own errors; returns the program's exit code.
 typedef int command_fn(int operand_count, char **operands, const struct options *options);
+
+#define COMMAND_FUNCTION(name) command_fn run_##name;
+COMMANDS(COMMAND_FUNCTION)
 
 struct command {
     const char *name;
-    const char *operands; // as the help shows them; NULL: none
-    const char *summary;  // one sentence
-    unsigned groups;      // bit g: takes the options of group g; TAKES_…: single ones
-    int least, most;      // count of operands; most −1: any
-    command_fn *run;
+    const char *operands;           // as the help shows them; NULL: none
+    const char *summary;            // one sentence
+    unsigned groups;                // bit g: accepts the options of group g; TAKES_…: single options
+    int min_operands, max_operands; // max −1: no limit
 };
 
-unsigned find_groups(const char *name); // of a command; 0: no such command (help.c)
+extern const struct command command_table[]; // in the order of COMMANDS; ends with a NULL name
 
-extern const struct command command_table[]; // the first one is what runs when no command is named; ends with NULL
-
-command_fn run_render, run_shapes, run_lights, run_formats, run_help, run_generate, run_diff, run_plot, run_compare,
-    run_explain, run_shader;
-command_fn run_check, run_materials, run_devices;
+const struct command *find_command(const char *name); // NULL: no such command
+unsigned find_groups(const char *name);               // of a command; 0: no such command
 
 // Examples: a command line and what it does. Ends with NULL.
 struct example {
@@ -30,8 +37,7 @@ struct example {
 };
 extern const struct example examples[];
 
-// More to read for the man page and the docs: a title and its paragraphs, with `code` in back quotes. Ends
-// with NULL.
+// The prose sections of the man page and the docs: a title and its paragraphs, with `code` in back quotes. Ends with NULL.
 struct topic {
     const char *title, *text;
 };

@@ -1,49 +1,75 @@
 // command_table.c: the commands, the examples and the topics of the manual.
 #include "command.h"
 
+#include <string.h>
+
 #define ABOUT (1u << GROUP_ABOUT)
-// All that a picture of a model takes.
+// The options of a picture of a model.
 #define ALL                                                                                                            \
     (((1u << GROUP_COUNT) - 1) & ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET |    \
                                    1u << GROUP_CHECK | 1u << GROUP_SHADER))
 
 const struct command command_table[] = {
-    {"render", "MODEL...", "Light models and write a picture of each. The word itself may be left out.", ALL, 1, -1,
-     run_render},
-    {"compare", "MODEL", "Draw one labelled sheet of pictures: methods, lights, terms side by side.",
-     (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET, 1, 1, run_compare},
-    {"explain", "MODEL X,Y",
-     "Tell every number of one pixel: what it shows, the vectors, angles and terms of each light, the sum, "
-     "the byte. No picture or scene file is written: --output and --save-scene do nothing here.",
-     ALL, 2, 2, run_explain},
-    {"check", "SHADER.frag...",
-     "Compare GLSL shaders with reference scenes, and name the known mistakes that explain the differences.",
-     ABOUT | 1u << GROUP_CHECK | 1u << GROUP_DIFF | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
-         TAKES_QUIET,
-     0, -1, run_check},
-    {"shader", "[MODEL]", "Print the shaders that light a model, for a program of your own, and what they ask for.",
-     ALL | 1u << GROUP_SHADER, 0, 1, run_shader},
-    {"diff", "A B", "Tell how far two pictures are apart, and draw where.",
-     ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET, 2, 2, run_diff},
-    {"plot", "attenuation|spot|highlight [CURVE...]",
-     "Draw a law of light as curves (PNG or SVG), and tell its numbers.",
-     ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON | TAKES_QUIET, 1, -1,
-     run_plot},
-    {"lights", "MODEL", "Print a model's lights, or the rig's where it has none, as the keys of a scene file.",
-     ABOUT | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING | 1u << GROUP_WORK, 1, 1, run_lights},
-    {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0, run_shapes},
-    {"formats", NULL, "List the formats of models that can be read and of pictures that can be written.", ABOUT, 0, 0,
-     run_formats},
-    {"materials", NULL, "List the named materials with their numbers; -o FILE also draws a sheet of them.",
-     ABOUT | 1u << GROUP_PICTURE | 1u << GROUP_CAPTIONS | TAKES_JSON, 0, 0, run_materials},
-    {"devices", NULL, "List what pictures can be drawn with on this machine, and why what cannot be used cannot.",
-     ABOUT | TAKES_JSON, 0, 0, run_devices},
-    {"help", "[COMMAND]", "Print the help, of a command where one is named.", ABOUT, 0, 1, run_help},
-    {"generate", "man|markdown|bash|zsh|fish|scene-schema",
-     "Print the man page, its Markdown form, a shell's completions, or the JSON Schema of scene files.", ABOUT, 1, 1,
-     run_generate},
-    {.name = NULL},
+    [COMMAND_render] = {"render", "MODEL...",
+                        "Light models and write a picture of each. The word itself may be left out.", ALL, 1, -1},
+    [COMMAND_compare] = {"compare", "MODEL",
+                         "Draw one labelled sheet of pictures: methods, lights, terms side by side.",
+                         (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET, 1, 1},
+    [COMMAND_explain] =
+        {"explain", "MODEL X,Y",
+         "Tell every number of one pixel: what it shows, the vectors, angles and terms of each light, the sum, "
+         "the byte. No picture or scene file is written: --output and --save-scene do nothing here.",
+         ALL, 2, 2},
+    [COMMAND_check] =
+        {"check", "SHADER.frag...",
+         "Compare GLSL shaders with reference scenes, and name the known mistakes that explain the differences.",
+         ABOUT | 1u << GROUP_CHECK | 1u << GROUP_DIFF | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
+             TAKES_QUIET,
+         0, -1},
+    [COMMAND_shader] = {"shader", "[MODEL]",
+                        "Print the shaders that light a model, for a program of your own, and what they ask for.",
+                        ALL | 1u << GROUP_SHADER, 0, 1},
+    [COMMAND_diff] = {"diff", "A B", "Tell how far two pictures are apart, and draw where.",
+                      ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET, 2, 2},
+    [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
+                      "Draw a law of light as curves (PNG or SVG), and tell its numbers.",
+                      ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
+                          TAKES_QUIET,
+                      1, -1},
+    [COMMAND_lights] = {"lights", "MODEL",
+                        "Print a model's lights, or the rig's where it has none, as the keys of a scene file.",
+                        ABOUT | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING | 1u << GROUP_WORK, 1, 1},
+    [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0},
+    [COMMAND_formats] = {"formats", NULL,
+                         "List the formats of models that can be read and of pictures that can be written.", ABOUT, 0,
+                         0},
+    [COMMAND_materials] = {"materials", NULL,
+                           "List the named materials with their numbers; -o FILE also draws a sheet of them.",
+                           ABOUT | 1u << GROUP_PICTURE | 1u << GROUP_CAPTIONS | TAKES_JSON, 0, 0},
+    [COMMAND_devices] = {"devices", NULL,
+                         "List what pictures can be drawn with on this machine, and why what cannot be used cannot.",
+                         ABOUT | TAKES_JSON, 0, 0},
+    [COMMAND_help] = {"help", "[COMMAND]", "Print the help, of a command where one is named.", ABOUT, 0, 1},
+    [COMMAND_generate] =
+        {"generate", "man|markdown|bash|zsh|fish|scene-schema",
+         "Print the man page, its Markdown form, a shell's completions, or the JSON Schema of scene files.", ABOUT, 1,
+         1},
+    [COMMAND_COUNT] = {.name = NULL},
 };
+
+const struct command *find_command(const char *name)
+{
+    for (const struct command *c = command_table; c->name; c++)
+        if (strcmp(c->name, name) == 0)
+            return c;
+    return NULL;
+}
+
+unsigned find_groups(const char *name)
+{
+    const struct command *command = find_command(name);
+    return command ? command->groups : 0;
+}
 
 const struct example examples[] = {
     {"lambent koala.obj", "writes koala.png, 1024x1024, on a transparent ground"},

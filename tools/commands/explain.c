@@ -9,19 +9,8 @@
 #include "console.h"
 #include "device_option.h"
 #include "interrupt.h"
+#include "job.h"
 #include "report.h"
-
-const char *explain_shading(lam_shading shading)
-{
-    static const char *const names[] = {"phong", "gouraud", "flat"};
-    return names[shading];
-}
-
-const char *explain_frame(lam_light_frame frame)
-{
-    static const char *const names[] = {"world", "camera", "object", "model"};
-    return names[frame];
-}
 
 // Digits up to `end`; what follows it, NULL if there are none or too many.
 static const char *read_pixel_number(const char *text, char end, int *value)

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 
+#include "explain_words.h"
 #include "json.h"
 
 static void triple(struct json *json, const char *key, double x, double y, double z)
@@ -64,7 +65,7 @@ static void tell_light(struct json *json, const lam_explained_light *l)
     index_of(json, "light", l->light);
     json_text(json, "name", l->name);
     json_text(json, "type", lam_light_type_describe(l->type)->word);
-    json_text(json, "frame", explain_frame(l->frame));
+    json_text(json, "frame", light_frame_word(l->frame));
     matrix(json, "matrix", l->ambient, l->diffuse, l->specular);
     vector(json, "position", l->position);
     vector(json, "axis", l->axis);
@@ -228,7 +229,7 @@ void explain_json(const lam_explanation *e, const char *model)
     json_count(&json, "width", (uint64_t)e->width);
     json_count(&json, "height", (uint64_t)e->height);
     json_count(&json, "samples", (uint64_t)e->samples);
-    json_text(&json, "shading", explain_shading(e->shading));
+    json_text(&json, "shading", shading_word(e->shading));
     json_text(&json, "reflection", lam_reflection_describe(e->reflection)->word);
     json_text(&json, "viewer", e->distant_viewer ? "infinite" : "local");
     json_open(&json, "triangles", '[');

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "explain_words.h"
+
 enum {
     COLUMN = 26,
     FEW_LIGHTS = 16, // all told; of more, those that add something
@@ -122,7 +124,7 @@ static void tell_light(const lam_explanation *e, const lam_explained_fragment *f
     else
         printf("\n  light %d of the rig", number_in_list);
     named(l->name);
-    printf(", %s, fixed to the %s\n", lam_light_type_describe(l->type)->word, explain_frame(l->frame));
+    printf(", %s, fixed to the %s\n", lam_light_type_describe(l->type)->word, light_frame_word(l->frame));
     heading(4, "matrix", "");
     color(4, "ambient La", l->ambient, "");
     color(4, "diffuse Ld", l->diffuse, "");
@@ -366,7 +368,7 @@ static void tell_pixel(const lam_explanation *e)
 void explain_text(const lam_explanation *e, const char *model)
 {
     printf("%s: pixel %d,%d of %dx%d, %s shading, %s reflection, %d sample%s a pixel\n", model, e->x, e->y, e->width,
-           e->height, explain_shading(e->shading), lam_reflection_describe(e->reflection)->word, e->samples,
+           e->height, shading_word(e->shading), lam_reflection_describe(e->reflection)->word, e->samples,
            e->samples == 1 ? "" : "s");
     if (!e->fragment_count)
         printf("\nNothing is seen here but the background.\n");

@@ -127,20 +127,6 @@ void print_help(const struct command *command)
     printf("\nMore: man lambent\n");
 }
 
-const struct command *find_command(const char *name)
-{
-    for (const struct command *c = command_table; c->name; c++)
-        if (strcmp(c->name, name) == 0)
-            return c;
-    return NULL;
-}
-
-unsigned find_groups(const char *name)
-{
-    const struct command *command = find_command(name);
-    return command ? command->groups : 0;
-}
-
 int run_help(int operand_count, char **operands, const struct options *options)
 {
     (void)options;

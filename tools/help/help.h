@@ -1,12 +1,10 @@
-// help.h: --help, and the search for a command by its name.
+// help.h: the text of --help.
 #ifndef HELP_H
 #define HELP_H
 
 #include "command.h"
 
-// On standard output. For the first command of the table: the whole program's.
+// Prints the help of a command, or of the whole program for the first command of the table, on standard output.
 void print_help(const struct command *command);
-
-const struct command *find_command(const char *name); // NULL: no such command
 
 #endif

@@ -9,7 +9,6 @@
 #include "command.h"
 #include "console.h"
 #include "environment_option.h"
-#include "help.h"
 #include "interrupt.h"
 #include "job_scene.h"
 #include "light_markers.h"

@@ -8,15 +8,6 @@
 #include "console.h"
 #include "material_option.h"
 
-bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg)
-{
-    if (!(text[0] >= 'x' && text[0] <= 'z') || text[1] != ':')
-        return false;
-    *axis = (lam_vec3){text[0] == 'x', text[0] == 'y', text[0] == 'z'};
-    text = read_number(text + 2, angle_deg);
-    return text && !*text && *angle_deg >= -1e6 && *angle_deg <= 1e6;
-}
-
 // --- materials
 
 static bool set_materials(const struct texts *texts, bool back, const char *name, const struct options *o,
@@ -110,7 +101,7 @@ static bool dress_rotations(const struct options *o, lam_vec3 centre, lam_scene 
     for (int i = 0; i < o->rotations.count; i++) {
         lam_vec3 axis;
         double angle_deg;
-        rotation_parse(o->rotations.items[i], &axis, &angle_deg); // was checked when the option was read
+        rotation_parse(o->rotations.items[i], &axis, &angle_deg); // cannot fail: store_rotation has parsed it
         if (!lam_scene_rotate(scene, centre, axis, radians(angle_deg), error))
             return false;
     }

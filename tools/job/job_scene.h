@@ -4,9 +4,6 @@
 
 #include "job.h"
 
-// "x:30".
-bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg);
-
 // The sphere that the unit r counts by: of the model before --rotate.
 struct model_sphere {
     lam_vec3 centre;

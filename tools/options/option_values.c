@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "console.h"
-#include "job_scene.h"
 #include "material_option.h"
 #include "suggest.h"
 
@@ -237,6 +236,15 @@ bool store_material(const struct option *option, const char *value, struct optio
 {
     struct material_option material;
     return material_option_parse(value, LAM_COLOR_SRGB, &material, error) && append(option, value, options, error);
+}
+
+bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg)
+{
+    if (!(text[0] >= 'x' && text[0] <= 'z') || text[1] != ':')
+        return false;
+    *axis = (lam_vec3){text[0] == 'x', text[0] == 'y', text[0] == 'z'};
+    text = read_number(text + 2, angle_deg);
+    return text && !*text && *angle_deg >= -1e6 && *angle_deg <= 1e6;
 }
 
 bool store_rotation(const struct option *option, const char *value, struct options *options, lam_error *error)

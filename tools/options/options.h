@@ -230,6 +230,9 @@ bool store_light_color(const struct option *, const char *, struct options *,
 // it, NULL if there is none or it is too large.
 const char *read_number(const char *text, double *value);
 
+// Parses "x:30", an axis and an angle. False: not of that form, or over a million degrees.
+bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg);
+
 double radians(double degrees);
 
 #endif

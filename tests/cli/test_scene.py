@@ -170,7 +170,7 @@ class Scene(Case):
         self.example["objects"][1]["file"] = str(self.folder / "cube.ply")
         self.write(self.example, "sub/absolute.json")
         self.assertEqual(self.png("sub/absolute.json"), self.png("scene.json"))
-        for name, says in (("none.ply", "none.ply"), ("/dev/zero", "not a file"), ("scene.json", "scene file")):
+        for name, says in (("none.ply", "none.ply"), ("/dev/zero", "not a regular file"), ("scene.json", "scene file")):
             self.example["objects"][1]["file"] = name
             self.write(self.example)
             self.bad(2, "scene.json", "-o", "x.png", says=["objects[1].file", says], leaves=["sub"])

@@ -7,6 +7,8 @@
 #include "fail.h"
 #include "spelling.h"
 
+#include <lambent/fields.h>
+
 #define END {.name = NULL}
 
 // Names of generated vertex shaders (default_vertex_shader.c), known in every contract.
@@ -48,23 +50,6 @@ static const struct contract_name lambent_names[] = {
     {"hemispheres[].ground", SEMANTIC_ZERO, false, "vec4", "light from below: none here", NULL},
     {"sky_product", SEMANTIC_ZERO, false, "vec4", "ka times the light from above: none here", NULL},
     {"ground_product", SEMANTIC_ZERO, false, "vec4", "ka times the light from below: none here", NULL},
-    {"back_material.ambient", SEMANTIC_AMBIENT, false, "vec4", "of the back", NULL},
-    {"back_material.diffuse", SEMANTIC_DIFFUSE, false, "vec4", "of the back", NULL},
-    {"back_material.specular", SEMANTIC_SPECULAR, false, "vec4", "of the back", NULL},
-    {"back_material.emission", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
-    {"back_material.reflectivity", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
-    {"back_material.shininess", SEMANTIC_SHININESS, false, "float", "of the back", NULL},
-    {"back_material.fibre", SEMANTIC_ZERO, false, "float", "of the back", NULL},
-    {"back_ambient_product", SEMANTIC_AMBIENT_PRODUCT, false, "vec4", "of the back", NULL},
-    {"back_emission", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
-    {"back_diffuse", SEMANTIC_DIFFUSE, false, "vec4", "of the back", NULL},
-    {"back_reflectivity", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
-    {"back_shininess", SEMANTIC_SHININESS, false, "float", "of the back", NULL},
-    {"back_fibre", SEMANTIC_ZERO, false, "float", "of the back", NULL},
-    {"back_diffuse_product", SEMANTIC_DIFFUSE_PRODUCT, false, "vec4", "of the back", NULL},
-    {"back_specular_product", SEMANTIC_SPECULAR_PRODUCT, false, "vec4", "of the back", NULL},
-    {"back_sky_product", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
-    {"back_ground_product", SEMANTIC_ZERO, false, "vec4", "of the back", NULL},
     {"exposure", SEMANTIC_ONE, false, "float", "all light is multiplied by it", NULL},
     {"lights[].position", SEMANTIC_LIGHT_POSITION, false, "vec4", "in eye space", NULL},
     {"lights[].direction", SEMANTIC_LIGHT_TRAVEL, false, "vec4", "in eye space, unit, the way the light travels", NULL},
@@ -256,6 +241,20 @@ static bool in_word_list(const char *list, const char *name)
     return false;
 }
 
+// Lambent's own names come in two more forms: "back_…" for the back of a surface, and fields of the material that only
+// some reflection models read, which the reference scenes leave at 0.
+static const struct contract_name *find_own(const struct contract *contract, const char *name)
+{
+    static const struct contract_name other_field = {"material.*", SEMANTIC_ZERO, false, "float", "0 here", NULL};
+    if (strncmp(name, "back_", 5) == 0)
+        return contract_find(contract, name + 5, false, NULL);
+    const char *field = strncmp(name, "material.", 9) == 0 ? name + 9 : name;
+    for (int i = 0; lam_material_field(i); i++)
+        if (strcmp(lam_material_field(i)->name, field) == 0)
+            return &other_field;
+    return NULL;
+}
+
 const struct contract_name *contract_find(const struct contract *contract, const char *name, bool attribute, int *index)
 {
     char plain[96];
@@ -268,7 +267,7 @@ const struct contract_name *contract_find(const struct contract *contract, const
     for (const struct contract_name *n = default_vertex_names; n->name; n++)
         if (n->attribute == attribute && strcmp(n->name, plain) == 0)
             return n;
-    return NULL;
+    return contract->names == lambent_names && !attribute ? find_own(contract, plain) : NULL;
 }
 
 const struct contract_varying *contract_varying(const struct contract *contract, const char *name)

@@ -104,22 +104,3 @@ void pixels_from_working(lam_pixel_format format, bool raw, const void *from, in
         memcpy(to, from, (size_t)count * pixel_bytes(format));
     }
 }
-
-bool image_copy(const lam_image *image, lam_image *out, lam_error *error)
-{
-    if (!lam_image_make(out, image->width, image->height, working_format(image->format), error))
-        return false;
-    for (int y = 0; y < image->height; y++)
-        pixels_to_working(image->format, image_row(image, y), image->width, image_row(out, y));
-    return true;
-}
-
-bool image_working(const lam_image *image, lam_image *out, lam_error *error)
-{
-    bool tight = image_stride(image) == (ptrdiff_t)((size_t)image->width * pixel_bytes(image->format));
-    if (!tight || image->format != working_format(image->format))
-        return image_copy(image, out, error);
-    *out = *image;
-    out->owned = false;
-    return true;
-}

@@ -59,15 +59,22 @@ static bool is_of_type(int key, lam_light_type type)
 {
     if (key >= LAM_FIELDS_MAX)
         return other_keys[key - LAM_FIELDS_MAX].light_types >> type & 1;
-    bool is = strcmp(key_name(key), "position") == 0 && type == LAM_LIGHT_DIRECTIONAL; // the place that it comes from
-    for (int i = key; lam_light_field(i); i++)
-        is |= strcmp(lam_light_field(i)->key, key_name(key)) == 0 && lam_light_field(i)->light_types >> type & 1;
-    return is;
+    const char *name = lam_light_field(key)->key;
+    if (strcmp(name, "position") == 0 && type == LAM_LIGHT_DIRECTIONAL) // the point that it comes from
+        return true;
+    const lam_field *field;
+    for (int i = key; (field = lam_light_field(i)); i++)
+        if (field->light_types >> type & 1 && strcmp(field->key, name) == 0)
+            return true;
+    return false;
 }
 
 static int find_key(const char *name, lam_error *error)
 {
-    const char *names[KEYS + 1];
+    int field = field_index(name);
+    if (field >= 0)
+        return field;
+    const char *names[KEYS + 1]; // all keys, for the error
     int keys[KEYS], count = 0;
     for (int key = 0; key < KEYS; key++)
         if (key_name(key)) {

@@ -1,4 +1,4 @@
-// main.c: finds the command, reads its options, runs it.
+// main.c: finds the command, parses its options, runs it.
 #include "command.h"
 
 #include <stdio.h>
@@ -61,7 +61,7 @@ static int execute(const struct command *command, int operands, char **words, st
     if (options->output && strcmp(options->output, "/dev/stdout") == 0)
         options->output = "-"; // nothing but the picture may be written there
     if (!check_operands(command, operands, words, &error))
-        return tell_failure(&error, options);
+        return report_failure(&error, options);
 #define RUN(name) run_##name,
     static command_fn *const functions[] = {COMMANDS(RUN)};
     return functions[command - command_table](operands, words, options);
@@ -74,7 +74,7 @@ static int run(int count, char **words)
     struct options scanned = scan_report_options(count, words);
     const struct command *command = take_command(&count, words);
     int operands = options_parse(count, words, command->groups, &options, &error);
-    int code = operands < 0 ? tell_failure(&error, &scanned) : execute(command, operands, words, &options);
+    int code = operands < 0 ? report_failure(&error, &scanned) : execute(command, operands, words, &options);
     options_free(&options);
     return code;
 }

@@ -121,5 +121,5 @@ class Compare(Case):
         self.bad(4, "compare", "cube.obj", "--across", "azimuth=" + ",".join(map(str, range(25))), says="24")
         self.bad(4, "compare", "cube.obj", "-s", 30000, says="65535")
         self.bad(3, "compare", "cube.obj", "-o", "sheet.pfm", says="sheet.pfm")
-        self.bad(1, "compare", "cube.obj", "--json", says="no meaning")
-        self.bad(1, "cube.obj", "--sheet", "terms", says="no meaning")
+        self.bad(1, "compare", "cube.obj", "--json", says="does not apply")
+        self.bad(1, "cube.obj", "--sheet", "terms", says="does not apply")

@@ -111,7 +111,7 @@ class Docs(Case):
 
     def test_schema_describes_every_option_word(self):
         schema = (ROOT / "docs" / "report.schema.json").read_text()
-        for isa in re.search(r"Instruction set: (.*)", self.help()).group(1).split(" [")[0].rstrip(".").replace(" or ", ", ").split(", "):
+        for isa in re.search(r"The instruction set: (.*)", self.help()).group(1).split(" [")[0].rstrip(".").replace(" or ", ", ").split(", "):
             if isa and isa != "auto":
                 self.assertIn(f'"{isa}"', schema)
 

@@ -88,7 +88,7 @@ class Explain(Case):
         self.assertTrue(counts and all(of == 4 for _, of in counts) and sum(n for n, _ in counts) <= 4)
         landed = tuple(map(int, re.search(r"bytes +(\d+) +(\d+) +(\d+) +(\d+)", text).groups()))
         self.assertEqual(landed, pixel(self.png("teapot", "-s", 64, "--rig", "headlight"), 31, 34))
-        self.assertIn("Nothing is seen here but the background", self.good("explain", "teapot", "0,0", "-s", 64).stdout.decode())
+        self.assertIn("Only the background is visible here", self.good("explain", "teapot", "0,0", "-s", 64).stdout.decode())
         self.assertEqual(self.new_files(), set())
 
     def test_wrong(self):

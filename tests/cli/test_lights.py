@@ -266,8 +266,8 @@ class Methods(Pictures):
             self.assertEqual(self.picture("--stage", stage, "--shading", "flat"), flat)
         for stage in ("application", "vertex"):
             self.assertEqual(self.picture("--stage", stage, "--shading", "smooth"), gouraud)
-            self.bad(1, "sphere", "--stage", stage, "--shading", "phong", says=["phong goes with fragment", "stage " + stage])
-            self.bad(1, "sphere", "--shading", "normal", "--stage", stage, says="phong goes with fragment")
+            self.bad(1, "sphere", "--stage", stage, "--shading", "phong", says=["phong works with fragment", "stage " + stage])
+            self.bad(1, "sphere", "--shading", "normal", "--stage", stage, says="phong works with fragment")
         self.assertEqual(self.picture("--stage", "fragment", "--shading", "normal"), phong)
         self.bad(1, "sphere", "--stage", "fragment", "--shading", "gouraud", says="gouraud goes with application or vertex")
         self.bad(1, "sphere", "--stage", "pixel", says="expected application, vertex or fragment")
@@ -309,7 +309,7 @@ class Methods(Pictures):
         self.assertEqual(json.loads((self.folder / "kept.json").read_text())["light_cutoff"], 0.2)
         self.assertEqual(picture("kept.json"), coarse)
         told = self.good("explain", "many.json", "20,30", "--light-cutoff", "0.2").stdout.decode()
-        self.assertRegex(told, r"\d+ of 300 lights add nothing here; \d+ more are left out: too weak")
+        self.assertRegex(told, r"\d+ of 300 lights contribute nothing here; \d+ more were skipped: too weak")
         self.assertEqual(self.run_program("many.json", "--light-cutoff", "1.5").returncode, 1)
 
     def test_tangents_from_texture_coordinates(self):

@@ -308,7 +308,7 @@ class CommandLine(Case):
         self.assertIn("-odd.png", self.new_files())
 
     def test_nothing_given(self):
-        self.bad(1, says="no model is given")
+        self.bad(1, says="no model given")
 
     def test_together(self):
         self.bad(1, "cube.obj", "-q", "-v", says="cannot be used together")
@@ -340,7 +340,7 @@ class CommandLine(Case):
         for name in ("obj", "stl", "ply", ".png", ".ppm", ".pfm"):
             self.assertIn(name, formats)
         self.bad(1, "shapes", "x", says="unexpected argument 'x'")
-        self.bad(1, "shapes", "--size", 5, says="no meaning for this command")
+        self.bad(1, "shapes", "--size", 5, says="does not apply to this command")
         self.bad(1, "generate", says="argument is missing")
         self.bad(1, "generate", "mna", says="did you mean 'man'?")
         self.bad(1, "help", "shaeps", says="did you mean 'shapes'?")

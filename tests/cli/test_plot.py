@@ -116,4 +116,4 @@ class Plot(Case):
         self.bad(4, "plot", "attenuation", *["1/0/1"] * 33, says="32")
         self.bad(3, "plot", "spot", "-o", "p.pfm", says="p.pfm")
         self.bad(5, "plot", "spot", "-o", "nowhere/p.svg", says="nowhere")
-        self.bad(1, "plot", "spot", "--samples", "4", says="no meaning")
+        self.bad(1, "plot", "spot", "--samples", "4", says="does not apply")

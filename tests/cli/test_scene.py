@@ -250,10 +250,10 @@ class Environment(Case):
 
     def test_unseen(self):
         """An environment that nothing reflects is told; so is one that costs more than the memory limit."""
-        self.assertIn(b"environment is not seen", self.good("cube.obj", "-s", 20, "--environment", "sky", "-o", "a.png").stderr)
+        self.assertIn(b"environment is invisible", self.good("cube.obj", "-s", 20, "--environment", "sky", "-o", "a.png").stderr)
         self.assertNotIn(b"not seen", self.good("cube.obj", "-s", 20, "--environment", "sky", "--reflectivity", 1, "-o", "a.png").stderr)
         self.scene("unseen.json", {"lambent": 1, "environment": {"builtin": "studio"}, "objects": [{"shape": "cube"}]})
-        self.assertIn(b"environment is not seen", self.good("unseen.json", "-s", 20, "-o", "a.png").stderr)
+        self.assertIn(b"environment is invisible", self.good("unseen.json", "-s", 20, "-o", "a.png").stderr)
         self.good("cube.obj", "-s", "1200x600", "-q", "-o", "wide.png")
         self.scene("heavy.json", {"lambent": 1, "environment": {"equirectangular": "wide.png"}, "objects": [{"shape": "cube"}]})
         self.given |= self.new_files()
@@ -318,7 +318,7 @@ class Environment(Case):
         self.assertNotIn(b"warning", self.good("l.json", "-s", 8).stderr)
         self.assertIn(b"over 1", self.good("cube", "-s", 8, "--reflectivity", 1.5, "--environment", "sky").stderr)
         self.assertIn(b"the model has no lights", self.good("cube", "-s", 8, "--rig", "file").stderr)
-        self.assertIn(b"--show is no part of it", self.good("cube", "-s", 8, "--show", "normals", "--save-scene", "t.json").stderr)
+        self.assertIn(b"describes the picture without --show", self.good("cube", "-s", 8, "--show", "normals", "--save-scene", "t.json").stderr)
         for words in (["cube", "-s", 8], ["cube", "-s", 8, "--rig", "file", "--light", "+point"], ["cube", "-s", 8, "--save-scene", "t.json"]):
             self.assertNotIn(b"warning", self.good(*words).stderr)
 

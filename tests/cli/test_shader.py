@@ -16,7 +16,7 @@ class Shader(Case):
     def test_standard_output_has_everything(self):
         text = self.good("shader", "cube.obj", "--host", "c").stdout.decode()
         parts = re.findall(r"(?m)^// ===== (.*) =====$", text)
-        self.assertEqual(parts, ["vertex shader", "fragment shader", "what to set", "host code"])
+        self.assertEqual(parts, ["vertex shader", "fragment shader", "inputs", "host code"])
         self.assertEqual(text.count("#version 330 core"), 2)
         self.assertIn("Blinn (1977)", text)
         self.assertIn("model_view_projection", text)

@@ -195,5 +195,5 @@ int run_check(int operand_count, char **operands, const struct options *o)
     free(scenes);
     if (interrupted())
         interrupt_finish();
-    return error.code ? tell_failure(&error, o) : code;
+    return error.code ? report_failure(&error, o) : code;
 }

@@ -13,12 +13,12 @@ const struct command command_table[] = {
     [COMMAND_render] = {"render", "MODEL...",
                         "Light models and write a picture of each. The word itself may be left out.", ALL, 1, -1},
     [COMMAND_compare] = {"compare", "MODEL",
-                         "Draw one labelled sheet of pictures: methods, lights, terms side by side.",
+                         "Draw one labelled sheet of pictures: methods, lights or terms side by side.",
                          (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET, 1, 1},
     [COMMAND_explain] =
         {"explain", "MODEL X,Y",
-         "Tell every number of one pixel: what it shows, the vectors, angles and terms of each light, the sum, "
-         "the byte. No picture or scene file is written: --output and --save-scene do nothing here.",
+         "Print the calculation of one pixel: vectors, angles and terms of each light, the sum, the byte. Writes no "
+         "picture or scene file; --output and --save-scene have no effect.",
          ALL, 2, 2},
     [COMMAND_check] =
         {"check", "SHADER.frag...",
@@ -27,29 +27,28 @@ const struct command command_table[] = {
              TAKES_QUIET,
          0, -1},
     [COMMAND_shader] = {"shader", "[MODEL]",
-                        "Print the shaders that light a model, for a program of your own, and what they ask for.",
+                        "Print the shaders that light a model, for use in another program, and their inputs.",
                         ALL | 1u << GROUP_SHADER, 0, 1},
-    [COMMAND_diff] = {"diff", "A B", "Tell how far two pictures are apart, and draw where.",
+    [COMMAND_diff] = {"diff", "A B", "Measure the difference of two pictures, and draw it.",
                       ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET, 2, 2},
     [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
-                      "Draw a law of light as curves (PNG or SVG), and tell its numbers.",
+                      "Plot a law of light as curves (PNG or SVG), and print its numbers.",
                       ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
                           TAKES_QUIET,
                       1, -1},
     [COMMAND_lights] = {"lights", "MODEL",
-                        "Print a model's lights, or the rig's where it has none, as the keys of a scene file.",
+                        "Print the lights of a model, or of the rig if it has none, in scene file form.",
                         ABOUT | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING | 1u << GROUP_WORK, 1, 1},
     [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0},
     [COMMAND_formats] = {"formats", NULL,
-                         "List the formats of models that can be read and of pictures that can be written.", ABOUT, 0,
-                         0},
+                         "List the model formats that can be read and the picture formats that can be written.", ABOUT,
+                         0, 0},
     [COMMAND_materials] = {"materials", NULL,
                            "List the named materials with their numbers; -o FILE also draws a sheet of them.",
                            ABOUT | 1u << GROUP_PICTURE | 1u << GROUP_CAPTIONS | TAKES_JSON, 0, 0},
-    [COMMAND_devices] = {"devices", NULL,
-                         "List what pictures can be drawn with on this machine, and why what cannot be used cannot.",
+    [COMMAND_devices] = {"devices", NULL, "List the devices that can draw on this machine, and why others cannot.",
                          ABOUT | TAKES_JSON, 0, 0},
-    [COMMAND_help] = {"help", "[COMMAND]", "Print the help, of a command where one is named.", ABOUT, 0, 1},
+    [COMMAND_help] = {"help", "[COMMAND]", "Print the help of the program, or of a command.", ABOUT, 0, 1},
     [COMMAND_generate] =
         {"generate", "man|markdown|bash|zsh|fish|scene-schema",
          "Print the man page, its Markdown form, a shell's completions, or the JSON Schema of scene files.", ABOUT, 1,
@@ -72,7 +71,7 @@ unsigned find_groups(const char *name)
 }
 
 const struct example examples[] = {
-    {"lambent koala.obj", "writes koala.png, 1024x1024, on a transparent ground"},
+    {"lambent koala.obj", "writes koala.png, 1024x1024, on a transparent background"},
     {"lambent part.stl -o shot.png -b white", "another name, on white"},
     {"lambent scan.ply -s 640 --view front", "640x640, straight from the front"},
     {"lambent teapot", "a built-in shape (`lambent shapes` lists them)"},
@@ -81,64 +80,56 @@ const struct example examples[] = {
     {"lambent koala.obj --json", "what was read, the camera, and the time of each step"},
     {"lambent compare koala.obj --sheet terms", "the terms of the sum side by side, with captions"},
     {"lambent compare bunny.ply --across 'light=point;directional:direction=-1/-2/-1'",
-     "a row of your own: one picture for each value of an option"},
-    {"lambent plot attenuation 1/0.54/0.2 1/0/1", "how two lights fade with the distance"},
+     "a custom row: one picture for each value of an option"},
+    {"lambent plot attenuation 1/0.54/0.2 1/0/1", "how two lights fade with distance"},
     {"lambent plot spot cutoff=30,exponent=8 inner=20,outer=35 -o spot.svg", "the cones of two spot lights"},
-    {"lambent plot highlight 10 50 1000", "how wide highlights are"},
-    {"lambent koala.obj --rig headlight --save-scene koala.json", "also a scene file, to edit and to draw again"},
+    {"lambent plot highlight 10 50 1000", "the width of highlights"},
+    {"lambent koala.obj --rig headlight --save-scene koala.json", "also writes a scene file, to edit and draw again"},
     {"lambent koala.json", "a scene file: objects, materials, lights and camera"},
-    {"lambent explain teapot 512,400", "how that pixel of the picture came about, number by number"},
+    {"lambent explain teapot 512,400", "the calculation of that pixel, number by number"},
     {"lambent check phong.frag --vertex phong.vert -o check.png", "the mistakes of a shader's lighting"},
     {"lambent shader teapot --glsl 120 --host c -o teapot", "its shaders, and C code that sets them"},
-    {"lambent diff old.png new.png -o where.png", "how far two pictures are apart, and a picture of where"},
+    {"lambent diff old.png new.png -o where.png", "the difference of two pictures, as numbers and as a picture"},
     {NULL, NULL},
 };
 
 const struct topic topics[] = {
-    {"Models", "MODEL is a file, the name of a built-in shape, or `-` for standard input. The format is told by the "
-               "content; the ending only helps. A built-in shape's name stands for the shape even where a file has "
-               "that name: write `./teapot` for the file, and `./shapes` for a file that is called like a command.\n"
-               "Several models may be given: each becomes its own picture, in the current folder or that of `-o "
-               "pictures/`. One that fails is told and the others are still drawn; the exit code is then the highest "
-               "one. `-o FILE` and `-` go with a single model."},
-    {"Output", "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An "
-               "older picture that lambent wrote (told by the `Software` text in the PNG) is replaced; any "
-               "other file of that name stays, and the exit code is 5. With `-o` the file that you name is "
-               "replaced. A picture appears whole or not at all.\n"
-               "Standard output carries the picture (`-o -`) or the report (`--json`), and nothing else. "
-               "Warnings, errors, the line that tells what was written, and a progress bar (only on a "
-               "terminal, for work of over half a second) go to standard error."},
-    {"Sheets", "`lambent compare MODEL` writes one PNG with several pictures of a model and a caption under "
-               "each: the picture that "
-               "`lambent MODEL` gives with the options in grey under the caption. `--sheet` chooses which; "
-               "`--across OPTION=VALUES` makes "
-               "a row with one picture for each value. Every other option holds for all pictures, `--size` "
-               "(480x400) being that of each; "
-               "what the sheet itself says comes after them. The ground is white where `--background` says "
-               "nothing else. The sheet is "
-               "`MODEL-NAME.png` in the current folder, or what `-o` says. The pictures are the same bytes "
-               "everywhere; only the letters are FreeType's.\n"
-               "`--sheet stages` frames the brightest highlight (where the picture is farthest above the one "
-               "without highlights) and "
-               "shows it beneath, drawn three times as large. That sheet, `surfaces` and `terms` give the "
-               "model's materials a specular "
-               "colour of their own, so that there is a highlight to see; `terms` takes the other terms away "
-               "by black coefficients; `ambient` gives them the ambient coefficient that a plain model has."},
-    {"Explaining a pixel", "`lambent explain MODEL X,Y` takes the options that the picture was made with and "
-                           "tells how the pixel in column X and row Y "
-                           "(from 0, from the top left corner) came about: each triangle that it shows with "
-                           "the samples that show it, the object, the "
-                           "place in the triangle, n, v and t, the material; for each light its matrix (rows "
-                           "ambient, diffuse, specular), l, r and h, "
-                           "the angles between n and l, r and v, n and h, the distance, attenuation and spot "
-                           "factor, the highlight's base and power, "
-                           "and its diffuse and specular terms; then the terms and their sum, the weighted "
-                           "sum of the triangles over the background, "
-                           "the encoding and the bytes. Vectors are in eye space. The numbers are those that "
-                           "the picture was made of, to the last "
-                           "bit; `docs/lighting.md` has the formulas. With `--json` the same is one line. No "
-                           "picture is written, and `--output` does "
-                           "not matter."},
+    {"Models",
+     "MODEL is a file, the name of a built-in shape, or `-` for standard input. The content decides the format; "
+     "the extension is only a hint. The name of a built-in shape means the shape even if a file has that name: "
+     "write `./teapot` for the file, and `./shapes` for a file that has the name of a command.\n"
+     "Several models may be given: each becomes its own picture, in the current folder or that of `-o "
+     "pictures/`. A model that fails is reported and the others are still drawn; the exit code is then the "
+     "highest one. `-o FILE` and `-` need a single model."},
+    {"Output",
+     "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An older picture "
+     "written by lambent (recognised by the `Software` text in the PNG) is replaced; any other file of that "
+     "name stays, and the exit code is 5. With `-o` the named file is replaced. A picture is written completely "
+     "or not at all.\n"
+     "Standard output carries the picture (`-o -`) or the report (`--json`), and nothing else. Warnings, "
+     "errors, the line that names the written file, and a progress bar (only on a terminal, for work of over "
+     "half a second) go to standard error."},
+    {"Sheets",
+     "`lambent compare MODEL` writes one PNG with several pictures of a model and a caption under each: "
+     "`lambent MODEL` draws the same picture with the options printed in grey under the caption. `--sheet` "
+     "selects the pictures; `--across OPTION=VALUES` makes a row with one picture for each value. Every other "
+     "option applies to all pictures, `--size` (480x400) to each; the options of the sheet follow those of the "
+     "command line and override them. The background is white by default. The sheet is `MODEL-NAME.png` in the "
+     "current folder, or the file of `-o`. The pictures are the same bytes everywhere; only the letters are "
+     "FreeType's.\n"
+     "`--sheet stages` frames the brightest highlight (the largest difference to the picture without "
+     "highlights) and shows it below, three times as large. That sheet, `surfaces` and `terms` give the model's "
+     "materials a specular colour of their own, so that there is a highlight to see; `terms` removes the other "
+     "terms with black coefficients; `ambient` sets the ambient coefficient of the default material."},
+    {"Explaining a pixel",
+     "`lambent explain MODEL X,Y` takes the options of a picture and prints the calculation of the pixel in "
+     "column X and row Y (from 0, from the top left corner): each visible triangle with its samples, the "
+     "object, the position in the triangle, n, v and t, and the material; for each light its matrix (rows "
+     "ambient, diffuse, specular), l, r and h, the angles between n and l, r and v, n and h, the distance, "
+     "attenuation and spot factor, the highlight's base and power, and its diffuse and specular terms; then the "
+     "terms and their sum, the weighted sum of the triangles over the background, the encoding and the bytes. "
+     "Vectors are in eye space. The numbers are those of the picture, to the last bit; `docs/lighting.md` has "
+     "the formulas. `--json` prints the same as one line. No picture is written; `--output` has no effect."},
     {"Checking shaders", "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the "
                          "shaders and compares the pictures with those of the CPU device. Without `--vertex` a "
                          "correct vertex shader is generated. The contract is recognised by the names of uniforms "
@@ -156,46 +147,36 @@ const struct topic topics[] = {
                          "reference, else the highest of all; 6 also for shaders that do not compile, do not end, "
                          "or write NaN. With `--json` the report is one line (`docs/check.schema.json`). More: "
                          "`docs/check.md`."},
-    {"Comparing pictures", "`lambent diff A B` reads two pictures of the same size (PNG or PPM with 8 bits, "
-                           "PFM with floats, both of one "
-                           "kind) and prints the largest difference of a channel, the mean and the root of "
-                           "the mean square over all channels "
-                           "(red, green, blue and alpha as the files hold them, 1 = full range), the PSNR in "
-                           "decibels (`infinite` for equal "
-                           "pictures, null in JSON), and the share of pixels with a channel off by more than "
-                           "1/255 and 2/255. With `-o` it "
-                           "draws the difference: each channel is its difference times `--gain`, ends at "
-                           "white, and black is equal; where only alpha differs "
-                           "the pixel is grey. A `.pfm` holds differences of floats without that end. With "
-                           "`--json` the figures are one line: `a`, `b`, "
-                           "`width`, `height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, "
-                           "`share_over_2`, `tolerance`, `differ` (0 or "
-                           "1: beyond the tolerance) and `picture`. The exit code is 6 where the largest "
-                           "difference is over the tolerance, 1 where size or "
-                           "kind are not the same."},
-    {"Plots", "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d, of such numbers, of "
-              "lights as `--light` takes them (`spot:attenuation=0/0/1,range=9`) and of the lights of a model or "
-              "scene file, as many "
-              "curves as are named, and marks "
-              "where each falls below 1/255, the last step of a picture with 8 bits; a fourth number "
-              "(`a/b/c/range`) is a range as glTF has it. "
-              "`lambent plot spot cutoff=30,exponent=8 inner=20,outer=35` draws the cone of spot lights over "
-              "the angle from "
-              "the axis, by OpenGL's law or glTF's. `lambent plot highlight 10 50 1000` draws the highlight "
-              "over the angle "
-              "between the mirrored light and the eye: for each shininess Phong's and Blinn-Phong's at it, "
-              "and Blinn-Phong's at four times that, which looks like Phong's. "
-              "Without curves each draws a set of its own. The values are those that pixels are lit with.\n"
-              "The picture is `attenuation.png`, `spot.png` or `highlight.png`, 1600x1000 pixels, or what "
-              "`-o` and `-s` say; a name that "
-              "ends in `.svg` makes an SVG. The table on standard output tells where each curve falls below "
-              "1/255; with "
-              "`--json` it is one line: `plot`, `x`, `y`, `curves` (each with `label`, `below_1_255_from`, "
-              "null for never, and `points`, "
-              "101 pairs) and `picture`."},
-    {"Same picture everywhere", "The same model and options give the same bytes, whatever the instruction "
-                                "set, the count of threads, the compiler and the machine."},
-    {"Environment", "`NO_COLOR`: when set and not empty, messages have no colours. `TERM=dumb` also switches off the "
-                    "progress bar. The locale changes nothing: numbers always have a point."},
+    {"Comparing pictures",
+     "`lambent diff A B` reads two pictures of the same size (PNG or PPM with 8 bits, PFM with floats, both of "
+     "one kind) and prints the largest difference of a channel, the mean and the root mean square over all "
+     "channels (red, green, blue and alpha as stored in the files, 1 = full range), the PSNR in decibels "
+     "(`infinite` for equal pictures, null in JSON), and the share of pixels in which a channel differs by more "
+     "than 1/255 and 2/255. `-o` draws the difference: each channel is its difference times `--gain`, clamped "
+     "at white; black means equal; a pixel that differs only in alpha is grey. A `.pfm` stores the differences "
+     "as floats without clamping. With `--json` the figures are one line: `a`, `b`, `width`, `height`, "
+     "`maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, `differ` (0 or 1: "
+     "beyond the tolerance) and `picture`. The exit code is 6 if the largest difference exceeds the tolerance, "
+     "1 if the sizes or kinds differ."},
+    {"Plots",
+     "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d. A curve is three such "
+     "numbers, a light as `--light` takes it (`spot:attenuation=0/0/1,range=9`), or every light of a model or "
+     "scene file. A dot marks where each curve falls below 1/255, the last step of a picture with 8 bits; a "
+     "fourth number (`a/b/c/range`) is a range as in glTF. `lambent plot spot cutoff=30,exponent=8 "
+     "inner=20,outer=35` draws the cone of spot lights over the angle from the axis, by OpenGL's law or glTF's. "
+     "`lambent plot highlight 10 50 1000` draws the highlight over the angle between the mirrored light and the "
+     "eye: for each shininess Phong's and Blinn-Phong's, and Blinn-Phong's at four times the shininess, which "
+     "looks like Phong's. Without curves each plot draws a default set. The values come from the functions that "
+     "light pixels.\n"
+     "The picture is `attenuation.png`, `spot.png` or `highlight.png`, 1600x1000 pixels, unless `-o` and `-s` "
+     "say otherwise; a name that ends in `.svg` makes an SVG. The table on standard output lists where each "
+     "curve falls below 1/255; with `--json` it is one line: `plot`, `x`, `y`, `curves` (each with `label`, "
+     "`below_1_255_from`, null for never, and `points`, 101 pairs) and `picture`."},
+    {"Same picture everywhere",
+     "The same model and options give the same bytes, whatever the instruction set, the number of threads, the "
+     "compiler and the machine."},
+    {"Environment",
+     "`NO_COLOR`: if set and not empty, messages have no colours. `TERM=dumb` also disables the progress bar. "
+     "The locale has no effect: numbers always have a point."},
     {NULL, NULL},
 };

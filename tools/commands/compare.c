@@ -16,11 +16,11 @@
 
 enum { CELL_WIDTH = 480, CELL_HEIGHT = 400, ENLARGED = 3, INK = 0x222222, GREY = 0x777777, FRAME = 0xd55e00 };
 
-// Where things are on the page, in pixels. `unit` is 1 for pictures 480 wide: type grows with them.
+// The layout of the page in pixels. `unit` is 1 for cells 480 pixels wide; the type grows with it.
 struct page {
     double unit;
     int cell_width, cell_height; // of a picture
-    int gap, head, foot;         // between cells and around; for the title; for a caption
+    int gap, head, foot;         // gap between and around cells; heights of the title and of a caption
     int inset;                   // height of the enlarged part with the gap above it; 0: none
     int rows;
 };
@@ -33,12 +33,12 @@ struct compare {
     struct sheet sheet;
     struct page page;
     struct drawing drawing;
-    int done, pictures; // how many there are to draw in all
+    int done, pictures; // drawn so far, and in all
 };
 
 // --- one picture
 
-// Draws a cell's picture, `enlarge` times as large, with two further words (NULL: none).
+// Draws a cell's picture, `enlarge` times as large, with two additional words of the command line (NULL: none).
 static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, const char *more, const char *value,
                       lam_image *image, lam_error *error)
 {
@@ -48,7 +48,7 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
     char *words[CELL_WORDS + 2];
     int count = 0;
     for (int i = 0; i < CELL_WORDS && cell->words[i]; i++)
-        words[count++] = (char *)(uintptr_t)cell->words[i]; // options are read, not written
+        words[count++] = (char *)(uintptr_t)cell->words[i]; // options are only read
     if (more) {
         words[count++] = (char *)(uintptr_t)more;
         words[count++] = (char *)(uintptr_t)value;
@@ -80,11 +80,11 @@ struct box {
     int left, top, width, height; // pixels of a cell's picture
 };
 
-// A window is moved over what the highlight adds to the picture; the brightest place is its middle.
+// Slides a window over the highlight's contribution to the picture; the brightest position is the centre of the box.
 static struct box find_highlight(const lam_image *whole, const lam_image *matt)
 {
     int w = whole->width, h = whole->height, width = w / ENLARGED, height = h / (2 * ENLARGED);
-    int span = w / 40 > 1 ? w / 40 : 1; // of the window that is searched with
+    int span = w / 40 > 1 ? w / 40 : 1; // of the search window
     const uint8_t *a = whole->pixels, *b = matt->pixels;
     int64_t best = -1;
     int best_x = w / 2, best_y = h / 2;
@@ -116,7 +116,7 @@ static bool draw_frame(struct compare *c, double left, double top, double width,
     return draw_line(&c->drawing, round, 5, 2 * c->page.unit, FRAME, 0, error);
 }
 
-// The framed part of a cell's picture and, beneath, the same part drawn larger.
+// Draws the framed part of a cell's picture and, below it, the same part enlarged.
 static bool draw_inset(struct compare *c, const struct cell *cell, struct box box, int left, int top, lam_error *error)
 {
     lam_image large, part;
@@ -141,7 +141,7 @@ static bool draw_inset(struct compare *c, const struct cell *cell, struct box bo
 
 // --- the page
 
-// In letters that fit the width.
+// Reduces the type size until the text fits the width.
 static void draw_fitting(struct drawing *d, struct point baseline, double size, double width, uint32_t color,
                          const char *text)
 {
@@ -153,7 +153,7 @@ static void draw_caption(struct compare *c, const struct cell *cell, int left, i
 {
     double u = c->page.unit, middle = left + c->page.cell_width / 2.0, width = c->page.cell_width;
     draw_fitting(&c->drawing, (struct point){middle, top + 32 * u}, 23 * u, width, INK, cell->caption);
-    // What makes the picture, as it is typed. Long ones would be too small to read: then the option alone.
+    // The options of the picture as typed. A long text would be too small to read; then only the option is shown.
     char line[512] = "";
     for (int i = 0; i < CELL_WORDS && cell->words[i]; i++)
         snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s", i ? " " : "", cell->words[i]);
@@ -162,7 +162,7 @@ static void draw_caption(struct compare *c, const struct cell *cell, int left, i
         draw_fitting(&c->drawing, (struct point){middle, top + 55 * u}, size, width, GREY, line);
         return;
     }
-    // In two lines, broken behind a comma or a word.
+    // Two lines, broken after a comma or a word.
     size_t length = strlen(line), cut = 0;
     for (size_t i = 1; i < length; i++) {
         bool place = line[i - 1] == ',' || line[i - 1] == ' ';
@@ -203,7 +203,7 @@ static bool draw_sheet(struct compare *c, lam_error *error)
 {
     const struct page *p = &c->page;
     struct box box = {0};
-    if (c->sheet.inset) { // of the last picture, the one lit per fragment
+    if (c->sheet.inset) { // from the last picture, which is lit per fragment
         const struct cell *cell = &c->sheet.cells[c->sheet.count - 1];
         lam_image whole, matt;
         if (!draw_cell(c, cell, 1, NULL, NULL, &whole, error))
@@ -238,7 +238,7 @@ static bool draw_sheet(struct compare *c, lam_error *error)
     return true;
 }
 
-// "koala-terms.png" where no name is given.
+// The sheet's path; "koala-terms.png" by default.
 static char *path_of(const struct options *o, const char *model, const char *sheet)
 {
     char *plain = output_path(o->output, model);
@@ -256,7 +256,7 @@ static bool check(const struct options *o, const char *model, const char *path, 
     lam_pixel_format format = LAM_RGBA8;
     if (strcmp(model, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "compare reads the model for each picture anew: '-' (standard input) cannot be");
+                        "compare reads the model once for each picture, so it cannot read '-' (standard input)");
     if (strcmp(path, "-") == 0)
         return !isatty(STDOUT_FILENO) ||
                complain(error, LAM_BAD_ARGUMENT, "standard output is a terminal, and the picture is not text");
@@ -271,7 +271,7 @@ int run_compare(int operand_count, char **operands, const struct options *option
     interrupt_start();
     struct compare c = {.options = options, .model = operands[0]};
     lam_error error = {0};
-    char *store[ACROSS_MOST] = {0}, *path = NULL;
+    char *store[ACROSS_MAX] = {0}, *path = NULL;
     bool ok = sheet_choose(options, &c.sheet, store, &error);
     if (ok && !(path = path_of(options, c.model, c.sheet.name)))
         ok = complain(&error, LAM_LIMIT, "out of memory");
@@ -290,9 +290,9 @@ int run_compare(int operand_count, char **operands, const struct options *option
         drawing_free(&c.drawing);
     }
     free(path);
-    for (int i = 0; i < ACROSS_MOST; i++)
+    for (int i = 0; i < ACROSS_MAX; i++)
         free(store[i]);
     if (interrupted())
         interrupt_finish();
-    return ok ? 0 : tell_failure(&error, options);
+    return ok ? 0 : report_failure(&error, options);
 }

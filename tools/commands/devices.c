@@ -1,4 +1,4 @@
-// devices.c: the command `devices`: what pictures can be drawn with on this machine.
+// devices.c: the command `devices`: lists the devices that can draw on this machine.
 #include "command.h"
 
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 enum { DEVICES_MOST = 64 };
 
-static void tell_json(const char *cpu, const lam_gl_device *list, int count, const lam_error *error)
+static void print_json(const char *cpu, const lam_gl_device *list, int count, const lam_error *error)
 {
     struct json json = {.file = stdout};
     json_open(&json, NULL, '{');
@@ -32,12 +32,12 @@ static void tell_json(const char *cpu, const lam_gl_device *list, int count, con
     putchar('\n');
 }
 
-static void tell_text(const char *cpu, const lam_gl_device *list, int count, const lam_error *error)
+static void print_text(const char *cpu, const lam_gl_device *list, int count, const lam_error *error)
 {
     printf("cpu   %s; the same bytes everywhere\n", cpu);
     for (int i = 0; i < count; i++) {
         const lam_gl_device *d = &list[i];
-        const char *kind = d->software ? "software: this processor does the work" : "hardware";
+        const char *kind = d->software ? "software: runs on this processor" : "hardware";
         if (d->usable)
             printf("gl %d  %s; %s\n      %s; %s\n", d->number, d->name, kind, d->versions, d->driver);
         else
@@ -53,13 +53,13 @@ int run_devices(int operand_count, char **operands, const struct options *option
     lam_error error = {0};
     lam_device *device = lam_device_cpu(NULL, &error);
     if (!device)
-        return tell_failure(&error, options);
+        return report_failure(&error, options);
     static lam_gl_device list[DEVICES_MOST];
     int count = lam_gl_devices(NULL, list, DEVICES_MOST, &error);
     if (options->json)
-        tell_json(lam_device_name(device), list, count, &error);
+        print_json(lam_device_name(device), list, count, &error);
     else
-        tell_text(lam_device_name(device), list, count, &error);
+        print_text(lam_device_name(device), list, count, &error);
     lam_device_free(device);
     return 0;
 }

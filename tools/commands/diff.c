@@ -1,4 +1,4 @@
-// diff.c: the command `diff`: how far two pictures are apart, in numbers and as a picture.
+// diff.c: the command `diff`: the difference of two pictures, as numbers and as a picture.
 #include "command.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ struct pair {
     const char *name[2];
     lam_image image[2];
     lam_difference difference;
-    lam_image where; // made only where it is asked for
+    lam_image where; // the difference; made only for --output
 };
 
 static bool load_pair(struct pair *pair, lam_error *error)
@@ -34,7 +34,7 @@ static bool load_pair(struct pair *pair, lam_error *error)
     return lam_image_compare(a, b, &pair->difference, error);
 }
 
-// Floats that are to be written as bytes: raw numbers, 1 = 255.
+// Converts floats to bytes without encoding: 1 = 255.
 static bool to_bytes(lam_image *image, lam_error *error)
 {
     lam_image bytes;
@@ -70,7 +70,7 @@ static bool write_picture(struct pair *pair, const struct options *o, lam_error 
     return ok;
 }
 
-static void tell_json(FILE *file, const struct pair *pair, const struct options *o, bool differ)
+static void print_json(FILE *file, const struct pair *pair, const struct options *o, bool differ)
 {
     const lam_difference *d = &pair->difference;
     struct json json = {.file = file};
@@ -92,7 +92,7 @@ static void tell_json(FILE *file, const struct pair *pair, const struct options 
     putc('\n', file);
 }
 
-static void tell_text(FILE *file, const struct pair *pair, const struct options *o, bool differ)
+static void print_text(FILE *file, const struct pair *pair, const struct options *o, bool differ)
 {
     const lam_difference *d = &pair->difference;
     fprintf(file, "maximum      %.7g (%.5g/255)\n", d->maximum, d->maximum * 255);
@@ -121,7 +121,7 @@ int run_diff(int operand_count, char **operands, const struct options *options)
     bool ok = true;
     if (to_stdout && isatty(STDOUT_FILENO))
         ok = complain(&error, LAM_BAD_ARGUMENT,
-                      "standard output is a terminal, and the picture is not text; send it on: lambent diff "
+                      "standard output is a terminal, and the picture is not text; redirect it: lambent diff "
                       "A B -o - > FILE");
     else if (options->output && !output_is_named(options->output))
         ok = complain(&error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file",
@@ -133,14 +133,14 @@ int run_diff(int operand_count, char **operands, const struct options *options)
     if (ok) {
         FILE *file = to_stdout ? stderr : stdout;
         if (options->json)
-            tell_json(file, &pair, options, differ);
+            print_json(file, &pair, options, differ);
         else if (!options->quiet)
-            tell_text(file, &pair, options, differ);
+            print_text(file, &pair, options, differ);
     }
     for (int i = 0; i < 2; i++)
         lam_image_free(&pair.image[i]);
     lam_image_free(&pair.where);
     if (!ok)
-        return tell_failure(&error, options);
+        return report_failure(&error, options);
     return differ ? EXIT_DIFFERS : 0;
 }

@@ -12,7 +12,7 @@
 #include "job.h"
 #include "report.h"
 
-// Digits up to `end`; what follows it, NULL if there are none or too many.
+// Reads digits up to the character `end`; returns the text after it, NULL if there are no digits or too many.
 static const char *read_pixel_number(const char *text, char end, int *value)
 {
     const char *start = text;
@@ -21,7 +21,7 @@ static const char *read_pixel_number(const char *text, char end, int *value)
     return text > start && *text == end ? text + 1 : NULL;
 }
 
-static bool read_place(const char *text, const struct options *o, int *x, int *y, lam_error *error)
+static bool read_pixel(const char *text, const struct options *o, int *x, int *y, lam_error *error)
 {
     const char *rest = read_pixel_number(text, ',', x);
     if (!rest || !read_pixel_number(rest, 0, y))
@@ -31,25 +31,25 @@ static bool read_place(const char *text, const struct options *o, int *x, int *y
                         text, o->width / 2, o->height / 2);
     if (*x >= o->width || *y >= o->height)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "explain: pixel %d,%d lies outside of the picture of %dx%d pixels, expected 0,0 to %d,%d", *x,
-                        *y, o->width, o->height, o->width - 1, o->height - 1);
+                        "explain: pixel %d,%d lies outside the picture of %dx%d pixels, expected 0,0 to %d,%d", *x, *y,
+                        o->width, o->height, o->width - 1, o->height - 1);
     return true;
 }
 
-static int tell_job_failure(const struct job *job, lam_error *error)
+static int report_job_failure(const struct job *job, lam_error *error)
 {
     if (!strstr(error->text, job->model) && error->code != LAM_BAD_ARGUMENT) {
         lam_error plain = *error;
         complain(error, plain.code, "%.200s: %.300s", job->model, plain.text);
     }
-    return tell_failure(error, job->options);
+    return report_failure(error, job->options);
 }
 
 int run_explain(int operand_count, char **operands, const struct options *given)
 {
     (void)operand_count;
     struct options options = *given;
-    options.output = NULL; // nothing is written, whatever the command line says of the picture
+    options.output = NULL; // --output has no effect
     struct job job = {.options = &options, .model = operands[0]};
     int x = 0, y = 0;
     lam_error error = {0};
@@ -60,15 +60,15 @@ int run_explain(int operand_count, char **operands, const struct options *given)
                  "standard input is a terminal, expected a model: lambent explain - X,Y < FILE");
     else if (options.show)
         complain(&error, LAM_BAD_ARGUMENT,
-                 "option '--show' has no meaning for explain, which tells all terms of a pixel");
+                 "option '--show' has no effect on explain, which prints all terms of a pixel");
     else
-        read_place(operands[1], &options, &x, &y, &error);
+        read_pixel(operands[1], &options, &x, &y, &error);
     if (error.code)
-        return tell_failure(&error, &options);
+        return report_failure(&error, &options);
     interrupt_start();
     job.device = device_option_make(&options, &error);
     if (!job.device)
-        return tell_failure(&error, &options);
+        return report_failure(&error, &options);
     job.times.start = clock_ms();
     struct progress progress;
     progress_start(&progress, job.model, console_is_terminal() && !options.quiet);
@@ -76,7 +76,7 @@ int run_explain(int operand_count, char **operands, const struct options *given)
     progress_end(&progress);
     int code = 0;
     if (!explanation)
-        code = tell_job_failure(&job, &error);
+        code = report_job_failure(&job, &error);
     else if (options.json)
         explain_json(explanation, job.model);
     else

@@ -1,4 +1,4 @@
-// explain_json.c: an explained pixel as JSON, on one line. Angles are in degrees; what is missing is null.
+// explain_json.c: prints an explained pixel as one line of JSON. Angles are in degrees; missing values are null.
 #include "explain.h"
 
 #include <stdio.h>
@@ -47,7 +47,7 @@ static void degrees(struct json *json, const char *key, double radians)
     json_number(json, key, radians * (180 / 3.14159265358979323846));
 }
 
-// Rows ambient, diffuse, specular.
+// A matrix with the rows ambient, diffuse and specular.
 static void matrix(struct json *json, const char *key, lam_rgb ambient, lam_rgb diffuse, lam_rgb specular)
 {
     json_open(json, key, '[');
@@ -59,7 +59,7 @@ static void matrix(struct json *json, const char *key, lam_rgb ambient, lam_rgb 
 
 static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
-static void tell_light(struct json *json, const lam_explained_light *l)
+static void write_light(struct json *json, const lam_explained_light *l)
 {
     json_open(json, NULL, '{');
     index_of(json, "light", l->light);
@@ -102,7 +102,7 @@ static void tell_light(struct json *json, const lam_explained_light *l)
     json_close(json, '}');
 }
 
-static void tell_point(struct json *json, const lam_explained_point *p)
+static void write_point(struct json *json, const lam_explained_point *p)
 {
     json_open(json, NULL, '{');
     index_of(json, "corner", p->corner);
@@ -120,7 +120,7 @@ static void tell_point(struct json *json, const lam_explained_point *p)
     color(json, "ambient_term", p->ambient_term);
     json_open(json, "lights", '[');
     for (int i = 0; i < p->light_count; i++)
-        tell_light(json, &p->lights[i]);
+        write_light(json, &p->lights[i]);
     json_close(json, ']');
     json_open(json, "hemispheres", '[');
     for (int i = 0; i < p->hemisphere_count; i++) {
@@ -157,8 +157,8 @@ static void tell_point(struct json *json, const lam_explained_point *p)
     json_close(json, '}');
 }
 
-// The fields beside the matrix.
-static void tell_field(struct json *json, const lam_field *field, const lam_material *m)
+// Writes a field that is not in the matrix.
+static void write_field(struct json *json, const lam_field *field, const lam_material *m)
 {
     double numbers[4];
     int count = lam_field_get(field, m, numbers);
@@ -173,7 +173,7 @@ static void tell_field(struct json *json, const lam_field *field, const lam_mate
         triple(json, field->key, numbers[0], numbers[1], numbers[2]);
 }
 
-static void tell_fragment(struct json *json, const lam_explained_fragment *f)
+static void write_fragment(struct json *json, const lam_explained_fragment *f)
 {
     const lam_material *m = &f->surface;
     json_open(json, NULL, '{');
@@ -207,11 +207,11 @@ static void tell_fragment(struct json *json, const lam_explained_fragment *f)
     json_text(json, "name", m->name);
     matrix(json, "matrix", m->ambient, (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b}, m->specular);
     for (int i = 0; lam_material_field(i); i++)
-        tell_field(json, lam_material_field(i), m);
+        write_field(json, lam_material_field(i), m);
     json_close(json, '}');
     json_open(json, "points", '[');
     for (int i = 0; i < f->point_count; i++)
-        tell_point(json, &f->points[i]);
+        write_point(json, &f->points[i]);
     json_close(json, ']');
     color4(json, "color", f->color);
     real(json, "weight", f->weight);
@@ -234,7 +234,7 @@ void explain_json(const lam_explanation *e, const char *model)
     json_text(&json, "viewer", e->distant_viewer ? "infinite" : "local");
     json_open(&json, "triangles", '[');
     for (int i = 0; i < e->fragment_count; i++)
-        tell_fragment(&json, &e->fragments[i]);
+        write_fragment(&json, &e->fragments[i]);
     json_close(&json, ']');
     color4(&json, "sum", e->sum);
     color4(&json, "background", e->background);

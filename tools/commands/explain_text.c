@@ -1,5 +1,5 @@
-// explain_text.c: an explained pixel as text for people: aligned, with units, each term with the formula that it came
-// from (docs/lighting.md has them all).
+// explain_text.c: prints an explained pixel as text for people: aligned, with units, each term with its formula (all of
+// them are in docs/lighting.md).
 #include "explain.h"
 
 #include <stdio.h>
@@ -9,10 +9,10 @@
 
 enum {
     COLUMN = 26,
-    FEW_LIGHTS = 16, // all told; of more, those that add something
+    FEW_LIGHTS = 16, // up to this number all lights are printed; of more, those that contribute
 };
 
-// A label and its padding: letters are counted, not bytes.
+// Prints a label and its padding, counted in letters, not bytes.
 static void label(int indent, const char *text)
 {
     int width = indent;
@@ -27,7 +27,7 @@ static void three(int indent, const char *name, double x, double y, double z, co
     printf("%13.7g %13.7g %13.7g%s%s\n", x + 0.0, y + 0.0, z + 0.0, *remark ? "   " : "", remark);
 }
 
-// Names of the columns.
+// Prints the names of the columns.
 static void heading(int indent, const char *name, const char *alpha)
 {
     label(indent, name);
@@ -72,10 +72,10 @@ static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
 // --- a light
 
-static void tell_attenuation(const lam_explained_light *l)
+static void print_attenuation(const lam_explained_light *l)
 {
     if (l->type == LAM_LIGHT_DIRECTIONAL) {
-        number(4, "attenuation", (double)l->attenuation, "directional: none");
+        number(4, "attenuation", (double)l->attenuation, "directional: not attenuated");
         return;
     }
     number(4, "distance d", (double)l->distance, "model units");
@@ -87,8 +87,8 @@ static void tell_attenuation(const lam_explained_light *l)
     number(4, "attenuation", (double)l->attenuation, remark);
 }
 
-static void tell_highlight(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
-                           const lam_explained_light *l)
+static void print_highlight(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
+                            const lam_explained_light *l)
 {
     const lam_reflection_info *model = lam_reflection_describe(e->reflection);
     bool gated = !model->backlit && !(model->backlit_fibre && f->surface.fibre);
@@ -98,7 +98,7 @@ static void tell_highlight(const lam_explanation *e, const lam_explained_fragmen
         number(4, "t·l", dot(p->t, l->l), "cos(t,l)");
         number(4, "t·v", dot(p->t, p->v), "cos(t,v)");
     }
-    bool gates_diffuse = strncmp(model->diffuse, "max(", 4) != 0; // which is 0 by itself
+    bool gates_diffuse = strncmp(model->diffuse, "max(", 4) != 0; // a max() is 0 there already
     snprintf(remark, sizeof remark, "%s%s", gates_diffuse ? gate : "", model->diffuse);
     number(4, "D", (double)l->D, remark);
     if (!model->base)
@@ -116,8 +116,8 @@ static void product(char text[200], const lam_explained_light *l, const char *wh
              (double)l->attenuation, (double)c.r, (double)c.g, (double)c.b, (double)answer);
 }
 
-static void tell_light(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
-                       const lam_explained_light *l, int number_in_list)
+static void print_light(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
+                        const lam_explained_light *l, int number_in_list)
 {
     if (l->light >= 0)
         printf("\n  light %d", l->light);
@@ -132,20 +132,20 @@ static void tell_light(const lam_explanation *e, const lam_explained_fragment *f
     if (l->type != LAM_LIGHT_DIRECTIONAL)
         vector(4, "position", l->position, "eye space");
     if (l->type != LAM_LIGHT_POINT)
-        vector(4, "axis", l->axis, "the way it travels");
+        vector(4, "axis", l->axis, "direction of the light");
     vector(4, "l", l->l, "to the light");
     vector(4, "r", l->r, "2 (n·l) n − l");
     vector(4, "h", l->h, "(l + v) / |l + v|");
     angle("θ", l->theta_rad, "between n and l");
     angle("φ", l->phi_rad, "between r and v");
     angle("ψ", l->psi_rad, "between n and h");
-    tell_attenuation(l);
+    print_attenuation(l);
     if (l->type == LAM_LIGHT_SPOT) {
         number(4, "c", (double)l->cos_axis, "(−l)·axis");
         number(4, "spot", (double)l->spot, "the cone's factor");
     }
     number(4, "n·l", (double)l->n_dot_l, "");
-    tell_highlight(e, f, p, l);
+    print_highlight(e, f, p, l);
     char text[200];
     product(text, l, "kd ⊙ Ld · D", l->kd_Ld, l->D);
     color(4, "diffuse", l->diffuse_term, text);
@@ -155,7 +155,7 @@ static void tell_light(const lam_explanation *e, const lam_explained_fragment *f
         color(4, "ambient", l->ambient_term, "spot · attenuation · ka ⊙ La, as OpenGL 1 did");
 }
 
-static void tell_hemisphere(const lam_explained_hemisphere *h, int number_in_list)
+static void print_hemisphere(const lam_explained_hemisphere *h, int number_in_list)
 {
     if (h->light >= 0)
         printf("\n  light %d", h->light);
@@ -170,8 +170,8 @@ static void tell_hemisphere(const lam_explained_hemisphere *h, int number_in_lis
     color(4, "ambient", h->term, "ka ⊙ mix(ground, sky, ½ + ½ n·up)");
 }
 
-// All lights; of many, only those that add something here.
-static void tell_lights(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
+// Prints all lights; of many, only those that contribute here.
+static void print_lights(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
 {
     int nothing = 0, left_out = 0;
     for (int i = 0; i < p->light_count; i++) {
@@ -180,39 +180,39 @@ static void tell_lights(const lam_explanation *e, const lam_explained_fragment *
         left_out += l->skipped;
         nothing += !adds;
         if (p->light_count <= FEW_LIGHTS || (adds && !l->skipped))
-            tell_light(e, f, p, l, i);
+            print_light(e, f, p, l, i);
     }
     if (p->light_count <= FEW_LIGHTS || nothing + left_out == 0)
         return;
-    printf("\n  %d of %d lights add nothing here", nothing, p->light_count);
+    printf("\n  %d of %d lights contribute nothing here", nothing, p->light_count);
     if (left_out)
-        printf("; %d more are left out: too weak (--light-cutoff)", left_out);
+        printf("; %d more were skipped: too weak (--light-cutoff)", left_out);
     printf("\n");
 }
 
 // --- a point and a triangle
 
-static void tell_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
+static void print_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
 {
     if (p->corner >= 0)
         printf("\n  corner %d of the triangle is lit\n", p->corner);
     vector(2, "position in the mesh", p->mesh_position, "model units");
     vector(2, "position in the world", p->world_position, "");
     vector(2, "position in eye space", p->position, "");
-    vector(2, "n", p->n, f->flipped ? "turned round: the back is seen" : "");
+    vector(2, "n", p->n, f->flipped ? "reversed: the back is visible" : "");
     vector(2, "v", p->v, e->distant_viewer ? "to the eye, infinitely far" : "to the eye");
     if (!is_zero(p->t))
         vector(2, "t", p->t, "along the threads");
     bool colored = p->color.r != 1 || p->color.g != 1 || p->color.b != 1;
     if (colored)
         color(2, "vertex colour", p->color, "multiplies ambient and diffuse");
-    tell_lights(e, f, p);
+    print_lights(e, f, p);
     for (int i = 0; i < p->hemisphere_count; i++)
-        tell_hemisphere(&p->hemispheres[i], i);
+        print_hemisphere(&p->hemispheres[i], i);
 
     if (!is_zero(p->reflected)) {
         printf("\n  environment\n");
-        vector(4, "R", p->reflected, "2 (n·v) n − v, the eye vector's mirror image");
+        vector(4, "R", p->reflected, "2 (n·v) n − v, the reflected eye vector");
         vector(4, "direction", p->environment_direction, "R in the environment's own axes");
         color(4, "light from there", p->environment_light, "");
     }
@@ -221,7 +221,7 @@ static void tell_point(const lam_explanation *e, const lam_explained_fragment *f
     const char *tint = colored ? ", times the vertex colour" : "";
     char text[200];
     if (e->reflection == LAM_REFLECTION_NONE) {
-        snprintf(text, sizeof text, "kd: painted unlit%s", tint);
+        snprintf(text, sizeof text, "kd: unlit%s", tint);
         color(4, "diffuse", p->diffuse, text);
     } else {
         color(4, "emission", p->emission, "");
@@ -229,9 +229,9 @@ static void tell_point(const lam_explanation *e, const lam_explained_fragment *f
                  p->hemisphere_count ? " + Σ hemispheres" : "", tint, (double)p->ambient_light.r,
                  (double)p->ambient_light.g, (double)p->ambient_light.b, p->hemisphere_count ? " + …" : "");
         color(4, "ambient", p->ambient, text);
-        snprintf(text, sizeof text, "Σ of those of the lights%s", tint);
+        snprintf(text, sizeof text, "Σ of the lights' diffuse terms%s", tint);
         color(4, "diffuse", p->diffuse, text);
-        color(4, "specular", p->specular, "Σ of those of the lights");
+        color(4, "specular", p->specular, "Σ of the lights' specular terms");
         snprintf(text, sizeof text, "kr ⊙ environment = (%.7g %.7g %.7g) ⊙ (%.7g %.7g %.7g)",
                  (double)f->surface.reflectivity.r, (double)f->surface.reflectivity.g,
                  (double)f->surface.reflectivity.b, (double)p->environment_light.r, (double)p->environment_light.g,
@@ -249,7 +249,7 @@ static const char *field_label(const lam_field *field, char text[64])
     return text;
 }
 
-static void tell_color(const lam_explanation *e, const lam_field *field, const lam_material *m)
+static void print_color(const lam_explanation *e, const lam_field *field, const lam_material *m)
 {
     double numbers[4];
     char text[64];
@@ -258,8 +258,8 @@ static void tell_color(const lam_explanation *e, const lam_field *field, const l
         three(4, field_label(field, text), numbers[0], numbers[1], numbers[2], "");
 }
 
-// The shininess, and other numbers where they are not the default.
-static void tell_number(const lam_explained_fragment *f, const lam_field *field, const lam_material *m)
+// Prints the shininess, and other numbers that differ from their defaults.
+static void print_number(const lam_explained_fragment *f, const lam_field *field, const lam_material *m)
 {
     double numbers[4];
     char text[64];
@@ -272,7 +272,7 @@ static void tell_number(const lam_explained_fragment *f, const lam_field *field,
         number(4, field_label(field, text), numbers[0], "");
 }
 
-static void tell_material(const lam_explanation *e, const lam_explained_fragment *f)
+static void print_material(const lam_explanation *e, const lam_explained_fragment *f)
 {
     const lam_material *m = &f->surface;
     if (f->material >= 0)
@@ -283,13 +283,13 @@ static void tell_material(const lam_explanation *e, const lam_explained_fragment
     printf("\n");
     heading(4, "matrix", "");
     for (int i = 0; lam_material_field(i); i++)
-        tell_color(e, lam_material_field(i), m);
+        print_color(e, lam_material_field(i), m);
     for (int i = 0; lam_material_field(i); i++)
-        tell_number(f, lam_material_field(i), m);
+        print_number(f, lam_material_field(i), m);
     printf("\n");
 }
 
-static void tell_fragment(const lam_explanation *e, const lam_explained_fragment *f)
+static void print_fragment(const lam_explanation *e, const lam_explained_fragment *f)
 {
     printf("\ntriangle %u, its %s, of ", f->triangle, f->back ? "back" : "front");
     if (f->part >= 0) {
@@ -307,18 +307,18 @@ static void tell_fragment(const lam_explanation *e, const lam_explained_fragment
     if (f->lit_sample < 0)
         printf("pixels from the top left: the pixel's centre\n");
     else
-        printf("pixels from the top left: sample %d, since the centre is outside of the triangle\n", f->lit_sample);
+        printf("pixels from the top left: sample %d, since the centre is outside the triangle\n", f->lit_sample);
     three(2, "weights of the corners", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2],
           "barycentric, perspective-correct");
-    tell_material(e, f);
+    print_material(e, f);
     for (int i = 0; i < f->point_count; i++)
-        tell_point(e, f, &f->points[i]);
+        print_point(e, f, &f->points[i]);
     if (f->point_count == 3)
         printf("\n");
     lam_rgb c = {f->color.r, f->color.g, f->color.b};
     color(2, "colour", c,
           f->point_count == 3              ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
-          : e->shading == LAM_SHADING_FLAT ? "the sum, the same all over the triangle"
+          : e->shading == LAM_SHADING_FLAT ? "the sum, constant over the triangle"
                                            : "the sum");
     if (f->color.a != 1)
         number(2, "alpha", (double)f->color.a, "opacity · the vertex colour's alpha");
@@ -329,13 +329,13 @@ static void tell_fragment(const lam_explanation *e, const lam_explained_fragment
         char name[32];
         snprintf(name, sizeof name, "sample %d", s);
         if (f->sample_mask >> s & 1)
-            number(2, name, (double)f->transmittance[s], "let through by what lies before: Π (1 − alpha)");
+            number(2, name, (double)f->transmittance[s], "transmittance of the surfaces in front: Π (1 − alpha)");
     }
 }
 
 // --- the pixel
 
-static void tell_pixel(const lam_explanation *e)
+static void print_pixel(const lam_explanation *e)
 {
     printf("\n");
     heading(0, "pixel", "         alpha");
@@ -352,7 +352,7 @@ static void tell_pixel(const lam_explanation *e)
            (double)e->sum.b, (double)e->sum.a);
     char stops[64];
     snprintf(stops, sizeof stops, "2^%.7g stops, multiplies the sum's colour", e->stops);
-    number(2, "exposure", (double)e->exposure, e->exposure == 1 ? "none is applied" : stops);
+    number(2, "exposure", (double)e->exposure, e->exposure == 1 ? "not applied" : stops);
     label(2, "background");
     printf("%13.7g %13.7g %13.7g %13.7g\n", (double)e->background.r, (double)e->background.g, (double)e->background.b,
            (double)e->background.a);
@@ -371,8 +371,8 @@ void explain_text(const lam_explanation *e, const char *model)
            e->height, shading_word(e->shading), lam_reflection_describe(e->reflection)->word, e->samples,
            e->samples == 1 ? "" : "s");
     if (!e->fragment_count)
-        printf("\nNothing is seen here but the background.\n");
+        printf("\nOnly the background is visible here.\n");
     for (int i = 0; i < e->fragment_count; i++)
-        tell_fragment(e, &e->fragments[i]);
-    tell_pixel(e);
+        print_fragment(e, &e->fragments[i]);
+    print_pixel(e);
 }

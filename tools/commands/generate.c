@@ -1,4 +1,4 @@
-// generate.c: the command `generate`: texts made from the tables of options and fields, besides the help.
+// generate.c: the command `generate`: prints texts generated from the tables of options, commands and fields.
 #include "generate.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-// generate.h: texts made from the tables, printed on standard output.
+// generate.h: prints texts generated from the tables on standard output.
 #ifndef GENERATE_H
 #define GENERATE_H
 

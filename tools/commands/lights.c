@@ -1,4 +1,4 @@
-// lights.c: the command `lights`: a model's lights, or the rig's, as a scene file has them.
+// lights.c: the command `lights`: prints a model's lights, or the rig's, in the form of a scene file.
 #include "command.h"
 
 #include <stdio.h>
@@ -22,10 +22,10 @@ int run_lights(int operand_count, char **operands, const struct options *options
               lam_lights_encode(job.scene, job.rig, &text, &error);
     progress_end(&progress);
     if (ok)
-        fwrite(text.data, 1, text.size, stdout); // whether it arrived is told when the program ends
+        fwrite(text.data, 1, text.size, stdout); // main reports a failed write
     lam_bytes_free(&text);
     lam_scene_free(job.scene);
     if (interrupted())
         interrupt_finish();
-    return ok ? 0 : tell_failure(&error, options);
+    return ok ? 0 : report_failure(&error, options);
 }

@@ -1,4 +1,4 @@
-// materials.c: the command `materials`: the classic named materials as a list and as a picture.
+// materials.c: the command `materials`: lists the classic named materials, and draws them.
 #include "command.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@
 
 enum { COLUMNS = 6, ROWS = (LAM_MATERIAL_COUNT + COLUMNS - 1) / COLUMNS };
 
-// The fewest digits that read back as the same float: as the table has it.
+// The decimal number with the fewest digits that reads back as the same float, as in the table.
 static double decimal(float x)
 {
     char text[32];
@@ -27,8 +27,8 @@ static double decimal(float x)
     return strtod(text, NULL);
 }
 
-// The columns: fields that a classic material has another value of than the default. Of a colour three numbers, without
-// the alpha.
+// True for the columns of the list: fields that differ from their default in some classic material. Colours are printed
+// without alpha.
 static bool is_column(const lam_field *field)
 {
     bool differs = false;
@@ -62,7 +62,7 @@ static void print_row(const lam_material *m)
     printf("\n");
 }
 
-static void print_list(void)
+static void print_table(void)
 {
     print_row(NULL);
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
@@ -71,10 +71,10 @@ static void print_list(void)
     }
     printf("\nSource: teapots.c, a demonstration program of OpenGL (Silicon Graphics, 1993 and 1997); the "
            "shininess there is\n"
-           "a share of 128. The numbers are taken as linear. --material NAME gives one to a model.\n");
+           "a fraction of 128. The numbers are linear. --material NAME applies a material to a model.\n");
 }
 
-// In the keys of a scene file's materials.
+// Uses the keys of materials in scene files.
 static void print_json(void)
 {
     struct json json = {.file = stdout};
@@ -104,16 +104,16 @@ static void print_json(void)
     putchar('\n');
 }
 
-static void tell_list(const struct options *options)
+static void print_list(const struct options *options)
 {
     if (options->json)
         print_json();
     else
-        print_list();
+        print_table();
 }
 
-// One mesh, an object for each material: rows of COLUMNS, the list's order from the top left. The light is that of the
-// program the table comes from: directional, from (0, 3, 3), global ambient 0.2, the viewer infinitely far.
+// One mesh, and an object for each material: rows of COLUMNS in the order of the list, from the top left. The light is
+// that of the program with the original table: directional, from (0, 3, 3), global ambient 0.2, an infinite viewer.
 static bool build_scene(lam_scene *scene, lam_error *error)
 {
     int mesh = lam_scene_add_shape(scene, "teapot", NULL, error);
@@ -140,7 +140,7 @@ static bool build_scene(lam_scene *scene, lam_error *error)
 
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// The name of each material beneath its teapot: in grey, which is read on any background.
+// Draws the name of each material below its teapot, in grey, which is legible on any background.
 static bool draw_captions(const lam_scene *scene, const struct options *o, const lam_camera *camera, lam_image *image,
                           lam_error *error)
 {
@@ -159,13 +159,13 @@ static bool draw_captions(const lam_scene *scene, const struct options *o, const
     double radius;
     for (int i = 0; ok && i < lam_scene_object_count(scene) && lam_scene_sphere(scene, i, &centre, &radius); i++) {
         const lam_object *object = lam_scene_object(scene, i);
-        // Seen level from the front but for a little from above: x is the picture's, y and z make its height.
+        // The view is from the front and slightly above: x is horizontal in the picture, y and z give the height.
         lam_vec3 from_target = {centre.x + object->transform.m[0][3] - camera->target.x,
                                 centre.y + object->transform.m[1][3] - camera->target.y, centre.z - camera->target.z};
-        double size = 0.21 * unit, most = 2.1 * unit, width = lam_text_width(font, size, object->name);
-        if (width > most) {
-            size *= most / width;
-            width = most;
+        double size = 0.21 * unit, max_width = 2.1 * unit, width = lam_text_width(font, size, object->name);
+        if (width > max_width) {
+            size *= max_width / width;
+            width = max_width;
         }
         double x = image->width / 2.0 + from_target.x * unit - width / 2;
         double y = image->height / 2.0 - (dot(from_target, camera->up) - CAPTION_BELOW) * unit;
@@ -220,7 +220,7 @@ static bool make_sheet(const struct options *o, lam_error *error)
         return false;
     lam_scene *scene = lam_scene_make(error);
     lam_image image = {0};
-    // A sheet is wider than high; the default of pictures is square.
+    // The default size is square, but the sheet is wider than high.
     int height = o->width == o->height ? o->height * 58 / 100 : o->height;
     bool ok = scene && build_scene(scene, error) &&
               lam_image_make(&image, o->width, height > 0 ? height : 1, format, error) &&
@@ -235,13 +235,13 @@ int run_materials(int operand_count, char **operands, const struct options *opti
     (void)operand_count, (void)operands;
     lam_error error = {0};
     if (!options->output) {
-        tell_list(options);
+        print_list(options);
         return 0;
     }
     interrupt_start();
     if (!make_sheet(options, &error))
-        return tell_failure(&error, options);
+        return report_failure(&error, options);
     if (!output_is_stream(options->output))
-        tell_list(options);
+        print_list(options);
     return 0;
 }

@@ -15,8 +15,8 @@
 
 enum { TABLE_STEPS = 100 };
 
-// Colours that people with any colour vision tell apart (Okabe and Ito, 2008), the yellow left out: it is
-// lost on white.
+// Colours that people with any colour vision distinguish (Okabe and Ito, 2008), without yellow, which is hard to see on
+// white.
 static const uint32_t palette[] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x222222};
 
 static double attenuation_value(const struct curve *c, double x)
@@ -31,12 +31,12 @@ static double highlight_value(const struct curve *c, double x)
     return (double)lam_highlight_at(c->reflection, c->shininess, radians(x));
 }
 
-// The first x from which on the curve is below 1/255, all of them being falling ones. Found by halving an
-// interval in whose left end it is not below, down to neighbouring floats.
+// The smallest x from which the curve stays below 1/255; all curves fall monotonically. Bisects an interval whose left
+// end is not below, down to neighbouring floats.
 static double find_below(const struct curve *curve, double farthest)
 {
     const double level = 1.0 / 255.0;
-    // At the light itself an inverse square counts as 0: what is asked for is where the light has faded.
+    // An inverse square evaluates to 0 at the light itself; the search starts beside it.
     double low = curve->value(curve, 0) == 0 ? 1e-3 : 0, high = farthest < 1 ? farthest : 1;
     if (curve->value(curve, low) < level)
         return 0;
@@ -57,12 +57,12 @@ static double find_below(const struct curve *curve, double farthest)
     }
 }
 
-// --- what the words after the command mean
+// --- parsing the curves
 
 static struct curve *add_curve(struct plot *plot, double (*value)(const struct curve *, double), lam_error *error)
 {
-    if (plot->count == CURVES_MOST) {
-        complain(error, LAM_LIMIT, "plot: more than %d curves, which nobody could tell apart", CURVES_MOST);
+    if (plot->count == CURVES_MAX) {
+        complain(error, LAM_LIMIT, "plot: more than %d curves, the most that can be distinguished", CURVES_MAX);
         return NULL;
     }
     struct curve *curve = &plot->curves[plot->count++];
@@ -75,14 +75,14 @@ static bool wrong(lam_error *error, const char *kind, const char *word, const ch
     return complain(error, LAM_BAD_ARGUMENT, "plot %s: found '%.100s', expected %s", kind, word, expected);
 }
 
-// The curve of a light, `name` before its numbers (NULL: none).
+// Adds the curve of a light, labelled with `name` (NULL: none) and its numbers.
 static bool add_faded(struct plot *plot, const lam_light *light, const char *name, lam_error *error)
 {
     struct curve *curve = add_curve(plot, attenuation_value, error);
     if (!curve)
         return false;
     curve->light = *light;
-    curve->light.name = NULL; // the name's owner goes before the plot does
+    curve->light.name = NULL; // the owner of the name is freed before the plot
     curve->light.object = NULL;
     curve->marked = true;
     lam_attenuation a = light->attenuation;
@@ -111,15 +111,15 @@ static bool add_words(struct plot *plot, const char *kind, const char *word, con
     return ok;
 }
 
-// A light as --light takes it: "point:attenuation=1/0.5/0.2,name=lamp".
+// Adds a light in the syntax of --light: "point:attenuation=1/0.5/0.2,name=lamp".
 static bool add_fading(struct plot *plot, const lam_light *light, const char *word, lam_error *error)
 {
     if (!fades(light))
-        return wrong(error, "attenuation", word, "a point or spot light: the others do not fade");
+        return wrong(error, "attenuation", word, "a point or spot light, since the others do not fade");
     return add_faded(plot, light, light->name, error);
 }
 
-// The lights of a model or scene file.
+// Adds the lights of a model or scene file.
 static bool add_lights_of(struct plot *plot, const char *path, lam_error *error)
 {
     lam_scene *scene = lam_scene_load(path, &(lam_load_params){.models_anywhere = true}, NULL, error);
@@ -138,8 +138,7 @@ static bool add_lights_of(struct plot *plot, const char *path, lam_error *error)
     }
     lam_scene_free(scene);
     return ok &&
-           (found || complain(error, LAM_BAD_ARGUMENT,
-                              "plot attenuation: '%.200s' has no point or spot light, whose light would fade", path));
+           (found || complain(error, LAM_BAD_ARGUMENT, "plot attenuation: '%.200s' has no point or spot light", path));
 }
 
 static bool is_light(const char *word)
@@ -153,7 +152,7 @@ static bool is_light(const char *word)
     return false;
 }
 
-// "a/b/c" or "a/b/c/range", a light, or a file that has lights.
+// Adds "a/b/c" or "a/b/c/range", a light, or the lights of a file.
 static bool add_attenuation(struct plot *plot, const char *word, lam_error *error)
 {
     double part[4] = {0};
@@ -182,7 +181,7 @@ static bool add_attenuation(struct plot *plot, const char *word, lam_error *erro
     return add_faded(plot, &light, NULL, error);
 }
 
-// "cutoff=30,exponent=8" or "inner=20,outer=35", as in a light.
+// Adds "cutoff=30,exponent=8" or "inner=20,outer=35", as in a light.
 static bool add_spot_light(struct plot *plot, const lam_light *light, const char *word, lam_error *error)
 {
     const double degrees = 180 / 3.14159265358979323846;
@@ -232,12 +231,12 @@ static bool add_highlight(struct plot *plot, const char *word, lam_error *error)
     return true;
 }
 
-// The kinds of plots: one row each.
+// A kind of plot.
 struct kind {
     const char *name, *title, *x_label, *y_label;
     bool (*add)(struct plot *plot, const char *word, lam_error *error);
-    const char *standard[5]; // what is drawn where nothing is named
-    double x_most, farthest; // 0: as far as it takes
+    const char *standard[5]; // the curves if the command line names none
+    double x_max, farthest;  // 0: fitted to the curves
     int per_color;           // this many curves share a colour
 };
 
@@ -284,7 +283,7 @@ static const struct kind *find_kind(const char *name, lam_error *error)
     return NULL;
 }
 
-// How far the axis goes: to a little beyond the last curve's fading, which for lights that never fade is nowhere.
+// The length of the axis: 10 % beyond the point where the last curve fades; 10 if none does.
 static double length_of(const struct plot *plot)
 {
     double most = 0;
@@ -301,7 +300,7 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
                           .title = kind->title,
                           .x_label = kind->x_label,
                           .y_label = kind->y_label,
-                          .y_most = 1,
+                          .y_max = 1,
                           .level = kind->add == add_attenuation ? 1.0 / 255.0 : 0,
                           .level_label = "1/255"};
     for (int i = 0; i < count; i++)
@@ -315,22 +314,22 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
         curve->color = palette[(size_t)(i / kind->per_color) % (sizeof palette / sizeof *palette)];
         curve->below = find_below(curve, kind->farthest);
     }
-    plot->x_most = o->to > 0 ? o->to : kind->x_most > 0 ? kind->x_most : length_of(plot);
-    // Attenuations may begin over 1; what is over 2 leaves the page.
+    plot->x_max = o->to > 0 ? o->to : kind->x_max > 0 ? kind->x_max : length_of(plot);
+    // Attenuations may start above 1; values above 2 are cut off.
     for (int i = 0; i < plot->count; i++)
         for (int k = 0; k <= TABLE_STEPS; k++)
-            if (plot->curves[i].value(&plot->curves[i], plot->x_most * k / TABLE_STEPS) > 1)
-                plot->y_most = 2;
+            if (plot->curves[i].value(&plot->curves[i], plot->x_max * k / TABLE_STEPS) > 1)
+                plot->y_max = 2;
     return true;
 }
 
-// --- telling
+// --- output
 
-static void tell_text(FILE *file, const struct plot *plot)
+static void print_text(FILE *file, const struct plot *plot)
 {
     for (int i = 0; i < plot->count; i++) {
         const struct curve *c = &plot->curves[i];
-        // Columns count letters, not bytes.
+        // Pads by letters, not bytes.
         int letters = 0;
         for (const char *s = c->label; *s; s++)
             letters += (*s & 0xC0) != 0x80;
@@ -343,7 +342,7 @@ static void tell_text(FILE *file, const struct plot *plot)
     }
 }
 
-static void tell_json(FILE *file, const struct plot *plot, const char *path)
+static void print_json(FILE *file, const struct plot *plot, const char *path)
 {
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
@@ -358,7 +357,7 @@ static void tell_json(FILE *file, const struct plot *plot, const char *path)
         json_number(&json, "below_1_255_from", c->below);
         json_open(&json, "points", '[');
         for (int k = 0; k <= TABLE_STEPS; k++) {
-            double x = (double)(float)(plot->x_most * k / TABLE_STEPS);
+            double x = (double)(float)(plot->x_max * k / TABLE_STEPS);
             json_open(&json, NULL, '[');
             json_number(&json, NULL, x);
             json_number(&json, NULL, c->value(c, x));
@@ -410,10 +409,10 @@ int run_plot(int operand_count, char **operands, const struct options *options)
     if (ok) {
         FILE *file = strcmp(path, "-") == 0 ? stderr : stdout;
         if (options->json)
-            tell_json(file, plot, path);
+            print_json(file, plot, path);
         else if (!options->quiet)
-            tell_text(file, plot);
+            print_text(file, plot);
     }
     free(plot);
-    return ok ? 0 : tell_failure(&error, options);
+    return ok ? 0 : report_failure(&error, options);
 }

@@ -1,30 +1,30 @@
-// plot.h: curves over one axis, labelled: what the command `plot` computes (plot.c) and how it looks (plot_draw.c).
+// plot.h: curves over one axis, labelled: computed by plot.c, drawn by plot_draw.c.
 #ifndef PLOT_H
 #define PLOT_H
 
 #include "drawing.h"
 
-enum { CURVES_MOST = 32 };
+enum { CURVES_MAX = 32 };
 
-// y over x. It begins where it does and is drawn as far as the plot goes up.
+// A function y(x), clipped at the top of the plot.
 struct curve {
     char label[120];
     uint32_t color;
-    int style; // 0 drawn through, 1 long dashes, 2 short ones
+    int style; // 0: solid, 1: long dashes, 2: short dashes
     double (*value)(const struct curve *curve, double x);
-    lam_light light; // for value: attenuation, spot
+    lam_light light; // argument of value: attenuation, spot
     lam_reflection reflection;
     float shininess;
-    double below; // the first x where it is below 1/255, to float's precision; infinite: nowhere
-    bool marked;  // a dot there, with its number
+    double below; // the smallest x where the curve is below 1/255, to float precision; infinite: never
+    bool marked;  // draw a dot there, with its number
 };
 
 struct plot {
     const char *kind, *title, *x_label, *y_label;
-    double x_most, y_most; // both axes begin at 0
-    double level;          // a dashed line across; 0: none
+    double x_max, y_max; // both axes begin at 0
+    double level;        // a dashed line across; 0: none
     const char *level_label;
-    struct curve curves[CURVES_MOST];
+    struct curve curves[CURVES_MAX];
     int count;
 };
 

@@ -1,4 +1,4 @@
-// plot_draw.c: how a plot looks: axes with round numbers, a grid, the curves, their names, the marks.
+// plot_draw.c: draws a plot: axes with round numbers, a grid, the curves, their names, the marks.
 #include "plot.h"
 
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 
 enum { INK = 0x222222, GREY = 0x707070, GRID = 0xe4e4e4 };
 
-// Where the axes are on the page, and how large type is there.
+// The position of the axes on the page, and the scale of the type.
 struct layout {
     double left, top, right, bottom; // pixels
     double unit;                     // 1 on a page of 800×500
@@ -16,37 +16,37 @@ struct layout {
 
 static struct point place(const struct plot *plot, const struct layout *at, double x, double y)
 {
-    return (struct point){at->left + (at->right - at->left) * x / plot->x_most,
-                          at->bottom - (at->bottom - at->top) * y / plot->y_most};
+    return (struct point){at->left + (at->right - at->left) * x / plot->x_max,
+                          at->bottom - (at->bottom - at->top) * y / plot->y_max};
 }
 
-// 1, 2 or 5 times a power of ten, so that the axis has at most `most` steps.
-static double step_of(double length, int most)
+// The spacing of the grid: 1, 2 or 5 times a power of ten, giving at most `max_steps` steps.
+static double step_of(double length, int max_steps)
 {
     double power = 1;
-    while (power > length / most)
+    while (power > length / max_steps)
         power /= 10;
-    while (power * 10 <= length / most)
+    while (power * 10 <= length / max_steps)
         power *= 10;
     static const double steps[] = {1, 2, 5, 10};
     for (int i = 0; i < 4; i++)
-        if (length / (steps[i] * power) <= most)
+        if (length / (steps[i] * power) <= max_steps)
             return steps[i] * power;
     return 20 * power;
 }
 
 static bool draw_axes(const struct plot *plot, const struct layout *at, struct drawing *d, lam_error *error)
 {
-    double u = at->unit, x_step = step_of(plot->x_most, 10), y_step = step_of(plot->y_most, 6);
+    double u = at->unit, x_step = step_of(plot->x_max, 10), y_step = step_of(plot->y_max, 6);
     char text[32];
-    for (int i = 0; i * x_step <= plot->x_most * 1.000001; i++) {
+    for (int i = 0; i * x_step <= plot->x_max * 1.000001; i++) {
         struct point foot = place(plot, at, i * x_step, 0), line[2] = {{foot.x, at->top}, foot};
         if (!draw_line(d, line, 2, u, GRID, 0, error))
             return false;
         snprintf(text, sizeof text, "%.6g", i * x_step);
         draw_text(d, (struct point){foot.x, foot.y + 20 * u}, 13 * u, ALIGN_MIDDLE, INK, text);
     }
-    for (int i = 0; i * y_step <= plot->y_most * 1.000001; i++) {
+    for (int i = 0; i * y_step <= plot->y_max * 1.000001; i++) {
         struct point foot = place(plot, at, 0, i * y_step), line[2] = {foot, {at->right, foot.y}};
         if (!draw_line(d, line, 2, u, GRID, 0, error))
             return false;
@@ -67,9 +67,9 @@ static double style_dash(const struct curve *curve, double unit)
     return curve->style == 0 ? 0 : (curve->style == 1 ? 8 : 3) * unit;
 }
 
-// The points of a curve in order, steps made steep by halving; grows as asked.
+// The points of a curve from left to right, subdivided where the curve is steep.
 struct path {
-    struct point *points; // in the plot's numbers
+    struct point *points; // in plot coordinates
     int count, room;
 };
 
@@ -91,7 +91,7 @@ static bool path_refine(struct path *path, const struct plot *plot, const struct
                         double x1, double y1, lam_error *error)
 {
     double rise = y1 > y0 ? y1 - y0 : y0 - y1;
-    if (rise > plot->y_most * 0.01 && x1 - x0 > plot->x_most * 1e-5) {
+    if (rise > plot->y_max * 0.01 && x1 - x0 > plot->x_max * 1e-5) {
         double x = (x0 + x1) / 2, y = curve->value(curve, x);
         return path_refine(path, plot, curve, x0, y0, x, y, error) &&
                path_refine(path, plot, curve, x, y, x1, y1, error);
@@ -99,7 +99,7 @@ static bool path_refine(struct path *path, const struct plot *plot, const struct
     return path_add(path, x1, y1, error);
 }
 
-// Draws what of the path lies below the plot's upper edge, in as many pieces as that takes.
+// Draws the parts of the path below the plot's upper edge.
 static bool draw_path(const struct plot *plot, const struct layout *at, const struct curve *curve,
                       const struct path *path, struct drawing *d, lam_error *error)
 {
@@ -110,9 +110,9 @@ static bool draw_path(const struct plot *plot, const struct layout *at, const st
     int count = 0;
     for (int i = 0; ok && i < path->count; i++) {
         struct point p = path->points[i], before = path->points[i ? i - 1 : 0];
-        bool in = p.y <= plot->y_most, was_in = before.y <= plot->y_most;
-        double share = in != was_in ? (plot->y_most - before.y) / (p.y - before.y) : 0;
-        struct point edge = {before.x + (p.x - before.x) * share, plot->y_most};
+        bool in = p.y <= plot->y_max, was_in = before.y <= plot->y_max;
+        double share = in != was_in ? (plot->y_max - before.y) / (p.y - before.y) : 0;
+        struct point edge = {before.x + (p.x - before.x) * share, plot->y_max};
         if (in != was_in)
             piece[count++] = place(plot, at, edge.x, edge.y);
         if (in)
@@ -132,13 +132,13 @@ static bool draw_curve(const struct plot *plot, const struct layout *at, const s
     enum { STEPS = 400 };
     struct path path = {0};
     double x = 0, y = curve->value(curve, 0);
-    // An inverse square is 0 at the light itself and beyond every bound beside it: it begins beside it.
-    double beside = plot->x_most * 1e-4;
-    if (y == 0 && curve->value(curve, beside) > plot->y_most)
+    // An inverse square is 0 at the light itself and unbounded next to it: the curve starts next to it.
+    double beside = plot->x_max * 1e-4;
+    if (y == 0 && curve->value(curve, beside) > plot->y_max)
         y = curve->value(curve, x = beside);
     bool ok = path_add(&path, x, y, error);
     for (int i = 1; ok && i <= STEPS; i++) {
-        double next = plot->x_most * i / STEPS, value = curve->value(curve, next);
+        double next = plot->x_max * i / STEPS, value = curve->value(curve, next);
         ok = path_refine(&path, plot, curve, x, y, next, value, error);
         x = next;
         y = value;
@@ -148,20 +148,20 @@ static bool draw_curve(const struct plot *plot, const struct layout *at, const s
     return ok;
 }
 
-// Dots where curves fall below the level, their numbers above them, in rows where they would overlap.
+// Draws dots where curves fall below the level, with their numbers above, in several rows if they would overlap.
 static bool draw_marks(const struct plot *plot, const struct layout *at, struct drawing *d, lam_error *error)
 {
-    double u = at->unit, taken[CURVES_MOST] = {0}; // right end of each row of numbers
-    for (int k = 0; k < CURVES_MOST; k++)
+    double u = at->unit, taken[CURVES_MAX] = {0}; // right end of each row of numbers
+    for (int k = 0; k < CURVES_MAX; k++)
         taken[k] = -1e9;
     double last = -1;
     for (int n = 0; n < plot->count; n++) {
-        // The next one from the left.
+        // The next mark from the left.
         const struct curve *curve = NULL;
         int at_once = 0;
         for (int i = 0; i < plot->count; i++) {
             const struct curve *c = &plot->curves[i];
-            bool shown = c->marked && c->below > last && c->below <= plot->x_most;
+            bool shown = c->marked && c->below > last && c->below <= plot->x_max;
             if (shown && (!curve || c->below < curve->below)) {
                 curve = c;
                 at_once = 1;
@@ -175,7 +175,7 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
         double half = text_width(d, 13 * u, text) / 2 + 3 * u;
         struct point dot = place(plot, at, curve->below, plot->level);
         int row = 0;
-        while (row + 1 < CURVES_MOST && dot.x - half < taken[row])
+        while (row + 1 < CURVES_MAX && dot.x - half < taken[row])
             row++;
         taken[row] = dot.x + half;
         double base = dot.y - (26 + 17 * row) * u;
@@ -187,8 +187,7 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
     return true;
 }
 
-// The box with the names of the curves: in the plot's upper right corner where no curve passes there, else
-// beside the plot.
+// The legend: in the plot's upper right corner if no curve passes there, else beside the plot.
 struct names {
     double left, top, width, height; // pixels
 };
@@ -202,12 +201,12 @@ static struct names place_names(const struct plot *plot, struct layout *at, cons
     }
     struct names box = {.top = at->top + 6 * u, .width = widest + 50 * u, .height = plot->count * 21 * u + 10 * u};
     box.left = at->right - 6 * u - box.width;
-    double scale = plot->y_most / (at->bottom - at->top);
+    double scale = plot->y_max / (at->bottom - at->top);
     double low = (at->bottom - box.top - box.height) * scale, high = (at->bottom - box.top) * scale;
     bool free = low > 0;
     for (int i = 0; free && i < plot->count; i++)
         for (int k = 0; free && k <= 100; k++) {
-            double x = (box.left + box.width * k / 100 - at->left) / (at->right - at->left) * plot->x_most;
+            double x = (box.left + box.width * k / 100 - at->left) / (at->right - at->left) * plot->x_max;
             double y = x < 0 ? high : plot->curves[i].value(&plot->curves[i], x);
             free = y < low || y > high;
         }
@@ -242,7 +241,7 @@ bool plot_draw(const struct plot *plot, struct drawing *d, lam_error *error)
     if (!draw_axes(plot, &at, d, error))
         return false;
     if (plot->level > 0) {
-        struct point across[2] = {place(plot, &at, 0, plot->level), place(plot, &at, plot->x_most, plot->level)};
+        struct point across[2] = {place(plot, &at, 0, plot->level), place(plot, &at, plot->x_max, plot->level)};
         if (!draw_line(d, across, 2, u, GREY, 4 * u, error))
             return false;
         draw_text(d, (struct point){across[1].x - 4 * u, across[1].y - 6 * u}, 12 * u, ALIGN_RIGHT, GREY,

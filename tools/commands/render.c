@@ -15,24 +15,22 @@
 #include "progress.h"
 #include "report.h"
 
-// --- what the options of all models amount to
+// --- checks of the options together
 
-// Conventions of the stages: Phong lights fragments, Gouraud vertices, flat either.
+// Phong shading runs in the fragment stage, Gouraud shading in the vertex stage or the application, flat in any.
 static bool check_stage(const struct options *o, lam_error *error)
 {
     if (!o->has_shading || !o->stage)
         return true;
     if (o->shading == LAM_SHADING_PHONG && o->stage != LAM_STAGE_FRAGMENT)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "phong shading cannot be worked out in stage %s; phong goes with fragment, gouraud "
-                        "with application "
-                        "or vertex, flat with all three",
+                        "phong shading cannot be evaluated in stage %s; phong works with fragment, gouraud with "
+                        "application or vertex, flat with all three",
                         o->stage == LAM_STAGE_VERTEX ? "vertex" : "application");
     if (o->shading == LAM_SHADING_GOURAUD && o->stage == LAM_STAGE_FRAGMENT)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "gouraud shading cannot be worked out in stage fragment; gouraud goes with "
-                        "application or vertex, phong "
-                        "with fragment, flat with all three");
+                        "gouraud shading cannot be evaluated in stage fragment; gouraud works with application or "
+                        "vertex, phong with fragment, flat with all three");
     return true;
 }
 
@@ -62,7 +60,7 @@ static bool check_together(int count, char **models, const struct options *o, la
                         "option '--save-scene' goes only with a single model, but there are %d", count);
     if (o->save_scene && strcmp(models[0], "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--save-scene' needs a model with a name, which standard input has not");
+                        "option '--save-scene' needs a model with a name; standard input has none");
     if (o->save_scene && strcmp(o->save_scene, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' writes a file, expected its name");
     for (int i = 0; i < count; i++) {
@@ -77,11 +75,11 @@ static bool check_together(int count, char **models, const struct options *o, la
     if (o->output && strcmp(o->output, "-") == 0 && isatty(STDOUT_FILENO))
         return complain(error, LAM_BAD_ARGUMENT,
                         "standard output is a terminal, and the picture is not text; "
-                        "send it on: lambent MODEL -o - > FILE");
+                        "redirect it: lambent MODEL -o - > FILE");
     return true;
 }
 
-// One of several pictures of the same name would replace another.
+// Sorts models by their output, to find two with the same name.
 struct named_output {
     const char *model;
     char *output;
@@ -117,25 +115,24 @@ static bool check_names(int count, char **models, const char *output, lam_error 
     return ok;
 }
 
-// --- telling
+// --- messages
 
-// Each warning once.
-static void tell_warnings(const struct job *job)
+// Prints each warning once.
+static void print_warnings(const struct job *job)
 {
     for (int i = 0; job->scene && lam_scene_warning(job->scene, i); i++) {
         const char *text = lam_scene_warning(job->scene, i);
-        bool told = false;
-        for (int k = 0; k < i && !told; k++)
-            told = strcmp(lam_scene_warning(job->scene, k), text) == 0;
-        if (!told)
+        bool printed = false;
+        for (int k = 0; k < i && !printed; k++)
+            printed = strcmp(lam_scene_warning(job->scene, k), text) == 0;
+        if (!printed)
             say_warning(text);
     }
     if (job->written && !job->times.frame.pixels_covered)
-        say_warning("nothing of the model is seen in this picture");
+        say_warning("the picture shows no part of the model");
 }
 
-// The library's sentences do not all know which model it was, nor the limit as the user gave it.
-// Whether a sentence begins with a name, whose control characters it shows as '?'.
+// True if a sentence begins with the name, in which it shows control characters as '?'.
 static bool names(const char *sentence, const char *name)
 {
     for (; *name; name++, sentence++) {
@@ -146,12 +143,14 @@ static bool names(const char *sentence, const char *name)
     return *sentence == ':';
 }
 
+// Puts the model's name before a sentence of the library that lacks it, and the user's limit in place of the remaining
+// one.
 static void name_model(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
     const char *name = strcmp(job->model, "-") == 0 ? "standard input" : job->model;
     if (error->code == LAM_LIMIT && o->time_limit_s > 0 && clock_ms() - job->times.start >= o->time_limit_s * 1e3) {
-        complain(error, LAM_LIMIT, "%s: the time limit of %.10g s is over", name, o->time_limit_s);
+        complain(error, LAM_LIMIT, "%s: the time limit of %.10g s was reached", name, o->time_limit_s);
     } else if (error->code == LAM_CANCELLED) {
         complain(error, LAM_CANCELLED, "%s: interrupted", name);
     } else if (error->code != LAM_CANNOT_WRITE && !names(error->text, name) &&
@@ -161,7 +160,7 @@ static void name_model(const struct job *job, lam_error *error)
     }
 }
 
-// Returns the exit code of one model.
+// Draws one model; returns its exit code.
 static int render_one(const char *model, lam_device *device, const struct options *o)
 {
     struct job job = {.options = o, .model = model, .device = device};
@@ -180,7 +179,7 @@ static int render_one(const char *model, lam_device *device, const struct option
         name_model(&job, &error);
 
     if (!o->quiet && may_talk)
-        tell_warnings(&job);
+        print_warnings(&job);
     if (!ok && may_talk)
         say_error(error.text);
     if (ok && o->verbose && may_talk)
@@ -201,11 +200,11 @@ int run_render(int operand_count, char **operands, const struct options *options
     lam_error error = {0};
     if (!check_together(operand_count, operands, options, &error) ||
         !check_names(operand_count, operands, options->output, &error))
-        return tell_failure(&error, options);
+        return report_failure(&error, options);
     interrupt_start();
     lam_device *device = device_option_make(options, &error);
     if (!device)
-        return tell_failure(&error, options);
+        return report_failure(&error, options);
     int worst = 0;
     for (int i = 0; i < operand_count && !interrupted(); i++) {
         int code = render_one(operands[i], device, options);

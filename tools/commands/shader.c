@@ -1,4 +1,4 @@
-// shader.c: the command `shader`: a scene's shaders as text, what they ask for, and code that sets it.
+// shader.c: the command `shader`: prints a scene's shaders, their inputs, and code that sets the inputs.
 #include "shader.h"
 
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include "output.h"
 #include "report.h"
 
-// --- the list of what is to be set
+// --- the list of inputs
 
 static void list_uniforms(FILE *file, const lam_shader_uniform *list, int count)
 {
@@ -23,7 +23,7 @@ static void list_uniforms(FILE *file, const lam_shader_uniform *list, int count)
         if (u->count)
             fprintf(file, "= ");
         shader_numbers(file, u->value, u->count, false);
-        // What it means stands once: at the first of a list.
+        // The first element of a list carries the meaning.
         const char *place = strchr(u->name, '[');
         bool first = !place || strncmp(place, "[0]", 3) == 0;
         fprintf(file, "%s%s%s\n", u->count && first ? "  " : "", first ? "// " : "", first ? u->meaning : "");
@@ -33,7 +33,8 @@ static void list_uniforms(FILE *file, const lam_shader_uniform *list, int count)
 void shader_contract(FILE *file, const lam_shader *s)
 {
     fprintf(file, "// Attributes%s:\n",
-            s->glsl == LAM_GLSL_120 ? ", bound to these locations before linking" : ", at the locations in the text");
+            s->glsl == LAM_GLSL_120 ? ", to be bound to these locations before linking"
+                                    : ", at the locations in the text");
     for (int i = 0; i < s->attribute_count; i++)
         fprintf(file, "//   %d  %-5s %-20s // %s\n", s->attributes[i].location, s->attributes[i].type,
                 s->attributes[i].name, s->attributes[i].meaning);
@@ -47,7 +48,7 @@ void shader_contract(FILE *file, const lam_shader *s)
         list_uniforms(file, s->uniforms, s->uniform_count);
     }
     for (int i = 0; i < s->texture_count; i++)
-        fprintf(file, "//   %s holds %d texels; --host c and --json have them.\n", s->textures[i].name,
+        fprintf(file, "//   %s holds %d texels; --host c and --json print them.\n", s->textures[i].name,
                 s->textures[i].texels);
     for (int i = 0; i < s->draw_count; i++) {
         const lam_shader_draw *d = &s->draws[i];
@@ -58,7 +59,7 @@ void shader_contract(FILE *file, const lam_shader *s)
                 d->cull == LAM_CULL_BACK    ? ", backs culled"
                 : d->cull == LAM_CULL_FRONT ? ", fronts culled"
                                             : "",
-                d->translucent ? ", to be blended" : "");
+                d->translucent ? ", blended" : "");
         if (d->origin[0] != 0 || d->origin[1] != 0 || d->origin[2] != 0)
             fprintf(file, "//   position is relative to (%.17g, %.17g, %.17g)\n", d->origin[0], d->origin[1],
                     d->origin[2]);
@@ -68,8 +69,8 @@ void shader_contract(FILE *file, const lam_shader *s)
 
 // --- files
 
-// NAME of NAME.vert and NAME.frag, from malloc: `output` without such an ending, or in the folder that it is
-// the model's.
+// NAME of NAME.vert and NAME.frag, from malloc: `output` without its extension, or the model's name in the folder
+// `output`.
 static char *base_of(const char *output, const char *model)
 {
     size_t length = strlen(output);
@@ -133,7 +134,7 @@ static void print(const struct options *o, const lam_shader *shader, const char 
         printf("// ===== vertex shader =====\n%s\n", shader->vertex);
         printf("// ===== fragment shader =====\n%s\n", shader->fragment);
     }
-    printf("// ===== what to set =====\n");
+    printf("// ===== inputs =====\n");
     shader_contract(stdout, shader);
     if (o->host && sources) {
         printf("\n// ===== host code =====\n");
@@ -149,7 +150,7 @@ int run_shader(int operand_count, char **operands, const struct options *given)
     lam_error error = {0};
     if (!*job.model) {
         complain(&error, LAM_BAD_ARGUMENT, "a model's name is empty");
-        return tell_failure(&error, given);
+        return report_failure(&error, given);
     }
     interrupt_start();
     job.times.start = clock_ms();
@@ -166,5 +167,5 @@ int run_shader(int operand_count, char **operands, const struct options *given)
     lam_scene_free(job.scene);
     if (interrupted())
         interrupt_finish();
-    return ok ? 0 : tell_failure(&error, given);
+    return ok ? 0 : report_failure(&error, given);
 }

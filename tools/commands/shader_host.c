@@ -9,7 +9,7 @@ void shader_numbers(FILE *file, const float *values, int count, bool code)
 {
     for (int i = 0; i < count; i++) {
         char text[32];
-        // The fewest digits that give the same float: those of a double would be many more.
+        // The fewest digits that read back as the same float.
         for (int digits = 1; digits <= 9; digits++) {
             snprintf(text, sizeof text, "%.*g", digits, (double)values[i]);
             if (strtof(text, NULL) == values[i])
@@ -30,7 +30,7 @@ static void identifier(FILE *file, const char *name)
 
 // --- single uniforms
 
-// What a uniform means stands once: at the first of a list.
+// True for the first element of a list, which carries the comment with the meaning.
 static bool is_first(const lam_shader_uniform *u)
 {
     const char *place = strchr(u->name, '[');
@@ -72,7 +72,7 @@ static bool same_block(const lam_shader_uniform *a, const lam_shader_uniform *b)
     return a->block && b->block && strcmp(a->block, b->block) == 0;
 }
 
-// The numbers of one block, gaps filled; returns the index after it.
+// Prints the values of one block with its padding; returns the index after it.
 static int block_numbers(FILE *file, const lam_shader_uniform *list, int count, int first)
 {
     int at = 0, i = first;
@@ -90,7 +90,7 @@ static int block_numbers(FILE *file, const lam_shader_uniform *list, int count, 
         fprintf(file, "        ");
         for (; at % 16; at += 4)
             fprintf(file, "0, ");
-        fprintf(file, "// up to a whole vec4\n");
+        fprintf(file, "// padding to a whole vec4\n");
     }
     fprintf(file, "    };\n");
     return i;
@@ -103,12 +103,12 @@ static int binding_of(const char *block)
     int binding = 0;
     while (strcmp(block_names[binding], block) != 0)
         binding++;
-    return binding == 3 ? 1 : binding; // Materials stand where Products do not
+    return binding == 3 ? 1 : binding; // a shader has Materials or Products, never both
 }
 
 static void set_all(FILE *file, const lam_shader_uniform *list, int count)
 {
-    int unit = 2; // 0 and 1 are the lists'
+    int unit = 2; // 0 and 1 are the lists of lights
     for (int i = 0; i < count;) {
         const lam_shader_uniform *u = &list[i];
         if (u->block) {
@@ -143,9 +143,9 @@ static bool has_blocks(const lam_shader *s)
     return any;
 }
 
-static void tell_block_setter(FILE *file)
+static void write_block_setter(FILE *file)
 {
-    fputs("// A uniform block and its values. The buffer of a binding is made once and kept.\n"
+    fputs("// Sets the values of a uniform block. The buffer of a binding is created once and kept.\n"
           "static void set_block(GLuint program, const char *name, GLuint binding, const GLfloat *values, "
           "size_t bytes)\n"
           "{\n"
@@ -160,7 +160,7 @@ static void tell_block_setter(FILE *file)
           file);
 }
 
-static void tell_lists(FILE *file, const lam_shader *s)
+static void write_lists(FILE *file, const lam_shader *s)
 {
     for (int i = 0; i < s->texture_count; i++) {
         const lam_shader_texture *list = &s->textures[i];
@@ -174,7 +174,7 @@ static void tell_lists(FILE *file, const lam_shader *s)
         fprintf(file, "};\n\n");
     }
     if (s->texture_count)
-        fputs("// A list as a texture of floats, 1024 texels in a row. The texture of a unit is made once "
+        fputs("// Sets a list as a texture of floats, 1024 texels in a row. The texture of a unit is created once "
               "and kept.\n"
               "static void set_list(GLuint program, const char *name, GLint unit, const GLfloat *values, "
               "GLsizei texels)\n"
@@ -201,11 +201,11 @@ static void tell_lists(FILE *file, const lam_shader *s)
 
 // --- vertices and draws
 
-static void tell_vertices(FILE *file, const lam_shader *s)
+static void write_vertices(FILE *file, const lam_shader *s)
 {
     if (s->flat)
-        fprintf(file, "// A vertex: three of its own for each triangle%s.\n",
-                s->glsl == LAM_GLSL_120 ? "; all but position the same at the three" : "");
+        fprintf(file, "// A vertex; each triangle has three of its own%s.\n",
+                s->glsl == LAM_GLSL_120 ? "; they differ only in position" : "");
     else
         fprintf(file, "// A vertex.\n");
     fprintf(file, "struct vertex {\n");
@@ -213,9 +213,8 @@ static void tell_vertices(FILE *file, const lam_shader *s)
         fprintf(file, "    GLfloat %s[%c]; // %s\n", s->attributes[i].name, s->attributes[i].type[3],
                 s->attributes[i].meaning);
     fputs("};\n\n"
-          "// Tells OpenGL what a vertex is, with the buffer of vertices bound to GL_ARRAY_BUFFER (and, "
-          "where there are such, a\n"
-          "// vertex array).\n"
+          "// Describes the vertex layout to OpenGL. The buffer of vertices is bound to GL_ARRAY_BUFFER (and a\n"
+          "// vertex array object is bound, where OpenGL needs one).\n"
           "static void set_vertices(void)\n{\n",
           file);
     for (int i = 0; i < s->attribute_count; i++) {
@@ -229,9 +228,9 @@ static void tell_vertices(FILE *file, const lam_shader *s)
     fprintf(file, "}\n\n");
 }
 
-static void tell_program(FILE *file, const lam_shader *s)
+static void write_program(FILE *file, const lam_shader *s)
 {
-    fputs("// Compiles and links the two sources. 0: what is wrong stands in `log`.\n"
+    fputs("// Compiles and links the two sources. 0: the errors are in `log`.\n"
           "static GLuint make_program(const char *vertex, const char *fragment, char *log, GLsizei log_size)\n"
           "{\n"
           "    const char *const sources[2] = {vertex, fragment};\n"
@@ -266,15 +265,15 @@ static void tell_program(FILE *file, const lam_shader *s)
           file);
 }
 
-static bool asks_for_color(const lam_shader *s)
+static bool uses_color(const lam_shader *s)
 {
-    bool asks = false;
+    bool uses = false;
     for (int i = 0; i < s->attribute_count; i++)
-        asks |= strcmp(s->attributes[i].name, "color") == 0;
-    return asks;
+        uses |= strcmp(s->attributes[i].name, "color") == 0;
+    return uses;
 }
 
-static void tell_draw(FILE *file, const lam_shader *s, const lam_shader_draw *d, int number)
+static void write_draw(FILE *file, const lam_shader *s, const lam_shader_draw *d, int number)
 {
     fprintf(file, "// Object %d", d->object);
     if (d->object_name)
@@ -284,7 +283,7 @@ static void tell_draw(FILE *file, const lam_shader *s, const lam_shader_draw *d,
         fprintf(file, ", material '%s'", d->material_name);
     fprintf(file, ".\n");
     if (d->origin[0] != 0 || d->origin[1] != 0 || d->origin[2] != 0)
-        fprintf(file, "// Give `position` relative to (%.17g, %.17g, %.17g), subtracted in double.\n", d->origin[0],
+        fprintf(file, "// Pass `position` relative to (%.17g, %.17g, %.17g), subtracted in double.\n", d->origin[0],
                 d->origin[1], d->origin[2]);
     if (d->translucent)
         fprintf(file, "// Translucent: draw it after the opaque ones, with blending, the farthest first.\n");
@@ -296,7 +295,7 @@ static void tell_draw(FILE *file, const lam_shader *s, const lam_shader_draw *d,
     else
         fprintf(file, "    glEnable(GL_CULL_FACE);\n    glCullFace(%s);\n",
                 d->cull == LAM_CULL_BACK ? "GL_BACK" : "GL_FRONT");
-    if (asks_for_color(s) && !d->has_colors)
+    if (uses_color(s) && !d->has_colors)
         fprintf(file, "    glDisableVertexAttribArray(2); // this mesh has no colours\n    "
                       "glVertexAttrib4f(2, 1, 1, 1, 1);\n");
     fprintf(file, "}\n\n");
@@ -305,28 +304,29 @@ static void tell_draw(FILE *file, const lam_shader *s, const lam_shader_draw *d,
 void shader_host(FILE *file, const lam_shader *s, const char *name, const char *model)
 {
     fprintf(file,
-            "// Sets what %s.vert and %s.frag ask for: the picture of '%s'. Made by lambent %s.\n"
+            "// Sets the inputs of %s.vert and %s.frag for the picture of '%s'. Made by lambent %s.\n"
             "// Include it after the header that declares OpenGL's functions, and <stddef.h>. The program:\n"
             "//     program = make_program(vertex, fragment, log, sizeof log);  glUseProgram(program);\n"
             "//     set_frame(program);  glEnable(GL_DEPTH_TEST);\n"
             "//     for each draw d: set_vertices() with the mesh's buffer bound; set_draw[d](program);\n"
             "//                      glDrawArrays(GL_TRIANGLES, 3 * draws[d].first, 3 * draws[d].count);\n"
-            "// where the buffer holds three vertices for each triangle of the object's mesh, in the file's "
-            "order.\n\n",
+            "// where the buffer holds three vertices for each triangle of the object's mesh, in the "
+            "order of the file.\n\n",
             name, name, model, lam_version());
-    tell_vertices(file, s);
-    tell_program(file, s);
+    write_vertices(file, s);
+    write_program(file, s);
     if (has_blocks(s))
-        tell_block_setter(file);
-    tell_lists(file, s);
-    fprintf(file, "// What the whole picture has. The program is in use.\nstatic void set_frame(GLuint program)\n{\n");
+        write_block_setter(file);
+    write_lists(file, s);
+    fprintf(file, "// Sets the uniforms of the whole picture. The program is in use.\nstatic void set_frame(GLuint "
+                  "program)\n{\n");
     if (s->uniform_count)
         set_all(file, s->uniforms, s->uniform_count);
     else
         fprintf(file, "    (void)program;\n");
     fprintf(file, "}\n\n");
     for (int i = 0; i < s->draw_count; i++)
-        tell_draw(file, s, &s->draws[i], i);
+        write_draw(file, s, &s->draws[i], i);
     fprintf(file,
             "// The draws, in order.\nenum { DRAWS = %d };\nstatic void (*const set_draw[DRAWS])(GLuint "
             "program) = {",

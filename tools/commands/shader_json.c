@@ -1,4 +1,4 @@
-// shader_json.c: a scene's shaders and their contract as JSON, on one line (docs/shader.schema.json).
+// shader_json.c: prints a scene's shaders and their inputs as one line of JSON (docs/shader.schema.json).
 #include "shader.h"
 
 #include "json.h"

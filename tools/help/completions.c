@@ -1,17 +1,17 @@
-// completions.c: what bash, zsh and fish complete, from the tables of options and commands.
+// completions.c: generates the completions of bash, zsh and fish from the tables of options and commands.
 #include "generate.h"
 
 #include <stdio.h>
 #include <string.h>
 
-// "one two three" of the words that a value may be.
+// Prints the words that a value may be, separated by spaces.
 static void words_of(const struct option *o)
 {
     for (const struct word *w = o->words; w->name; w++)
         printf("%s%s", w == o->words ? "" : " ", w->name);
 }
 
-// "one two three" of the words that may stand first: commands and shapes.
+// Prints the possible first words, commands and shapes, separated by spaces.
 static void first_words(void)
 {
     for (const struct command *c = command_table; c->name; c++)
@@ -62,7 +62,7 @@ void generate_bash(void)
            "complete -o filenames -F _lambent lambent\n");
 }
 
-// Text inside single quotes of zsh's _arguments: brackets and colons have a meaning there, quotes end it.
+// Escapes a text inside single quotes of zsh's _arguments: brackets and colons have a meaning there, a quote ends it.
 static void zsh_text(const char *text)
 {
     for (; *text; text++) {

@@ -1,4 +1,4 @@
-// field_tables.c: the tables of the fields of materials and lights, as Markdown and for the man page.
+// field_tables.c: prints the tables of the fields of materials and lights as Markdown and for the man page.
 #include "field_tables.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
 void field_tables_markdown(void);
 void field_tables_man(void);
 
-// The default and the range in words.
+// Return the default and the range in words.
 const char *field_standard(const lam_field *field, char text[80]);
 const char *field_range(const lam_field *field, char text[80]);
 

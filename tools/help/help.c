@@ -1,4 +1,4 @@
-// help.c: --help and the command `help`: examples first, then the options by group.
+// help.c: --help and the command `help`: prints the examples, then the options by group.
 #include "help.h"
 
 #include <stdio.h>
@@ -10,7 +10,7 @@
 
 enum { WIDTH = 100, COLUMN = 29, EXAMPLE_COLUMN = 41 };
 
-// Prints words up to WIDTH columns, from column `at`; further lines begin at `indent`. Back quotes are left out.
+// Prints words up to WIDTH columns, starting at column `at`; further lines begin at `indent`. Omits back quotes.
 static void print_wrapped(const char *text, int at, int indent)
 {
     while (*text) {
@@ -75,7 +75,7 @@ static void print_options(unsigned groups)
     }
 }
 
-// The examples that begin with the words; NULL: all.
+// Prints the examples that begin with `words`; NULL: all.
 static void print_examples(const char *words)
 {
     bool any = false;

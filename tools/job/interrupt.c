@@ -1,4 +1,4 @@
-// interrupt.c: Ctrl-C and its kin raise a flag, so that a run ends cleanly and leaves nothing half done.
+// interrupt.c: signals such as Ctrl-C set a flag, so that a run stops cleanly and leaves no partial files.
 #include "interrupt.h"
 
 #include <signal.h>
@@ -18,7 +18,8 @@ void interrupt_start(void)
 {
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
-        struct sigaction old, action = {.sa_handler = catch, .sa_flags = (int)SA_RESETHAND}; // no SA_RESTART: reads end
+        struct sigaction old,
+            action = {.sa_handler = catch, .sa_flags = (int)SA_RESETHAND}; // no SA_RESTART: reads return
         sigemptyset(&action.sa_mask);
         if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
             sigaction(signals[i], &action, NULL);
@@ -32,5 +33,5 @@ void interrupt_finish(void)
 {
     signal(caught, SIG_DFL);
     raise(caught);
-    _exit(128 + caught); // only where the signal is blocked
+    _exit(128 + caught); // reached only if the signal is blocked
 }

@@ -1,4 +1,4 @@
-// job.c: the steps of one model on its way to a picture.
+// job.c: the steps from a model to a picture.
 #include "job.h"
 
 #include <stdio.h>
@@ -31,25 +31,25 @@ static lam_view view_of(const struct options *o)
     return view;
 }
 
-// The control of the next call: what is left of the model's time, the memory, the interrupt, the progress bar.
+// Fills the control of the next library call: remaining time, memory limit, interrupt flag, progress bar.
 static bool control_of(const struct job *job, struct progress *progress, lam_control *control, lam_error *error)
 {
     const struct options *o = job->options;
     *control = (lam_control){.cancel = interrupt_flag(),
                              .memory_limit_bytes = o->memory_limit_bytes,
-                             .progress = progress ? progress_tell : NULL,
+                             .progress = progress ? progress_update : NULL,
                              .user = progress};
     if (interrupted())
         return complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
     if (o->time_limit_s > 0) {
         control->time_limit_s = o->time_limit_s - (clock_ms() - job->times.start) / 1e3;
         if (!(control->time_limit_s > 0))
-            return complain(error, LAM_LIMIT, "%s: the time limit of %.10g s is over", job->model, o->time_limit_s);
+            return complain(error, LAM_LIMIT, "%s: the time limit of %.10g s was reached", job->model, o->time_limit_s);
     }
     return true;
 }
 
-// The crease angle as the library takes it, where 0 stands for its default: a negligible angle splits at
+// The crease angle for the library, where 0 means the default: a user's 0 becomes a negligible angle, which splits at
 // every edge.
 static double crease_of(const struct options *o)
 {
@@ -76,7 +76,7 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     return NULL;
 }
 
-// A model that is not there may be a mistyped shape or command.
+// Adds a suggestion to the error: a model that does not exist may be a mistyped shape or command.
 static void add_guess(const struct job *job, lam_error *error)
 {
     if (error->code != LAM_CANNOT_READ || strpbrk(job->model, "./") || access(job->model, F_OK) == 0)
@@ -95,11 +95,11 @@ static void add_guess(const struct job *job, lam_error *error)
         snprintf(error->text + length, sizeof error->text - length, "; did you mean '%s'?", nearest.best);
 }
 
-// Whether one frame will be drawn, of which the normals that it shows are enough.
+// True if only one frame is drawn, so that normals of its visible triangles suffice.
 static bool draws_once(const struct job *job)
 {
     const struct options *o = job->options;
-    if (job->device && lam_device_isa(job->device) == LAM_ISA_AUTO) // not the CPU's
+    if (job->device && lam_device_isa(job->device) == LAM_ISA_AUTO) // an OpenGL device
         return false;
     bool tangents = lam_reflection_describe((lam_reflection)o->reflection)->tangents;
     return o->repeat == 1 && !show_is_all(o) && !tangents;
@@ -149,7 +149,7 @@ static void place_camera(struct job *job)
     const struct options *o = job->options;
     double start = clock_ms();
     if (o->camera) {
-        lam_camera_parse(o->camera, job->scene, &job->camera, NULL); // was checked when the option was read
+        lam_camera_parse(o->camera, job->scene, &job->camera, NULL); // cannot fail: store_camera has parsed it
     } else if (scene_settings_has_camera(job)) {
         job->camera = job->settings.camera;
     } else {
@@ -165,7 +165,7 @@ static int by_total(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Draws --repeat frames and keeps the report of the median one (the faster of the two in the middle).
+// Draws --repeat frames and keeps the report of the median frame (the faster of the two in the middle).
 static bool draw(struct job *job, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
@@ -188,8 +188,8 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
     if (ok) {
         qsort(reports, (size_t)o->repeat, sizeof *reports, by_total);
         job->times.frame = reports[(o->repeat - 1) / 2];
-        job->times.frame_least = reports[0].total_ms;
-        job->times.frame_most = reports[o->repeat - 1].total_ms;
+        job->times.frame_min = reports[0].total_ms;
+        job->times.frame_max = reports[o->repeat - 1].total_ms;
         job->times.frames = o->repeat;
     }
     free(reports);
@@ -225,7 +225,7 @@ static bool write_output(struct job *job, lam_error *error)
     return ok;
 }
 
-// The scene file's background counts where the command line names none.
+// The background of the command line, else of the scene file.
 static bool find_background(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
@@ -239,11 +239,11 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
 {
     struct model_sphere sphere;
     lam_control control;
-    if (!control_of(job, progress, &control, error) || !job_dress(job, &control, &sphere, error) ||
+    if (!control_of(job, progress, &control, error) || !job_apply_options(job, &control, &sphere, error) ||
         !environment_option_apply(job->options, job->scene, &control, error))
         return false;
     if (job->options->save_scene && option_given(job->options, "show"))
-        lam_scene_add_warning(job->scene, "the scene file that is saved gives the picture: --show is no part of it");
+        lam_scene_add_warning(job->scene, "the saved scene file describes the picture without --show");
     place_camera(job);
     return job_light(job, &sphere, error) && (!job->options->show_lights || light_markers_add(job, error));
 }
@@ -252,7 +252,7 @@ bool job_draw(struct job *job, lam_pixel_format format, struct progress *progres
 {
     if (!job_load(job, progress, error) || !find_background(job, error))
         return false;
-    const struct options *o = job->options; // now with what the scene file says
+    const struct options *o = job->options; // now includes the scene file's settings
     uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
     if (o->memory_limit_bytes && bytes > o->memory_limit_bytes)
         return complain(error, LAM_LIMIT, "the picture of %dx%d pixels needs %.1f MB, more than the memory limit",
@@ -285,7 +285,7 @@ lam_explanation *job_explain(struct job *job, int x, int y, struct progress *pro
     progress_phase(progress, 0.5, 0.5);
     if (!control_of(job, progress, &control, error))
         return NULL;
-    const struct options *o = job->options; // now with what the scene file says
+    const struct options *o = job->options; // now includes the scene file's settings
     lam_draw_params params = draw_params_of(o, job->rig);
     params.background = job->background;
     return lam_explain(job->device, job->scene, &job->camera, &params, o->width, o->height, LAM_RGBA8, x, y, &control,
@@ -296,7 +296,7 @@ lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *er
 {
     if (!job_load(job, progress, error) || !job_arrange(job, progress, error))
         return NULL;
-    const struct options *o = job->options; // now with what the scene file says
+    const struct options *o = job->options; // now includes the scene file's settings
     lam_draw_params draw = draw_params_of(o, job->rig);
     lam_shader_params params = {
         .glsl = (lam_glsl)o->glsl, .lights = (lam_shader_lights)o->lights_in, .products = o->products};

@@ -1,4 +1,4 @@
-// job.h: one model on its way to a picture: what was asked, what came of it.
+// job.h: the work on one model: its options, its state and its results.
 #ifndef JOB_H
 #define JOB_H
 
@@ -9,11 +9,11 @@ struct job_times {
     double start;                                // clock_ms() at the job's start
     double read, prepare, camera, encode, total; // milliseconds
     lam_frame_report frame;                      // of the median frame
-    double frame_least, frame_most;              // over the --repeat frames
+    double frame_min, frame_max;                 // over the --repeat frames
     int frames;
 };
 
-// What the model holds, before options add to it.
+// The contents of the model before options add to it.
 struct model_counts {
     uint64_t triangles, vertices;
     int meshes, objects, materials, lights;
@@ -21,43 +21,44 @@ struct model_counts {
 
 struct job {
     const struct options *options;
-    const char *model;  // as the user wrote it
+    const char *model;  // as typed
     const char *output; // path of the picture; "-": standard output
     const char *format; // of the picture: "png"
-    lam_scene *scene;   // NULL until it is read
+    lam_scene *scene;   // NULL until the model is loaded
     struct model_counts model_counts;
-    lam_rig rig; // what drawing adds to the scene's own lights
+    lam_rig rig; // the rig that drawing adds to the scene's own lights
     lam_camera camera;
     lam_image image;
-    lam_rgba background; // behind the model, as --background says
+    lam_rgba background; // behind the model
     lam_device *device;
-    uint64_t bytes; // of the file written
+    uint64_t bytes; // size of the written file
     bool written;
-    struct options own;            // the options with what a scene file says where the command line says nothing
-    lam_picture_settings settings; // of the scene file; nothing given: the model is none
-    lam_draw_params draw;          // as it was drawn
+    struct options own;            // the options, completed by the settings of a scene file
+    lam_picture_settings settings; // of the scene file; none set if the model is not a scene file
+    lam_draw_params draw;          // of the drawn picture
     struct job_times times;
     lam_error error; // code LAM_OK: none
 };
 
-// Reads, draws and writes. The job comes with its options, model, output, device and start filled in; it is
-// filled step by step, so that on failure what was done can be told. The caller frees its scene and image.
+// Loads the model, draws it and writes the picture. The caller fills in options, model, output, device and times.start;
+// the steps fill in the rest, so that a report of a failure includes the completed steps. The caller frees the scene and
+// the image.
 bool job_run(struct job *job, struct progress *progress, lam_error *error);
 
-// The same up to the drawn picture, which stays in `image`: output and format are not looked at.
+// Loads and draws; the picture stays in `image`. Ignores output and format.
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);
 
-// Reads the model or makes the shape, and takes over what a scene file says: the first step of job_run, for commands
-// that draw nothing.
+// The first step of job_run, for commands that draw nothing: loads the model or makes the shape, and applies the settings
+// of a scene file.
 bool job_load(struct job *job, struct progress *progress, lam_error *error);
 
-// The second step: materials, turns, the camera and the lights, as the options ask.
+// The second step: applies the options for materials, turns, camera and lights.
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error);
 
-// The same up to the drawing, and then one pixel is explained. NULL on failure.
+// Runs both steps and explains one pixel. NULL on failure.
 lam_explanation *job_explain(struct job *job, int x, int y, struct progress *progress, lam_error *error);
 
-// The same up to the drawing, and then the shaders are made that would draw it. NULL on failure.
+// Runs both steps and makes the shaders of the picture. NULL on failure.
 lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *error);
 
 #endif

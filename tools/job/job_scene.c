@@ -1,4 +1,4 @@
-// job_scene.c: what the options do to a model between reading and drawing: materials, turns, lights.
+// job_scene.c: applies the options for materials, turns and lights to a loaded model.
 #include "job_scene.h"
 
 #include <stdio.h>
@@ -23,8 +23,8 @@ static bool set_materials(const struct texts *texts, bool back, const char *name
     return true;
 }
 
-// Back faces that follow the front need nothing more: shininess and opacity go before them.
-static bool dress_materials(const struct options *o, lam_scene *scene, lam_error *error)
+// Shininess and opacity are set before the back materials, so that back faces derived from the front share them.
+static bool apply_materials(const struct options *o, lam_scene *scene, lam_error *error)
 {
     if (!set_materials(&o->materials, false, "material", o, scene, error))
         return false;
@@ -43,7 +43,7 @@ static bool dress_materials(const struct options *o, lam_scene *scene, lam_error
     return set_materials(&o->back_materials, true, "back-material", o, scene, error);
 }
 
-static bool dress_sides(const struct options *o, lam_scene *scene, lam_error *error)
+static bool apply_sides(const struct options *o, lam_scene *scene, lam_error *error)
 {
     if (!o->two_sided && !o->one_sided && !o->has_cull)
         return true;
@@ -71,9 +71,9 @@ static bool add_rig(lam_scene *scene, lam_rig rig, lam_error *error)
     return true;
 }
 
-// Decides whose lights stay. The rig is left to drawing where no option changes what it gives; else its lights go into
-// the scene here, in their places about the model as it is.
-static bool dress_rig(struct job *job, lam_error *error)
+// Chooses between the model's lights and the rig's. Drawing adds the rig if no option changes it; otherwise its lights
+// are added to the scene here, placed around the model in its current position.
+static bool apply_rig(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
     bool replaces = false;
@@ -96,7 +96,7 @@ static bool dress_rig(struct job *job, lam_error *error)
     return ok;
 }
 
-static bool dress_rotations(const struct options *o, lam_vec3 centre, lam_scene *scene, lam_error *error)
+static bool apply_rotations(const struct options *o, lam_vec3 centre, lam_scene *scene, lam_error *error)
 {
     for (int i = 0; i < o->rotations.count; i++) {
         lam_vec3 axis;
@@ -108,7 +108,7 @@ static bool dress_rotations(const struct options *o, lam_vec3 centre, lam_scene 
     return true;
 }
 
-bool job_dress(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error)
+bool job_apply_options(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error)
 {
     const struct options *o = job->options;
     lam_scene *scene = job->scene;
@@ -118,12 +118,12 @@ bool job_dress(struct job *job, const lam_control *control, struct model_sphere 
     if (!(sphere->radius > 0))
         sphere->radius = 1;
     bool threads = lam_reflection_describe((lam_reflection)o->reflection)->tangents;
-    return dress_materials(o, scene, error) && dress_sides(o, scene, error) && dress_rig(job, error) &&
-           dress_rotations(o, sphere->centre, scene, error) &&
+    return apply_materials(o, scene, error) && apply_sides(o, scene, error) && apply_rig(job, error) &&
+           apply_rotations(o, sphere->centre, scene, error) &&
            (!threads || lam_scene_make_tangents(scene, control, error));
 }
 
-// --- lights that may need the camera
+// --- lights that may depend on the camera
 
 static void scale(lam_rgb *color, double factor)
 {

@@ -1,23 +1,22 @@
-// job_scene.h: what the options do to a model between reading and drawing: materials, turns, lights.
+// job_scene.h: applies the options for materials, turns and lights to a loaded model.
 #ifndef JOB_SCENE_H
 #define JOB_SCENE_H
 
 #include "job.h"
 
-// The sphere that the unit r counts by: of the model before --rotate.
+// The bounding sphere of the model before --rotate; its radius is the unit r.
 struct model_sphere {
     lam_vec3 centre;
     double radius;
 };
 
-// Everything that the camera depends on, and what needs no camera. `sphere` is the model's as it was before it was
-// turned.
-bool job_dress(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error);
+// Applies materials, sides, the rig and the turns: everything that comes before the camera. Fills `sphere`.
+bool job_apply_options(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error);
 
-// The lights; the camera stands.
+// Adds the lights, after the camera has been placed.
 bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *error);
 
-// How to draw, but for the background.
+// The drawing parameters of the options, without the background.
 lam_draw_params draw_params_of(const struct options *o, lam_rig rig);
 
 #endif

@@ -1,4 +1,4 @@
-// light_markers.c: --show-lights: where the lights of a picture are.
+// light_markers.c: --show-lights: adds markers at the lights.
 #include "light_markers.h"
 
 #include <stdlib.h>
@@ -26,7 +26,7 @@ static lam_mat4 to_world(const struct job *job, const lam_light *light)
         m.m[1][3] = job->camera.eye.y;
         m.m[2][3] = job->camera.eye.z;
     } else if (light->frame != LAM_FRAME_WORLD) {
-        // The whole model was turned as its first object was.
+        // --rotate turned the whole model like its first object.
         for (int i = 0; i < lam_scene_object_count(job->scene); i++) {
             const lam_object *object = lam_scene_object(job->scene, i);
             bool meant = light->frame == LAM_FRAME_MODEL || !light->object ||
@@ -44,7 +44,7 @@ static lam_vec3 unit(lam_vec3 v)
     return length > 0 ? (lam_vec3){v.x / length, v.y / length, v.z / length} : (lam_vec3){0, -1, 0};
 }
 
-// Axes scaled by `size`, the second along d, the origin at p.
+// A transform with its origin at p and axes scaled by `size`, the second along d.
 static lam_mat4 place(lam_vec3 p, lam_vec3 d, double size, double along)
 {
     lam_vec3 other = __builtin_fabs(d.y) < 0.9 ? (lam_vec3){0, 1, 0} : (lam_vec3){1, 0, 0};
@@ -88,7 +88,7 @@ bool light_markers_add(struct job *job, lam_error *error)
     if (!lights)
         return complain(error, LAM_LIMIT, "out of memory");
     lam_draw_lights(scene, job->rig, lights, count);
-    // The rig's lights are spelled out: some stand about the scene's sphere, which the markers enlarge.
+    // The rig's lights become lights of the scene first: the scene's sphere places some, and the markers enlarge it.
     bool ok = true;
     for (int i = own; ok && i < count; i++)
         ok = lam_scene_add_light(scene, &lights[i], error) >= 0;

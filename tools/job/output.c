@@ -1,4 +1,4 @@
-// output.c: where a picture goes, and whether it may.
+// output.c: the path of a picture, checks before writing it, and the writing.
 #include "output.h"
 
 #include <errno.h>
@@ -24,7 +24,7 @@ char *output_path(const char *output, const char *model)
         return strdup(output);
     const char *folder = output ? output : "", *name = strcmp(model, "-") == 0 ? "model" : model;
     const char *end = name + strlen(name);
-    while (end > name && end[-1] == '/') // a folder as the model: reading it will say so
+    while (end > name && end[-1] == '/') // the model is a folder: loading it reports that
         end--;
     const char *start = end;
     while (start > name && start[-1] != '/')
@@ -63,13 +63,13 @@ bool output_check(const char *path, const char *model, bool named, lam_error *er
     struct stat there, of_model;
     if (stat(path, &there) != 0)
         return check_folder(path, error);
-    // A picture given as the model: reading it will say what is wrong, which is not that it exists.
+    // The model is itself a picture: loading it reports the real mistake.
     if (!named && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev && there.st_ino == of_model.st_ino)
         return true;
     if (S_ISDIR(there.st_mode))
-        return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: it is a folder%s", path,
+        return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the path is a folder%s", path,
                         named ? "" : "; name another file with -o");
-    if (!S_ISREG(there.st_mode)) { // a pipe or a device is written in place
+    if (!S_ISREG(there.st_mode)) { // pipes and devices are written directly
         if (access(path, W_OK) != 0)
             return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
         return true;

@@ -1,33 +1,31 @@
-// output.h: where a picture goes, and whether it may.
+// output.h: the path of a picture, checks before writing it, and the writing.
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
 #include <lambent/lambent.h>
 
-// Whether --output names the picture itself: neither left out (NULL) nor a folder ("thumbs/").
+// True if --output names the picture itself: it is neither NULL (not given) nor a folder ("thumbs/").
 bool output_is_named(const char *output);
 
-// Where the picture of a model goes, from malloc: where `output` names it, that; else the model's name with
-// .png in that folder or the current one: "dir/koala.obj" gives "koala.png", "-" gives "model.png". NULL when
-// memory is out.
+// The path of a model's picture, from malloc: `output` if it names a file; else the model's name with .png in that folder
+// or the current one: "dir/koala.obj" gives "koala.png", "-" gives "model.png". NULL: out of memory.
 char *output_path(const char *output, const char *model);
 
-// Whether `path` can be written, as far as can be told before the work is done: its folder is there and may be written,
-// it is no folder itself, and, where the user did not name it (`named` false), it is not somebody else's.
+// Checks before the work whether `path` can be written: its folder exists and is writable, the path is not a folder, and,
+// unless the user named it (`named`), it is not a file that lambent did not write.
 bool output_check(const char *path, const char *model, bool named, lam_error *error);
 
-// Whether a picture is written straight to `path` as a PNG: "-", or a pipe or device whose name has no
-// picture's ending.
+// True if the picture is written directly to `path` as a PNG: "-", or a pipe or device without a picture's extension.
 bool output_is_stream(const char *path);
 
-// Writes to such a path; LAM_CANNOT_WRITE.
+// Writes to a stream, as output_is_stream defines it. Error: LAM_CANNOT_WRITE.
 bool output_write(const char *path, const lam_bytes *bytes, lam_error *error);
 
-// Writes a file beside the target under another name, then renames it: it appears whole or not at all.
-// LAM_CANNOT_WRITE.
+// Writes a temporary file next to the target and renames it, so that the target is complete or untouched.
+// Error: LAM_CANNOT_WRITE.
 bool output_replace(const char *path, const lam_bytes *bytes, lam_error *error);
 
-// Bytes of the file at `path`; 0 where it is none.
+// The size of the file at `path` in bytes; 0 if it is not a file.
 uint64_t output_size(const char *path);
 
 #endif

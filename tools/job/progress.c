@@ -1,4 +1,4 @@
-// progress.c: a bar on the terminal for work that takes a while.
+// progress.c: the progress bar on the terminal.
 #include "progress.h"
 
 #include <stdio.h>
@@ -7,7 +7,7 @@
 
 #include "console.h"
 
-// Nothing is shown for work of up to half a second, then the bar changes at most 20 times a second.
+// The bar appears after half a second and changes at most 20 times a second.
 static const double first_ms = 500, pause_ms = 50;
 
 enum { BAR = 24, NAME = 28 };
@@ -30,7 +30,7 @@ void progress_phase(struct progress *progress, double from, double span)
     progress->span = span;
 }
 
-void progress_tell(void *user, double share, const char *step)
+void progress_update(void *user, double share, const char *step)
 {
     struct progress *progress = user;
     double now = clock_ms();

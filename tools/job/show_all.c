@@ -27,7 +27,7 @@ struct layers {
     char (*names)[NAME_ROOM];
 };
 
-// Draws one layer more, as the picture was drawn but for what is shown.
+// Draws one more layer with the parameters of the picture and another output.
 static bool add(struct layers *layers, struct job *job, lam_output show, int light, const lam_control *control,
                 lam_error *error)
 {
@@ -52,7 +52,7 @@ static bool draw_all(struct layers *layers, struct job *job, const lam_light *li
         ok = add(layers, job, terms[i], 0, control, error);
     }
     for (int i = 0; ok && i < light_count; i++) {
-        // A dot in a name would be a layer of a layer; two lights of one name are told apart by their numbers.
+        // A dot in a layer's name would start a nested layer; numbers distinguish lights of the same name.
         char *name = layers->names[layers->count];
         snprintf(name, NAME_ROOM, "light.%d%s%.60s", i + 1, lights[i].name ? "-" : "",
                  lights[i].name ? lights[i].name : "");

@@ -6,10 +6,10 @@
 
 bool show_is_all(const struct options *options);
 
-// Whether the output can hold layers; false: the error tells that --show all needs a .exr.
+// Checks that the output can store layers. Error: --show all needs a .exr.
 bool show_all_check(const struct job *job, lam_error *error);
 
-// Draws every term of the job's picture, which has been drawn, and writes them all to the job's output.
+// Draws every term of the job's picture and writes them, with the picture drawn before, to the job's output.
 bool show_all_write(struct job *job, const lam_control *control, lam_error *error);
 
 #endif

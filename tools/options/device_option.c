@@ -1,4 +1,4 @@
-// device_option.c: `--device`, `--gl-device`, `--isa`, `--threads`: the device that draws.
+// device_option.c: makes the device of `--device`, `--gl-device`, `--isa` and `--threads`.
 #include "device_option.h"
 
 #include "console.h"
@@ -11,7 +11,7 @@ lam_device *device_option_make(const struct options *o, lam_error *error)
         return NULL;
     }
     if (gl && o->isa) {
-        complain(error, LAM_BAD_ARGUMENT, "option '--isa' goes with the CPU device, not with OpenGL");
+        complain(error, LAM_BAD_ARGUMENT, "option '--isa' applies to the CPU device, not to OpenGL");
         return NULL;
     }
     if (gl) {

@@ -1,10 +1,10 @@
-// device_option.h: the device that the options ask for.
+// device_option.h: makes the device of `--device`, `--gl-device`, `--isa` and `--threads`.
 #ifndef DEVICE_OPTION_H
 #define DEVICE_OPTION_H
 
 #include "options.h"
 
-// NULL: the error tells. The caller frees the device.
+// NULL on failure. The caller frees the device.
 lam_device *device_option_make(const struct options *options, lam_error *error);
 
 #endif

@@ -51,7 +51,7 @@ static lam_environment *load(const char *text, lam_color_mode color, const lam_c
     return environment;
 }
 
-// Where no material is named, the default one gives way to a copy, which a scene file can hold.
+// Replaces the default material by a copy in the scene, which a scene file can store.
 static bool replace_default(lam_scene *scene, int material, lam_error *error)
 {
     for (int i = 0; i < lam_scene_object_count(scene); i++) {
@@ -112,14 +112,14 @@ static void warn_unseen(const struct options *options, lam_scene *scene)
 {
     if (!lam_scene_environment(scene)) {
         if (option_given(options, "environment-rotation"))
-            lam_scene_add_warning(scene, "option '--environment-rotation' turns nothing: there is no environment");
+            lam_scene_add_warning(scene, "option '--environment-rotation' has no effect: there is no environment");
         return;
     }
     for (int i = 0; i < lam_scene_object_count(scene); i++)
         if (object_mirrors(scene, lam_scene_object(scene, i)))
             return;
-    lam_scene_add_warning(
-        scene, "the environment is not seen: no material has a reflectivity (--reflectivity 0.5 gives them one)");
+    lam_scene_add_warning(scene,
+                          "the environment is invisible: no material has a reflectivity (--reflectivity 0.5 sets one)");
 }
 
 bool environment_option_apply(const struct options *options, lam_scene *scene, const lam_control *control,
@@ -136,7 +136,7 @@ bool environment_option_apply(const struct options *options, lam_scene *scene, c
     if (options->environment) {
         lam_environment *environment = load(options->environment, (lam_color_mode)options->color, control, error);
         ok = environment && lam_scene_set_environment(scene, environment, rotation_rad, error);
-        lam_environment_free(environment); // the scene has it
+        lam_environment_free(environment); // the scene holds a reference
     } else if (option_given(options, "environment-rotation") && lam_scene_environment(scene)) {
         ok = lam_scene_set_environment(scene, lam_scene_environment(scene), rotation_rad, error);
     }

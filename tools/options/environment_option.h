@@ -4,16 +4,16 @@
 
 #include "options.h"
 
-// Six file names with commas between them, cut apart: `paths` point into the copy that is returned, which the caller
-// frees. NULL: there are not six.
+// Splits six file names separated by commas. `paths` point into the returned copy, which the caller frees. NULL: there
+// are not six.
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error);
 
-// The built-in environment of that name; NULL: it is none.
+// The built-in environment of that name; NULL: there is none.
 const char *environment_option_built_in(const char *name);
 
-// Reads or makes what --environment names and gives it to the scene, turned as --environment-rotation says
-// (which also turns a scene file's own), and gives the materials the --reflectivity asked for. Where a scene
-// has an environment that no surface reflects, it gets a warning.
+// Loads or makes the environment of --environment and adds it to the scene, turned by --environment-rotation (which also
+// turns a scene file's environment); sets the reflectivity of the materials by --reflectivity. Adds a warning to a scene
+// whose environment no surface reflects.
 bool environment_option_apply(const struct options *options, lam_scene *scene, const lam_control *control,
                               lam_error *error);
 

@@ -1,4 +1,4 @@
-// option_values.c: from the text behind an option to a value.
+// option_values.c: parses the values of options.
 #include "options.h"
 
 #include <stdio.h>
@@ -49,7 +49,7 @@ bool store_word(const struct option *option, const char *value, struct options *
         strncat(known, w->name, sizeof known - strlen(known) - 1);
     }
     char guess[64] = "";
-    if (nearest.best && nearest.best[0] > '9') // numbers are not mistyped words
+    if (nearest.best && nearest.best[0] > '9') // a number is not a mistyped word
         snprintf(guess, sizeof guess, "; did you mean '%s'?", nearest.best);
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s", value, known, guess);
 }
@@ -63,8 +63,8 @@ double radians(double degrees) { return degrees * (3.14159265358979323846 / 180)
 
 const char *read_number(const char *text, double *value)
 {
-    // strtod also takes spaces, hexadecimal, "inf" and "nan": only the plain forms get through to it. Its
-    // result is correctly rounded, and no locale is ever set here.
+    // strtod also accepts spaces, hexadecimal, "inf" and "nan", so only plain decimals reach it. Its result is correctly
+    // rounded, and the program never sets a locale.
     const char *s = text;
     if (*s == '-' || *s == '+')
         s++;
@@ -95,12 +95,12 @@ const char *read_number(const char *text, double *value)
 static bool number_between(const struct option *option, const char *value, bool whole, double *number, lam_error *error)
 {
     const char *end = read_number(value, number);
-    if (end && !*end && *number >= option->least && *number <= option->most &&
+    if (end && !*end && *number >= option->min && *number <= option->max &&
         (!whole || *number == (double)(long)*number))
         return true;
     char expected[96];
-    snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "", option->least,
-             option->most);
+    snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "", option->min,
+             option->max);
     return wrong(error, value, expected);
 }
 
@@ -132,7 +132,7 @@ bool store_size(const struct option *option, const char *value, struct options *
     long height = width;
     if (end > value && (*end == 'x' || *end == 'X') && end[1] >= '0' && end[1] <= '9')
         height = strtol(end + 1, &end, 10);
-    if (width < 1 || height < 1 || width > (long)option->most || height > (long)option->most || *end)
+    if (width < 1 || height < 1 || width > (long)option->max || height > (long)option->max || *end)
         return wrong(error, value, "W or WxH from 1 to 65535 pixels, such as 800 or 1920x1080");
     options->has_size = true;
     options->width = (int)width;
@@ -148,14 +148,14 @@ bool store_segments(const struct option *option, const char *value, struct optio
     bool both = end > value && *end == 'x' && end[1] >= '0' && end[1] <= '9';
     if (both)
         stacks = strtol(end + 1, &end, 10);
-    if (*end || slices < 3 || slices > (long)option->most || (both && (stacks < 1 || stacks > (long)option->most)))
+    if (*end || slices < 3 || slices > (long)option->max || (both && (stacks < 1 || stacks > (long)option->max)))
         return wrong(error, value, "N or NxM, slices from 3 and stacks from 1 to 16384, such as 64x32");
     options->slices = (int)slices;
     options->stacks = (int)stacks;
     return true;
 }
 
-// "500M": k, M, G, T are powers of 1000, with an i behind them of 1024.
+// "500M": k, M, G, T are powers of 1000; Ki, Mi, Gi, Ti of 1024.
 bool store_bytes(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     double number;
@@ -184,14 +184,14 @@ bool store_color(const struct option *option, const char *value, struct options 
     return true;
 }
 
-// "0.5", the same for all three, or "r/g/b".
+// "0.5" for all three channels, or "r/g/b".
 bool store_reflectivity(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     double numbers[3];
     const char *at = value;
     int count = 0;
     while (at && count < 3 && (at = read_number(at, &numbers[count])) && numbers[count] >= 0 &&
-           numbers[count] <= option->most) {
+           numbers[count] <= option->max) {
         count++;
         if (*at != '/')
             break;
@@ -252,14 +252,14 @@ bool store_rotation(const struct option *option, const char *value, struct optio
     lam_vec3 axis;
     double angle_deg;
     if (!rotation_parse(value, &axis, &angle_deg))
-        return wrong(error, value, "an axis and degrees, such as y:30 (up to a million of them)");
+        return wrong(error, value, "an axis and degrees, such as y:30 (up to a million degrees)");
     return append(option, value, options, error);
 }
 
 bool store_across(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
-    if (options->across.count == ACROSS_MOST)
-        return complain(error, LAM_BAD_ARGUMENT, "given a third time: a grid has lines and columns, no more");
+    if (options->across.count == ACROSS_MAX)
+        return complain(error, LAM_BAD_ARGUMENT, "given a third time: a grid has only rows and columns");
     return append(option, value, options, error);
 }
 

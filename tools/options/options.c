@@ -1,4 +1,4 @@
-// options.c: reads a command line by the table of options.
+// options.c: parses a command line with the table of options.
 #include "options.h"
 
 #include <stdio.h>
@@ -99,7 +99,7 @@ static bool apply(const struct option *option, const char *value, unsigned group
                   lam_error *error)
 {
     if (!option_is_taken(option, groups))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' has no meaning for this command", option->name);
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' does not apply to this command", option->name);
     lam_error reason = {0};
     if (option->store(option, value, options, &reason)) {
         options->given[option - option_table] = true;
@@ -108,7 +108,7 @@ static bool apply(const struct option *option, const char *value, unsigned group
     return complain(error, LAM_BAD_ARGUMENT, "option '--%s': %.400s", option->name, reason.text);
 }
 
-// The word after an option that wants a value; NULL with the error when there is none.
+// The word after an option that takes a value; NULL with the error if it is missing.
 static const char *next_value(const struct option *option, int count, char **words, int *at, lam_error *error)
 {
     if (*at + 1 < count && !is_known_option(words[*at + 1]))

@@ -1,11 +1,11 @@
-// options.h: the options of the program: one table, from which come the parsing, the help, the man page, the
-// shells' completions and docs/command-line.md.
+// options.h: the options of the program. One table serves the parser, the help, the man page, the shells' completions and
+// docs/command-line.md.
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
 #include <lambent/lambent.h>
 
-enum { OPTIONS_MAX = 128, ACROSS_MOST = 2 };
+enum { OPTIONS_MAX = 128, ACROSS_MAX = 2 };
 
 // The values of an option that may be repeated, in order.
 struct texts {
@@ -13,12 +13,12 @@ struct texts {
     int count;
 };
 
-// What the options of a command line amount to. option_defaults() gives the plain default of each.
+// The options of a command line; option_defaults() returns their defaults.
 struct options {
     // Picture
     const char *output;     // NULL: <model's name>.png; "-": standard output
     int width, height;      // pixels
-    bool has_size;          // they were given
+    bool has_size;          // the size was given
     int samples;            // 0: the library's default
     const char *background; // as written; NULL: clear
     int color;              // lam_color_mode
@@ -26,11 +26,11 @@ struct options {
     double exposure;        // stops
     const char *show;       // as written (show_option.h); NULL: the picture
 
-    const char *save_scene; // a scene file to write as well; NULL: none
+    const char *save_scene; // the scene file to write; NULL: none
 
     // View
     int view;                          // lam_side
-    double azimuth_deg, elevation_deg; // valid where the switch below is set
+    double azimuth_deg, elevation_deg; // valid if the flag below is set
     bool has_azimuth, has_elevation;
     double zoom;        // 0: 1
     int projection;     // 1: orthographic
@@ -48,7 +48,7 @@ struct options {
     // Materials
     struct texts materials; // as written, checked
     struct texts back_materials;
-    double shininess, opacity; // valid where the switch below is set
+    double shininess, opacity; // valid if the flag below is set
     bool has_shininess, has_opacity;
 
     // Shading
@@ -67,7 +67,7 @@ struct options {
     double crease_angle_deg; // < 0: the library's default
     const char *environment; // as written; NULL: none
     double environment_rotation_deg;
-    lam_rgb reflectivity; // valid where the switch below is set
+    lam_rgb reflectivity; // valid if the flag below is set
     bool has_reflectivity;
 
     // Work
@@ -86,7 +86,7 @@ struct options {
     const char *font; // NULL: the system's
     bool no_captions;
     int sheet;           // enum sheet_name
-    struct texts across; // as written, at most ACROSS_MOST
+    struct texts across; // as written, at most ACROSS_MAX
     double to;           // right end of a plot's axis; 0: fitted
 
     // Checks of shaders
@@ -103,16 +103,16 @@ struct options {
     int lights_in; // lam_shader_lights
     int host;      // 1: C code as well
     bool products;
-    int object; // valid where the switch below is set
+    int object; // valid if the flag below is set
     bool has_object;
 
     // Reports
     bool json, quiet, verbose, version, help;
 
-    bool given[OPTIONS_MAX]; // of each row of the table: stands on the command line
+    bool given[OPTIONS_MAX]; // for each row of the table: the option is on the command line
 };
 
-// Options that commands take singly, without the rest of their group: bits above those of the groups.
+// Options that a command accepts without the rest of their group: bits above those of the groups.
 enum {
     TAKES_OUTPUT = 1u << 24,
     TAKES_JSON = 1u << 25,
@@ -120,7 +120,7 @@ enum {
     TAKES_SIZE = 1u << 27,
 };
 
-// --rig none: no light but the ambient; beside the values of lam_rig.
+// --rig none: only the ambient light. A value besides those of lam_rig.
 enum { RIG_DARK = 100 };
 
 enum device_name { DEVICE_AUTO, DEVICE_CPU, DEVICE_GL, DEVICE_GLES };
@@ -149,59 +149,58 @@ enum option_group {
     GROUP_SHEET,
     GROUP_CHECK,
     GROUP_SHADER,
-    GROUP_ABOUT, // every command has these
+    GROUP_ABOUT, // accepted by every command
     GROUP_COUNT,
 };
 
-// One word that an option takes as its value. The list ends with a NULL name.
+// A word that an option accepts as its value. A list ends with a NULL name.
 struct word {
     const char *name;
     int value;
-    const char *summary; // NULL: the name says it; or it is another name of the word before
+    const char *summary; // NULL: the name says enough, or is another name of the word before
 };
 
 struct option {
     const char *name; // without the dashes
     char letter;      // the short form; 0: none
     enum option_group group;
-    const char *value;        // what follows it, as the help shows it; NULL: nothing follows
-    const char *standard;     // the default, as people read it; NULL: none to tell
+    const char *value;        // the placeholder of its value in the help; NULL: takes none
+    const char *standard;     // the default in words; NULL: not shown
     const char *summary;      // one sentence for --help
-    const char *details;      // more for the man page and the docs; NULL: the summary says all. `code` in back quotes
-    const struct word *words; // the only values it takes; NULL: free
+    const char *details;      // more for the man page and the docs, with `code` in back quotes; NULL: none
+    const struct word *words; // the accepted values; NULL: any
     bool takes_file;          // for the completions
 
-    // Stores the value (NULL for a switch) at `field` bytes into struct options. On failure fills error->text
-    // with what is wrong, without the option's name.
+    // Stores the value (NULL for a switch) at offset `field` of struct options. On failure error->text describes the
+    // mistake without naming the option.
     bool (*store)(const struct option *option, const char *value, struct options *options, lam_error *error);
     size_t field, has_field; // has_field: a bool to set as well (words and numbers); 0: none
-    double least, most;      // for numbers
-    unsigned single;         // TAKES_…, where commands may take it without its group
+    double min, max;         // for numbers
+    unsigned single;         // TAKES_…, if commands may accept it without its group
 };
 
 extern const struct option option_table[]; // ends with a NULL name
-// Fills the words that stand in the library's tables. main calls it before anything reads the table.
+// Fills in the words that come from the library's tables. main calls it before anything reads the table.
 void option_table_fill(void);
 extern const char *const group_titles[GROUP_COUNT];
 
 struct options option_defaults(void);
 void options_free(struct options *options);
 
-// A copy that may be read into on its own. False: memory is out, and there is nothing to free.
+// Makes an independent copy. False: out of memory; there is nothing to free.
 bool options_copy(struct options *to, const struct options *from);
 
-// True where the command line has the option (by its long name).
+// True if the command line has the option, given by its long name.
 bool option_given(const struct options *options, const char *name);
 
-// Whether a command takes an option: `groups` has bit g set for each group that it takes whole, and TAKES_… bits.
+// True if a command accepts an option: `groups` has bit g set for each group accepted as a whole, and TAKES_… bits.
 bool option_is_taken(const struct option *option, unsigned groups);
 
-// Reads a command line's words (without the program's and the command's name). `groups` as above. Operands are
-// moved to the front of `words`; returns their number, or −1
-// with the reason: LAM_BAD_ARGUMENT.
+// Parses the words of a command line (without the program's and the command's name). `groups` as above. Moves the
+// operands to the front of `words` and returns their number; −1: LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error);
 
-// The kinds of values, for the table's `store`.
+// Parsers of values, for the table's `store`; the comments name the type of the field.
 bool store_switch(const struct option *, const char *, struct options *, lam_error *);       // bool
 bool store_text(const struct option *, const char *, struct options *, lam_error *);         // const char *
 bool store_word(const struct option *, const char *, struct options *, lam_error *);         // int
@@ -220,14 +219,14 @@ bool store_light(const struct option *, const char *, struct options *, lam_erro
 bool store_material(const struct option *, const char *, struct options *,
                     lam_error *); // struct texts, checked
 bool store_across(const struct option *, const char *, struct options *,
-                  lam_error *); // repeatable, to ACROSS_MOST
+                  lam_error *); // repeatable, to ACROSS_MAX
 bool store_rotation(const struct option *, const char *, struct options *,
                     lam_error *); // struct texts, checked
 bool store_light_color(const struct option *, const char *, struct options *,
                        lam_error *); // const char *, checked
 
-// A plain decimal number at the start of `text` ("-1.5e3"; no hexadecimal, no "inf"). Returns what follows
-// it, NULL if there is none or it is too large.
+// Reads a plain decimal number at the start of `text` ("-1.5e3"; no hexadecimal, no "inf"). Returns the text after it;
+// NULL if there is no number or it is too large.
 const char *read_number(const char *text, double *value);
 
 // Parses "x:30", an axis and an angle. False: not of that form, or over a million degrees.

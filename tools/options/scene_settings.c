@@ -1,4 +1,4 @@
-// scene_settings.c: what a scene file says about its picture, below what the command line says; and --save-scene.
+// scene_settings.c: the picture settings of a scene file, which the command line overrides; and --save-scene.
 #include "scene_settings.h"
 
 #include <stdlib.h>
@@ -7,8 +7,8 @@
 #include "options.h"
 #include "environment_option.h"
 
-// Settings that an option can override, by the option's name.
-static bool free_to_take(const struct job *job, unsigned bit, const char *option)
+// True if the scene file has the setting and the command line does not override it.
+static bool takes_setting(const struct job *job, unsigned bit, const char *option)
 {
     return (job->settings.present & bit) && !option_given(&job->own, option);
 }
@@ -21,37 +21,37 @@ void scene_settings_apply(struct job *job)
         return;
     struct options *own = &job->own;
     const lam_picture_settings *s = &job->settings;
-    if (free_to_take(job, LAM_SETTING_SIZE, "size") && !own->has_size) { // a sheet decides its pictures' size
+    if (takes_setting(job, LAM_SETTING_SIZE, "size") && !own->has_size) { // a sheet decides its pictures' size
         own->width = s->width;
         own->height = s->height;
     }
-    if (free_to_take(job, LAM_SETTING_SAMPLES, "samples"))
+    if (takes_setting(job, LAM_SETTING_SAMPLES, "samples"))
         own->samples = s->draw.samples;
-    if (free_to_take(job, LAM_SETTING_COLOR, "color"))
+    if (takes_setting(job, LAM_SETTING_COLOR, "color"))
         own->color = (int)s->draw.color;
-    if (free_to_take(job, LAM_SETTING_EXPOSURE, "exposure"))
+    if (takes_setting(job, LAM_SETTING_EXPOSURE, "exposure"))
         own->exposure = s->draw.exposure;
-    if (free_to_take(job, LAM_SETTING_SHADING, "shading")) {
+    if (takes_setting(job, LAM_SETTING_SHADING, "shading")) {
         own->shading = (int)s->draw.shading;
         own->has_shading = !option_given(own, "stage");
     }
-    if (free_to_take(job, LAM_SETTING_REFLECTION, "reflection"))
+    if (takes_setting(job, LAM_SETTING_REFLECTION, "reflection"))
         own->reflection = (int)s->draw.reflection;
-    // A shading asked for on the command line comes without the file's stage, which may not go with it.
-    if (free_to_take(job, LAM_SETTING_STAGE, "stage") && !option_given(own, "shading"))
+    // A shading on the command line discards the file's stage, which may not fit it.
+    if (takes_setting(job, LAM_SETTING_STAGE, "stage") && !option_given(own, "shading"))
         own->stage = (int)s->draw.stage;
-    if (free_to_take(job, LAM_SETTING_VIEWER, "viewer"))
+    if (takes_setting(job, LAM_SETTING_VIEWER, "viewer"))
         own->viewer = (int)s->draw.viewer;
-    if (free_to_take(job, LAM_SETTING_FLAT_NORMAL, "flat-normal"))
+    if (takes_setting(job, LAM_SETTING_FLAT_NORMAL, "flat-normal"))
         own->flat_normal = (int)s->draw.flat_normal;
     own->match_highlights |= s->draw.match_highlights;
     own->gl1 |= s->draw.gl1;
-    if (free_to_take(job, LAM_SETTING_LIGHT_CUTOFF, "light-cutoff")) {
+    if (takes_setting(job, LAM_SETTING_LIGHT_CUTOFF, "light-cutoff")) {
         own->light_cutoff = (double)s->draw.light_cutoff;
         own->has_light_cutoff = true;
     }
-    // Lights that are listed, be they none, leave no room for the studio.
-    if (free_to_take(job, LAM_SETTING_LIGHTS, "rig")) {
+    // A list of lights, even an empty one, replaces the studio.
+    if (takes_setting(job, LAM_SETTING_LIGHTS, "rig")) {
         own->rig = (int)LAM_RIG_NONE;
         own->has_rig = true;
     }
@@ -66,8 +66,8 @@ bool scene_settings_has_camera(const struct job *job)
     return job->settings.present & LAM_SETTING_CAMERA;
 }
 
-// The environment as it is drawn: the command line's, or the scene file's with the command line's turn.
-// `names` keeps the six names.
+// Stores the drawn environment: the command line's, or the scene file's with the command line's rotation. `names` stores
+// the six file names.
 static bool take_environment(const struct options *o, lam_picture_settings *s, char **names, lam_error *error)
 {
     const char *text = o->environment;

@@ -1,16 +1,16 @@
-// scene_settings.h: what a scene file says about its picture, below what the command line says; and --save-scene.
+// scene_settings.h: the picture settings of a scene file, which the command line overrides; and --save-scene.
 #ifndef SCENE_SETTINGS_H
 #define SCENE_SETTINGS_H
 
 #include "job.h"
 
-// Takes over what the job's scene says where the command line says nothing: into job->own, which job->options then is.
+// Copies the options to job->own, completes them by the settings of the scene file, and points job->options there.
 void scene_settings_apply(struct job *job);
 
-// True where the scene file's camera counts: nothing on the command line places another one.
+// True if the scene file has the camera, and no option of the command line places another one.
 bool scene_settings_has_camera(const struct job *job);
 
-// Writes the scene file of --save-scene, once the frame is drawn.
+// Writes the scene file of --save-scene, after the frame has been drawn.
 bool scene_settings_save(const struct job *job, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// show_option.c: the value of --show: a word, or a word and a light: "diffuse", "light:key", "n.l:2".
+// show_option.c: parses the value of --show, a word or a word and a light: "diffuse", "light:key", "n.l:2".
 #include "show_option.h"
 
 #include <stdio.h>
@@ -14,7 +14,7 @@ static bool takes_light(lam_output show)
     return show == LAM_OUTPUT_LIGHT || show == LAM_OUTPUT_N_L || show == LAM_OUTPUT_N_H;
 }
 
-// The show with this name; LAM_OUTPUT_COUNT: none. `light` becomes what stands behind the colon, NULL without one.
+// The output with this name; LAM_OUTPUT_COUNT: none. Sets `light` to the text after the colon, NULL without one.
 static lam_output split(const char *text, const char **light)
 {
     *light = NULL;
@@ -65,8 +65,7 @@ static bool has_direction(const lam_light *light)
     return light->type != LAM_LIGHT_AMBIENT && light->type != LAM_LIGHT_HEMISPHERE;
 }
 
-// The number of the light that is meant; −1: none. By name first, then by number from 1; without either the first with
-// a direction.
+// Finds a light by name, else by number from 1; without either, the first light with a direction. −1: none.
 static int find(const char *wanted, const lam_light *lights, int count)
 {
     for (int i = 0; i < count; i++)
@@ -77,8 +76,8 @@ static int find(const char *wanted, const lam_light *lights, int count)
     return wanted && *wanted >= '0' && *wanted <= '9' && !*end && number >= 1 && number <= count ? (int)number - 1 : -1;
 }
 
-// "'key', 'fill', 3": unnamed lights by their numbers. Ends with "…" where there are too many to tell.
-static void list(const lam_light *lights, int count, bool directed, char *out, size_t room)
+// Lists lights as "'key', 'fill', 3", unnamed ones by number. Ends with "…" if they do not fit.
+static void list(const lam_light *lights, int count, bool directed, char *out, size_t capacity)
 {
     size_t used = 0;
     out[0] = 0;
@@ -90,7 +89,7 @@ static void list(const lam_light *lights, int count, bool directed, char *out, s
             snprintf(one, sizeof one, "%s'%.80s'", used ? ", " : "", lights[i].name);
         else
             snprintf(one, sizeof one, "%s%d", used ? ", " : "", i + 1);
-        if (used + strlen(one) + sizeof ", …" > room) {
+        if (used + strlen(one) + sizeof ", …" > capacity) {
             memcpy(out + used, ", …", sizeof ", …");
             return;
         }

@@ -1,4 +1,4 @@
-// suggest.c: the nearest of a list of words to a mistyped one.
+// suggest.c: finds the word nearest to a mistyped one.
 #include "suggest.h"
 
 #include <lambent/base.h>
@@ -7,7 +7,7 @@
 
 struct suggestion suggest_start(const char *typed)
 {
-    // A third of the letters may be wrong, and one in the shortest words.
+    // Accepts a third of the letters wrong, at least one.
     int allowed = (int)strlen(typed) / 3;
     return (struct suggestion){.typed = typed, .distance = allowed < 1 ? 2 : allowed + 1};
 }
@@ -15,7 +15,7 @@ struct suggestion suggest_start(const char *typed)
 void suggest_try(struct suggestion *suggestion, const char *word)
 {
     int distance = lam_edit_distance(suggestion->typed, word);
-    // What was typed may also be the word's beginning: "back" for "background".
+    // A prefix counts as near: "back" for "background".
     size_t typed = strlen(suggestion->typed);
     if (typed >= 3 && strncmp(suggestion->typed, word, typed) == 0)
         distance = distance < 1 ? distance : 1;

@@ -1,4 +1,4 @@
-// suggest.h: the nearest of a list of words to a mistyped one.
+// suggest.h: finds the word nearest to a mistyped one.
 #ifndef SUGGEST_H
 #define SUGGEST_H
 
@@ -6,7 +6,7 @@
 
 struct suggestion {
     const char *typed;
-    const char *best; // NULL: nothing near enough
+    const char *best; // NULL: no word is near enough
     int distance;
 };
 

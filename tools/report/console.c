@@ -1,4 +1,4 @@
-// console.c: what the program says to people, and the last word on standard output.
+// console.c: messages on standard error, and the final flush of standard output.
 #include "console.h"
 
 #include <errno.h>
@@ -46,7 +46,7 @@ bool complain(lam_error *error, lam_code code, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(error->text, sizeof error->text, format, arguments);
     va_end(arguments);
-    for (char *c = error->text; *c; c++) // a file's name may hold what plays with a terminal
+    for (char *c = error->text; *c; c++) // a file's name may contain control codes of the terminal
         if ((unsigned char)*c < 0x20 || *c == 0x7F)
             *c = '?';
     return false;

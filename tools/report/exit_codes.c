@@ -4,14 +4,14 @@
 const struct exit_code exit_codes[] = {
     {0, LAM_OK, "ok", "done"},
     {1, LAM_BAD_ARGUMENT, "usage", "the command line is wrong"},
-    {2, LAM_CANNOT_READ, "cannot-read", "a model cannot be read or is not what its format says"},
+    {2, LAM_CANNOT_READ, "cannot-read", "a model cannot be read or is not valid in its format"},
     {3, LAM_UNSUPPORTED, "unsupported", "not supported: a format, or an instruction set that this machine lacks"},
-    {4, LAM_LIMIT, "limit", "a limit was hit: time, memory, or a picture too large for this machine"},
+    {4, LAM_LIMIT, "limit", "a limit was exceeded: time, memory, or the size of a picture on this machine"},
     {5, LAM_CANNOT_WRITE, "cannot-write",
      "the output cannot be written, or would overwrite a file that lambent did not write"},
     {EXIT_DIFFERS, -1, NULL,
      "`diff`: the pictures differ by more than the tolerance; `check`: the shader does not pass"},
-    {130, LAM_CANCELLED, "cancelled", "interrupted (Ctrl-C); nothing half done is left behind"},
+    {130, LAM_CANCELLED, "cancelled", "interrupted (Ctrl-C); no partial files remain"},
     {0, -1, NULL, NULL},
 };
 

@@ -1,5 +1,5 @@
-// exit_codes.h: the program's exit codes, one table: from it come what main returns, the reports, the help, the man page
-// and the docs. They are numbers of their own, whatever lam_code's are.
+// exit_codes.h: the program's exit codes. One table serves the value that main returns, the reports, the help, the man
+// page and the docs. The numbers are independent of lam_code.
 #ifndef EXIT_CODES_H
 #define EXIT_CODES_H
 
@@ -9,7 +9,7 @@ enum { EXIT_DIFFERS = 6 };
 
 struct exit_code {
     int code;
-    int of;              // the lam_code that it stands for; −1: none
+    int of;              // the corresponding lam_code; −1: none
     const char *name;    // in reports; NULL: none
     const char *meaning; // NULL: the table's end
 };

@@ -1,8 +1,7 @@
 // json.h: writes JSON, one value after the other, on one line.
 //
-// Numbers are written with the fewest digits that read back as the same double, whatever the locale: a camera
-// taken from a report gives the same picture again. (Jansson prints a fixed count of digits:
-// 0.10000000000000001, or not the same number.)
+// Numbers have the fewest digits that read back as the same double, in any locale, so that a camera copied from a report
+// gives the same picture. (Jansson prints a fixed number of digits: 0.10000000000000001, or another number.)
 #ifndef JSON_H
 #define JSON_H
 
@@ -12,7 +11,7 @@
 
 struct json {
     FILE *file;
-    bool comma; // something stands before the next value
+    bool comma; // the next value follows another one
 };
 
 // `key` is NULL for the elements of a list and for the outermost value.

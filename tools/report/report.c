@@ -1,4 +1,4 @@
-// report.c: tells what came of a job: a line, a table, or JSON.
+// report.c: reports the result of a job as a line, a table, or JSON.
 #include "report.h"
 
 #include <inttypes.h>
@@ -15,14 +15,14 @@ static char up_letter(const lam_scene *scene)
     return up == LAM_UP_X ? 'x' : up == LAM_UP_Z ? 'z' : 'y';
 }
 
-// A shape is no file: its format is told as "shape".
+// The model's format; "shape" for a built-in shape.
 static const char *format_of(const lam_scene *scene)
 {
     const char *format = lam_scene_format(scene);
     return format && *format ? format : "shape";
 }
 
-// Thirteen digits: what an angle's way to radians and back leaves of it.
+// Rounded to thirteen digits, which survive the conversion to radians and back.
 static double degrees(double angle_rad)
 {
     char text[32];
@@ -92,8 +92,8 @@ void report_table(const struct job *job)
         time_row("    resolve", frame->resolve_ms);
     }
     if (job->times.frames > 1)
-        say_plain("  %d frames, the median one above; %.2f to %.2f ms\n", job->times.frames, job->times.frame_least,
-                  job->times.frame_most);
+        say_plain("  %d frames, the median one above; %.2f to %.2f ms\n", job->times.frames, job->times.frame_min,
+                  job->times.frame_max);
     time_row("encode", job->times.encode);
     time_row("total", job->times.total);
 }
@@ -175,7 +175,7 @@ static void json_device(struct json *json, const lam_device *device)
     json_close(json, '}');
 }
 
-// To the microsecond: more would be noise.
+// Rounded to microseconds.
 static void json_ms(struct json *json, const char *key, double ms)
 {
     json_number(json, key, (double)(int64_t)(ms * 1e3 + 0.5) / 1e3);
@@ -205,8 +205,8 @@ static void json_times(struct json *json, const struct job_times *times)
     json_ms(json, "read", frame->read_ms);
     json_close(json, '}');
     json_count(json, "frames", (uint64_t)times->frames);
-    json_ms(json, "frame_least", times->frame_least);
-    json_ms(json, "frame_most", times->frame_most);
+    json_ms(json, "frame_least", times->frame_min);
+    json_ms(json, "frame_most", times->frame_max);
     json_close(json, '}');
 }
 
@@ -246,7 +246,7 @@ void report_json(FILE *file, const struct job *job, const lam_error *error)
     } else {
         json_none(&json, "model");
     }
-    // A picture that was not written has no camera, device or times worth telling.
+    // Camera, device and times are reported only for a written picture.
     if (job && job->written) {
         json_image(&json, job);
         json_camera(&json, &job->camera);
@@ -270,7 +270,7 @@ FILE *report_stream(const struct options *options)
     return options->output && strcmp(options->output, "-") == 0 ? stderr : stdout;
 }
 
-int tell_failure(const lam_error *error, const struct options *options)
+int report_failure(const lam_error *error, const struct options *options)
 {
     FILE *stream = report_stream(options);
     if (stream != stderr)

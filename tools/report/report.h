@@ -1,4 +1,4 @@
-// report.h: tells what came of a job: a line, a table, or JSON.
+// report.h: reports the result of a job as a line, a table, or JSON.
 #ifndef REPORT_H
 #define REPORT_H
 
@@ -6,21 +6,21 @@
 
 #include "job.h"
 
-// "koala.png  1024x1024  99994 triangles  38 ms", on standard error.
+// Prints "koala.png  1024x1024  99994 triangles  38 ms" on standard error.
 void report_line(const struct job *job);
 
-// What was read and what each step took, on standard error.
+// Prints what was read and the time of each step on standard error.
 void report_table(const struct job *job);
 
-// Where the report goes: standard output, or standard error where the picture goes to standard output, and
-// then nothing else is written there; NULL: none is asked for.
+// The stream of the JSON report: standard output, or standard error if the picture goes to standard output (then nothing
+// else is written there). NULL: no report.
 FILE *report_stream(const struct options *options);
 
-// Tells a failure that no job stands for (a wrong command line, no device), also as a report; returns the
-// exit code.
-int tell_failure(const lam_error *error, const struct options *options);
+// Reports a failure without a job (a wrong command line, no device), in JSON as well if that is enabled; returns the exit
+// code.
+int report_failure(const lam_error *error, const struct options *options);
 
-// One line as docs/report.schema.json describes it. `job` NULL: the command line itself was wrong, as `error` says.
+// Prints one line in the form of docs/report.schema.json. `job` NULL: `error` is about the command line.
 void report_json(FILE *file, const struct job *job, const lam_error *error);
 
 #endif

@@ -53,9 +53,9 @@ static uint8_t *pixel_at(struct drawing *d, int x, int y)
     return (uint8_t *)d->image.pixels + 4 * ((size_t)y * (size_t)d->width + (size_t)x);
 }
 
-static int within(double x, int most) { return !(x > 0) ? 0 : x < most ? (int)x : most; }
+static int within(double x, int max) { return !(x > 0) ? 0 : x < max ? (int)x : max; }
 
-// The page stays opaque, so blending is a mix; done in the encoded numbers, as type and thin lines look best
+// The page stays opaque, so blending is linear interpolation; of encoded values, with which type and thin lines look best
 // on white.
 static void blend(uint8_t *pixel, uint32_t color, double cover)
 {
@@ -65,8 +65,8 @@ static void blend(uint8_t *pixel, uint32_t color, double cover)
     }
 }
 
-// How much of a pixel a line of this half width covers: its edge is one pixel soft, which is exact for
-// straight edges along the axes and close for others.
+// The coverage of a pixel by a line of this half width. The edge is a ramp one pixel wide, which is exact for edges along
+// the axes and close for others.
 static double cover_at(struct point a, struct point b, double half, double x, double y)
 {
     double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
@@ -77,7 +77,7 @@ static double cover_at(struct point a, struct point b, double half, double x, do
     return cover < 0 ? 0 : cover > 1 ? 1 : cover;
 }
 
-// All segments together, so that joints are not painted twice.
+// Draws all segments together, so that joints are not blended twice.
 static bool paint_line(struct drawing *d, const struct point *p, int count, double width, uint32_t color,
                        lam_error *error)
 {
@@ -239,7 +239,7 @@ bool draw_text_upwards(struct drawing *d, struct point baseline, double size, ui
         svg_letters(d->svg, text);
         return true;
     }
-    // Drawn level on a strip, whose alpha is then painted turned.
+    // Draws the text horizontally on a strip, then paints the strip's alpha rotated.
     int length = (int)text_width(d, size, text) + 4, height = (int)(2 * size) + 2, base = (int)(1.5 * size);
     lam_image strip;
     if (!lam_image_make(&strip, length, height, LAM_RGBA8, error))
@@ -264,7 +264,7 @@ double text_width(const struct drawing *d, double size, const char *text)
     int letters = 0;
     for (; d->words && *text; text++)
         letters += (*text & 0xC0) != 0x80;
-    return letters * size * 0.62; // DejaVu Sans' mean width, with some to spare
+    return letters * size * 0.62; // the mean width of DejaVu Sans, with a margin
 }
 
 void draw_image(struct drawing *d, const lam_image *image, int left, int top)

@@ -1,5 +1,5 @@
-// sheet.c: the sheets of the command `compare`, as options of the command line: what a cell shows can be had
-// alone with the same words.
+// sheet.c: the sheets of the command `compare`, as options of the command line, with which a user can
+// draw each cell alone.
 #include "sheet.h"
 
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "console.h"
 #include "suggest.h"
 
-// A light from the upper left in front, as the studio's key light.
+// A light from the upper left front, like the studio's key light.
 #define KEY        "directional:frame=camera,direction=2/-2/-3"
 #define SPECULAR   "specular=0.5"
 #define BRIGHT     "ambient=0.15,diffuse=0.7,specular=1"
@@ -119,15 +119,15 @@ static const struct option *find_option(const char *name, size_t length, lam_err
 
 static bool add_variant(struct sheet *sheet, const char *dashed, const char *name, const char *value, lam_error *error)
 {
-    if (sheet->count == CELLS_MOST)
-        return complain(error, LAM_LIMIT, "option '--across': more than %d pictures", CELLS_MOST);
+    if (sheet->count == CELLS_MAX)
+        return complain(error, LAM_LIMIT, "option '--across': more than %d pictures", CELLS_MAX);
     struct cell *cell = &sheet->cells[sheet->count++];
     *cell = (struct cell){.words = {dashed, value}};
     snprintf(cell->caption, sizeof cell->caption, "%s %s", name, value);
     return true;
 }
 
-// The words that the option takes, each meaning once, "auto" left out: it stands for one of the others.
+// Adds the words of the option, each value once, without "auto", which stands for one of the others.
 static bool add_words(struct sheet *sheet, const char *dashed, const struct option *option, lam_error *error)
 {
     for (const struct word *w = option->words; w->name; w++) {
@@ -140,8 +140,7 @@ static bool add_words(struct sheet *sheet, const char *dashed, const struct opti
     return true;
 }
 
-// Whether values with commas of their own stand with commas between them: "point,spot:cutoff=9" has a type
-// after a comma.
+// True if values that contain commas are separated by commas: in "point,spot:cutoff=9" a type follows a comma.
 static bool lacks_semicolons(const struct option *option, const char *values)
 {
     if (strcmp(option->name, "light") != 0 || strchr(values, ';'))
@@ -155,12 +154,12 @@ static bool lacks_semicolons(const struct option *option, const char *values)
 static bool choose_across(const char *across, bool own_material, struct sheet *sheet, char **store, lam_error *error)
 {
     size_t length = strcspn(across, "=");
-    bool term = length == 4 && memcmp(across, "term", 4) == 0; // what --show calls ambient, diffuse and the others
+    bool term = length == 4 && memcmp(across, "term", 4) == 0; // another name of --show
     const struct option *option = term ? find_option("show", 4, error) : find_option(across, length, error);
     if (!option)
         return false;
     const char *values = across[length] ? across + length + 1 : NULL;
-    bool glossy = strcmp(option->name, "shininess") == 0 && !own_material; // so that there is a highlight
+    bool glossy = strcmp(option->name, "shininess") == 0 && !own_material; // a highlight must be visible
     if (!values && strcmp(option->name, "shininess") == 0)
         values = "10,50,1000";
     if (!values && strcmp(option->name, "show") == 0)
@@ -174,7 +173,7 @@ static bool choose_across(const char *across, bool own_material, struct sheet *s
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--across': found a comma between two lights in '%.200s', expected a semicolon",
                         across);
-    // One block: "--name", a zero, the values, each ended by a zero.
+    // One block: "--name" and the values, each ended by a zero.
     size_t dashed = strlen(option->name) + 3;
     *store = malloc(dashed + (values ? strlen(values) : 0) + 1);
     if (!*store)
@@ -202,20 +201,20 @@ static bool choose_across(const char *across, bool own_material, struct sheet *s
         sheet->cells[i].words[2] = "--material";
         sheet->cells[i].words[3] = "specular=0.5";
     }
-    // Up to six in a row; more in rows as even as can be.
+    // Up to six in a row; more are distributed evenly over rows.
     int rows = (sheet->count + 5) / 6;
     sheet->columns = rows ? (sheet->count + rows - 1) / rows : 1;
     return ok;
 }
 
-// Two rows crossed: one line for each picture of the first, one column for each of the second.
+// Crosses two rows: one row for each picture of the first, one column for each of the second.
 static bool cross(const struct sheet *lines, const struct sheet *columns, struct sheet *sheet, lam_error *error)
 {
     *sheet = (struct sheet){.name = "across", .columns = columns->count};
     snprintf(sheet->title, sizeof sheet->title, "By %.24s and %.24s", lines->name, columns->name);
-    if (lines->count * columns->count > CELLS_MOST)
+    if (lines->count * columns->count > CELLS_MAX)
         return complain(error, LAM_LIMIT, "options '--across': %d times %d pictures, at most %d", lines->count,
-                        columns->count, CELLS_MOST);
+                        columns->count, CELLS_MAX);
     for (int i = 0; i < lines->count * columns->count; i++) {
         const struct cell *a = &lines->cells[i / columns->count], *b = &columns->cells[i % columns->count];
         struct cell *cell = &sheet->cells[sheet->count++];
@@ -230,14 +229,14 @@ static bool cross(const struct sheet *lines, const struct sheet *columns, struct
     return true;
 }
 
-bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MOST], lam_error *error)
+bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MAX], lam_error *error)
 {
-    for (int i = 0; i < ACROSS_MOST; i++)
+    for (int i = 0; i < ACROSS_MAX; i++)
         store[i] = NULL;
     const struct texts *across = &options->across;
     if (across->count == 0) {
         *sheet = sheets[options->sheet];
-        if (options->environment) // the user's own in place of the sky
+        if (options->environment) // the user's environment replaces the sky
             for (int i = 0; i < sheet->count; i++)
                 for (int k = 1; k < CELL_WORDS && sheet->cells[i].words[k]; k++)
                     if (strcmp(sheet->cells[i].words[k - 1], "--environment") == 0)

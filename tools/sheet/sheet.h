@@ -1,10 +1,10 @@
-// sheet.h: what the command `compare` draws: captions, and the options that make each picture.
+// sheet.h: the sheets of the command `compare`: captions, and the options of each picture.
 #ifndef SHEET_H
 #define SHEET_H
 
 #include "options.h"
 
-enum { CELLS_MOST = 24, CELL_WORDS = 8 };
+enum { CELLS_MAX = 24, CELL_WORDS = 8 };
 
 struct cell {
     char caption[96];
@@ -15,12 +15,12 @@ struct sheet {
     const char *name;
     char title[64];
     int columns;
-    bool inset; // the brightest highlight is framed and enlarged
+    bool inset; // frame and enlarge the brightest highlight
     int count;
-    struct cell cells[CELLS_MOST];
+    struct cell cells[CELLS_MAX];
 };
 
-// The sheet that the options ask for. `store` keeps the words of each --across; free() them after the sheet.
-bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MOST], lam_error *error);
+// Selects the sheet of the options. `store` receives the words of each --across; the caller frees them after the sheet.
+bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MAX], lam_error *error);
 
 #endif

@@ -269,7 +269,7 @@ class Methods(Pictures):
             self.bad(1, "sphere", "--stage", stage, "--shading", "phong", says=["phong works with fragment", "stage " + stage])
             self.bad(1, "sphere", "--shading", "normal", "--stage", stage, says="phong works with fragment")
         self.assertEqual(self.picture("--stage", "fragment", "--shading", "normal"), phong)
-        self.bad(1, "sphere", "--stage", "fragment", "--shading", "gouraud", says="gouraud goes with application or vertex")
+        self.bad(1, "sphere", "--stage", "fragment", "--shading", "gouraud", says="gouraud works with application or vertex")
         self.bad(1, "sphere", "--stage", "pixel", says="expected application, vertex or fragment")
 
     def test_switches(self):

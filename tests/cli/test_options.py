@@ -341,7 +341,7 @@ class CommandLine(Case):
             self.assertIn(name, formats)
         self.bad(1, "shapes", "x", says="unexpected argument 'x'")
         self.bad(1, "shapes", "--size", 5, says="does not apply to this command")
-        self.bad(1, "generate", says="argument is missing")
+        self.bad(1, "generate", says="missing argument")
         self.bad(1, "generate", "mna", says="did you mean 'man'?")
         self.bad(1, "help", "shaeps", says="did you mean 'shapes'?")
         self.bad(1, "help", "nope", says=("unknown command 'nope'", "render, compare, explain"))

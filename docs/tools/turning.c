@@ -11,7 +11,7 @@
 
 struct measured {
     uint64_t first_bytes, bytes;
-    double lighting, upload, draw, read, total; // milliseconds, each the least of all frames
+    double lighting, upload, draw, read, total; // milliseconds, each the minimum of all frames
 };
 
 static lam_scene *scene_of(const char *name, lam_error *error)
@@ -97,7 +97,7 @@ int main(int argc, char **argv)
         struct measured turning, still;
         lam_device *device = lam_device_gl(&of, &error); // each with nothing sent yet
         if (device && i == 0)
-            printf("%s, %d×%d pixels, 1 sample, the least of %d frames each, on %s\n\n"
+            printf("%s, %d×%d pixels, 1 sample, the minimum of %d frames each, on %s\n\n"
                    "| lit in the | first frame | each frame | lighting | upload | draw | read | turning | "
                    "standing still |\n"
                    "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",

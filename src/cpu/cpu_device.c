@@ -157,7 +157,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     if (!cpu_frame_set_up(&cpu, &device->memory, error))
         return false;
     cpu.kernels->resolve_empty(&cpu.target);
-    if (!lam_output_is_light(frame->show))
+    if (!lam_output_is_light(frame->output))
         output_empty(&cpu.target);
 
     uint64_t clock = now_ns();

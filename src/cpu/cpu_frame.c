@@ -47,7 +47,7 @@ static void lay_out_thread(struct suballocator *from, struct thread_state *threa
     ARRAY(thread->samples.keys, samples);
     ARRAY(thread->samples.ids, samples);
     thread->samples.counts = NULL;
-    if (frame->show == LAM_OUTPUT_OVERDRAW)
+    if (frame->output == LAM_OUTPUT_OVERDRAW)
         ARRAY(thread->samples.counts, samples);
     ARRAY(thread->fragments.id, fragments);
     ARRAY(thread->fragments.pixel, fragments);
@@ -66,7 +66,7 @@ static void lay_out_thread(struct suballocator *from, struct thread_state *threa
     if (target->converted)
         ARRAY(thread->sums.pixels, TILE * TILE * 4);
     thread->sums.unclipped = NULL;
-    if (frame->show == LAM_OUTPUT_CLIPPED)
+    if (frame->output == LAM_OUTPUT_CLIPPED)
         ARRAY(thread->sums.unclipped, TILE * TILE * 4);
     if (!frame->translucent)
         return;

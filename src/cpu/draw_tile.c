@@ -76,7 +76,7 @@ static void resolve_into(const struct resolve_target *target, const struct cpu_f
                          const struct tile *tile)
 {
     const struct kernels *kernels = cpu->kernels;
-    lam_output output = target->frame->show;
+    lam_output output = target->frame->output;
     if (lam_output_is_light(output)) {
         kernels->resolve(target, &thread->fragments, &thread->samples, &thread->sums, tile);
         if (cpu->shade.recorder)
@@ -139,7 +139,7 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
     }
     group_fragments(cpu->raster.frame, &thread->fragments);
     uint64_t covered = now_ns();
-    lam_output output = cpu->raster.frame->show;
+    lam_output output = cpu->raster.frame->output;
     if (output != LAM_OUTPUT_COVERAGE && output != LAM_OUTPUT_OVERDRAW)
         shade(cpu, thread, &tile);
     uint64_t shaded = now_ns();

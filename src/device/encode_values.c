@@ -23,7 +23,7 @@ static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
 {
     static const uint8_t front[3] = {0, 102, 255}, back[3] = {255, 51, 0};
     out[3] = 255;
-    switch (frame->show) {
+    switch (frame->output) {
     case LAM_OUTPUT_IDS:
         color_of_ids(v, out);
         return;
@@ -34,7 +34,7 @@ static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
         break;
     }
     for (int c = 0; c < 3; c++)
-        switch (frame->show) {
+        switch (frame->output) {
         case LAM_OUTPUT_NORMALS:
         case LAM_OUTPUT_TANGENTS:
             out[c] = byte_of((v[c] + 1.0f) * 0.5f);

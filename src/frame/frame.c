@@ -1,4 +1,4 @@
-// frame.c: a scene and a camera flattened into what a device draws.
+// frame.c: builds a frame from a scene, a camera and the draw parameters.
 #include "frame.h"
 
 #include "fail.h"
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// Triangle numbers stay below this, so that a device may use the top bit for its own.
+// Triangle numbers leave the top bit to the device.
 #define TRIANGLES_MAX 0x7fffffffu
 
 static float rounded(double x) { return (float)x; }
@@ -71,7 +71,8 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
     return true;
 }
 
-// Distances along the view that hold all objects, with a margin; a camera among them starts at 1/10000 of the far one.
+// Sets the planes to enclose all objects, with a margin. With perspective the near distance is at least 1/10000 of the
+// far one.
 static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthographic, double *near_plane,
                        double *far_plane)
 {
@@ -94,14 +95,14 @@ static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthog
     *far_plane = farthest + margin;
     *near_plane = nearest - margin;
     if (!orthographic) {
-        if (*far_plane <= 0) // everything is behind the eye
+        if (*far_plane <= 0) // every object is behind the eye
             *far_plane = 1;
         if (*near_plane < *far_plane * 1e-4)
             *near_plane = *far_plane * 1e-4;
     }
 }
 
-// Rows X·w, Y·w, z, w: the projection with the viewport folded in (conventions 19, y turned down).
+// Returns the rows X·w, Y·w, z, w: the projection times the viewport transform (conventions 19, y down).
 static lam_mat4 to_pixels(const lam_mat4 *projection, int width, int height)
 {
     lam_mat4 m = *projection;
@@ -120,7 +121,7 @@ static void build_draw(struct frame_draw *draw, const lam_scene *scene, int obje
     lam_mat4 origin = mat4_translate(mesh->origin[0], mesh->origin[1], mesh->origin[2]);
     lam_mat4 world = mat4_mul(&object->transform, &origin);
     lam_mat4 eye = mat4_mul(view, &world);
-    lam_mat4 whole = mat4_mul(pixel, &eye);
+    lam_mat4 to_pixel = mat4_mul(pixel, &eye);
     double determinant = mat4_determinant3(&object->transform);
     *draw = (struct frame_draw){.mesh = mesh,
                                 .object = object_index,
@@ -131,7 +132,7 @@ static void build_draw(struct frame_draw *draw, const lam_scene *scene, int obje
                                 .crease_rad = mesh->normals ? 0 : scene->deferred_crease_rad};
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
-            draw->pixel[i][j] = rounded(whole.m[i][j]);
+            draw->pixel[i][j] = rounded(to_pixel.m[i][j]);
     double cofactors[3][3], largest = 0, largest_eye = 0;
     mat4_normal_matrix(&eye, cofactors);
     for (int i = 0; i < 3; i++)
@@ -141,7 +142,7 @@ static void build_draw(struct frame_draw *draw, const lam_scene *scene, int obje
             largest = c > largest ? c : largest;
             largest_eye = e > largest_eye ? e : largest_eye;
         }
-    // The cofactors are the inverse transpose times the determinant: its sign is taken out, its size does not matter.
+    // The cofactors are the inverse transpose times the determinant; only the determinant's sign has to be removed.
     double scale = (draw->mirrored ? -1 : 1) / (largest > 0 ? largest : 1);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -169,7 +170,7 @@ static void store_rgb(float out[3], lam_rgb c)
     out[2] = c.b;
 }
 
-// The matrix from a light's frame to eye space.
+// Computes the matrix from a light's frame to eye space.
 static bool light_space(const lam_scene *scene, const lam_light *light, const lam_mat4 *view, lam_mat4 *out,
                         lam_error *error)
 {
@@ -195,7 +196,7 @@ static bool light_space(const lam_scene *scene, const lam_light *light, const la
                 light->name ? light->name : "", light->object ? light->object : "");
 }
 
-void frame_light_reach(struct frame_light *out, const lam_light *light)
+void frame_light_init(struct frame_light *out, const lam_light *light)
 {
     *out = (struct frame_light){.kind = LIGHT_POINT, .attenuation = {1, 0, 0}};
     if (light->type == LAM_LIGHT_DIRECTIONAL) {
@@ -233,7 +234,7 @@ void frame_light_reach(struct frame_light *out, const lam_light *light)
 
 static void build_light(struct frame_light *out, const lam_light *light, const lam_mat4 *space, int index)
 {
-    frame_light_reach(out, light);
+    frame_light_init(out, light);
     out->light = index;
     out->source = light;
     store3(out->position, mat4_point(space, light->position));
@@ -264,11 +265,11 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
         out->source = light;
         return true;
     }
-    struct frame_light *placed = light->type == LAM_LIGHT_AMBIENT ? NULL : &frame->lights[frame->light_count++];
-    if (placed)
-        build_light(placed, light, &space, index);
-    if (placed && frame->gl1) {
-        store_rgb(placed->ambient, light->ambient);
+    struct frame_light *positioned = light->type == LAM_LIGHT_AMBIENT ? NULL : &frame->lights[frame->light_count++];
+    if (positioned)
+        build_light(positioned, light, &space, index);
+    if (positioned && frame->gl1) {
+        store_rgb(positioned->ambient, light->ambient);
     } else {
         frame->ambient[0] += light->ambient.r;
         frame->ambient[1] += light->ambient.g;
@@ -277,7 +278,7 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
     return true;
 }
 
-// All lights, or the one that is shown (`only`; then without the scene's ambient light).
+// Adds all lights or, with `only` >= 0, that light alone, without the scene's ambient light.
 static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig rig, int only, const lam_mat4 *view,
                          lam_error *error)
 {
@@ -292,26 +293,26 @@ static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig ri
     if (only >= scene->lights.count + count)
         return fail(error, LAM_BAD_ARGUMENT, "output_light is %d, but the frame has %d lights, counted from 0", only,
                     scene->lights.count + count);
-    if (only >= 0 && frame->show != LAM_OUTPUT_LIGHT && !frame->light_count)
+    if (only >= 0 && frame->output != LAM_OUTPUT_LIGHT && !frame->light_count)
         return fail(error, LAM_BAD_ARGUMENT, "%s: light %d comes from everywhere, expected one with a direction",
-                    lam_output_name(frame->show), only);
+                    lam_output_name(frame->output), only);
     return true;
 }
 
-static void build_surfaces(struct frame *frame, const lam_scene *scene, int draw_index)
+static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_index)
 {
     const struct frame_draw *draw = &frame->draws[draw_index];
     const lam_object *object = scene_object(scene, draw->object);
     const lam_mesh *mesh = draw->mesh;
-    lam_part whole = {.triangle_count = mesh->triangle_count, .material = -1};
+    lam_part all = {.triangle_count = mesh->triangle_count, .material = -1};
     uint32_t parts = mesh->part_count ? mesh->part_count : 1;
     for (uint32_t i = 0; i < parts; i++) {
-        const lam_part *part = mesh->part_count ? &mesh->parts[i] : &whole;
+        const lam_part *part = mesh->part_count ? &mesh->parts[i] : &all;
         if (!part->triangle_count)
             continue;
         int front = material_index(object->material >= 0 ? object->material : part->material);
         int back = object->back_material >= 0 ? material_index(object->back_material) : front;
-        struct frame_draw_range *last = frame->surface_count ? &frame->surfaces[frame->surface_count - 1] : NULL;
+        struct frame_draw_range *last = frame->range_count ? &frame->ranges[frame->range_count - 1] : NULL;
         if (last && last->draw == draw_index && last->front == front && last->back == back) {
             last->count += part->triangle_count;
             continue;
@@ -319,47 +320,46 @@ static void build_surfaces(struct frame *frame, const lam_scene *scene, int draw
         bool translucent = scene_extent(scene, object->mesh)->translucent || frame->materials[front]->diffuse.a < 1 ||
                            (!draw->one_sided && frame->materials[back]->diffuse.a < 1);
         frame->translucent |= translucent;
-        frame->surfaces[frame->surface_count++] = (struct frame_draw_range){
+        frame->ranges[frame->range_count++] = (struct frame_draw_range){
             draw->first_id + part->first_triangle, part->triangle_count, draw_index, front, back, translucent};
     }
 }
 
-// Cuts the frame's arrays out of its storage.
-static bool make_room(struct frame *frame, const lam_scene *scene, struct call_control *call, lam_error *error)
+// Reserves storage for the frame's arrays, and divides it among them.
+static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct call_control *call, lam_error *error)
 {
-    size_t objects = (size_t)scene->objects.count, surfaces = 0,
+    size_t objects = (size_t)scene->objects.count, ranges = 0,
            lights = (size_t)scene->lights.count + LAM_RIG_LIGHTS_MAX;
     for (size_t i = 0; i < objects; i++) {
         uint32_t parts = scene_mesh(scene, scene_object(scene, (int)i)->mesh)->part_count;
-        surfaces += parts ? parts : 1;
+        ranges += parts ? parts : 1;
     }
     size_t materials = (size_t)scene->materials.count + 1;
-    size_t bytes = objects * sizeof *frame->draws + surfaces * sizeof *frame->surfaces +
-                   lights * sizeof *frame->lights + lights * sizeof *frame->hemispheres +
-                   materials * sizeof *frame->materials + 64;
+    size_t bytes = objects * sizeof *frame->draws + ranges * sizeof *frame->ranges + lights * sizeof *frame->lights +
+                   lights * sizeof *frame->hemispheres + materials * sizeof *frame->materials + 64;
     if (!buffer_reserve(&frame->storage, bytes, call, error))
         return false;
     char *at = frame->storage.data;
-    frame->materials = (void *)at; // pointers first, for their alignment
+    frame->materials = (void *)at; // first, because pointers have the strictest alignment
     at += materials * sizeof *frame->materials;
     frame->draws = (void *)at;
     at += objects * sizeof *frame->draws;
-    frame->surfaces = (void *)at;
-    at += surfaces * sizeof *frame->surfaces;
+    frame->ranges = (void *)at;
+    at += ranges * sizeof *frame->ranges;
     frame->lights = (void *)at;
     at += lights * sizeof *frame->lights;
     frame->hemispheres = (void *)at;
     return true;
 }
 
-// Directions of eye space to the environment's axes: through the world, then its up axis to +Y (as the fitted camera
-// turns, camera.c), then against the environment's own rotation.
+// Sets the matrix from directions in eye space to the environment's axes: eye space to world space, the scene's up axis
+// to +Y (as in camera.c), then the inverse of the environment's rotation.
 static void build_environment(struct frame *frame, const lam_scene *scene, const lam_mat4 *view)
 {
     frame->environment = scene->environment;
     double s = math_sin(scene->environment_rotation_rad), c = math_cos(scene->environment_rotation_rad);
     for (int j = 0; j < 3; j++) {
-        lam_vec3 w = v3(view->m[j][0], view->m[j][1], view->m[j][2]); // where eye axis j points to in the world
+        lam_vec3 w = v3(view->m[j][0], view->m[j][1], view->m[j][2]); // eye axis j in world space
         if (scene->up == LAM_UP_Z)
             w = v3(w.x, w.z, -w.y);
         else if (scene->up == LAM_UP_X)
@@ -373,7 +373,7 @@ static void build_environment(struct frame *frame, const lam_scene *scene, const
 bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
                  int width, int height, struct call_control *call, lam_error *error)
 {
-    if (!check_camera(camera, error) || !check_params(params, error) || !make_room(frame, scene, call, error))
+    if (!check_camera(camera, error) || !check_params(params, error) || !allocate_arrays(frame, scene, call, error))
         return false;
     frame->token = scene->token;
     frame->width = width;
@@ -392,11 +392,11 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->flat_normal = params->flat_normal;
     frame->match_highlights = params->match_highlights;
     frame->gl1 = params->gl1;
-    frame->show = params->output;
+    frame->output = params->output;
     frame->light_cutoff = params->light_cutoff > 0    ? params->light_cutoff
                           : params->light_cutoff == 0 ? 0.5f / 255.0f
                                                       : 0;
-    frame->draw_count = frame->surface_count = frame->light_count = frame->hemisphere_count = 0;
+    frame->draw_count = frame->range_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
     frame->translucent = frame->makes_normals = false;
 
@@ -427,20 +427,20 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
             return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
         build_draw(&frame->draws[frame->draw_count], scene, i, (uint32_t)next, &view, &pixel);
         frame->makes_normals |= frame->draws[frame->draw_count].crease_rad > 0;
-        build_surfaces(frame, scene, frame->draw_count++);
+        build_ranges(frame, scene, frame->draw_count++);
         next += triangles;
     }
     frame->triangle_count = (uint32_t)next;
-    // Faces have their own normals, and counts of triangles ask for none.
-    if (lam_output_is_light(frame->show)
+    // Flat shading has the normals of the faces; coverage and overdraw need no normals.
+    if (lam_output_is_light(frame->output)
             ? frame->shading == LAM_SHADING_FLAT && frame->flat_normal == LAM_FLAT_NORMAL_FACE
-            : frame->show == LAM_OUTPUT_COVERAGE || frame->show == LAM_OUTPUT_OVERDRAW)
+            : frame->output == LAM_OUTPUT_COVERAGE || frame->output == LAM_OUTPUT_OVERDRAW)
         frame->makes_normals = false;
-    // Numbers are those of the nearest surface, however clear it is.
-    if (!lam_output_is_light(frame->show) && frame->show != LAM_OUTPUT_CLIPPED)
+    // Values are those of the nearest surface, whatever its alpha.
+    if (!lam_output_is_light(frame->output) && frame->output != LAM_OUTPUT_CLIPPED)
         frame->translucent = false;
-    return build_lights(frame, scene, params->rig, shows_one_light(frame->show) ? params->output_light : -1, &view,
-                        error);
+    return build_lights(frame, scene, params->rig, output_is_one_light(frame->output) ? params->output_light : -1,
+                        &view, error);
 }
 
 float frame_shininess(const struct frame *frame, const lam_material *material)

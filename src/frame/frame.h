@@ -1,7 +1,7 @@
-// frame.h: a scene and a camera flattened into what a device draws: flat lists, floats, eye space.
+// frame.h: a scene and a camera as flat arrays in eye space, the input of every device.
 //
-// All set-up work in double ends here, rounded once to float. Triangles of all draws are numbered through: triangle t
-// of a draw has the number first_id + t, and that number is what a visibility buffer holds.
+// The transforms are computed in double and rounded to float once, here. Triangle t of a draw has the number
+// first_id + t, unique within the frame; a visibility buffer stores it.
 #ifndef FRAME_H
 #define FRAME_H
 
@@ -16,78 +16,77 @@ struct frame_draw {
     const lam_mesh *mesh;
     int object; // index in the scene
     uint32_t first_id;
-    // Mesh positions to pixels: rows X·w, Y·w (pixels, y down), clip z, w. A point is at (X·w/w, Y·w/w).
+    // Mesh positions to pixels: rows X·w, Y·w (pixels, y down), clip z, w. The pixel of a point is (X·w/w, Y·w/w).
     float pixel[4][4];
     float eye[3][4];     // mesh positions to eye space
-    float normal[3][3];  // mesh normals to eye space, length not kept
-    float tangent[3][3]; // mesh directions to eye space, length not kept
-    bool mirrored;       // the transform turns the winding
+    float normal[3][3];  // mesh normals to eye space, up to a positive factor
+    float tangent[3][3]; // mesh directions to eye space, up to a positive factor
+    bool mirrored;       // the transform reverses the winding
     bool one_sided;
     lam_cull cull;
-    // > 0: the mesh has no normals; the device makes those that it needs, creased at this angle
+    // > 0: the mesh has no normals; the device computes those that it needs, with this crease angle.
     double crease_rad;
 };
 
-// A run of triangles of one draw with the same materials.
+// Consecutive triangles of one draw with the same materials.
 struct frame_draw_range {
     uint32_t first_id, count;
     int draw;
     int front, back;  // indices into materials
-    bool translucent; // a material's or a colour's alpha is below 1: blended, not just covered
+    bool translucent; // the alpha of a material or a vertex colour is below 1: the triangles are blended
 };
 
 // A point, directional or spot light in eye space.
 struct frame_light {
     int kind, falloff; // LIGHT_…, FALLOFF_…
     float position[3];
-    float axis[3]; // unit: the way the light travels
+    float axis[3]; // unit, in the direction in which the light travels
     float attenuation[3];
     float inverse_range; // 0: none
     float cos_cutoff, exponent;
     float cos_outer, inverse_width;
-    float ambient[3]; // of this light alone, where it is not in the frame's sum (gl1)
+    float ambient[3]; // with gl1: the light's own ambient term, which the frame's sum then leaves out
     float diffuse[3], specular[3];
-    int light; // index among the scene's lights; −1: of the rig
+    int light; // index in the scene; −1: a light of the rig
     const lam_light *source;
 };
 
-// Fills the part of a light that does not depend on its place: kind, falloff, attenuation, range and cone. The rest is
-// zeroed.
-void frame_light_reach(struct frame_light *out, const lam_light *light);
+// Sets the kind, falloff, attenuation, range and cone of a light, and zeroes position, axis and colours.
+void frame_light_init(struct frame_light *out, const lam_light *light);
 
 struct frame_hemisphere {
     float up[3]; // unit, eye space
     float sky[3], ground[3];
-    int light; // as above
+    int light; // as in frame_light
     const lam_light *source;
 };
 
 struct frame {
-    struct scene_token *token; // the scene's; not held
+    struct scene_token *token; // the scene's; not retained
     int width, height;
     int samples;
     lam_rgba background;
     lam_color_mode color;
-    float exposure; // the factor, 2^stops
+    float exposure; // 2^stops
     lam_shading shading;
     lam_stage stage;           // never AUTO
     lam_reflection reflection; // never AUTO
     lam_flat_normal flat_normal;
     bool match_highlights, gl1;
-    lam_output show;
-    // share of the encoded range that lights left out may be worth together; 0: none is left out
+    lam_output output;
+    // Largest sum, as a fraction of the encoded range, of the lights that a point may skip; 0: no light is skipped.
     float light_cutoff;
-    bool distant_viewer; // v = +z for every point: an orthographic camera, or asked for
+    bool distant_viewer; // v = +z at every point: the camera is orthographic, or the viewer LAM_VIEWER_INFINITE
     bool orthographic;
-    bool translucent;   // any surface is
-    bool makes_normals; // some draw has a crease_rad, and its normals will be asked for
+    bool translucent;   // any range is
+    bool makes_normals; // a draw has a crease_rad, and the output needs its normals
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;
 
     struct frame_draw *draws;
     int draw_count;
-    struct frame_draw_range *surfaces; // in the order of first_id, covering all numbers
-    int surface_count;
+    struct frame_draw_range *ranges; // by first_id, without gaps
+    int range_count;
     uint32_t triangle_count;
     const lam_material **materials; // 0: the default material; 1 + i: the scene's
     int material_count;
@@ -95,38 +94,51 @@ struct frame {
     int light_count;
     struct frame_hemisphere *hemispheres;
     int hemisphere_count;
-    float ambient[3]; // La_global + Σ La of all lights (gl1: of those without a place only)
+    float ambient[3]; // La_global + Σ La of all lights (gl1: of lights without a position only)
 
     const lam_environment *environment; // NULL: none
-    float to_environment[3][3];         // directions of eye space to the environment's axes
+    float to_environment[3][3];         // directions in eye space to the environment's axes
 
     lam_light rig[LAM_RIG_LIGHTS_MAX];
     lam_material default_material;
-    struct buffer storage; // holds the arrays
+    struct buffer storage; // of the arrays
 };
 
-// The exponent of highlights on a material, after match_highlights and gl1.
+// Returns the highlight exponent of a material, after match_highlights and gl1.
 float frame_shininess(const struct frame *frame, const lam_material *material);
 
-// Whether lights but one are left out.
-static inline bool shows_one_light(lam_output show)
+// Outputs of a single light; the frame then has only that light.
+static inline bool output_is_one_light(lam_output output)
 {
-    return show == LAM_OUTPUT_LIGHT || show == LAM_OUTPUT_N_L || show == LAM_OUTPUT_N_H;
+    return output == LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_N_L || output == LAM_OUTPUT_N_H;
 }
 
-// Builds the frame; keeps its storage from call to call. Errors: LAM_BAD_ARGUMENT (camera or parameters out of range),
-// LAM_LIMIT (memory, too many triangles).
+// Outputs made from the complete picture.
+static inline bool output_is_picture(lam_output output)
+{
+    return output == LAM_OUTPUT_PICTURE || output == LAM_OUTPUT_CLIPPED;
+}
+
+// Vectors and cosines, evaluated where the lighting is: the shading method decides about interpolation.
+static inline bool output_is_vector(lam_output output)
+{
+    return output == LAM_OUTPUT_NORMALS || output == LAM_OUTPUT_TANGENTS || output == LAM_OUTPUT_N_L ||
+           output == LAM_OUTPUT_N_H;
+}
+
+// Builds the frame, and reuses its storage from the previous call. Errors: LAM_BAD_ARGUMENT (camera or parameters out of
+// range), LAM_LIMIT (memory, too many triangles).
 bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
                  int width, int height, struct call_control *call, lam_error *error);
 void frame_free(struct frame *frame);
 
-// The surface that a triangle number belongs to.
-static inline int frame_draw_range_of(const struct frame *frame, uint32_t id)
+// Returns the index of the range that contains a triangle number.
+static inline int frame_range_of(const struct frame *frame, uint32_t id)
 {
-    int low = 0, high = frame->surface_count - 1;
+    int low = 0, high = frame->range_count - 1;
     while (low < high) {
         int middle = (low + high + 1) / 2;
-        if (frame->surfaces[middle].first_id <= id)
+        if (frame->ranges[middle].first_id <= id)
             low = middle;
         else
             high = middle - 1;

@@ -1,4 +1,4 @@
-// light_eval.c: the equations at single values: what the kernels compute, one lane wide.
+// light_eval.c: attenuation, cone and highlight at a single value, by the kernels' code with one lane.
 #define LANES 1
 #include "lighting.h"
 
@@ -8,8 +8,8 @@
 
 #include <lambent/light_eval.h>
 
-// The part of a light that attenuation and cone read.
-static light_source reach_of(const struct frame_light *light)
+// Returns the members of a light that attenuation_at and spot_at read.
+static light_source source_of(const struct frame_light *light)
 {
     return (light_source){
         .constant = light->attenuation[0],
@@ -28,9 +28,9 @@ float lam_attenuation_at(const lam_light *light, float distance)
     if (!light || (light->type != LAM_LIGHT_POINT && light->type != LAM_LIGHT_SPOT))
         return 1.0f;
     uint64_t state = float_state_enter();
-    struct frame_light reach;
-    frame_light_reach(&reach, light);
-    float result = attenuation_at(distance, reach_of(&reach), reach.falloff);
+    struct frame_light profile;
+    frame_light_init(&profile, light);
+    float result = attenuation_at(distance, source_of(&profile), profile.falloff);
     float_state_leave(state);
     return result;
 }
@@ -40,9 +40,9 @@ float lam_spot_at(const lam_light *light, double angle_rad)
     if (!light || light->type != LAM_LIGHT_SPOT)
         return 1.0f;
     uint64_t state = float_state_enter();
-    struct frame_light reach;
-    frame_light_reach(&reach, light);
-    float result = spot_at(cosine((float)math_cos(angle_rad)), reach_of(&reach), reach.kind);
+    struct frame_light profile;
+    frame_light_init(&profile, light);
+    float result = spot_at(cosine((float)math_cos(angle_rad)), source_of(&profile), profile.kind);
     float_state_leave(state);
     return result;
 }

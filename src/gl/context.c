@@ -1,5 +1,5 @@
-// context.c: contexts of OpenGL without a window: on a device that EGL enumerates, on Mesa's surfaceless
-// platform, or on the default display with a surface of one pixel.
+// context.c: makes OpenGL contexts without a window: on a device that EGL enumerates, on Mesa's surfaceless platform, or
+// on the default display, with a surface of one pixel.
 #include "context.h"
 
 #include "fail.h"
@@ -9,47 +9,47 @@
 #include <string.h>
 #include <strings.h>
 
-// --- places
+// --- displays
 
-static void name_place(const struct egl *egl, struct gl_place *place)
+static void name_platform(const struct egl *egl, struct gl_platform *platform)
 {
-    const char *extensions = egl->QueryDeviceString ? egl->QueryDeviceString(place->device, EGL_EXTENSIONS) : NULL;
+    const char *extensions = egl->QueryDeviceString ? egl->QueryDeviceString(platform->device, EGL_EXTENSIONS) : NULL;
     const char *file = list_has(extensions, "EGL_EXT_device_drm")
-                           ? egl->QueryDeviceString(place->device, EGL_DRM_DEVICE_FILE_EXT)
+                           ? egl->QueryDeviceString(platform->device, EGL_DRM_DEVICE_FILE_EXT)
                            : NULL;
-    place->software = list_has(extensions, "EGL_MESA_device_software");
-    snprintf(place->name, sizeof place->name, "%s", file ? file : place->software ? "software" : "device");
+    platform->software = list_has(extensions, "EGL_MESA_device_software");
+    snprintf(platform->name, sizeof platform->name, "%s", file ? file : platform->software ? "software" : "device");
 }
 
-int gl_places(const struct egl *egl, struct gl_place *places)
+int gl_platforms(const struct egl *egl, struct gl_platform *platforms)
 {
-    EGLDeviceEXT devices[GL_PLACES_MAX];
+    EGLDeviceEXT devices[GL_PLATFORMS_MAX];
     EGLint found = 0;
-    if (!egl->QueryDevices || !egl->GetPlatformDisplay || !egl->QueryDevices(GL_PLACES_MAX, devices, &found))
+    if (!egl->QueryDevices || !egl->GetPlatformDisplay || !egl->QueryDevices(GL_PLATFORMS_MAX, devices, &found))
         found = 0;
     int count = 0;
     for (int software = 0; software < 2; software++)
         for (int i = 0; i < found; i++) {
-            struct gl_place place = {.kind = PLACE_DEVICE, .device = devices[i]};
-            name_place(egl, &place);
-            if (place.software == (software == 1))
-                places[count++] = place;
+            struct gl_platform platform = {.kind = PLATFORM_DEVICE, .device = devices[i]};
+            name_platform(egl, &platform);
+            if (platform.software == (software == 1))
+                platforms[count++] = platform;
         }
     if (count)
         return count;
     const char *client = egl->QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (egl->GetPlatformDisplay && list_has(client, "EGL_MESA_platform_surfaceless"))
-        places[count++] = (struct gl_place){.kind = PLACE_SURFACELESS, .name = "surfaceless"};
-    places[count++] = (struct gl_place){.kind = PLACE_DEFAULT, .name = "default display"};
+        platforms[count++] = (struct gl_platform){.kind = PLATFORM_SURFACELESS, .name = "surfaceless"};
+    platforms[count++] = (struct gl_platform){.kind = PLATFORM_DEFAULT, .name = "default display"};
     return count;
 }
 
-static EGLDisplay display_of(const struct egl *egl, const struct gl_place *place)
+static EGLDisplay display_of(const struct egl *egl, const struct gl_platform *platform)
 {
-    switch (place->kind) {
-    case PLACE_DEVICE:
-        return egl->GetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, place->device, NULL);
-    case PLACE_SURFACELESS:
+    switch (platform->kind) {
+    case PLATFORM_DEVICE:
+        return egl->GetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, platform->device, NULL);
+    case PLATFORM_SURFACELESS:
         return egl->GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
     default:
         return egl->GetDisplay(EGL_DEFAULT_DISPLAY);
@@ -81,7 +81,7 @@ static EGLContext create(const struct egl *egl, EGLDisplay display, EGLConfig co
     }
     a[n] = EGL_NONE;
     EGLContext made = egl->CreateContext(display, config, EGL_NO_CONTEXT, a);
-    // Drivers without a compatibility profile of 3.3 may have OpenGL 2.1, which is one.
+    // A driver without a compatibility profile of 3.3 may still have OpenGL 2.1.
     if (made == EGL_NO_CONTEXT && profile == GL_PROFILE_COMPATIBILITY) {
         static const EGLint any[] = {EGL_NONE};
         made = egl->CreateContext(display, config, EGL_NO_CONTEXT, any);
@@ -89,18 +89,20 @@ static EGLContext create(const struct egl *egl, EGLDisplay display, EGLConfig co
     return made;
 }
 
-static bool start(struct gl_context *context, const struct gl_place *place, enum gl_profile profile, lam_error *error)
+static bool start(struct gl_context *context, const struct gl_platform *platform, enum gl_profile profile,
+                  lam_error *error)
 {
     const struct egl *egl = &context->egl;
     EGLint major, minor;
-    context->display = display_of(egl, place);
+    context->display = display_of(egl, platform);
     if (context->display == EGL_NO_DISPLAY || !egl->Initialize(context->display, &major, &minor))
         return fail(error, LAM_UNSUPPORTED,
                     "OpenGL on %s: %s; for Mesa's drivers on Debian: apt install libegl-mesa0 libgl1-mesa-dri",
-                    place->name, egl_reason(egl));
+                    platform->name, egl_reason(egl));
     EGLenum api = profile == GL_PROFILE_ES ? EGL_OPENGL_ES_API : EGL_OPENGL_API;
     if (!egl->BindAPI(api))
-        return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: its driver has no %s", place->name, profile_names[profile]);
+        return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: the driver does not support %s", platform->name,
+                    profile_names[profile]);
     const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
                              profile == GL_PROFILE_ES ? EGL_OPENGL_ES3_BIT_KHR : EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = NULL;
@@ -108,22 +110,22 @@ static bool start(struct gl_context *context, const struct gl_place *place, enum
     const char *extensions = egl->QueryString(context->display, EGL_EXTENSIONS);
     if (!egl->ChooseConfig(context->display, wanted, &config, 1, &configs) || configs < 1) {
         if (!list_has(extensions, "EGL_KHR_no_config_context"))
-            return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: its driver has no configuration for %s", place->name,
+            return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: the driver has no configuration for %s", platform->name,
                         profile_names[profile]);
         config = NULL; // EGL_NO_CONFIG_KHR
         configs = 0;
     }
     context->context = create(egl, context->display, config, profile, context->debug);
     if (context->context == EGL_NO_CONTEXT)
-        return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: no context of %s can be made: %s", place->name,
-                    profile_names[profile], egl_reason(egl));
+        return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: the driver cannot create a context of %s: %s",
+                    platform->name, profile_names[profile], egl_reason(egl));
     if (list_has(extensions, "EGL_KHR_surfaceless_context"))
         return true;
     static const EGLint size[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
     context->surface = configs ? egl->CreatePbufferSurface(context->display, config, size) : EGL_NO_SURFACE;
     if (context->surface == EGL_NO_SURFACE)
-        return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: no surface can be made to draw without a window: %s",
-                    place->name, egl_reason(egl));
+        return fail(error, LAM_UNSUPPORTED, "OpenGL on %s: the driver cannot create a surface without a window: %s",
+                    platform->name, egl_reason(egl));
     return true;
 }
 
@@ -132,13 +134,13 @@ static lam_gl_function from_egl(void *user, const char *name)
     return ((const struct egl *)user)->GetProcAddress(name);
 }
 
-bool gl_context_open(struct gl_context *context, const struct egl *egl, const struct gl_place *place,
+bool gl_context_open(struct gl_context *context, const struct egl *egl, const struct gl_platform *platform,
                      enum gl_profile profile, bool debug, lam_error *error)
 {
-    *context = (struct gl_context){.egl = *egl, .debug = debug, .software = place->software};
+    *context = (struct gl_context){.egl = *egl, .debug = debug, .software = platform->software};
     EGLenum api = egl->QueryAPI();
-    struct gl_previous previous;
-    bool ok = start(context, place, profile, error);
+    struct gl_previous_context previous;
+    bool ok = start(context, platform, profile, error);
     if (ok && (ok = gl_context_enter(context, &previous, error))) {
         ok = gl_load(&context->gl, from_egl, &context->egl, error) && gl_context_probe(context, error);
         gl_context_leave(context, &previous);
@@ -149,69 +151,69 @@ bool gl_context_open(struct gl_context *context, const struct egl *egl, const st
     return ok;
 }
 
-// --- which place
+// --- choosing a device
 
 static bool has_part(const char *text, const char *part) { return strcasestr(text, part) != NULL; }
 
 static bool is_number(const char *text) { return *text && strspn(text, "0123456789") == strlen(text); }
 
-static bool make_first(struct gl_context *context, const struct egl *egl, const struct gl_place *places, int count,
-                       const char *device, enum gl_profile profile, bool debug, lam_error *error)
+static bool make_first(struct gl_context *context, const struct egl *egl, const struct gl_platform *platforms,
+                       int count, const char *device, enum gl_profile profile, bool debug, lam_error *error)
 {
     char reasons[300] = "", names[200] = "";
     for (int i = 0; i < count; i++) {
         lam_error why;
-        if (!gl_context_open(context, egl, &places[i], profile, debug, &why)) {
+        if (!gl_context_open(context, egl, &platforms[i], profile, debug, &why)) {
             size_t length = strlen(reasons);
             snprintf(reasons + length, sizeof reasons - length, "%s%.250s", length ? "; " : "", why.text);
             continue;
         }
         if (!device || has_part(context->renderer, device) || has_part(context->driver, device) ||
-            has_part(places[i].name, device))
+            has_part(platforms[i].name, device))
             return true;
         size_t length = strlen(names);
         snprintf(names + length, sizeof names - length, "%s%d: %s", length ? ", " : "", i, context->renderer);
         gl_context_free(context);
     }
     if (device && *names)
-        return fail(error, LAM_UNSUPPORTED, "OpenGL: no usable device has '%s' in its name; there is %s", device,
+        return fail(error, LAM_UNSUPPORTED, "OpenGL: no usable device has '%s' in its name, expected one of %s", device,
                     names);
-    return fail(error, LAM_UNSUPPORTED, "OpenGL: none of %d devices can be used: %s", count, reasons);
+    return fail(error, LAM_UNSUPPORTED, "OpenGL: none of the %d devices is usable: %s", count, reasons);
 }
 
 bool gl_context_make(struct gl_context *context, const char *library, const char *device, enum gl_profile profile,
                      bool debug, lam_error *error)
 {
     struct egl egl;
-    struct gl_place places[GL_PLACES_MAX];
+    struct gl_platform platforms[GL_PLATFORMS_MAX];
     *context = (struct gl_context){0};
     if (!egl_open(&egl, library, error))
         return false;
-    int count = gl_places(&egl, places);
+    int count = gl_platforms(&egl, platforms);
     if (!device || !is_number(device))
-        return make_first(context, &egl, places, count, device, profile, debug, error);
+        return make_first(context, &egl, platforms, count, device, profile, debug, error);
     long number = strlen(device) < 6 ? strtol(device, NULL, 10) : count;
     if (number >= count)
         return fail(error, LAM_UNSUPPORTED, "OpenGL: there is no device %s, expected 0 to %d", device, count - 1);
-    return gl_context_open(context, &egl, &places[number], profile, debug, error);
+    return gl_context_open(context, &egl, &platforms[number], profile, debug, error);
 }
 
 // --- the current context
 
-bool gl_context_enter(struct gl_context *context, struct gl_previous *previous, lam_error *error)
+bool gl_context_enter(struct gl_context *context, struct gl_previous_context *previous, lam_error *error)
 {
     if (context->context == EGL_NO_CONTEXT)
         return true;
     const struct egl *egl = &context->egl;
-    *previous =
-        (struct gl_previous){egl->GetCurrentDisplay(), egl->GetCurrentContext(), egl->GetCurrentSurface(EGL_DRAW),
-                             egl->GetCurrentSurface(EGL_READ), egl->QueryAPI()};
+    *previous = (struct gl_previous_context){egl->GetCurrentDisplay(), egl->GetCurrentContext(),
+                                             egl->GetCurrentSurface(EGL_DRAW), egl->GetCurrentSurface(EGL_READ),
+                                             egl->QueryAPI()};
     if (egl->MakeCurrent(context->display, context->surface, context->surface, context->context))
         return true;
     return fail(error, LAM_UNSUPPORTED, "OpenGL: the context cannot be made current: %s", egl_reason(egl));
 }
 
-void gl_context_leave(struct gl_context *context, const struct gl_previous *previous)
+void gl_context_leave(struct gl_context *context, const struct gl_previous_context *previous)
 {
     if (context->context == EGL_NO_CONTEXT)
         return;
@@ -222,7 +224,7 @@ void gl_context_leave(struct gl_context *context, const struct gl_previous *prev
         egl->MakeCurrent(previous->display, previous->draw, previous->read, previous->context);
 }
 
-// The display stays started: it is one for the whole process, and the program that called us may be using it.
+// The display stays initialized: the process has only one, and the calling program may use it.
 void gl_context_free(struct gl_context *context)
 {
     if (context->surface != EGL_NO_SURFACE)

@@ -1,4 +1,4 @@
-// context.h: contexts of OpenGL without a window, on a device of the machine, and which devices there are.
+// context.h: finds the OpenGL devices of the machine, and makes contexts on them without a window.
 #ifndef CONTEXT_H
 #define CONTEXT_H
 
@@ -7,36 +7,36 @@
 enum gl_profile {
     GL_PROFILE_CORE,          // OpenGL 3.3 core
     GL_PROFILE_ES,            // OpenGL ES 3.0
-    GL_PROFILE_COMPATIBILITY, // desktop OpenGL with everything since 1.0; GLSL without a version line, 120 …
+    GL_PROFILE_COMPATIBILITY, // desktop OpenGL with all functions since 1.0, and all versions of GLSL
     GL_PROFILE_COUNT
 };
 
-// Where a context can be had from.
-struct gl_place {
-    enum { PLACE_DEVICE, PLACE_SURFACELESS, PLACE_DEFAULT } kind;
+// An EGL platform display.
+struct gl_platform {
+    enum { PLATFORM_DEVICE, PLATFORM_SURFACELESS, PLATFORM_DEFAULT } kind;
     EGLDeviceEXT device;
-    bool software; // EGL says so
+    bool software; // as EGL reports
     char name[64]; // "/dev/dri/card0"
 };
-enum { GL_PLACES_MAX = 64 };
+enum { GL_PLATFORMS_MAX = 64 };
 
-// Lists the places, hardware before software. Mesa's surfaceless platform and the default display stand in
-// only where EGL cannot enumerate devices, or knows none. Returns their number, at most GL_PLACES_MAX.
-int gl_places(const struct egl *egl, struct gl_place *places);
+// Lists the displays, hardware before software: the devices that EGL enumerates or, if there are none, Mesa's surfaceless
+// platform and the default display. Returns their number, at most GL_PLATFORMS_MAX.
+int gl_platforms(const struct egl *egl, struct gl_platform *platforms);
 
-// What the driver has said in the context's debug messages.
+// Debug messages of the driver.
 struct gl_messages {
-    int errors, slow; // errors and undefined behaviour; warnings about speed
-    char first[256];  // the first of either
+    int errors, slow; // number of errors and undefined behaviour; of performance warnings
+    char first[256];  // text of the first of them
 };
 
-// A context, with the table of its functions. The caller's own context is one whose `context` is EGL_NO_CONTEXT.
+// A context and its functions. `context` is EGL_NO_CONTEXT for the caller's own context.
 struct gl_context {
     struct gl gl; // valid while the context is current
     struct egl egl;
     EGLDisplay display;
     EGLContext context;
-    EGLSurface surface; // EGL_NO_SURFACE where the driver needs none
+    EGLSurface surface; // EGL_NO_SURFACE if the driver needs none
     bool es, software;
     int major, minor;
     bool debug; // messages are collected
@@ -44,40 +44,40 @@ struct gl_context {
     char renderer[128], driver[128]; // "llvmpipe (…)"; maker and version
 };
 
-// The context that was current before, with its surfaces.
-struct gl_previous {
+// The context that was current before gl_context_enter, with its surfaces.
+struct gl_previous_context {
     EGLDisplay display;
     EGLContext context;
     EGLSurface draw, read;
     EGLenum api;
 };
 
-// A context on one place. It is left current nowhere. LAM_UNSUPPORTED says what the place lacks.
-bool gl_context_open(struct gl_context *context, const struct egl *egl, const struct gl_place *place,
+// Makes a context on one display; the context is not current afterwards. LAM_UNSUPPORTED names the missing feature.
+bool gl_context_open(struct gl_context *context, const struct egl *egl, const struct gl_platform *platform,
                      enum gl_profile profile, bool debug, lam_error *error);
 
-// A context on the device that `device` names (lam_gl_params.device), on the first usable one where it is
-// NULL. A struct gl_context must not move while it collects messages.
+// Makes a context on the device that `device` names (lam_gl_params.device), or with NULL on the first usable device. The
+// struct must not move while the context collects messages.
 bool gl_context_make(struct gl_context *context, const char *library, const char *device, enum gl_profile profile,
                      bool debug, lam_error *error);
 
-// Takes the caller's own current context.
+// Wraps the caller's current context.
 bool gl_context_adopt(struct gl_context *context, lam_gl_get_proc *get, void *user, bool debug, lam_error *error);
 
-// Makes the context current on this thread, and gives the thread back what was. Nothing happens for the
-// caller's own.
-bool gl_context_enter(struct gl_context *context, struct gl_previous *previous, lam_error *error);
-void gl_context_leave(struct gl_context *context, const struct gl_previous *previous);
+// Makes the context current on this thread; gl_context_leave restores the previous one. Both do nothing for the caller's
+// own context.
+bool gl_context_enter(struct gl_context *context, struct gl_previous_context *previous, lam_error *error);
+void gl_context_leave(struct gl_context *context, const struct gl_previous_context *previous);
 
-void gl_context_free(struct gl_context *context); // zeroed is fine
+void gl_context_free(struct gl_context *context); // a zeroed context is valid
 
-// Of the current context: whether it has an extension ("GL_KHR_debug").
-bool gl_has(const struct gl *gl, const char *extension);
+// Whether the current context has an extension ("GL_KHR_debug").
+bool gl_has_extension(const struct gl *gl, const char *extension);
 
-// The debug messages so far make an error: LAM_UNSUPPORTED with the driver's words. True where there are none.
+// Returns true if the driver has sent no debug messages. Otherwise LAM_UNSUPPORTED, with the text of the first.
 bool gl_messages_clean(const struct gl_context *context, const char *doing, lam_error *error);
 
-// Finds what the current context is: version, names; starts collecting messages.
+// Queries the version and names of the current context, and starts to collect debug messages.
 bool gl_context_probe(struct gl_context *context, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// context_probe.c: what a current context is, and what its driver says while it works.
+// context_probe.c: queries a context's version, names and extensions, and collects the driver's debug messages.
 #include "context.h"
 
 #include "fail.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool gl_has(const struct gl *gl, const char *extension)
+bool gl_has_extension(const struct gl *gl, const char *extension)
 {
     GLint count = 0;
     gl->GetIntegerv(GL_NUM_EXTENSIONS, &count);
@@ -19,13 +19,13 @@ bool gl_has(const struct gl *gl, const char *extension)
     return false;
 }
 
-// Drivers call it from the thread whose call it is about (GL_DEBUG_OUTPUT_SYNCHRONOUS).
-static void APIENTRY take_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
-                                  const GLchar *text, const void *user)
+// GL_DEBUG_OUTPUT_SYNCHRONOUS: the driver calls this function during the OpenGL call that caused the message.
+static void APIENTRY on_debug_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                                      const GLchar *text, const void *user)
 {
     (void)id, (void)severity, (void)length;
     struct gl_messages *messages = (struct gl_messages *)(uintptr_t)user;
-    // What the compiler says of a text is told where it is compiled.
+    // Compiler messages are reported where the shader is compiled.
     if (source == GL_DEBUG_SOURCE_SHADER_COMPILER)
         return;
     bool error = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR;
@@ -41,13 +41,13 @@ static bool collect_messages(struct gl_context *context, lam_error *error)
     const struct gl *gl = &context->gl;
     bool built_in =
         context->es ? context->major * 10 + context->minor >= 32 : context->major * 10 + context->minor >= 43;
-    if ((!built_in && !gl_has(gl, "GL_KHR_debug")) || !gl->DebugMessageCallback || !gl->DebugMessageControl)
-        return fail(error, LAM_UNSUPPORTED, "OpenGL: the driver of '%s' has no debug messages (GL_KHR_debug)",
+    if ((!built_in && !gl_has_extension(gl, "GL_KHR_debug")) || !gl->DebugMessageCallback || !gl->DebugMessageControl)
+        return fail(error, LAM_UNSUPPORTED, "OpenGL: the driver of '%s' does not support debug messages (GL_KHR_debug)",
                     context->renderer);
     gl->Enable(GL_DEBUG_OUTPUT);
     gl->Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     gl->DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, NULL, GL_TRUE);
-    gl->DebugMessageCallback(take_message, &context->messages);
+    gl->DebugMessageCallback(on_debug_message, &context->messages);
     return true;
 }
 
@@ -77,7 +77,7 @@ bool gl_context_probe(struct gl_context *context, lam_error *error)
     const char *renderer = (const char *)gl->GetString(GL_RENDERER);
     const char *vendor = (const char *)gl->GetString(GL_VENDOR);
     if (!version)
-        return fail(error, LAM_UNSUPPORTED, "OpenGL: no context is current on this thread, expected the caller's own");
+        return fail(error, LAM_UNSUPPORTED, "OpenGL: no context is current on this thread");
     read_version(context, version);
     snprintf(context->renderer, sizeof context->renderer, "%s", renderer ? renderer : "unnamed");
     snprintf(context->driver, sizeof context->driver, "%s, %s", vendor ? vendor : "unnamed", version);
@@ -90,6 +90,6 @@ bool gl_messages_clean(const struct gl_context *context, const char *doing, lam_
     const struct gl_messages *messages = &context->messages;
     if (!messages->errors && !messages->slow)
         return true;
-    return fail(error, LAM_UNSUPPORTED, "OpenGL: %s: the driver tells of %d errors and %d slow calls; the first: %s",
+    return fail(error, LAM_UNSUPPORTED, "OpenGL: %s: the driver reports %d errors and %d slow calls; the first: %s",
                 doing, messages->errors, messages->slow, messages->first);
 }

@@ -1,14 +1,15 @@
-// gl_device.h: what the parts of the OpenGL device hand to each other.
+// gl_device.h: the parts of the OpenGL device: their shared data and their functions.
 //
-//   meshes        arrays of a mesh → vertex buffers, once                        gl_meshes.c
-//   programs      choices → compiled shaders, once (glsl.h has the text)         gl_programs.c
-//   lists         lights and materials × lights → uniform blocks or textures     gl_light_buffers.c
-//   application   colours of vertices from the CPU's equations                   gl_vertex_lighting.c
-//   targets       framebuffers of one part of the picture                        gl_targets.c
-//   passes        samples, opaque surfaces, layers of translucent ones           gl_passes.c
-//   reading       linear light → the image                                       gl_readback.c
+//   meshes           arrays of a mesh -> vertex buffers, once                    gl_meshes.c
+//   programs         choices -> compiled shaders, once (glsl.h makes the text)   gl_programs.c
+//   light buffers    lights and products -> uniform blocks or textures           gl_light_buffers.c
+//   vertex lighting  vertex colours from the CPU's equations                     gl_vertex_lighting.c
+//   targets          framebuffers of one part of the picture                     gl_targets.c
+//   passes           samples, opaque surfaces, layers of translucent ones        gl_passes.c
+//   readback         linear light -> the image                                   gl_readback.c
+//   state            the setters of OpenGL state                                 gl_state.c, gl_state_save.c
 //
-// Everything is kept from frame to frame and sent again only where it has changed.
+// All GL objects persist from frame to frame; data are uploaded again only after a change.
 #ifndef GL_DEVICE_H
 #define GL_DEVICE_H
 
@@ -17,15 +18,15 @@
 #include "glsl.h"
 
 enum {
-    PART_MOST = 2048, // pixels on a side of the part of a picture that is drawn at once
+    PART_SIZE_MAX = 2048, // largest width and height, in pixels, of a part of the picture that is drawn in one go
 };
 
 enum texture_unit {
     UNIT_ENVIRONMENT,
     UNIT_LIGHTS,
     UNIT_PRODUCTS,
-    UNIT_NEARER, // places of the layer in front
-    UNIT_OPAQUE, // places of the opaque surfaces
+    UNIT_NEARER_DEPTH_IDS, // of the previous layer
+    UNIT_OPAQUE_DEPTH_IDS, // of the opaque surfaces
     UNIT_COPY,
     UNIT_COUNT
 };
@@ -33,12 +34,12 @@ enum block_point { POINT_LIGHTS, POINT_PRODUCTS, POINT_BACK_PRODUCTS, POINT_COUN
 
 // --- meshes
 
-// The vertices of a mesh as they are sent: three for each triangle, or shared.
+// Layout of a mesh's vertices in its buffer.
 enum vertex_form {
-    FORM_SHARED, // as the mesh has them, with its indices
-    FORM_CORNERS,
-    FORM_FLAT_FACE,   // corners whose normal is the triangle's own
-    FORM_FLAT_VERTEX, // all three lit with the last corner's normal
+    FORM_SHARED,      // the mesh's own vertices and indices
+    FORM_CORNERS,     // three vertices for each triangle
+    FORM_FLAT_FACE,   // corners with the normal of the triangle
+    FORM_FLAT_VERTEX, // corners with the normal of the triangle's last corner
 };
 
 // One vertex before it is packed.
@@ -46,30 +47,34 @@ struct mesh_vertex {
     float position[3], normal[3], color[4], tangent[3];
 };
 
-// A run of a mesh's triangles, and which draw call it is part of.
+// Consecutive triangles of a mesh that belong to one draw call.
 struct mesh_run {
     uint32_t first, count;
-    int call;
+    int call; // index among the calls of the draw
 };
 
 struct gl_mesh {
-    struct scene_token *token; // held; NULL: the row is free
-    lam_mesh mesh;             // the arrays that it was made of
+    struct scene_token *token; // retained; NULL: the entry is free
+    lam_mesh mesh;             // the arrays that the buffers were made from
     enum vertex_form form;
-    struct mesh_run *runs; // where runs of one material lie apart: the elements have them side by side
+    // Runs of the draw calls, where those of one call are not consecutive: the element buffer then orders the triangles
+    // by call.
+    struct mesh_run *runs;
     int run_count;
     GLuint vertices, elements, array; // buffers, vertex array
     uint64_t bytes;
-    uint64_t used; // number of the frame that last drew it
+    uint64_t last_frame; // number of the last frame that drew the mesh
 };
 
-// Colours of one draw for the stage `application`.
-struct gl_colors {
-    struct buffer made_of, now;          // what decides them: of the colours that were sent, of this frame
-    struct lam_environment *environment; // held: its address is part of what decides them
-    size_t made_size;
+// Lit vertex colours of one draw, for LAM_STAGE_APPLICATION.
+struct gl_vertex_lighting {
+    // Every input of the colours, as bytes: of the colours in the buffer, and of the current frame.
+    struct buffer sent_key, frame_key;
+    size_t sent_key_size;
+    // Retained, because the key holds its address.
+    struct lam_environment *environment;
     GLuint colors, array;
-    GLuint of_vertices; // the mesh buffer that the array reads positions from
+    GLuint of_vertices; // the mesh buffer that `array` reads positions from
     uint64_t bytes;
 };
 
@@ -81,9 +86,9 @@ enum uniform {
     UNIFORM_NORMAL_MATRIX,
     UNIFORM_ENVIRONMENT_MATRIX,
     UNIFORM_OBJECT,
-    UNIFORM_HEAD, // of the material beside products: one for each field of its layout
+    UNIFORM_HEAD, // one for each field of glsl_material_layout(true)
     UNIFORM_BACK_HEAD = UNIFORM_HEAD + LAM_FIELDS_MAX,
-    UNIFORM_FLOATS = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX, // those above hold floats
+    UNIFORM_FLOATS = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX, // number of the uniforms above, all of floats
     UNIFORM_FIRST_PRODUCT = UNIFORM_FLOATS,
     UNIFORM_BACK_FIRST_PRODUCT,
     UNIFORM_FIRST_TRIANGLE,
@@ -93,130 +98,137 @@ enum uniform {
 struct gl_program {
     struct glsl_choices choices;
     GLuint name;
-    GLint locations[UNIFORM_COUNT];   // −1: it has none
-    float values[UNIFORM_FLOATS][16]; // what was set last
-    int numbers[UNIFORM_COUNT - UNIFORM_FLOATS];
+    GLint locations[UNIFORM_COUNT]; // −1: the program has no such uniform
+    // The values last set, and whether any has been set.
+    float values[UNIFORM_FLOATS][16];
+    int ints[UNIFORM_COUNT - UNIFORM_FLOATS];
     bool set[UNIFORM_COUNT];
 };
 
 // --- targets
 
+// A framebuffer and its textures; 0: the target has none. depth_id: depth and triangle number of each pixel.
 struct gl_target {
-    GLuint framebuffer, color, place, depth; // textures; 0: it has none
+    GLuint framebuffer, color, depth_id, depth;
 };
 
 struct gl_targets {
-    int width, height; // room
+    int width, height; // of all textures; at least the part's
     bool layered;
     struct gl_target sample;    // one sample of each pixel: the opaque surfaces
-    struct gl_target layers[2]; // a layer of translucent surfaces and the one before it
-    struct gl_target sum;       // layers over each other
-    struct gl_target picture;   // samples together
+    struct gl_target layers[2]; // the current layer of translucent surfaces, and the previous one
+    struct gl_target sum;       // the layers composited
+    struct gl_target picture;   // the average of the samples
 };
 
-// --- lists
+// --- light buffers
 
-// A list on the device and what it holds.
-struct gl_list {
+// A uniform block or a texture, and a copy of its contents.
+struct gl_light_buffer {
     GLuint name; // buffer or texture
     bool texture;
     size_t size;          // bytes in use
-    size_t room;          // bytes of a buffer, rows of a texture
-    struct buffer shadow; // the same bytes
-    struct buffer next;   // this frame's, before they are compared
+    size_t capacity;      // bytes of a buffer, rows of a texture
+    struct buffer shadow; // the contents
+    struct buffer next;   // the contents of this frame, compared with `shadow` before an upload
 };
 
-// How fragments go into the target.
+// How a fragment combines with the target.
 enum gl_blending {
     BLENDING_UNKNOWN,
-    BLENDING_NEAREST, // by their depth
-    BLENDING_ADD,     // all are added up
-    BLENDING_UNDER,   // as far as what is there lets through
+    BLENDING_NEAREST, // depth test
+    BLENDING_ADD,     // sum
+    BLENDING_UNDER,   // composited under the target's contents
 };
 
-// What the context has now, so that nothing is set twice. Forgotten at the start of a frame in the caller's context.
-struct gl_now {
+// Current state of the context, so that no state is set twice. Unknown at the start of a frame in the caller's context.
+struct gl_current_state {
     GLuint program, array, framebuffer;
-    int unit; // of textures; −1: unknown
+    int unit; // active texture unit; −1: unknown
     GLuint textures[UNIT_COUNT];
     struct {
         GLuint buffer;
         size_t offset, size;
     } blocks[POINT_COUNT];
-    int cull;                           // lam_cull; −1: unknown
-    lam_cull culled;                    // the side that was named last; LAM_CULL_NONE: unknown
-    int front;                          // 1: mirrored
-    enum gl_blending blending, factors; // factors: of the last that was not BLENDING_NEAREST
-    int width, height;                  // of the viewport
+    int cull;                  // lam_cull; −1: unknown
+    lam_cull culled;           // the argument of the last glCullFace; LAM_CULL_NONE: unknown
+    int front;                 // 1: mirrored
+    enum gl_blending blending; // BLENDING_UNKNOWN: unknown
+    enum gl_blending factors;  // of the last glBlendFunc
+    int width, height;         // viewport
 };
 
 struct gl_device {
     struct lam_device base;
     struct gl_context context;
-    bool callers; // the context is the caller's
-    GLint block_most, block_alignment, texture_most;
-    GLenum float_format; // of the targets: GL_RGBA32F, or GL_RGBA16F where that is all there is
+    bool external_context; // the context is the caller's
+    GLint block_size_max, block_alignment, texture_size_max;
+    GLenum float_format; // of the targets: GL_RGBA32F, or GL_RGBA16F where the driver has no more
 
     struct gl_mesh *meshes;
-    int mesh_count, mesh_room;
-    struct gl_colors *colors; // one for each draw
-    int color_room;
+    int mesh_count, mesh_capacity;
+    struct gl_vertex_lighting *vertex_lighting; // one for each draw
+    int vertex_lighting_capacity;
     struct gl_program *programs;
-    int program_count, program_room;
+    int program_count, program_capacity;
     GLuint copy_program, empty_array;
-    GLint copy_factor;
-    float copy_factor_now;
+    GLint copy_factor; // location of the copy program's uniform `factor`
+    float copy_factor_value;
     GLuint query;
     struct gl_targets targets;
-    struct gl_list lights, products;
-    struct lam_environment *environment; // held; that of the texture
+    struct gl_light_buffer lights, products;
+    struct lam_environment *environment; // retained; its faces are in environment_texture
     GLuint environment_texture;
     uint64_t environment_bytes, target_bytes;
-    struct gl_now now;
-    struct buffer scratch, pixels; // vertices on their way; pixels on their way back
-    struct buffer surfaces, runs;  // draw calls of the frame; runs of the draw that is being set up
+    struct gl_current_state current;
+    struct buffer scratch;    // vertices before an upload
+    struct buffer pixels;     // pixels after a readback
+    struct buffer draw_calls; // of the frame
+    struct buffer runs;       // of the draw that is being set up
 
     float decode_srgb[256];
     uint64_t frame_number;
 };
 
-// One surface as it is drawn: a draw call.
-struct gl_surface {
-    const struct frame_draw_range *surface; // the first of its runs
-    uint32_t first, count;                  // vertices or elements
+// A draw call: all ranges of one draw that have the same materials.
+struct gl_draw_call {
+    const struct frame_draw_range *range; // the first of them
+    uint32_t first, count;                // vertices or elements
     const struct frame_draw *draw;
     struct gl_program *program;
     GLuint array;
     bool by_elements;
-    bool lit; // the program reads the lists
+    bool lit; // the program reads the light buffers
 };
 
-// What one frame hands on.
+// The state of one call of lam_draw.
 struct gl_frame {
     struct gl_device *device;
     const struct gl *gl;
     const struct frame *frame;
     struct call_control *call;
     lam_image *image;
-    struct gl_surface *surfaces; // draw calls
-    int surface_count;
+    struct gl_draw_call *draw_calls;
+    int draw_call_count;
     enum glsl_storage storage;
     bool layered; // translucent surfaces are peeled
     lam_stage stage;
-    size_t material_step; // bytes or texels from one material's products to the next's
-    // The part of the picture, and where in its pixels the sample lies (pixels from the centre, y down).
+    size_t material_stride; // distance between the products of consecutive materials, in bytes or texels
+    // The part of the picture that is being drawn, and the sample's offset from the pixel's centre (pixels, y down).
     int left, top, width, height;
     float sample_x, sample_y;
 };
 
-// Counts memory that OpenGL holds for the device against the frame's budget.
+// --- gl_state.c
+
+// Charges the growth of a GL object from `*held` to `bytes` to the frame's memory limit, and updates `*held`.
 bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *error);
 
-// New contents of a vertex buffer, to be written in place and then unmapped (GL_ARRAY_BUFFER). NULL: the
-// error tells.
-void *gl_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, lam_error *error);
+// Allocates new contents of a vertex buffer and maps them for writing; the caller writes all bytes and unmaps
+// GL_ARRAY_BUFFER. NULL on failure.
+void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, lam_error *error);
 
-// State that is set only where it is another.
+// Each sets a state unless it is current already.
 void gl_use_program(struct gl_device *device, GLuint program);
 void gl_use_array(struct gl_device *device, GLuint array);
 void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
@@ -224,39 +236,41 @@ void gl_use_framebuffer(struct gl_device *device, GLuint framebuffer);
 void gl_use_blending(struct gl_device *device, enum gl_blending blending);
 void gl_use_viewport(struct gl_device *device, int width, int height);
 void gl_use_cull(struct gl_device *device, lam_cull cull);
-void gl_forget(struct gl_device *device); // nothing is known of the context
+// Marks all current state as unknown.
+void gl_state_invalidate(struct gl_device *device);
 
 // --- gl_meshes.c
 bool mesh_can_share(const lam_mesh *mesh);
-// Vertices `first` … of a mesh in a form, in the order in which they are sent.
+// Writes the vertices `first` to `first + count` of a form, in the order of the vertex buffer.
 void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
                    uint32_t count, struct mesh_vertex *out);
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form);
-// The mesh's buffers, made where they are not there yet; with runs (NULL: none) the elements are in the order
-// of their calls. The pointer lasts until the next call. NULL: the error tells.
-struct gl_mesh *mesh_on_device(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form,
-                               const struct mesh_run *runs, int run_count, lam_error *error);
-// Lets go of the meshes of scenes that are gone, and of those that the frame's scene no longer has.
-void meshes_drop(struct gl_frame *f);
+// Returns the mesh's buffers, created on first use. With runs (NULL: none) the elements are ordered by call. The pointer
+// is valid until the next call. NULL on failure.
+struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form,
+                            const struct mesh_run *runs, int run_count, lam_error *error);
+// Frees the meshes of scenes that no longer exist, and meshes that the frame's scene no longer draws.
+void meshes_evict(struct gl_frame *f);
 void meshes_free(struct gl_device *device);
 
 // --- gl_vertex_lighting.c
-// The vertex array of a draw with the colours that the CPU's equations give its vertices. 0: the error tells.
-GLuint colors_on_device(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_error *error);
-void colors_free(struct gl_device *device);
+// Returns the vertex array of a draw, with vertex colours from the CPU's equations. 0 on failure.
+GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_error *error);
+void vertex_lighting_free(struct gl_device *device);
 
 // --- gl_programs.c
+// Returns the program of the choices, compiled on first use. NULL on failure.
 struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
 void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values, int count);
-void program_set_number(struct gl_frame *f, struct gl_program *program, enum uniform uniform, int value);
+void program_set_int(struct gl_frame *f, struct gl_program *program, enum uniform uniform, int value);
 bool program_copy_make(struct gl_device *device, lam_error *error);
 void programs_free(struct gl_device *device);
 
 // --- gl_light_buffers.c
-bool lists_send(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
-enum glsl_storage lists_storage(const struct gl_device *device, const struct glsl_choices *choices);
+bool light_buffers_send(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
+enum glsl_storage light_buffers_storage(const struct gl_device *device, const struct glsl_choices *choices);
 bool environment_send(struct gl_frame *f, lam_error *error);
-void lists_free(struct gl_device *device);
+void light_buffers_free(struct gl_device *device);
 
 // --- gl_targets.c
 bool targets_make(struct gl_frame *f, int width, int height, bool layered, lam_error *error);
@@ -264,13 +278,13 @@ bool targets_find_format(struct gl_device *device, lam_error *error);
 void targets_free(struct gl_device *device);
 
 // --- gl_passes.c
-// Draws the part; the framebuffer to read is left bound.
+// Draws the part. The framebuffer that holds the result stays bound.
 bool passes_draw(struct gl_frame *f, lam_error *error);
 
 // --- gl_readback.c
-bool reading_part(struct gl_frame *f, lam_error *error);
+bool readback_part(struct gl_frame *f, lam_error *error);
 
-// --- gl_state_save.c: the caller's state, taken before a frame and given back after it
+// --- gl_state_save.c: the state of the caller's context, saved before a frame and restored after it
 struct gl_saved_state {
     GLint program, array, draw_framebuffer, read_framebuffer, active_unit;
     GLint array_buffer, uniform_buffer, unpack_buffer, pack_buffer;
@@ -280,7 +294,7 @@ struct gl_saved_state {
     GLint unpack[6], pack[4], polygon_mode[2];
     GLboolean color_mask[4], depth_mask, enabled[16];
 };
-void caller_save(const struct gl_device *device, struct gl_saved_state *state);
-void caller_restore(const struct gl_device *device, const struct gl_saved_state *state);
+void gl_state_save(const struct gl_device *device, struct gl_saved_state *state);
+void gl_state_restore(const struct gl_device *device, const struct gl_saved_state *state);
 
 #endif

@@ -1,4 +1,4 @@
-// gl_enumerate.c: lam_gl_devices: which devices OpenGL can be had from, each tried.
+// gl_enumerate.c: lam_gl_devices: lists the OpenGL devices, and tries to make a context on each.
 #include "context.h"
 
 #include "fail.h"
@@ -6,18 +6,18 @@
 #include <stdio.h>
 #include <string.h>
 
-static void try_place(const struct egl *egl, const struct gl_place *place, int number, lam_gl_device *out)
+static void try_platform(const struct egl *egl, const struct gl_platform *platform, int number, lam_gl_device *out)
 {
     static const struct {
         enum gl_profile profile;
         const char *name;
     } tries[] = {{GL_PROFILE_CORE, "OpenGL 3.3"}, {GL_PROFILE_ES, "OpenGL ES 3.0"}};
-    *out = (lam_gl_device){.number = number, .software = place->software};
-    snprintf(out->path, sizeof out->path, "%s", place->name);
+    *out = (lam_gl_device){.number = number, .software = platform->software};
+    snprintf(out->path, sizeof out->path, "%s", platform->name);
     for (int i = 0; i < 2; i++) {
         struct gl_context context;
         lam_error why;
-        if (!gl_context_open(&context, egl, place, tries[i].profile, false, &why)) {
+        if (!gl_context_open(&context, egl, platform, tries[i].profile, false, &why)) {
             if (!*out->reason)
                 snprintf(out->reason, sizeof out->reason, "%.190s", why.text);
             continue;
@@ -36,16 +36,16 @@ static void try_place(const struct egl *egl, const struct gl_place *place, int n
         *out->reason = 0;
 }
 
-int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int room, lam_error *error)
+int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int capacity, lam_error *error)
 {
     struct egl egl;
-    struct gl_place places[GL_PLACES_MAX];
+    struct gl_platform platforms[GL_PLATFORMS_MAX];
     if (params && !check_reserved("lam_gl_params", params, error))
         return -1;
     if (!egl_open(&egl, params ? params->library : NULL, error))
         return -1;
-    int count = gl_places(&egl, places);
-    for (int i = 0; i < count && i < room; i++)
-        try_place(&egl, &places[i], i, &devices[i]);
+    int count = gl_platforms(&egl, platforms);
+    for (int i = 0; i < count && i < capacity; i++)
+        try_platform(&egl, &platforms[i], i, &devices[i]);
     return count;
 }

@@ -1,15 +1,15 @@
 // gl_functions.h: the OpenGL functions that lambent calls, in one list, and the table that holds them.
 //
-// Nothing here is linked: every function is asked for by name when a context is made (loader.c). The types
-// are those of the declarations in Debian's libgl-dev. One list serves OpenGL 3.3 and OpenGL ES 3.0.
+// loader.c looks up every function by name when a context is made; none is linked. The types come from the declarations
+// in Debian's libgl-dev. One list serves OpenGL 3.3 and OpenGL ES 3.0.
 #ifndef GL_FUNCTIONS_H
 #define GL_FUNCTIONS_H
 
-#define GL_GLEXT_PROTOTYPES // their types are taken; a plain call of one would not link
+#define GL_GLEXT_PROTOTYPES // for __typeof__; a direct call would not link
 #include <GL/gl.h>
 #include <GL/glext.h>
 
-// In OpenGL 3.3 core and in OpenGL ES 3.0: all of them must be there.
+// Required: part of both OpenGL 3.3 core and OpenGL ES 3.0.
 #define GL_FUNCTIONS(X)                                                                                                \
     X(ActiveTexture)                                                                                                   \
     X(AttachShader)                                                                                                    \
@@ -130,14 +130,14 @@
     X(VertexAttribPointer)                                                                                             \
     X(Viewport)
 
-// In some versions only; NULL where the driver has no such name, and even where it has one the context's
-// version and extensions decide whether it may be called.
+// Part of some versions only; NULL where the driver has no such name. Call one only after a check of the context's version
+// and extensions: a pointer alone does not mean support.
 #define GL_OPTIONAL_FUNCTIONS(X)                                                                                       \
     X(BindFragDataLocation) /* desktop */                                                                              \
     X(DebugMessageCallback) /* KHR_debug */                                                                            \
     X(DebugMessageControl)                                                                                             \
     X(PolygonMode) /* desktop */                                                                                       \
-    X(Begin)       /* compatibility contexts, from here on */                                                          \
+    X(Begin)       /* this and the following: compatibility contexts */                                                \
     X(Color4f)                                                                                                         \
     X(ColorPointer)                                                                                                    \
     X(DisableClientState)                                                                                              \
@@ -156,7 +156,7 @@
     X(Vertex3f)                                                                                                        \
     X(VertexPointer)
 
-// gl->DrawArrays(…) is glDrawArrays(…) of the context that is current.
+// gl->DrawArrays(…) calls glDrawArrays(…) of the current context.
 struct gl {
 #define GL_FIELD(name) __typeof__(&gl##name) name;
     GL_FUNCTIONS(GL_FIELD)

@@ -1,5 +1,5 @@
-// gl_light_buffers.c: the lights, and the materials × lights products, as uniform blocks; beyond what a block may
-// hold, as textures. Also the environment's faces. Sent where they are other than before.
+// gl_light_buffers.c: uploads the lights and the products of materials and lights, as uniform blocks or, above a block's
+// maximal size, as textures; and the environment's faces. Each upload is skipped if the data have not changed.
 #include "gl_device.h"
 
 #include "cube_map.h"
@@ -9,26 +9,26 @@
 
 enum { TEXEL = 4 * sizeof(float) };
 
-enum glsl_storage lists_storage(const struct gl_device *device, const struct glsl_choices *choices)
+enum glsl_storage light_buffers_storage(const struct gl_device *device, const struct glsl_choices *choices)
 {
     struct glsl_choices c = *choices;
     c.storage = GLSL_BLOCK;
-    size_t most = (size_t)device->block_most;
-    return glsl_lights_bytes(&c) <= most && glsl_products_bytes(&c) <= most ? GLSL_BLOCK : GLSL_TEXTURE;
+    size_t max = (size_t)device->block_size_max;
+    return glsl_lights_bytes(&c) <= max && glsl_products_bytes(&c) <= max ? GLSL_BLOCK : GLSL_TEXTURE;
 }
 
-static bool send_block(struct gl_frame *f, struct gl_list *list, lam_error *error)
+static bool send_block(struct gl_frame *f, struct gl_light_buffer *list, lam_error *error)
 {
     const struct gl *gl = f->gl;
     if (!list->name)
         gl->GenBuffers(1, &list->name);
     gl->BindBuffer(GL_UNIFORM_BUFFER, list->name);
-    if (list->size > list->room) {
-        uint64_t held = list->room;
+    if (list->size > list->capacity) {
+        uint64_t held = list->capacity;
         if (!gl_charge(f, &held, list->size, error))
             return false;
         gl->BufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)list->size, list->next.data, GL_DYNAMIC_DRAW);
-        list->room = list->size;
+        list->capacity = list->size;
     } else {
         gl->BufferSubData(GL_UNIFORM_BUFFER, 0, (GLsizeiptr)list->size, list->next.data);
     }
@@ -44,53 +44,54 @@ static void plain_texture(const struct gl *gl, GLenum target)
     gl->TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
 }
 
-// Rows of GLSL_LIST_WIDTH texels; `next` has room up to the end of the last one.
-static bool send_texels(struct gl_frame *f, struct gl_list *list, enum texture_unit unit, lam_error *error)
+// Uploads rows of GLSL_LIST_WIDTH texels; `next` holds whole rows.
+static bool send_texels(struct gl_frame *f, struct gl_light_buffer *list, enum texture_unit unit, lam_error *error)
 {
     const struct gl *gl = f->gl;
     size_t row = GLSL_LIST_WIDTH * TEXEL, rows = (list->size + row - 1) / row;
-    if (rows > (size_t)f->device->texture_most)
-        return fail(error, LAM_LIMIT,
-                    "OpenGL: lights and materials need a list of %zu rows of %d texels, this driver has at "
-                    "most %d; the "
-                    "CPU device has no such limit",
-                    rows, GLSL_LIST_WIDTH, f->device->texture_most);
+    if (rows > (size_t)f->device->texture_size_max)
+        return fail(
+            error, LAM_LIMIT,
+            "OpenGL: lights and materials need a texture of %zu rows of %d texels, this driver supports at most %d; "
+            "the CPU device has no such limit",
+            rows, GLSL_LIST_WIDTH, f->device->texture_size_max);
     bool fresh = !list->name;
     if (fresh)
         gl->GenTextures(1, &list->name);
     gl_use_texture(f->device, unit, GL_TEXTURE_2D, list->name);
     if (fresh)
         plain_texture(gl, GL_TEXTURE_2D);
-    if (rows > list->room) {
-        uint64_t held = list->room * row;
+    if (rows > list->capacity) {
+        uint64_t held = list->capacity * row;
         if (!gl_charge(f, &held, rows * row, error))
             return false;
         gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, GLSL_LIST_WIDTH, (GLsizei)rows, 0, GL_RGBA, GL_FLOAT,
                        list->next.data);
-        list->room = rows;
+        list->capacity = rows;
     } else {
         gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, GLSL_LIST_WIDTH, (GLsizei)rows, GL_RGBA, GL_FLOAT, list->next.data);
     }
     return true;
 }
 
-static void drop_list(const struct gl *gl, struct gl_list *list)
+static void delete_light_buffer(const struct gl *gl, struct gl_light_buffer *list)
 {
     if (list->name && list->texture)
         gl->DeleteTextures(1, &list->name);
     else if (list->name)
         gl->DeleteBuffers(1, &list->name);
     list->name = 0;
-    list->size = list->room = 0;
+    list->size = list->capacity = 0;
 }
 
-// Sends `size` bytes of list->next where they are other than those of the frame before.
-static bool send(struct gl_frame *f, struct gl_list *list, size_t size, enum texture_unit unit, lam_error *error)
+// Uploads `size` bytes of list->next if they differ from those of the previous frame.
+static bool send(struct gl_frame *f, struct gl_light_buffer *list, size_t size, enum texture_unit unit,
+                 lam_error *error)
 {
     bool texture = f->storage == GLSL_TEXTURE;
     if (list->name && list->texture != texture) {
-        drop_list(f->gl, list);
-        gl_forget(f->device);
+        delete_light_buffer(f->gl, list);
+        gl_state_invalidate(f->device);
     }
     list->texture = texture;
     if (list->name && list->size == size && memcmp(list->shadow.data, list->next.data, size) == 0)
@@ -105,8 +106,8 @@ static bool send(struct gl_frame *f, struct gl_list *list, size_t size, enum tex
     return true;
 }
 
-// Room for a list's next bytes, whole rows of texels, zeroed.
-static bool next_room(struct gl_frame *f, struct gl_list *list, size_t size, lam_error *error)
+// Reserves list->next, in whole rows of texels, and zeroes it.
+static bool reserve_next(struct gl_frame *f, struct gl_light_buffer *list, size_t size, lam_error *error)
 {
     size_t row = GLSL_LIST_WIDTH * TEXEL, bytes = (size + row - 1) / row * row;
     if (!buffer_reserve(&list->next, bytes, f->call, error))
@@ -115,17 +116,17 @@ static bool next_room(struct gl_frame *f, struct gl_list *list, size_t size, lam
     return true;
 }
 
-bool lists_send(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error)
+bool light_buffers_send(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error)
 {
     struct gl_device *device = f->device;
     size_t lights = glsl_lights_bytes(choices), one = glsl_products_bytes(choices);
     size_t unit = f->storage == GLSL_BLOCK ? (size_t)device->block_alignment : TEXEL;
     size_t step = (one + unit - 1) / unit * unit, all;
     if (__builtin_mul_overflow(step, (size_t)f->frame->material_count, &all))
-        return fail(error, LAM_LIMIT, "%d materials under %d lights are too many", f->frame->material_count,
-                    f->frame->light_count);
-    f->material_step = f->storage == GLSL_BLOCK ? step : step / TEXEL;
-    if (!next_room(f, &device->lights, lights, error) || !next_room(f, &device->products, all, error))
+        return fail(error, LAM_LIMIT, "the products of %d materials and %d lights are too many",
+                    f->frame->material_count, f->frame->light_count);
+    f->material_stride = f->storage == GLSL_BLOCK ? step : step / TEXEL;
+    if (!reserve_next(f, &device->lights, lights, error) || !reserve_next(f, &device->products, all, error))
         return false;
     glsl_pack_lights(choices, f->frame, device->lights.next.data);
     for (int i = 0; i < f->frame->material_count; i++)
@@ -143,10 +144,10 @@ bool environment_send(struct gl_frame *f, lam_error *error)
     if (device->environment == cube)
         return true;
     int side = cube->size + 2;
-    if (side > device->texture_most)
+    if (side > device->texture_size_max)
         return fail(error, LAM_LIMIT,
-                    "OpenGL: the environment's faces have %d texels on a side, this driver has at most %d", cube->size,
-                    device->texture_most - 2);
+                    "OpenGL: the environment's faces are %d texels wide, this driver supports at most %d", cube->size,
+                    device->texture_size_max - 2);
     uint64_t bytes = (uint64_t)side * (uint64_t)side * 6 * 3 * sizeof(float);
     if (!gl_charge(f, &device->environment_bytes, bytes, error))
         return false;
@@ -164,12 +165,12 @@ bool environment_send(struct gl_frame *f, lam_error *error)
     return true;
 }
 
-void lists_free(struct gl_device *device)
+void light_buffers_free(struct gl_device *device)
 {
     const struct gl *gl = &device->context.gl;
-    struct gl_list *lists[] = {&device->lights, &device->products};
+    struct gl_light_buffer *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++) {
-        drop_list(gl, lists[i]);
+        delete_light_buffer(gl, lists[i]);
         buffer_free(&lists[i]->shadow);
         buffer_free(&lists[i]->next);
     }

@@ -1,4 +1,4 @@
-// gl_meshes.c: meshes as vertex buffers: made once, kept while their scene lives.
+// gl_meshes.c: uploads meshes as vertex buffers, and keeps them as long as their scene exists.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHUNK = 4096 }; // vertices packed at once
+enum { CHUNK = 4096 }; // vertices packed in one go
 
-// Positions, normals, colours and tangents by one index: then the vertices can be shared as the mesh has them.
+// Whether one index serves positions, normals, colours and tangents, so that the mesh's own vertices can be uploaded.
 bool mesh_can_share(const lam_mesh *mesh)
 {
     return mesh->indices && mesh->normals && !mesh->normal_indices && mesh->normal_count >= mesh->vertex_count &&
@@ -47,7 +47,7 @@ static void unit(float v[3])
         v[i] *= inverse;
 }
 
-// (p1 − p0) × (p2 − p0). The edges are made unit first: their product could be too small for a float.
+// Computes the unit vector of (p1 − p0) × (p2 − p0). The edges are normalized first, because their product could underflow.
 static void face_normal(const lam_mesh *mesh, uint32_t triangle, float out[3])
 {
     float edge[2][3];
@@ -71,7 +71,7 @@ void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum ve
 {
     for (uint32_t i = 0; i < count; i++, out++) {
         uint32_t corner = first + i, triangle = corner / 3;
-        uint32_t attribute = form >= FORM_FLAT_FACE ? 3 * triangle + 2 : corner; // flat: the last corner's
+        uint32_t attribute = form >= FORM_FLAT_FACE ? 3 * triangle + 2 : corner; // flat: of the last corner
         bool shared = form == FORM_SHARED;
         uint32_t p = shared ? corner : element(NULL, mesh->indices, corner);
         memcpy(out->position, mesh->positions + 3 * (size_t)p, sizeof out->position);
@@ -109,15 +109,15 @@ static bool send_vertices(struct gl_frame *f, const struct gl_mesh *row, lam_err
     if (!buffer_reserve(&device->scratch, CHUNK * sizeof(struct mesh_vertex), f->call, error))
         return false;
     struct mesh_vertex *from = device->scratch.data;
-    float *to = gl_map_new(f, row->vertices, count * each, GL_STATIC_DRAW, error);
+    float *to = gl_buffer_map_new(f, row->vertices, count * each, GL_STATIC_DRAW, error);
     if (!to)
         return false;
     bool on = true;
     for (uint32_t first = 0; on && first < count; first += CHUNK) {
-        uint32_t some = count - first < CHUNK ? count - first : CHUNK;
+        uint32_t chunk = count - first < CHUNK ? count - first : CHUNK;
         on = call_should_continue(f->call);
-        mesh_vertices(device, mesh, row->form, first, some, from);
-        for (uint32_t i = 0; i < some; i++, to += floats) {
+        mesh_vertices(device, mesh, row->form, first, chunk, from);
+        for (uint32_t i = 0; i < chunk; i++, to += floats) {
             memcpy(to, from[i].position, sizeof from[i].position);
             memcpy(to + 3, from[i].normal, sizeof from[i].normal);
             if (mesh->colors)
@@ -130,7 +130,7 @@ static bool send_vertices(struct gl_frame *f, const struct gl_mesh *row, lam_err
     return on || call_error(f->call, error);
 }
 
-// Attributes as glsl.h numbers them: 0 position, 1 normal, 2 color, 3 tangent.
+// Sets the vertex attributes by the locations of glsl.h: 0 position, 1 normal, 2 color, 3 tangent.
 static void describe(struct gl_frame *f, const struct gl_mesh *row)
 {
     const struct gl *gl = f->gl;
@@ -148,7 +148,7 @@ static void describe(struct gl_frame *f, const struct gl_mesh *row)
         }
 }
 
-// The arrays that the vertices were made of are the same: a scene never writes into an array that it has made.
+// Whether two meshes have the same arrays. Equal pointers mean equal contents: a scene never modifies its arrays.
 static bool same_arrays(const lam_mesh *a, const lam_mesh *b)
 {
     return a->positions == b->positions && a->indices == b->indices && a->normals == b->normals &&
@@ -163,12 +163,12 @@ static void drop(struct gl_device *device, struct gl_mesh *row)
     gl->DeleteBuffers(1, &row->vertices);
     gl->DeleteBuffers(1, &row->elements);
     gl->DeleteVertexArrays(1, &row->array);
-    if (device->now.array == row->array)
-        device->now.array = 0;
-    // The names may come back with other buffers.
-    for (int i = 0; i < device->color_room; i++)
-        if (device->colors[i].of_vertices == row->vertices)
-            device->colors[i].of_vertices = 0;
+    if (device->current.array == row->array)
+        device->current.array = 0;
+    // OpenGL may reuse the names for other buffers.
+    for (int i = 0; i < device->vertex_lighting_capacity; i++)
+        if (device->vertex_lighting[i].of_vertices == row->vertices)
+            device->vertex_lighting[i].of_vertices = 0;
     scene_token_release(row->token);
     free(row->runs);
     *row = (struct gl_mesh){0};
@@ -179,15 +179,15 @@ static struct gl_mesh *free_row(struct gl_device *device, lam_error *error)
     for (int i = 0; i < device->mesh_count; i++)
         if (!device->meshes[i].token)
             return &device->meshes[i];
-    if (device->mesh_count == device->mesh_room) {
-        int room = device->mesh_room ? 2 * device->mesh_room : 8;
-        struct gl_mesh *grown = realloc(device->meshes, (size_t)room * sizeof *grown);
+    if (device->mesh_count == device->mesh_capacity) {
+        int capacity = device->mesh_capacity ? 2 * device->mesh_capacity : 8;
+        struct gl_mesh *grown = realloc(device->meshes, (size_t)capacity * sizeof *grown);
         if (!grown) {
-            fail_memory(error, (size_t)room * sizeof *grown);
+            fail_memory(error, (size_t)capacity * sizeof *grown);
             return NULL;
         }
         device->meshes = grown;
-        device->mesh_room = room;
+        device->mesh_capacity = capacity;
     }
     struct gl_mesh *row = &device->meshes[device->mesh_count++];
     *row = (struct gl_mesh){0};
@@ -199,12 +199,12 @@ static bool same_runs(const struct gl_mesh *row, const struct mesh_run *runs, in
     return row->run_count == count && (!count || memcmp(row->runs, runs, (size_t)count * sizeof *runs) == 0);
 }
 
-// The indices of the vertices, in the order in which the triangles are drawn.
+// Uploads the vertex indices in the order in which the triangles are drawn.
 static bool send_elements(struct gl_frame *f, const struct gl_mesh *row, lam_error *error)
 {
     const lam_mesh *mesh = &row->mesh;
     size_t bytes = 3 * (size_t)mesh->triangle_count * sizeof(uint32_t);
-    gl_use_array(f->device, row->array); // keeps the binding
+    gl_use_array(f->device, row->array); // the vertex array stores the binding
     f->gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, row->elements);
     f->device->base.report.bytes_uploaded += bytes;
     if (!row->run_count) {
@@ -239,22 +239,22 @@ static bool keep_runs(struct gl_mesh *row, const struct mesh_run *runs, int coun
     return true;
 }
 
-struct gl_mesh *mesh_on_device(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form,
-                               const struct mesh_run *runs, int run_count, lam_error *error)
+struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form,
+                            const struct mesh_run *runs, int run_count, lam_error *error)
 {
     struct gl_device *device = f->device;
     for (int i = 0; i < device->mesh_count; i++) {
         struct gl_mesh *row = &device->meshes[i];
         if (row->token == f->frame->token && row->form == form && same_arrays(&row->mesh, mesh) &&
             same_runs(row, runs, run_count)) {
-            row->used = device->frame_number;
+            row->last_frame = device->frame_number;
             return row;
         }
     }
     uint64_t vertices = form == FORM_SHARED ? mesh->vertex_count : 3 * (uint64_t)mesh->triangle_count;
     if (vertices > INT32_MAX) {
-        fail(error, LAM_LIMIT, "OpenGL: a mesh has %llu vertices, at most %d can be drawn at once",
-             (unsigned long long)vertices, INT32_MAX);
+        fail(error, LAM_LIMIT, "OpenGL: a mesh has %llu vertices, expected at most %d", (unsigned long long)vertices,
+             INT32_MAX);
         return NULL;
     }
     bool elements = form == FORM_SHARED || run_count;
@@ -266,7 +266,7 @@ struct gl_mesh *mesh_on_device(struct gl_frame *f, const lam_mesh *mesh, enum ve
     row->token = scene_token_hold(f->frame->token);
     row->mesh = *mesh;
     row->form = form;
-    row->used = device->frame_number;
+    row->last_frame = device->frame_number;
     f->gl->GenBuffers(1, &row->vertices);
     f->gl->GenVertexArrays(1, &row->array);
     if (elements)
@@ -280,13 +280,13 @@ struct gl_mesh *mesh_on_device(struct gl_frame *f, const lam_mesh *mesh, enum ve
     return row;
 }
 
-void meshes_drop(struct gl_frame *f)
+void meshes_evict(struct gl_frame *f)
 {
     struct gl_device *device = f->device;
     for (int i = 0; i < device->mesh_count; i++) {
         struct gl_mesh *row = &device->meshes[i];
         bool gone = row->token && __atomic_load_n(&row->token->gone, __ATOMIC_ACQUIRE);
-        bool unused = row->token == f->frame->token && row->used + 2 < device->frame_number;
+        bool unused = row->token == f->frame->token && row->last_frame + 2 < device->frame_number;
         if (row->token && (gone || unused))
             drop(device, row);
     }

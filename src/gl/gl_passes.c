@@ -1,12 +1,10 @@
-// gl_passes.c: one part of the picture: each sample of its pixels in a pass of its own, the projection moved
-// by where the sample lies; opaque surfaces first; then the translucent ones, peeled layer by layer from the
-// nearest on.
+// gl_passes.c: draws one part of the picture. Each sample is a pass of its own, with the projection shifted by the
+// sample's offset. A pass draws the opaque surfaces, then peels the translucent ones layer by layer, nearest first.
 //
-// A place is the depth and the number of a triangle. It is what layers are told apart by, so that surfaces of
-// equal depth keep the CPU's order, the lower triangle number in front, and none is lost.
+// A depth id is the depth and the triangle number of a fragment. Layers are ordered by depth id, so that surfaces of equal
+// depth keep the CPU's order, the lower triangle number in front, and none is lost.
 //
-// Rows lie in the target as they do in the picture, from the top down: y is turned in the projection, and
-// with it the winding.
+// The target's rows run from the top down, as in the picture: the projection flips y, which reverses the winding.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -14,15 +12,15 @@
 
 #include <string.h>
 
-// --- one draw
+// --- one draw call
 
-// Rows X·w, Y·w of pixels to clip space of the part, the sample moved to the pixel's centre:
+// Computes the matrix to the part's clip space from the frame's rows in pixels, with the sample at the pixel's centre:
 // x = 2 (X − left − sample) / width − 1.
 static void to_clip(const struct gl_frame *f, const struct frame_draw *draw, float out[16])
 {
     const float(*m)[4] = draw->pixel;
     double left = f->left + (double)f->sample_x, top = f->top + (double)f->sample_y;
-    for (int j = 0; j < 4; j++) { // OpenGL's matrices are column after column
+    for (int j = 0; j < 4; j++) { // OpenGL's matrices are stored by columns
         double w = (double)m[3][j];
         out[4 * j] = (float)(((double)m[0][j] - left * w) * (2.0 / f->width) - w);
         out[4 * j + 1] = (float)(((double)m[1][j] - top * w) * (2.0 / f->height) - w);
@@ -54,7 +52,7 @@ static void set_matrices(struct gl_frame *f, struct gl_program *program, const s
     program_set(f, program, UNIFORM_ENVIRONMENT_MATRIX, three, 9);
 }
 
-// With GLSL_TEXTURE the head of a material's products is plain uniforms.
+// With GLSL_TEXTURE the fields of the material beside the products are plain uniforms.
 static void set_head(struct gl_frame *f, struct gl_program *program, const lam_material *material, bool back)
 {
     struct glsl_material_layout layout = glsl_material_layout(true);
@@ -68,20 +66,22 @@ static void set_head(struct gl_frame *f, struct gl_program *program, const lam_m
 
 static void use_block(struct gl_frame *f, enum block_point point, GLuint buffer, size_t offset, size_t size)
 {
-    struct gl_now *now = &f->device->now;
-    if (now->blocks[point].buffer == buffer && now->blocks[point].offset == offset && now->blocks[point].size == size)
+    struct gl_current_state *current = &f->device->current;
+    if (current->blocks[point].buffer == buffer && current->blocks[point].offset == offset &&
+        current->blocks[point].size == size)
         return;
     f->gl->BindBufferRange(GL_UNIFORM_BUFFER, point, buffer, (GLintptr)offset, (GLsizeiptr)size);
-    now->blocks[point].buffer = buffer;
-    now->blocks[point].offset = offset;
-    now->blocks[point].size = size;
+    current->blocks[point].buffer = buffer;
+    current->blocks[point].offset = offset;
+    current->blocks[point].size = size;
 }
 
-static void set_lists(struct gl_frame *f, const struct gl_surface *s)
+static void set_light_buffers(struct gl_frame *f, const struct gl_draw_call *call)
 {
     struct gl_device *device = f->device;
-    const struct glsl_choices *c = &s->program->choices;
-    size_t front = (size_t)s->surface->front * f->material_step, back = (size_t)s->surface->back * f->material_step;
+    const struct glsl_choices *c = &call->program->choices;
+    size_t front = (size_t)call->range->front * f->material_stride,
+           back = (size_t)call->range->back * f->material_stride;
     if (f->storage == GLSL_BLOCK) {
         use_block(f, POINT_LIGHTS, device->lights.name, 0, device->lights.size);
         use_block(f, POINT_PRODUCTS, device->products.name, front, glsl_products_bytes(c));
@@ -90,77 +90,78 @@ static void set_lists(struct gl_frame *f, const struct gl_surface *s)
     }
     gl_use_texture(device, UNIT_LIGHTS, GL_TEXTURE_2D, device->lights.name);
     gl_use_texture(device, UNIT_PRODUCTS, GL_TEXTURE_2D, device->products.name);
-    program_set_number(f, s->program, UNIFORM_FIRST_PRODUCT, (int)front);
-    program_set_number(f, s->program, UNIFORM_BACK_FIRST_PRODUCT, (int)back);
-    set_head(f, s->program, f->frame->materials[s->surface->front], false);
-    set_head(f, s->program, f->frame->materials[s->surface->back], true);
+    program_set_int(f, call->program, UNIFORM_FIRST_PRODUCT, (int)front);
+    program_set_int(f, call->program, UNIFORM_BACK_FIRST_PRODUCT, (int)back);
+    set_head(f, call->program, f->frame->materials[call->range->front], false);
+    set_head(f, call->program, f->frame->materials[call->range->back], true);
 }
 
 static void set_sides(struct gl_frame *f, const struct frame_draw *draw)
 {
     const struct gl *gl = f->gl;
-    struct gl_now *now = &f->device->now;
+    struct gl_current_state *current = &f->device->current;
     gl_use_cull(f->device, draw->cull);
-    if (now->front != draw->mirrored) {
+    if (current->front != draw->mirrored) {
         gl->FrontFace(draw->mirrored ? GL_CCW : GL_CW);
-        now->front = draw->mirrored;
+        current->front = draw->mirrored;
     }
 }
 
-static void draw_surface(struct gl_frame *f, const struct gl_surface *s)
+static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
 {
     const struct gl *gl = f->gl;
-    const struct frame_draw *draw = s->draw;
-    set_matrices(f, s->program, draw);
-    if (s->lit)
-        set_lists(f, s);
-    if (s->program->choices.environment != GLSL_NO_ENVIRONMENT)
+    const struct frame_draw *draw = call->draw;
+    set_matrices(f, call->program, draw);
+    if (call->lit)
+        set_light_buffers(f, call);
+    if (call->program->choices.environment != GLSL_NO_ENVIRONMENT)
         gl_use_texture(f->device, UNIT_ENVIRONMENT, GL_TEXTURE_2D_ARRAY, f->device->environment_texture);
     float object = (float)draw->object;
-    program_set(f, s->program, UNIFORM_OBJECT, &object, 1);
-    program_set_number(f, s->program, UNIFORM_FIRST_TRIANGLE, (int)draw->first_id);
+    program_set(f, call->program, UNIFORM_OBJECT, &object, 1);
+    program_set_int(f, call->program, UNIFORM_FIRST_TRIANGLE, (int)draw->first_id);
     set_sides(f, draw);
-    gl_use_program(f->device, s->program->name);
-    gl_use_array(f->device, s->array);
-    if (s->by_elements)
-        gl->DrawElements(GL_TRIANGLES, (GLsizei)s->count, GL_UNSIGNED_INT,
-                         (const void *)((size_t)s->first * sizeof(uint32_t)));
+    gl_use_program(f->device, call->program->name);
+    gl_use_array(f->device, call->array);
+    if (call->by_elements)
+        gl->DrawElements(GL_TRIANGLES, (GLsizei)call->count, GL_UNSIGNED_INT,
+                         (const void *)((size_t)call->first * sizeof(uint32_t)));
     else
-        gl->DrawArrays(GL_TRIANGLES, (GLint)s->first, (GLsizei)s->count);
+        gl->DrawArrays(GL_TRIANGLES, (GLint)call->first, (GLsizei)call->count);
 }
 
-static bool is_layer(const struct gl_frame *f, const struct gl_surface *s)
+static bool is_layer(const struct gl_frame *f, const struct gl_draw_call *call)
 {
-    return f->layered && s->surface->translucent;
+    return f->layered && call->range->translucent;
 }
 
-// BLENDING_ADD: each triangle over a pixel counts, whatever its depth.
-static void draw_surfaces(struct gl_frame *f, bool layers, enum gl_blending blending)
+// Issues the draw calls of the translucent layers, or of everything else. BLENDING_ADD counts every triangle over a
+// pixel, whatever its depth.
+static void draw_all(struct gl_frame *f, bool layers, enum gl_blending blending)
 {
     gl_use_blending(f->device, blending);
-    for (int i = 0; i < f->surface_count; i++)
-        if (is_layer(f, &f->surfaces[i]) == layers)
-            draw_surface(f, &f->surfaces[i]);
+    for (int i = 0; i < f->draw_call_count; i++)
+        if (is_layer(f, &f->draw_calls[i]) == layers)
+            issue_draw_call(f, &f->draw_calls[i]);
 }
 
 // --- targets
 
-// The places that stand where nothing is drawn: in front of everything, or behind everything.
-enum { PLACE_FRONT = 0, PLACE_END = -1 };
+// Depth ids of empty pixels: in front of everything, and behind everything.
+enum { DEPTH_ID_NEAREST = 0, DEPTH_ID_FARTHEST = -1 };
 
-static void clear_target(struct gl_frame *f, const struct gl_target *t, int place)
+static void clear_target(struct gl_frame *f, const struct gl_target *t, int depth_id)
 {
-    static const GLfloat nothing[4] = {0}, far[1] = {1};
-    const GLuint nowhere[4] = {(GLuint)place, (GLuint)place, 0, 0};
+    static const GLfloat black[4] = {0}, far[1] = {1};
+    const GLuint empty[4] = {(GLuint)depth_id, (GLuint)depth_id, 0, 0};
     gl_use_framebuffer(f->device, t->framebuffer);
-    f->gl->ClearBufferfv(GL_COLOR, 0, nothing);
-    if (t->place)
-        f->gl->ClearBufferuiv(GL_COLOR, 1, nowhere);
+    f->gl->ClearBufferfv(GL_COLOR, 0, black);
+    if (t->depth_id)
+        f->gl->ClearBufferuiv(GL_COLOR, 1, empty);
     if (t->depth)
         f->gl->ClearBufferfv(GL_DEPTH, 0, far);
 }
 
-// A target's colours, times the factor, into another one.
+// Blends a target's colours, times the factor, into another target.
 static void copy_target(struct gl_frame *f, const struct gl_target *from, const struct gl_target *to,
                         enum gl_blending how, float factor)
 {
@@ -170,8 +171,8 @@ static void copy_target(struct gl_frame *f, const struct gl_target *from, const 
     gl_use_blending(device, how);
     gl_use_cull(device, LAM_CULL_NONE);
     gl_use_program(device, device->copy_program);
-    if (device->copy_factor_now != factor)
-        gl->Uniform1f(device->copy_factor, device->copy_factor_now = factor);
+    if (device->copy_factor_value != factor)
+        gl->Uniform1f(device->copy_factor, device->copy_factor_value = factor);
     gl_use_texture(device, UNIT_COPY, GL_TEXTURE_2D, from->color);
     gl_use_array(device, device->empty_array);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
@@ -179,38 +180,38 @@ static void copy_target(struct gl_frame *f, const struct gl_target *from, const 
 
 // --- passes
 
-// Peels the translucent surfaces off, nearest first, and lays them over each other and over the opaque ones.
+// Peels the translucent surfaces, nearest first, and composites the layers over each other and over the opaque surfaces.
 static bool draw_layers(struct gl_frame *f, lam_error *error)
 {
     const struct gl *gl = f->gl;
     struct gl_device *device = f->device;
     struct gl_targets *t = &device->targets;
-    clear_target(f, &t->sum, PLACE_FRONT);
-    clear_target(f, &t->layers[1], PLACE_FRONT); // the layer before the first
-    GLuint any = 1;
-    for (int layer = 0; any; layer++) {
+    clear_target(f, &t->sum, DEPTH_ID_NEAREST);
+    clear_target(f, &t->layers[1], DEPTH_ID_NEAREST); // the layer before the first
+    GLuint samples_passed = 1;
+    for (int layer = 0; samples_passed; layer++) {
         if (!call_should_continue(f->call))
             return call_error(f->call, error);
-        const struct gl_target *here = &t->layers[layer % 2];
-        clear_target(f, here, PLACE_END); // pixels without this layer have no more
-        gl_use_texture(device, UNIT_NEARER, GL_TEXTURE_2D, t->layers[1 - layer % 2].place);
-        gl_use_texture(device, UNIT_OPAQUE, GL_TEXTURE_2D, t->sample.place);
+        const struct gl_target *target = &t->layers[layer % 2];
+        clear_target(f, target, DEPTH_ID_FARTHEST); // a pixel without this layer has no further layers
+        gl_use_texture(device, UNIT_NEARER_DEPTH_IDS, GL_TEXTURE_2D, t->layers[1 - layer % 2].depth_id);
+        gl_use_texture(device, UNIT_OPAQUE_DEPTH_IDS, GL_TEXTURE_2D, t->sample.depth_id);
         gl->BeginQuery(GL_ANY_SAMPLES_PASSED, device->query);
-        draw_surfaces(f, true, BLENDING_NEAREST);
+        draw_all(f, true, BLENDING_NEAREST);
         gl->EndQuery(GL_ANY_SAMPLES_PASSED);
-        gl->GetQueryObjectuiv(device->query, GL_QUERY_RESULT, &any);
-        if (any)
-            copy_target(f, here, &t->sum, BLENDING_UNDER, 1);
+        gl->GetQueryObjectuiv(device->query, GL_QUERY_RESULT, &samples_passed);
+        if (samples_passed)
+            copy_target(f, target, &t->sum, BLENDING_UNDER, 1);
     }
     copy_target(f, &t->sample, &t->sum, BLENDING_UNDER, 1);
     return true;
 }
 
-// A number is that of the covered sample nearest to the centre, not an average.
-static bool is_number(lam_output show)
+// Whether a pixel has the value of the covered sample nearest to its centre, not an average.
+static bool is_value(lam_output output)
 {
-    return !lam_output_is_light(show) && show != LAM_OUTPUT_CLIPPED && show != LAM_OUTPUT_COVERAGE &&
-           show != LAM_OUTPUT_OVERDRAW;
+    return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED && output != LAM_OUTPUT_COVERAGE &&
+           output != LAM_OUTPUT_OVERDRAW;
 }
 
 bool passes_draw(struct gl_frame *f, lam_error *error)
@@ -221,21 +222,21 @@ bool passes_draw(struct gl_frame *f, lam_error *error)
     const struct gl_target *result = f->layered ? &t->sum : &t->sample;
     bool several = pattern->count > 1;
     if (several)
-        clear_target(f, &t->picture, PLACE_FRONT);
+        clear_target(f, &t->picture, DEPTH_ID_NEAREST);
     for (int i = 0; i < pattern->count; i++) {
         int s = pattern->by_distance[i];
         if (!call_should_continue(f->call))
             return call_error(f->call, error);
         f->sample_x = (float)pattern->x[s] * 0.0625f;
         f->sample_y = (float)pattern->y[s] * 0.0625f;
-        clear_target(f, &t->sample, PLACE_FRONT);
-        draw_surfaces(f, false, f->frame->show == LAM_OUTPUT_OVERDRAW ? BLENDING_ADD : BLENDING_NEAREST);
+        clear_target(f, &t->sample, DEPTH_ID_NEAREST);
+        draw_all(f, false, f->frame->output == LAM_OUTPUT_OVERDRAW ? BLENDING_ADD : BLENDING_NEAREST);
         if (f->layered && !draw_layers(f, error))
             return false;
-        bool number = is_number(f->frame->show);
+        bool value = is_value(f->frame->output);
         if (several)
-            copy_target(f, result, &t->picture, number ? BLENDING_UNDER : BLENDING_ADD,
-                        number ? 1 : 1.0f / (float)pattern->count);
+            copy_target(f, result, &t->picture, value ? BLENDING_UNDER : BLENDING_ADD,
+                        value ? 1 : 1.0f / (float)pattern->count);
     }
     gl_use_framebuffer(f->device, several ? t->picture.framebuffer : result->framebuffer);
     return true;

@@ -1,4 +1,4 @@
-// gl_programs.c: the shaders of glsl.h compiled, one program for each set of choices, and their uniforms.
+// gl_programs.c: compiles the shaders of glsl.h, one program for each set of choices, and sets their uniforms.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -30,12 +30,12 @@ static GLuint compile(const struct gl *gl, GLenum kind, const char *text, lam_er
     char log[320] = "";
     gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
     gl->DeleteShader(shader);
-    fail(error, LAM_UNSUPPORTED, "OpenGL: the driver does not compile the %s shader: %s",
+    fail(error, LAM_UNSUPPORTED, "OpenGL: the driver cannot compile the %s shader: %s",
          kind == GL_VERTEX_SHADER ? "vertex" : "fragment", log);
     return 0;
 }
 
-// 0: the error tells.
+// 0 on failure.
 static GLuint link_program(const struct gl *gl, const char *vertex, const char *fragment, lam_error *error)
 {
     GLuint parts[2] = {compile(gl, GL_VERTEX_SHADER, vertex, error), 0};
@@ -52,7 +52,7 @@ static GLuint link_program(const struct gl *gl, const char *vertex, const char *
             gl->GetProgramInfoLog(program, sizeof log, NULL, log);
             gl->DeleteProgram(program);
             program = 0;
-            fail(error, LAM_UNSUPPORTED, "OpenGL: the driver does not link the shaders: %s", log);
+            fail(error, LAM_UNSUPPORTED, "OpenGL: the driver cannot link the shaders: %s", log);
         }
     }
     for (int i = 0; i < 2; i++)
@@ -61,7 +61,7 @@ static GLuint link_program(const struct gl *gl, const char *vertex, const char *
     return program;
 }
 
-static void look_up(struct gl_frame *f, struct gl_program *program)
+static void find_uniforms(struct gl_frame *f, struct gl_program *program)
 {
     const struct gl *gl = f->gl;
     gl_use_program(f->device, program->name);
@@ -74,8 +74,8 @@ static void look_up(struct gl_frame *f, struct gl_program *program)
         program->locations[UNIFORM_HEAD + i] = gl->GetUniformLocation(program->name, name);
         program->locations[UNIFORM_BACK_HEAD + i] = gl->GetUniformLocation(program->name, back);
     }
-    static const char *const textures[UNIT_COPY] = {"environment_faces", "light_list", "product_list", "nearer_places",
-                                                    "opaque_places"};
+    static const char *const textures[UNIT_COPY] = {"environment_faces", "light_list", "product_list",
+                                                    "nearer_depth_ids", "opaque_depth_ids"};
     for (int unit = 0; unit < UNIT_COPY; unit++) {
         GLint at = gl->GetUniformLocation(program->name, textures[unit]);
         if (at >= 0)
@@ -95,16 +95,16 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
     for (int i = 0; i < device->program_count; i++)
         if (memcmp(&device->programs[i].choices, choices, sizeof *choices) == 0)
             return &device->programs[i];
-    if (device->program_count == device->program_room) {
-        // Pointers to programs are held only while one frame is set up, after all of it is compiled (gl_device.c).
-        int room = device->program_room ? 2 * device->program_room : 8;
-        struct gl_program *grown = realloc(device->programs, (size_t)room * sizeof *grown);
+    if (device->program_count == device->program_capacity) {
+        // The programs may move: gl_device.c compiles all programs of a frame before it keeps pointers to any.
+        int capacity = device->program_capacity ? 2 * device->program_capacity : 8;
+        struct gl_program *grown = realloc(device->programs, (size_t)capacity * sizeof *grown);
         if (!grown) {
-            fail_memory(error, (size_t)room * sizeof *grown);
+            fail_memory(error, (size_t)capacity * sizeof *grown);
             return NULL;
         }
         device->programs = grown;
-        device->program_room = room;
+        device->program_capacity = capacity;
     }
     struct glsl_text text;
     if (!glsl_make(choices, &text, error))
@@ -115,12 +115,12 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
         return NULL;
     struct gl_program *program = &device->programs[device->program_count++];
     *program = (struct gl_program){.name = name};
-    memcpy(&program->choices, choices, sizeof *choices); // with its padding, for memcmp
-    look_up(f, program);
+    memcpy(&program->choices, choices, sizeof *choices); // with the padding, for memcmp
+    find_uniforms(f, program);
     return program;
 }
 
-// --- uniforms, sent where they are other than before
+// --- uniforms, set only if the value has changed
 
 void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values, int count)
 {
@@ -142,10 +142,10 @@ void program_set(struct gl_frame *f, struct gl_program *program, enum uniform un
         f->gl->Uniform1f(at, values[0]);
 }
 
-void program_set_number(struct gl_frame *f, struct gl_program *program, enum uniform uniform, int value)
+void program_set_int(struct gl_frame *f, struct gl_program *program, enum uniform uniform, int value)
 {
     GLint at = program->locations[uniform];
-    int *before = &program->numbers[uniform - UNIFORM_FLOATS];
+    int *before = &program->ints[uniform - UNIFORM_FLOATS];
     if (at < 0 || (program->set[uniform] && *before == value))
         return;
     *before = value;
@@ -154,12 +154,12 @@ void program_set_number(struct gl_frame *f, struct gl_program *program, enum uni
     f->gl->Uniform1i(at, value);
 }
 
-// --- from one target into another
+// --- the program that copies a target
 
 static const char copy_vertex[] =
     "void main()\n"
     "{\n"
-    "    // One triangle over the whole target.\n"
+    "    // One triangle covers the whole target.\n"
     "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
     "}\n";
 static const char copy_fragment[] =
@@ -183,7 +183,7 @@ bool program_copy_make(struct gl_device *device, lam_error *error)
     device->copy_factor = gl->GetUniformLocation(device->copy_program, "factor");
     gl_use_program(device, device->copy_program);
     gl->Uniform1i(gl->GetUniformLocation(device->copy_program, "picture"), UNIT_COPY);
-    gl->Uniform1f(device->copy_factor, device->copy_factor_now = 1);
+    gl->Uniform1f(device->copy_factor, device->copy_factor_value = 1);
     gl->GenVertexArrays(1, &device->empty_array);
     return true;
 }

@@ -1,5 +1,5 @@
-// gl_readback.c: linear light from the device to the image: over the background, and encoded by the same
-// formulas as the CPU device's pixels.
+// gl_readback.c: reads a part of the picture back into the image: composites linear light over the background and encodes
+// the pixels, by the CPU device's code.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -11,19 +11,19 @@
 
 #include <string.h>
 
-// Pixels of a row: r, g, b, a, premultiplied, side by side. `format`: of `to`, a working one.
+// Encodes premultiplied RGBA pixels of a row into `to`, in a working format.
 static void store_light(const struct gl_frame *f, const float *from, int count, lam_pixel_format format, char *to)
 {
     size_t size = pixel_bytes(format);
     for (int x = 0; x < count; x += LANES) {
-        int some = count - x < LANES ? count - x : LANES;
+        int batch = count - x < LANES ? count - x : LANES;
         float lanes[4][LANES] = {{0}};
-        for (int i = 0; i < some; i++)
+        for (int i = 0; i < batch; i++)
             for (int c = 0; c < 4; c++)
                 lanes[c][i] = from[4 * (x + i) + c];
         struct pixel_lanes p = {num_load(lanes[0]), num_load(lanes[1]), num_load(lanes[2]),
-                                min_of(num_load(lanes[3]), num_of(1.0f))}; // sums may be over by a rounding
-        write_pixels(f->frame, p, format, to + (size_t)x * size, some);
+                                min_of(num_load(lanes[3]), num_of(1.0f))}; // rounding may have raised a sum above 1
+        write_pixels(f->frame, p, format, to + (size_t)x * size, batch);
     }
 }
 
@@ -36,11 +36,11 @@ static void store_clipped(const struct gl_frame *f, const float *from, lam_pixel
     encode_clipped(format, p, to);
 }
 
-static void store_number(const struct gl_frame *f, const float *from, lam_pixel_format format, void *to)
+static void store_value(const struct gl_frame *f, const float *from, lam_pixel_format format, void *to)
 {
-    lam_output show = f->frame->show;
-    if (show == LAM_OUTPUT_COVERAGE || show == LAM_OUTPUT_OVERDRAW) {
-        float share = show == LAM_OUTPUT_COVERAGE ? from[3] : from[0];
+    lam_output output = f->frame->output;
+    if (output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW) {
+        float share = output == LAM_OUTPUT_COVERAGE ? from[3] : from[0];
         encode_values(f->frame, format, (float[4]){share, share, share, 1}, to);
         return;
     }
@@ -50,7 +50,7 @@ static void store_number(const struct gl_frame *f, const float *from, lam_pixel_
         (float[4]){covered ? from[0] : 0, covered ? from[1] : 0, covered ? from[2] : 0, covered ? 1.0f : 0.0f}, to);
 }
 
-bool reading_part(struct gl_frame *f, lam_error *error)
+bool readback_part(struct gl_frame *f, lam_error *error)
 {
     const struct gl *gl = f->gl;
     size_t bytes = (size_t)f->width * (size_t)f->height * 4 * sizeof(float);
@@ -59,25 +59,25 @@ bool reading_part(struct gl_frame *f, lam_error *error)
     gl->ReadPixels(0, 0, f->width, f->height, GL_RGBA, GL_FLOAT, f->device->pixels.data);
     lam_pixel_format format = f->image->format, working = working_format(format);
     size_t size = pixel_bytes(working);
-    char apart[PART_MOST * 16]; // a row of the working format, before it is converted
-    lam_output show = f->frame->show;
+    char converted[PART_SIZE_MAX * 16]; // a row in the working format
+    lam_output output = f->frame->output;
     uint64_t covered = 0;
     for (int y = 0; y < f->height; y++) {
         const float *from = (const float *)f->device->pixels.data + (size_t)y * (size_t)f->width * 4;
         char *row = (char *)image_row(f->image, f->top + y) + (size_t)f->left * pixel_bytes(format);
-        char *to = format == working ? row : apart;
+        char *to = format == working ? row : converted;
         for (int x = 0; x < f->width; x++)
             covered += from[4 * x + 3] > 0;
-        if (lam_output_is_light(show))
+        if (lam_output_is_light(output))
             store_light(f, from, f->width, working, to);
         else
             for (int x = 0; x < f->width; x++, from += 4)
-                if (show == LAM_OUTPUT_CLIPPED)
+                if (output == LAM_OUTPUT_CLIPPED)
                     store_clipped(f, from, working, to + (size_t)x * size);
                 else
-                    store_number(f, from, working, to + (size_t)x * size);
+                    store_value(f, from, working, to + (size_t)x * size);
         if (format != working)
-            pixels_from_working(format, values_are_raw(f->frame), apart, f->width, row);
+            pixels_from_working(format, values_are_raw(f->frame), converted, f->width, row);
     }
     f->device->base.report.pixels_covered += covered;
     return call_should_continue(f->call) || call_error(f->call, error);

@@ -1,4 +1,4 @@
-// gl_state.c: the context's state, set only where it changes, and memory on the device.
+// gl_state.c: sets the context's state where it differs from the current one, and allocates vertex buffers.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -7,35 +7,35 @@
 
 void gl_use_program(struct gl_device *device, GLuint program)
 {
-    if (device->now.program != program)
-        device->context.gl.UseProgram(device->now.program = program);
+    if (device->current.program != program)
+        device->context.gl.UseProgram(device->current.program = program);
 }
 
 void gl_use_array(struct gl_device *device, GLuint array)
 {
-    if (device->now.array != array)
-        device->context.gl.BindVertexArray(device->now.array = array);
+    if (device->current.array != array)
+        device->context.gl.BindVertexArray(device->current.array = array);
 }
 
 void gl_use_framebuffer(struct gl_device *device, GLuint framebuffer)
 {
-    if (device->now.framebuffer != framebuffer)
-        device->context.gl.BindFramebuffer(GL_FRAMEBUFFER, device->now.framebuffer = framebuffer);
+    if (device->current.framebuffer != framebuffer)
+        device->context.gl.BindFramebuffer(GL_FRAMEBUFFER, device->current.framebuffer = framebuffer);
 }
 
 void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture)
 {
-    if (device->now.textures[unit] == texture)
+    if (device->current.textures[unit] == texture)
         return;
-    if (device->now.unit != (int)unit)
-        device->context.gl.ActiveTexture(GL_TEXTURE0 + (GLenum)(device->now.unit = (int)unit));
-    device->context.gl.BindTexture(target, device->now.textures[unit] = texture);
+    if (device->current.unit != (int)unit)
+        device->context.gl.ActiveTexture(GL_TEXTURE0 + (GLenum)(device->current.unit = (int)unit));
+    device->context.gl.BindTexture(target, device->current.textures[unit] = texture);
 }
 
 void gl_use_blending(struct gl_device *device, enum gl_blending blending)
 {
     const struct gl *gl = &device->context.gl;
-    enum gl_blending before = device->now.blending;
+    enum gl_blending before = device->current.blending;
     bool nearest = blending == BLENDING_NEAREST;
     if (before == blending)
         return;
@@ -43,43 +43,43 @@ void gl_use_blending(struct gl_device *device, enum gl_blending blending)
         (nearest ? gl->Enable : gl->Disable)(GL_DEPTH_TEST);
         (nearest ? gl->Disable : gl->Enable)(GL_BLEND);
     }
-    if (!nearest && device->now.factors != blending) {
+    if (!nearest && device->current.factors != blending) {
         gl->BlendFunc(blending == BLENDING_UNDER ? GL_ONE_MINUS_DST_ALPHA : GL_ONE, GL_ONE);
-        device->now.factors = blending;
+        device->current.factors = blending;
     }
-    device->now.blending = blending;
+    device->current.blending = blending;
 }
 
 void gl_use_viewport(struct gl_device *device, int width, int height)
 {
-    if (device->now.width != width || device->now.height != height)
-        device->context.gl.Viewport(0, 0, device->now.width = width, device->now.height = height);
+    if (device->current.width != width || device->current.height != height)
+        device->context.gl.Viewport(0, 0, device->current.width = width, device->current.height = height);
 }
 
 void gl_use_cull(struct gl_device *device, lam_cull cull)
 {
     const struct gl *gl = &device->context.gl;
-    int before = device->now.cull;
+    int before = device->current.cull;
     if (before == (int)cull)
         return;
     if (cull == LAM_CULL_NONE)
         gl->Disable(GL_CULL_FACE);
     else if (before <= LAM_CULL_NONE)
         gl->Enable(GL_CULL_FACE);
-    if (cull != LAM_CULL_NONE && device->now.culled != cull)
-        gl->CullFace((device->now.culled = cull) == LAM_CULL_BACK ? GL_BACK : GL_FRONT);
-    device->now.cull = (int)cull;
+    if (cull != LAM_CULL_NONE && device->current.culled != cull)
+        gl->CullFace((device->current.culled = cull) == LAM_CULL_BACK ? GL_BACK : GL_FRONT);
+    device->current.cull = (int)cull;
 }
 
-void gl_forget(struct gl_device *device)
+void gl_state_invalidate(struct gl_device *device)
 {
-    memset(&device->now, 0, sizeof device->now);
-    device->now.program = device->now.array = device->now.framebuffer = UINT32_MAX;
+    memset(&device->current, 0, sizeof device->current);
+    device->current.program = device->current.array = device->current.framebuffer = UINT32_MAX;
     for (int i = 0; i < UNIT_COUNT; i++)
-        device->now.textures[i] = UINT32_MAX;
+        device->current.textures[i] = UINT32_MAX;
     for (int i = 0; i < POINT_COUNT; i++)
-        device->now.blocks[i].buffer = UINT32_MAX;
-    device->now.cull = device->now.front = device->now.unit = -1;
+        device->current.blocks[i].buffer = UINT32_MAX;
+    device->current.cull = device->current.front = device->current.unit = -1;
 }
 
 bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *error)
@@ -91,14 +91,14 @@ bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *er
     return true;
 }
 
-void *gl_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, lam_error *error)
+void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, lam_error *error)
 {
     f->gl->BindBuffer(GL_ARRAY_BUFFER, buffer);
     f->gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)bytes, NULL, usage);
     void *mapped =
         f->gl->MapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)bytes, GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
     if (!mapped) {
-        fail(error, LAM_LIMIT, "OpenGL: the memory of '%s' is out: %zu bytes of vertices", f->device->context.renderer,
+        fail(error, LAM_LIMIT, "OpenGL: '%s' is out of memory: %zu bytes of vertices", f->device->context.renderer,
              bytes);
         return NULL;
     }

@@ -1,43 +1,43 @@
-// gl_state_save.c: the state of the caller's own context that a frame changes: taken before, given back after.
+// gl_state_save.c: saves the state of the caller's context that a frame changes, and restores it.
 #include "gl_device.h"
 
 static const GLenum switches[] = {
     GL_DEPTH_TEST, GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_RASTERIZER_DISCARD,
     GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE, GL_POLYGON_OFFSET_FILL, GL_PRIMITIVE_RESTART_FIXED_INDEX,
-    // From here on desktop OpenGL alone.
+    // The following are in desktop OpenGL only.
     GL_FRAMEBUFFER_SRGB, GL_PRIMITIVE_RESTART, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_MULTISAMPLE};
 enum { SWITCHES = sizeof switches / sizeof *switches, SWITCHES_ES = 10 };
 
 static const GLenum unpacking[] = {GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH,   GL_UNPACK_SKIP_ROWS,
                                    GL_UNPACK_SKIP_PIXELS, GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES};
 static const GLenum packing[] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS};
-static const GLint plain_alignment[6] = {4, 0, 0, 0, 0, 0};
+static const GLint default_storage[6] = {4, 0, 0, 0, 0, 0};
 
-static bool is_there(const struct gl_device *device, int i)
+static bool is_supported(const struct gl_device *device, int i)
 {
-    if (switches[i] == GL_PRIMITIVE_RESTART_FIXED_INDEX) // OpenGL has it since 4.3
+    if (switches[i] == GL_PRIMITIVE_RESTART_FIXED_INDEX) // OpenGL: since 4.3
         return device->context.es || device->context.major * 10 + device->context.minor >= 43;
     return !device->context.es || i < SWITCHES_ES;
 }
 
-static void set(const struct gl *gl, GLenum what, bool on)
+static void set_switch(const struct gl *gl, GLenum name, bool on)
 {
     if (on)
-        gl->Enable(what);
+        gl->Enable(name);
     else
-        gl->Disable(what);
+        gl->Disable(name);
 }
 
-static void plain_state(const struct gl_device *device)
+static void set_defaults(const struct gl_device *device)
 {
     const struct gl *gl = &device->context.gl;
     for (int i = 0; i < SWITCHES; i++)
-        if (is_there(device, i))
-            set(gl, switches[i], switches[i] == GL_DEPTH_TEST);
+        if (is_supported(device, i))
+            set_switch(gl, switches[i], switches[i] == GL_DEPTH_TEST);
     for (int i = 0; i < 6; i++)
-        gl->PixelStorei(unpacking[i], plain_alignment[i]);
+        gl->PixelStorei(unpacking[i], default_storage[i]);
     for (int i = 0; i < 4; i++)
-        gl->PixelStorei(packing[i], plain_alignment[i]);
+        gl->PixelStorei(packing[i], default_storage[i]);
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -46,10 +46,10 @@ static void plain_state(const struct gl_device *device)
     gl->BlendEquation(GL_FUNC_ADD);
 }
 
-void caller_save(const struct gl_device *device, struct gl_saved_state *s)
+void gl_state_save(const struct gl_device *device, struct gl_saved_state *s)
 {
     const struct gl *gl = &device->context.gl;
-    if (device->callers) {
+    if (device->external_context) {
         gl->GetIntegerv(GL_CURRENT_PROGRAM, &s->program);
         gl->GetIntegerv(GL_VERTEX_ARRAY_BINDING, &s->array);
         gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &s->draw_framebuffer);
@@ -88,20 +88,20 @@ void caller_save(const struct gl_device *device, struct gl_saved_state *s)
         for (int i = 0; i < 4; i++)
             gl->GetIntegerv(packing[i], &s->pack[i]);
         for (int i = 0; i < SWITCHES; i++)
-            s->enabled[i] = is_there(device, i) ? gl->IsEnabled(switches[i]) : GL_FALSE;
+            s->enabled[i] = is_supported(device, i) ? gl->IsEnabled(switches[i]) : GL_FALSE;
         if (!device->context.es) {
             gl->GetIntegerv(GL_POLYGON_MODE, s->polygon_mode);
             gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
         }
     }
-    if (device->callers || !device->frame_number)
-        plain_state(device);
+    if (device->external_context || !device->frame_number)
+        set_defaults(device);
 }
 
-void caller_restore(const struct gl_device *device, const struct gl_saved_state *s)
+void gl_state_restore(const struct gl_device *device, const struct gl_saved_state *s)
 {
     const struct gl *gl = &device->context.gl;
-    if (!device->callers)
+    if (!device->external_context)
         return;
     gl->UseProgram((GLuint)s->program);
     gl->BindVertexArray((GLuint)s->array);
@@ -136,8 +136,8 @@ void caller_restore(const struct gl_device *device, const struct gl_saved_state 
     for (int i = 0; i < 4; i++)
         gl->PixelStorei(packing[i], s->pack[i]);
     for (int i = 0; i < SWITCHES; i++)
-        if (is_there(device, i))
-            set(gl, switches[i], s->enabled[i]);
+        if (is_supported(device, i))
+            set_switch(gl, switches[i], s->enabled[i]);
     if (!device->context.es)
         gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)s->polygon_mode[0]);
 }

@@ -1,5 +1,5 @@
-// gl_targets.c: the framebuffers that a part of the picture is drawn into: floats in linear light, so that it
-// is encoded once, by the same code as the CPU device's.
+// gl_targets.c: the framebuffers that a part of the picture is drawn into. They hold linear light as floats, which
+// gl_readback.c encodes.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -22,14 +22,14 @@ static GLuint make_texture(struct gl_frame *f, GLenum format, int width, int hei
 static void free_target(struct gl_device *device, struct gl_target *t)
 {
     const struct gl *gl = &device->context.gl;
-    const GLuint textures[] = {t->color, t->place, t->depth};
-    gl->DeleteTextures(3, textures); // 0 is left alone
+    const GLuint textures[] = {t->color, t->depth_id, t->depth};
+    gl->DeleteTextures(3, textures); // OpenGL ignores 0
     gl->DeleteFramebuffers(1, &t->framebuffer);
     *t = (struct gl_target){0};
 }
 
-// A target with a colour, and on request places (depth and triangle of each pixel) and depth.
-static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int height, bool place, bool depth,
+// Makes a target with a colour texture and, on request, textures of depth ids and depth.
+static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int height, bool depth_id, bool depth,
                         lam_error *error)
 {
     const struct gl *gl = f->gl;
@@ -37,10 +37,10 @@ static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int 
     gl_use_framebuffer(f->device, t->framebuffer);
     t->color = make_texture(f, f->device->float_format, width, height, GL_RGBA, GL_FLOAT);
     gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, t->color, 0);
-    if (place) {
+    if (depth_id) {
         static const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-        t->place = make_texture(f, GL_RG32UI, width, height, GL_RG_INTEGER, GL_UNSIGNED_INT);
-        gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, t->place, 0);
+        t->depth_id = make_texture(f, GL_RG32UI, width, height, GL_RG_INTEGER, GL_UNSIGNED_INT);
+        gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, t->depth_id, 0);
         gl->DrawBuffers(2, both);
     }
     if (depth) {
@@ -50,10 +50,11 @@ static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int 
     GLenum status = gl->CheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE)
         return true;
-    return fail(error, LAM_UNSUPPORTED, "OpenGL: the driver cannot draw into floats (framebuffer status 0x%x)", status);
+    return fail(error, LAM_UNSUPPORTED, "OpenGL: the driver cannot draw into float textures (framebuffer status 0x%x)",
+                status);
 }
 
-// Whether a small target of the format can be drawn into. Blending is told by an extension.
+// Whether the driver can draw into a target of the format. Support for blending is a matter of extensions.
 static bool can_draw(struct gl_device *device, GLenum format)
 {
     struct gl_frame f = {.device = device, .gl = &device->context.gl};
@@ -68,12 +69,14 @@ static bool can_draw(struct gl_device *device, GLenum format)
 bool targets_find_format(struct gl_device *device, lam_error *error)
 {
     const struct gl *gl = &device->context.gl;
-    bool floats = !device->context.es || (gl_has(gl, "GL_EXT_color_buffer_float") && gl_has(gl, "GL_EXT_float_blend"));
-    bool halves = floats || gl_has(gl, "GL_EXT_color_buffer_float") || gl_has(gl, "GL_EXT_color_buffer_half_float");
+    bool floats = !device->context.es ||
+                  (gl_has_extension(gl, "GL_EXT_color_buffer_float") && gl_has_extension(gl, "GL_EXT_float_blend"));
+    bool halves = floats || gl_has_extension(gl, "GL_EXT_color_buffer_float") ||
+                  gl_has_extension(gl, "GL_EXT_color_buffer_half_float");
     if ((floats && can_draw(device, GL_RGBA32F)) || (halves && can_draw(device, GL_RGBA16F)))
         return true;
     return fail(error, LAM_UNSUPPORTED,
-                "OpenGL: the driver of '%s' cannot draw into floats, expected GL_EXT_color_buffer_float",
+                "OpenGL: the driver of '%s' cannot draw into float textures, expected GL_EXT_color_buffer_float",
                 device->context.renderer);
 }
 
@@ -114,5 +117,5 @@ void targets_free(struct gl_device *device)
         if (all[i]->framebuffer)
             free_target(device, all[i]);
     *t = (struct gl_targets){0};
-    gl_forget(device);
+    gl_state_invalidate(device);
 }

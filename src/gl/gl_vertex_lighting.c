@@ -1,6 +1,5 @@
-// gl_vertex_lighting.c: the stage `application`: the CPU works out the colours of vertices by the same equations
-// (src/lighting), and they are sent as attributes, for the front and for the back. Again only when what
-// decides them has changed.
+// gl_vertex_lighting.c: the stage `application`: the CPU evaluates the equations of src/lighting at the vertices, and the
+// front and back colours are uploaded as attributes. A draw is lit again only if an input of its colours has changed.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -14,15 +13,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHUNK = 4096 }; // vertices lit at once, a multiple of LANES
+enum { CHUNK = 4096 }; // vertices lit in one go, a multiple of LANES
 
-// One side of one surface.
+// One side of a range.
 struct side {
     const struct frame *frame;
     const struct frame_draw *draw;
     const lam_mesh *mesh;
     const lam_material *material;
-    bool flip; // the back, lit with −n
+    bool flip; // the back: lit with −n
     bool translucent;
 };
 
@@ -34,7 +33,7 @@ LANE_FN vec3 product3(const float *a, const float *b)
 LANE_FN num row3(const float row[3], vec3 v) { return (row[0] * v.x + row[1] * v.y) + row[2] * v.z; }
 LANE_FN vec3 turn(const float m[3][3], vec3 v) { return (vec3){row3(m[0], v), row3(m[1], v), row3(m[2], v)}; }
 
-// Attribute `at` floats into LANES vertices.
+// Loads three floats of LANES vertices, from the offset `at` in floats.
 LANE_FN vec3 load3(const struct mesh_vertex *from, size_t at)
 {
     float v[3][LANES];
@@ -69,7 +68,7 @@ LANE_FN vec3 environment_of(const struct frame *frame, surface s)
     return pick3(both(present(s.n), present(s.v)), vec3_of(c.r, c.g, c.b), black3());
 }
 
-LANE_FN terms terms_of(const struct side *side, surface s, vec3 color)
+LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color)
 {
     const struct frame *frame = side->frame;
     const lam_material *m = side->material;
@@ -96,9 +95,9 @@ LANE_FN terms terms_of(const struct side *side, surface s, vec3 color)
     return tint_terms(sum, color);
 }
 
-LANE_FN vec3 shown_of(const struct frame *frame, terms t)
+LANE_FN vec3 output_terms(const struct frame *frame, terms t)
 {
-    switch (frame->show) {
+    switch (frame->output) {
     case LAM_OUTPUT_AMBIENT:
         return t.ambient;
     case LAM_OUTPUT_DIFFUSE:
@@ -116,26 +115,20 @@ LANE_FN vec3 shown_of(const struct frame *frame, terms t)
     }
 }
 
-static bool shows_vectors(lam_output show)
+LANE_FN vec3 output_vector(const struct side *side, surface s)
 {
-    return show == LAM_OUTPUT_NORMALS || show == LAM_OUTPUT_TANGENTS || show == LAM_OUTPUT_N_L ||
-           show == LAM_OUTPUT_N_H;
-}
-
-LANE_FN vec3 vector_of(const struct side *side, surface s)
-{
-    lam_output show = side->frame->show;
-    if (show == LAM_OUTPUT_NORMALS)
+    lam_output output = side->frame->output;
+    if (output == LAM_OUTPUT_NORMALS)
         return s.n;
-    if (show == LAM_OUTPUT_TANGENTS)
+    if (output == LAM_OUTPUT_TANGENTS)
         return s.t;
     const struct frame_light *light = &side->frame->lights[0]; // the only one
     vec3 l = toward_light(s.p, source_of(side, light), light->kind, FALLOFF_NONE).l;
-    num c = cosine(dot3(s.n, show == LAM_OUTPUT_N_L ? l : halfway3(l, s.v)));
+    num c = cosine(dot3(s.n, output == LAM_OUTPUT_N_L ? l : halfway3(l, s.v)));
     return vec3_of(c, c, c);
 }
 
-// The direction of meshes without tangents: round the mesh's y axis, along x where the normal is along y.
+// The tangent for a mesh without tangents: around the mesh's y axis; along x where the normal is along y.
 LANE_FN vec3 field_tangent(const struct side *side, vec3 n)
 {
     const float(*m)[3] = side->draw->tangent;
@@ -156,24 +149,24 @@ LANE_FN surface surface_of(const struct side *side, const struct mesh_vertex *fr
     s.n = unit3(side->flip ? negate3(n) : n);
     s.v = to_eye(s.p, frame->distant_viewer ? VIEWER_INFINITE : VIEWER_LOCAL);
     s.t = black3();
-    if (lobe_properties(frame->reflection) & LOBE_TANGENT || frame->show == LAM_OUTPUT_TANGENTS)
+    if (lobe_properties(frame->reflection) & LOBE_TANGENT || frame->output == LAM_OUTPUT_TANGENTS)
         s.t = perpendicular3(
             side->mesh->tangents ? unit3(turn(side->draw->tangent, load3(from, 10))) : field_tangent(side, s.n), s.n);
     return s;
 }
 
-// Colours of vertices, with alpha; `count` is a multiple of LANES.
+// Computes the colours of vertices, with alpha; `count` is a multiple of LANES.
 static void light_side(const struct side *side, const struct mesh_vertex *from, uint32_t count, float (*out)[4])
 {
     const struct frame *frame = side->frame;
-    bool whole = frame->show == LAM_OUTPUT_PICTURE || frame->show == LAM_OUTPUT_CLIPPED;
+    bool clamped = frame->gl1 && output_is_picture(frame->output);
     for (uint32_t first = 0; first < count; first += LANES, from += LANES, out += LANES) {
         surface s = surface_of(side, from);
         vec3 white = vec3_of(num_of(1.0f), num_of(1.0f), num_of(1.0f));
-        vec3 color = shows_vectors(frame->show)
-                         ? vector_of(side, s)
-                         : shown_of(frame, terms_of(side, s, side->mesh->colors ? load3(from, 6) : white));
-        if (frame->gl1 && whole)
+        vec3 color = output_is_vector(frame->output)
+                         ? output_vector(side, s)
+                         : output_terms(frame, evaluate_terms(side, s, side->mesh->colors ? load3(from, 6) : white));
+        if (clamped)
             color = vec3_of(saturate(color.x), saturate(color.y), saturate(color.z));
         for (int i = 0; i < LANES; i++) {
             out[i][0] = lane(color.x, i);
@@ -188,113 +181,116 @@ static void light_side(const struct side *side, const struct mesh_vertex *from, 
     }
 }
 
-// --- sending them
+// --- the key: all inputs of the colours, as bytes
 
-static bool note(struct gl_frame *f, struct gl_colors *row, size_t *size, const void *bytes, size_t count,
-                 lam_error *error)
+static bool key_add(struct gl_frame *f, struct gl_vertex_lighting *row, size_t *size, const void *bytes, size_t count,
+                    lam_error *error)
 {
-    if (*size + count > row->now.capacity) {
+    if (*size + count > row->frame_key.capacity) {
         struct buffer grown = {0};
         if (!buffer_reserve(&grown, 2 * (*size + count), f->call, error))
             return false;
         if (*size)
-            memcpy(grown.data, row->now.data, *size);
-        buffer_free(&row->now);
-        row->now = grown;
+            memcpy(grown.data, row->frame_key.data, *size);
+        buffer_free(&row->frame_key);
+        row->frame_key = grown;
     }
-    memcpy((char *)row->now.data + *size, bytes, count);
+    memcpy((char *)row->frame_key.data + *size, bytes, count);
     *size += count;
     return true;
 }
 
-// Structs are noted without the bytes between their members, which may be anything.
-static bool note_light(struct gl_frame *f, struct gl_colors *row, size_t *size, const struct frame_light *light,
-                       lam_error *error)
+// Members are appended without the padding between them, whose bytes are indeterminate.
+static bool key_add_light(struct gl_frame *f, struct gl_vertex_lighting *row, size_t *size,
+                          const struct frame_light *light, lam_error *error)
 {
     const int kind[] = {light->kind, light->falloff};
     size_t first = offsetof(struct frame_light, position), end = offsetof(struct frame_light, light);
-    return note(f, row, size, kind, sizeof kind, error) &&
-           note(f, row, size, (const char *)light + first, end - first, error);
+    return key_add(f, row, size, kind, sizeof kind, error) &&
+           key_add(f, row, size, (const char *)light + first, end - first, error);
 }
 
-static bool note_material(struct gl_frame *f, struct gl_colors *row, size_t *size, const lam_material *m,
-                          lam_error *error)
+static bool key_add_material(struct gl_frame *f, struct gl_vertex_lighting *row, size_t *size, const lam_material *m,
+                             lam_error *error)
 {
     for (int i = 0; lam_material_field(i); i++) {
         double numbers[4];
         size_t bytes = (size_t)lam_field_get(lam_material_field(i), m, numbers) * sizeof *numbers;
-        if (!note(f, row, size, numbers, bytes, error))
+        if (!key_add(f, row, size, numbers, bytes, error))
             return false;
     }
     return true;
 }
 
-static bool note_surface(struct gl_frame *f, struct gl_colors *row, size_t *size, const struct frame_draw_range *s,
-                         lam_error *error)
+static bool key_add_range(struct gl_frame *f, struct gl_vertex_lighting *row, size_t *size,
+                          const struct frame_draw_range *s, lam_error *error)
 {
     const uint32_t run[] = {s->first_id, s->count, s->translucent};
-    return note(f, row, size, run, sizeof run, error) &&
-           note_material(f, row, size, f->frame->materials[s->front], error) &&
-           note_material(f, row, size, f->frame->materials[s->back], error);
+    return key_add(f, row, size, run, sizeof run, error) &&
+           key_add_material(f, row, size, f->frame->materials[s->front], error) &&
+           key_add_material(f, row, size, f->frame->materials[s->back], error);
 }
 
-// All that the colours of a draw depend on, as bytes in row->now.
-static bool note_all(struct gl_frame *f, struct gl_colors *row, const struct gl_mesh *mesh, int number, size_t *size,
-                     lam_error *error)
+// Collects every input of a draw's colours in row->frame_key.
+static bool make_key(struct gl_frame *f, struct gl_vertex_lighting *row, const struct gl_mesh *mesh, int number,
+                     size_t *size, lam_error *error)
 {
     const struct frame *frame = f->frame;
     const struct frame_draw *draw = &frame->draws[number];
-    const int choices[] = {frame->show,           frame->reflection,       frame->shading,     frame->gl1,
+    const int choices[] = {frame->output,         frame->reflection,       frame->shading,     frame->gl1,
                            frame->distant_viewer, frame->match_highlights, frame->light_count, frame->hemisphere_count,
                            draw->one_sided,       frame->flat_normal,      (int)mesh->form,    frame->translucent};
-    const void *places[] = {frame->environment, mesh->mesh.positions, mesh->token};
-    bool ok = note(f, row, size, choices, sizeof choices, error) && note(f, row, size, places, sizeof places, error) &&
-              note(f, row, size, draw->eye, sizeof draw->eye, error) &&
-              note(f, row, size, draw->normal, sizeof draw->normal, error) &&
-              note(f, row, size, draw->tangent, sizeof draw->tangent, error) &&
-              note(f, row, size, frame->ambient, sizeof frame->ambient, error) &&
-              note(f, row, size, frame->to_environment, sizeof frame->to_environment, error);
+    const void *pointers[] = {frame->environment, mesh->mesh.positions, mesh->token};
+    bool ok = key_add(f, row, size, choices, sizeof choices, error) &&
+              key_add(f, row, size, pointers, sizeof pointers, error) &&
+              key_add(f, row, size, draw->eye, sizeof draw->eye, error) &&
+              key_add(f, row, size, draw->normal, sizeof draw->normal, error) &&
+              key_add(f, row, size, draw->tangent, sizeof draw->tangent, error) &&
+              key_add(f, row, size, frame->ambient, sizeof frame->ambient, error) &&
+              key_add(f, row, size, frame->to_environment, sizeof frame->to_environment, error);
     for (int i = 0; ok && i < frame->light_count; i++)
-        ok = note_light(f, row, size, &frame->lights[i], error);
+        ok = key_add_light(f, row, size, &frame->lights[i], error);
     for (int i = 0; ok && i < frame->hemisphere_count; i++)
-        ok = note(f, row, size, &frame->hemispheres[i], offsetof(struct frame_hemisphere, light), error);
-    for (int i = 0; ok && i < frame->surface_count; i++)
-        if (frame->surfaces[i].draw == number)
-            ok = note_surface(f, row, size, &frame->surfaces[i], error);
+        ok = key_add(f, row, size, &frame->hemispheres[i], offsetof(struct frame_hemisphere, light), error);
+    for (int i = 0; ok && i < frame->range_count; i++)
+        if (frame->ranges[i].draw == number)
+            ok = key_add_range(f, row, size, &frame->ranges[i], error);
     return ok;
 }
 
-// Lights the vertices of a run: front and back side by side.
+// --- lighting and upload
+
+// Lights the vertices of a range, and interleaves front and back colours.
 static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const struct frame_draw_range *run,
                       uint32_t first, uint32_t end, float (*lit)[2][4])
 {
     const struct frame_draw *draw = &f->frame->draws[run->draw];
     struct side side = {.frame = f->frame, .draw = draw, .mesh = &mesh->mesh, .translucent = run->translucent};
     struct mesh_vertex *from = f->device->scratch.data;
-    float(*one)[4] = (float(*)[4])(from + CHUNK);
+    float(*colors)[4] = (float(*)[4])(from + CHUNK);
     for (; first < end; first += CHUNK) {
-        uint32_t some = end - first < CHUNK ? end - first : CHUNK, whole = (some + LANES - 1) / LANES * LANES;
+        uint32_t chunk = end - first < CHUNK ? end - first : CHUNK, padded = (chunk + LANES - 1) / LANES * LANES;
         if (!call_should_continue(f->call))
             return false;
-        mesh_vertices(f->device, &mesh->mesh, mesh->form, first, some, from);
-        for (uint32_t i = some; i < whole; i++)
-            from[i] = from[some - 1];
+        mesh_vertices(f->device, &mesh->mesh, mesh->form, first, chunk, from);
+        for (uint32_t i = chunk; i < padded; i++)
+            from[i] = from[chunk - 1];
         for (int back = 0; back < 2; back++) {
-            if (!back || !draw->one_sided) { // else the same again
+            if (!back || !draw->one_sided) { // one-sided: the back repeats the front
                 side.material = f->frame->materials[back ? run->back : run->front];
                 side.flip = back;
-                light_side(&side, from, whole, one);
-                f->device->base.report.points_lit += some;
-                f->device->base.report.lights_evaluated += (uint64_t)some * (uint64_t)f->frame->light_count;
+                light_side(&side, from, padded, colors);
+                f->device->base.report.points_lit += chunk;
+                f->device->base.report.lights_evaluated += (uint64_t)chunk * (uint64_t)f->frame->light_count;
             }
-            for (uint32_t i = 0; i < some; i++)
-                memcpy(lit[first + i][back], one[i], sizeof one[i]);
+            for (uint32_t i = 0; i < chunk; i++)
+                memcpy(lit[first + i][back], colors[i], sizeof colors[i]);
         }
     }
     return true;
 }
 
-static bool send_colors(struct gl_frame *f, struct gl_colors *row, const struct gl_mesh *mesh, int number,
+static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, const struct gl_mesh *mesh, int number,
                         lam_error *error)
 {
     const struct frame *frame = f->frame;
@@ -305,13 +301,13 @@ static bool send_colors(struct gl_frame *f, struct gl_colors *row, const struct 
                         error) ||
         !gl_charge(f, &row->bytes, bytes, error))
         return false;
-    float(*lit)[2][4] = gl_map_new(f, row->colors, (size_t)bytes, GL_DYNAMIC_DRAW, error);
+    float(*lit)[2][4] = gl_buffer_map_new(f, row->colors, (size_t)bytes, GL_DYNAMIC_DRAW, error);
     if (!lit)
         return false;
     bool on = true;
-    bool shared = mesh->form == FORM_SHARED, done = false; // shared vertices: all runs have one material
-    for (int i = 0; on && !done && i < frame->surface_count; i++) {
-        const struct frame_draw_range *s = &frame->surfaces[i];
+    bool shared = mesh->form == FORM_SHARED, done = false; // shared vertices: all ranges have one material
+    for (int i = 0; on && !done && i < frame->range_count; i++) {
+        const struct frame_draw_range *s = &frame->ranges[i];
         uint32_t first = 3 * (s->first_id - frame->draws[number].first_id);
         if (s->draw != number)
             continue;
@@ -323,40 +319,41 @@ static bool send_colors(struct gl_frame *f, struct gl_colors *row, const struct 
     return on || call_error(f->call, error);
 }
 
-static bool row_for(struct gl_device *device, int draw, lam_error *error)
+static bool reserve_row(struct gl_device *device, int draw, lam_error *error)
 {
-    if (draw < device->color_room)
+    if (draw < device->vertex_lighting_capacity)
         return true;
-    int room = draw + 8;
-    struct gl_colors *grown = realloc(device->colors, (size_t)room * sizeof *grown);
+    int capacity = draw + 8;
+    struct gl_vertex_lighting *grown = realloc(device->vertex_lighting, (size_t)capacity * sizeof *grown);
     if (!grown)
-        return fail_memory(error, (size_t)room * sizeof *grown);
-    memset(grown + device->color_room, 0, (size_t)(room - device->color_room) * sizeof *grown);
-    device->colors = grown;
-    device->color_room = room;
+        return fail_memory(error, (size_t)capacity * sizeof *grown);
+    memset(grown + device->vertex_lighting_capacity, 0,
+           (size_t)(capacity - device->vertex_lighting_capacity) * sizeof *grown);
+    device->vertex_lighting = grown;
+    device->vertex_lighting_capacity = capacity;
     return true;
 }
 
-GLuint colors_on_device(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_error *error)
+GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_error *error)
 {
     struct gl_device *device = f->device;
     const struct gl *gl = f->gl;
     size_t size = 0;
-    if (!row_for(device, draw, error) || !note_all(f, &device->colors[draw], mesh, draw, &size, error))
+    if (!reserve_row(device, draw, error) || !make_key(f, &device->vertex_lighting[draw], mesh, draw, &size, error))
         return 0;
-    struct gl_colors *row = &device->colors[draw];
+    struct gl_vertex_lighting *row = &device->vertex_lighting[draw];
     if (!row->colors) {
         gl->GenBuffers(1, &row->colors);
         gl->GenVertexArrays(1, &row->array);
     }
-    if (size != row->made_size || memcmp(row->now.data, row->made_of.data, size) != 0) {
-        row->made_size = 0;
+    if (size != row->sent_key_size || memcmp(row->frame_key.data, row->sent_key.data, size) != 0) {
+        row->sent_key_size = 0;
         if (!send_colors(f, row, mesh, draw, error))
             return 0;
-        struct buffer swapped = row->made_of;
-        row->made_of = row->now;
-        row->now = swapped;
-        row->made_size = size;
+        struct buffer swapped = row->sent_key;
+        row->sent_key = row->frame_key;
+        row->frame_key = swapped;
+        row->sent_key_size = size;
         lam_environment_free(row->environment);
         row->environment = cube_share(f->frame->environment);
     }
@@ -378,16 +375,16 @@ GLuint colors_on_device(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_
     return row->array;
 }
 
-void colors_free(struct gl_device *device)
+void vertex_lighting_free(struct gl_device *device)
 {
     const struct gl *gl = &device->context.gl;
-    for (int i = 0; i < device->color_room; i++) {
-        struct gl_colors *row = &device->colors[i];
+    for (int i = 0; i < device->vertex_lighting_capacity; i++) {
+        struct gl_vertex_lighting *row = &device->vertex_lighting[i];
         gl->DeleteBuffers(1, &row->colors);
         gl->DeleteVertexArrays(1, &row->array);
         lam_environment_free(row->environment);
-        buffer_free(&row->made_of);
-        buffer_free(&row->now);
+        buffer_free(&row->sent_key);
+        buffer_free(&row->frame_key);
     }
-    free(device->colors);
+    free(device->vertex_lighting);
 }

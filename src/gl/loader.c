@@ -1,5 +1,5 @@
-// loader.c: libEGL opened by name, and OpenGL's functions by theirs. Nothing is linked, so that the program
-// starts and draws on a machine without any of it.
+// loader.c: opens libEGL, and looks up the functions of EGL and OpenGL by name. The program links neither, so it starts
+// and draws with the CPU device on a machine without OpenGL.
 #include "loader.h"
 
 #include "dynamic_library.h"
@@ -44,13 +44,13 @@ const char *egl_reason(const struct egl *egl)
     case EGL_NOT_INITIALIZED:
         return "the driver cannot be started (EGL_NOT_INITIALIZED)";
     case EGL_BAD_ACCESS:
-        return "the driver is not accessible from here (EGL_BAD_ACCESS)";
+        return "this process has no access to the driver (EGL_BAD_ACCESS)";
     case EGL_BAD_ALLOC:
         return "out of memory (EGL_BAD_ALLOC)";
     case EGL_BAD_ATTRIBUTE:
-        return "the driver does not know what is asked for (EGL_BAD_ATTRIBUTE)";
+        return "the driver does not support an attribute (EGL_BAD_ATTRIBUTE)";
     case EGL_BAD_CONFIG:
-        return "no fitting configuration (EGL_BAD_CONFIG)";
+        return "the driver has no matching configuration (EGL_BAD_CONFIG)";
     case EGL_BAD_MATCH:
         return "the driver has no such version (EGL_BAD_MATCH)";
     case EGL_BAD_DISPLAY:
@@ -58,7 +58,7 @@ const char *egl_reason(const struct egl *egl)
     case EGL_CONTEXT_LOST:
         return "the device was lost (EGL_CONTEXT_LOST)";
     default:
-        return "the driver refused";
+        return "unknown EGL error";
     }
 }
 

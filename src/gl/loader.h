@@ -1,4 +1,4 @@
-// loader.h: libEGL, opened when it is first asked for, and OpenGL's functions by their names.
+// loader.h: loads libEGL at run time, and looks up OpenGL's functions by name.
 #ifndef LOADER_H
 #define LOADER_H
 
@@ -6,7 +6,7 @@
 
 #include <lambent/gl.h>
 
-#define EGL_NO_X11 // no header of a window system is wanted
+#define EGL_NO_X11 // leaves out the headers of window systems
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -32,25 +32,24 @@ struct egl {
 #define EGL_FIELD(name) __typeof__(&egl##name) name;
     EGL_FUNCTIONS(EGL_FIELD)
 #undef EGL_FIELD
-    // Extensions; NULL: not there.
+    // Extensions; NULL: not available.
     PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplay;
     PFNEGLQUERYDEVICESEXTPROC QueryDevices;
     PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceString;
-    char library[256]; // its name, for messages
+    char library[256]; // file name, for error messages
 };
 
-// Opens the library (NULL: "libEGL.so.1") and finds its functions. It stays open until the program ends:
-// drivers start threads and exit handlers that must not lose their code. LAM_UNSUPPORTED says what is missing
-// and what to install.
+// Opens the library (NULL: "libEGL.so.1") and looks up its functions. It stays open until the program ends, because
+// drivers start threads and install exit handlers. LAM_UNSUPPORTED names the missing part and its package.
 bool egl_open(struct egl *egl, const char *library, lam_error *error);
 
-// What the last EGL call failed with, in words.
+// Returns the error of the last EGL call as a phrase.
 const char *egl_reason(const struct egl *egl);
 
-// Whether a space-separated list (NULL: empty) has the whole word.
+// Whether a space-separated list (NULL: empty) contains the word.
 bool list_has(const char *list, const char *word);
 
-// Fills the table. LAM_UNSUPPORTED names the first function that is not there.
+// Fills the table of functions. LAM_UNSUPPORTED names the first missing one.
 bool gl_load(struct gl *gl, lam_gl_get_proc *get, void *user, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// without_gl.c: in place of this folder where the headers of EGL and OpenGL were not there to build it.
+// without_gl.c: replaces this folder in builds without the headers of EGL and OpenGL.
 #include "fail.h"
 
 #include <lambent/gl.h>
@@ -6,13 +6,13 @@
 static bool left_out(lam_error *error)
 {
     return fail(error, LAM_UNSUPPORTED,
-                "OpenGL: this build of lambent has none; it is built in where the headers are "
-                "installed (on Debian: apt install libegl-dev libgl-dev)");
+                "OpenGL: this build of lambent does not include it; a build with the headers installed does "
+                "(on Debian: apt install libegl-dev libgl-dev)");
 }
 
-int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int room, lam_error *error)
+int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int capacity, lam_error *error)
 {
-    (void)params, (void)devices, (void)room;
+    (void)params, (void)devices, (void)capacity;
     left_out(error);
     return -1;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""embed.py OUT FILE...: text files as C strings, text_NAME_ENDING each, up to a line "// --- C only"."""
+"""embed.py OUT FILE...: writes text files as C strings text_NAME_ENDING, each up to a line "// --- C only"."""
 import os
 import sys
 
@@ -12,6 +12,6 @@ with open(sys.argv[1], "w") as out:
     for path in sys.argv[2:]:
         name = "text_" + os.path.basename(path).replace(".", "_")
         source = open(path, encoding="utf-8").read().partition("// --- C only")[0]
-        source.encode("ascii")  # GLSL 120 and 330 allow no more
+        source.encode("ascii")  # GLSL 120 and 330 allow no other characters
         lines = source.splitlines(keepends=True)
         out.write("static const char %s[] =\n%s;\n" % (name, "\n".join(quoted(line) for line in lines)))

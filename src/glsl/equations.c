@@ -1,4 +1,5 @@
-// equations.c: takes the texts of src/lighting apart, keeps what is called, and writes it as plain GLSL.
+// equations.c: splits the files of src/lighting into definitions, selects those that a shader calls, and writes them as
+// plain GLSL.
 #include "equations.h"
 
 #include "fail.h"
@@ -7,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A piece of a file: a function, a struct, a #define, with the comment that leads it.
+// A definition (function, struct or #define) with the comment before it.
 struct piece {
-    char *lead, *start, *end; // lead == start: no comment
+    char *lead, *start, *end; // comment and definition; lead == start: no comment
     const char *name;
     size_t name_length;
     int file;
@@ -31,8 +32,8 @@ static char *next_line(const char *at)
 
 static bool begins(const char *at, const char *with) { return strncmp(at, with, strlen(with)) == 0; }
 
-// The end of a definition: of its first line where that closes what it opens, else of the line that begins
-// with the closing bracket.
+// Returns the end of a definition: of its first line if that ends with the closing brace, otherwise of the line that
+// begins with it.
 static char *definition_end(char *at)
 {
     char *end = next_line(at), *last = end;
@@ -61,8 +62,8 @@ static void name_piece(struct piece *piece)
         piece->name_length++;
 }
 
-// The lines that only give the dialect its words.
-static bool is_scaffold(const char *at)
+// Definitions of the dialect's own words, which GLSL does not need.
+static bool is_dialect_definition(const char *at)
 {
     static const char *const starts[] = {"#ifdef",        "#endif",           "precision",
                                          "#define FN\n",  "#define STRUCT",   "#define num ",
@@ -73,14 +74,14 @@ static bool is_scaffold(const char *at)
     return begins(at, "float num_of(");
 }
 
-static int take_apart(struct piece *pieces, int count, char *source, int file)
+static int split_pieces(struct piece *pieces, int count, char *source, int file)
 {
     char *lead = NULL;
     for (char *at = source; *at;) {
         char *next = next_line(at);
         if (begins(at, "//")) {
             lead = lead ? lead : at;
-        } else if (*at == '\n' || is_scaffold(at)) {
+        } else if (*at == '\n' || is_dialect_definition(at)) {
             lead = NULL;
         } else {
             struct piece *piece = &pieces[count];
@@ -96,7 +97,7 @@ static int take_apart(struct piece *pieces, int count, char *source, int file)
     return count;
 }
 
-// Marks what the words of a text name, members (".xyz") left out. True where something was not marked before.
+// Marks the definitions that a text names, except after a dot (".xyz"). Returns whether any was not marked before.
 static bool mark(struct piece *pieces, int count, const char *at, const char *end)
 {
     bool changed = false;
@@ -121,11 +122,11 @@ static bool mark(struct piece *pieces, int count, const char *at, const char *en
     return changed;
 }
 
-// GLSL's own words for those of the dialect.
+// Words of the dialect, and their GLSL equivalents.
 static const char *const renamed[][2] = {
     {"num_of", "float"}, {"num", "float"}, {"mask", "bool"}, {"vec3_of", "vec3"}, {"vec4_of", "vec4"}};
 
-static void write_plain(struct text *text, const char *at, const char *end)
+static void write_glsl(struct text *text, const char *at, const char *end)
 {
     bool comment = false;
     while (at < end) {
@@ -133,7 +134,7 @@ static void write_plain(struct text *text, const char *at, const char *end)
             comment = false;
         else if (at[0] == '/' && at[1] == '/')
             comment = true;
-        if (*at == SIMPLIFY_GONE) {
+        if (*at == SPECIALIZE_ERASED) {
             at++;
             continue;
         }
@@ -155,7 +156,7 @@ static void write_plain(struct text *text, const char *at, const char *end)
             at += 8 + name;
             continue;
         }
-        // Numbers stand without C's f, and without a call round them.
+        // Numbers lose C's suffix f and the call of num_of.
         if (length == 6 && begins(at, "num_of(") && at[7 + strspn(at + 7, "-.0123456789ef")] == ')') {
             size_t number = strcspn(at + 7, ")");
             text_add_part(text, at + 7, number - (at[6 + number] == 'f'));
@@ -176,16 +177,16 @@ static void write_plain(struct text *text, const char *at, const char *end)
     }
 }
 
-// A definition with the comments of its members in one column: the words are not as long as they were.
+// Writes a definition. The comments of a struct's members are aligned again, because the GLSL types differ in length.
 static void write_definition(struct text *text, const struct piece *p)
 {
     if (!begins(p->start, "STRUCT(")) {
-        write_plain(text, p->lead, p->end);
+        write_glsl(text, p->lead, p->end);
         return;
     }
     struct text plain = {0};
-    write_plain(text, p->lead, p->start);
-    write_plain(&plain, p->start, p->end);
+    write_glsl(text, p->lead, p->start);
+    write_glsl(&plain, p->start, p->end);
     size_t width = 0;
     for (const char *at = plain.bytes; at && *at; at = next_line(at)) {
         size_t code = strcspn(at, ";\n");
@@ -208,19 +209,19 @@ static void write_definition(struct text *text, const struct piece *p)
     free(plain.bytes);
 }
 
-// --- the whole
+// --- all files
 
 enum { FILES = 5 };
 
-struct whole {
+struct equations {
     struct text sources[FILES];
     struct piece pieces[PIECES_MAX];
-    struct stretch stretches[PIECES_MAX + 1];
+    struct source_span spans[PIECES_MAX + 1];
     int count;
 };
 
-// Marks what the calls need, and all that those need. Returns the number of stretches, the calls first.
-static int keep(struct whole *w, char *calls)
+// Marks the definitions that the calls need, directly or indirectly. Returns the number of spans; the calls are the first.
+static int keep(struct equations *w, char *calls)
 {
     char *calls_end = calls + strlen(calls);
     for (int i = 0; i < w->count; i++)
@@ -233,19 +234,19 @@ static int keep(struct whole *w, char *calls)
                 changed |= mark(w->pieces, w->count, w->pieces[i].start, w->pieces[i].end);
     }
     int count = 0;
-    w->stretches[count++] = (struct stretch){calls, calls_end};
+    w->spans[count++] = (struct source_span){calls, calls_end};
     for (int i = 0; i < w->count; i++)
         if (w->pieces[i].kept)
-            w->stretches[count++] = (struct stretch){w->pieces[i].start, w->pieces[i].end};
+            w->spans[count++] = (struct source_span){w->pieces[i].start, w->pieces[i].end};
     return count;
 }
 
-static void write_kept(struct text *text, const struct whole *w)
+static void write_kept(struct text *text, const struct equations *w)
 {
     static const char *const titles[FILES] = {
-        "the words that the equations are written in", "how a point of a surface answers the light of one direction",
-        "the kinds of light", "what of a light arrives at a point: its direction, distance, attenuation and cone",
-        "the light that leaves a point, as terms and as their sum"};
+        "functions of vectors and numbers", "reflection of the light from one direction at a point of a surface",
+        "kinds of light", "light that arrives at a point: direction, distance, attenuation and cone",
+        "light that leaves a point: its terms and their sum"};
     int file = -1;
     bool define = false;
     for (int i = 0; i < w->count; i++) {
@@ -263,25 +264,25 @@ static void write_kept(struct text *text, const struct whole *w)
     }
 }
 
-void equations_add(struct text *text, char *calls, const struct decided *decided)
+void equations_add(struct text *text, char *calls, const struct known_condition *known)
 {
     static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h, text_light_kinds_h, text_lights_h,
                                                text_sum_h};
-    struct whole *w = calloc(1, sizeof *w);
+    struct equations *w = calloc(1, sizeof *w);
     bool ok = w != NULL;
     for (int i = 0; ok && i < FILES; i++) {
-        simplify_conditions(&w->sources[i], sources[i], decided);
+        specialize_conditions(&w->sources[i], sources[i], known);
         ok = !w->sources[i].failed;
         if (ok)
-            w->count = take_apart(w->pieces, w->count, w->sources[i].bytes, i);
+            w->count = split_pieces(w->pieces, w->count, w->sources[i].bytes, i);
     }
     if (ok) {
-        while (simplify_members(w->stretches, keep(w, calls)))
+        while (specialize_members(w->spans, keep(w, calls)))
             ;
         write_kept(text, w);
-        char *to = calls; // what is gone from the calls is closed up
+        char *to = calls; // closes the gaps of erased lines
         for (const char *from = calls; *from; from++)
-            if (*from != SIMPLIFY_GONE)
+            if (*from != SPECIALIZE_ERASED)
                 *to++ = *from;
         *to = 0;
     } else {

@@ -1,13 +1,12 @@
-// equations.h: the equations as plain GLSL: what a text calls of them, with their comments.
+// equations.h: the equations of src/lighting as plain GLSL, as far as a shader calls them.
 #ifndef EQUATIONS_H
 #define EQUATIONS_H
 
 #include "specialize.h"
 
-// Appends those of the words and equations that `calls`, a GLSL text, calls, directly or through others, in
-// their order. The words of the dialect become GLSL's own: num float, mask bool, FN and STRUCT nothing and
-// struct. What is decided, and what nobody then reads, is left out; lines of `calls` that only set such a
-// member are taken out of it.
-void equations_add(struct text *text, char *calls, const struct decided *decided);
+// Appends the definitions that the GLSL text `calls` needs, directly or indirectly, in their order, with their comments.
+// Words of the dialect become GLSL: num float, mask bool, STRUCT struct; FN disappears. Branches with a known condition
+// are resolved. Members that are then never read are removed, and the lines that set them, in `calls` too.
+void equations_add(struct text *text, char *calls, const struct known_condition *known);
 
 #endif

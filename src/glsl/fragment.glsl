@@ -1,19 +1,19 @@
-//@if places
+//@if depth_ids
 
-uniform int first_triangle; // the number of the draw's first triangle
+uniform int first_triangle; // number of the draw's first triangle
 //@if peels
-uniform usampler2D nearer_places; // of the layer in front
-uniform usampler2D opaque_places;
+uniform usampler2D nearer_depth_ids; // of the previous layer
+uniform usampler2D opaque_depth_ids;
 //@end
 layout(location = 0) out vec4 pixel;
-layout(location = 1) out uvec2 place; // the depth's bits, and the triangle's number + 1; 0: nothing is there
-//@elif !old
+layout(location = 1) out uvec2 depth_id; // bits of the depth, and triangle number + 1; 0: empty
+//@elif !glsl_120
 
 out vec4 pixel;
 //@end
 //@if encoded
 
-// Linear light to the numbers of a screen (sRGB, IEC 61966-2-1).
+// Encodes linear light as sRGB (IEC 61966-2-1).
 float encode(float x)
 {
     x = saturate(x);
@@ -23,20 +23,20 @@ float encode(float x)
 
 void main()
 {
-//@if places
-    place = uvec2(floatBitsToUint(gl_FragCoord.z), uint(first_triangle + triangle) + 1u);
+//@if depth_ids
+    depth_id = uvec2(floatBitsToUint(gl_FragCoord.z), uint(first_triangle + triangle) + 1u);
 //@end
 //@if peels
-    // Of equal depths the lower number is in front.
-    uvec2 nearer = texelFetch(nearer_places, ivec2(gl_FragCoord.xy), 0).xy;
-    uvec2 opaque = texelFetch(opaque_places, ivec2(gl_FragCoord.xy), 0).xy;
-    bool peeled = place.x < nearer.x || (place.x == nearer.x && place.y <= nearer.y);
-    bool hidden = opaque.y != 0u && (place.x > opaque.x || (place.x == opaque.x && place.y > opaque.y));
-    if (peeled || hidden) {
+    // At equal depth the lower triangle number is in front.
+    uvec2 nearer = texelFetch(nearer_depth_ids, ivec2(gl_FragCoord.xy), 0).xy;
+    uvec2 opaque = texelFetch(opaque_depth_ids, ivec2(gl_FragCoord.xy), 0).xy;
+    bool peeled = depth_id.x < nearer.x || (depth_id.x == nearer.x && depth_id.y <= nearer.y);
+    bool occluded = opaque.y != 0u && (depth_id.x > opaque.x || (depth_id.x == opaque.x && depth_id.y > opaque.y));
+    if (peeled || occluded) {
         discard;
     }
 //@end
-//@if shows_place
+//@if output_geometry
 //@if depth
     float depth = -eye_position.z; // in front of the eye
     @pixel@ = vec4(depth, depth, depth, 1.0);
@@ -66,9 +66,9 @@ void main()
     }
 //@end
 //@end
-//@if !shows_place
+//@if !output_geometry
     light.a = saturate(light.a);
-//@if exposes
+//@if exposed
     light.rgb = light.rgb * exposure;
 //@end
 //@if encoded

@@ -1,4 +1,4 @@
-// glsl.c: choices to the texts of a vertex and a fragment shader.
+// glsl.c: makes the texts of a vertex and a fragment shader from a set of choices.
 #include "glsl.h"
 
 #include "equations.h"
@@ -13,13 +13,14 @@
 static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_error *error)
 {
     if (c->version == GLSL_120 && c->storage != GLSL_ARRAY)
-        return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no %s: its lights stand in an array",
+        return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no %s, expected the lights in an array",
                     c->storage == GLSL_BLOCK ? "uniform blocks" : "texelFetch");
-    if (c->version == GLSL_120 && (c->environment == GLSL_FACES || c->show == LAM_OUTPUT_IDS))
+    if (c->version == GLSL_120 && (c->environment == GLSL_FACES || c->output == LAM_OUTPUT_IDS))
         return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no %s",
-                    c->show == LAM_OUTPUT_IDS ? "gl_VertexID" : "array textures: its environment is a cube map");
+                    c->output == LAM_OUTPUT_IDS ? "gl_VertexID"
+                                                : "array textures, expected a cube map as the environment");
     if (c->version == GLSL_120 && c->layer != GLSL_NO_LAYERS)
-        return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no integers in textures: nothing is peeled");
+        return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no integer textures, which depth peeling needs");
     if (f->shading == LAM_SHADING_PHONG && !f->per_fragment)
         return fail(error, LAM_BAD_ARGUMENT, "Phong shading lights every fragment: its stage is fragment");
     if (f->shading == LAM_SHADING_GOURAUD && f->per_fragment)
@@ -27,7 +28,7 @@ static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_
     return true;
 }
 
-// --- pieces that depend on more than flags
+// --- text that depends on more than flags
 
 #define WORD(name) [name] = #name
 static const char *const kind_words[GLSL_KINDS] = {WORD(LIGHT_POINT), WORD(LIGHT_DIRECTIONAL), WORD(LIGHT_SPOT_CUTOFF),
@@ -37,14 +38,14 @@ static const char *const falloff_words[GLSL_FALLOFFS] = {WORD(FALLOFF_NONE), WOR
 
 static const char *list_argument(const struct glsl_facts *f)
 {
-    return !f->choices->products ? ", m" : f->back ? ", front" : "";
+    return !f->choices->products ? ", m" : f->back_material ? ", front" : "";
 }
 
 static void add_groups(struct text *text, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     int first = 0;
-    for (int i = 0; f->sums && i < c->group_count; i++) {
+    for (int i = 0; f->adds_lights && i < c->group_count; i++) {
         const struct glsl_group *group = &c->groups[i];
         text_print(text, "    for (int i = %d; i < %d; i++) {\n", first, first + group->count);
         text_print(text, "        light_source light = light_of(i%s);\n", list_argument(f));
@@ -60,9 +61,9 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
     }
 }
 
-static const char *shown_term(const struct glsl_choices *c)
+static const char *output_term(const struct glsl_choices *c)
 {
-    switch (c->show) {
+    switch (c->output) {
     case LAM_OUTPUT_AMBIENT:
         return "sum.ambient";
     case LAM_OUTPUT_DIFFUSE:
@@ -80,11 +81,11 @@ static const char *shown_term(const struct glsl_choices *c)
     }
 }
 
-static void add_shown_vector(struct text *text, const struct glsl_facts *f)
+static void add_output_vector(struct text *text, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
-    if (!f->shows_one_light) {
-        text_print(text, "    return vec4(%s, 1.0);", c->show == LAM_OUTPUT_TANGENTS ? "s.t" : "s.n");
+    if (!f->output_one_light) {
+        text_print(text, "    return vec4(%s, 1.0);", c->output == LAM_OUTPUT_TANGENTS ? "s.t" : "s.n");
         return;
     }
     bool texture = c->storage == GLSL_TEXTURE;
@@ -96,78 +97,77 @@ static void add_shown_vector(struct text *text, const struct glsl_facts *f)
     text_print(text, "    vec3 l = toward_light(s.p, light, %s, FALLOFF_NONE).l;\n",
                kind_words[c->group_count && c->groups[0].kind == LIGHT_DIRECTIONAL ? LIGHT_DIRECTIONAL : LIGHT_POINT]);
     text_print(text, "    float c = cosine(dot3(s.n, %s));\n    return vec4(c, c, c, 1.0);",
-               c->show == LAM_OUTPUT_N_L ? "l" : "halfway3(l, s.v)");
+               c->output == LAM_OUTPUT_N_L ? "l" : "halfway3(l, s.v)");
 }
 
-// Texels of a light, of its products, of a hemisphere in the lists.
+// Number of texels of a light, of its products, and of a hemisphere.
 static int light_texels(const struct glsl_choices *c) { return c->products ? 4 : c->gl1 ? 7 : 6; }
 static int product_texels(const struct glsl_choices *c) { return c->gl1 ? 3 : 2; }
 static int hemisphere_texels(const struct glsl_choices *c) { return c->products ? 1 : 3; }
 
 static const char *list_parameter(const struct glsl_facts *f)
 {
-    return !f->choices->products ? ", Material m" : f->back ? ", bool front" : "";
+    return !f->choices->products ? ", Material m" : f->back_material ? ", bool front" : "";
 }
 
-static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment)
+static void add_stage(struct text *text, const struct glsl_facts *f, bool fragment)
 {
     const struct glsl_choices *c = f->choices;
-    bool old = c->version == GLSL_120, light_up = f->lit && fragment == f->per_fragment;
-    bool flat = f->shading == LAM_SHADING_FLAT, surface = !f->paints && f->lit;
-    bool passes_tangent = f->threads && c->tangents, field = f->threads && !c->tangents;
-    bool clamps =
-        c->gl1 && f->shading != LAM_SHADING_PHONG && (c->show == LAM_OUTPUT_PICTURE || c->show == LAM_OUTPUT_CLIPPED);
-    bool tints = c->colors && f->lit && !f->shows_vector;
-    bool eye = surface || c->show == LAM_OUTPUT_DEPTH;
-    bool numbers_triangles = c->show == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS;
+    bool glsl_120 = c->version == GLSL_120, lights_here = f->lit && fragment == f->per_fragment;
+    bool flat = f->shading == LAM_SHADING_FLAT, surface = !f->unlit && f->lit;
+    bool passes_tangent = f->tangent && c->tangents, field = f->tangent && !c->tangents;
+    bool clamped = c->gl1 && f->shading != LAM_SHADING_PHONG && output_is_picture(c->output);
+    bool tints = c->colors && f->lit && !f->output_vector;
+    bool eye = surface || c->output == LAM_OUTPUT_DEPTH;
+    bool triangle_ids = c->output == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS;
     struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0};
     glsl_declare_attributes(&attributes, f);
     add_groups(&groups, f);
     glsl_add_parameters(&chosen, f);
     const struct preprocess_flag flags[] = {
-        {"old", old},
+        {"glsl_120", glsl_120},
         {"array", c->storage == GLSL_ARRAY},
         {"block", c->storage == GLSL_BLOCK},
         {"texture", c->storage == GLSL_TEXTURE},
         {"products", c->products},
         {"gl1", c->gl1},
-        {"clamps", clamps},
+        {"clamped", clamped},
         {"two_sided", c->two_sided},
-        {"back_material", f->back},
+        {"back_material", f->back_material},
         {"flat", flat},
         {"application", f->application},
         {"per_fragment", f->per_fragment},
-        {"shows_place", f->shows_place},
-        {"shows_vector", f->shows_vector},
-        {"paints", f->paints},
-        {"asks_surface", surface && (f->lights || f->skies || f->environment || f->shows_vector)},
+        {"output_geometry", f->output_geometry},
+        {"output_vector", f->output_vector},
+        {"unlit", f->unlit},
+        {"needs_surface", surface && (f->lights || f->hemispheres || f->environment || f->output_vector)},
         {"fragment", fragment},
-        {"threads", f->threads},
+        {"tangent", f->tangent},
         {"passes_tangent", passes_tangent},
         {"passes_normal", surface},
         {"passes_position", eye},
-        {"passes_anything", eye || surface || tints || f->application || f->per_vertex || numbers_triangles},
-        {"field", field},
-        {"colors", tints},
-        {"reads_lists", (f->lights || f->skies) && !f->shows_vector},
+        {"has_varyings", eye || surface || tints || f->application || f->per_vertex || triangle_ids},
+        {"tangent_field", field},
+        {"vertex_colors", tints},
+        {"reads_lights", (f->lights || f->hemispheres) && !f->output_vector},
         {"has_lights", f->lights},
-        {"has_hemispheres", f->skies},
-        {"has_falloff", f->falloff},
+        {"has_hemispheres", f->hemispheres},
+        {"has_falloff", f->attenuated},
         {"has_cone", f->cones},
         {"has_environment", f->environment},
-        {"cube", c->environment == GLSL_CUBE},
+        {"cube_map", c->environment == GLSL_CUBE},
         {"highlights", f->highlights},
-        {"chooses_parameters", chosen.bytes != NULL},
-        {"provoking", flat && old && eye},
-        {"depth", c->show == LAM_OUTPUT_DEPTH},
-        {"facing", c->show == LAM_OUTPUT_FACING},
-        {"ids", c->show == LAM_OUTPUT_IDS},
-        {"numbers", numbers_triangles},
-        {"places", c->layer != GLSL_NO_LAYERS},
+        {"selects_parameters", chosen.bytes != NULL},
+        {"provoking", flat && glsl_120 && eye},
+        {"depth", c->output == LAM_OUTPUT_DEPTH},
+        {"facing", c->output == LAM_OUTPUT_FACING},
+        {"ids", c->output == LAM_OUTPUT_IDS},
+        {"triangle_ids", triangle_ids},
+        {"depth_ids", c->layer != GLSL_NO_LAYERS},
         {"peels", c->layer == GLSL_PEELS},
-        {"exposes", c->exposes && !f->shows_vector},
-        {"encoded", c->output == GLSL_ENCODED},
-        {"premultiplied", c->output == GLSL_PREMULTIPLIED},
+        {"exposed", c->exposes && !f->output_vector},
+        {"encoded", c->encoding == GLSL_ENCODED},
+        {"premultiplied", c->encoding == GLSL_PREMULTIPLIED},
         {NULL, false},
     };
     char numbers[8][16];
@@ -181,15 +181,15 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
                            GLSL_LIST_WIDTH};
     for (int i = 0; i < 8; i++)
         snprintf(numbers[i], sizeof numbers[i], "%d", counts[i]);
-    char varying[32], point[8][64];
-    snprintf(varying, sizeof varying, "%s%s", flat && !old ? "flat " : "",
-             old        ? "varying "
+    char varying[32], arguments[8][64];
+    snprintf(varying, sizeof varying, "%s%s", flat && !glsl_120 ? "flat " : "",
+             glsl_120   ? "varying "
              : fragment ? "in "
                         : "out ");
-    const char *const position = f->paints ? NULL : "p", *const sides[4] = {NULL, "true", "false", "gl_FrontFacing"};
+    const char *const position = f->unlit ? NULL : "p", *const sides[4] = {NULL, "true", "false", "gl_FrontFacing"};
     for (int i = 0; i < 4; i++) {
         const char *p = i == 0 ? "vec3 p, vec3 normal" : i == 3 ? "eye_position, n" : "p, n";
-        const char *t = !f->threads ? ""
+        const char *t = !f->tangent ? ""
                         : i == 0    ? ", vec3 tangent"
                         : !field    ? (i == 3 ? ", eye_tangent" : ", t")
                                     : ", field_tangent(n)";
@@ -198,14 +198,15 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
             p = t = "";
             color += tints ? 2 : 0;
         }
-        snprintf(point[i], sizeof point[i], "%s%s%s%s%s", p, t, color, f->back && (*p || *color) ? ", " : "",
-                 !f->back ? ""
-                 : i == 0 ? "bool front"
-                          : sides[i]);
+        snprintf(arguments[i], sizeof arguments[i], "%s%s%s%s%s", p, t, color,
+                 f->back_material && (*p || *color) ? ", " : "",
+                 !f->back_material ? ""
+                 : i == 0          ? "bool front"
+                                   : sides[i]);
     }
-    if (f->shows_vector)
-        add_shown_vector(&vector, f);
-    const char *pixel = old ? "gl_FragColor" : "pixel";
+    if (f->output_vector)
+        add_output_vector(&vector, f);
+    const char *pixel = glsl_120 ? "gl_FragColor" : "pixel";
     const struct preprocess_value values[] = {
         {"hemispheres", numbers[1]},
         {"light_texels", numbers[2]},
@@ -216,17 +217,17 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
         {"list_width", numbers[7]},
         {"list_argument", list_argument(f)},
         {"list_parameter", list_parameter(f)},
-        {"lit_parameters", point[0]},
-        {"front_arguments", point[1]},
-        {"back_arguments", point[2]},
-        {"fragment_arguments", point[3]},
-        {"lit_position", flat && old ? "provoking_position" : "position"},
+        {"lit_parameters", arguments[0]},
+        {"front_arguments", arguments[1]},
+        {"back_arguments", arguments[2]},
+        {"fragment_arguments", arguments[3]},
+        {"lit_position", flat && glsl_120 ? "provoking_position" : "position"},
         {"viewer", c->distant_viewer ? "VIEWER_INFINITE" : "VIEWER_LOCAL"},
         {"groups", groups.bytes ? groups.bytes : ""},
         {"parameters", chosen.bytes ? chosen.bytes : ""},
-        {"shown", shown_term(c)},
-        {"shown_vector", vector.bytes ? vector.bytes : ""},
-        {"texture_cube", old ? "textureCube" : "texture"},
+        {"output_term", output_term(c)},
+        {"output_vector", vector.bytes ? vector.bytes : ""},
+        {"texture_cube", glsl_120 ? "textureCube" : "texture"},
         {"varying", varying},
         {"flat_varying", fragment ? "flat in " : "flat out "},
         {"attributes", attributes.bytes ? attributes.bytes : ""},
@@ -240,7 +241,7 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
             text->failed = true;
             text->error = parts[i]->error;
         }
-    if (light_up)
+    if (lights_here)
         preprocess_add(text, text_lighting_glsl, &words);
     preprocess_add(text, text_interface_glsl, &words);
     preprocess_add(text, fragment ? text_fragment_glsl : text_vertex_glsl, &words);
@@ -250,26 +251,27 @@ static void add_lit(struct text *text, const struct glsl_facts *f, bool fragment
     free(chosen.bytes);
 }
 
-// --- the whole
+// --- the shader
 
-// What the choices decide of the equations' branches.
-enum { DECIDED_MAX = 10 };
+// --- conditions of the equations that the choices decide
 
-static void decide(struct decided out[DECIDED_MAX], const char *condition, bool holds)
+enum { KNOWN_MAX = 10 };
+
+static void add_known(struct known_condition out[KNOWN_MAX], const char *condition, bool holds)
 {
     while (out->condition)
         out++;
-    *out = (struct decided){condition, holds};
+    *out = (struct known_condition){condition, holds};
 }
 
-// `some` of the lights are so: if none is, or all are, that is decided.
-static void decide_lights(struct decided out[DECIDED_MAX], const char *condition, int some, int all)
+// A condition that holds for `some` of the lights is known if it holds for none or for all.
+static void add_known_lights(struct known_condition out[KNOWN_MAX], const char *condition, int some, int all)
 {
     if (some == 0 || some == all)
-        decide(out, condition, some > 0);
+        add_known(out, condition, some > 0);
 }
 
-static void decide_all(struct decided out[DECIDED_MAX], const struct glsl_facts *f)
+static void known_conditions(struct known_condition out[KNOWN_MAX], const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     int kinds[GLSL_KINDS] = {0}, falloffs[GLSL_FALLOFFS] = {0}, all = c->light_count;
@@ -278,48 +280,48 @@ static void decide_all(struct decided out[DECIDED_MAX], const struct glsl_facts 
         falloffs[c->groups[i].falloff] += c->groups[i].count;
     }
     if (c->distant_viewer)
-        decide(out, "viewer == VIEWER_LOCAL", false);
-    if (f->shows_vector) // asks for a light of its own kind
+        add_known(out, "viewer == VIEWER_LOCAL", false);
+    if (f->output_vector) // the shader evaluates a single light, with a kind of its own
         return;
-    decide_lights(out, "kind == LIGHT_DIRECTIONAL", kinds[LIGHT_DIRECTIONAL], all);
-    decide_lights(out, "kind >= LIGHT_SPOT_CUTOFF", all - kinds[LIGHT_POINT] - kinds[LIGHT_DIRECTIONAL], all);
-    decide_lights(out, "kind == LIGHT_SPOT_CUTOFF", kinds[LIGHT_SPOT_CUTOFF], all);
-    decide_lights(out, "kind == LIGHT_SPOT_EXPONENT", kinds[LIGHT_SPOT_EXPONENT], all);
-    decide_lights(out, "kind == LIGHT_SPOT_CONES", kinds[LIGHT_SPOT_CONES], all);
-    decide_lights(out, "falloff != FALLOFF_NONE", all - falloffs[FALLOFF_NONE], all);
-    decide_lights(out, "falloff == FALLOFF_RANGE", falloffs[FALLOFF_RANGE], all);
+    add_known_lights(out, "kind == LIGHT_DIRECTIONAL", kinds[LIGHT_DIRECTIONAL], all);
+    add_known_lights(out, "kind >= LIGHT_SPOT_CUTOFF", all - kinds[LIGHT_POINT] - kinds[LIGHT_DIRECTIONAL], all);
+    add_known_lights(out, "kind == LIGHT_SPOT_CUTOFF", kinds[LIGHT_SPOT_CUTOFF], all);
+    add_known_lights(out, "kind == LIGHT_SPOT_EXPONENT", kinds[LIGHT_SPOT_EXPONENT], all);
+    add_known_lights(out, "kind == LIGHT_SPOT_CONES", kinds[LIGHT_SPOT_CONES], all);
+    add_known_lights(out, "falloff != FALLOFF_NONE", all - falloffs[FALLOFF_NONE], all);
+    add_known_lights(out, "falloff == FALLOFF_RANGE", falloffs[FALLOFF_RANGE], all);
 }
 
 static const char *const version_lines[] = {"#version 120\n", "#version 330 core\n",
                                             "#version 300 es\nprecision highp float;\nprecision highp int;\n"};
 
-static char *make_one(const struct glsl_facts *f, bool fragment, lam_error *error)
+static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *error)
 {
-    struct text own = {0}, whole = {0};
-    add_lit(&own, f, fragment);
+    struct text body = {0}, text = {0};
+    add_stage(&body, f, fragment);
     const struct glsl_choices *c = f->choices;
-    text_add(&whole, version_lines[c->version]);
+    text_add(&text, version_lines[c->version]);
     if (c->version == GLSL_300_ES && fragment && c->layer == GLSL_PEELS)
-        text_add(&whole, "precision highp usampler2D;\n");
+        text_add(&text, "precision highp usampler2D;\n");
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && c->storage == GLSL_TEXTURE)
-        text_add(&whole, "precision highp sampler2D;\n");
+        text_add(&text, "precision highp sampler2D;\n");
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && f->environment)
-        text_print(&whole, "precision highp %s;\n", c->environment == GLSL_CUBE ? "samplerCube" : "sampler2DArray");
-    if (own.bytes && !own.failed) {
-        struct decided decided[DECIDED_MAX + 1] = {{NULL, false}};
-        decide_all(decided, f);
-        equations_add(&whole, own.bytes, decided);
-        glsl_declare(&whole, f, fragment);
-        text_add(&whole, own.bytes);
+        text_print(&text, "precision highp %s;\n", c->environment == GLSL_CUBE ? "samplerCube" : "sampler2DArray");
+    if (body.bytes && !body.failed) {
+        struct known_condition known[KNOWN_MAX + 1] = {{NULL, false}};
+        known_conditions(known, f);
+        equations_add(&text, body.bytes, known);
+        glsl_declare(&text, f, fragment);
+        text_add(&text, body.bytes);
     }
-    bool failed = own.failed || whole.failed || !whole.bytes;
+    bool failed = body.failed || text.failed || !text.bytes;
     if (failed) {
-        const lam_error *first = own.failed ? &own.error : &whole.error;
+        const lam_error *first = body.failed ? &body.error : &text.error;
         fail(error, first->code ? first->code : LAM_LIMIT, "%s", first->code ? first->text : "out of memory");
-        free(whole.bytes);
+        free(text.bytes);
     }
-    free(own.bytes);
-    return failed ? NULL : whole.bytes;
+    free(body.bytes);
+    return failed ? NULL : text.bytes;
 }
 
 bool glsl_make(const struct glsl_choices *choices, struct glsl_text *text, lam_error *error)
@@ -328,8 +330,8 @@ bool glsl_make(const struct glsl_choices *choices, struct glsl_text *text, lam_e
     struct glsl_facts facts = glsl_facts_of(choices);
     if (!check(choices, &facts, error))
         return false;
-    text->vertex = make_one(&facts, false, error);
-    text->fragment = text->vertex ? make_one(&facts, true, error) : NULL;
+    text->vertex = make_stage(&facts, false, error);
+    text->fragment = text->vertex ? make_stage(&facts, true, error) : NULL;
     if (!text->fragment)
         glsl_free(text);
     return text->fragment != NULL;

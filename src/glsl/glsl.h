@@ -1,13 +1,12 @@
 // glsl.h: GLSL text for a set of choices, and the values of its uniforms from a frame.
 //
-// The text is the equations (src/lighting, the words in plain GLSL, what is not called left out) and the
-// files
-// *.glsl of this folder, whose lines are chosen by the flags that follow from the choices (shader_preprocess.h).
+// The text consists of the equations of src/lighting, as far as they are called (equations.h), and of the *.glsl files in
+// this folder, whose lines are selected by flags that follow from the choices (shader_preprocess.h).
 //
 // Names in the text. Attributes, with their locations (GLSL 120: bound by name):
 //     0 position, 1 normal, 2 color, 3 tangent, 4 front_color, 5 back_color, 6 provoking_position.
-// Uniforms: model_view_projection, model_view, normal_matrix, and what uniforms.glsl declares. All colours
-// are vec4, so that a list of them has one layout everywhere (std140, a texture's texels, glUniform4fv).
+// Uniforms: the table of glsl_rows.c. All colours are vec4, so that arrays of them have the same layout in std140 blocks,
+// in texels and for glUniform4fv.
 #ifndef GLSL_H
 #define GLSL_H
 
@@ -16,7 +15,7 @@
 
 enum glsl_version { GLSL_120, GLSL_330, GLSL_300_ES };
 
-// Where the lists of lights and of products stand.
+// Storage of the lights and the products of lights and materials.
 enum glsl_storage {
     GLSL_ARRAY,   // plain uniforms: lights[i].position
     GLSL_BLOCK,   // std140 blocks Lights and Products (or Materials), BackProducts
@@ -24,89 +23,94 @@ enum glsl_storage {
 };
 enum { GLSL_LIST_WIDTH = 1024 };
 
-enum glsl_output {
-    GLSL_ENCODED,       // clamped to 0…1 and sRGB-encoded: for a plain 8-bit window
-    GLSL_STRAIGHT,      // as the equations give it, not premultiplied
-    GLSL_PREMULTIPLIED, // colour × alpha: for blending in linear light
+enum glsl_encoding {
+    GLSL_ENCODED,       // clamped to 0…1 and sRGB-encoded, for an 8-bit window
+    GLSL_STRAIGHT,      // linear, not premultiplied
+    GLSL_PREMULTIPLIED, // linear, colour × alpha, for blending in linear light
 };
 
 enum glsl_environment {
     GLSL_NO_ENVIRONMENT,
     GLSL_CUBE, // samplerCube environment, bilinear and seamless, no mipmaps
-    // sampler2DArray environment_faces: six bordered faces as src/scene/cube_map.h has them, read as cube_lookup.h
-    // reads them (330, 300 es)
+    // sampler2DArray environment_faces: six faces with borders (cube_map.h), filtered as in cube_lookup.h; not in 120.
     GLSL_FACES,
 };
 
-// Pictures whose translucent surfaces are peeled layer by layer (gl_passes.c); 330 and 300 es. A second
-// target, `place`, takes the depth and the number of the triangle of each pixel.
+// Depth peeling of translucent surfaces (gl_passes.c); not in 120. A second output, `depth_id`, holds the depth and the
+// triangle number of each pixel.
 enum glsl_layer {
     GLSL_NO_LAYERS,
-    GLSL_WRITES_PLACES, // an opaque surface
-    GLSL_PEELS,         // a layer: what lies behind nearer_places and not behind opaque_places
+    GLSL_WRITES_DEPTH_IDS, // an opaque surface
+    GLSL_PEELS,            // a layer: the fragments after nearer_depth_ids and before opaque_depth_ids
 };
 
-// Lights of one kind stand side by side in the lists and are looped over with their kind as a constant.
+// Lights are grouped by kind and falloff; the shader has a loop for each group, with its kind as a constant.
 struct glsl_group {
     int kind, falloff; // LIGHT_…, FALLOFF_… of src/lighting/light_kinds.h
     int count;
 };
 enum { GLSL_KINDS = 5, GLSL_FALLOFFS = 3, GLSL_GROUPS_MAX = GLSL_KINDS * GLSL_FALLOFFS };
 
-// Equal choices give equal texts. Zero a struct before filling it in, and it may be compared by memcmp.
+// The choices that determine a shader's text. Zero the struct before the assignments if memcmp is to compare it.
 struct glsl_choices {
     enum glsl_version version;
     enum glsl_storage storage;
-    enum glsl_output output;
+    enum glsl_encoding encoding;
     enum glsl_environment environment;
     enum glsl_layer layer;
     lam_stage stage; // never AUTO
     lam_shading shading;
     lam_reflection reflection; // never AUTO
-    lam_output show;           // a term, a vector or a place; COVERAGE and OVERDRAW give 1, CLIPPED the picture
+    lam_output output;         // COVERAGE and OVERDRAW write 1, CLIPPED the picture
     bool distant_viewer;
     bool gl1;
     bool exposes;       // the fragment multiplies its light by the uniform `exposure`
-    bool products;      // uniforms are ka·La, kd·Ld, ks·Ls; else material and light come apart
+    bool products;      // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
     bool two_sided;     // the back is lit with −n
-    bool back_material; // and has a material of its own
+    bool back_material; // the back has a material of its own
     bool colors;        // attribute color
-    bool tangents;      // attribute tangent; else the direction field, where the model asks for one
+    bool tangents;      // attribute tangent; otherwise the direction field, if the model needs a tangent
     struct glsl_group groups[GLSL_GROUPS_MAX];
     int group_count;
     int light_count; // Σ counts
     int hemisphere_count;
 };
 
-// What a frame's draw asks for. Left to the caller: version, storage, output, products. `environment` is
-// GLSL_FACES or none (where neither material mirrors). Stage: `stage`, for AUTO fragment, or vertex with
-// Gouraud shading.
-struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_draw_range *surface, lam_stage stage);
+// Returns the choices for a range of a frame. The caller sets version, storage, encoding and products. `environment` is
+// GLSL_FACES, or none if neither material is reflective. LAM_STAGE_AUTO: the vertex stage with Gouraud shading, otherwise
+// the fragment stage.
+struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_draw_range *range, lam_stage stage);
+
+// Outputs of the geometry: evaluated for each fragment whatever the shading method, and without lighting.
+static inline bool glsl_output_is_geometry(lam_output output)
+{
+    return output == LAM_OUTPUT_DEPTH || output == LAM_OUTPUT_FACING || output == LAM_OUTPUT_IDS ||
+           output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW;
+}
 
 struct glsl_text {
     char *vertex, *fragment; // ASCII
 };
 
-// Writes both sources. False: LAM_LIMIT (memory), LAM_BAD_ARGUMENT (choices that do not go together: a
-// texture or FACES with 120, Gouraud in the fragment stage, Phong in another; shows that are places are per
-// fragment whatever the shading).
+// Makes both sources. Errors: LAM_LIMIT (memory); LAM_BAD_ARGUMENT for choices that exclude each other (GLSL_TEXTURE or
+// GLSL_FACES with 120, Gouraud in the fragment stage, Phong in another). Outputs of the geometry ignore the shading.
 bool glsl_make(const struct glsl_choices *choices, struct glsl_text *text, lam_error *error);
 void glsl_free(struct glsl_text *text);
 
-// --- values, std140, of the lists: what the blocks hold and, with GLSL_TEXTURE, the texels
+// --- contents of the blocks (std140) and, with GLSL_TEXTURE, of the texels
 
-// One light as struct Light has it. With products the struct ends after `cone`; without gl1 before `ambient`.
+// A light, with the layout of struct Light. With products the struct ends after `cone`, without gl1 before `ambient`.
 struct glsl_light {
     float position[4];    // eye space; w 1
-    float direction[4];   // eye space, unit, the way it travels; w 0
+    float direction[4];   // eye space, unit, in the direction of travel; w 0
     float attenuation[4]; // constant, linear, quadratic, 1 / range (0: none)
     float cone[4];        // cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner − cos outer)
     float diffuse[4], specular[4], ambient[4];
 };
 
-// The fields of struct Material (and of an element of the block Materials), or with products those of the head of the
-// block Products: colours as vec4, then numbers. After the head: diffuse_product[lights], specular_product[lights], with
-// gl1 light_ambient_product[lights], sky_product[hemispheres], ground_product[hemispheres], 4 floats each.
+// The fields of struct Material, or with products the head of the block Products: colours as vec4, then numbers. In the
+// block the head is followed by diffuse_product[lights], specular_product[lights], with gl1 light_ambient_product[lights],
+// sky_product[hemispheres] and ground_product[hemispheres], 4 floats each.
 struct glsl_material_layout {
     int count;
     const struct material_field *fields[LAM_FIELDS_MAX];
@@ -116,25 +120,25 @@ struct glsl_material_layout {
 struct glsl_material_layout glsl_material_layout(bool products);
 enum { GLSL_MATERIAL_MAX = 4 * LAM_FIELDS_MAX };
 
-// Bytes of the block Lights (block: [ambient_light, where products are not] lights, hemispheres) or of the
-// texels of light_list (lights, hemispheres); at least 16. Then the values, from the frame: order by groups.
+// Returns the size in bytes, at least 16, of the block Lights (without products first ambient_light, then lights and
+// hemispheres) or of the texels of light_list (lights, hemispheres). glsl_pack_lights writes them, in order of groups.
 size_t glsl_lights_bytes(const struct glsl_choices *choices);
 void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *frame, float *out);
 
-// The same for one material's products, block Products or BackProducts; and for its part of product_list,
-// whose texels are for each light diffuse, specular [, ambient], then for each hemisphere sky, ground. The
-// list's first texel is the uniform first_product, back_first_product.
+// The same for one material's products: the block Products or BackProducts, or the material's texels of product_list: for
+// each light diffuse, specular and with gl1 ambient, then for each hemisphere sky and ground. The uniforms first_product
+// and back_first_product hold the index of the first texel.
 size_t glsl_products_bytes(const struct glsl_choices *choices);
 void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
                         float *out);
 
-// The values of that layout (with GLSL_TEXTURE and GLSL_ARRAY the head's members are plain uniforms).
+// Writes the values of glsl_material_layout(products).
 void glsl_material_values(const struct frame *frame, const lam_material *material, bool products,
                           float out[GLSL_MATERIAL_MAX]);
-// The name of a field there.
+// Returns the name of a field in the shader.
 const char *glsl_field_name(const struct material_field *field, bool products);
 
-// Light i of the text's list; −1 past the end. Lights of a group keep the frame's order.
+// Returns the index in the frame of the shader's light i, −1 past the end. Lights of a group keep the frame's order.
 int glsl_frame_light(const struct glsl_choices *choices, const struct frame *frame, int i);
 struct glsl_light glsl_light_of(const struct frame_light *light);
 

@@ -1,4 +1,4 @@
-// glsl_lobes.c: the reflection models as calls in GLSL, from the table in src/lighting/lobes.h.
+// glsl_lobes.c: GLSL calls of the reflection models, from the table in src/lighting/lobes.h.
 #include "glsl_rows.h"
 
 #define LANES 1
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// As they stand in the table: "kajiya_kay_lobe(s, l, m.fibre)".
+// The calls of the table: "kajiya_kay_lobe(s, l, m.fibre)".
 static const char *const calls[LAM_REFLECTION_COUNT] = {
 #define LOBE(NAME, call, ...) [LAM_REFLECTION_##NAME] = #call,
     LOBES(LOBE)
@@ -30,7 +30,7 @@ static size_t name_length(const char *at) { return strspn(at, "abcdefghijklmnopq
 
 bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
 {
-    if (!f->sums || !f->lights)
+    if (!f->adds_lights || !f->lights)
         return false;
     if (strcmp(parameter, "shininess") == 0)
         return f->highlights;
@@ -40,12 +40,12 @@ bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
     return at != NULL;
 }
 
-// Products of two materials: the one in hand is chosen once, before the loops.
-static bool chooses(const struct glsl_facts *f) { return f->choices->products && f->back; }
+// With products and two materials, parameters are selected once, before the loops over the lights.
+static bool selects(const struct glsl_facts *f) { return f->choices->products && f->back_material; }
 
 void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
 {
-    for (int i = 0; chooses(f) && i < PARAMETERS; i++)
+    for (int i = 0; selects(f) && i < PARAMETERS; i++)
         if (glsl_lobe_reads(f, parameters[i]))
             text_print(text, "%s    float own_%s = front ? %s : back_%s;", text->bytes ? "\n" : "", parameters[i],
                        parameters[i], parameters[i]);
@@ -53,7 +53,7 @@ void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
 
 static void add_parameter(struct text *text, const struct glsl_facts *f, const char *name, size_t length)
 {
-    text_print(text, "%s%.*s", !f->choices->products ? "m." : chooses(f) ? "own_" : "", (int)length, name);
+    text_print(text, "%s%.*s", !f->choices->products ? "m." : selects(f) ? "own_" : "", (int)length, name);
 }
 
 void glsl_add_lobe(struct text *text, const struct glsl_facts *f)

@@ -1,39 +1,33 @@
-// glsl_rows.c: the table of a text's uniforms, and their declarations.
+// glsl_rows.c: the table of a shader's uniforms and attributes, and their declarations.
 #include "glsl_rows.h"
 
 #include <stdio.h>
 #include <string.h>
 
-static bool is_place(lam_output show)
-{
-    return show == LAM_OUTPUT_DEPTH || show == LAM_OUTPUT_FACING || show == LAM_OUTPUT_IDS ||
-           show == LAM_OUTPUT_COVERAGE || show == LAM_OUTPUT_OVERDRAW;
-}
-
 struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
 {
     struct glsl_facts f = {.choices = c};
-    f.shows_place = is_place(c->show);
-    f.shows_one_light = c->show == LAM_OUTPUT_N_L || c->show == LAM_OUTPUT_N_H;
-    f.shows_vector = f.shows_one_light || c->show == LAM_OUTPUT_NORMALS || c->show == LAM_OUTPUT_TANGENTS;
-    f.shading = f.shows_place ? LAM_SHADING_PHONG : c->shading;
-    f.application = c->stage == LAM_STAGE_APPLICATION && !f.shows_place;
-    f.per_vertex = c->stage == LAM_STAGE_VERTEX && !f.shows_place;
+    f.output_geometry = glsl_output_is_geometry(c->output);
+    f.output_vector = output_is_vector(c->output);
+    f.output_one_light = f.output_vector && output_is_one_light(c->output);
+    f.shading = f.output_geometry ? LAM_SHADING_PHONG : c->shading;
+    f.application = c->stage == LAM_STAGE_APPLICATION && !f.output_geometry;
+    f.per_vertex = c->stage == LAM_STAGE_VERTEX && !f.output_geometry;
     f.per_fragment = !f.application && !f.per_vertex;
-    f.lit = !f.application && !f.shows_place;
-    f.paints = f.lit && c->reflection == LAM_REFLECTION_NONE && !f.shows_vector;
-    bool sums = f.lit && !f.paints && !f.shows_vector;
-    f.lights = c->light_count > 0 && (sums || f.shows_one_light);
-    f.skies = c->hemisphere_count > 0 && sums;
+    f.lit = !f.application && !f.output_geometry;
+    f.unlit = f.lit && c->reflection == LAM_REFLECTION_NONE && !f.output_vector;
+    bool sums = f.lit && !f.unlit && !f.output_vector;
+    f.lights = c->light_count > 0 && (sums || f.output_one_light);
+    f.hemispheres = c->hemisphere_count > 0 && sums;
     f.environment = c->environment != GLSL_NO_ENVIRONMENT && sums;
     const lam_reflection_info *lobe = lam_reflection_describe(c->reflection);
-    f.sums = sums;
-    f.threads = (sums && lobe->tangents) || (f.lit && c->show == LAM_OUTPUT_TANGENTS);
+    f.adds_lights = sums;
+    f.tangent = (sums && lobe->tangents) || (f.lit && c->output == LAM_OUTPUT_TANGENTS);
     f.highlights = sums && c->light_count > 0 && lobe->base;
-    f.back = c->two_sided && c->back_material && f.lit && !f.shows_vector;
+    f.back_material = c->two_sided && c->back_material && f.lit && !f.output_vector;
     for (int i = 0; i < c->group_count; i++) {
-        f.falloff |= f.lights && !f.shows_vector && c->groups[i].falloff != FALLOFF_NONE;
-        f.cones |= f.lights && !f.shows_vector && c->groups[i].kind >= LIGHT_SPOT_CUTOFF;
+        f.attenuated |= f.lights && !f.output_vector && c->groups[i].falloff != FALLOFF_NONE;
+        f.cones |= f.lights && !f.output_vector && c->groups[i].kind >= LIGHT_SPOT_CUTOFF;
         f.positions |= c->groups[i].kind != LIGHT_DIRECTIONAL;
         f.directions |= c->groups[i].kind != LIGHT_POINT;
     }
@@ -45,35 +39,35 @@ struct list {
     int count;
 };
 
-__attribute__((format(printf, 6, 7))) static void add(struct list *list, enum glsl_what what, const char *type,
+__attribute__((format(printf, 6, 7))) static void add(struct list *list, enum glsl_semantic semantic, const char *type,
                                                       int count, const char *block, const char *name, ...);
-static void add(struct list *list, enum glsl_what what, const char *type, int count, const char *block,
+static void add(struct list *list, enum glsl_semantic semantic, const char *type, int count, const char *block,
                 const char *name, ...)
 {
     struct glsl_row *row = &list->rows[list->count++];
-    *row = (struct glsl_row){.what = what, .type = type, .count = count, .block = block};
+    *row = (struct glsl_row){.semantic = semantic, .type = type, .count = count, .block = block};
     __builtin_va_list arguments;
     __builtin_va_start(arguments, name);
     vsnprintf(row->name, sizeof row->name, name, arguments);
     __builtin_va_end(arguments);
 }
 
-static void add_member(struct list *list, enum glsl_what what, const char *type, int at, const char *name,
+static void add_member(struct list *list, enum glsl_semantic semantic, const char *type, int at, const char *name,
                        const char *meaning)
 {
-    add(list, what, type, 0, NULL, "%s", name);
+    add(list, semantic, type, 0, NULL, "%s", name);
     list->rows[list->count - 1].at = at;
     list->rows[list->count - 1].meaning = meaning;
 }
 
-static void mean(struct list *list, const char *meaning) { list->rows[list->count - 1].meaning = meaning; }
+static void set_meaning(struct list *list, const char *meaning) { list->rows[list->count - 1].meaning = meaning; }
 
 // Whether the equations read a field of the material.
 static bool is_read(const struct glsl_facts *f, const struct material_field *row)
 {
     switch (row->reader) {
     case FIELD_LIT:
-        return !f->paints;
+        return !f->unlit;
     case FIELD_ENVIRONMENT:
         return f->environment;
     case FIELD_HIGHLIGHT:
@@ -85,7 +79,7 @@ static bool is_read(const struct glsl_facts *f, const struct material_field *row
     }
 }
 
-// The fields of the material: those of its struct, or (with products) rows of their own. A block has all of them.
+// Adds the fields of the material: members of its struct, or with products rows of their own. A block has all fields.
 static void add_fields(struct list *list, const struct glsl_facts *f, const char *block, const char *prefix)
 {
     bool products = f->choices->products;
@@ -96,7 +90,7 @@ static void add_fields(struct list *list, const struct glsl_facts *f, const char
             continue;
         add(list, products ? GLSL_HEAD : GLSL_MATERIAL, row->field.type < LAM_FIELD_RGB ? "float" : "vec4", 0, block,
             "%s%s", prefix, glsl_field_name(row, products));
-        mean(list, products && row->product_summary ? row->product_summary : row->field.summary);
+        set_meaning(list, products && row->product_summary ? row->product_summary : row->field.summary);
         list->rows[list->count - 1].at = layout.at[i];
     }
 }
@@ -108,29 +102,29 @@ static void add_products(struct list *list, const struct glsl_facts *f, bool bac
                *block = c->storage == GLSL_BLOCK ? (back ? "BackProducts" : "Products") : NULL;
     bool all = block != NULL, lists = c->storage != GLSL_TEXTURE;
     int first = list->count, lights = f->lights && lists ? c->light_count : 0,
-        skies = f->skies && lists ? c->hemisphere_count : 0;
+        hemispheres = f->hemispheres && lists ? c->hemisphere_count : 0;
     add_fields(list, f, block, p);
     if (lights) {
         add(list, GLSL_DIFFUSE_PRODUCT, "vec4", lights, block, "%sdiffuse_product", p);
-        mean(list, "kd Ld, for each light");
+        set_meaning(list, "kd Ld of each light");
         if (all || f->highlights) {
             add(list, GLSL_SPECULAR_PRODUCT, "vec4", lights, block, "%sspecular_product", p);
-            mean(list, "ks Ls, for each light");
+            set_meaning(list, "ks Ls of each light");
         }
         if (c->gl1) {
             add(list, GLSL_LIGHT_AMBIENT_PRODUCT, "vec4", lights, block, "%slight_ambient_product", p);
-            mean(list, "ka La of each light, weakened like the rest of it");
+            set_meaning(list, "ka La of each light, before attenuation");
         }
     }
-    if (skies) {
-        add(list, GLSL_SKY_PRODUCT, "vec4", skies, block, "%ssky_product", p);
-        mean(list, "ka times the light from above, for each hemisphere");
-        add(list, GLSL_GROUND_PRODUCT, "vec4", skies, block, "%sground_product", p);
-        mean(list, "ka times the light from below, for each hemisphere");
+    if (hemispheres) {
+        add(list, GLSL_SKY_PRODUCT, "vec4", hemispheres, block, "%ssky_product", p);
+        set_meaning(list, "ka times the light from above, of each hemisphere");
+        add(list, GLSL_GROUND_PRODUCT, "vec4", hemispheres, block, "%sground_product", p);
+        set_meaning(list, "ka times the light from below, of each hemisphere");
     }
-    if (!lists && (f->lights || f->skies)) {
+    if (!lists && (f->lights || f->hemispheres)) {
         add(list, GLSL_FIRST_PRODUCT, "int", 0, NULL, "%sfirst_product", p);
-        mean(list, "the texel of product_list where the material's products begin");
+        set_meaning(list, "index of the material's first texel in product_list");
     }
     for (int i = first; i < list->count; i++)
         list->rows[i].back = back;
@@ -141,80 +135,81 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
     const struct glsl_choices *c = f->choices;
     struct list list = {.rows = rows};
     add(&list, GLSL_MODEL_VIEW_PROJECTION, "mat4", 0, NULL, "model_view_projection");
-    mean(&list, "positions of the mesh to clip space");
-    bool normals = f->lit && !f->paints;
-    if (normals || c->show == LAM_OUTPUT_DEPTH) {
+    set_meaning(&list, "mesh positions to clip space");
+    bool normals = f->lit && !f->unlit;
+    if (normals || c->output == LAM_OUTPUT_DEPTH) {
         add(&list, GLSL_MODEL_VIEW, "mat4", 0, NULL, "model_view");
-        mean(&list, "positions of the mesh to eye space");
+        set_meaning(&list, "mesh positions to eye space");
     }
     if (normals) {
         add(&list, GLSL_NORMAL_MATRIX, "mat3", 0, NULL, "normal_matrix");
-        mean(&list, "normals to eye space: the inverse transpose of model_view's 3x3, times any positive number");
+        set_meaning(&list,
+                    "normals to eye space: the inverse transpose of model_view's 3x3, times any positive number");
     }
-    if (c->exposes && !f->shows_place && !f->shows_vector) {
+    if (c->exposes && !f->output_geometry && !f->output_vector) {
         add(&list, GLSL_EXPOSURE, "float", 0, NULL, "exposure");
-        mean(&list, "all light is multiplied by it: 2 to the power of the stops");
+        set_meaning(&list, "factor of all light: 2 to the power of the stops");
     }
-    if (c->show == LAM_OUTPUT_IDS) {
+    if (c->output == LAM_OUTPUT_IDS) {
         add(&list, GLSL_OBJECT, "float", 0, NULL, "object");
-        mean(&list, "the object's number");
+        set_meaning(&list, "index of the object");
     }
     if (f->environment) {
         add(&list, GLSL_ENVIRONMENT_MATRIX, "mat3", 0, NULL, "environment_matrix");
-        mean(&list, "directions of eye space to the axes of the surroundings");
+        set_meaning(&list, "directions in eye space to the environment's axes");
         if (c->environment == GLSL_CUBE) {
             add(&list, GLSL_ENVIRONMENT, "samplerCube", 0, NULL, "environment");
-            mean(&list, "the surroundings in linear light: bilinear, seamless, no mipmaps");
+            set_meaning(&list, "linear light; bilinear filter, seamless, no mipmaps");
         } else {
             add(&list, GLSL_ENVIRONMENT, "sampler2DArray", 0, NULL, "environment_faces");
-            mean(&list, "the surroundings in linear light: six faces +x -x +y -y +z -z, each with a border "
-                        "of one texel");
+            set_meaning(&list, "linear light; six faces +x -x +y -y +z -z, each with a border of one texel");
         }
     }
-    if (!f->lit || f->shows_vector) {
+    if (!f->lit || f->output_vector) {
         if (f->lights) {
             const char *block = c->storage == GLSL_BLOCK ? "Lights" : NULL;
             add(&list, GLSL_LIGHTS, c->storage == GLSL_TEXTURE ? "sampler2D" : "Light",
                 c->storage == GLSL_TEXTURE ? 0 : c->light_count, block,
                 c->storage == GLSL_TEXTURE ? "light_list" : "lights");
-            list.rows[list.count - 1].what = c->storage == GLSL_TEXTURE ? GLSL_LIGHT_LIST : GLSL_LIGHTS;
-            mean(&list, "the light");
+            list.rows[list.count - 1].semantic = c->storage == GLSL_TEXTURE ? GLSL_LIGHT_LIST : GLSL_LIGHTS;
+            set_meaning(&list, "the light");
         }
         return list.count;
     }
     const char *block = c->storage == GLSL_BLOCK ? "Lights" : NULL;
-    if (!c->products && !f->paints) {
+    if (!c->products && !f->unlit) {
         add(&list, GLSL_AMBIENT_LIGHT, "vec4", 0, block, "ambient_light");
-        mean(&list, "La: all light from everywhere, that of the lights included");
+        set_meaning(&list, "La: global ambient light plus the ambient light of all lights");
     }
     if (c->storage == GLSL_TEXTURE) {
-        if (f->lights || f->skies) {
+        if (f->lights || f->hemispheres) {
             add(&list, GLSL_LIGHT_LIST, "sampler2D", 0, NULL, "light_list");
-            mean(&list, "float texture, 1024 texels wide, no filter: the lights, then the hemispheres "
-                        "(docs/shaders.md)");
+            set_meaning(&list, "float texture, 1024 texels wide, no filter: the lights, then the hemispheres "
+                               "(docs/shaders.md)");
             if (c->products) {
                 add(&list, GLSL_PRODUCT_LIST, "sampler2D", 0, NULL, "product_list");
-                mean(&list, "the same: the materials' products with them");
+                set_meaning(&list, "float texture, 1024 texels wide, no filter: the products of the materials and the "
+                                   "lights");
             }
         }
     } else {
         if (f->lights) {
             add(&list, GLSL_LIGHTS, "Light", c->light_count, block, "lights");
-            mean(&list, "the lights, those of one kind side by side");
+            set_meaning(&list, "the lights, grouped by kind");
         }
-        if (f->skies) {
+        if (f->hemispheres) {
             add(&list, GLSL_HEMISPHERES, "Hemisphere", c->hemisphere_count, block, "hemispheres");
-            mean(&list, "skies over a ground");
+            set_meaning(&list, "hemisphere lights");
         }
     }
-    for (int back = 0; back <= f->back; back++) {
+    for (int back = 0; back <= f->back_material; back++) {
         if (c->products) {
             add_products(&list, f, back);
             continue;
         }
         add(&list, GLSL_MATERIAL, "Material", 0, c->storage == GLSL_BLOCK ? "Materials" : NULL, "%smaterial",
             back ? "back_" : "");
-        mean(&list, back ? "of the back" : "of the front");
+        set_meaning(&list, back ? "material of the back" : "material of the front");
         list.rows[list.count - 1].back = back;
     }
     return list.count;
@@ -223,34 +218,33 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
 int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX])
 {
     const struct glsl_choices *c = f->choices;
-    bool flat = f->shading == LAM_SHADING_FLAT, old = c->version == GLSL_120, looks = f->lit && !f->paints;
+    bool flat = f->shading == LAM_SHADING_FLAT, glsl_120 = c->version == GLSL_120, shaded = f->lit && !f->unlit;
     int count = 0;
-    rows[count++] = (struct glsl_attribute){0, "vec3", "position", "of the mesh"};
-    if (looks)
+    rows[count++] = (struct glsl_attribute){0, "vec3", "position", "mesh position"};
+    if (shaded)
         rows[count++] = (struct glsl_attribute){1, "vec3", "normal",
-                                                flat ? "of the mesh: the triangle's own, the same at its three vertices"
-                                                     : "of the mesh, of any length"};
-    if (c->colors && f->lit && !f->shows_vector)
+                                                flat ? "mesh normal of the triangle, equal at its three vertices"
+                                                     : "mesh normal, of any length"};
+    if (c->colors && f->lit && !f->output_vector)
         rows[count++] = (struct glsl_attribute){
             2, "vec4", "color",
-            flat && old ? "linear, not premultiplied: of the triangle's last vertex, at its three"
-                        : "linear, not premultiplied"};
-    if (f->threads && c->tangents)
+            flat && glsl_120 ? "linear, not premultiplied; at all three vertices that of the triangle's last vertex"
+                             : "linear, not premultiplied"};
+    if (f->tangent && c->tangents)
         rows[count++] = (struct glsl_attribute){
             3, "vec3", "tangent",
-            flat && old ? "of the mesh, along the surface: of the triangle's last vertex, at its three"
-                        : "of the mesh, along the surface"};
+            flat && glsl_120 ? "mesh tangent; at all three vertices that of the triangle's last vertex"
+                             : "mesh tangent, along the surface"};
     if (f->application) {
-        rows[count++] =
-            (struct glsl_attribute){4, "vec4", "front_color", "the light that leaves the front there, and the opacity"};
+        rows[count++] = (struct glsl_attribute){4, "vec4", "front_color",
+                                                "light that leaves the front at the vertex, and the opacity"};
         if (c->two_sided)
             rows[count++] = (struct glsl_attribute){5, "vec4", "back_color",
-                                                    "the light that leaves the back there, and the opacity"};
+                                                    "light that leaves the back at the vertex, and the opacity"};
     }
-    if (flat && old && looks)
-        rows[count++] =
-            (struct glsl_attribute){6, "vec3", "provoking_position",
-                                    "of the triangle's last vertex, at its three: where a flat triangle is lit"};
+    if (flat && glsl_120 && shaded)
+        rows[count++] = (struct glsl_attribute){6, "vec3", "provoking_position",
+                                                "position of the triangle's last vertex, where a flat triangle is lit"};
     return count;
 }
 
@@ -270,14 +264,14 @@ void glsl_declare_attributes(struct text *text, const struct glsl_facts *f)
 
 bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool fragment)
 {
-    switch (row->what) {
+    switch (row->semantic) {
     case GLSL_MODEL_VIEW_PROJECTION:
     case GLSL_NORMAL_MATRIX:
         return !fragment;
     case GLSL_EXPOSURE:
         return fragment;
-    case GLSL_MODEL_VIEW: // also the axis of threads without tangents
-        return !fragment || (f->per_fragment && f->threads && !f->choices->tangents);
+    case GLSL_MODEL_VIEW: // field_tangent reads its columns
+        return !fragment || (f->per_fragment && f->tangent && !f->choices->tangents);
     default:
         return fragment == f->per_fragment;
     }
@@ -287,34 +281,34 @@ int glsl_members(const struct glsl_facts *f, const char *type, struct glsl_row r
 {
     const struct glsl_choices *c = f->choices;
     struct list list = {.rows = rows};
-    bool all = c->storage == GLSL_BLOCK; // a block keeps its layout, whatever is looked at
+    bool all = c->storage == GLSL_BLOCK; // a block has all members, whichever are read
     if (strcmp(type, "Light") == 0) {
-        bool both = all || f->shows_vector;
+        bool both = all || f->output_vector;
         if (both || f->positions) {
             add_member(&list, GLSL_LIGHTS, "vec4", 0, "position",
-                       "in eye space, w 1; a directional light's is not looked at");
+                       "in eye space, w 1; not read for a directional light");
         }
         if (both || f->directions) {
             add_member(&list, GLSL_LIGHTS, "vec4", 4, "direction",
-                       "in eye space, unit, w 0: the way a directional light travels, a spot's axis");
+                       "in eye space, unit, w 0: direction of travel of a directional light, axis of a spot");
         }
-        if (all || f->falloff) {
+        if (all || f->attenuated) {
             add_member(&list, GLSL_LIGHTS, "vec4", 8, "attenuation",
                        "constant, linear, quadratic, 1 / range (0: no range)");
         }
         if (all || f->cones) {
             add_member(&list, GLSL_LIGHTS, "vec4", 12, "cone",
                        "cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner - cos outer); "
-                       "of these what the spot has");
+                       "read according to the kind of spot");
         }
-        if (c->products || f->shows_vector)
+        if (c->products || f->output_vector)
             return list.count;
         add_member(&list, GLSL_LIGHTS, "vec4", 16, "diffuse", "Ld");
         if (all || f->highlights) {
             add_member(&list, GLSL_LIGHTS, "vec4", 20, "specular", "Ls");
         }
         if (c->gl1) {
-            add_member(&list, GLSL_LIGHTS, "vec4", 24, "ambient", "La, weakened like the rest");
+            add_member(&list, GLSL_LIGHTS, "vec4", 24, "ambient", "La, before attenuation");
         }
     } else if (strcmp(type, "Hemisphere") == 0) {
         add_member(&list, GLSL_HEMISPHERES, "vec4", 0, "up", "in eye space, unit, w 0: towards the sky");
@@ -333,7 +327,7 @@ static int width_of(const struct glsl_row *row)
     return (int)strlen(row->type) + (int)strlen(row->name) + (row->count ? snprintf(NULL, 0, "[%d]", row->count) : 0);
 }
 
-// The comments of rows that stand together begin in one column.
+// Appends a declaration; the comments of consecutive rows begin in one column.
 static void declare(struct text *text, const char *start, const struct glsl_row *row, int width)
 {
     char name[48];
@@ -367,12 +361,12 @@ void glsl_declare(struct text *text, const struct glsl_facts *facts, bool fragme
             width = width_of(&rows[i]) > width ? width_of(&rows[i]) : width;
     if (!width)
         return;
-    text_add(text, "\n// --- what the program sets\n\n");
-    for (int i = 0; i < count; i++) { // a struct stands before what has it
-        bool told = !glsl_row_is_in(facts, &rows[i], fragment);
+    text_add(text, "\n// --- uniforms, set by the application\n\n");
+    for (int i = 0; i < count; i++) { // structs before the uniforms of their type
+        bool skip = !glsl_row_is_in(facts, &rows[i], fragment);
         for (int k = 0; k < i; k++)
-            told |= strcmp(rows[k].type, rows[i].type) == 0;
-        if (!told)
+            skip |= strcmp(rows[k].type, rows[i].type) == 0;
+        if (!skip)
             declare_struct(text, facts, rows[i].type);
     }
     for (int i = 0; i < count; i++) {

@@ -1,4 +1,4 @@
-// glsl_values.c: choices that a frame asks for, and what the lists and materials of the texts hold.
+// glsl_values.c: the choices for a frame, and the values of the lights, materials and products in its shaders.
 #include "glsl.h"
 
 #include <string.h>
@@ -21,23 +21,23 @@ static bool mirrors(const lam_material *m)
     return m->reflectivity.r != 0 || m->reflectivity.g != 0 || m->reflectivity.b != 0;
 }
 
-struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_draw_range *surface, lam_stage stage)
+struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_draw_range *range, lam_stage stage)
 {
     struct glsl_choices c;
     memset(&c, 0, sizeof c);
-    const struct frame_draw *draw = &frame->draws[surface->draw];
+    const struct frame_draw *draw = &frame->draws[range->draw];
     c.shading = frame->shading;
     c.stage = stage ? stage : frame->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX : LAM_STAGE_FRAGMENT;
     c.reflection = frame->reflection;
-    c.show = frame->show;
+    c.output = frame->output;
     c.distant_viewer = frame->distant_viewer;
     c.gl1 = frame->gl1;
     c.two_sided = !draw->one_sided;
-    c.back_material = c.two_sided && surface->back != surface->front;
+    c.back_material = c.two_sided && range->back != range->front;
     c.colors = draw->mesh->colors != NULL;
     c.tangents = draw->mesh->tangents != NULL;
     if (frame->environment &&
-        (mirrors(frame->materials[surface->front]) || (c.back_material && mirrors(frame->materials[surface->back]))))
+        (mirrors(frame->materials[range->front]) || (c.back_material && mirrors(frame->materials[range->back]))))
         c.environment = GLSL_FACES;
     find_groups(&c, frame);
     return c;
@@ -125,15 +125,15 @@ void glsl_material_values(const struct frame *frame, const lam_material *materia
     }
 }
 
-// --- lists
+// --- lights and products
 
 static size_t floats_of_light(const struct glsl_choices *c) { return c->products ? 16 : c->gl1 ? 28 : 24; }
 
 size_t glsl_lights_bytes(const struct glsl_choices *c)
 {
     size_t lights = (size_t)c->light_count * floats_of_light(c),
-           skies = (size_t)c->hemisphere_count * (c->products ? 4 : 12),
-           head = !c->products && c->storage == GLSL_BLOCK ? 4 : 0, all = head + lights + skies;
+           hemispheres = (size_t)c->hemisphere_count * (c->products ? 4 : 12),
+           head = !c->products && c->storage == GLSL_BLOCK ? 4 : 0, all = head + lights + hemispheres;
     return (all ? all : 4) * sizeof(float);
 }
 
@@ -184,8 +184,8 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
         memcpy(out, head, size * sizeof *out);
         out += size;
     }
-    // A block has an array of each product, a texture all products of a light side by side.
-    size_t lights = (size_t)c->light_count, skies = (size_t)c->hemisphere_count, at = 0;
+    // A block has an array of each product; in a texture the products of a light are consecutive.
+    size_t lights = (size_t)c->light_count, hemispheres = (size_t)c->hemisphere_count, at = 0;
     size_t step = block ? 4 : c->gl1 ? 12 : 8, next = block ? 4 * lights : 4;
     for (int g = 0; g < c->group_count; g++)
         for (int i = 0; i < frame->light_count; i++) {
@@ -199,8 +199,8 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
             at += step;
         }
     out += lights * (c->gl1 ? 12 : 8);
-    for (size_t i = 0; i < skies; i++) {
-        float *sky = block ? out + 4 * i : out + 8 * i, *ground = block ? sky + 4 * skies : sky + 4;
+    for (size_t i = 0; i < hemispheres; i++) {
+        float *sky = block ? out + 4 * i : out + 8 * i, *ground = block ? sky + 4 * hemispheres : sky + 4;
         product(sky, &material->ambient.r, frame->hemispheres[i].sky);
         product(ground, &material->ambient.r, frame->hemispheres[i].ground);
     }

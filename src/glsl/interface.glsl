@@ -1,12 +1,12 @@
 
 //@if fragment
-// --- the fragment
+// --- the fragment shader
 //@else
-// --- the vertex
+// --- the vertex shader
 
 @attributes@
 //@end
-//@if passes_anything
+//@if has_varyings
 
 //@end
 //@if per_fragment
@@ -19,7 +19,7 @@
 //@if passes_tangent
 @varying@vec3 eye_tangent;
 //@end
-//@if colors
+//@if vertex_colors
 @varying@vec4 tint;
 //@end
 //@else
@@ -28,6 +28,6 @@
 @varying@vec4 back_light;
 //@end
 //@end
-//@if numbers
+//@if triangle_ids
 @flat_varying@int triangle;
 //@end

@@ -1,20 +1,20 @@
 //@if has_environment
 
-// --- the surroundings
+// --- the environment
 
-//@if cube
-// What the surroundings send along the direction d of eye space.
+//@if cube_map
+// Light from the environment along the direction d in eye space.
 vec3 environment_color(vec3 d) { return @texture_cube@(environment, environment_matrix * d).rgb; }
 //@else
-// What the surroundings send along the direction d of eye space. Each layer of the texture is a face of the cube with a border
-// of one texel from its neighbours, so that the four texels round any place can be mixed without a case at the edges.
+// Light from the environment along the direction d in eye space. Each layer of the texture is a face of the cube with a
+// border of one texel from its neighbours, so that the bilinear filter has no special case at the edges.
 vec3 environment_color(vec3 d)
 {
     vec3 e = environment_matrix * d;
     vec3 size = abs(e);
     bool on_x = size.x >= size.y && size.x >= size.z;
     bool on_y = !on_x && size.y >= size.z;
-    // OpenGL's table (4.6, 8.13): the axis with the largest size names the face.
+    // OpenGL 4.6, 8.13: the largest component selects the face.
     float major = on_x ? size.x : (on_y ? size.y : size.z);
     bool minus = (on_x ? e.x : (on_y ? e.y : e.z)) < 0.0;
     float across = on_x ? (minus ? e.z : -e.z) : (on_y ? e.x : (minus ? -e.x : e.x));
@@ -22,10 +22,10 @@ vec3 environment_color(vec3 d)
     int face = (on_x ? 0 : (on_y ? 2 : 4)) + (minus ? 1 : 0);
     float side = float(textureSize(environment_faces, 0).x - 2);
     float middle = 0.5 * side + 0.5;
-    vec2 place = major > 0.0 ? vec2(across, down) / major * (0.5 * side) + middle : vec2(middle);
-    place = clamp(place, vec2(0.5), vec2(side + 0.5));
-    ivec2 corner = ivec2(place);
-    vec2 part = place - vec2(corner);
+    vec2 texel = major > 0.0 ? vec2(across, down) / major * (0.5 * side) + middle : vec2(middle);
+    texel = clamp(texel, vec2(0.5), vec2(side + 0.5));
+    ivec2 corner = ivec2(texel);
+    vec2 part = texel - vec2(corner);
     vec3 a = texelFetch(environment_faces, ivec3(corner, face), 0).rgb;
     vec3 b = texelFetch(environment_faces, ivec3(corner + ivec2(1, 0), face), 0).rgb;
     vec3 c = texelFetch(environment_faces, ivec3(corner + ivec2(0, 1), face), 0).rgb;
@@ -34,9 +34,9 @@ vec3 environment_color(vec3 d)
 }
 //@end
 //@end
-//@if reads_lists
+//@if reads_lights
 
-// --- the lists
+// --- lights and materials
 //@if texture
 
 vec4 list_texel(sampler2D list, int number)
@@ -46,7 +46,7 @@ vec4 list_texel(sampler2D list, int number)
 //@end
 //@if has_lights
 
-// Light i, and its products with the material.
+// Light i, with the products of its colours and the material's.
 light_source light_of(int i@list_parameter@)
 {
     light_source light;
@@ -116,7 +116,7 @@ light_source light_of(int i@list_parameter@)
 }
 //@if gl1
 
-// What light i adds to the ambient term before it is weakened: ka La.
+// The ambient term of light i before attenuation: ka La.
 vec3 ambient_of(int i@list_parameter@)
 {
 //@if products
@@ -166,21 +166,21 @@ hemisphere hemisphere_of(int i@list_parameter@)
 //@end
 //@end
 
-// --- one point
+// --- lighting of a point
 
-//@if paints
-// The colour of a surface that is not lit, and its opacity.
+//@if unlit
+// The colour and opacity of an unlit surface.
 //@else
-// The light that leaves a point p of the surface towards the eye, and its opacity. The normal is that of the side that is seen;
-// all in eye space, the normal of any length.
+// The light that leaves the point p of a surface towards the eye, and the opacity. The normal is on the visible side and has
+// any length; p and normal are in eye space.
 //@end
-//@if colors
-// `tint` is the vertex colour: it multiplies what is reflected evenly, and the opacity.
+//@if vertex_colors
+// `tint` is the vertex colour: a factor of the ambient and diffuse terms, and of the opacity.
 //@end
 vec4 light_point(@lit_parameters@)
 {
 //@if !products
-//@if !shows_vector
+//@if !output_vector
     Material m = material;
 //@if back_material
     if (!front) {
@@ -189,34 +189,34 @@ vec4 light_point(@lit_parameters@)
 //@end
 //@end
 //@end
-//@if paints
+//@if unlit
 //@if products
     terms sum = unlit_terms($(diffuse).rgb);
 //@else
     terms sum = unlit_terms(m.diffuse.rgb);
 //@end
 //@end
-//@if asks_surface
+//@if needs_surface
     surface s;
     s.p = p;
     s.n = unit3(normal);
     s.v = to_eye(p, @viewer@);
-//@if threads
+//@if tangent
     s.t = perpendicular3(tangent, s.n);
 //@else
     s.t = black3();
 //@end
 //@end
-//@if shows_vector
-@shown_vector@
+//@if output_vector
+@output_vector@
 //@else
-//@if !paints
+//@if !unlit
 //@if products
     terms sum = start_terms($(ambient_product).rgb, $(emission).rgb);
 //@else
     terms sum = start_terms(mul3(m.ambient.rgb, ambient_light.rgb), m.emission.rgb);
 //@end
-//@if chooses_parameters
+//@if selects_parameters
 @parameters@
 //@end
 //@if has_hemispheres
@@ -237,12 +237,12 @@ vec4 light_point(@lit_parameters@)
     }
 //@end
 //@end
-//@if colors
+//@if vertex_colors
     sum = tint_terms(sum, tint.rgb);
 //@end
-    vec3 color = @shown@;
-//@if clamps
-    // As OpenGL 1 did: what a vertex hands on is within 0...1.
+    vec3 color = @output_term@;
+//@if clamped
+    // As in OpenGL 1, the colour of a vertex is clamped to 0...1.
     color = vec3(saturate(color.x), saturate(color.y), saturate(color.z));
 //@end
 //@if products
@@ -250,19 +250,19 @@ vec4 light_point(@lit_parameters@)
 //@else
     float opacity = m.diffuse.a;
 //@end
-//@if colors
+//@if vertex_colors
     opacity = opacity * tint.a;
 //@end
-//@if clamps
+//@if clamped
     opacity = saturate(opacity);
 //@end
     return vec4(color, opacity);
 //@end
 }
-//@if field
+//@if tangent_field
 
-// The direction of surfaces that have no tangents: round the mesh's y axis, as a lathe leaves its marks (y x n; along x where n
-// is along y).
+// The tangent of a surface without tangents: around the mesh's y axis, like the marks of a lathe (y x n); along x where n is
+// along y.
 vec3 field_tangent(vec3 n)
 {
     vec3 axis = unit3(model_view[1].xyz);

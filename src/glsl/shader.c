@@ -1,4 +1,4 @@
-// shader.c: lam_shader_make: a scene's shaders, and the value of every uniform.
+// shader.c: lam_shader_make: makes a scene's shaders and the value of every uniform.
 #include <lambent/shader.h>
 
 #include "arena.h"
@@ -16,14 +16,14 @@ const char *lam_glsl_name(lam_glsl version)
     return (unsigned)version < LAM_GLSL_COUNT ? names[version] : NULL;
 }
 
-// The shader and what holds it.
+// The public shader and its memory.
 struct shader {
-    lam_shader told; // first
+    lam_shader result; // the first member: lam_shader_free casts
     struct arena arena;
     struct glsl_text text;
 };
 
-struct making {
+struct build {
     struct shader *shader;
     const lam_scene *scene;
     struct frame frame;
@@ -31,43 +31,43 @@ struct making {
     struct glsl_facts facts;
     struct glsl_row rows[GLSL_ROWS_MAX];
     int row_count;
-    int *order; // frame light of each of the text's lights
+    int *order; // index in the frame of each of the shader's lights
     int width, height;
 };
 
-// --- choices for a whole scene
+// --- choices for all ranges of a scene
 
-static bool is_meant(const struct frame *frame, const struct frame_draw_range *surface, int object)
+static bool is_selected(const struct frame *frame, const struct frame_draw_range *range, int object)
 {
-    return object < 0 || frame->draws[surface->draw].object == object;
+    return object < 0 || frame->draws[range->draw].object == object;
 }
 
-// One pair of sources for all surfaces. Colours, materials of backs and surroundings that only some have do
-// not hurt the others; the number of sides and tangents must be one.
-static bool unite(struct making *m, lam_stage stage, int object, lam_error *error)
+// Merges the choices of all ranges, for one pair of sources. Vertex colours, back materials and the environment may be
+// used by some ranges only; the number of sides and the presence of tangents must be the same in all.
+static bool merge_choices(struct build *m, lam_stage stage, int object, lam_error *error)
 {
     const struct frame *frame = &m->frame;
     int first = -1;
-    for (int i = 0; i < frame->surface_count; i++) {
-        const struct frame_draw_range *surface = &frame->surfaces[i];
-        if (!is_meant(frame, surface, object))
+    for (int i = 0; i < frame->range_count; i++) {
+        const struct frame_draw_range *range = &frame->ranges[i];
+        if (!is_selected(frame, range, object))
             continue;
-        struct glsl_choices own = glsl_choose(frame, surface, stage);
+        struct glsl_choices own = glsl_choose(frame, range, stage);
         if (first < 0) {
             m->choices = own;
             first = i;
             continue;
         }
-        const int a = frame->draws[frame->surfaces[first].draw].object, b = frame->draws[surface->draw].object;
+        const int a = frame->draws[frame->ranges[first].draw].object, b = frame->draws[range->draw].object;
         if (own.two_sided != m->choices.two_sided)
             return fail(error, LAM_BAD_ARGUMENT,
-                        "objects %d and %d: one is one-sided, the other is not, and one shader cannot be both; "
+                        "objects %d and %d: one is one-sided, the other is not, and one shader cannot draw both; "
                         "expected the number of one object",
                         a, b);
         struct glsl_facts facts = glsl_facts_of(&own);
-        if (facts.threads && own.tangents != m->choices.tangents)
+        if (facts.tangent && own.tangents != m->choices.tangents)
             return fail(error, LAM_BAD_ARGUMENT,
-                        "objects %d and %d: one has tangents, the other has not, and one shader cannot serve both; "
+                        "objects %d and %d: one has tangents, the other has none, and one shader cannot draw both; "
                         "expected the number of one object",
                         a, b);
         m->choices.colors |= own.colors;
@@ -76,24 +76,24 @@ static bool unite(struct making *m, lam_stage stage, int object, lam_error *erro
             m->choices.environment = own.environment;
     }
     if (first < 0)
-        return fail(error, LAM_BAD_ARGUMENT, "object is %d, expected one of the scene's with triangles (0 to %d)",
-                    object, lam_scene_object_count(m->scene) - 1);
+        return fail(error, LAM_BAD_ARGUMENT, "object is %d, expected an object with triangles, 0 to %d", object,
+                    lam_scene_object_count(m->scene) - 1);
     return true;
 }
 
-static bool choose(struct making *m, const lam_draw_params *draw, int object, const lam_shader_params *params,
+static bool choose(struct build *m, const lam_draw_params *draw, int object, const lam_shader_params *params,
                    lam_error *error)
 {
     static const enum glsl_version versions[] = {GLSL_330, GLSL_120, GLSL_300_ES};
     static const enum glsl_storage storages[] = {GLSL_BLOCK, GLSL_ARRAY, GLSL_BLOCK, GLSL_TEXTURE};
     if ((unsigned)params->glsl >= LAM_GLSL_COUNT || (unsigned)params->lights >= LAM_SHADER_LIGHTS_COUNT)
         return fail(error, LAM_BAD_ARGUMENT, "shader parameters: glsl or lights is out of its range");
-    if (!unite(m, draw->stage, object, error))
+    if (!merge_choices(m, draw->stage, object, error))
         return false;
     struct glsl_choices *c = &m->choices;
     c->version = versions[params->glsl];
     c->storage = !params->lights && c->version == GLSL_120 ? GLSL_ARRAY : storages[params->lights];
-    c->output = m->frame.color == LAM_COLOR_RAW ? GLSL_STRAIGHT : GLSL_ENCODED;
+    c->encoding = m->frame.color == LAM_COLOR_RAW ? GLSL_STRAIGHT : GLSL_ENCODED;
     c->exposes = m->frame.exposure != 1;
     c->products = params->products;
     if (c->environment)
@@ -111,7 +111,7 @@ static int put(float *out, const float *from, int count)
     return count;
 }
 
-// A matrix of rows as OpenGL takes it, columns first.
+// Writes a matrix, given by rows, in OpenGL's order, by columns.
 static int put_matrix(float *out, const float *rows, int stride, int size)
 {
     for (int column = 0; column < size; column++)
@@ -120,7 +120,7 @@ static int put_matrix(float *out, const float *rows, int stride, int size)
     return size * size;
 }
 
-// Mesh positions to clip space: the frame's rows are in pixels, y down.
+// Writes the matrix from mesh positions to clip space; the frame's rows are in pixels, y down.
 static int put_projection(float out[16], const struct frame_draw *draw, int width, int height)
 {
     float rows[16];
@@ -134,16 +134,16 @@ static int put_projection(float out[16], const struct frame_draw *draw, int widt
     return put_matrix(out, rows, 4, 4);
 }
 
-static int put_member(float *out, const float *whole, const struct glsl_row *member)
+static int put_member(float *out, const float *values, const struct glsl_row *member)
 {
-    return put(out, whole + member->at, strcmp(member->type, "float") == 0 ? 1 : 4);
+    return put(out, values + member->at, strcmp(member->type, "float") == 0 ? 1 : 4);
 }
 
-static int put_sky(float *out, const struct frame_hemisphere *h, const struct glsl_row *member)
+static int put_hemisphere(float *out, const struct frame_hemisphere *h, const struct glsl_row *member)
 {
-    const float whole[12] = {h->up[0],     h->up[1],     h->up[2],     0, h->sky[0], h->sky[1], h->sky[2], 1,
-                             h->ground[0], h->ground[1], h->ground[2], 1};
-    return put_member(out, whole, member);
+    const float values[12] = {h->up[0],     h->up[1],     h->up[2],     0, h->sky[0], h->sky[1], h->sky[2], 1,
+                              h->ground[0], h->ground[1], h->ground[2], 1};
+    return put_member(out, values, member);
 }
 
 static int put_product(float *out, const float *a, const float *b)
@@ -154,21 +154,21 @@ static int put_product(float *out, const float *a, const float *b)
     return 4;
 }
 
-// The numbers of element `index` of a row, of that member of it where the row is of structs. `surface` is
-// NULL for what the whole frame has. Returns how many.
-static int value_of(const struct making *m, const struct frame_draw_range *surface, const struct glsl_row *row,
+// Writes the value of a uniform's element `index`, or of a member of that element. `range` is NULL for uniforms of the
+// frame. Returns the number of floats.
+static int value_of(const struct build *m, const struct frame_draw_range *range, const struct glsl_row *row,
                     const struct glsl_row *member, int index, float out[16])
 {
     const struct frame *frame = &m->frame;
-    const struct frame_draw *draw = surface ? &frame->draws[surface->draw] : NULL;
-    int number = surface ? (row->back ? surface->back : surface->front) : 0;
+    const struct frame_draw *draw = range ? &frame->draws[range->draw] : NULL;
+    int number = range ? (row->back ? range->back : range->front) : 0;
     const lam_material *material = frame->materials[number];
-    bool of_light = row->what == GLSL_LIGHTS || row->what == GLSL_DIFFUSE_PRODUCT ||
-                    row->what == GLSL_SPECULAR_PRODUCT || row->what == GLSL_LIGHT_AMBIENT_PRODUCT;
+    bool of_light = row->semantic == GLSL_LIGHTS || row->semantic == GLSL_DIFFUSE_PRODUCT ||
+                    row->semantic == GLSL_SPECULAR_PRODUCT || row->semantic == GLSL_LIGHT_AMBIENT_PRODUCT;
     struct glsl_light light = {0};
     if (of_light)
         light = glsl_light_of(&frame->lights[m->order[index]]);
-    switch (row->what) {
+    switch (row->semantic) {
     case GLSL_MODEL_VIEW_PROJECTION:
         return put_projection(out, draw, m->width, m->height);
     case GLSL_MODEL_VIEW: {
@@ -187,12 +187,12 @@ static int value_of(const struct making *m, const struct frame_draw_range *surfa
     case GLSL_LIGHTS:
         return put_member(out, light.position, member);
     case GLSL_HEMISPHERES:
-        return put_sky(out, &frame->hemispheres[index], member);
+        return put_hemisphere(out, &frame->hemispheres[index], member);
     case GLSL_MATERIAL:
     case GLSL_HEAD: {
-        float whole[GLSL_MATERIAL_MAX];
-        glsl_material_values(frame, material, m->choices.products, whole);
-        return put_member(out, whole, row->what == GLSL_MATERIAL ? member : row);
+        float values[GLSL_MATERIAL_MAX];
+        glsl_material_values(frame, material, m->choices.products, values);
+        return put_member(out, values, row->semantic == GLSL_MATERIAL ? member : row);
     }
     case GLSL_DIFFUSE_PRODUCT:
         return put_product(out, &material->diffuse.r, light.diffuse);
@@ -221,26 +221,26 @@ static int value_of(const struct making *m, const struct frame_draw_range *surfa
     return 0;
 }
 
-// --- the lists that are told
+// --- the public arrays
 
-static bool is_of_draw(enum glsl_what what)
+static bool is_per_draw(enum glsl_semantic semantic)
 {
-    return what == GLSL_MODEL_VIEW_PROJECTION || what == GLSL_MODEL_VIEW || what == GLSL_NORMAL_MATRIX ||
-           what == GLSL_OBJECT || what == GLSL_FIRST_PRODUCT || what == GLSL_MATERIAL ||
-           (what >= GLSL_HEAD && what <= GLSL_GROUND_PRODUCT);
+    return semantic == GLSL_MODEL_VIEW_PROJECTION || semantic == GLSL_MODEL_VIEW || semantic == GLSL_NORMAL_MATRIX ||
+           semantic == GLSL_OBJECT || semantic == GLSL_FIRST_PRODUCT || semantic == GLSL_MATERIAL ||
+           (semantic >= GLSL_HEAD && semantic <= GLSL_GROUND_PRODUCT);
 }
 
 static char *name_of(struct arena *arena, const struct glsl_row *row, const struct glsl_row *member, int index)
 {
-    char name[96], place[24] = "";
+    char name[96], index_text[24] = "";
     if (row->count)
-        snprintf(place, sizeof place, "[%d]", index);
-    snprintf(name, sizeof name, "%s%s%s%s", row->name, place, member ? "." : "", member ? member->name : "");
+        snprintf(index_text, sizeof index_text, "[%d]", index);
+    snprintf(name, sizeof name, "%s%s%s%s", row->name, index_text, member ? "." : "", member ? member->name : "");
     return arena_string(arena, name);
 }
 
-// std140 (OpenGL 4.6, 7.6.2.2): where a value lies in its block.
-static int place_in_block(int *end, const char *type)
+// Returns the offset of the next value in its std140 block (OpenGL 4.6, 7.6.2.2), and updates the end of the block.
+static int block_offset(int *end, const char *type)
 {
     bool single = strcmp(type, "float") == 0;
     int at = single ? *end : (*end + 15) & ~15;
@@ -248,44 +248,44 @@ static int place_in_block(int *end, const char *type)
     return at;
 }
 
-struct telling {
+struct uniform_list {
     lam_shader_uniform *out;
     int count;
-    int end; // of the block so far
+    int end; // of the block's values so far
     const char *block;
     bool failed;
 };
 
-static void tell_leaf(const struct making *m, struct telling *t, const struct frame_draw_range *surface,
-                      const struct glsl_row *row, const struct glsl_row *member, int index)
+static void add_uniform(const struct build *m, struct uniform_list *t, const struct frame_draw_range *range,
+                        const struct glsl_row *row, const struct glsl_row *member, int index)
 {
     lam_shader_uniform *u = &t->out[t->count++];
     *u = (lam_shader_uniform){.type = member ? member->type : row->type,
                               .block = row->block,
                               .meaning = member ? member->meaning : row->meaning};
     if (row->block)
-        u->offset = place_in_block(&t->end, u->type);
-    u->count = value_of(m, surface, row, member, index, u->value);
+        u->offset = block_offset(&t->end, u->type);
+    u->count = value_of(m, range, row, member, index, u->value);
     u->name = name_of(&m->shader->arena, row, member, index);
     t->failed |= !u->name;
 }
 
-// The uniforms of a draw, or (NULL) of the frame. An element of an array begins at a multiple of 16 in its block.
-static bool tell_uniforms(const struct making *m, const struct frame_draw_range *surface,
-                          const lam_shader_uniform **out, int *count)
+// Lists the uniforms of a draw, or with NULL those of the frame. In a block, array elements begin at multiples of 16.
+static bool list_uniforms(const struct build *m, const struct frame_draw_range *range, const lam_shader_uniform **out,
+                          int *count)
 {
     struct glsl_row members[GLSL_ROWS_MAX];
-    size_t room = 0;
+    size_t capacity = 0;
     for (int i = 0; i < m->row_count; i++) {
         int fields = glsl_members(&m->facts, m->rows[i].type, members);
-        room += (size_t)(m->rows[i].count ? m->rows[i].count : 1) * (size_t)(fields ? fields : 1);
+        capacity += (size_t)(m->rows[i].count ? m->rows[i].count : 1) * (size_t)(fields ? fields : 1);
     }
-    struct telling t = {.out = arena_array(&m->shader->arena, room, sizeof *t.out)};
+    struct uniform_list t = {.out = arena_array(&m->shader->arena, capacity, sizeof *t.out)};
     if (!t.out)
         return false;
     for (int i = 0; i < m->row_count; i++) {
         const struct glsl_row *row = &m->rows[i];
-        if (is_of_draw(row->what) != (surface != NULL))
+        if (is_per_draw(row->semantic) != (range != NULL))
             continue;
         if (!row->block || !t.block || strcmp(row->block, t.block) != 0)
             t.end = 0;
@@ -295,7 +295,7 @@ static bool tell_uniforms(const struct making *m, const struct frame_draw_range 
             if (fields || row->count)
                 t.end = (t.end + 15) & ~15;
             for (int f = 0; f < (fields ? fields : 1); f++)
-                tell_leaf(m, &t, surface, row, fields ? &members[f] : NULL, k);
+                add_uniform(m, &t, range, row, fields ? &members[f] : NULL, k);
         }
         if (fields)
             t.end = (t.end + 15) & ~15;
@@ -305,19 +305,19 @@ static bool tell_uniforms(const struct making *m, const struct frame_draw_range 
     return !t.failed;
 }
 
-static bool tell_draws(const struct making *m, int object)
+static bool list_draws(const struct build *m, int object)
 {
     const struct frame *frame = &m->frame;
-    lam_shader *told = &m->shader->told;
-    lam_shader_draw *draws = arena_array(&m->shader->arena, (size_t)frame->surface_count, sizeof *draws);
+    lam_shader *result = &m->shader->result;
+    lam_shader_draw *draws = arena_array(&m->shader->arena, (size_t)frame->range_count, sizeof *draws);
     if (!draws)
         return false;
-    for (int i = 0; i < frame->surface_count; i++) {
-        const struct frame_draw_range *s = &frame->surfaces[i];
-        if (!is_meant(frame, s, object))
+    for (int i = 0; i < frame->range_count; i++) {
+        const struct frame_draw_range *s = &frame->ranges[i];
+        if (!is_selected(frame, s, object))
             continue;
         const struct frame_draw *draw = &frame->draws[s->draw];
-        lam_shader_draw *out = &draws[told->draw_count++];
+        lam_shader_draw *out = &draws[result->draw_count++];
         *out = (lam_shader_draw){.object = draw->object,
                                  .object_name = lam_scene_object(m->scene, draw->object)->name,
                                  .first_triangle = s->first_id - draw->first_id,
@@ -329,43 +329,43 @@ static bool tell_draws(const struct making *m, int object)
                                  .has_colors = draw->mesh->colors != NULL,
                                  .has_tangents = draw->mesh->tangents != NULL};
         memcpy(out->origin, draw->mesh->origin, sizeof out->origin);
-        if (!tell_uniforms(m, s, &out->uniforms, &out->uniform_count))
+        if (!list_uniforms(m, s, &out->uniforms, &out->uniform_count))
             return false;
     }
-    told->draws = draws;
+    result->draws = draws;
     return true;
 }
 
-static bool tell_attributes(const struct making *m)
+static bool list_attributes(const struct build *m)
 {
     struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX];
     int count = glsl_attributes(&m->facts, rows);
-    lam_shader *told = &m->shader->told;
+    lam_shader *result = &m->shader->result;
     lam_shader_attribute *out = arena_array(&m->shader->arena, (size_t)count, sizeof *out);
     for (int i = 0; out && i < count; i++)
         out[i] = (lam_shader_attribute){
             .name = rows[i].name, .type = rows[i].type, .location = rows[i].location, .meaning = rows[i].meaning};
-    told->attributes = out;
-    told->attribute_count = count;
+    result->attributes = out;
+    result->attribute_count = count;
     return out != NULL;
 }
 
-static bool tell_lists(const struct making *m)
+static bool list_textures(const struct build *m)
 {
     const struct glsl_choices *c = &m->choices;
-    lam_shader *told = &m->shader->told;
+    lam_shader *result = &m->shader->result;
     lam_shader_texture *lists = arena_array(&m->shader->arena, 2, sizeof *lists);
     if (!lists)
         return false;
-    told->textures = lists;
-    if (c->storage != GLSL_TEXTURE || (!m->facts.lights && !m->facts.skies))
+    result->textures = lists;
+    if (c->storage != GLSL_TEXTURE || (!m->facts.lights && !m->facts.hemispheres))
         return true;
     size_t bytes = glsl_lights_bytes(c), each = glsl_products_bytes(c), materials = (size_t)m->frame.material_count;
     float *values = arena_alloc(&m->shader->arena, bytes);
     if (!values)
         return false;
     glsl_pack_lights(c, &m->frame, values);
-    lists[told->texture_count++] =
+    lists[result->texture_count++] =
         (lam_shader_texture){.name = "light_list", .texels = (int)(bytes / 16), .values = values};
     if (!c->products)
         return true;
@@ -374,12 +374,12 @@ static bool tell_lists(const struct making *m)
         return false;
     for (size_t i = 0; i < materials; i++)
         glsl_pack_products(c, &m->frame, m->frame.materials[i], values + i * (each / sizeof *values));
-    lists[told->texture_count++] =
+    lists[result->texture_count++] =
         (lam_shader_texture){.name = "product_list", .texels = (int)(materials * each / 16), .values = values};
     return true;
 }
 
-static bool find_order(struct making *m)
+static bool order_lights(struct build *m)
 {
     const struct frame *frame = &m->frame;
     m->order = arena_array(&m->shader->arena, (size_t)frame->light_count + 1, sizeof *m->order);
@@ -392,7 +392,7 @@ static bool find_order(struct making *m)
     return m->order != NULL;
 }
 
-static bool make(struct making *m, const lam_camera *camera, const lam_draw_params *draw, int object,
+static bool make(struct build *m, const lam_camera *camera, const lam_draw_params *draw, int object,
                  const lam_shader_params *params, lam_error *error)
 {
     struct call_control call;
@@ -403,16 +403,16 @@ static bool make(struct making *m, const lam_camera *camera, const lam_draw_para
     static const lam_shader_lights storages[] = {[GLSL_ARRAY] = LAM_SHADER_LIGHTS_ARRAY,
                                                  [GLSL_BLOCK] = LAM_SHADER_LIGHTS_BLOCK,
                                                  [GLSL_TEXTURE] = LAM_SHADER_LIGHTS_TEXTURE};
-    lam_shader *told = &m->shader->told;
-    *told = (lam_shader){.glsl = params->glsl,
-                         .lights = storages[m->choices.storage],
-                         .products = m->choices.products,
-                         .vertex = m->shader->text.vertex,
-                         .fragment = m->shader->text.fragment,
-                         .flat = m->facts.shading == LAM_SHADING_FLAT};
-    if (!find_order(m) || !tell_attributes(m) || !tell_uniforms(m, NULL, &told->uniforms, &told->uniform_count) ||
-        !tell_draws(m, object) || !tell_lists(m))
-        return fail(error, LAM_LIMIT, "out of memory for the shader's numbers");
+    lam_shader *result = &m->shader->result;
+    *result = (lam_shader){.glsl = params->glsl,
+                           .lights = storages[m->choices.storage],
+                           .products = m->choices.products,
+                           .vertex = m->shader->text.vertex,
+                           .fragment = m->shader->text.fragment,
+                           .flat = m->facts.shading == LAM_SHADING_FLAT};
+    if (!order_lights(m) || !list_attributes(m) || !list_uniforms(m, NULL, &result->uniforms, &result->uniform_count) ||
+        !list_draws(m, object) || !list_textures(m))
+        return fail(error, LAM_LIMIT, "out of memory for the values of the uniforms");
     return true;
 }
 
@@ -433,28 +433,28 @@ lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, co
         return NULL;
     }
     if (!lam_output_is_light(draw->output)) {
-        fail(error, LAM_UNSUPPORTED, "a shader shows the picture, a term of it or a light; found %s",
-             lam_output_name(draw->output) ? lam_output_name(draw->output) : "a number that is no output");
+        fail(error, LAM_UNSUPPORTED, "shader: the output is %s, expected the picture, one of its terms or a light",
+             lam_output_name(draw->output) ? lam_output_name(draw->output) : "out of range");
         return NULL;
     }
     struct shader *shader = calloc(1, sizeof *shader);
-    struct making *making = calloc(1, sizeof *making);
-    if (!shader || !making) {
+    struct build *build = calloc(1, sizeof *build);
+    if (!shader || !build) {
         fail(error, LAM_LIMIT, "out of memory");
         free(shader);
-        free(making);
+        free(build);
         return NULL;
     }
     arena_start(&shader->arena, NULL);
-    *making = (struct making){.shader = shader, .scene = scene, .width = width, .height = height};
+    *build = (struct build){.shader = shader, .scene = scene, .width = width, .height = height};
     uint64_t state = float_state_enter();
-    bool ok = make(making, camera, draw, object, params ? params : &plain, error);
+    bool ok = make(build, camera, draw, object, params ? params : &plain, error);
     float_state_leave(state);
-    frame_free(&making->frame);
-    free(making);
+    frame_free(&build->frame);
+    free(build);
     if (ok)
-        return &shader->told;
-    lam_shader_free(&shader->told);
+        return &shader->result;
+    lam_shader_free(&shader->result);
     return NULL;
 }
 
@@ -462,8 +462,8 @@ void lam_shader_free(lam_shader *shader)
 {
     if (!shader)
         return;
-    struct shader *whole = (struct shader *)shader;
-    glsl_free(&whole->text);
-    arena_free(&whole->arena);
-    free(whole);
+    struct shader *owner = (struct shader *)shader;
+    glsl_free(&owner->text);
+    arena_free(&owner->arena);
+    free(owner);
 }

@@ -1,30 +1,30 @@
-// shader_preprocess.c: chooses a text's lines by flags and fills in its values.
+// shader_preprocess.c: selects the lines of a source by flags, and substitutes values.
 #include "shader_preprocess.h"
 
 #include "fail.h"
 
 #include <string.h>
 
-static void wrong(struct text *text, const char *what, const char *name, size_t length)
+static void report(struct text *text, const char *what, const char *name, size_t length)
 {
     if (!text->failed)
-        fail(&text->error, LAM_BAD_ARGUMENT, "shader template: %s '%.*s'", what, (int)length, name);
+        fail(&text->error, LAM_BAD_ARGUMENT, "shader source: %s '%.*s'", what, (int)length, name);
     text->failed = true;
 }
 
 static bool flag_is_on(struct text *text, const struct preprocess_words *words, const char *name, size_t length)
 {
-    bool turned = length && *name == '!';
-    name += turned;
-    length -= turned;
+    bool negated = length && *name == '!';
+    name += negated;
+    length -= negated;
     for (const struct preprocess_flag *f = words->flags; f && f->name; f++)
         if (strlen(f->name) == length && memcmp(f->name, name, length) == 0)
-            return f->on != turned;
-    wrong(text, "no flag is called", name, length);
+            return f->on != negated;
+    report(text, "unknown flag", name, length);
     return false;
 }
 
-// All names of a line of flags: true where one of them is.
+// Whether any flag of a line is on.
 static bool any_flag(struct text *text, const struct preprocess_words *words, const char *at, const char *end)
 {
     bool any = false;
@@ -48,7 +48,7 @@ static const char *value_of(const struct preprocess_words *words, const char *na
     return NULL;
 }
 
-// One line with its places filled.
+// Appends one line, with values substituted.
 static void add_line(struct text *text, const char *at, const char *end, const struct preprocess_words *words)
 {
     while (at < end) {
@@ -56,7 +56,7 @@ static void add_line(struct text *text, const char *at, const char *end, const s
             const char *close = memchr(at + 1, '@', (size_t)(end - at - 1));
             const char *value = close ? value_of(words, at + 1, (size_t)(close - at - 1)) : NULL;
             if (!value) {
-                wrong(text, "no value is called", at, close ? (size_t)(close - at + 1) : 20);
+                report(text, "unknown value", at, close ? (size_t)(close - at + 1) : 20);
                 return;
             }
             text_add(text, value);
@@ -64,7 +64,7 @@ static void add_line(struct text *text, const char *at, const char *end, const s
         } else if (at[0] == '$' && at[1] == '(') {
             const char *inner = at + 2, *close = memchr(inner, ')', (size_t)(end - inner));
             if (!close) {
-                wrong(text, "an open place", at, 20);
+                report(text, "missing ')' after", at, 20);
                 return;
             }
             int length = (int)(close - inner);
@@ -79,17 +79,17 @@ static void add_line(struct text *text, const char *at, const char *end, const s
     }
 }
 
-enum { DEPTH_MOST = 16 };
+enum { NESTING_MAX = 16 };
 
 void preprocess_add(struct text *text, const char *source, const struct preprocess_words *words)
 {
-    // For each open //@if: whether lines stand now, and whether a branch of it has stood.
-    bool on[DEPTH_MOST] = {true}, done[DEPTH_MOST] = {false};
+    // For each open //@if: whether lines are copied, and whether a branch has been taken.
+    bool on[NESTING_MAX] = {true}, done[NESTING_MAX] = {false};
     int depth = 0;
     while (*source && !text->failed) {
         size_t length = strcspn(source, "\n");
         const char *end = source + length;
-        if (strncmp(source, "//@if ", 6) == 0 && depth + 1 < DEPTH_MOST) {
+        if (strncmp(source, "//@if ", 6) == 0 && depth + 1 < NESTING_MAX) {
             bool is = any_flag(text, words, source + 6, end);
             depth++;
             on[depth] = on[depth - 1] && is;
@@ -103,12 +103,12 @@ void preprocess_add(struct text *text, const char *source, const struct preproce
         } else if (strncmp(source, "//@end", 6) == 0 && depth > 0) {
             depth--;
         } else if (strncmp(source, "//@", 3) == 0) {
-            wrong(text, "a line that is no direction:", source, length);
+            report(text, "unknown directive", source, length);
         } else if (on[depth]) {
             add_line(text, source, *end ? end + 1 : end, words);
         }
         source = *end ? end + 1 : end;
     }
     if (depth)
-        wrong(text, "an //@if is not ended", "", 0);
+        report(text, "missing //@end", "", 0);
 }

@@ -1,11 +1,11 @@
-// shader_preprocess.h: text with choices in it: lines that a flag lets through, and places that a value fills.
+// shader_preprocess.h: a preprocessor for shader sources.
 //
-//     //@if NAME …  //@elif NAME …  //@else …  //@end    lines that stand only where the flag is true;
-//     "!NAME" turns it; nest freely
-//     @NAME@                                           the value of that name
-//     $(X)       X, or where the flag `back_material` is true (front ? X : back_X)
+//     //@if NAME… //@elif NAME… //@else //@end    copies the lines of the first branch with a flag that is on;
+//                                                 !NAME negates a flag; branches nest
+//     @NAME@                                      the value of that name
+//     $(X)                                        X, or with the flag back_material (front ? X : back_X)
 //
-// A name that is in no table stops everything: a misspelt flag must not leave lines out in silence.
+// An unknown name is an error, so that a misspelt flag cannot drop lines silently.
 #ifndef SHADER_PREPROCESS_H
 #define SHADER_PREPROCESS_H
 
@@ -27,7 +27,7 @@ struct preprocess_words {
     const struct preprocess_value *values;
 };
 
-// Appends a template's lines.
+// Appends the preprocessed source. On an error `text` fails, with the error's sentence.
 void preprocess_add(struct text *text, const char *source, const struct preprocess_words *words);
 
 #endif

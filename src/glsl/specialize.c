@@ -1,4 +1,4 @@
-// specialize.c: decided branches and members that nobody reads go out of the equations' text.
+// specialize.c: removes branches with a known condition, and members that are never read, from the equations' text.
 #include "specialize.h"
 
 #include <string.h>
@@ -13,20 +13,20 @@ static size_t indent_of(const char *at) { return strspn(at, " "); }
 
 // --- branches
 
-// The row of the table for a line "if (…) {"; NULL: another line, or nothing decided.
-static const struct decided *look_up(const char *line, const char *end, const struct decided *decided)
+// Returns the table's row for a line "if (…) {"; NULL for other lines and unknown conditions.
+static const struct known_condition *look_up(const char *line, const char *end, const struct known_condition *known)
 {
     line += indent_of(line);
     size_t length = (size_t)(end - line);
     if (length < 8 || memcmp(line, "if (", 4) != 0 || memcmp(end - 4, ") {\n", 4) != 0)
         return NULL;
-    for (; decided->condition; decided++)
-        if (strlen(decided->condition) == length - 8 && memcmp(decided->condition, line + 4, length - 8) == 0)
-            return decided;
+    for (; known->condition; known++)
+        if (strlen(known->condition) == length - 8 && memcmp(known->condition, line + 4, length - 8) == 0)
+            return known;
     return NULL;
 }
 
-// The next line that begins with a brace under column `indent`.
+// Returns the next line that begins with a brace at column `indent`.
 static const char *closing(const char *at, const char *end, size_t indent)
 {
     while (at < end && !(indent_of(at) == indent && at[indent] == '}'))
@@ -34,13 +34,14 @@ static const char *closing(const char *at, const char *end, size_t indent)
     return at;
 }
 
-// `shift`: columns that the lines move to the left.
-static void resolve(struct text *text, const char *at, const char *end, const struct decided *decided, size_t shift)
+// Copies lines and resolves their branches; `shift` is the number of columns to remove from the indentation.
+static void resolve(struct text *text, const char *at, const char *end, const struct known_condition *known,
+                    size_t shift)
 {
     while (at < end) {
         const char *next = next_line(at, end);
         size_t indent = indent_of(at);
-        const struct decided *row = look_up(at, next, decided);
+        const struct known_condition *row = look_up(at, next, known);
         if (!row) {
             size_t off = indent < shift ? indent : shift;
             text_add_part(text, at + off, (size_t)(next - at) - off);
@@ -51,16 +52,16 @@ static void resolve(struct text *text, const char *at, const char *end, const st
         bool has_else = (size_t)(after - close) > indent + 2 && close[indent + 1] == ' ';
         const char *last = has_else ? closing(after, end, indent) : close;
         if (row->holds)
-            resolve(text, next, close, decided, shift + 4);
+            resolve(text, next, close, known, shift + 4);
         else if (has_else)
-            resolve(text, after, last, decided, shift + 4);
+            resolve(text, after, last, known, shift + 4);
         at = next_line(last, end);
     }
 }
 
-void simplify_conditions(struct text *text, const char *source, const struct decided *decided)
+void specialize_conditions(struct text *text, const char *source, const struct known_condition *known)
 {
-    resolve(text, source, source + strlen(source), decided, 0);
+    resolve(text, source, source + strlen(source), known, 0);
 }
 
 // --- members
@@ -85,7 +86,7 @@ static struct word word_at(const char *at, const char *end)
 
 static bool same(struct word a, struct word b) { return a.length == b.length && memcmp(a.at, b.at, a.length) == 0; }
 
-// The next word behind `at`, comments left out; of no length at the end.
+// Returns the next word from `at` on, outside comments; its length is 0 at the end.
 static struct word next_word(const char *at, const char *end)
 {
     while (at < end && !in_name(*at))
@@ -93,8 +94,8 @@ static struct word next_word(const char *at, const char *end)
     return word_at(at, end);
 }
 
-// Whether a variable is, or may be, of a struct: "TYPE VARIABLE" stands in the stretch.
-static bool is_of(const struct stretch *s, struct word variable, struct word type)
+// Whether a span declares a variable of a type: "TYPE VARIABLE".
+static bool is_of(const struct source_span *s, struct word variable, struct word type)
 {
     struct word before = {s->start, 0};
     for (struct word w = next_word(s->start, s->end); w.length; w = next_word(w.at + w.length, s->end)) {
@@ -105,22 +106,21 @@ static bool is_of(const struct stretch *s, struct word variable, struct word typ
     return false;
 }
 
-// The line of a use "variable.member" where all it does is to give that member a value: "variable.member = …;".
-static bool only_sets(const struct stretch *s, const char *variable, struct word member, struct stretch *line)
+// Whether a line only assigns to a member: "variable.member = …;". Returns the line.
+static bool only_sets(const struct source_span *s, const char *variable, struct word member, struct source_span *line)
 {
-    const char *start = variable, *end = next_line(variable, s->end), *behind = member.at + member.length;
+    const char *start = variable, *end = next_line(variable, s->end), *after_member = member.at + member.length;
     while (start > s->start && start[-1] == ' ')
         start--;
-    if ((start > s->start && start[-1] != '\n' && start[-1] != SIMPLIFY_GONE) || end - behind < 5 ||
-        memcmp(behind, " = ", 3) != 0 || memcmp(end - 2, ";\n", 2) != 0)
+    if ((start > s->start && start[-1] != '\n' && start[-1] != SPECIALIZE_ERASED) || end - after_member < 5 ||
+        memcmp(after_member, " = ", 3) != 0 || memcmp(end - 2, ";\n", 2) != 0)
         return false;
-    *line = (struct stretch){(char *)start, (char *)end};
+    *line = (struct source_span){(char *)start, (char *)end};
     return true;
 }
 
-// Goes through the uses of a struct's member in a stretch. True where one reads it; else, with `erase`, the
-// lines that set it go.
-static bool visit_uses(const struct stretch *s, struct word type, struct word member, bool erase)
+// Returns whether a span reads a struct's member. If none does, `erase` overwrites the lines that set the member.
+static bool visit_uses(const struct source_span *s, struct word type, struct word member, bool erase)
 {
     for (struct word w = next_word(s->start, s->end); w.length; w = next_word(w.at + w.length, s->end)) {
         if (!same(w, member) || w.at == s->start || w.at[-1] != '.')
@@ -128,53 +128,53 @@ static bool visit_uses(const struct stretch *s, struct word type, struct word me
         const char *dot = w.at - 1, *variable = dot;
         while (variable > s->start && in_name(variable[-1]))
             variable--;
-        if (variable == dot) { // of an element (no struct of src/lighting stands in a list), or of a call's result
+        if (variable == dot) { // of an array's element (no array holds structs of src/lighting), or of a call's result
             if (dot > s->start && dot[-1] == ']')
                 continue;
             return true;
         }
-        struct stretch line;
+        struct source_span line;
         if (!is_of(s, (struct word){variable, (size_t)(dot - variable)}, type))
             continue;
         if (!only_sets(s, variable, w, &line))
             return true;
         if (erase)
-            memset(line.start, SIMPLIFY_GONE, (size_t)(line.end - line.start));
+            memset(line.start, SPECIALIZE_ERASED, (size_t)(line.end - line.start));
     }
     return false;
 }
 
-static bool is_read(const struct stretch *stretches, int count, struct word type, struct word member)
+static bool is_read(const struct source_span *spans, int count, struct word type, struct word member)
 {
     for (int i = 0; i < count; i++)
-        if (visit_uses(&stretches[i], type, member, false))
+        if (visit_uses(&spans[i], type, member, false))
             return true;
     return false;
 }
 
-bool simplify_members(const struct stretch *stretches, int count)
+bool specialize_members(const struct source_span *spans, int count)
 {
     bool changed = false;
     for (int i = 0; i < count; i++) {
-        const struct stretch *s = &stretches[i];
+        const struct source_span *s = &spans[i];
         if (s->end - s->start < 8 || memcmp(s->start, "STRUCT(", 7) != 0)
             continue;
         struct word type = word_at(s->start + 7, s->end);
-        int left = 0; // lines of members; the last one stays: GLSL has no struct without any
+        int left = 0; // lines of members; the last one stays, because a GLSL struct cannot be empty
         for (const char *at = s->start; at < s->end; at = next_line(at, s->end))
             left += at[strspn(at, "\1")] == ' ';
         for (const char *at = s->start, *next; at < s->end; at = next) {
-            while (at < s->end && *at == SIMPLIFY_GONE)
+            while (at < s->end && *at == SPECIALIZE_ERASED)
                 at++;
             next = next_line(at, s->end);
-            if (at == s->end || *at != ' ') // a member alone in its line is "    TYPE NAME;"
+            if (at == s->end || *at != ' ') // a line with one member is "    TYPE NAME;"
                 continue;
             struct word first = next_word(at, next), name = next_word(first.at + first.length, next);
-            if (left == 1 || !name.length || name.at[name.length] != ';' || is_read(stretches, count, type, name))
+            if (left == 1 || !name.length || name.at[name.length] != ';' || is_read(spans, count, type, name))
                 continue;
             for (int k = 0; k < count; k++)
-                visit_uses(&stretches[k], type, name, true);
-            memset((char *)at, SIMPLIFY_GONE, (size_t)(next - at));
+                visit_uses(&spans[k], type, name, true);
+            memset((char *)at, SPECIALIZE_ERASED, (size_t)(next - at));
             changed = true;
             left--;
         }

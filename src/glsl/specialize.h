@@ -1,31 +1,30 @@
-// specialize.h: takes out of the equations' text what a choice has decided, so that a reader of a printed
-// shader finds no branch that is never taken and no number that nobody looks at.
+// specialize.h: removes from the equations' text the branches that a choice never takes and the members that are never
+// read, so that a printed shader has neither.
 //
-// It knows the shape that the formatter gives src/lighting, no more of C than that: an `if` with its brace
-// ends its line, and its closing brace stands under it.
+// The text must have the layout that the formatter gives src/lighting: an `if` ends its line with the opening brace, and
+// the closing brace is in the same column as the `if`.
 #ifndef SPECIALIZE_H
 #define SPECIALIZE_H
 
 #include "shader_preprocess.h"
 
-// The condition of an `if`, as it stands between the brackets. A table ends with NULL.
-struct decided {
+// The condition of an `if`, as written between the parentheses, and its value. A table ends with NULL.
+struct known_condition {
     const char *condition;
     bool holds;
 };
 
-// Appends a text in which each `if` that is decided is replaced by what follows from it.
-void simplify_conditions(struct text *text, const char *source, const struct decided *decided);
+// Appends `source`, with each `if` whose condition is known replaced by the branch taken.
+void specialize_conditions(struct text *text, const char *source, const struct known_condition *known);
 
-// A stretch of text: the definition of a function or struct of src/lighting, or code that uses them.
-struct stretch {
+// The definition of a function or struct of src/lighting, or code that uses them.
+struct source_span {
     char *start, *end;
 };
 
-// Members of structs (STRUCT(name), one member a line) that no stretch reads go, and with them the lines that
-// only give them a value. What goes is overwritten with SIMPLIFY_GONE. Returns whether anything went; what
-// was needed for that alone may then go in another round.
-enum { SIMPLIFY_GONE = 1 };
-bool simplify_members(const struct stretch *stretches, int count);
+// Overwrites with SPECIALIZE_ERASED the members of structs (STRUCT(name), one member a line) that no span reads, and the
+// lines that only set them. Returns whether any was erased; another call may then erase more.
+enum { SPECIALIZE_ERASED = 1 };
+bool specialize_members(const struct source_span *spans, int count);
 
 #endif

@@ -2,7 +2,7 @@
 void main()
 {
     gl_Position = model_view_projection * vec4(position, 1.0);
-//@if numbers
+//@if triangle_ids
     triangle = gl_VertexID / 3;
 //@end
 //@if per_fragment
@@ -15,7 +15,7 @@ void main()
 //@if passes_tangent
     eye_tangent = unit3(mat3(model_view) * tangent);
 //@end
-//@if colors
+//@if vertex_colors
     tint = color;
 //@end
 //@elif application
@@ -32,7 +32,7 @@ void main()
     vec3 t = unit3(mat3(model_view) * tangent);
 //@end
 //@if two_sided
-    // Both sides are lit; the fragment takes the one that is seen.
+    // Both sides are lit; the fragment shader selects the visible one.
 //@end
     front_light = light_point(@front_arguments@);
 //@if two_sided

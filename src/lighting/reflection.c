@@ -1,4 +1,4 @@
-// reflection.c: the reflection models in words, from the table in src/lighting/lobes.h.
+// reflection.c: lam_reflection_describe: names and descriptions of the reflection models (src/lighting/lobes.h).
 #define LANES 1
 #include "lighting.h"
 

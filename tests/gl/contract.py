@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""contract.py PROGRAM [--every N] [CASE...]: a program that knows only what `lambent shader` prints draws the picture that `lambent` draws.
+"""contract.py PROGRAM [--every N] [CASE...]: the shaders and the C code of `lambent shader` draw the picture of `lambent`.
 
-For each case the printed C code is compiled into contract_host.c, which links nothing of lambent, and its picture is compared
-with the CPU's at one sample a pixel: at least 99.9 % of the pixels within 1/255, and none off by more than 2/255 but where the
-3x3 pixels around show an edge: of the model, of an object, of a side, or of a light's cone, or where a light begins to shine
-(n.l = 0). Skipped with a sentence where there is no compiler, no EGL or no OpenGL.
+For each case the printed C code is compiled into contract_host.c, which does not link lambent. The test compares its picture
+with the CPU device's at one sample a pixel: at least 99.9 % of the pixels differ by at most 1/255; a pixel may differ by more
+than 2/255 only if its 3x3 neighbourhood contains an edge of the model, an object, a side or a light's cone, or the line n.l = 0
+of a light. Without a compiler, EGL or OpenGL the cases are skipped, with a sentence.
 """
 import json
 import math
@@ -26,7 +26,7 @@ from harness import read_png  # noqa: E402
 SIZE = 128
 
 
-# --- the model: a ring and a bowl, with normals; what an author would have in his own program
+# --- the model: a ring and a bowl, with normals
 
 def cross(a, b):
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
@@ -42,12 +42,12 @@ def rounded(values):
 
 
 def decoded(x):
-    """An sRGB channel, as colours in files are, in linear light."""
+    """Decodes an sRGB channel to linear light."""
     return ((x + 0.055) / 1.055) ** 2.4 if x > 0.04045 else x / 12.92
 
 
 def grid(columns, rows, point):
-    """Positions and normals of a surface, and its triangles."""
+    """Returns the positions and normals of a surface, and its triangles."""
     points = [point(i / columns, j / rows) for j in range(rows + 1) for i in range(columns + 1)]
     triangles = []
     for j in range(rows):
@@ -64,7 +64,7 @@ def ring(u, v):
 
 
 def bowl(u, v):
-    """Seen from both sides; its normals point down."""
+    """Visible from both sides; its normals point down."""
     x, z = 2.4 * u - 1.2, 1.2 - 2.4 * v
     return [x, 0.5 * (x * x + z * z) - 0.6, z], unit([x, -1, z])
 
@@ -97,7 +97,7 @@ class Model:
 
 
 def vertices(model, contract, front):
-    """The buffer that the contract's attributes ask for. `front` are the application's own colours."""
+    """Returns the vertex buffer with the contract's attributes. `front` computes the colours of the stage application."""
     names = [a["name"] for a in contract["attributes"]]
     old_flat = contract["flat"] and contract["glsl"] == "120"
     out = bytearray()
@@ -113,7 +113,7 @@ def vertices(model, contract, front):
     return bytes(out)
 
 
-# --- surroundings: six small pictures, and the same as floats
+# --- the environment: six small pictures, and the same texels as floats
 
 def write_png(path, side, pixel):
     raw = b"".join(b"\0" + b"".join(bytes(pixel(x, y)) for x in range(side)) for y in range(side))
@@ -147,7 +147,7 @@ def run(words, **more):
 
 
 def edges(picture):
-    """Pixels whose 3x3 neighbourhood is not of one colour."""
+    """Returns the pixels whose 3x3 neighbourhood has more than one colour."""
     width, height, data = picture
     rows = [[data[4 * (y * width + x):4 * (y * width + x) + 4] for x in range(width)] for y in range(height)]
     return {(x, y) for y in range(height) for x in range(width)
@@ -163,7 +163,7 @@ def picture(folder, model, words):
 
 
 def mask_of(folder, model, words, lights):
-    """Edges of the model and its sides; where a light's n.l is about 0; and of cones (the light's own diffuse term goes black)."""
+    """Returns the pixels at edges of the model and its sides, and where the light of one lamp begins: at n.l = 0 and at cones."""
     geometry = [w for w in words]
     mask = edges(picture(folder, model, geometry + ["--show", "facing"]))
     depth = picture(folder, model, geometry + ["--show", "depth"])
@@ -201,7 +201,7 @@ def draw(folder, name, model, words, shader_words, cube):
     kd = [(0.8, 0.3, 0.2), (0.2, 0.4, 0.8)]
     count = [0]
 
-    def front(color):  # the application's own light: here the colour as it is, times the material's
+    def front(color):  # lit by the application: the vertex colour times the material's
         index = 0 if count[0] < 3 * 2 * 40 * 20 * 2 else 1
         count[0] += 1
         return [a * decoded(b) for a, b in zip(color[:3], kd[index])] + [1.0]
@@ -216,7 +216,7 @@ def draw(folder, name, model, words, shader_words, cube):
 
 
 def compare(folder, model, words, lights, drawn):
-    """Returns the share of pixels within 1/255, and the pixels beyond 2/255 outside of the mask."""
+    """Returns the fraction of pixels within 1/255, the number of pixels beyond 2/255, and those of them outside the mask."""
     width, height, wanted = picture(folder, model, words)
     far, within = [], 0
     for i in range(width * height):
@@ -237,7 +237,7 @@ LIGHTS = ["--light", "point:position=2/2/3,color=#ffeedd,attenuation=1/0.1/0.02"
           "--light", "spot:position=0/3/1,target=0/0/0,cutoff=24,exponent=4,color=0.2/0.9/0.3", "--light",
           "spot:position=-2/2/2,target=0/0/0,inner=10,outer=22,range=9,color=0.3/0.4/1", "--light",
           "spot:position=2/1/-3,target=0/0/0,exponent=20,color=0.9/0.5/0.2", "--light", "hemisphere:sky=0.1/0.1/0.2,ground=0.05/0.03/0"]
-# Name, words of both, words of the shader, whether vertex colours, surroundings.
+# Name, options of both commands, options of `lambent shader`, model, environment.
 CASES = [
     ("block", [], ["--glsl", "330"]),
     ("block-lights", LIGHTS, ["--glsl", "330"]),
@@ -307,16 +307,16 @@ def main():
             print("ok %d - %s # SKIP %s" % (number, name, missing), flush=True)
             continue
         model = models[case[3] if len(case) > 3 else "plain"]
-        surroundings = cube if len(case) > 4 else None
-        if surroundings:
-            words = words + ["--environment", surroundings[0]]
+        environment = cube if len(case) > 4 else None
+        if environment:
+            words = words + ["--environment", environment[0]]
         try:
-            drawn = draw(folder, name, model, words, shader_words, surroundings)
+            drawn = draw(folder, name, model, words, shader_words, environment)
             within, far, outside = compare(folder, model, [w for w in words], words.count("--light") or 4, drawn)
             ok = within >= 0.999 and not outside
             note = "%.3f %% within 1/255, %d beyond 2/255" % (100 * within, far)
             if outside:
-                note += ", outside of edges: %s" % outside[:8]
+                note += ", away from edges: %s" % outside[:8]
         except Skip as reason:
             missing = reason
             print("ok %d - %s # SKIP %s" % (number, name, reason), flush=True)
@@ -326,7 +326,7 @@ def main():
         failed += not ok
         print("%s %d - %s: %s" % ("ok" if ok else "not ok", number, name, note.replace("\n", "\n# ")), flush=True)
     if failed:
-        print("# what was drawn is kept in %s" % folder)
+        print("# the pictures are in %s" % folder)
     else:
         shutil.rmtree(folder)
     return 1 if failed else 0

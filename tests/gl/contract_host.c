@@ -1,11 +1,10 @@
-// contract_host.c: a program of another author: draws with shaders and code that `lambent shader` printed, in
-// a context without a window, and knows nothing of lambent. contract.py compiles it with -DHOST="NAME.c" and
-// writes its input.
+// contract_host.c: a program that draws with the shaders and the C code printed by `lambent shader`, in a context without a
+// window, and does not link lambent. contract.py compiles it with -DHOST="NAME.c" and writes its input.
 //
 //     contract_host VERSION WIDTH HEIGHT NAME.vert NAME.frag VERTICES PICTURE [CUBE SIDE]
 //
-// VERTICES holds struct vertex, three for each triangle; PICTURE gets RGBA bytes, top row first; CUBE holds
-// six faces of SIDE x SIDE times three floats. Exits with 77 and a sentence where there is no OpenGL.
+// VERTICES is an array of struct vertex, three for each triangle; the program writes PICTURE as RGBA bytes, top row first;
+// CUBE is six faces of SIDE x SIDE texels of three floats. Without OpenGL the program prints a sentence and exits with 77.
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -37,9 +36,9 @@ static void *read_whole(const char *path, size_t *size)
     return bytes;
 }
 
-static void no_gl(const char *what)
+static void no_gl(const char *reason)
 {
-    printf("%s\n", what);
+    printf("%s\n", reason);
     exit(77);
 }
 
@@ -58,7 +57,7 @@ static void make_context(const char *version)
     EGLContext context;
     EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, NULL, NULL))
-        no_gl("EGL has no display without a window here (package libegl-mesa0)");
+        no_gl("EGL has no surfaceless display (package libegl-mesa0)");
     if (!eglBindAPI(es ? EGL_OPENGL_ES_API : EGL_OPENGL_API) ||
         !eglChooseConfig(display, attributes, &config, 1, &count) || !count)
         no_gl("EGL has no configuration for this API (package libgl1-mesa-dri)");
@@ -83,7 +82,7 @@ static void make_target(int width, int height)
     glViewport(0, 0, width, height);
 }
 
-// The cube map of the contract: bilinear, seamless, no mipmaps.
+// Makes the cube map as the contract requires: bilinear, seamless, no mipmaps.
 static void make_cube(const char *path, int side, int es)
 {
     size_t size;

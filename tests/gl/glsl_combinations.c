@@ -1,4 +1,4 @@
-// glsl_combinations.c: the choices that the shader tests go through.
+// glsl_combinations.c: enumerates the choices for the shader tests.
 #include "glsl_combinations.h"
 
 #include <string.h>
@@ -15,15 +15,15 @@ static void call(struct visitor *v, const struct glsl_choices *choices)
     v->count++;
 }
 
-static const struct way {
+static const struct method {
     lam_shading shading;
     lam_stage stage;
-} ways[] = {
+} methods[] = {
     {LAM_SHADING_PHONG, LAM_STAGE_FRAGMENT},   {LAM_SHADING_GOURAUD, LAM_STAGE_VERTEX},
     {LAM_SHADING_FLAT, LAM_STAGE_VERTEX},      {LAM_SHADING_FLAT, LAM_STAGE_FRAGMENT},
     {LAM_SHADING_FLAT, LAM_STAGE_APPLICATION}, {LAM_SHADING_GOURAUD, LAM_STAGE_APPLICATION},
 };
-enum { WAYS = sizeof ways / sizeof *ways };
+enum { METHODS = sizeof methods / sizeof *methods };
 
 static void every_light(struct glsl_choices *c)
 {
@@ -35,16 +35,16 @@ static void every_light(struct glsl_choices *c)
     c->hemisphere_count = 2;
 }
 
-// What does not depend on the rest.
+// Varies one independent choice at a time.
 static void single_choices(struct visitor *v, const struct glsl_choices *base)
 {
-    for (int show = LAM_OUTPUT_PICTURE; show < LAM_OUTPUT_COUNT; show++) {
+    for (int output = LAM_OUTPUT_PICTURE; output < LAM_OUTPUT_COUNT; output++) {
         struct glsl_choices c = *base;
-        c.show = (lam_output)show;
-        if (show != LAM_OUTPUT_IDS || c.version != GLSL_120)
+        c.output = (lam_output)output;
+        if (output != LAM_OUTPUT_IDS || c.version != GLSL_120)
             call(v, &c);
         c.reflection = LAM_REFLECTION_NONE;
-        if (show != LAM_OUTPUT_IDS || c.version != GLSL_120)
+        if (output != LAM_OUTPUT_IDS || c.version != GLSL_120)
             call(v, &c);
     }
     static const int some[] = {0, 1, 2, 4, 8, 16, 32, 63};
@@ -56,7 +56,7 @@ static void single_choices(struct visitor *v, const struct glsl_choices *base)
         c.colors = bits & 4;
         c.exposes = bits & 4;
         c.tangents = bits & 8;
-        c.output = bits & 16 ? GLSL_PREMULTIPLIED : GLSL_STRAIGHT;
+        c.encoding = bits & 16 ? GLSL_PREMULTIPLIED : GLSL_STRAIGHT;
         if (bits & 32)
             c.environment = c.version == GLSL_120 ? GLSL_CUBE : GLSL_FACES;
         call(v, &c);
@@ -65,7 +65,7 @@ static void single_choices(struct visitor *v, const struct glsl_choices *base)
         call(v, &c);
         c.reflection = LAM_REFLECTION_NONE;
         call(v, &c);
-        memset(c.groups, 0, sizeof c.groups); // nothing but light from everywhere
+        memset(c.groups, 0, sizeof c.groups); // ambient light and hemispheres only
         c.group_count = c.light_count = 0;
         c.reflection = LAM_REFLECTION_BLINN_PHONG;
         call(v, &c);
@@ -79,14 +79,14 @@ int glsl_combinations(void (*visit)(void *user, const struct glsl_choices *choic
     struct visitor v = {visit, user, 0};
     for (int version = GLSL_120; version <= GLSL_300_ES; version++)
         for (int storage = GLSL_ARRAY; storage <= (version == GLSL_120 ? GLSL_ARRAY : GLSL_TEXTURE); storage++)
-            for (int way = 0; way < WAYS; way++)
+            for (int method = 0; method < METHODS; method++)
                 for (int products = 0; products < 2; products++) {
                     struct glsl_choices base;
                     memset(&base, 0, sizeof base);
                     base.version = (enum glsl_version)version;
                     base.storage = (enum glsl_storage)storage;
-                    base.shading = ways[way].shading;
-                    base.stage = ways[way].stage;
+                    base.shading = methods[method].shading;
+                    base.stage = methods[method].stage;
                     base.products = products;
                     every_light(&base);
                     for (int model = LAM_REFLECTION_NONE; model < LAM_REFLECTION_COUNT; model++)

@@ -1,12 +1,11 @@
-// glsl_combinations.h: the choices that the shader tests go through.
+// glsl_combinations.h: enumerates the choices for the shader tests.
 #ifndef GLSL_COMBINATIONS_H
 #define GLSL_COMBINATIONS_H
 
 #include "glsl.h"
 
-// Calls `visit` for every version, storage, stage, shading, model, form of the uniforms and sidedness that go
-// together, with lights of every kind; then for what is independent of those, one by one. Returns the number
-// of calls.
+// Calls `visit` for every valid combination of version, storage, stage, shading, reflection model, form of the uniforms and
+// number of sides, with lights of every kind; then varies each of the other choices alone. Returns the number of calls.
 int glsl_combinations(void (*visit)(void *user, const struct glsl_choices *choices), void *user);
 
 #endif

@@ -1,5 +1,5 @@
-// test_caller.c: the OpenGL device in the caller's own context, through the caller's get_proc_address, which
-// counts: each material of a mesh is one draw call, and the caller's state is as it was.
+// test_caller.c: the OpenGL device in the caller's context. The caller's get_proc_address counts draw calls: one for each
+// material of a mesh. A draw restores the caller's state.
 #include "context.h"
 #include "scenes.h"
 
@@ -40,7 +40,7 @@ static lam_gl_function counting(void *user, const char *name)
     return context.egl.GetProcAddress(name);
 }
 
-static struct gl_previous previous;
+static struct gl_previous_context previous;
 
 static lam_device *start(enum gl_profile profile)
 {
@@ -72,7 +72,7 @@ static void build(const char *name, struct demo *demo)
         fail_msg("%s", error.text);
 }
 
-// Parts that take turns with their materials are one draw call for each.
+// A mesh whose parts alternate between materials has one draw call for each material.
 static void test_one_call(void **state)
 {
     (void)state;
@@ -113,10 +113,10 @@ static void test_one_call(void **state)
     lam_view view = {.from_angles = true};
     demo.camera = lam_camera_fit(demo.scene, 64, 64, &view);
     lam_device *cpu = lam_device_cpu(NULL, &error);
-    for (int way = 0; way < 5; way++) {
+    for (int method = 0; method < 5; method++) {
         lam_draw_params params = {.samples = 1};
-        params.shading = way == 0 ? LAM_SHADING_PHONG : way < 3 ? LAM_SHADING_GOURAUD : LAM_SHADING_FLAT;
-        params.stage = way == 1 || way == 3 ? LAM_STAGE_APPLICATION : LAM_STAGE_AUTO;
+        params.shading = method == 0 ? LAM_SHADING_PHONG : method < 3 ? LAM_SHADING_GOURAUD : LAM_SHADING_FLAT;
+        params.stage = method == 1 || method == 3 ? LAM_STAGE_APPLICATION : LAM_STAGE_AUTO;
         lam_image a = {0}, b = {0};
         lam_difference difference;
         assert_true(lam_image_make(&a, 64, 64, LAM_RGBA8, &error) && lam_image_make(&b, 64, 64, LAM_RGBA8, &error));
@@ -139,36 +139,36 @@ static void test_one_call(void **state)
     stop(device);
 }
 
-// State that a caller may have set, as it can be asked for.
-static const GLenum asked[] = {GL_CURRENT_PROGRAM,
-                               GL_VERTEX_ARRAY_BINDING,
-                               GL_DRAW_FRAMEBUFFER_BINDING,
-                               GL_READ_FRAMEBUFFER_BINDING,
-                               GL_ACTIVE_TEXTURE,
-                               GL_ARRAY_BUFFER_BINDING,
-                               GL_UNIFORM_BUFFER_BINDING,
-                               GL_DEPTH_FUNC,
-                               GL_CULL_FACE_MODE,
-                               GL_FRONT_FACE,
-                               GL_BLEND_SRC_RGB,
-                               GL_BLEND_DST_ALPHA,
-                               GL_BLEND_EQUATION_RGB,
-                               GL_DEPTH_WRITEMASK,
-                               GL_UNPACK_ALIGNMENT,
-                               GL_PACK_ROW_LENGTH,
-                               GL_PIXEL_PACK_BUFFER_BINDING};
+// State that a caller may have set and that OpenGL can be queried for.
+static const GLenum queried[] = {GL_CURRENT_PROGRAM,
+                                 GL_VERTEX_ARRAY_BINDING,
+                                 GL_DRAW_FRAMEBUFFER_BINDING,
+                                 GL_READ_FRAMEBUFFER_BINDING,
+                                 GL_ACTIVE_TEXTURE,
+                                 GL_ARRAY_BUFFER_BINDING,
+                                 GL_UNIFORM_BUFFER_BINDING,
+                                 GL_DEPTH_FUNC,
+                                 GL_CULL_FACE_MODE,
+                                 GL_FRONT_FACE,
+                                 GL_BLEND_SRC_RGB,
+                                 GL_BLEND_DST_ALPHA,
+                                 GL_BLEND_EQUATION_RGB,
+                                 GL_DEPTH_WRITEMASK,
+                                 GL_UNPACK_ALIGNMENT,
+                                 GL_PACK_ROW_LENGTH,
+                                 GL_PIXEL_PACK_BUFFER_BINDING};
 static const GLenum switched[] = {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST};
 enum {
-    ASKED = sizeof asked / sizeof *asked,
+    QUERIED = sizeof queried / sizeof *queried,
     SWITCHED = sizeof switched / sizeof *switched,
-    ANSWERS = ASKED + SWITCHED + 8
+    VALUES = QUERIED + SWITCHED + 8
 };
 
-static void ask(const struct gl *gl, GLint out[ANSWERS])
+static void query(const struct gl *gl, GLint out[VALUES])
 {
     int n = 0;
-    for (int i = 0; i < ASKED; i++)
-        gl->GetIntegerv(asked[i], &out[n++]);
+    for (int i = 0; i < QUERIED; i++)
+        gl->GetIntegerv(queried[i], &out[n++]);
     for (int i = 0; i < SWITCHED; i++)
         out[n++] = gl->IsEnabled(switched[i]);
     gl->GetIntegerv(GL_VIEWPORT, &out[n]);
@@ -217,8 +217,8 @@ static void test_callers_state(void **state)
         gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
         if (profile != GL_PROFILE_ES)
             gl->PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-        GLint before[ANSWERS], after[ANSWERS];
-        ask(gl, before);
+        GLint before[VALUES], after[VALUES];
+        query(gl, before);
         lam_error error = {0};
         lam_device *cpu = lam_device_cpu(NULL, &error);
         static const char *const names[] = {"translucent", "mirror-sky"};
@@ -236,10 +236,10 @@ static void test_callers_state(void **state)
                 assert_true(lam_draw(cpu, demo.scene, &demo.camera, &params, &b, NULL, &error));
                 assert_true(lam_image_compare(&a, &b, &difference, &error));
                 assert_true(difference.share_over_1 <= 0.001);
-                ask(gl, after);
-                for (int i = 0; i < ANSWERS; i++)
+                query(gl, after);
+                for (int i = 0; i < VALUES; i++)
                     if (before[i] != after[i])
-                        fail_msg("profile %d: state %d was %d and is %d", profile, i, before[i], after[i]);
+                        fail_msg("profile %d: state %d is %d, expected %d", profile, i, after[i], before[i]);
             }
             lam_image_free(&a);
             lam_image_free(&b);

@@ -1,5 +1,5 @@
-// test_context.c: OpenGL found at run time: contexts of each profile, the caller's context left as it was,
-// and what is said where a library, a function or a device is missing.
+// test_context.c: OpenGL at run time: contexts of each profile, the caller's context restored, and the errors for a missing
+// library, function or device.
 #include "context.h"
 
 #include <setjmp.h>
@@ -31,11 +31,11 @@ static void test_profiles(void **state)
         assert_int_equal(context.es, profile == GL_PROFILE_ES);
         assert_true(context.major >= 3 || profile == GL_PROFILE_COMPATIBILITY);
         assert_true(context.egl.GetCurrentContext() == EGL_NO_CONTEXT);
-        struct gl_previous previous;
+        struct gl_previous_context previous;
         lam_error error = {0};
         assert_true(gl_context_enter(&context, &previous, &error));
         assert_true(context.egl.GetCurrentContext() == context.context);
-        // What only a compatibility profile has.
+        // Only a compatibility profile has matrix stacks.
         while (context.gl.GetError() != GL_NO_ERROR)
             ;
         if (profile != GL_PROFILE_ES) {
@@ -48,12 +48,12 @@ static void test_profiles(void **state)
     }
 }
 
-// A context that is current stays it while another one is made, used and freed.
+// A current context stays current while another is made, used and freed.
 static void test_nested(void **state)
 {
     (void)state;
     struct gl_context outer, inner;
-    struct gl_previous before, between;
+    struct gl_previous_context before, between;
     lam_error error = {0};
     make_or_skip(&outer, GL_PROFILE_ES, false);
     assert_true(gl_context_enter(&outer, &before, &error));
@@ -73,7 +73,7 @@ static void test_debug_messages(void **state)
 {
     (void)state;
     struct gl_context context;
-    struct gl_previous previous;
+    struct gl_previous_context previous;
     lam_error error = {0};
     make_or_skip(&context, GL_PROFILE_CORE, true);
     assert_true(gl_context_enter(&context, &previous, &error));
@@ -82,7 +82,7 @@ static void test_debug_messages(void **state)
     assert_int_equal(context.messages.errors, 1);
     assert_false(gl_messages_clean(&context, "the test", &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
-    assert_non_null(strstr(error.text, "the test: the driver tells of 1 errors"));
+    assert_non_null(strstr(error.text, "the test: the driver reports 1 errors"));
     gl_context_leave(&context, &previous);
     gl_context_free(&context);
 }
@@ -96,7 +96,7 @@ static void test_missing(void **state)
     assert_int_equal(error.code, LAM_UNSUPPORTED);
     assert_non_null(strstr(error.text, "libNoSuchEGL.so.1"));
     assert_non_null(strstr(error.text, "apt install libegl1"));
-    // A library that is none of EGL.
+    // A library other than EGL.
     assert_false(gl_context_make(&context, "libc.so.6", NULL, GL_PROFILE_CORE, false, &error));
     assert_non_null(strstr(error.text, "has no function eglBindAPI"));
     lam_gl_params params = {.library = "libNoSuchEGL.so.1"};
@@ -123,7 +123,7 @@ static void test_devices(void **state)
         assert_true(list[i].usable ? list[i].name[0] && list[i].versions[0] && !list[i].reason[0]
                                    : list[i].reason[0] != 0);
         usable += list[i].usable;
-        assert_true(list[i].software || !software || !list[i].usable); // hardware stands first
+        assert_true(list[i].software || !software || !list[i].usable); // hardware comes first
         software |= list[i].software;
     }
     struct gl_context context;

@@ -1,6 +1,5 @@
-// test_device.c: the OpenGL device beyond its pictures of the table: the three stages, exponents up to 1000,
-// more lights than a uniform block holds, pictures in parts, several samples, what is sent in a frame, and
-// the caller's own context.
+// test_device.c: the OpenGL device against the CPU device beyond the demonstration scenes: the three stages, all outputs,
+// exponents up to 1000, more lights than a uniform block holds, pictures in parts, several samples, limits.
 #include "context.h"
 #include "scenes.h"
 
@@ -46,7 +45,7 @@ static lam_image draw(lam_device *device, const struct demo *demo, const lam_dra
     return image;
 }
 
-// How far the two devices are apart: the share of pixels by more than 1/255, and the largest difference in floats.
+// Difference between the two devices: fraction of pixels that differ by more than 1/255, and largest difference in floats.
 struct apart {
     double share, floats;
 };
@@ -74,8 +73,8 @@ static struct apart compare(lam_device *gl, const struct demo *demo, const lam_d
     return out;
 }
 
-// Shading methods and the stages that they go with, under every reflection model: all of it in two scenes,
-// and a sixth of it in others, each time another.
+// Every shading method and stage with every reflection model: all combinations in one scene, and a different sixth of them in
+// each of the others.
 static void test_stages(void **state)
 {
     static const struct {
@@ -106,7 +105,7 @@ static void test_stages(void **state)
                     double share = compare(gl, &demo, &params).share;
                     worst = share > worst ? share : worst;
                     if (share > 0.001)
-                        fail_msg("%s: shading %d, stage %d, model %d, gl1 %d: %g of the pixels are off by "
+                        fail_msg("%s: shading %d, stage %d, model %d, gl1 %d: %g of the pixels differ by "
                                  "more than 1/255",
                                  names[n], params.shading, params.stage, model, gl1, share);
                 }
@@ -116,7 +115,7 @@ static void test_stages(void **state)
     lam_device_free(gl);
 }
 
-// Terms and numbers of the surfaces; in light with each shading method, and where surfaces are translucent.
+// Every output: with each shading method in an opaque scene, and in a translucent scene.
 static void test_shows(void **state)
 {
     (void)state;
@@ -133,7 +132,7 @@ static void test_shows(void **state)
                 params.shading = (lam_shading)shading;
                 double share = compare(gl, &demo, &params).share;
                 if (share > 0.001)
-                    fail_msg("%s, %s: shading %d: %g of the pixels are off by more than 1/255", names[n],
+                    fail_msg("%s, %s: shading %d: %g of the pixels differ by more than 1/255", names[n],
                              lam_output_name(params.output), shading, share);
             }
         lam_scene_free(demo.scene);
@@ -141,13 +140,13 @@ static void test_shows(void **state)
     lam_device_free(gl);
 }
 
-// A highlight's last bits count a thousandfold.
+// The exponent multiplies rounding errors by up to 1000.
 static void test_sharp_highlights(void **state)
 {
     (void)state;
     lam_device *gl = device_or_skip(LAM_GL_CORE);
     struct demo demo;
-    build("inside", &demo); // no silhouette: every pixel counts
+    build("inside", &demo); // no silhouette: all pixels are compared
     lam_error error = {0};
     for (int shininess = 1; shininess <= 1000; shininess *= 10)
         for (int model = LAM_REFLECTION_NONE; model < LAM_REFLECTION_COUNT; model++) {
@@ -169,7 +168,7 @@ static void test_sharp_highlights(void **state)
     lam_device_free(gl);
 }
 
-// The lists go into textures.
+// More lights than a uniform block holds: textures store them.
 static void test_many_lights(void **state)
 {
     (void)state;
@@ -215,7 +214,7 @@ static void test_parts_and_samples(void **state)
     assert_true(compare(gl, &demo, &params).share <= 0.001);
     demo.width = 160;
     demo.height = 120;
-    // Lit at each sample instead of once for each triangle: not the same, but the same shape (coverage is exact).
+    // OpenGL lights each sample, the CPU each triangle of a pixel: colours differ a little, coverage does not.
     for (int samples = 2; samples <= 16; samples *= 2) {
         params.samples = samples;
         params.output = LAM_OUTPUT_COVERAGE;
@@ -227,7 +226,7 @@ static void test_parts_and_samples(void **state)
     lam_device_free(gl);
 }
 
-// A scene that lies where another one lay is another one.
+// A new scene at the address of a freed one is a different scene.
 static void test_scene_after_scene(void **state)
 {
     (void)state;
@@ -260,7 +259,7 @@ static void test_limits(void **state)
     control = (lam_control){.cancel = &cancel};
     assert_false(lam_draw(gl, demo.scene, &demo.camera, NULL, &image, &control, &error));
     assert_int_equal(error.code, LAM_CANCELLED);
-    assert_true(lam_draw(gl, demo.scene, &demo.camera, NULL, &image, NULL, &error)); // it goes on after that
+    assert_true(lam_draw(gl, demo.scene, &demo.camera, NULL, &image, NULL, &error)); // the device still works
     assert_null(lam_explain(gl, demo.scene, &demo.camera, NULL, 16, 16, LAM_RGBA8, 1, 1, NULL, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
     lam_image_free(&image);

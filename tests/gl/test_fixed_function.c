@@ -1,5 +1,5 @@
-// test_fixed_function.c: scene files with "gl1" against the lighting that OpenGL itself had before shaders
-// (glLight, glMaterial, glLightModel): the driver's own sums over the same triangles, as linear floats.
+// test_fixed_function.c: scene files with "gl1" against OpenGL's fixed-function lighting (glLight, glMaterial, glLightModel)
+// of the same triangles, as linear floats.
 #include "context.h"
 
 #include <lambent/lambent.h>
@@ -17,7 +17,7 @@
 
 enum { W = 128, H = 96, AROUND = 20, ALONG = 12, ROW = AROUND + 1, CORNERS = ROW * (ALONG + 1) };
 
-// --- the functions of OpenGL 1, by their names
+// --- the functions of OpenGL 1
 
 #define CLASSIC_FUNCTIONS(X)                                                                                           \
     X(Begin)                                                                                                           \
@@ -66,8 +66,8 @@ static void classic_load(struct classic *gl, const struct gl_context *context)
 // --- a case
 
 struct light {
-    const char *frame;         // "world", "camera"
-    float position[4], way[3]; // w = 0: towards the light
+    const char *frame;               // "world", "camera"
+    float position[4], direction[3]; // w = 0: towards the light
     float ambient[3], diffuse[3], specular[3];
     float attenuation[3], cutoff, exponent; // cutoff 180: no spot
 };
@@ -127,7 +127,7 @@ static bool open_mesh(void *user, const char *name, lam_bytes *bytes, lam_error 
     return true;
 }
 
-// --- Lambent's picture of it
+// --- Lambent's picture
 
 static char *write_material(char *at, const char *key, const float m[4][4], float shininess)
 {
@@ -154,7 +154,7 @@ static char *write_light(char *at, const struct light *l)
     if (p[3] != 0)
         at = write_three(at, "attenuation", l->attenuation);
     if (l->cutoff < 180) {
-        at = write_three(at, "direction", l->way);
+        at = write_three(at, "direction", l->direction);
         at += sprintf(at, ", \"cutoff\": %.9g, \"exponent\": %.9g", (double)l->cutoff, (double)l->exponent);
     }
     at = write_three(at, "ambient", l->ambient);
@@ -204,7 +204,7 @@ static void draw_lambent(const struct classic_case *k, lam_image *image, lam_ima
     lam_scene_free(scene);
 }
 
-// --- OpenGL's
+// --- OpenGL's picture
 
 static void unit(double v[3])
 {
@@ -219,7 +219,7 @@ static void cross(const double a[3], const double b[3], double to[3])
         to[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-// As gluLookAt and gluPerspective have them; columns one after another.
+// The matrices of gluLookAt and gluPerspective, by columns.
 static void look_at(double m[16])
 {
     double z[3] = {eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]}, x[3], y[3];
@@ -254,7 +254,7 @@ static void set_light(const struct classic *gl, GLenum name, const struct light 
     static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     gl->LoadMatrixd(strcmp(l->frame, "camera") == 0 ? identity : view);
     gl->Lightfv(name, GL_POSITION, l->position);
-    gl->Lightfv(name, GL_SPOT_DIRECTION, l->way);
+    gl->Lightfv(name, GL_SPOT_DIRECTION, l->direction);
     gl->Lightfv(name, GL_AMBIENT, (float[4]){l->ambient[0], l->ambient[1], l->ambient[2], 1});
     gl->Lightfv(name, GL_DIFFUSE, (float[4]){l->diffuse[0], l->diffuse[1], l->diffuse[2], 1});
     gl->Lightfv(name, GL_SPECULAR, (float[4]){l->specular[0], l->specular[1], l->specular[2], 1});
@@ -314,8 +314,8 @@ static void draw_classic(const struct classic *gl, const struct classic_case *k,
 
 // --- the comparison
 
-// Whether the pixel and its neighbours all show the same side of the surface. Flat colours jump at edges of
-// triangles: there the neighbours' colours must agree too.
+// Whether the pixel and its neighbours show the same side of the surface and, with flat shading, the same colour: flat
+// colours jump at the edges of triangles.
 static bool inside(const struct classic_case *k, const lam_image *image, const lam_image *facing, int x, int y)
 {
     const float *side = facing->pixels, *color = image->pixels;
@@ -330,7 +330,7 @@ static bool inside(const struct classic_case *k, const lam_image *image, const l
     return true;
 }
 
-// How many pixels were compared that show the surface from behind.
+// Compares the two pictures. Returns the number of compared pixels that show the back of the surface.
 static int compare(const struct classic *gl, const struct classic_case *k)
 {
     static float pixels[H][W][4];
@@ -338,7 +338,7 @@ static int compare(const struct classic *gl, const struct classic_case *k)
     draw_lambent(k, &image, &facing);
     draw_classic(gl, k, &pixels[0][0][0]);
     double largest = 0, total = 0;
-    int counted = 0, behind = 0;
+    int counted = 0, back_pixels = 0;
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++) {
             if (!inside(k, &image, &facing, x, y))
@@ -350,16 +350,16 @@ static int compare(const struct classic *gl, const struct classic_case *k)
                 total += off;
             }
             counted++;
-            behind += ((const float *)facing.pixels)[4 * (y * W + x)] < 0;
+            back_pixels += ((const float *)facing.pixels)[4 * (y * W + x)] < 0;
         }
-    print_message("%-32s %4d pixels, %4d of them from behind; at most %.2e, on average %.2e\n", k->name, counted,
-                  behind, largest, total / (3 * counted));
+    print_message("%-32s %4d pixels, %4d of the back; largest difference %.2e, mean %.2e\n", k->name, counted,
+                  back_pixels, largest, total / (3 * counted));
     assert_true(counted > 200);
     assert_true(largest <= 2e-4);
     assert_true(total / (3 * counted) <= 2e-6);
     lam_image_free(&image);
     lam_image_free(&facing);
-    return behind;
+    return back_pixels;
 }
 
 #define ONE         {1, 1, 1}
@@ -380,7 +380,7 @@ static void test_fixed_function(void **state)
         {"directional", EVENLY, .turn = 60, .two_sided = true, .lights = {SUN}, .count = 1},
         {"directional, infinite viewer", EVENLY, .turn = 60, .infinite = true, .two_sided = true, .lights = {SUN},
          .count = 1},
-        {"attenuated, its ambient too", EVENLY, .two_sided = true, .lights = {FADING}, .count = 1},
+        {"attenuated, with its ambient term", EVENLY, .two_sided = true, .lights = {FADING}, .count = 1},
         {"spot with an exponent", EVENLY, .two_sided = true, .lights = {SPOT}, .count = 1},
         {"torch of the camera", EVENLY, .turn = -40, .two_sided = true, .lights = {TORCH}, .count = 1},
         {"three lights, colours over 1", EVENLY, .turn = 20, .two_sided = true, .lights = {POINT_LIGHT, SUN, FADING},
@@ -392,13 +392,13 @@ static void test_fixed_function(void **state)
          .count = 1},
         {"shininess 128", .turn = 20, .scale = ONE, .shininess = 128, .two_sided = true, .lights = {POINT_LIGHT, SUN},
          .count = 2},
-        // Not 0: there Mesa takes a short cut that leaves 0^0 out.
+        // Not 0: Mesa has a special case that omits 0^0.
         {"shininess 0.01", .turn = 20, .scale = ONE, .shininess = 0.01F, .two_sided = true, .lights = {FADING},
          .count = 1},
         {"flat", EVENLY, .flat = true, .two_sided = true, .lights = {POINT_LIGHT, SPOT}, .count = 2},
     };
     struct gl_context context;
-    struct gl_previous previous;
+    struct gl_previous_context previous;
     struct classic gl;
     lam_error error = {0};
     if (!gl_context_make(&context, NULL, NULL, GL_PROFILE_COMPATIBILITY, false, &error)) {
@@ -422,10 +422,10 @@ static void test_fixed_function(void **state)
     assert_int_equal(gl.CheckFramebufferStatus(GL_FRAMEBUFFER), GL_FRAMEBUFFER_COMPLETE);
     gl.Viewport(0, 0, W, H);
     make_mesh();
-    int behind = 0;
+    int back_pixels = 0;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        behind += compare(&gl, &cases[i]);
-    assert_true(behind > 1000);
+        back_pixels += compare(&gl, &cases[i]);
+    assert_true(back_pixels > 1000);
     gl_context_leave(&context, &previous);
     gl_context_free(&context);
 }

@@ -1,5 +1,5 @@
-// test_glsl.c: the texts of every combination of choices are accepted by the reference compiler (glslangValidator),
-// vertex and fragment text fit each other, and what the choices do not need is not in them.
+// test_glsl.c: the reference compiler (glslangValidator) accepts the shaders of every combination of choices and links them
+// in pairs; a shader contains no code that its choices do not need.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -26,7 +26,7 @@ static struct glsl_text make(const struct glsl_choices *choices)
     return text;
 }
 
-static void test_only_what_is_needed(void **state)
+static void test_only_needed_code(void **state)
 {
     (void)state;
     struct glsl_choices c = {.version = GLSL_330,
@@ -44,7 +44,7 @@ static void test_only_what_is_needed(void **state)
     assert_false(has(text.fragment, "struct hemisphere"));
     assert_true(has(text.fragment, "LIGHT_POINT, FALLOFF_DISTANCE"));
     assert_false(has(text.vertex, "phong"));
-    // The dialect's words have become GLSL's.
+    // Words of the dialect have been replaced.
     assert_false(has(text.fragment, "STRUCT"));
     assert_false(has(text.fragment, "FN "));
     assert_false(has(text.fragment, "num_of"));
@@ -66,37 +66,38 @@ static void test_only_what_is_needed(void **state)
     glsl_free(&text);
 }
 
-static void test_what_does_not_go_together(void **state)
+static void test_exclusive_choices(void **state)
 {
     (void)state;
-    struct glsl_choices right = {.version = GLSL_120, .stage = LAM_STAGE_FRAGMENT, .reflection = LAM_REFLECTION_PHONG};
-    struct glsl_text text = make(&right);
+    struct glsl_choices valid = {.version = GLSL_120, .stage = LAM_STAGE_FRAGMENT, .reflection = LAM_REFLECTION_PHONG};
+    struct glsl_text text = make(&valid);
     glsl_free(&text);
-    struct glsl_choices wrong[5] = {right, right, right, right, right};
-    wrong[0].storage = GLSL_BLOCK;
-    wrong[1].storage = GLSL_TEXTURE;
-    wrong[2].environment = GLSL_FACES;
-    wrong[3].stage = LAM_STAGE_VERTEX;
-    wrong[4].shading = LAM_SHADING_GOURAUD;
+    struct glsl_choices invalid[5] = {valid, valid, valid, valid, valid};
+    invalid[0].storage = GLSL_BLOCK;
+    invalid[1].storage = GLSL_TEXTURE;
+    invalid[2].environment = GLSL_FACES;
+    invalid[3].stage = LAM_STAGE_VERTEX;
+    invalid[4].shading = LAM_SHADING_GOURAUD;
     for (int i = 0; i < 5; i++) {
         lam_error error = {0};
-        assert_false(glsl_make(&wrong[i], &text, &error));
+        assert_false(glsl_make(&invalid[i], &text, &error));
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
         assert_true(strlen(error.text) > 20);
         assert_null(text.vertex);
     }
 }
 
-static void test_templates_refuse_what_they_do_not_know(void **state)
+static void test_unknown_names_are_errors(void **state)
 {
     (void)state;
     const struct preprocess_flag flags[] = {{"on", true}, {"off", false}, {"back_material", true}, {NULL, false}};
     const struct preprocess_value values[] = {{"five", "5"}, {NULL, NULL}};
     const struct preprocess_words words = {flags, values};
-    static const char *const wrong[] = {"//@if what\n//@end\n", "a @six@ b\n", "//@if on\n", "//@unless on\n//@end\n"};
+    static const char *const invalid[] = {"//@if what\n//@end\n", "a @six@ b\n", "//@if on\n",
+                                          "//@unless on\n//@end\n"};
     for (int i = 0; i < 4; i++) {
         struct text text = {0};
-        preprocess_add(&text, wrong[i], &words);
+        preprocess_add(&text, invalid[i], &words);
         assert_true(text.failed);
         free(text.bytes);
     }
@@ -108,8 +109,8 @@ static void test_templates_refuse_what_they_do_not_know(void **state)
     free(text.bytes);
 }
 
-// A branch that is decided, and what nobody then reads, are not in the text.
-static void test_nothing_that_nobody_looks_at(void **state)
+// Branches with a known condition, and members that are then never read, are not in the text.
+static void test_unread_members_are_removed(void **state)
 {
     (void)state;
     struct glsl_choices c = {.version = GLSL_120,
@@ -145,28 +146,28 @@ static void test_nothing_that_nobody_looks_at(void **state)
     glsl_free(&text);
 }
 
-static void test_simplify(void **state)
+static void test_specialize(void **state)
 {
     (void)state;
-    static const struct decided decided[] = {{"a == 1", true}, {"b == 2", false}, {NULL, false}};
+    static const struct known_condition known[] = {{"a == 1", true}, {"b == 2", false}, {NULL, false}};
     struct text text = {0};
-    simplify_conditions(&text,
-                        "{\n    if (a == 1) {\n        x();\n        if (b == 2) {\n            y();\n       "
-                        " }\n    } else {\n"
-                        "        z();\n    }\n    if (b == 2) {\n        u();\n    } else {\n        v();\n  "
-                        "  }\n    if (c) {\n"
-                        "        w();\n    }\n}\n",
-                        decided);
+    specialize_conditions(&text,
+                          "{\n    if (a == 1) {\n        x();\n        if (b == 2) {\n            y();\n       "
+                          " }\n    } else {\n"
+                          "        z();\n    }\n    if (b == 2) {\n        u();\n    } else {\n        v();\n  "
+                          "  }\n    if (c) {\n"
+                          "        w();\n    }\n}\n",
+                          known);
     assert_string_equal(text.bytes, "{\n    x();\n    v();\n    if (c) {\n        w();\n    }\n}\n");
     free(text.bytes);
 
     char of[] = "STRUCT(s)\n{\n    int used;\n    int chain;\n    int other; // .other\n};\n",
          by[] = "int f(s a, t b)\n{\n    a.used = 1;\n    a.chain = a.other;\n    a.other = 2;\n    b.chain = 3;\n"
                 "    return a.used + b.chain;\n}\n";
-    const struct stretch stretches[] = {{of, of + strlen(of)}, {by, by + strlen(by)}};
-    assert_true(simplify_members(stretches, 2)); // chain, then what only it read
-    assert_true(simplify_members(stretches, 2) || !strstr(of, "other;"));
-    assert_false(simplify_members(stretches, 2));
+    const struct source_span spans[] = {{of, of + strlen(of)}, {by, by + strlen(by)}};
+    assert_true(specialize_members(spans, 2)); // chain, then the member that only chain read
+    assert_true(specialize_members(spans, 2) || !strstr(of, "other;"));
+    assert_false(specialize_members(spans, 2));
     assert_non_null(strstr(of, "int used;"));
     assert_null(strstr(of, "int chain;"));
     assert_null(strstr(of, "int other;"));
@@ -190,8 +191,8 @@ static void write_file(const char *folder, int number, const char *ending, const
             fail_msg("%s: a byte that is not ASCII", path);
 }
 
-// Many choices share a text: each is read once. The texts are the same whatever built us, so one build reads
-// them all, and the others every 8th.
+// Each different text is compiled once. The texts do not depend on the compiler of this program: one build compiles all of
+// them, the others every 8th.
 #ifdef EVERY_TEXT
 enum { TEXT_STEP = 1 };
 #else
@@ -257,7 +258,7 @@ static void test_reference_compiler_accepts(void **state)
     assert_true(writing->texts > 500 && writing->texts < TABLE / 2);
     print_message("%d choices, %d texts, %d pairs\n", count, writing->texts, writing->pairs);
     free(writing);
-    // All in one process; then in pairs, whether what one hands on is what the other takes.
+    // All texts in one process, then vertex and fragment shaders in pairs, which checks their interface.
     snprintf(command, sizeof command, "cd %s/single && glslangValidator *.vert *.frag > ../log 2>&1", folder);
     int refused = system(command);
     snprintf(command, sizeof command, "grep -B2 ERROR %s/log | head -20 >&2", folder);
@@ -268,7 +269,7 @@ static void test_reference_compiler_accepts(void **state)
              "$v; cat pair; exit 1; }; done >&2",
              folder);
     int unfit = system(command);
-    // The check must be able to fail.
+    // The reference compiler rejects an invalid shader.
     write_file(folder, 99999, "frag", "#version 120\nvoid main() { gl_FragColor = vec4(no_such_word); }\n");
     snprintf(command, sizeof command, "cd %s && glslangValidator 99999.frag > /dev/null 2>&1", folder);
     int accepted = system(command) == 0;
@@ -286,11 +287,11 @@ static void test_reference_compiler_accepts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_only_what_is_needed),
-        cmocka_unit_test(test_nothing_that_nobody_looks_at),
-        cmocka_unit_test(test_simplify),
-        cmocka_unit_test(test_what_does_not_go_together),
-        cmocka_unit_test(test_templates_refuse_what_they_do_not_know),
+        cmocka_unit_test(test_only_needed_code),
+        cmocka_unit_test(test_unread_members_are_removed),
+        cmocka_unit_test(test_specialize),
+        cmocka_unit_test(test_exclusive_choices),
+        cmocka_unit_test(test_unknown_names_are_errors),
         cmocka_unit_test(test_reference_compiler_accepts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

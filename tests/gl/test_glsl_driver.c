@@ -1,4 +1,4 @@
-// test_glsl_driver.c: a driver compiles and links the texts, and finds in them the uniforms that their table tells.
+// test_glsl_driver.c: a driver compiles and links the shaders; the sizes of their blocks are those of glsl_pack_….
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,8 +13,8 @@
 #include "glsl_combinations.h"
 #include "glsl_rows.h"
 
-// Every one of the choices takes minutes (LAMBENT_EVERY_SHADER=1); glslangValidator reads them all
-// (test_glsl.c). A prime, so that no loop of glsl_combinations is left out. One build tries more of them.
+// All choices take minutes (LAMBENT_EVERY_SHADER=1), so the test takes every STEP-th; glslangValidator compiles them all
+// (test_glsl.c). The step is a prime, so that it covers every loop of glsl_combinations. One build has a smaller step.
 #ifdef EVERY_TEXT
 enum { STEP = 37 };
 #else
@@ -38,31 +38,32 @@ static GLuint compile(const struct gl *gl, GLenum kind, const char *text)
         char log[1024] = "";
         gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
         print_error("%s\n%s\n", text, log);
-        fail_msg("the driver refuses a %s shader", kind == GL_VERTEX_SHADER ? "vertex" : "fragment");
+        fail_msg("the driver does not compile a %s shader", kind == GL_VERTEX_SHADER ? "vertex" : "fragment");
     }
     return shader;
 }
 
-// The values' offsets in a block are those of our structs: what glsl_pack_… writes lies where the driver reads.
+// The driver's block has the size that glsl_pack_… writes.
 static void check_block(const struct gl *gl, GLuint program, const char *block, size_t bytes)
 {
     GLuint index = gl->GetUniformBlockIndex(program, block);
     GLint size = 0;
-    if (index == GL_INVALID_INDEX) // nothing of it is read
+    if (index == GL_INVALID_INDEX) // the program does not read the block
         return;
     gl->GetActiveUniformBlockiv(program, index, GL_UNIFORM_BLOCK_DATA_SIZE, &size);
     if ((size_t)size != bytes)
-        fail_msg("the block %s has %d bytes for the driver, %zu for us", block, size, bytes);
+        fail_msg("block %s: the driver expects %d bytes, lambent writes %zu", block, size, bytes);
 }
 
 static void check_blocks(const struct gl *gl, GLuint program, const struct glsl_choices *c, const struct glsl_facts *f)
 {
-    if (c->storage != GLSL_BLOCK || f->paints || f->shows_vector || !f->lit)
+    if (c->storage != GLSL_BLOCK || f->unlit || f->output_vector || !f->lit)
         return;
     check_block(gl, program, "Lights", glsl_lights_bytes(c));
     check_block(gl, program, "Products", glsl_products_bytes(c));
     check_block(gl, program, "BackProducts", glsl_products_bytes(c));
-    check_block(gl, program, "Materials", (size_t)glsl_material_layout(false).size * sizeof(float) * (f->back ? 2 : 1));
+    check_block(gl, program, "Materials",
+                (size_t)glsl_material_layout(false).size * sizeof(float) * (f->back_material ? 2 : 1));
 }
 
 static void link_pair(void *user, const struct glsl_choices *choices)
@@ -91,7 +92,7 @@ static void link_pair(void *user, const struct glsl_choices *choices)
     struct glsl_facts facts = glsl_facts_of(choices);
     check_blocks(gl, program, choices, &facts);
     if (gl->GetUniformLocation(program, "model_view_projection") < 0)
-        fail_msg("the driver finds no model_view_projection");
+        fail_msg("the program has no uniform model_view_projection");
     gl->DeleteShader(vertex);
     gl->DeleteShader(fragment);
     gl->DeleteProgram(program);
@@ -102,7 +103,7 @@ static void link_pair(void *user, const struct glsl_choices *choices)
 static void test_version(enum glsl_version version, enum gl_profile profile)
 {
     struct driver *driver = calloc(1, sizeof *driver);
-    struct gl_previous previous;
+    struct gl_previous_context previous;
     lam_error error = {0};
     assert_non_null(driver);
     driver->version = version;

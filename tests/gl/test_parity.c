@@ -1,12 +1,12 @@
-// test_parity.c: the OpenGL device against the CPU device, over the whole table of demonstration scenes at
-// one sample, in OpenGL 3.3 and in OpenGL ES 3.0.
+// test_parity.c: the OpenGL device against the CPU device, over all demonstration scenes at one sample, in OpenGL 3.3 and
+// OpenGL ES 3.0.
 //
-// In 8 bits at least 99.9 % of the pixels lie within 1/255 and none outside of the mask is off by more than
-// 2/255. In floats the same pixels lie within 5e-4·max(1, value). The mask holds the pixels whose
-// neighbourhood of 3×3 shows, in the CPU device's own numbers, more than one object, more than one facing, a
-// step in depth, a change in the count of layers where some are translucent, or the edge of a spot's cone:
-// there two rasterizers may rightly differ. It is at most 5 % of the covered pixels of the table, and
-// is reported. A failure leaves NAME.gl.png (or NAME.gles.png) and NAME.cpu.png in the working directory.
+// In 8 bits at least 99.9 % of the pixels differ by at most 1/255, and no pixel outside the mask by more than 2/255. In
+// floats, pixels outside the mask differ by at most 5e-4·max(1, value). The mask consists of the pixels whose 3×3
+// neighbourhood contains, in the CPU device's own values, more than one object, more than one facing, a step in depth, a
+// change in the number of translucent layers, or the edge of a spot's cone: there two rasterizers may legitimately differ.
+// The mask covers at most 5 % of the covered pixels of all scenes; the test reports its size. A failure writes NAME.gl.png
+// (or NAME.gles.png) and NAME.cpu.png to the working directory.
 #include "context.h"
 #include "scenes.h"
 
@@ -20,29 +20,27 @@
 
 #include <cmocka.h>
 
-enum { SCALE = 4 }; // of the table's pictures: edges then take a smaller share of their pixels
+enum { SCALE = 4 }; // larger pictures, so that edges are a smaller fraction of their pixels
 
-// Scenes that floats do not tell better, in either device.
+// Scenes that need wider bounds because of the precision of floats.
 static const struct {
     const char *name;
     double floats;
-    // surfaces lie nearer to each other than depth values tell: pixels off by more than 2/255 count among the 0.1 %
-    // alone
-    bool order;
+    // Surfaces are closer to each other than the precision of depth values: only the bound for 99.9 % of the pixels applies.
+    bool ambiguous;
 } loose[] = {
-    // A square of 40 000 units: a float is exact to 0.002 there, and the light is 4 away. A ball touches it,
-    // and with a near plane of 0.01 depth values are 0.0004 apart where that is.
+    // A square of 40 000 units: floats have a precision of 0.002 there, and the light is at a distance of 4. A ball
+    // touches it, where depth values have a step of 0.0004 with a near plane of 0.01.
     {"ground", 2e-3, true},
-    // Panels up to 100 times as bright as what is beside them, one texel from dark to bright: a direction's
-    // last bits are seen.
+    // Panels 100 times as bright as their neighbourhood, with edges of one texel, amplify rounding errors of directions.
     {"mirror-studio", 2e-3, false},
 };
 
-static bool order_is_open(const char *name)
+static bool depth_is_ambiguous(const char *name)
 {
     for (size_t i = 0; i < sizeof loose / sizeof *loose; i++)
         if (strcmp(name, loose[i].name) == 0)
-            return loose[i].order;
+            return loose[i].ambiguous;
     return false;
 }
 
@@ -55,7 +53,7 @@ static double float_limit(const char *name)
 }
 
 static lam_device *cpu;
-static lam_device *gl[2]; // OpenGL 3.3 core, OpenGL ES 3.0; NULL: there is none
+static lam_device *gl[2]; // OpenGL 3.3 core, OpenGL ES 3.0; NULL: not available
 static uint64_t pixels_of_table, covered_of_table, masked_of_table;
 
 static void draw(lam_device *device, const struct demo *demo, const lam_draw_params *params, lam_pixel_format format,
@@ -68,8 +66,8 @@ static void draw(lam_device *device, const struct demo *demo, const lam_draw_par
         fail_msg("%s", error.text);
 }
 
-// What the CPU device shows in floats: four for each pixel.
-static lam_image numbers(const struct demo *demo, lam_output show, int light)
+// Draws an output with the CPU device, as floats.
+static lam_image draw_output(const struct demo *demo, lam_output show, int light)
 {
     lam_draw_params params = demo->params;
     params.samples = 1;
@@ -84,31 +82,30 @@ static lam_image numbers(const struct demo *demo, lam_output show, int light)
 
 struct mask {
     int width, height;
-    uint8_t *out;      // 1: masked
-    const float *with; // of the numbers that are being looked at
+    uint8_t *out; // 1: masked
 };
 
-typedef bool apart_fn(const float *a, const float *b, double limit);
+typedef bool differ_fn(const float *a, const float *b, double limit);
 
-static bool apart_first(const float *a, const float *b, double limit)
+static bool differ_first(const float *a, const float *b, double limit)
 {
     (void)limit;
     return a[0] != b[0] || (a[3] > 0) != (b[3] > 0);
 }
-static bool apart_object(const float *a, const float *b, double limit)
+static bool differ_object(const float *a, const float *b, double limit)
 {
     (void)limit;
     return a[1] != b[1] || (a[3] > 0) != (b[3] > 0);
 }
-static bool apart_dark(const float *a, const float *b, double limit)
+static bool differ_dark(const float *a, const float *b, double limit)
 {
     (void)limit;
     bool lit_a = a[0] + a[1] + a[2] > 0, lit_b = b[0] + b[1] + b[2] > 0;
     return a[3] > 0 && b[3] > 0 && lit_a != lit_b;
 }
 
-// Masks the pixels whose 3×3 neighbourhood has two that are apart.
-static void mask_where(struct mask *mask, lam_image *image, apart_fn *apart, double limit)
+// Masks the pixels that differ from a pixel of their 3×3 neighbourhood.
+static void mask_where(struct mask *mask, lam_image *image, differ_fn *differ, double limit)
 {
     const float *p = image->pixels;
     for (int y = 0; y < mask->height; y++)
@@ -119,14 +116,14 @@ static void mask_where(struct mask *mask, lam_image *image, apart_fn *apart, dou
                 for (int dx = -1; dx <= 1; dx++) {
                     int nx = x + dx, ny = y + dy;
                     if (nx >= 0 && ny >= 0 && nx < mask->width && ny < mask->height)
-                        found |= apart(first, p + 4 * ((size_t)ny * (size_t)mask->width + (size_t)nx), limit);
+                        found |= differ(first, p + 4 * ((size_t)ny * (size_t)mask->width + (size_t)nx), limit);
                 }
             mask->out[(size_t)y * (size_t)mask->width + (size_t)x] |= found;
         }
     lam_image_free(image);
 }
 
-// The size of a pixel at the mean depth.
+// Returns the size of a pixel at the mean depth.
 static double pixel_size(const struct demo *demo, const lam_image *depth)
 {
     double sum = 0, count = 0;
@@ -142,7 +139,7 @@ static double pixel_size(const struct demo *demo, const lam_image *depth)
     return 2 * half / demo->height;
 }
 
-// A step in depth: where a line through two pixels misses the third by more than `limit`, all three are masked.
+// Masks steps in depth: three consecutive pixels whose second difference exceeds `limit`.
 static void mask_steps(struct mask *mask, lam_image *image, double limit)
 {
     const float *p = image->pixels;
@@ -165,11 +162,11 @@ static struct mask mask_of(const struct demo *demo)
 {
     struct mask mask = {.width = demo->width, .height = demo->height};
     mask.out = calloc((size_t)mask.width * (size_t)mask.height, 1);
-    lam_image image = numbers(demo, LAM_OUTPUT_IDS, 0);
-    mask_where(&mask, &image, apart_object, 0);
-    image = numbers(demo, LAM_OUTPUT_FACING, 0);
-    mask_where(&mask, &image, apart_first, 0);
-    image = numbers(demo, LAM_OUTPUT_DEPTH, 0);
+    lam_image image = draw_output(demo, LAM_OUTPUT_IDS, 0);
+    mask_where(&mask, &image, differ_object, 0);
+    image = draw_output(demo, LAM_OUTPUT_FACING, 0);
+    mask_where(&mask, &image, differ_first, 0);
+    image = draw_output(demo, LAM_OUTPUT_DEPTH, 0);
     double size = pixel_size(demo, &image);
     mask_steps(&mask, &image, 4 * size);
     bool translucent = false;
@@ -178,16 +175,16 @@ static struct mask mask_of(const struct demo *demo)
     for (int i = 0; lam_scene_mesh(demo->scene, i); i++)
         translucent |= lam_scene_mesh(demo->scene, i)->colors_format == LAM_COLORS_LINEAR_F32;
     if (translucent) {
-        image = numbers(demo, LAM_OUTPUT_OVERDRAW, 0);
-        mask_where(&mask, &image, apart_first, 0);
+        image = draw_output(demo, LAM_OUTPUT_OVERDRAW, 0);
+        mask_where(&mask, &image, differ_first, 0);
     }
     static lam_light lights[4096];
     int count = lam_draw_lights(demo->scene, demo->params.rig, lights, 4096);
     for (int i = 0; i < count && count <= 16 && demo->params.reflection != LAM_REFLECTION_NONE; i++) {
         if (lights[i].type != LAM_LIGHT_SPOT)
             continue;
-        image = numbers(demo, LAM_OUTPUT_LIGHT, i);
-        mask_where(&mask, &image, apart_dark, 0);
+        image = draw_output(demo, LAM_OUTPUT_LIGHT, i);
+        mask_where(&mask, &image, differ_dark, 0);
     }
     return mask;
 }
@@ -202,26 +199,26 @@ struct outcome {
 static struct outcome worst[2];
 static const char *worst_name[2];
 
-static int apart_bytes(const uint8_t *a, const uint8_t *b)
+static int byte_difference(const uint8_t *a, const uint8_t *b)
 {
-    int most = 0;
+    int max = 0;
     for (int c = 0; c < 4; c++)
-        most = abs(a[c] - b[c]) > most ? abs(a[c] - b[c]) : most;
-    return most;
+        max = abs(a[c] - b[c]) > max ? abs(a[c] - b[c]) : max;
+    return max;
 }
 
-static double apart_floats(const float *a, const float *b)
+static double float_difference(const float *a, const float *b)
 {
-    double most = 0;
+    double max = 0;
     for (int c = 0; c < 4; c++) {
         double d = (double)a[c] - (double)b[c], size = (double)b[c] < 0 ? -(double)b[c] : (double)b[c];
         d = (d < 0 ? -d : d) / (size > 1 ? size : 1);
-        most = d > most ? d : most;
+        max = d > max ? d : max;
     }
-    return most;
+    return max;
 }
 
-// What the CPU device draws, once for both versions of OpenGL.
+// The CPU device's pictures of a scene.
 struct reference {
     struct mask mask;
     lam_image bytes, floats, ids;
@@ -243,22 +240,22 @@ static void save(const lam_image *image, const char *name, const char *by)
 }
 
 static struct outcome compare(lam_device *device, const struct demo *demo, const lam_draw_params *params,
-                              const struct reference *cpu_drew, const char *name)
+                              const struct reference *reference, const char *name)
 {
     struct outcome o = {.pixels = (uint64_t)demo->width * (uint64_t)demo->height};
     lam_image bytes, floats;
     draw(device, demo, params, LAM_RGBA8, &bytes);
     draw(device, demo, params, LAM_RGBA32F, &floats);
-    const uint8_t *a = cpu_drew->bytes.pixels, *b = bytes.pixels;
-    const float *c = cpu_drew->floats.pixels, *d = floats.pixels;
+    const uint8_t *a = reference->bytes.pixels, *b = bytes.pixels;
+    const float *c = reference->floats.pixels, *d = floats.pixels;
     for (uint64_t i = 0; i < o.pixels; i++) {
-        bool covered = ((const float *)cpu_drew->ids.pixels)[4 * i + 3] > 0, masked = cpu_drew->mask.out[i];
-        int apart = apart_bytes(a + 4 * i, b + 4 * i);
-        double far = apart_floats(d + 4 * i, c + 4 * i);
+        bool covered = ((const float *)reference->ids.pixels)[4 * i + 3] > 0, masked = reference->mask.out[i];
+        int apart = byte_difference(a + 4 * i, b + 4 * i);
+        double far = float_difference(d + 4 * i, c + 4 * i);
         o.covered += covered;
         o.masked += covered && masked;
         o.over_1 += apart > 1;
-        if (masked || (apart > 2 && order_is_open(name)))
+        if (masked || (apart > 2 && depth_is_ambiguous(name)))
             continue;
         o.over_2_outside += apart > 2;
         o.worst_outside = apart > o.worst_outside ? apart : o.worst_outside;
@@ -266,7 +263,7 @@ static struct outcome compare(lam_device *device, const struct demo *demo, const
     }
     bool good = is_good(&o, name);
     if (!good) {
-        save(&cpu_drew->bytes, name, "cpu");
+        save(&reference->bytes, name, "cpu");
         save(&bytes, name, device == gl[0] ? "gl" : "gles");
     }
     lam_image_free(&bytes);
@@ -290,7 +287,7 @@ static void check_scene(void **state)
     demo.height *= SCALE;
     lam_draw_params params = demo.params;
     params.samples = 1;
-    struct reference drawn = {.mask = mask_of(&demo), .ids = numbers(&demo, LAM_OUTPUT_IDS, 0)};
+    struct reference drawn = {.mask = mask_of(&demo), .ids = draw_output(&demo, LAM_OUTPUT_IDS, 0)};
     draw(cpu, &demo, &params, LAM_RGBA8, &drawn.bytes);
     draw(cpu, &demo, &params, LAM_RGBA32F, &drawn.floats);
     bool good = true;
@@ -323,7 +320,7 @@ static void check_mask(void **state)
     double share = (double)masked_of_table / (double)covered_of_table;
     for (int i = 0; i < 2; i++)
         if (gl[i])
-            print_message("%s: farthest off in floats: %s, %.1e\n", lam_device_name(gl[i]), worst_name[i],
+            print_message("%s: largest difference in floats: %s, %.1e\n", lam_device_name(gl[i]), worst_name[i],
                           worst[i].worst_float);
     print_message("the mask: %.2f %% of the covered pixels of the table\n", 100 * share);
     assert_true(share <= 0.05);

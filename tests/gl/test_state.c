@@ -1,6 +1,6 @@
-// test_state.c: what the OpenGL device sets in its own context: a frame of an unchanged scene makes nothing,
-// sends nothing, and sets no state and no uniform to what it is already; what has changed is sent, and only
-// that. All of it in a context whose driver tells of errors and of what is slow: a frame fails on them.
+// test_state.c: the OpenGL calls of the device. A frame of an unchanged scene creates no objects, uploads nothing, and sets
+// no state or uniform to its current value; after a change only the changed data are uploaded. The context reports errors
+// and performance warnings, and either fails the frame.
 #include "gl_device.h"
 #include "scenes.h"
 
@@ -15,10 +15,10 @@
 #include <cmocka.h>
 
 static struct gl real;
-static int made, sent, drawn, calls, again; // again: state set to what it was
+static int created, uploaded, drawn, calls, again; // again: state set to its current value
 static char first_again[64];
 
-// --- the state as it was set last
+// --- the last value of each state
 
 enum state {
     STATE_PROGRAM,
@@ -42,7 +42,7 @@ static struct known {
     uint64_t of, value;
 } known[4096];
 static int known_count;
-static GLuint program_now, unit_now;
+static GLuint current_program, current_unit;
 
 static uint64_t hash(const void *bytes, size_t count)
 {
@@ -68,7 +68,7 @@ static void set(const char *name, enum state state, uint64_t of, const void *val
 }
 
 #define SETS(name, state, of, parameters, arguments)                                                                   \
-    static void APIENTRY note_##name parameters                                                                        \
+    static void APIENTRY record_##name parameters                                                                      \
     {                                                                                                                  \
         const uint64_t value[] = {VALUE arguments};                                                                    \
         set(#name, state, of, value, sizeof value);                                                                    \
@@ -81,41 +81,41 @@ SETS(FrontFace, STATE_FRONT, 0, (GLenum a), (a))
 SETS(BindVertexArray, STATE_ARRAY, 0, (GLuint a), (a))
 SETS(BindFramebuffer, STATE_FRAMEBUFFER, a, (GLenum a, GLuint b), (a, b))
 SETS(BindBuffer, STATE_BUFFER, a, (GLenum a, GLuint b), (a, b))
-SETS(BindTexture, STATE_TEXTURE, (uint64_t)unit_now << 32 | a, (GLenum a, GLuint b), (a, b))
+SETS(BindTexture, STATE_TEXTURE, (uint64_t)current_unit << 32 | a, (GLenum a, GLuint b), (a, b))
 #undef SETS
 
-static void APIENTRY note_UseProgram(GLuint a)
+static void APIENTRY record_UseProgram(GLuint a)
 {
     set("UseProgram", STATE_PROGRAM, 0, &a, sizeof a);
-    real.UseProgram(program_now = a);
+    real.UseProgram(current_program = a);
 }
-static void APIENTRY note_ActiveTexture(GLenum a)
+static void APIENTRY record_ActiveTexture(GLenum a)
 {
     set("ActiveTexture", STATE_UNIT, 0, &a, sizeof a);
-    real.ActiveTexture(unit_now = a);
+    real.ActiveTexture(current_unit = a);
 }
-static void APIENTRY note_Viewport(GLint a, GLint b, GLsizei c, GLsizei d)
+static void APIENTRY record_Viewport(GLint a, GLint b, GLsizei c, GLsizei d)
 {
     const int value[] = {a, b, c, d};
     set("Viewport", STATE_VIEWPORT, 0, value, sizeof value);
     real.Viewport(a, b, c, d);
 }
-static void APIENTRY note_PixelStorei(GLenum a, GLint b)
+static void APIENTRY record_PixelStorei(GLenum a, GLint b)
 {
     set("PixelStorei", STATE_PIXELS, a, &b, sizeof b);
     real.PixelStorei(a, b);
 }
-static void APIENTRY note_Enable(GLenum a)
+static void APIENTRY record_Enable(GLenum a)
 {
     set("Enable", STATE_SWITCH, a, &(int){1}, sizeof(int));
     real.Enable(a);
 }
-static void APIENTRY note_Disable(GLenum a)
+static void APIENTRY record_Disable(GLenum a)
 {
     set("Disable", STATE_SWITCH, a, &(int){0}, sizeof(int));
     real.Disable(a);
 }
-static void APIENTRY note_BindBufferRange(GLenum a, GLuint b, GLuint c, GLintptr d, GLsizeiptr e)
+static void APIENTRY record_BindBufferRange(GLenum a, GLuint b, GLuint c, GLintptr d, GLsizeiptr e)
 {
     const int64_t value[] = {c, d, e};
     set("BindBufferRange", STATE_BLOCK, b, value, sizeof value);
@@ -123,9 +123,9 @@ static void APIENTRY note_BindBufferRange(GLenum a, GLuint b, GLuint c, GLintptr
 }
 
 #define UNIFORM(name, parameters, arguments, value, bytes)                                                             \
-    static void APIENTRY note_##name parameters                                                                        \
+    static void APIENTRY record_##name parameters                                                                      \
     {                                                                                                                  \
-        set(#name, STATE_UNIFORM, (uint64_t)program_now << 32 | (uint32_t)at, value, bytes);                           \
+        set(#name, STATE_UNIFORM, (uint64_t)current_program << 32 | (uint32_t)at, value, bytes);                       \
         real.name arguments;                                                                                           \
     }
 UNIFORM(Uniform1f, (GLint at, GLfloat b), (at, b), &b, sizeof b)
@@ -135,26 +135,27 @@ UNIFORM(UniformMatrix3fv, (GLint at, GLsizei n, GLboolean t, const GLfloat *d), 
 UNIFORM(UniformMatrix4fv, (GLint at, GLsizei n, GLboolean t, const GLfloat *d), (at, n, t, d), d, (size_t)n * 64)
 
 #define COUNT(name, counter, parameters, arguments)                                                                    \
-    static void APIENTRY note_##name parameters                                                                        \
+    static void APIENTRY record_##name parameters                                                                      \
     {                                                                                                                  \
         counter++;                                                                                                     \
         calls++;                                                                                                       \
         real.name arguments;                                                                                           \
     }
-COUNT(BufferData, made, (GLenum a, GLsizeiptr b, const void *c, GLenum d), (a, b, c, d))
-COUNT(GenBuffers, made, (GLsizei a, GLuint *b), (a, b))
-COUNT(GenTextures, made, (GLsizei a, GLuint *b), (a, b))
-COUNT(GenVertexArrays, made, (GLsizei a, GLuint *b), (a, b))
-COUNT(GenFramebuffers, made, (GLsizei a, GLuint *b), (a, b))
-COUNT(GenQueries, made, (GLsizei a, GLuint *b), (a, b))
-COUNT(TexImage2D, made, (GLenum a, GLint b, GLint c, GLsizei d, GLsizei e, GLint f, GLenum g, GLenum h, const void *i),
+COUNT(BufferData, created, (GLenum a, GLsizeiptr b, const void *c, GLenum d), (a, b, c, d))
+COUNT(GenBuffers, created, (GLsizei a, GLuint *b), (a, b))
+COUNT(GenTextures, created, (GLsizei a, GLuint *b), (a, b))
+COUNT(GenVertexArrays, created, (GLsizei a, GLuint *b), (a, b))
+COUNT(GenFramebuffers, created, (GLsizei a, GLuint *b), (a, b))
+COUNT(GenQueries, created, (GLsizei a, GLuint *b), (a, b))
+COUNT(TexImage2D, created,
+      (GLenum a, GLint b, GLint c, GLsizei d, GLsizei e, GLint f, GLenum g, GLenum h, const void *i),
       (a, b, c, d, e, f, g, h, i))
-COUNT(TexImage3D, made,
+COUNT(TexImage3D, created,
       (GLenum a, GLint b, GLint c, GLsizei d, GLsizei e, GLsizei f, GLint g, GLenum h, GLenum i, const void *j),
       (a, b, c, d, e, f, g, h, i, j))
-COUNT(LinkProgram, made, (GLuint a), (a))
-COUNT(BufferSubData, sent, (GLenum a, GLintptr b, GLsizeiptr c, const void *d), (a, b, c, d))
-COUNT(TexSubImage2D, sent,
+COUNT(LinkProgram, created, (GLuint a), (a))
+COUNT(BufferSubData, uploaded, (GLenum a, GLintptr b, GLsizeiptr c, const void *d), (a, b, c, d))
+COUNT(TexSubImage2D, uploaded,
       (GLenum a, GLint b, GLint c, GLint d, GLsizei e, GLsizei f, GLenum g, GLenum h, const void *i),
       (a, b, c, d, e, f, g, h, i))
 COUNT(DrawArrays, drawn, (GLenum a, GLint b, GLsizei c), (a, b, c))
@@ -172,40 +173,40 @@ static lam_device *start(lam_gl_api api)
     struct gl *gl = &((struct gl_device *)device)->context.gl;
     real = *gl;
     known_count = 0;
-#define NOTE(name) gl->name = note_##name;
-    NOTE(BlendFunc)
-    NOTE(CullFace)
-    NOTE(FrontFace)
-    NOTE(BindVertexArray)
-    NOTE(BindFramebuffer)
-    NOTE(BindBuffer)
-    NOTE(BindTexture)
-    NOTE(UseProgram)
-    NOTE(ActiveTexture)
-    NOTE(Viewport)
-    NOTE(PixelStorei)
-    NOTE(Enable)
-    NOTE(Disable)
-    NOTE(BindBufferRange)
-    NOTE(Uniform1f)
-    NOTE(Uniform1i)
-    NOTE(Uniform4fv)
-    NOTE(UniformMatrix3fv)
-    NOTE(UniformMatrix4fv)
-    NOTE(BufferData)
-    NOTE(GenBuffers)
-    NOTE(GenTextures)
-    NOTE(GenVertexArrays)
-    NOTE(GenFramebuffers)
-    NOTE(GenQueries)
-    NOTE(TexImage2D)
-    NOTE(TexImage3D)
-    NOTE(LinkProgram)
-    NOTE(BufferSubData)
-    NOTE(TexSubImage2D)
-    NOTE(DrawArrays)
-    NOTE(DrawElements)
-#undef NOTE
+#define RECORD(name) gl->name = record_##name;
+    RECORD(BlendFunc)
+    RECORD(CullFace)
+    RECORD(FrontFace)
+    RECORD(BindVertexArray)
+    RECORD(BindFramebuffer)
+    RECORD(BindBuffer)
+    RECORD(BindTexture)
+    RECORD(UseProgram)
+    RECORD(ActiveTexture)
+    RECORD(Viewport)
+    RECORD(PixelStorei)
+    RECORD(Enable)
+    RECORD(Disable)
+    RECORD(BindBufferRange)
+    RECORD(Uniform1f)
+    RECORD(Uniform1i)
+    RECORD(Uniform4fv)
+    RECORD(UniformMatrix3fv)
+    RECORD(UniformMatrix4fv)
+    RECORD(BufferData)
+    RECORD(GenBuffers)
+    RECORD(GenTextures)
+    RECORD(GenVertexArrays)
+    RECORD(GenFramebuffers)
+    RECORD(GenQueries)
+    RECORD(TexImage2D)
+    RECORD(TexImage3D)
+    RECORD(LinkProgram)
+    RECORD(BufferSubData)
+    RECORD(TexSubImage2D)
+    RECORD(DrawArrays)
+    RECORD(DrawElements)
+#undef RECORD
     return device;
 }
 
@@ -220,7 +221,7 @@ static lam_frame_report frame(lam_device *device, const struct demo *demo, const
 {
     lam_image image = {0};
     lam_error error = {0};
-    made = sent = drawn = calls = again = 0;
+    created = uploaded = drawn = calls = again = 0;
     if (!lam_image_make(&image, 64, 48, LAM_RGBA8, &error) ||
         !lam_draw(device, demo->scene, &demo->camera, params, &image, NULL, &error))
         fail_msg("%s", error.text);
@@ -240,28 +241,28 @@ static void test_unchanged(void **state)
         for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
             struct demo demo;
             build(names[n], &demo);
-            for (int way = 0; way < 3; way++) {
+            for (int method = 0; method < 3; method++) {
                 lam_draw_params params = demo.params;
                 params.samples = api ? 4 : 1;
-                params.stage = stages[way];
-                params.shading = way == 2 ? LAM_SHADING_PHONG : LAM_SHADING_GOURAUD;
+                params.stage = stages[method];
+                params.shading = method == 2 ? LAM_SHADING_PHONG : LAM_SHADING_GOURAUD;
                 frame(device, &demo, &params);
-                assert_true(drawn > 0 && (made > 0 || way > 0));
+                assert_true(drawn > 0 && (created > 0 || method > 0));
                 lam_frame_report second = frame(device, &demo, &params), third = frame(device, &demo, &params);
-                if (made || sent || again || third.bytes_uploaded || third.points_lit)
-                    fail_msg("%s, stage %d: %d made, %d sent, %d set again (%s), %llu bytes", names[n], way, made, sent,
-                             again, first_again, (unsigned long long)third.bytes_uploaded);
+                if (created || uploaded || again || third.bytes_uploaded || third.points_lit)
+                    fail_msg("%s, stage %d: %d created, %d uploaded, %d set again (%s), %llu bytes", names[n], method,
+                             created, uploaded, again, first_again, (unsigned long long)third.bytes_uploaded);
                 assert_int_equal(third.memory_bytes, second.memory_bytes);
             }
-            print_message("%-20s unchanged: %d calls that draw, %d that set\n", names[n], drawn, calls - drawn);
+            print_message("%-20s unchanged: %d draw calls, %d state calls\n", names[n], drawn, calls - drawn);
             lam_scene_free(demo.scene);
         }
         lam_device_free(device);
     }
 }
 
-// The colours of the stage `application` are sent again when what they were made of has changed, and only
-// then; in the other stages, lights and materials go alone.
+// The colours of the stage `application` are uploaded again only after one of their inputs has changed; the other stages
+// upload lights and materials only.
 static void test_changed(void **state)
 {
     (void)state;
@@ -275,7 +276,7 @@ static void test_changed(void **state)
         params.shading = LAM_SHADING_GOURAUD;
         params.stage = vertex ? LAM_STAGE_VERTEX : LAM_STAGE_APPLICATION;
         frame(device, &demo, &params);
-        uint64_t all = 0; // points lit where all colours are sent
+        uint64_t all = 0; // points lit when all colours are uploaded
         for (int change = 0; change < 6; change++) {
             lam_material m = *lam_scene_material(demo.scene, 0);
             lam_object o = *lam_scene_object(demo.scene, 0);
@@ -283,7 +284,7 @@ static void test_changed(void **state)
             bool lit = true;
             switch (change) {
             case 0:
-                params.exposure = 1; // comes after the lighting
+                params.exposure = 1; // applied after the lighting
                 lit = false;
                 break;
             case 1:
@@ -317,7 +318,7 @@ static void test_changed(void **state)
                 assert_true(report.bytes_uploaded > 0 && report.bytes_uploaded < 20000); // lights and products
             else
                 assert_int_equal(report.bytes_uploaded, colors);
-            if (!vertex && change == 5) // the plane's stay
+            if (!vertex && change == 5) // the plane's colours are still valid
                 assert_true(report.points_lit > 0 && report.points_lit < all);
             else if (!vertex && lit)
                 assert_true(report.points_lit > 0 && report.points_lit == all);

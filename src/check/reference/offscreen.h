@@ -8,7 +8,7 @@
 // Must not move between open and close, while its context is current.
 struct offscreen {
     struct gl_context context;
-    struct gl_previous previous;
+    struct gl_previous_context previous;
     int size;
     bool built_ins; // a compatibility context, with gl_Vertex and gl_Normal
     GLuint framebuffer, color, depth, array;

@@ -45,7 +45,7 @@ static bool group_sides(struct fragments *fragments)
 
 void group_fragments(const struct frame *frame, struct fragments *fragments)
 {
-    if (frame->surface_count == 1) {
+    if (frame->range_count == 1) {
         if (!group_sides(fragments))
             sort_by_group(fragments, 1);
         return;
@@ -56,9 +56,9 @@ void group_fragments(const struct frame *frame, struct fragments *fragments)
     for (int i = 0; i < fragments->count; i++) {
         uint32_t id = fragments->id[i] & ~BACK_SIDE;
         if (id - low >= count) {
-            surface = frame_draw_range_of(frame, id);
-            low = frame->surfaces[surface].first_id;
-            count = frame->surfaces[surface].count;
+            surface = frame_range_of(frame, id);
+            low = frame->ranges[surface].first_id;
+            count = frame->ranges[surface].count;
         }
         uint32_t group = (uint32_t)surface * 2 + (fragments->id[i] >> 31);
         fragments->group[i] = group;

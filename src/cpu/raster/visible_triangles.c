@@ -151,7 +151,7 @@ bool make_normals_of_visible(struct cpu_frame *cpu, struct visible_buffers *buff
     buffers->search_ms = 0;
     if (!make_set(cpu, buffers, error))
         return false;
-    if (!frame->translucent && !cpu->shade.recorder && lam_output_is_light(frame->show)) {
+    if (!frame->translucent && !cpu->shade.recorder && lam_output_is_light(frame->output)) {
         if (!search_tiles(cpu, buffers, error))
             return false;
     } else {

@@ -44,7 +44,7 @@ void output_tile(const struct resolve_target *target, const struct fragments *fr
                  const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile)
 {
     const struct frame *frame = target->frame;
-    lam_output output = frame->show;
+    lam_output output = frame->output;
     bool of_pixels = output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW;
     float *const *sum = sums->sum;
     if (output != LAM_OUTPUT_CLIPPED)
@@ -74,7 +74,7 @@ void output_tile(const struct resolve_target *target, const struct fragments *fr
 
 void output_empty(struct resolve_target *target)
 {
-    lam_output output = target->frame->show;
+    lam_output output = target->frame->output;
     lam_pixel_format format = target->image->format;
     if (output == LAM_OUTPUT_CLIPPED) {
         const lam_rgba *b = &target->frame->background;

@@ -1,7 +1,6 @@
-// arithmetic.c: how many floating-point operations a core of this machine does in a second, as JSON in
-// 10^9/s: products and sums each rounded (what the library may use), and fused ones, where a multiply-and-add
-// counts as two. Independent chains of operations in registers, as many as hide the latency; the best of
-// several counts of chains.
+// arithmetic.c: prints the floating-point operations per second of a core as JSON, in 10^9/s: products and sums each
+// rounded (as in the library), and fused ones, where a multiply-add counts as two. It runs independent chains of operations
+// in registers, enough to hide the latency, and reports the best of several numbers of chains.
 #include <stdio.h>
 
 #if defined(__x86_64__)
@@ -17,7 +16,7 @@ static double now_s(void)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-// A function that measures one instruction set with a number of chains; `FUSED` is 0 or 1.
+// Defines a function that measures one instruction set with a number of chains; `FUSED` is 0 or 1.
 #define MEASURE(NAME, TARGET, TYPE, LANES, CHAINS, FUSED, SET, MULTIPLY, ADD, FMA)                                     \
     __attribute__((target(TARGET))) static double NAME(void)                                                           \
     {                                                                                                                  \

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""check.py: instructions that lambent takes for a fixed set of jobs, counted by callgrind, beside the recorded ones.
+"""check.py: counts the instructions of a fixed set of lambent jobs with callgrind and compares them with recorded counts.
 
-    check.py LAMBENT            one check for each job: within 3 % of what bench/instructions.json says (make bench-check)
-    check.py LAMBENT --record   writes that file anew (make bench-check-record)
+    check.py LAMBENT            one check for each job: within 3 % of bench/instructions.json (make bench-check)
+    check.py LAMBENT --record   rewrites that file (make bench-check-record)
 
 With AVX2 (valgrind 3.19 knows no AVX-512) and one thread, the same build gives the same count to a few thousandths on any
-machine and at any load, so a slow-down is seen when it is made; a job that got faster is recorded anew, or the room would hide
-the next slow-down. Counts of another build (compiler,
-sanitizer, debug) mean nothing: then the checks are skipped, with a message. Output is TAP."""
+machine and at any load, so a slow-down shows in the change that causes it. A job that became faster must be recorded again, or the
+slack would hide the next slow-down. Counts of another build (compiler, sanitizer, debug) are not comparable: then the checks are
+skipped, with a message. Output is TAP."""
 import json
 import math
 import os
@@ -23,7 +23,7 @@ ROOM = 0.03
 
 
 def patch(side):
-    """Positions and triangles of a wavy square: every number is a short decimal, the same in each format."""
+    """Positions and triangles of a wavy square; every number is a short decimal, equal in each format."""
     positions = [(round(i / side, 4), round(0.1 * math.sin(0.3 * i) * math.cos(0.2 * j), 4), round(j / side, 4))
                  for j in range(side + 1) for i in range(side + 1)]
     triangles = []
@@ -49,7 +49,7 @@ def write_models(folder):
 
 
 def jobs():
-    """{name: arguments}. Small enough that all take less than a minute under callgrind."""
+    """{name: arguments}. All together take less than a minute under callgrind."""
     lights = [word for i in range(16) for word in ("--light", "point:position=%.3fr/%.3fr/%.3fr,color=0.1,attenuation=1/0.1r/0.2r" % (
         3 * math.cos(0.4 * i), 2 * math.sin(1.1 * i), 3 * math.sin(0.4 * i)))]
     small = ["-s", "64", "--samples", "1"]
@@ -65,7 +65,7 @@ def jobs():
 def instructions(lambent, arguments, folder):
     """Counted over the whole process."""
     drawing = [] if arguments == ["--version"] else ["-q", "--isa", "avx2", "--threads", "1", "-o", "out.png"]
-    # An environment of one size: its bytes lie on the stack, and move what stands beside them.
+    # A fixed environment: its bytes lie on the stack and shift the addresses of everything else there.
     done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", lambent, *drawing, *arguments], cwd=folder,
                           env={"PATH": "/usr/bin:/bin"}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     text = done.stderr.decode(errors="replace")
@@ -76,7 +76,7 @@ def instructions(lambent, arguments, folder):
 
 
 def build_of(lambent):
-    """The compiler and the kind of build, as the program tells them: "gcc 12.2.0, x86-64, release"."""
+    """The compiler and the kind of build, from lambent --version: "gcc 12.2.0, x86-64, release"."""
     told = subprocess.run([lambent, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()[1]
     return ", ".join(told.split(", ")[:3])
 
@@ -115,7 +115,7 @@ def main():
             good = change is not None and abs(change) <= ROOM
             failed += not good
             said = "not recorded" if before is None else "%d, %+.1f %% of the recorded %d" % (count, 100 * change, before)
-            hint = "" if good else "; make bench-check-record, if that is meant" if before is None or change < 0 else "; slower"
+            hint = "" if good else "; make bench-check-record, if this is intended" if before is None or change < 0 else "; slower"
             print("%s %d - %s: %s%s" % ("ok" if good else "not ok", number, name, said, hint), flush=True)
     if record:
         with open(RECORDED, "w") as file:

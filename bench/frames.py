@@ -1,5 +1,5 @@
-"""frames.py: one frame (scene loaded, picture not written) beside OpenGL drawn by Mesa's llvmpipe on all processors: our own
-OpenGL device, and the plain program bench-opengl with its lights in a loop and written out. The best of them counts."""
+"""frames.py: compares one frame (scene loaded, picture not written) with OpenGL on Mesa's llvmpipe with all processors: our
+OpenGL device, and the plain program bench-opengl with its lights in a loop or as literals. The fastest counts."""
 import json
 import math
 import os
@@ -9,7 +9,7 @@ import measure
 import paths
 import scenes
 
-REPEAT = 7  # frames of one process; its median counts as one number
+REPEAT = 7  # frames of one process, whose median is one sample
 
 
 def picture(name, end="png"):
@@ -37,11 +37,11 @@ def has_gl_device():
 
 
 def peers(scene, gl_device):
-    """Each OpenGL way to draw the scene, tried once: {name: ms}, the driver's name, and how far its picture is from ours."""
+    """Tries each OpenGL variant of the scene once: {name: ms}, the driver's name, and the difference of its picture from ours."""
     forms = {"loop": ["loop"], "written": ["written"]}
     if scene.shading == "flat":
         forms.update({"loop, derivatives": ["loop", "--derivatives"], "written, derivatives": ["written", "--derivatives"]})
-    elif scene.shading == "phong" and len(scene.lights) >= 16:  # where a fragment costs much, it pays to light none in vain
+    elif scene.shading == "phong" and len(scene.lights) >= 16:  # with expensive fragments, a depth pass first pays off
         forms.update({"loop, depth first": ["loop", "--depth-first"], "written, depth first": ["written", "--depth-first"]})
     if gl_device:
         forms["our OpenGL device"] = None
@@ -65,10 +65,10 @@ def peers(scene, gl_device):
         told = json.loads(measure.output([paths.LAMBENT, "diff", "--json", "--tolerance", "255", kept, theirs]))
         # The same lighting gives the same picture; edges, flat triangles and interpolation by the driver may differ in a few pixels.
         if told["mean"] > 2 / 255:
-            raise measure.Failed("%s: OpenGL (%s) draws another picture (mean difference %.4f)" % (scene.name, name, told["mean"]))
+            raise measure.Failed("%s: OpenGL (%s) draws a different picture (mean difference %.4f)" % (scene.name, name, told["mean"]))
         difference = {key: max(before, told[key]) for key, before in difference.items()}
     os.replace(kept, picture(scene.name, "ppm"))
-    if not any(forms[name] for name in tried):  # our own device alone would be a weak opponent
+    if not any(forms[name] for name in tried):  # our own device alone is too weak a comparison
         raise measure.Failed("; ".join(failed))
     return tried, forms, renderer, difference, failed
 
@@ -92,7 +92,7 @@ def scene_of(name, triangles, lights, shading, size, samples):
     return scenes.Scene(name.replace(" ", "-"), scenes.model(triangles), scenes.around(lights), shading, size, samples)
 
 
-# The rows that carry the target: every size, light count, shading, picture and sample count is in one of them.
+# The rows with targets: together they include every size, number of lights, shading, picture and number of samples.
 NAMED = (("frame 10k", 10000, 1, "phong", (1024, 1024), 1), ("frame 1M", 1000000, 1, "phong", (1024, 1024), 1),
          ("frame 10M flat", 10000000, 1, "flat", (512, 512), 1), ("frame 100k 16 lights 4 samples", 100000, 16, "phong", (1024, 1024), 4),
          ("frame 1M 64 lights", 1000000, 64, "phong", (1920, 1080), 1),
@@ -118,8 +118,8 @@ def rows(isas, gl_device, full):
 
 def spread_lights(count, radius, end=None):
     """Lights a little above the terrain (model.c has its height), evenly in both directions. They fall to 1/255 at `radius`;
-    with `end` they have glTF's range there, and give nothing beyond. Without it each still gives something everywhere: the
-    many far ones add up."""
+    with `end` they have glTF's range there, and contribute nothing beyond. Without it each contributes everywhere: the
+    many distant ones add up."""
     lights = []
     for i in range(count):
         # A sequence that fills the plane evenly (Roberts' R2).
@@ -154,7 +154,7 @@ def many_lights(count, wanted, isas):
             "planes": (3.0, 5.0)}
     many = scenes.Scene("lights-%d" % count, terrain, spread_lights(count, radius, radius), **view)
     endless = scenes.Scene("lights-%d-endless" % count, terrain, spread_lights(count, radius), **view)
-    # The same attenuation, and a range that ends nowhere in the picture: each of them matters to every point.
+    # The same attenuation, and a range that covers the picture: each light affects every point.
     few = scenes.Scene("lights-16", terrain, spread_lights(16, radius, 1000.0), **view)
     try:
         ours_ms(few, "--light-cutoff", 0, frames=1)
@@ -183,8 +183,8 @@ def many_lights(count, wanted, isas):
 
 
 def threads(isas):
-    """The 1 M scene with one thread and with two. Of so many frames that those count for little in which the system has not yet
-    given each thread a processor of its own: of seven short ones they may be half."""
+    """The 1 M scene with one thread and with two. Enough frames are drawn to outweigh the first ones, in which the system has not
+    yet given each thread its own processor: of seven short frames they may be half."""
     scene = scene_of("frame 1M", 1000000, 1, "phong", (1024, 1024), 1)
     contestants = {"%s, %d" % (isa, n): (lambda isa=isa, n=n: ours_ms(scene, "--isa", isa, "-j", n, frames=30)) for isa in isas for n in (1, 2)}
     taken = measure.in_turn(contestants, 5)

@@ -1,4 +1,4 @@
-"""growth_plot.py: one series as an SVG: both axes logarithmic, lambent's line and the peer's, and the slope one as a guide."""
+"""growth_plot.py: one series as an SVG: both axes logarithmic, the lines of lambent and its peer, and a guide of slope one."""
 import math
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 420, 70, 30, 24, 56

@@ -1,5 +1,5 @@
-"""measure.py: contestants measured in turn, round after round, so that a machine whose speed drifts does not decide; medians,
-and ratios of the same round with their spread."""
+"""measure.py: measures contestants in turn, round after round, so that drift of the machine's speed does not matter; computes
+medians, and ratios within a round with their spread."""
 import contextlib
 import json
 import os
@@ -10,12 +10,12 @@ import time
 import paths
 
 
-LONGEST_S = 300  # a program that takes longer hangs
-ROW_S = 40  # a row that has taken so long gets no further round
+LONGEST_S = 300  # a program that takes longer is considered hung
+ROW_S = 40  # no further round for a row that has taken this long
 
 
 class Failed(Exception):
-    """A program did not do what it was asked; the text says which and how."""
+    """A program failed; the text names it and the failure."""
 
 
 def output(command, **more):
@@ -29,8 +29,8 @@ def output(command, **more):
 
 
 def wall_ms(command, written):
-    """A whole process, from the call that starts it to its end. The file that it writes is not there yet: to replace one takes
-    the file system longer, now and then by milliseconds, whoever does it."""
+    """A whole process, from the call that starts it to its end. The output file must not exist: replacing one takes
+    the file system longer, sometimes by milliseconds."""
     with contextlib.suppress(FileNotFoundError):
         os.remove(written)
     start = time.perf_counter()
@@ -44,7 +44,7 @@ def lambent(*arguments):
 
 
 def usable_isas():
-    """The instruction sets to report, the widest first: AVX-512 and AVX2 where the machine has them."""
+    """The instruction sets to report, the widest first: AVX-512 and AVX2 if the machine has them."""
     found = []
     for isa in ("avx512", "avx2", "neon"):
         try:
@@ -55,15 +55,15 @@ def usable_isas():
     return found or ["auto"]
 
 
-# From then on (time.monotonic()) a row gets one round and no more, so that the bench ends on a busy machine too; results tell
-# their rounds.
+# After this time (time.monotonic()) a row gets only one round, so that the bench also ends on a busy machine; results record
+# their number of rounds.
 hurry_from = float("inf")
 
 
 def in_turn(contestants, seconds, least_rounds=3, most_rounds=15):
     """Runs every contestant once to warm up, then all of them in turn until the time is used, at least `least_rounds` times; each
-    second round backwards. So nobody always runs behind the last one, whose gigabytes the system may still be taking back: behind
-    F3D with 10 million triangles a process was seen to spend half a second more in the system. `contestants` is
+    second round backwards. So no contestant always follows the same one, whose gigabytes the system may still be reclaiming: after
+    F3D with 10 million triangles a process spent up to half a second more in the system. `contestants` is
     {name: function that returns a number}. Returns {name: [numbers, one for each round]}."""
     for run in reversed(contestants.values()):
         run()
@@ -80,17 +80,17 @@ def in_turn(contestants, seconds, least_rounds=3, most_rounds=15):
 
 
 def spread(numbers):
-    """The median with the least, the most and the count."""
+    """The median, the minimum, the maximum and the count."""
     return {"median": statistics.median(numbers), "least": min(numbers), "most": max(numbers), "rounds": len(numbers)}
 
 
 def ratio(numerators, denominators):
-    """Ratios of the same round."""
+    """Ratios within each round."""
     return spread([a / b for a, b in zip(numerators, denominators)])
 
 
 def peak_bytes(command):
-    """The most memory that a process held at once."""
+    """The peak memory of a process."""
     child = os.posix_spawn(command[0], command, os.environ, file_actions=[
         (os.POSIX_SPAWN_OPEN, 1, "/dev/null", os.O_WRONLY, 0), (os.POSIX_SPAWN_OPEN, 2, "/dev/null", os.O_WRONLY, 0)])
     _, status, used = os.wait4(child, 0)
@@ -100,7 +100,7 @@ def peak_bytes(command):
 
 
 def start_ms(command):
-    """A process that does next to nothing, started as cheaply as can be."""
+    """A process that does almost nothing, started as cheaply as possible."""
     start = time.perf_counter()
     child = os.posix_spawn(command[0], command, os.environ, file_actions=[(os.POSIX_SPAWN_OPEN, 1, "/dev/null", os.O_WRONLY, 0)])
     _, status = os.waitpid(child, 0)
@@ -111,7 +111,7 @@ def start_ms(command):
 
 
 def busy_s():
-    """Seconds that the processors have worked (or were taken by the host) since the start of the system, whoever made them."""
+    """Seconds that the processors have been busy (or taken by the host) since the start of the system."""
     with open("/proc/stat") as file:
         user, nice, system, _, _, irq, softirq, steal = (int(word) for word in file.readline().split()[1:9])
     return (user + nice + system + irq + softirq + steal) / os.sysconf("SC_CLK_TCK")
@@ -124,7 +124,7 @@ def own_s():
 
 
 def machine():
-    """What the numbers were taken on, and how busy it was."""
+    """The machine of the measurements, and its load."""
     facts = {"processor": "unknown", "processors": len(os.sched_getaffinity(0)), "load_before": os.getloadavg()[0], "kernel": os.uname().release}
     for line in open("/proc/cpuinfo"):
         if line.startswith("model name"):

@@ -2,12 +2,11 @@
 //     opengl SCENE.txt loop|written [--derivatives] [--depth-first] [--frames N] [--seconds S] [--picture
 //     FILE.ppm]
 //
-// No window: an EGL context without a surface, a framebuffer of its own (8 bits a channel, 24 bits of depth,
-// multisampled where asked for and resolved in each frame). Buffers are uploaded once; a frame is clear, one
-// draw call (two with --depth-first: the first one writes depth alone, so that only what is seen is lit),
-// glFinish, and reading pixels back is not counted. Frames are drawn until there are N or S
-// seconds have gone by, after one to warm up; the report is a line of JSON. Exits with 3 where there is no
-// such OpenGL.
+// It has no window but an EGL context without a surface, and a framebuffer of its own (8 bits a channel, 24 bits of depth,
+// multisampled on request and resolved in each frame). Buffers are uploaded once; a frame is a clear, one draw call (two
+// with --depth-first: the first writes depth alone, so that only visible fragments are lit) and glFinish, without reading
+// pixels back. After one frame to warm up it draws N frames, or for S seconds; the report is a line of JSON. The exit code
+// is 3 if this OpenGL is not available.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 
@@ -52,7 +51,7 @@ static void make_context(void)
     EGLConfig config = NULL;
     EGLint count = 0;
     eglBindAPI(EGL_OPENGL_API);
-    // Surfaceless displays may have no configuration that is fit for a window: none is needed.
+    // Surfaceless displays may have no configuration for windows; none is needed.
     if (!eglChooseConfig(display, wanted, &config, 1, &count) || count < 1)
         config = NULL;
     EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, version);
@@ -75,7 +74,7 @@ static GLuint compile(GLenum kind, char *text)
     return shader;
 }
 
-// Column-major, as OpenGL takes it: perspective × look-at.
+// Column-major, as OpenGL expects: perspective × look-at.
 static void clip_matrix(const struct gl_scene *scene, float *result)
 {
     double back[3], right[3], top[3];
@@ -115,7 +114,7 @@ static void clip_matrix(const struct gl_scene *scene, float *result)
     }
 }
 
-// Links two shaders, uses the program and tells it the camera.
+// Links two shaders, uses the program and sets its camera.
 static GLuint make_program(const struct gl_scene *scene, char *vertex, char *fragment)
 {
     GLuint program = glCreateProgram();

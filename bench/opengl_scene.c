@@ -1,4 +1,4 @@
-// opengl_scene.c: reads the OpenGL program's scene: lines of a keyword and its numbers, and the PLY that they name.
+// opengl_scene.c: reads the OpenGL program's scene: lines of a keyword and its numbers, and the PLY named there.
 #include "opengl_scene.h"
 
 #include <math.h>
@@ -61,7 +61,7 @@ static void subtract(const float *a, const float *b, double *result)
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Face normals weighted by the angle at the corner, as Lambent makes them where no edge is sharper than the
+// Face normals weighted by the angle at the corner, like Lambent's where no edge is sharper than the
 // crease angle.
 static void make_normals(struct gl_scene *scene)
 {

@@ -1,5 +1,5 @@
-// opengl_scene.h: what the OpenGL program draws, read from the text file that scenes.py writes beside
-// Lambent's scene file.
+// opengl_scene.h: the scene of the OpenGL program, read from the text file that scenes.py writes next to Lambent's scene
+// file.
 #ifndef OPENGL_SCENE_H
 #define OPENGL_SCENE_H
 
@@ -8,7 +8,7 @@
 
 enum shading { PHONG, GOURAUD, FLAT };
 
-// A point light: its place in the world, its colour times the material's diffuse and specular colours, a, b,
+// A point light: its position in the world, its colour times the material's diffuse and specular colours, a, b,
 // c of 1/(a + b d + c d^2).
 struct point_light {
     float position[3], diffuse[3], specular[3], attenuation[3];
@@ -28,7 +28,7 @@ struct gl_scene {
     size_t vertices, triangles;
 };
 
-// Reads the scene and its model (a PLY that model.c wrote). Exits with a sentence when that cannot be.
+// Reads the scene and its model (a PLY that model.c wrote). On failure it prints a sentence and exits.
 struct gl_scene gl_scene_read(const char *path);
 
 #endif

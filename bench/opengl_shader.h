@@ -4,7 +4,7 @@
 
 #include "opengl_scene.h"
 
-// How the same lighting is put to the driver. The bench takes the faster one of each scene.
+// Variants of the shader for the same lighting. The bench uses the fastest one for each scene.
 struct form {
     // 1: every light in the shader's text, its numbers as literals, and squarings for pow; 0: a loop over a uniform
     // block, and pow
@@ -18,7 +18,7 @@ struct form {
 char *vertex_shader(const struct gl_scene *scene, struct form form);
 char *fragment_shader(const struct gl_scene *scene, struct form form);
 
-// Those that write depth alone, at the same depths.
+// The shaders that write depth alone, with identical depths.
 char *depth_vertex_shader(void);
 char *depth_fragment_shader(void);
 

@@ -1,4 +1,4 @@
-"""paths.py: where the bench finds things and puts them."""
+"""paths.py: the folders of the bench."""
 import os
 
 BENCH = os.path.dirname(os.path.abspath(__file__))
@@ -7,7 +7,7 @@ OUT = os.path.join(ROOT, "build-bench")  # its own build of everything, models, 
 RESULTS = os.path.join(BENCH, "results")
 PICTURES = os.path.join(OUT, "pictures")
 LAMBENT = os.path.join(OUT, "lambent")
-# Real models lie beside the checkout, or where this says.
+# The folder of real models, by default next to the checkout.
 REAL_MODELS = os.environ.get("LAMBENT_MODELS", os.path.join(ROOT, "..", "shared", "models"))
 
 

@@ -1,10 +1,8 @@
-// shader_interface.c: what reading a model file takes by other means, once, from the page cache, in milliseconds on
-// standard output:
+// reading.c: prints the milliseconds that other programs need to read a model file once from the page cache:
 //     reading assimp FILE   Assimp, no post-processing: its own positions and indices
-//     reading touch FILE    mapped, one thread, every cache line looked at: no reader is faster with one
-//     thread reading copy FILE     read() into fresh memory, both processors a half: no reader that keeps a
-//     copy is faster
-// A process reads once, as a program that draws one picture does.
+//     reading touch FILE    mapped, one thread reads every cache line: the limit of any reader with one thread
+//     reading copy FILE     read() into fresh memory, each of two threads a half: the limit of any reader that keeps a copy
+// A process reads once, like a program that draws one picture.
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
 
@@ -115,5 +113,5 @@ int main(int count, char **arguments)
         return 1;
     printf("%.4f\n", now_ms() - start);
     fflush(stdout);
-    _exit(0); // giving memory back is not reading
+    _exit(0); // do not measure freeing the memory
 }

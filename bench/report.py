@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""report.py: results in words: a line for each row, the tables of docs/speed.md between their markers, and the plots.
+"""report.py: presents results: a line for each row, the tables of docs/speed.md between their markers, and the plots.
 
-    report.py [RESULT.json]   writes page, plots and README anew from that result, the newest one without an argument
-    report.py --check         one check for each of those files: it is what the newest result gives (TAP; part of make test)"""
+    report.py [RESULT.json]   rewrites page, plots and README from that result, by default the newest one
+    report.py --check         one check for each of those files: it agrees with the newest result (TAP; part of make test)"""
 import json
 import math
 import os
@@ -25,7 +25,7 @@ def ms(value):
 
 
 def measured(row):
-    """What decides a row, with each instruction set, in one cell."""
+    """The deciding values of a row for each instruction set, in one cell."""
     if "not_measured" in row:
         return "not measured: " + row["not_measured"].split(": ", 1)[1]
     if "encoders" in row:
@@ -136,7 +136,7 @@ def limits_section(result):
 
 
 def slope(x, y):
-    """Of the straight line through the logarithms: y grows as x to this power."""
+    """The slope of the straight line through the logarithms: y grows as x to this power."""
     lx, ly = [math.log(v) for v in x], [math.log(v) for v in y]
     mx, my = sum(lx) / len(lx), sum(ly) / len(ly)
     return sum((a - mx) * (b - my) for a, b in zip(lx, ly)) / sum((a - mx) ** 2 for a in lx)
@@ -156,7 +156,7 @@ def growth_section(result):
 
 
 def readme_section(result):
-    """The README's claims of speed, each from a row; what was not measured is not claimed."""
+    """The README's claims of speed, each from a row; nothing unmeasured is claimed."""
     rows = {row["name"]: row for row in result["rows"] if "not_measured" not in row}
     isa, claims, numbers = result["isas"][0], [], []
     found = [(rows["whole 1M " + kind], kind.upper()) for kind in ("ply", "stl", "obj") if "whole 1M " + kind in rows]
@@ -175,7 +175,7 @@ def readme_section(result):
 
 
 def files(result):
-    """{path: text} of all that is made from a result; None where nothing has been measured yet."""
+    """{path: text} of every file made from a result; None if nothing has been measured yet."""
     made = {}
     for path, sections in ((PAGE, (("rows", rows_section), ("limits", limits_section), ("growth", growth_section))),
                            (README, (("speed", readme_section),))):
@@ -200,7 +200,7 @@ def write_files(result):
 
 
 def newest():
-    """The newest result of the named rows (the whole product is no table to read), or None."""
+    """The newest result of the named rows (not of BENCH=full), or None."""
     names = [name for name in os.listdir(paths.RESULTS) if name.endswith(".json") and "full" not in name] if os.path.isdir(paths.RESULTS) else []
     if not names:
         return None
@@ -218,8 +218,8 @@ def check():
             with open(path, encoding="utf-8") as file:
                 good = file.read() == text
         bad += not good
-        print("%s %d - %s is what the newest of bench/results gives%s" % (
-            "ok" if good else "not ok", number, os.path.relpath(path, paths.ROOT), "" if good else "; python3 bench/report.py writes it anew"))
+        print("%s %d - %s agrees with the newest of bench/results%s" % (
+            "ok" if good else "not ok", number, os.path.relpath(path, paths.ROOT), "" if good else "; python3 bench/report.py rewrites it"))
     return 1 if bad else 0
 
 

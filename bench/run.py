@@ -20,11 +20,11 @@ import steps
 import whole
 
 NO_TARGET = "none"
-HURRY_S = 330  # from then on one round a row: on a busy machine too the named rows end
+HURRY_S = 330  # after this time one round per row, so that the named rows also end on a busy machine
 
 
 def judged_ratio(result, target, isas, at_least=True):
-    """A row that is a ratio with each instruction set: reached when it is with all of them."""
+    """A row with a ratio for each instruction set; its target is reached if all of them reach it."""
     values = [result["ratio"][isa]["median"] for isa in isas]
     result["reached"] = target is None or all(v >= target if at_least else v <= target for v in values)
     return result
@@ -101,7 +101,7 @@ def run_row(number, name, target, judge):
     row = {"number": number, "name": name, "target": target}
     try:
         row.update(judge())
-    except Exception as problem:  # whatever went wrong, the other rows are measured
+    except Exception as problem:  # after any failure, the other rows are still measured
         row.update(not_measured="%s: %s" % (type(problem).__name__, problem), reached=False)
     row["took_s"] = round(time.monotonic() - begun, 1)
     print("%2d  %s" % (number, report.line(row)), flush=True)
@@ -150,7 +150,7 @@ def main():
             if asked(name):
                 result["rows"].append(run_row(number, name, target, judge))
             if full:
-                save(result, path)  # hours: what is measured stays
+                save(result, path)  # takes hours: results are saved row by row
     finally:
         display.close()
     result["frames"] = geometric_mean(result["rows"], isas)
@@ -163,7 +163,7 @@ def main():
         result["growth"] = attempt("growth", lambda: frames.growth(isas), problems)
     took = time.monotonic() - begun
     facts["load_after"], result["took_s"], result["problems"] = os.getloadavg()[0], round(took, 1), problems
-    # What was not this bench: the report tells it, for a number from a busy machine means little.
+    # The load from other processes: the report includes it, since numbers from a busy machine mean little.
     facts["share_of_others"] = round(max(0.0, measure.busy_s() - measure.own_s() - busy) / (took * facts["processors"]), 3)
     save(result, path)
     if not words and not full:

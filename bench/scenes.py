@@ -1,5 +1,5 @@
-"""scenes.py: what the bench draws: models made by bench-model, and each scene twice, as Lambent's scene file and as the text
-file of the plain OpenGL program (opengl_scene.c). Both say the same camera, lights and material."""
+"""scenes.py: the scenes of the bench: models made by bench-model, and each scene twice, as Lambent's scene file and as the text
+file of the plain OpenGL program (opengl_scene.c), with the same camera, lights and material."""
 import json
 import math
 import os
@@ -12,7 +12,7 @@ EYE, UP, FOVY, PLANES = (1.7, 1.2, 3.4), (0.0, 1.0, 0.0), 32.0, (1.5, 7.0)
 
 
 def model(triangles, kind="ply", shape="sphere"):
-    """A model's file, made where it is missing."""
+    """A model's file, made if it is missing."""
     folder = os.path.join(paths.OUT, "models")
     os.makedirs(folder, exist_ok=True)
     path = os.path.join(folder, "%s_%d.%s" % (shape, triangles, kind))
@@ -24,8 +24,8 @@ def model(triangles, kind="ply", shape="sphere"):
 
 
 def around(count):
-    """Point lights on a sphere around the model, evenly spread (Fibonacci's spiral), a little of each colour; together as
-    bright as one light, so that no picture is white."""
+    """Point lights on a sphere around the model, evenly spread (Fibonacci's spiral), slightly coloured; together as
+    bright as one light, so that no picture is overexposed."""
     lights = []
     for i in range(count):
         height = 1 - 2 * (i + 0.5) / count if count > 1 else 0.55
@@ -39,7 +39,7 @@ def around(count):
 
 
 def from_the_front(count):
-    """The same lights, drawn in around the eye: all of them reach all that is seen."""
+    """The same lights, moved to the eye, so that each reaches every visible point."""
     return [dict(light, position=tuple(2.2 * e + 0.25 * p for e, p in zip(EYE, light["position"]))) for light in around(count)]
 
 
@@ -59,7 +59,7 @@ class Scene:
     def write_json(self):
         scene = {
             "lambent": 1,
-            # The numbers of the equations themselves, as the OpenGL program writes them: no sRGB on either side.
+            # The results of the equations, as written by the OpenGL program: no sRGB on either side.
             "image": {"size": self.size, "samples": self.samples, "background": [0, 0, 0], "color": "raw"},
             "camera": {"eye": self.eye, "target": self.target, "up": self.up, "fovy": self.fovy, "near": self.planes[0],
                        "far": self.planes[1]},

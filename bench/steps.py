@@ -1,4 +1,4 @@
-"""steps.py: single steps: reading, PNG, the lighting step, memory, start-up; and what this machine could do at most."""
+"""steps.py: measures single steps (reading, PNG, the lighting step, memory, start-up) and the limits of this machine."""
 import json
 import os
 
@@ -8,7 +8,7 @@ import scenes
 
 
 def read_ms(path, isa="auto"):
-    """What lambent takes from a file's name to usable positions and indices, and to normals (welding and making)."""
+    """lambent's time from a file's name to usable positions and indices, and to normals (welding and computing)."""
     times = measure.lambent("-s", 16, "--samples", 1, "--isa", isa, "-o", os.path.join(paths.PICTURES, "read.png"), path)["times_ms"]
     return times["read"], times["prepare"]
 
@@ -44,19 +44,19 @@ def png():
 
 
 # Floating-point operations of one point light with attenuation at one point, Blinn-Phong, by the text of src/lighting and
-# base/math/functions.h: each + - x, comparison and choice is one, so is a division. What a compiler can take out of the loop
+# base/math/functions.h: each + - x, comparison and choice is one, so is a division. Work that a compiler can move out of the loop
 # over the lights, and integer work on a float's bits, is not counted.
-OPERATIONS = {"way to the light, its square and inverse root": 3 + 5 + 13, "direction, distance": 3 + 1, "attenuation": 7 + 2,
+OPERATIONS = {"vector to the light, its square and inverse root": 3 + 5 + 13, "direction, distance": 3 + 1, "attenuation": 7 + 2,
               "n.l, clamped, gate": 5 + 2 + 1 + 1, "l + v, n.(l + v), its length": 3 + 5 + 5 + 13 + 1,
               "logarithm": 1 + 1 + 1 + 21 + 4 + 3 + 2, "times the shininess": 4, "power of two": 1 + 2 + 2 + 11 + 1 + 2,
               "gate of the highlight": 1, "two products of colour, two sums": 2 + 6 + 6}
-# And of the point itself, whatever the lights: perspective-correct weights, position and normal, into eye space, the sum.
+# And of the point itself, independent of the lights: perspective-correct weights, position and normal, into eye space, the sum.
 POINT_OPERATIONS = {"weights": 12 + 9 + 2 + 3 + 3 + 3, "position": 12 + 18, "normal": 12 + 21, "to the eye": 24, "tint and sum": 6 + 12}
 
 
 def lighting_step(isas):
-    """The lighting step of a frame (attributes fetched and interpolated, the equations of 16 lights that all reach what is seen), in
-    operations counted by the text, of the lights that were evaluated, beside what the processors can do without fused operations."""
+    """The lighting step of a frame (attributes fetched and interpolated, the equations of 16 lights that reach every visible
+    point), in operations counted in the text for evaluated lights, compared with the processors' rate without fused operations."""
     count, of_point = sum(OPERATIONS.values()), sum(POINT_OPERATIONS.values())
     rates = json.loads(measure.output([paths.program("arithmetic")]))
     scene = scenes.Scene("lighting", scenes.model(100000), scenes.from_the_front(16))
@@ -69,7 +69,7 @@ def lighting_step(isas):
         counts = report["counts"]
         return (counts["lights_evaluated"] * count + counts["points_lit"] * of_point) / report["times_ms"]["steps"]["lighting"] / 1e6
     taken = measure.in_turn({isa: (lambda isa=isa: per_second(isa)) for isa in isas if isa in rates}, 4)
-    # The machine's rate again between the rounds: whichever was better counts.
+    # Measures the machine's rate again between the rounds; the better one counts.
     again = json.loads(measure.output([paths.program("arithmetic")]))
     for isa, values in taken.items():
         peak = max(rates[isa]["unfused"], again[isa]["unfused"]) * threads
@@ -90,7 +90,7 @@ def memory_of_10m(isas):
 
 
 def start_up():
-    """`lambent --version` (every option table read, one line written) beside a program that does nothing."""
+    """`lambent --version` (every option table read, one line written) compared with a program that does nothing."""
     taken = measure.in_turn({"lambent": lambda: measure.start_ms([paths.LAMBENT, "--version"]),
                              "true": lambda: measure.start_ms(["/bin/true"])}, 3, least_rounds=50, most_rounds=400)
     over = [a - b for a, b in zip(taken["lambent"], taken["true"])]
@@ -105,14 +105,14 @@ def loaded_graphics():
 
 
 def limits():
-    """What the memory can do (memory.c) and what starting a process costs."""
+    """The speed of memory (memory.c) and the cost of starting a process."""
     return {"arithmetic": json.loads(measure.output([paths.program("arithmetic")])),
             "memory_gb_s": json.loads(measure.output([paths.program("memory")])),
             "process_ms": measure.spread([measure.start_ms(["/bin/true"]) for _ in range(100)])}
 
 
 def distance(isa, memory, process_ms):
-    """Each step of drawing the 1 M PLY beside the least that it could take on this machine: [(step, ms, least ms, why)]."""
+    """Each step of drawing the 1 M PLY with its minimum on this machine: [(step, ms, minimum ms, reason)]."""
     path, width = scenes.model(1000000), 1024
     reports = [measure.lambent("-s", width, "--samples", 1, "--isa", isa, "-o", os.path.join(paths.PICTURES, "steps.png"), path)
                for _ in range(5)]

@@ -1,7 +1,7 @@
-"""whole.py: lambent as a whole process, model file to PNG, beside F3D drawing the same file with the same camera.
+"""whole.py: compares a whole lambent process, model file to PNG, with F3D drawing the same file with the same camera.
 
-Both light with a studio of their own (F3D: VTK's light kit), both write 1024x1024 PNG. F3D runs on a display that is there
-already: starting the X server is not its time. The pictures stay in build-bench/pictures for the eye to compare."""
+Each uses its own studio lights (F3D: VTK's light kit), both write 1024x1024 PNG. F3D runs on a running display: starting the X
+server is not counted. The pictures stay in build-bench/pictures for inspection."""
 import os
 import shutil
 import statistics
@@ -27,7 +27,7 @@ class Display:
         measure.output(["f3d", scenes.model(1000), "--dry-run", "--quiet", "--output=" + picture("try-f3d")])
 
     def f3d_ms(self, command, written):
-        """F3D's time; where it crashes on a display that has served before, once more on a new one."""
+        """F3D's time. If it crashes on a display used before, it runs once more on a new one."""
         try:
             return measure.wall_ms(command, written)
         except measure.Failed:
@@ -40,7 +40,7 @@ class Display:
         self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x1100x24", "-nolisten", "tcp", "-noreset"],
                                        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
-        # Up to the line's end: a server whose number is not read whole ends again.
+        # Reads up to the line's end: the server exits if its number is not read completely.
         with os.fdopen(read) as told:
             number = told.readline().strip()
         if not number:
@@ -55,7 +55,7 @@ class Display:
 
 
 def f3d_command(path, report, picture, size):
-    """F3D with the camera that lambent fitted."""
+    """F3D with lambent's fitted camera."""
     def numbers(vector):
         return ",".join("%.9g" % x for x in vector)
     camera = report["camera"]
@@ -69,7 +69,7 @@ def picture(name):
 
 
 def whole(name, path, samples, isas, display, seconds, size=SIZE):
-    """One file: lambent with each instruction set, with the other number of samples beside, and F3D. `samples` decides."""
+    """One file: lambent with each instruction set, also with the other number of samples, and F3D. `samples` decides."""
     file_name = name.replace(" ", "-").replace(",", "")
     other = 4 if samples == 1 else 1
 
@@ -83,7 +83,7 @@ def whole(name, path, samples, isas, display, seconds, size=SIZE):
     peer = f3d_command(path, report, theirs, size)
     contestants["f3d"] = lambda: display.f3d_ms(peer, theirs)
     taken = measure.in_turn(contestants, seconds)
-    # What is not the encoder: of runs of its own, since a report costs time.
+    # The time without the encoder, from separate runs, since a report costs time.
     besides = [r["times_ms"]["total"] - r["times_ms"]["encode"] for r in
                (measure.lambent(path, "-s", size, "--samples", samples, "-o", picture(file_name + "-lambent")) for _ in range(3))]
     return {"file_bytes": os.path.getsize(path), "triangles": report["model"]["triangles"], "samples": samples, "size": size,
@@ -93,7 +93,7 @@ def whole(name, path, samples, isas, display, seconds, size=SIZE):
 
 
 def small_model(name):
-    """A real model from the collection beside the checkout; lambent and F3D must both be able to read it."""
+    """A real model from the collection next to the checkout, readable by lambent and F3D."""
     path = os.path.normpath(os.path.join(paths.REAL_MODELS, {"spot": "obj/spot/spot_triangulated.obj", "teapot": "obj/teapot/teapot.obj",
                                                              "koala": "obj/koala/koala.obj", "koala.stl": "stl/derived/koala.stl",
                                                              "gallery": "ply/derived/gallery.ply"}[name]))

@@ -1,5 +1,5 @@
 // check.c: checks the lighting of a fragment shader and names its mistakes; the shader runs in this process, so it must
-// be one that you trust. cc check.c $(pkg-config --cflags --libs lambent-check) -o check
+// be trusted. cc check.c $(pkg-config --cflags --libs lambent-check) -o check
 #include <lambent/check.h>
 #include <lambent/image.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// materials.c: every named material on a sphere, in one picture made from the library alone.
+// materials.c: draws every named material on a sphere, in one picture, with the library alone.
 // cc materials.c $(pkg-config --cflags --libs lambent) -o materials
 #include <lambent/lambent.h>
 #include <stdio.h>
@@ -21,7 +21,7 @@ int main(int argc, char **argv)
         object.transform.m[1][3] = -2.2 * (i / COLUMNS); // downwards
         ok = object.material >= 0 && lam_scene_add_object(scene, &object, &error) >= 0;
     }
-    // The classic picture's light: one point light, up to the right of the viewer, and a little light from everywhere.
+    // The classic picture's light: one point light above and to the right of the viewer, and a little ambient light.
     lam_light light = lam_light_default(LAM_LIGHT_POINT);
     light.position = (lam_vec3){20, 20, 30};
     light.ambient = (lam_rgb){0.2f, 0.2f, 0.2f};

@@ -1,5 +1,5 @@
-// opengl.c: draws with OpenGL in a context of the program's own. Here it has no window; with one, SDL, GLFW
-// or GTK make the context and have the function that finds OpenGL's. cc opengl.c $(pkg-config --cflags --libs
+// opengl.c: draws with OpenGL in the program's own context. This one has no window; for a window, SDL, GLFW or GTK make the
+// context and provide the function that loads OpenGL's functions. cc opengl.c $(pkg-config --cflags --libs
 // lambent egl) -o opengl
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -43,13 +43,13 @@ int main(int argc, char **argv)
         lam_scene_free(scene);
         return LAM_UNSUPPORTED;
     }
-    // The context stays the program's: each call gives back the state that it found.
+    // The context belongs to the program: each call restores the state that it found.
     if (scene)
         device = lam_device_gl(&(lam_gl_params){.get_proc_address = find}, &error);
     lam_image image = {0};
     lam_draw_params params = {.shading = LAM_SHADING_GOURAUD, .stage = LAM_STAGE_VERTEX};
     bool ok = device && lam_image_make(&image, 512, 512, LAM_RGBA8, &error);
-    for (int frame = 0; ok && frame < 8; frame++) { // around the model: it is sent with the first frame only
+    for (int frame = 0; ok && frame < 8; frame++) { // around the model, which is uploaded with the first frame only
         lam_view view = {.from_angles = true, .azimuth_rad = frame * 0.1, .elevation_rad = 0.3};
         lam_camera camera = lam_camera_fit(scene, image.width, image.height, &view);
         lam_frame_report report;

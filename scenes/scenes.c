@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// --- small words
+// --- shorthands
 
 static int shape(struct demo *d, const char *name, int slices, int stacks, lam_error *error)
 {
@@ -28,7 +28,7 @@ static int named(struct demo *d, lam_material_id id, lam_error *error)
     return lam_scene_add_material(d->scene, &m, error);
 }
 
-// Places a mesh: scaled, then moved.
+// Adds a mesh, scaled and then translated.
 static bool place(struct demo *d, int mesh, int mat, lam_vec3 scale, lam_vec3 move, lam_error *error)
 {
     lam_object o = lam_object_default();
@@ -67,7 +67,7 @@ static bool point_light(struct demo *d, lam_vec3 position, lam_rgb color, lam_at
     return lam_scene_add_light(d->scene, &l, error) >= 0;
 }
 
-// --- one model in the default light, drawn in different ways
+// --- one model in the default light, in different drawing modes
 
 static bool one_shape(struct demo *d, const char *name, int slices, int stacks, lam_error *error)
 {
@@ -245,7 +245,7 @@ static bool inside(struct demo *d, lam_error *error)
     return ok;
 }
 
-// A ground of two triangles that reaches far behind the eye: clipped at the near plane and at the guard band.
+// A ground of two triangles that extends far behind the eye and is clipped at the near plane and at the guard band.
 static bool ground(struct demo *d, lam_error *error)
 {
     static const float corners[12] = {-20000, 0, 20000, 20000, 0, 20000, 20000, 0, -20000, -20000, 0, -20000};
@@ -322,8 +322,8 @@ static bool clear_bowl(struct demo *d, lam_error *error)
     return o.mesh >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
 }
 
-// Four bars, each over the next one and under the one before: no order of the bars is right. They fade by their
-// colours' alpha.
+// Four bars, each above the next one and below the previous one: no order of the bars is correct. Their colours' alpha
+// makes them translucent.
 static bool over_and_under(struct demo *d, lam_error *error)
 {
     static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
@@ -379,7 +379,7 @@ static bool coloured(struct demo *d, lam_rate rate, lam_error *error)
 static bool vertex_colours(struct demo *d, lam_error *e) { return coloured(d, LAM_PER_VERTEX, e); }
 static bool triangle_colours(struct demo *d, lam_error *e) { return coloured(d, LAM_PER_TRIANGLE, e); }
 
-// 500 km from zero: the same picture as near it.
+// 500 km from the origin: the same picture as near it.
 static bool far_away(struct demo *d, lam_error *error)
 {
     static const float p[12] = {0, 0, 0, 0.01f, 0, 0, 0, 0.01f, 0, 0, 0, 0.01f};

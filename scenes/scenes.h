@@ -4,7 +4,7 @@
 
 #include <lambent/lambent.h>
 
-// A scene with everything that decides its picture. The caller frees the scene.
+// A scene with everything that determines its picture. The caller frees the scene.
 struct demo {
     lam_scene *scene;
     lam_camera camera;
@@ -15,7 +15,7 @@ struct demo {
 
 struct demo_row {
     const char *name;    // lower case, hyphens
-    const char *summary; // what the picture shows and what would be wrong in it
+    const char *summary; // the contents of the picture, and the error that it would reveal
     bool (*build)(struct demo *demo, lam_error *error);
 };
 
@@ -23,10 +23,10 @@ struct demo_row {
 extern const struct demo_row demos[];
 extern const int demo_count;
 
-// Builds a scene of the table. False: the error tells why, and nothing is left to free.
+// Builds a scene of the table. On failure there is nothing to free.
 bool demo_build(const struct demo_row *row, struct demo *demo, lam_error *error);
 
-// The same by its name. LAM_BAD_ARGUMENT: there is none of that name.
+// Builds a scene by its name. LAM_BAD_ARGUMENT: no scene has that name.
 bool demo_build_named(const char *name, struct demo *demo, lam_error *error);
 
 #endif

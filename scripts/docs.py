@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""docs.py LAMBENT: writes anew what the project itself makes of its documentation: the command line's manual, and every picture that
-a command in a Markdown file of the project draws. Such a command stands on a line of its own in a code block, begins with
-`lambent ` and names its picture with `-o docs/pictures/…`."""
+"""docs.py LAMBENT: regenerates the generated parts of the documentation: the manual of the command line, and every picture drawn by
+a command in a Markdown file of the project. Such a command is a line of a code block that begins with `lambent ` and names its
+picture with `-o docs/pictures/…`."""
 import glob
 import os
 import re
@@ -28,7 +28,7 @@ def main():
     for command in commands():
         print(" ".join(command))
         done = subprocess.run([program] + command[1:], cwd=ROOT)
-        # Of a check the verdict is the code: 6 tells of a shader that does not pass. 3: no OpenGL here, its sheet stays as it is.
+        # The exit code of a check is its verdict: 6 means that the shader fails. 3: no OpenGL here; the sheet stays unchanged.
         if done.returncode not in ((0, 3, 6) if command[1] == "check" else (0,)):
             sys.exit("docs.py: %s ended with %d" % (" ".join(command), done.returncode))
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """reference.py FOLDER OUT [DEPFILE]: writes the reference of the public interface, one Markdown page, from the headers of FOLDER
-(include/lambent). The headers are plain: a comment stands above the declaration that it documents, or behind it on the same line.
-A comment above functions or enumerators counts for all that follow up to an empty line or the next comment; a comment above a field
-counts for that field. Text that is indented by two blanks or more within a comment (formulas, tables, code) keeps its lines."""
+(include/lambent). A comment is above the declaration that it documents, or behind it on the same line. A comment above functions
+or enumerators documents all of them up to an empty line or the next comment; a comment above a field documents that field. Text
+indented by two or more spaces within a comment (formulas, tables, code) keeps its lines."""
 import os
 import re
 import sys
@@ -55,7 +55,7 @@ def members_of(lines, kind):
             fresh = comment is not None
             continue
         near, fresh = fresh, False
-        if code.startswith("LAM_RESERVED("):  # room for later fields
+        if code.startswith("LAM_RESERVED("):  # reserved for later fields
             continue
         waiting = (waiting + " " + code).strip()
         if kind == "struct" and not waiting.endswith(";") or kind == "enum" and waiting.count("(") > waiting.count(")"):
@@ -193,13 +193,13 @@ def write(all_headers, out):
         return "[`%s`](#%s)" % (name, name) if name in known else match.group()
 
     def link(text):
-        """Names as links, and what Markdown would take for marks as it is, outside of `code`."""
+        """Turns names into links and escapes Markdown characters, outside of `code`."""
         text = re.sub(r"`[^`]*`|[<*_]", lambda m: m.group() if m.group()[0] == "`" else "\\" + m.group(), text)
         return re.sub(r"`[^`]*`|\b(?:lam|LAM)(?:\\_[A-Za-z0-9]+)+(?:\.\w+(?:\\_\w+)*)?",
                       lambda m: word(re.match(".*", m.group().replace("\\", ""))), text)
 
     out.append("# The interface of the library\n")
-    out.append("Made from the headers of `include/lambent`. `#include <lambent/lambent.h>` includes them all.\n")
+    out.append("Generated from the headers of `include/lambent`. `#include <lambent/lambent.h>` includes them all.\n")
     for header in all_headers:
         title, _, rest = header.doc[0].partition(": ")
         out.append("- [%s](#%s): %s" % (header.name, header.name, link(" ".join([rest] + header.doc[1:]).split(". ")[0])))
@@ -228,7 +228,7 @@ def write(all_headers, out):
 
 
 def complaints(all_headers):
-    """What is wrong with the headers' documentation: declarations without any, and comments behind code that are too long for it."""
+    """The faults of the headers' documentation: undocumented declarations, and comments behind code that are too long."""
     for header in all_headers:
         for item in header.items:
             where = "%s: %s" % (header.name, item.name or "enum")

@@ -1,6 +1,6 @@
 #!/bin/sh
-# setup.sh GROUP…: installs the Debian packages of the named groups (packages.txt) that are missing. Says what it does;
-# does nothing, quickly, when everything is there. Uses sudo only where it is not root.
+# setup.sh GROUP…: installs the Debian packages of the named groups (packages.txt) that are missing, and lists them. Quick if
+# nothing is missing. Uses sudo unless it runs as root.
 set -eu
 list="$(dirname "$0")/../packages.txt"
 wanted=""

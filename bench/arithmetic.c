@@ -1,6 +1,6 @@
 // arithmetic.c: prints the floating-point operations per second of a core as JSON, in 10^9/s: products and sums each
-// rounded (as in the library), and fused ones, where a multiply-add counts as two. It runs independent chains of operations
-// in registers, enough to hide the latency, and reports the best of several numbers of chains.
+// rounded (as in the library), and fused ones, where a multiply-add counts as two. It runs independent chains of
+// operations in registers, enough to hide the latency, and reports the best of several numbers of chains.
 #include <stdio.h>
 
 #if defined(__x86_64__)

@@ -1,6 +1,7 @@
-// memory.c: prints the speed of this machine's memory as JSON, in GB/s: the limits of reading and writing. read: summing
-// 256 MB; copy: memcpy of 256 MB to mapped memory (bytes copied, not bytes moved); first_touch: writing one byte into every
-// page of fresh memory, counted in bytes of the pages, with pages of 4 KiB and of 2 MiB. One thread and two.
+// memory.c: prints the speed of this machine's memory as JSON, in GB/s: the limits of reading and writing. read:
+// summing 256 MB; copy: memcpy of 256 MB to mapped memory (bytes copied, not bytes moved); first_touch: writing one
+// byte into every page of fresh memory, counted in bytes of the pages, with pages of 4 KiB and of 2 MiB. One thread
+// and two.
 #include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -2,11 +2,11 @@
 //     opengl SCENE.txt loop|written [--derivatives] [--depth-first] [--frames N] [--seconds S] [--picture
 //     FILE.ppm]
 //
-// It has no window but an EGL context without a surface, and a framebuffer of its own (8 bits a channel, 24 bits of depth,
-// multisampled on request and resolved in each frame). Buffers are uploaded once; a frame is a clear, one draw call (two
-// with --depth-first: the first writes depth alone, so that only visible fragments are lit) and glFinish, without reading
-// pixels back. After one frame to warm up it draws N frames, or for S seconds; the report is a line of JSON. The exit code
-// is 3 if this OpenGL is not available.
+// It has no window but an EGL context without a surface, and a framebuffer of its own (8 bits a channel, 24 bits of
+// depth, multisampled on request and resolved in each frame). Buffers are uploaded once; a frame is a clear, one draw
+// call (two with --depth-first: the first writes depth alone, so that only visible fragments are lit) and glFinish,
+// without reading pixels back. After one frame to warm up it draws N frames, or for S seconds; the report is a line
+// of JSON. The exit code is 3 if this OpenGL is not available.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 

@@ -1,5 +1,5 @@
-// opengl_scene.h: the scene of the OpenGL program, read from the text file that scenes.py writes next to Lambent's scene
-// file.
+// opengl_scene.h: the scene of the OpenGL program, read from the text file that scenes.py writes next to Lambent's
+// scene file.
 #ifndef OPENGL_SCENE_H
 #define OPENGL_SCENE_H
 

@@ -1,6 +1,6 @@
-// opengl.c: draws with OpenGL in the program's own context. This one has no window; for a window, SDL, GLFW or GTK make the
-// context and provide the function that loads OpenGL's functions. cc opengl.c $(pkg-config --cflags --libs
-// lambent egl) -o opengl
+// opengl.c: draws with OpenGL in the program's own context. This one has no window; for a window, SDL, GLFW or GTK
+// make the context and provide the function that loads OpenGL's functions.
+// cc opengl.c $(pkg-config --cflags --libs lambent egl) -o opengl
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <lambent/lambent.h>

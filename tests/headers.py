@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """headers.py BUILD: the library as its users get it: each public header compiles alone as C11 and as C++17; the library installs;
-the examples compile with pkg-config, run, and leave a picture; a static look at what the shared library shows."""
+the examples compile with pkg-config, run, and write a picture; the exported symbols of the shared library are checked."""
 import glob
 import os
 import subprocess
@@ -53,7 +53,7 @@ def installed_example(environment, name):
 
 
 def static(folder, environment):
-    """The static library alone, by `pkg-config --static`: it holds everything, and no name of its own that a program could have too."""
+    """The static library alone, by `pkg-config --static`: it is complete, and defines no symbol that could collide with a program's."""
     libraries = os.path.dirname(environment["PKG_CONFIG_PATH"])
     library, alone = os.path.join(libraries, "liblambent.a"), os.path.join(folder, "alone")
     if not check("the static library is installed", os.path.exists(library)):

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""machines.py: the library compiles for machines that this one is not: 64-bit Arm with NEON kernels, and WebAssembly with SIMD.
+"""machines.py: the library compiles for other machines: 64-bit Arm with NEON kernels, and WebAssembly with SIMD.
 
-Clang's cross compilers with Debian's C libraries; every source file of the folders that a picture needs (the importers and codecs
-that lean on a packaged library are left to those packages' ports)."""
+Clang's cross compilers with Debian's C libraries; every source file of the folders that a picture needs, without the
+importers and codecs that depend on a packaged library."""
 import glob
 import os
 import subprocess
@@ -21,7 +21,7 @@ MACHINES = {
     "wasm": {"flags": ["--target=wasm32-wasi", "-isystem", "/usr/include/wasm32-wasi", "-msimd128", "-D_WASI_EMULATED_MMAN"],
              "needs": "/usr/include/wasm32-wasi/stdio.h", "package": "wasi-libc",
              "kernels": [("scalar", 1), ("wasm", 4)],
-             # What the page does not use: files come from its memory.
+             # Not used by the web page, whose files are in memory.
              "without": ["file.c", "scene_write.c"]},
 }
 LEFT_OUT = ["png_read.c", "jpeg.c"]  # libspng's and libjpeg's own headers are the host's

@@ -15,7 +15,7 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OUT = os.path.join(ROOT, "build-test")
 
-# Each variant is the same tree built another way. "only" names the tests that it adds something to.
+# Each variant is another build of the same tree. "only" names the tests for which it matters.
 VARIANTS = [
     {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"]},
     {"name": "clang-sanitized", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Db_sanitize=address,undefined",
@@ -26,12 +26,12 @@ VARIANTS = [
                                                         "-Db_lundef=false"], "only": ["device", "obj", "obj-large", "ply", "stl"]},
 ]
 
-# Not part of the whole: the same tests again, alone. Lines that match "tell" are told.
+# Not part of the whole suite: the same tests alone. Lines that match "tell" are printed.
 GL = {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"], "tell": r"^gl .*OpenGL.*|.*farthest off.*|^the mask: .*",
       "only": ["gl-context", "gl-classic", "gl-device", "gl-caller", "gl-state", "gl-parity", "glsl"]}
 
 ENVIRONMENT = {
-    # A sanitizer's report is a failure of the test that it came from. Following the storage that OpenGL's libraries have for each
+    # A sanitizer's report fails its test. Following the storage that OpenGL's libraries have for each
     # thread, clang 14's search for leaks takes them for glibc 2.19's and may read where nothing is ("Tracer caught signal 11").
     "ASAN_OPTIONS": "detect_leaks=1:abort_on_error=0:allocator_may_return_null=1:intercept_tls_get_addr=0",
     "UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1",
@@ -45,13 +45,13 @@ def run(command, **more):
 
 
 def build(variant):
-    """Configures where needed and builds; returns an error text or None."""
+    """Configures if needed and builds; returns an error text or None."""
     folder = os.path.join(OUT, variant["name"])
     if not os.path.exists(os.path.join(folder, "build.ninja")):
         done = run(["meson", "setup", folder, ROOT, "-Dtests=true"] + variant["options"], env={**os.environ, "CC": variant["cc"]})
         if done.returncode:
             return done.stdout
-    # Where only some tests run, only they are built: the other variants have compiled the rest already.
+    # If only some tests run, only they are built: the other variants have compiled the rest.
     done = run(["ninja", "-C", folder] + ["tests/test-" + name for name in variant.get("only", [])])
     warnings = [line for line in done.stdout.splitlines() if "warning:" in line]
     if done.returncode:
@@ -60,7 +60,7 @@ def build(variant):
 
 
 def count(entry):
-    """Passed, failed and skipped checks of one test program, and the lines that tell of failures."""
+    """Passed, failed and skipped checks of one test program, and the lines about failures."""
     output = entry.get("stdout", "") + entry.get("stderr", "")
     passed = len(re.findall(r"^ok \d+(?!.*# SKIP)", output, re.M))
     skipped = len(re.findall(r"^(?:not )?ok \d+.*# SKIP", output, re.M))  # CMocka says "not ok" there
@@ -115,7 +115,7 @@ def main():
         problem = build(variant)
         if problem:
             print(problem[-6000:])
-            totals[1] += 1  # neither a broken build nor a warning passes
+            totals[1] += 1  # a broken build and a warning both fail
         built = time.time()
         print("%s: built in %.0f s, testing" % (variant["name"], built - start), flush=True)
         result = test(variant)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""style.py: every C file, header and .inc file is laid out as one version of the formatter lays it out.
+"""style.py: checks that every C file, header and .inc file has the layout of one version of the formatter.
 
 The version is fixed because clang-format's layout changes from release to release; Debian 12 and 13 both have this one.
 The formatter never changes the text of a comment (.clang-format: ReflowComments)."""

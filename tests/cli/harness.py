@@ -1,4 +1,4 @@
-# harness.py: what the tests of the program share: running it, reading its pictures, checking its reports.
+# harness.py: shared by the tests of the program: runs it, reads its pictures, checks its reports.
 import json
 import os
 import pathlib
@@ -16,7 +16,7 @@ PROGRAM = os.environ.get("LAMBENT", str(ROOT / "build" / "lambent"))
 
 
 class Case(unittest.TestCase):
-    """A test in an empty folder of its own, with tests/models/cube.* beside it."""
+    """A test in an empty folder of its own, with copies of tests/models/cube.*."""
 
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="lambent-cli-"))
@@ -33,13 +33,13 @@ class Case(unittest.TestCase):
                               env=environment, timeout=timeout, user=user, **given)
 
     def good(self, *words, **more):
-        """Runs; it must end well."""
+        """Runs the program, which must succeed."""
         done = self.run_program(*words, **more)
         self.assertEqual(done.returncode, 0, f"lambent {' '.join(map(str, words))}: {done.stderr.decode()}")
         return done
 
     def bad(self, code, *words, says=(), leaves=(), **more):
-        """Runs; it must end with the code and a sentence that has all of `says`, and leave no new file but `leaves`."""
+        """Runs the program, which must fail with the code and a sentence that contains all of `says`, and leave no new file but `leaves`."""
         done = self.run_program(*words, **more)
         text = done.stderr.decode(errors="replace")
         self.assertEqual(done.returncode, code, f"lambent {' '.join(map(str, words))}: {text}")
@@ -50,7 +50,7 @@ class Case(unittest.TestCase):
         return done
 
     def plain_user(self):
-        """Whom to run as where permissions matter: root may do everything, so it hands over to nobody."""
+        """The user for tests of permissions: root may do everything, so it switches to nobody."""
         if os.geteuid() != 0:
             return None
         os.chmod(self.folder, 0o755)
@@ -64,7 +64,7 @@ class Case(unittest.TestCase):
         return set(os.listdir(self.folder)) - self.given
 
     def report(self, *words, **more):
-        """The checked report of a run that must end well."""
+        """Runs the program, which must succeed; returns its checked report."""
         report = json.loads(self.good(*words, "--json", **more).stdout)
         check_report(self, report)
         return report
@@ -80,7 +80,7 @@ def pixel(picture, x, y):
 
 
 def covered(picture):
-    """The box of pixels that are not clear: (left, top, right, bottom), right and bottom excluded."""
+    """The bounding box of pixels that are not clear: (left, top, right, bottom), right and bottom excluded."""
     width, height, data = picture
     inside = [i for i in range(width * height) if data[i * 4 + 3]]
     columns = [i % width for i in inside]

@@ -1,4 +1,4 @@
-# reference.py: pixels of a scene file worked out a second way: rays through the pixels' centres and the sums of docs/lighting.md,
+# reference.py: computes pixels of a scene file independently: rays through the pixels' centres and the sums of docs/lighting.md,
 # in Python's double precision, without the renderer's code. For test_known.py: raw colours, one sample, meshes as lists.
 import math
 
@@ -111,7 +111,7 @@ class Reference:
         return tuple(v)
 
     def arriving(self, light, p):
-        """The direction to the light, and what of it arrives."""
+        """The direction to the light, and the share of it that arrives."""
         kind = light["type"]
         place = light.get("position", [0, 0, 0])
         if kind == "directional" or (len(place) == 4 and place[3] == 0):
@@ -181,7 +181,7 @@ class Reference:
         return add(add(m["emission"], mul(add(mul(m["ambient"], ambient), diffuse), color)), add(specular, reflected))
 
     def look(self, r):
-        """OpenGL's table, bilinear within a face; at a seam the pixel does not count."""
+        """OpenGL's table, bilinear within a face; None at a seam."""
         turn = math.radians(self.scene["environment"].get("rotation", 0))
         x, y, z = math.cos(turn) * r[0] - math.sin(turn) * r[2], r[1], math.sin(turn) * r[0] + math.cos(turn) * r[2]
         across = {"x": (-z, z), "y": (x, x), "z": (x, -x)}
@@ -207,7 +207,7 @@ class Reference:
         return (add(self.eye, out), scale(self.z, -1)) if self.ortho else (self.eye, sub(out, self.z))
 
     def hits(self, origin, way):
-        """Nearest first; None near an edge, where a snapped corner may decide."""
+        """Nearest first; None near an edge, where the snapping of corners may decide."""
         found = []
         for triangle in self.triangles:
             a, b, c = (corner["p"] for corner in triangle["corners"])
@@ -243,7 +243,7 @@ class Reference:
         return self.lit(m, p, scale(unit(n), flip), t, color), alpha
 
     def pixel(self, i, j):
-        """Red, green and blue as .pfm holds them; None where the pixel does not count."""
+        """Red, green and blue as stored in a .pfm; None if the pixel is not comparable."""
         hits = self.hits(*self.ray(i, j))
         if not hits or any(b[0] - a[0] < 1e-4 for a, b in zip(hits, hits[1:])):
             return None

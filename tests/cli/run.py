@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# run.py: all tests of the program as its users run it.  run.py PROGRAM [unittest's arguments]
+# run.py: runs all tests of the program.  run.py PROGRAM [unittest's arguments]
 import os
 import pathlib
 import sys

@@ -1,4 +1,4 @@
-# test_compare.py: the command `compare`: every picture of a sheet is what its options give alone; captions, names, errors.
+# test_compare.py: the command `compare`: every picture of a sheet equals the one drawn with its options alone; captions, names, errors.
 from harness import Case, read_png
 
 
@@ -76,7 +76,7 @@ class Compare(Case):
         self.bad(1, "compare", "cube.obj", "--across", "light=point,spot:cutoff=9", says="semicolon")
 
     def test_shininess(self):
-        """Alone it comes with a specular colour, so that there is a highlight; a material that is given is left as it is."""
+        """Without a material it gets a specular colour, so that there is a highlight; a given material is not changed."""
         plain = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "shininess=9")
         glossy = self.alone("cube.obj", "-s", "48x40", "--shininess", 9, "--material", "specular=0.5")
         self.assertEqual(part(plain, 3, 3, 48, 40), glossy)
@@ -85,7 +85,7 @@ class Compare(Case):
             self.assertEqual(part(page, 3, 3, 48, 40), self.alone("cube.obj", "-s", "48x40", "--material", "gold", "--shininess", 9))
 
     def test_grid(self):
-        """Two rows crossed: the first makes the lines, the second the columns."""
+        """Two rows crossed: the first makes the rows, the second the columns."""
         page = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "shading=flat,phong", "--across", "azimuth=0,30,60")
         self.assertEqual(page[:2], (3 * 51 + 3, 2 * 43 + 3))
         for line, shading in enumerate(("flat", "phong")):

@@ -32,11 +32,11 @@ class Devices(Case):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("libEGL.so.1 cannot be opened", done.stdout)
         self.assertIn("apt install libegl1 libegl-mesa0 libgl1-mesa-dri", done.stdout)
-        # Pictures are drawn as ever.
+        # The CPU still draws.
         drawn = subprocess.run([PROGRAM, "cube", "-s", "32x32"], capture_output=True, cwd=self.folder, timeout=60,
                                env={**os.environ, "LD_LIBRARY_PATH": str(self.folder)})
         self.assertEqual(drawn.returncode, 0)
-        # Asked for OpenGL, none is drawn by something else.
+        # If OpenGL is requested, no other device draws.
         for option in (["--device", "gl"], ["--device", "gles"], ["--gl-device", "0"]):
             self.bad(3, "cube", "-s", "32x32", *option, says=("libEGL.so.1 cannot be opened", "apt install libegl1"),
                      leaves=["cube.png"], env={"LD_LIBRARY_PATH": str(self.folder)})
@@ -57,7 +57,7 @@ class Drawing(Case):
             self.skipTest("no OpenGL here")
 
     def apart(self, *words, device="gl"):
-        """Pixels that the two devices draw more than 1/255 apart, and the report of OpenGL's picture."""
+        """The pixels that differ by more than 1/255 between the two devices, and the report of OpenGL's picture."""
         self.good(*words, "-s", "64x48", "-o", "cpu.png")
         report = self.report(*words, "-s", "64x48", "-o", "gl.png", "--device", device)
         return json.loads(self.run_program("diff", "cpu.png", "gl.png", "--tolerance", 1, "--json").stdout)["differ"], report

@@ -10,7 +10,7 @@ def ppm(width, height, pixels):
 
 
 def pfm(width, height, rows):
-    """`rows` from the bottom up, as the format has it."""
+    """`rows` from the bottom up, as in the format."""
     return b"PF\n%d %d\n-1.0\n" % (width, height) + struct.pack("<%df" % len(rows), *rows)
 
 

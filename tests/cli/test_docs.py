@@ -42,7 +42,7 @@ class Docs(Case):
             self.assertRegex(fish, rf"-l {option}\b")
 
     def test_examples_are_right(self):
-        # Every option of an example is one of the table's, and each example's command line is read without complaint.
+        # Every option of an example is in the table, and each example's command line parses.
         for line in re.findall(r"(?m)^  (lambent .*?)(?:  .*)?$", self.help().split("\nPicture:")[0]):
             words = shlex.split(line.replace("*.stl", "cube.stl").split("<")[0])[1:]
             (self.folder / "pictures").mkdir(exist_ok=True)
@@ -56,8 +56,8 @@ class Docs(Case):
         self.assertEqual(kept, made, "refresh it: lambent generate markdown > docs/command-line.md")
 
     def test_links_and_pictures(self):
-        """Every link leads somewhere, every picture is shown somewhere, and each is drawn by a command that stands in a page or by
-        the program of mistakes."""
+        """Every link has a target, every picture is shown on a page, and each is drawn by a command on a page or by the program of
+        mistakes."""
         shown, drawn = set(), set()
         for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
             text = page.read_text()

@@ -1,4 +1,4 @@
-# test_environment.py: --environment in each of its forms, its turn, what is wrong with one; and --opacity.
+# test_environment.py: --environment in each of its forms, its rotation and its errors; and --opacity.
 import struct
 import unittest
 
@@ -32,14 +32,14 @@ class EnvironmentOption(Case):
             self.assertEqual(self.draw(cross)[1], six, lying)
 
     def test_where_faces_lie(self):
-        """A mirror ball from the front shows what lies behind the eye in its middle: +Z, and +X at its right."""
+        """In its middle a mirror ball seen from the front shows the direction behind the eye, +Z, and +X at its right."""
         picture, _ = self.draw(self.six())
         self.assertEqual(pixel(picture, 20, 20)[:3], FACES[4])
         self.assertEqual(pixel(picture, 34, 20)[:3], FACES[0])
         self.assertEqual(pixel(picture, 6, 20)[:3], FACES[1])
         self.assertEqual(pixel(picture, 20, 6)[:3], FACES[2])
         self.assertEqual(pixel(picture, 20, 34)[:3], FACES[3])
-        # Counter-clockwise from above: what was at +X comes to -Z, what was at +Z to +X.
+        # Counter-clockwise from above: +X moves to -Z, and +Z to +X.
         picture, data = self.draw(self.six(), "--environment-rotation", 90)
         self.assertEqual(pixel(picture, 34, 20)[:3], FACES[4])
         self.assertEqual(pixel(picture, 20, 20)[:3], FACES[1])

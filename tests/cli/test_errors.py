@@ -1,4 +1,4 @@
-# test_errors.py: what cannot be done is told in one sentence with its exit code, and leaves nothing behind.
+# test_errors.py: every failure reports one sentence and its exit code, and leaves no files.
 import os
 import shutil
 import struct
@@ -63,7 +63,7 @@ class Models(Case):
         done = self.run_program("picture.png")
         self.assertIn(done.returncode, (2, 3))
         self.assertIn(b"picture.png", done.stderr)
-        self.assertNotIn(b"-o", done.stderr)  # the picture is not the trouble's output
+        self.assertNotIn(b"-o", done.stderr)  # not the output of the failed picture
         self.assertEqual((self.folder / "picture.png").read_bytes(), before)
         for name, data in (("text.obj", b"Dear reader,\nthis is a letter.\n"), ("zeros.stl", bytes(1000)),
                            ("noise", bytes((i * 7919 + i * i) & 255 for i in range(2000)))):
@@ -111,7 +111,7 @@ class Outputs(Case):
             os.chmod(self.folder, 0o755)
 
     def test_told_before_the_work(self):
-        # The model does not exist either: the output is looked at first, so that nobody waits for nothing.
+        # The model does not exist either: the output is checked first, before any long work.
         self.bad(5, "missing.obj", "-o", "no/x.png", says="no/x.png")
 
     def test_unknown_ending(self):
@@ -129,7 +129,7 @@ class Outputs(Case):
                 self.assertEqual(done.returncode, 5, words)
 
     def test_full_disk_leaves_nothing(self):
-        # A file-size limit stands for the full disk.
+        # A limit on the file size simulates a full disk.
         script = f'ulimit -f 1; trap "" XFSZ; exec "{PROGRAM}" teapot -s 512 -o x.png'
         done = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, timeout=30)
         self.assertEqual(done.returncode, 5, done.stderr)

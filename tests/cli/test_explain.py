@@ -1,4 +1,4 @@
-# test_explain.py: the command `explain`: the pixel that it tells is the picture's, as text and as JSON.
+# test_explain.py: the command `explain`: the explained pixel equals the picture's, as text and as JSON.
 import json
 import random
 import re
@@ -12,7 +12,7 @@ class Explain(Case):
         return json.loads(self.good("explain", *words, "--json").stdout)
 
     def same_as_picture(self, model, *options, count=6):
-        """Random pixels of the model's box, one beside it."""
+        """Random pixels of the model's box, and one outside."""
         picture = self.png(model, *options)
         left, top, right, bottom = covered(picture)
         pick = random.Random(f"{model}{options}")
@@ -59,7 +59,7 @@ class Explain(Case):
         self.assertEqual(self.good(*words).stdout, self.good(*words, "--isa", "plain", "-j", 1).stdout)
 
     def test_environment(self):
-        """The reflection term comes from R, told in both spaces, and the light that the environment sends from there."""
+        """The reflection term follows from R, printed in both spaces, and the light of the environment from that direction."""
         scene = ("-s", 64, "--environment", "sky", "--reflectivity", "0.25/0.5/1", "--samples", 1)
         self.same_as_picture("sphere", *scene, "--environment-rotation", 70, count=3)
         told = [self.told("sphere", "32,32", *scene, "--environment-rotation", turn) for turn in (0, 90)]
@@ -70,7 +70,7 @@ class Explain(Case):
             for c in range(3):
                 self.assertAlmostEqual(r[c], twice * n[c] - v[c], 5)
                 self.assertAlmostEqual(point["terms"]["reflection"][c], (0.25, 0.5, 1)[c] * point["environment"]["light"][c], 6)
-        # The environment turned counter-clockwise, seen from above: the place where it is looked up turns back.
+        # The environment is turned counter-clockwise, seen from above, so the lookup direction turns the other way.
         straight, turned = (p["environment"]["direction"] for p in points)
         for got, expected in zip(turned, (-straight[2], straight[1], straight[0])):
             self.assertAlmostEqual(got, expected, 5)

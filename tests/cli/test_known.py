@@ -1,4 +1,4 @@
-# test_known.py: scene files through the program to .pfm, against the same sums worked out in double precision (reference.py).
+# test_known.py: compares .pfm pictures of scene files with the same sums in double precision (reference.py).
 import copy
 import json
 import math
@@ -46,7 +46,7 @@ def single(x):
 
 class Known(Case):
     def write_mesh(self, name, mesh):
-        """As floats, which is what the reference sees as well."""
+        """Rounded to floats, as for the reference."""
         colored = "color" in mesh["vertices"][0]
         for v in mesh["vertices"]:
             for key in v:
@@ -179,7 +179,7 @@ class Known(Case):
 
 
     def test_converges(self):
-        """A sphere of twice the segments is nearer to the exact one: 4 times, and twice with one colour a triangle."""
+        """With twice the segments the error of a sphere falls by 4, and by 2 with one colour per triangle."""
         matte = {**BRASS, "shininess": 10}
         lamp = {"type": "point", "position": [1.5, 2.2, 5], "attenuation": [0.5, 0.02, 0.03], "diffuse": [1, 0.8, 0.9], "specular": [0.7, 1, 1]}
         for shading, factor in (("flat", 2), ("gouraud", 4), ("phong", 4)):

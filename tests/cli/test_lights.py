@@ -183,7 +183,7 @@ class Materials(Pictures):
         self.assertEqual(pixel(self.picture(*words, "back", model="one.obj"), 44, 44), (255, 0, 0, 255))
         lit = ("--light", "directional:frame=camera", "--shininess", "3", "--view", "back")
         self.assertEqual(self.picture(*lit, "--back-material", "emission=0", model="one.obj"), self.picture(*lit, model="one.obj"))
-        # Sides: with the normal as it is the back is dark; culled it is not there.
+        # Sides: with the unchanged normal the back is dark; culled it disappears.
         dark = self.picture(*lit, "--one-sided", *DIFFUSE_ONLY, model="one.obj")
         self.assertEqual(pixel(dark, 44, 44), (0, 0, 0, 255))
         self.assertEqual(self.picture(*lit, "--two-sided", model="one.obj"), self.picture(*lit, model="one.obj"))
@@ -228,7 +228,7 @@ class Materials(Pictures):
         self.assertEqual((width, height), (300, 200))
         middles = {pixel(sheet, 25 + 50 * column, y)[:3] for column in range(6) for y in (45, 82, 120, 158)}
         self.assertGreaterEqual(len(middles), 20)
-        # The words stand beneath the swatches, and nowhere else.
+        # The captions are below the swatches, and nowhere else.
         words, plain = self.png("materials", "-s", "300x200"), self.png("materials", "-s", "300x200", "--no-captions")
         differs = [(x, y) for y in range(200) for x in range(300) if pixel(words, x, y) != pixel(plain, x, y)]
         self.assertGreater(len(differs), 24 * 20)
@@ -302,7 +302,7 @@ class Methods(Pictures):
         self.assertGreater(difference(coarse[0], every[0]), 1)
         self.assertLess(coarse[1], some[1])
         self.assertLessEqual(some[1], every[1])
-        # The file says it, the command line overrides it, a file written keeps it.
+        # The file sets it, the command line overrides it, and --save-scene stores it.
         self.assertEqual(picture("all.json"), every)
         self.assertEqual(picture("all.json", "--light-cutoff", "0.2"), coarse)
         self.assertEqual(picture("many.json", "--light-cutoff", "0.2", "--save-scene", "kept.json"), coarse)
@@ -330,7 +330,7 @@ if __name__ == "__main__":
 
 class Markers(Case):
     def test_show_lights(self):
-        """Markers glow where lights are, in their colours; what is lit is lit as before, and the view stays."""
+        """Markers glow at the lights in their colours; the lighting of the model and the view do not change."""
         words = ["cube.obj", "-s", "120", "--samples", "1", "--zoom", "0.25", "--light",
                  "point:position=0/2r/0,color=lime"]
         plain, marked = self.png(*words), self.png(*words, "--show-lights")

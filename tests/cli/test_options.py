@@ -1,4 +1,4 @@
-# test_options.py: every option does what it says.
+# test_options.py: tests the effect of every option.
 import json
 import unittest
 
@@ -128,7 +128,7 @@ class View(Case):
         for axis, expected in {"x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]}.items():
             self.assertEqual(self.report("cube.stl", "-s", 16, "--up", axis)["model"]["up"], axis)
             self.assertEqual(self.direction("--view", "top", "--up", axis), expected)
-        # The coordinates stay.
+        # The coordinates do not change.
         self.assertEqual(self.report("teapot", "-s", 16, "--up", "z")["model"]["bounds"],
                          self.report("teapot", "-s", 16)["model"]["bounds"])
 
@@ -317,7 +317,7 @@ class CommandLine(Case):
         self.bad(1, "cube.obj", "-", says="single model")
 
     def test_segments(self):
-        """Built-in shapes with as many segments as asked for, also in what --save-scene writes."""
+        """Built-in shapes with as many segments as asked for, also in files of --save-scene."""
         count = lambda *words: self.report(*words, "-s", 16, "-o", "a.png")["model"]["triangles"]
         self.assertEqual(count("cylinder", "--segments", "8x3"), 8 * 2 * 3 + 2 * 8)
         self.assertEqual(count("sphere", "--segments", "12x6"), 12 * 2 * 5)

@@ -1,4 +1,4 @@
-# test_output.py: where pictures go, what is overwritten, what the streams carry, the report.
+# test_output.py: the paths of pictures, overwriting, the contents of the streams, the report.
 import json
 import os
 import pty
@@ -131,7 +131,7 @@ class Streams(Case):
             self.assertNotIn(b"\033", self.run_program("missing.obj", env=env).stderr)
 
     def on_terminal(self, *words, env):
-        """What the program writes to a terminal that is its standard error."""
+        """The output of the program to a terminal as its standard error."""
         mine, its = pty.openpty()
         process = subprocess.Popen([PROGRAM, *map(str, words)], cwd=self.folder, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.DEVNULL, stderr=its, env={**os.environ, **env})
@@ -240,7 +240,7 @@ class Report(Case):
 
 
 def wait_until_caught(process, number):
-    """Until the program catches a signal; what it was sent before would end it like any other."""
+    """Waits until the program catches signals; an earlier signal would end it immediately."""
     for _ in range(1000):
         with open(f"/proc/{process.pid}/status") as status:
             caught = next(line for line in status if line.startswith("SigCgt")).split()[1]
@@ -261,7 +261,7 @@ class Interrupt(Case):
                 sent = time.monotonic()
                 _, text = process.communicate(timeout=20)
                 self.assertLess(time.monotonic() - sent, 5)
-            # It dies by the signal: a shell shows 128 + number, and its loops stop.
+            # The signal ends it: a shell shows 128 + number, and stops its loop.
             self.assertEqual(process.returncode, -number)
             self.assertEqual(text, b"lambent: teapot: interrupted\n")
             self.assertEqual(self.new_files(), set())

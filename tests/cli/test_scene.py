@@ -14,7 +14,7 @@ KINDS = {"object": dict, "array": list, "string": str, "integer": int, "number":
 
 
 def misfit(value, schema, place="scene"):
-    """What does not fit, by the part of JSON Schema that the file uses; None: it fits."""
+    """The first violation of the schema (the part of JSON Schema that it uses); None: valid."""
     assert set(schema) <= KNOWN, set(schema) - KNOWN
     if "$ref" in schema:
         return misfit(value, SCHEMA["$defs"][schema["$ref"].rsplit("/", 1)[1]], place)
@@ -60,7 +60,7 @@ class Scene(Case):
         (self.folder / name).write_text(scene if isinstance(scene, str) else json.dumps(scene))
 
     def again(self, *words):
-        """Draws, writes the scene file, draws that: the same bytes."""
+        """Draws with --save-scene and draws the scene file: the bytes are the same."""
         (self.folder / "sub").mkdir(exist_ok=True)
         self.good(*words, "-o", "a.png", "--save-scene", "sub/saved.json")
         self.good("sub/saved.json", "-o", "b.png")
@@ -111,7 +111,7 @@ class Scene(Case):
             saved = self.again(*words, "-s", "120x90")
             self.assertEqual(saved["image"]["size"], [120, 90])
         self.assertEqual(saved["objects"][0]["file"], "../cube.obj")
-        # Written once more, the file is the same file.
+        # Written again, the file is the same.
         self.good("sub/saved.json", "-o", "b.png", "--save-scene", "sub/twice.json")
         self.assertEqual((self.folder / "sub/saved.json").read_bytes(), (self.folder / "sub/twice.json").read_bytes())
 
@@ -139,7 +139,7 @@ class Scene(Case):
         self.assertEqual(len(rig), 1)
         for light in lights["lights"] + rig:
             self.assertIsNone(misfit(light, SCHEMA["properties"]["lights"]["items"]))
-        # They are a scene file's keys as they stand.
+        # The output consists of keys of a scene file.
         plain = {k: v for k, v in self.example.items()}
         self.write({**plain, **lights}, "copy.json")
         self.assertEqual(self.png("copy.json"), self.png("scene.json"))
@@ -249,7 +249,7 @@ class Environment(Case):
         self.given.add(name)
 
     def test_unseen(self):
-        """An environment that nothing reflects is told; so is one that costs more than the memory limit."""
+        """An environment that nothing reflects gives a warning; one above the memory limit gives an error."""
         self.assertIn(b"environment is invisible", self.good("cube.obj", "-s", 20, "--environment", "sky", "-o", "a.png").stderr)
         self.assertNotIn(b"not seen", self.good("cube.obj", "-s", 20, "--environment", "sky", "--reflectivity", 1, "-o", "a.png").stderr)
         self.scene("unseen.json", {"lambent": 1, "environment": {"builtin": "studio"}, "objects": [{"shape": "cube"}]})
@@ -283,7 +283,7 @@ class Environment(Case):
         self.good("bright.json", "-b", "transparent", "--show", "ambient", "-o", "ambient.pfm")
         for whole, *terms in zip(clear, *(self.floats(name) for name in ("diffuse.pfm", "specular.pfm", "ambient.pfm"))):
             self.assertAlmostEqual(whole, sum(terms), 5)
-        # Numbers of the surface are none of the light.
+        # Exposure does not change surface quantities.
         for what in ("normals", "depth", "n.l"):
             self.good("bright.json", "--show", what, "-o", "a.pfm")
             self.good("bright.json", "--show", what, "--exposure", 0, "-o", "b.pfm")
@@ -306,7 +306,7 @@ class Environment(Case):
         return struct.unpack(f"<{24 * 24 * 3}f", head[3])
 
     def test_warned_of(self):
-        """What is legal and hardly meant: coefficients over 1, the lights of a file that has none, a scene file without --show."""
+        """Warnings about legal but unlikely input: coefficients over 1, the lights of a file without any, a scene file without --show."""
         (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "cube", "material": {"diffuse": [2, 0, 0], "ambient": [0, 0, 0]}}]}))
         self.given.add("s.json")
         self.assertIn(b"diffuse is 2: a surface that returns more light than arrives", self.good("s.json", "-s", 8).stderr)

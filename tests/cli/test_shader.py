@@ -1,4 +1,4 @@
-# test_shader.py: the command `shader`: its outputs, its contract, and what it refuses. tests/gl/contract.py draws with it.
+# test_shader.py: the command `shader`: its outputs, its contract and its errors. tests/gl/contract.py draws with the shaders.
 import json
 import re
 

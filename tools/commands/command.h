@@ -37,7 +37,8 @@ struct example {
 };
 extern const struct example examples[];
 
-// The prose sections of the man page and the docs: a title and its paragraphs, with `code` in back quotes. Ends with NULL.
+// The prose sections of the man page and the docs: a title and its paragraphs, with `code` in back quotes. Ends
+// with NULL.
 struct topic {
     const char *title, *text;
 };

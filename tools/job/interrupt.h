@@ -4,14 +4,15 @@
 
 #include <lambent/base.h>
 
-// Catches SIGINT, SIGTERM and SIGHUP (unless the parent process ignores them). A second signal ends the program at once.
+// Catches SIGINT, SIGTERM and SIGHUP (unless the parent process ignores them). A second signal ends the program
+// at once.
 void interrupt_start(void);
 
 const lam_cancel *interrupt_flag(void);
 bool interrupted(void);
 
-// Ends the program with the received signal, so that the parent process sees the cause: a shell shows 130 for Ctrl-C and
-// stops its loop.
+// Ends the program with the received signal, so that the parent process sees the cause: a shell shows 130 for Ctrl-C
+// and stops its loop.
 void interrupt_finish(void) __attribute__((noreturn));
 
 #endif

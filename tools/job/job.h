@@ -40,16 +40,16 @@ struct job {
     lam_error error; // code LAM_OK: none
 };
 
-// Loads the model, draws it and writes the picture. The caller fills in options, model, output, device and times.start;
-// the steps fill in the rest, so that a report of a failure includes the completed steps. The caller frees the scene and
-// the image.
+// Loads the model, draws it and writes the picture. The caller fills in options, model, output, device and
+// times.start; the steps fill in the rest, so that a report of a failure includes the completed steps. The caller
+// frees the scene and the image.
 bool job_run(struct job *job, struct progress *progress, lam_error *error);
 
 // Loads and draws; the picture stays in `image`. Ignores output and format.
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);
 
-// The first step of job_run, for commands that draw nothing: loads the model or makes the shape, and applies the settings
-// of a scene file.
+// The first step of job_run, for commands that draw nothing: loads the model or makes the shape, and applies the
+// settings of a scene file.
 bool job_load(struct job *job, struct progress *progress, lam_error *error);
 
 // The second step: applies the options for materials, turns, camera and lights.

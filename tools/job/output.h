@@ -7,12 +7,12 @@
 // True if --output names the picture itself: it is neither NULL (not given) nor a folder ("thumbs/").
 bool output_is_named(const char *output);
 
-// The path of a model's picture, from malloc: `output` if it names a file; else the model's name with .png in that folder
-// or the current one: "dir/koala.obj" gives "koala.png", "-" gives "model.png". NULL: out of memory.
+// The path of a model's picture, from malloc: `output` if it names a file; else the model's name with .png in that
+// folder or the current one: "dir/koala.obj" gives "koala.png", "-" gives "model.png". NULL: out of memory.
 char *output_path(const char *output, const char *model);
 
-// Checks before the work whether `path` can be written: its folder exists and is writable, the path is not a folder, and,
-// unless the user named it (`named`), it is not a file that lambent did not write.
+// Checks before the work whether `path` can be written: its folder exists and is writable, the path is not a folder,
+// and, unless the user named it (`named`), it is not a file that lambent did not write.
 bool output_check(const char *path, const char *model, bool named, lam_error *error);
 
 // True if the picture is written directly to `path` as a PNG: "-", or a pipe or device without a picture's extension.

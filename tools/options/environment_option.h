@@ -11,9 +11,9 @@ char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUN
 // The built-in environment of that name; NULL: there is none.
 const char *environment_option_built_in(const char *name);
 
-// Loads or makes the environment of --environment and adds it to the scene, turned by --environment-rotation (which also
-// turns a scene file's environment); sets the reflectivity of the materials by --reflectivity. Adds a warning to a scene
-// whose environment no surface reflects.
+// Loads or makes the environment of --environment and adds it to the scene, turned by --environment-rotation (which
+// also turns a scene file's environment); sets the reflectivity of the materials by --reflectivity. Adds a warning to
+// a scene whose environment no surface reflects.
 bool environment_option_apply(const struct options *options, lam_scene *scene, const lam_control *control,
                               lam_error *error);
 

@@ -63,8 +63,8 @@ double radians(double degrees) { return degrees * (3.14159265358979323846 / 180)
 
 const char *read_number(const char *text, double *value)
 {
-    // strtod also accepts spaces, hexadecimal, "inf" and "nan", so only plain decimals reach it. Its result is correctly
-    // rounded, and the program never sets a locale.
+    // strtod also accepts spaces, hexadecimal, "inf" and "nan", so only plain decimals reach it. Its result is
+    // correctly rounded, and the program never sets a locale.
     const char *s = text;
     if (*s == '-' || *s == '+')
         s++;

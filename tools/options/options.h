@@ -1,5 +1,5 @@
-// options.h: the options of the program. One table serves the parser, the help, the man page, the shells' completions and
-// docs/command-line.md.
+// options.h: the options of the program. One table serves the parser, the help, the man page, the shells' completions
+// and docs/command-line.md.
 #ifndef OPTIONS_H
 #define OPTIONS_H
 

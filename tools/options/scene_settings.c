@@ -66,8 +66,8 @@ bool scene_settings_has_camera(const struct job *job)
     return job->settings.present & LAM_SETTING_CAMERA;
 }
 
-// Stores the drawn environment: the command line's, or the scene file's with the command line's rotation. `names` stores
-// the six file names.
+// Stores the drawn environment: the command line's, or the scene file's with the command line's rotation. `names`
+// stores the six file names.
 static bool take_environment(const struct options *o, lam_picture_settings *s, char **names, lam_error *error)
 {
     const char *text = o->environment;

@@ -1,7 +1,7 @@
 // json.h: writes JSON, one value after the other, on one line.
 //
-// Numbers have the fewest digits that read back as the same double, in any locale, so that a camera copied from a report
-// gives the same picture. (Jansson prints a fixed number of digits: 0.10000000000000001, or another number.)
+// Numbers have the fewest digits that read back as the same double, in any locale, so that a camera copied from a
+// report gives the same picture. (Jansson prints a fixed number of digits: 0.10000000000000001, or another number.)
 #ifndef JSON_H
 #define JSON_H
 

@@ -12,12 +12,12 @@ void report_line(const struct job *job);
 // Prints what was read and the time of each step on standard error.
 void report_table(const struct job *job);
 
-// The stream of the JSON report: standard output, or standard error if the picture goes to standard output (then nothing
-// else is written there). NULL: no report.
+// The stream of the JSON report: standard output, or standard error if the picture goes to standard output (then
+// nothing else is written there). NULL: no report.
 FILE *report_stream(const struct options *options);
 
-// Reports a failure without a job (a wrong command line, no device), in JSON as well if that is enabled; returns the exit
-// code.
+// Reports a failure without a job (a wrong command line, no device), in JSON as well if that is enabled; returns the
+// exit code.
 int report_failure(const lam_error *error, const struct options *options);
 
 // Prints one line in the form of docs/report.schema.json. `job` NULL: `error` is about the command line.

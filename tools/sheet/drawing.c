@@ -55,8 +55,8 @@ static uint8_t *pixel_at(struct drawing *d, int x, int y)
 
 static int within(double x, int max) { return !(x > 0) ? 0 : x < max ? (int)x : max; }
 
-// The page stays opaque, so blending is linear interpolation; of encoded values, with which type and thin lines look best
-// on white.
+// The page stays opaque, so blending is linear interpolation; of encoded values, with which type and thin lines look
+// best on white.
 static void blend(uint8_t *pixel, uint32_t color, double cover)
 {
     for (int c = 0; c < 3; c++) {
@@ -65,8 +65,8 @@ static void blend(uint8_t *pixel, uint32_t color, double cover)
     }
 }
 
-// The coverage of a pixel by a line of this half width. The edge is a ramp one pixel wide, which is exact for edges along
-// the axes and close for others.
+// The coverage of a pixel by a line of this half width. The edge is a ramp one pixel wide, which is exact for edges
+// along the axes and close for others.
 static double cover_at(struct point a, struct point b, double half, double x, double y)
 {
     double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;

@@ -24,7 +24,8 @@ struct point {
 
 enum align { ALIGN_LEFT, ALIGN_MIDDLE, ALIGN_RIGHT };
 
-// Makes a white page. `font` NULL: the system's (lam_font_open); an SVG needs none. On failure there is nothing to free.
+// Makes a white page. `font` NULL: the system's (lam_font_open); an SVG needs none. On failure there is nothing
+// to free.
 bool drawing_open(struct drawing *drawing, int width, int height, bool svg, bool words, const char *font,
                   lam_error *error);
 void drawing_free(struct drawing *drawing);

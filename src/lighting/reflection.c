@@ -5,14 +5,14 @@
 #include <stddef.h>
 
 #define TEXT_OR_NULL(text) (sizeof(text) > 1 ? (text) : NULL)
-#define LOBE(NAME, call, properties, word, summary, diffuse, base)                                                     \
-    [LAM_REFLECTION_##NAME] = {word,                                                                                   \
-                               summary,                                                                                \
-                               diffuse,                                                                                \
-                               TEXT_OR_NULL(base),                                                                     \
-                               ((properties) & LOBE_TANGENT) != 0,                                                     \
-                               ((properties) & LOBE_BACKLIT) != 0,                                                     \
-                               ((properties) & LOBE_BACKLIT_FIBRE) != 0},
+#define LOBE(NAME, call, flags, name, text, diffuse_formula, base_formula)                                             \
+    [LAM_REFLECTION_##NAME] = {.word = name,                                                                           \
+                               .summary = text,                                                                        \
+                               .diffuse = diffuse_formula,                                                             \
+                               .base = TEXT_OR_NULL(base_formula),                                                     \
+                               .tangents = ((flags) & LOBE_TANGENT) != 0,                                              \
+                               .backlit = ((flags) & LOBE_BACKLIT) != 0,                                               \
+                               .backlit_fibre = ((flags) & LOBE_BACKLIT_FIBRE) != 0},
 
 static const lam_reflection_info models[LAM_REFLECTION_COUNT] = {
     [LAM_REFLECTION_AUTO] = {.word = "auto", .summary = "blinn-phong for classic materials"},

@@ -6,40 +6,42 @@
 
 #include <math.h>
 
+#define UNBOUNDED (double)INFINITY
+
 #define MEMBER(member) .name = #member, .key = #member, .offset = offsetof(lam_light, member)
 #define ANGLE(member, word)                                                                                            \
     .name = #member, .key = word, .offset = offsetof(lam_light, member), .type = LAM_FIELD_ANGLE, .unit = "degrees"
-#define GREY(x)   {x, x, x}
+#define GREY(x)   {(double)(x), (double)(x), (double)(x)}
 #define BIT(type) (1u << LAM_LIGHT_##type)
 #define PLACED    (BIT(POINT) | BIT(SPOT))
 #define AIMED     (BIT(DIRECTIONAL) | BIT(SPOT))
 #define REACHING  (PLACED | BIT(DIRECTIONAL))
 
 static const struct light_field rows[] = {
-    {.field = {MEMBER(position), .type = LAM_FIELD_POINT, .min = -INFINITY, .max = INFINITY, .light_types = PLACED,
+    {.field = {MEMBER(position), .type = LAM_FIELD_POINT, .min = -UNBOUNDED, .max = UNBOUNDED, .light_types = PLACED,
                .unit = "model units",
                .summary =
                    "where it stands; in a scene file also x, y, z, w, with w = 0 a directional light from (x, y, z)"}},
-    {.field = {MEMBER(direction), .type = LAM_FIELD_DIRECTION, .min = -INFINITY, .max = INFINITY,
+    {.field = {MEMBER(direction), .type = LAM_FIELD_DIRECTION, .min = -UNBOUNDED, .max = UNBOUNDED,
                .standard = {0, 0, -1}, .light_types = AIMED, .summary = "the way the light travels"}},
-    {.field = {MEMBER(ambient), .symbol = "La", .type = LAM_FIELD_RGB, .max = INFINITY, .standard = GREY(0.2f),
+    {.field = {MEMBER(ambient), .symbol = "La", .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(0.2f),
                .light_types = BIT(AMBIENT), .summary = "light from everywhere"}},
-    {.field = {MEMBER(ambient), .symbol = "La", .type = LAM_FIELD_RGB, .max = INFINITY, .light_types = REACHING,
+    {.field = {MEMBER(ambient), .symbol = "La", .type = LAM_FIELD_RGB, .max = UNBOUNDED, .light_types = REACHING,
                .summary = "neither attenuated nor narrowed by the cone"}},
-    {.field = {MEMBER(diffuse), .symbol = "Ld", .type = LAM_FIELD_RGB, .max = INFINITY, .standard = GREY(1),
+    {.field = {MEMBER(diffuse), .symbol = "Ld", .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(1),
                .light_types = REACHING, .summary = "light that is returned evenly; default: color times intensity"}},
-    {.field = {MEMBER(specular), .symbol = "Ls", .type = LAM_FIELD_RGB, .max = INFINITY, .standard = GREY(1),
+    {.field = {MEMBER(specular), .symbol = "Ls", .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(1),
                .light_types = REACHING, .summary = "light of the highlights; default: color times intensity"}},
-    {.field = {MEMBER(attenuation), .type = LAM_FIELD_TRIPLE, .max = INFINITY, .standard = {1}, .light_types = PLACED,
+    {.field = {MEMBER(attenuation), .type = LAM_FIELD_TRIPLE, .max = UNBOUNDED, .standard = {1}, .light_types = PLACED,
                .summary = "a, b, c of 1/(a + b d + c d^2), not all 0"}},
-    {.field = {MEMBER(range), .max = INFINITY, .light_types = PLACED, .unit = "model units",
+    {.field = {MEMBER(range), .max = UNBOUNDED, .light_types = PLACED, .unit = "model units",
                .summary = "where the light ends, as in glTF; 0: nowhere"},
      .optional = true},
     {.field = {ANGLE(cutoff_rad, "cutoff"), .max = 180, .standard = {45}, .light_types = BIT(SPOT),
                .summary = "half angle of the cone, up to 90, or 180; with exponent alone the cone has no edge"},
      .optional = true,
      .cone = HARD_CONE},
-    {.field = {MEMBER(exponent), .max = INFINITY, .light_types = BIT(SPOT),
+    {.field = {MEMBER(exponent), .max = UNBOUNDED, .light_types = BIT(SPOT),
                .summary = "of the cosine between the axis and the lit point"},
      .cone = HARD_CONE},
     {.field = {ANGLE(inner_rad, "inner"), .max = 90, .light_types = BIT(SPOT),
@@ -48,11 +50,11 @@ static const struct light_field rows[] = {
     {.field = {ANGLE(outer_rad, "outer"), .max = 90, .light_types = BIT(SPOT),
                .summary = "half angle where the light ends, as in glTF; more than inner"},
      .cone = SOFT_CONE},
-    {.field = {MEMBER(sky), .type = LAM_FIELD_RGB, .max = INFINITY, .standard = GREY(0.4f),
+    {.field = {MEMBER(sky), .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(0.4f),
                .light_types = BIT(HEMISPHERE), .summary = "light from above"}},
-    {.field = {MEMBER(ground), .type = LAM_FIELD_RGB, .max = INFINITY, .standard = GREY(0.1f),
+    {.field = {MEMBER(ground), .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(0.1f),
                .light_types = BIT(HEMISPHERE), .summary = "light from below"}},
-    {.field = {MEMBER(up), .type = LAM_FIELD_DIRECTION, .min = -INFINITY, .max = INFINITY,
+    {.field = {MEMBER(up), .type = LAM_FIELD_DIRECTION, .min = -UNBOUNDED, .max = UNBOUNDED,
                .light_types = BIT(HEMISPHERE), .summary = "towards the sky; default: the scene's up axis"},
      .optional = true},
 };

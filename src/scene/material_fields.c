@@ -6,28 +6,30 @@
 
 #include <math.h>
 
+#define UNBOUNDED (double)INFINITY
+
 #define MEMBER(member) .name = #member, .key = #member, .offset = offsetof(lam_material, member)
-#define GREY(x)        {x, x, x, 1}
+#define GREY(x)        {(double)(x), (double)(x), (double)(x), 1}
 
 static const struct material_field rows[] = {
-    {.field = {MEMBER(ambient), .symbol = "ka", .source = "Ka", .type = LAM_FIELD_RGB, .max = INFINITY,
+    {.field = {MEMBER(ambient), .symbol = "ka", .source = "Ka", .type = LAM_FIELD_RGB, .max = UNBOUNDED,
                .standard = GREY(0.72f), .summary = "ka: share of ambient and hemisphere light that is returned"},
      .product = "ambient_product",
      .product_summary = "ka La: the material's ambient colour times all light from everywhere",
      .reader = FIELD_LIT},
-    {.field = {MEMBER(diffuse), .symbol = "kd", .source = "Kd", .type = LAM_FIELD_RGBA, .max = INFINITY,
+    {.field = {MEMBER(diffuse), .symbol = "kd", .source = "Kd", .type = LAM_FIELD_RGBA, .max = UNBOUNDED,
                .standard = GREY(0.72f), .summary = "kd: share that is returned evenly to all sides; a: opacity"}},
-    {.field = {MEMBER(specular), .symbol = "ks", .source = "Ks", .type = LAM_FIELD_RGB, .max = INFINITY,
+    {.field = {MEMBER(specular), .symbol = "ks", .source = "Ks", .type = LAM_FIELD_RGB, .max = UNBOUNDED,
                .standard = GREY(0.12f), .summary = "ks: strength of the highlight"},
      .product = "",
      .reader = FIELD_HIGHLIGHT},
-    {.field = {MEMBER(emission), .source = "Ke", .type = LAM_FIELD_RGB, .max = INFINITY,
+    {.field = {MEMBER(emission), .source = "Ke", .type = LAM_FIELD_RGB, .max = UNBOUNDED,
                .summary = "light that the surface itself gives"},
      .reader = FIELD_LIT},
-    {.field = {MEMBER(shininess), .symbol = "α", .source = "Ns", .max = INFINITY, .standard = {32},
+    {.field = {MEMBER(shininess), .symbol = "α", .source = "Ns", .max = UNBOUNDED, .standard = {32},
                .summary = "exponent of the highlight"},
      .reader = FIELD_LOBE},
-    {.field = {MEMBER(reflectivity), .symbol = "kr", .type = LAM_FIELD_RGB, .max = INFINITY,
+    {.field = {MEMBER(reflectivity), .symbol = "kr", .type = LAM_FIELD_RGB, .max = UNBOUNDED,
                .summary = "kr: share of the environment that is mirrored"},
      .reader = FIELD_ENVIRONMENT},
     {.field = {.name = "diffuse.a",

@@ -474,10 +474,11 @@ int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_
     if (made && params->radius > 0)
         scale_mesh(&mesh, params->radius);
     mesh.name = shapes[row].name;
-    struct scene_origin origin = {.shape = shapes[row].name,
-                                  .segments = {params->radius, params->slices, params->stacks, NULL},
-                                  .first_mesh = scene->meshes.count,
-                                  .first_material = scene->materials.count};
+    struct scene_origin origin = {
+        .shape = shapes[row].name,
+        .segments = {.radius = params->radius, .slices = params->slices, .stacks = params->stacks},
+        .first_mesh = scene->meshes.count,
+        .first_material = scene->materials.count};
     int index = add_mesh(scene, made, &mesh, error);
     if (index < 0 || scene_note_origin(scene, origin, scene->objects.count, error))
         return index;

@@ -46,11 +46,11 @@ void deflate_start(struct deflate *deflate, uint8_t filter, bool matches)
 {
     deflate->filter = filter;
     deflate->row = deflate->words;
-    deflate->matches = matches;
+    deflate->matches = matches || deflate->bytes_per_pixel < 3; // grey pictures always have matches
     deflate->y = 0;
     deflate->end = deflate->tokens;
     memset(deflate->counts, 0, sizeof deflate->counts);
-    if (matches)
+    if (deflate->matches)
         memset(deflate->last_positions, 0xFF, sizeof *deflate->last_positions << DEFLATE_HASH_BITS); // nowhere
 }
 

@@ -60,7 +60,7 @@ size_t deflate_scratch(int width, int rows);
 // Starts a strip whose rows have one filter. Then, for each row in order, the caller writes its pixels at deflate->row,
 // those before `first` and from `end` on being zero, and calls deflate_row, which advances deflate->row. The bytes of a
 // word above its bytes_per_pixel must be zero; they are no part of the stream. The padding is overwritten. Pixels of
-// one or two bytes need `matches`.
+// one or two bytes always have matches.
 void deflate_start(struct deflate *deflate, uint8_t filter, bool matches);
 void deflate_row(struct deflate *deflate, int first, int end);
 

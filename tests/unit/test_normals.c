@@ -464,6 +464,37 @@ static void test_bow_tie(void **state)
     arena_free(&arena);
 }
 
+// Closed vertices are not welded to others at their position, open ones are: three octahedra in the same place, the last
+// without its face towards +x +y +z.
+static void test_closed_vertices(void **state)
+{
+    (void)state;
+    static const float points[6][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+    static const uint32_t faces[] = {1, 0, 5, 2, 4, 0, 2, 1, 3, 0, 4, 5, 1, 5, 3, 2, 3, 4, 3, 5, 4, 0, 1, 2};
+    float p[18][3];
+    uint32_t indices[72];
+    for (uint32_t i = 0; i < 72; i++) {
+        indices[i] = faces[i % 24] + i / 24 * 6;
+        memcpy(p[indices[i]], points[faces[i % 24]], sizeof *p);
+    }
+    struct arena arena;
+    arena_start(&arena, NULL);
+    lam_mesh mesh = {.positions = p[0], .vertex_count = 18, .indices = indices, .triangle_count = 23};
+    lam_error error = {0};
+    assert_true(normals_smooth(&mesh, M_PI, &arena, NULL, NULL, &error));
+    assert_int_equal(mesh.normal_count, 18);
+    for (uint32_t c = 0; c < 69; c++) {
+        double n[3], rest = 1 / sqrt(123);
+        for (int a = 0; a < 3; a++)
+            n[a] = indices[c] >= 15 || indices[c] < 12 ? (double)p[indices[c]][a]
+                   : p[indices[c]][a] > 0              ? 11 * rest
+                                                       : -rest;
+        assert_normal(&mesh, c, n[0], n[1], n[2]);
+    }
+    visible_as_all(&mesh, 180, NULL);
+    arena_free(&arena);
+}
+
 static void test_inconsistent_winding(void **state)
 {
     (void)state;
@@ -788,6 +819,7 @@ int main(void)
         cmocka_unit_test(test_smoothing_groups),
         cmocka_unit_test(test_degenerate),
         cmocka_unit_test(test_bow_tie),
+        cmocka_unit_test(test_closed_vertices),
         cmocka_unit_test(test_inconsistent_winding),
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_random),

@@ -123,9 +123,12 @@ static void look(struct corner_fan_block *b)
 }
 
 // Finds which corners are joined, by join_few() of corner_fan.c. No coordinate is NaN: equal floats are equal bits, but
-// for the sign of zero.
-static void link(struct corner_fan_block *b, double min_cosine, bool grouped)
+// for the sign of zero. With `by_vertex` also finds which vertices are open: compiled for both cases.
+static inline __attribute__((always_inline)) void link(struct corner_fan_block *b, double min_cosine, bool grouped,
+                                                       const bool by_vertex)
 {
+    fan_row with_next = {0}, with_previous = {0},
+            pairs = {0}; // corners as bits whose edge is another one's, and how many
     memset(b->links, 0, b->count * sizeof *b->links);
     for (uint32_t i = 0; i < b->count; i++)
         for (uint32_t j = i + 1; j < b->count; j++) {
@@ -148,8 +151,20 @@ static void link(struct corner_fan_block *b, double min_cosine, bool grouped)
                 uint32_t joined = (after | ahead) & near[p];
                 b->links[i][p] |= joined << j;
                 b->links[j][p] |= joined << i;
+                if (by_vertex) {
+                    with_next[p] |= after << i | ahead << j;
+                    with_previous[p] |= after << j | ahead << i;
+                    pairs[p] += after + ahead;
+                }
             }
         }
+    const uint32_t all = (1u << b->count) - 1;
+    for (uint32_t p = 0; p < FAN_POSITIONS; p++)
+        b->open[p] = by_vertex ? (with_next[p] ^ all) | (with_previous[p] ^ all) | (pairs[p] ^ b->count) : 0;
+    for (uint32_t i = 0; by_vertex && i < b->count; i++)
+        for (uint32_t p = 0; p < FAN_POSITIONS; p++)
+            b->open[p] |= (b->next[i][0][p] == b->previous[i][0][p]) & (b->next[i][1][p] == b->previous[i][1][p]) &
+                          (b->next[i][2][p] == b->previous[i][2][p]);
 }
 
 // Adds the corners that are joined to members; returns whether there were any.
@@ -209,7 +224,10 @@ static void make(struct corner_fan_block *b, const lam_mesh *mesh, double min_co
     sort(b->corners, b->count);
     fetch(b, mesh);
     look(b);
-    link(b, min_cosine, mesh->smoothing_groups != NULL);
+    if (b->by_vertex)
+        link(b, min_cosine, mesh->smoothing_groups != NULL, true);
+    else
+        link(b, min_cosine, mesh->smoothing_groups != NULL, false);
     fan_row left;
     for (uint32_t p = 0; p < FAN_POSITIONS; p++)
         left[p] = (1u << b->count) - 1;
@@ -225,7 +243,8 @@ static void make(struct corner_fan_block *b, const lam_mesh *mesh, double min_co
     }
 }
 
-static uint32_t locate(struct corner_fan_block *b, const struct rank_bitset *triangles, uint32_t first)
+static uint32_t locate(struct corner_fan_block *b, const lam_mesh *mesh, const struct rank_bitset *triangles,
+                       uint32_t first, const uint64_t *done)
 {
     const uint64_t *bits = triangles->bits;
     const uint32_t *ranks = triangles->ranks;
@@ -239,8 +258,13 @@ static uint32_t locate(struct corner_fan_block *b, const struct rank_bitset *tri
             wanted[p] |= (uint32_t)is_member << i;
             b->elements[i][p] = 3 * index + b->corners[i][p] - 3 * (uint64_t)b->triangles[i][p];
         }
+    for (uint32_t i = 0; done && i < b->count; i++)
+        for (uint32_t p = 0; p < FAN_POSITIONS; p++) {
+            uint32_t vertex = mesh->indices[b->corners[i][p]];
+            wanted[p] &= ~((uint32_t)(done[vertex / 64] >> vertex % 64 & 1) << i);
+        }
     for (uint32_t p = 0; p < FAN_POSITIONS; p++)
-        wanted[p] = p < b->positions && !b->flat[p] ? wanted[p] : 0;
+        wanted[p] = p < b->positions && !(b->flat[p] | b->open[p]) ? wanted[p] : 0;
     for (uint32_t f = 0; f < b->fans; f++)
         for (uint32_t p = 0; p < FAN_POSITIONS; p++) {
             b->members[f][p] &= wanted[p];

@@ -18,7 +18,9 @@ typedef uint32_t fan_row[FAN_POSITIONS];
 // Positions where equally many corners meet, one in each column: row i has their corners i.
 struct corner_fan_block {
     uint32_t count, positions;        // corners at each; the columns after the last position repeat it
+    bool by_vertex;                   // the corners in a column are those of one vertex
     fan_row corners[FAN_CORNERS_MAX]; // ascending at each position once `make` has run
+    fan_row open;                     // by_vertex and nonzero: the vertex is not closed (normals.h)
     fan_row flat;                     // nonzero: a degenerate triangle; the other fields are invalid
     // Fans, numbered at each position by their first corners: their corners as bits (0: the position has fewer fans),
     // and their normals.
@@ -41,8 +43,10 @@ struct corner_fan_simd {
     // Computes the fans from count, positions and corners.
     void (*make)(struct corner_fan_block *block, const lam_mesh *mesh, double min_cosine);
     // Then fills `elements`, and leaves as members only corners of triangles in the set, where the mesh's triangle 0 has
-    // the number `first`. Returns the number of fans that have members.
-    uint32_t (*locate)(struct corner_fan_block *block, const struct rank_bitset *triangles, uint32_t first);
+    // the number `first`, and none of open vertices
+    // or of those whose bits are set in `done`, which may be NULL. Returns the number of fans that have members.
+    uint32_t (*locate)(struct corner_fan_block *block, const lam_mesh *mesh, const struct rank_bitset *triangles,
+                       uint32_t first, const uint64_t *done);
 };
 
 // The widest that the processor has, of at most `lanes` lanes.

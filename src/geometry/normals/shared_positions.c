@@ -79,7 +79,7 @@ static void add_wanted(void *user, size_t index, int thread)
         }
 }
 
-static bool find_wanted(struct position_search *s)
+bool find_wanted(struct position_search *s)
 {
     size_t words = rank_bitset_words(s->vertices);
     s->wanted.size = s->vertices;
@@ -87,7 +87,12 @@ static bool find_wanted(struct position_search *s)
     s->wanted.ranks = search_alloc(s, &s->arena, words, sizeof *s->wanted.ranks);
     if (!s->wanted.bits || !s->wanted.ranks)
         return false;
-    pool_run(s->pool, pieces_of(triangle_words(s), WORDS), add_wanted, s);
+    if (triangles_before(s, s->mesh->triangle_count) < s->mesh->triangle_count) {
+        pool_run(s->pool, pieces_of(triangle_words(s), WORDS), add_wanted, s);
+    } else if (words) { // all vertices: one without a triangle is a position without corners
+        memset(s->wanted.bits, 0xff, words * sizeof *s->wanted.bits);
+        s->wanted.bits[words - 1] >>= 64 * words - s->vertices;
+    }
     rank_bitset_finish(&s->wanted);
     return true;
 }
@@ -246,8 +251,7 @@ static bool fill_table(struct position_search *s)
 
 // --- the other vertices of a mesh with indices
 
-// Numbers the wanted vertices of some words of the set, and looks up those of the others that pass the filter, which are
-// few. Returns the probes.
+// Looks up the vertices of some words of the set that are not wanted and pass the filter, which are few. Returns the probes.
 static size_t place_some(const struct position_search *s, size_t word, size_t end)
 {
     uint32_t looked_up[WORD * TOGETHER], hash[WORD * TOGETHER], lookups = 0;
@@ -255,7 +259,6 @@ static size_t place_some(const struct position_search *s, size_t word, size_t en
         size_t first = WORD * word, count = s->vertices - first < WORD ? s->vertices - first : WORD;
         uint64_t wanted = s->wanted.bits[word];
         uint32_t hashes[WORD];
-        s->simd->number(wanted, s->wanted.ranks[word], s->position_of + first);
         uint64_t passed = s->simd->test(point_of(s, first), (uint32_t)count, &s->table.filter, hashes) & ~wanted;
         for (; passed; passed &= passed - 1) {
             uint32_t i = (uint32_t)__builtin_ctzll(passed);
@@ -297,10 +300,19 @@ static void place_duplicates(void *user, size_t index, int thread)
     list_blocks_recycle(&s->lists[index], &s->lists[index].duplicates);
 }
 
-static bool place_vertices(struct position_search *s)
+bool number_wanted(struct position_search *s)
 {
     s->position_of = alloc_until_fans(s, WORD * rank_bitset_words(s->vertices), sizeof *s->position_of);
     if (!s->position_of)
+        return false;
+    for (size_t w = 0; w < rank_bitset_words(s->vertices); w++)
+        s->simd->number(s->wanted.bits[w], s->wanted.ranks[w], s->position_of + WORD * w);
+    return true;
+}
+
+static bool place_vertices(struct position_search *s)
+{
+    if (!number_wanted(s))
         return false;
     pool_run(s->pool, pieces_of(rank_bitset_words(s->vertices), WORDS), place_words, s);
     pool_run(s->pool, (size_t)pool_threads(s->pool), place_duplicates, s);
@@ -351,7 +363,7 @@ bool find_positions_by_sorting(struct position_search *s, lam_error *error)
 bool find_positions(struct position_search *s, lam_error *error)
 {
     const bool indexed = s->mesh->indices != NULL;
-    bool ok = (!indexed || find_wanted(s)) && fill_table(s);
+    bool ok = fill_table(s);
     if (ok && indexed && !s->probe_limit_reached) {
         ok = place_vertices(s);
         scratch_return(&s->scratch); // the table is no longer needed

@@ -35,6 +35,7 @@ struct position_search {
     struct position_hash table;
     struct block_lists *lists; // of each thread
     int probe_limit_reached;   // set atomically: the file was made so that its positions collide
+    struct rank_bitset done;   // vertices whose normals are made already; without bits: none
 
     // Out. A position has the rank of the vertex that represents it among `wanted`; without indices, the rank of the
     // corner among those of the set's triangles.
@@ -63,6 +64,12 @@ static inline size_t piece_end(size_t index, size_t total, size_t piece)
 {
     return (index + 1) * piece < total ? (index + 1) * piece : total;
 }
+
+// The vertices of the set's triangles, of a mesh with indices. False: out of memory.
+bool find_wanted(struct position_search *s);
+
+// Numbers the wanted vertices in `position_of`. False: out of memory.
+bool number_wanted(struct position_search *s);
 
 // Starts the lists and fills the table and, of a mesh with indices, `position_of`.
 bool find_positions(struct position_search *s, lam_error *error);

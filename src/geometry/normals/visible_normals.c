@@ -1,6 +1,7 @@
 // visible_normals.c: smooth normals for some triangles of a mesh, or for all of them.
 //
-// Three steps. Positions (shared_positions.c): every vertex at a position of the set's triangles gets the position's
+// First come the closed vertices (normals.h), which need no search: the corners that name each vertex are collected. The
+// others take three steps. Positions (shared_positions.c): every vertex at one of their positions gets the position's
 // number. Bins (position_bins.c): the corners there are sorted by ranges of positions. Fans (corner_fan.c): range by range
 // the corners of each position are put in order and their normals computed; positions with equally few corners wait until
 // 32 of them can be computed side by side (corner_fan_simd.c).
@@ -12,6 +13,12 @@
 
 #include <string.h>
 
+enum {
+    CLOSED_MAX = 8, // corners of a closed vertex
+    LISTED = 256,   // corners listed together
+    WORDS = 1 << 6, // of vertices, in one piece of work
+};
+
 // One thread's.
 struct fan_worker {
     struct arena arena;
@@ -19,9 +26,7 @@ struct fan_worker {
     struct corner_fan_batch *batch;
     uint32_t *sorted; // the corners of a bin, by position
     size_t sorted_capacity;
-    uint32_t *starts;                     // in `sorted`, of each position of a bin
-    uint32_t next_element, elements_left; // reserved for this thread
-    uint32_t coming;                      // positions without elements yet: each needs one at least
+    uint32_t *starts; // in `sorted`, of each position of a bin
 };
 
 struct fan_loop {
@@ -31,34 +36,29 @@ struct fan_loop {
     double min_cosine;
     struct visible_normals *visible;
     struct fan_worker *workers;
+    // While closed vertices are made: open vertices among them are only listed.
+    bool by_vertex;
+    struct rank_bitset open;
+    uint32_t *counts, (*collected)[CLOSED_MAX]; // of each wanted vertex: its number of corners, and the first of them
 };
 
-// A new element with the normal x, y, z. `needed`: the number of elements that are needed in any case, this one
-// included. They are reserved together, so that the counter that all threads share is rarely touched.
-static uint32_t new_element(struct fan_loop *l, struct fan_worker *worker, uint32_t needed, uint32_t first_corner,
-                            float x, float y, float z)
+// Fills an element with the normal x, y, z.
+static void fill_element(struct visible_normals *visible, uint32_t element, uint32_t first_corner, float x, float y,
+                         float z)
 {
-    struct visible_normals *visible = l->visible;
-    if (!worker->elements_left) {
-        worker->elements_left = needed + worker->coming;
-        worker->next_element = __atomic_fetch_add(&visible->used, worker->elements_left, __ATOMIC_RELAXED);
-    }
-    uint32_t element = worker->next_element++;
-    worker->elements_left--;
     visible->normals[element][0] = x;
     visible->normals[element][1] = y;
     visible->normals[element][2] = z;
     if (visible->first_corners)
         visible->first_corners[element] = first_corner;
-    return element;
 }
 
 // Makes the normals at one position.
 static bool make_fans(struct fan_loop *l, struct fan_worker *worker, const uint32_t *corners, uint32_t count)
 {
-    const struct rank_bitset *triangles = &l->visible->triangles;
+    const struct rank_bitset *triangles = &l->visible->triangles, *done = &l->search->done;
+    const uint32_t *indices = l->search->mesh->indices;
     struct corner_fan_scratch *scratch = &worker->scratch;
-    worker->coming--;
     if (!corner_fan_scratch_reserve(scratch, count))
         return false;
     memcpy(scratch->numbers, corners, count * sizeof *corners);
@@ -70,10 +70,12 @@ static bool make_fans(struct fan_loop *l, struct fan_worker *worker, const uint3
         uint32_t corner = scratch->corners[i].corner, fan = scratch->corners[i].fan;
         size_t number = l->search->first + (size_t)corner / 3;
         const float *n = scratch->normals[fan];
-        if (!rank_bitset_has(triangles, number))
+        if (!rank_bitset_has(triangles, number) || (done->bits && rank_bitset_has(done, indices[corner])))
             continue;
-        if (element_of[fan] == NONE)
-            element_of[fan] = new_element(l, worker, 1, corner, n[0], n[1], n[2]);
+        if (element_of[fan] == NONE) {
+            element_of[fan] = __atomic_fetch_add(&l->visible->used, 1, __ATOMIC_RELAXED);
+            fill_element(l->visible, element_of[fan], corner, n[0], n[1], n[2]);
+        }
         l->visible->elements[3 * (size_t)rank_bitset_rank(triangles, number) + corner % 3] = element_of[fan];
     }
     return true;
@@ -85,9 +87,11 @@ static bool make_block(struct fan_loop *l, struct fan_worker *worker, uint32_t c
     struct corner_fan_block *block = &worker->batch->block;
     if (!corner_fan_batch_take(worker->batch, count))
         return true;
-    worker->coming -= block->positions;
+    block->by_vertex = l->by_vertex;
     l->simd->make(block, l->search->mesh, l->min_cosine);
-    uint32_t needed = l->simd->locate(block, &l->visible->triangles, l->search->first);
+    uint32_t needed =
+        l->simd->locate(block, l->search->mesh, &l->visible->triangles, l->search->first, l->search->done.bits);
+    uint32_t element = __atomic_fetch_add(&l->visible->used, needed, __ATOMIC_RELAXED);
     for (uint32_t f = 0; f < block->fans; f++)
         for (uint32_t p = 0; p < block->positions; p++) {
             uint32_t members = block->members[f][p];
@@ -95,14 +99,16 @@ static bool make_block(struct fan_loop *l, struct fan_worker *worker, uint32_t c
             if (!members)
                 continue;
             uint32_t first = block->corners[__builtin_ctz(members)][p], no_member;
-            uint32_t element = new_element(l, worker, needed--, first, unit[0][p], unit[1][p], unit[2][p]);
+            fill_element(l->visible, element, first, unit[0][p], unit[1][p], unit[2][p]);
             for (uint32_t i = 0; i < count; i++)
                 *(members >> i & 1 ? &l->visible->elements[block->elements[i][p]] : &no_member) = element;
+            element++;
         }
     bool ok = true;
     for (uint32_t p = 0; ok && p < block->positions; p++)
-        if (block->flat[p]) {
-            worker->coming++;
+        if (block->open[p]) {
+            rank_bitset_add(&l->open, l->search->mesh->indices[block->corners[0][p]]);
+        } else if (block->flat[p]) {
             uint32_t corners[FAN_CORNERS_MAX];
             for (uint32_t i = 0; i < count; i++)
                 corners[i] = block->corners[i][p];
@@ -140,8 +146,6 @@ static void make_bin(void *user, size_t index, int thread)
         position_bin_sort(&l->bins, index, worker->sorted, worker->starts);
     const uint32_t *starts = worker->starts, size = (uint32_t)1 << l->bins.shift;
     for (uint32_t i = 0; ok && i < size; i++)
-        worker->coming += starts[i + 1] > starts[i];
-    for (uint32_t i = 0; ok && i < size; i++)
         if (starts[i + 1] > starts[i])
             ok = add_position(l, worker, worker->sorted + starts[i], starts[i + 1] - starts[i]);
     if (!ok)
@@ -158,10 +162,19 @@ static void make_rest(void *user, size_t index, int thread)
             no_memory(&l->search->loop);
 }
 
+static void stop_workers(struct fan_loop *l)
+{
+    for (int i = 0; l->workers && i < pool_threads(l->search->pool); i++) {
+        arena_free(&l->workers[i].arena);
+        corner_fan_scratch_free(&l->workers[i].scratch);
+    }
+}
+
 static bool start_workers(struct fan_loop *l)
 {
     struct position_search *s = l->search;
     size_t threads = (size_t)pool_threads(s->pool);
+    stop_workers(l);
     l->workers = search_alloc_zeroed(s, threads * sizeof *l->workers);
     if (!l->workers)
         return false;
@@ -176,14 +189,6 @@ static bool start_workers(struct fan_loop *l)
         corner_fan_batch_start(worker->batch);
     }
     return true;
-}
-
-static void stop_workers(struct fan_loop *l)
-{
-    for (int i = 0; l->workers && i < pool_threads(l->search->pool); i++) {
-        arena_free(&l->workers[i].arena);
-        corner_fan_scratch_free(&l->workers[i].scratch);
-    }
 }
 
 // The whole lines of 64 bytes between two addresses.
@@ -202,6 +207,94 @@ static void lend_normals(struct position_search *s, const struct visible_normals
     s->until_fans[0] = lines_between(elements, elements + own);
     s->until_fans[1] =
         lines_between(visible->normals + visible->used, visible->normals + 3 * (size_t)visible->triangles.count);
+}
+
+// --- closed vertices
+
+// Collects the corners of wanted vertices; their order does not matter.
+static void collect_corners(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct fan_loop *l = user;
+    struct position_search *s = l->search;
+    const bool alone = pool_threads(s->pool) == 1;
+    if (!should_continue(&s->loop))
+        return;
+    uint32_t end = (uint32_t)piece_end(index, s->corners, CHUNK), count;
+    for (uint32_t c = (uint32_t)(index * CHUNK); c < end; c += count) {
+        uint32_t corners[LISTED + WORD], ranks[LISTED + WORD];
+        count = end - c < LISTED ? end - c : LISTED;
+        uint32_t listed = s->simd->list(s->mesh->indices + c, s->position_of, c, count, corners, ranks);
+        for (uint32_t k = 0; k < listed; k++) {
+            uint32_t *at = &l->counts[ranks[k]];
+            uint32_t place = alone ? (*at)++ : __atomic_fetch_add(at, 1, __ATOMIC_RELAXED);
+            if (place < CLOSED_MAX)
+                l->collected[ranks[k]][place] = corners[k];
+        }
+    }
+}
+
+static void make_vertices(void *user, size_t index, int thread)
+{
+    struct fan_loop *l = user;
+    struct position_search *s = l->search;
+    for (size_t w = index * WORDS;
+         should_continue(&s->loop) && w < piece_end(index, rank_bitset_words(s->vertices), WORDS); w++) {
+        uint32_t rank = s->wanted.ranks[w];
+        for (uint64_t bits = s->wanted.bits[w]; bits; bits &= bits - 1, rank++)
+            if (l->counts[rank] < 3 || l->counts[rank] > CLOSED_MAX)
+                rank_bitset_add(&l->open, 64 * w + (size_t)__builtin_ctzll(bits));
+            else if (!add_position(l, &l->workers[thread], l->collected[rank], l->counts[rank]))
+                no_memory(&s->loop);
+    }
+}
+
+// Makes the normals of closed vertices; the others remain wanted.
+static bool make_closed(struct fan_loop *l)
+{
+    struct position_search *s = l->search;
+    size_t words = rank_bitset_words(s->vertices), wanted = s->wanted.count;
+    l->open = (struct rank_bitset){.bits = search_alloc_zeroed(s, words * sizeof *l->open.bits),
+                                   .ranks = search_alloc(s, &s->arena, words, sizeof *l->open.ranks),
+                                   .size = s->vertices};
+    l->counts = search_alloc_zeroed(s, wanted * sizeof *l->counts);
+    l->collected = search_alloc(s, &s->arena, wanted, sizeof *l->collected);
+    if (!l->open.bits || !l->open.ranks || !l->counts || !l->collected || !number_wanted(s) || !start_workers(l))
+        return false;
+    l->by_vertex = true;
+    pool_run(s->pool, pieces_of(s->corners, CHUNK), collect_corners, l);
+    pool_run(s->pool, pieces_of(words, WORDS), make_vertices, l);
+    pool_run(s->pool, (size_t)pool_threads(s->pool), make_rest, l);
+    l->by_vertex = false;
+    for (size_t w = 0; w < words; w++)
+        s->wanted.bits[w] &= ~l->open.bits[w];
+    s->done = s->wanted;
+    s->wanted = l->open;
+    rank_bitset_finish(&s->wanted);
+    s->position_of = NULL;
+    lend_normals(s, l->visible);
+    s->until_fans[0] = (struct scratch_memory){0}; // some elements are filled
+    return true;
+}
+
+// Makes the normals of all other vertices.
+static bool make_others(struct fan_loop *l, lam_error *error)
+{
+    struct position_search *s = l->search;
+    bool ok = find_positions(s, error);
+    if (ok && !position_bins_fill(&l->bins, s) && should_continue(&s->loop)) {
+        ok = find_positions_by_sorting(s, error);
+        if (ok)
+            position_bins_fill(&l->bins, s);
+    }
+    scratch_return(&s->scratch);
+    if (ok && should_continue(&s->loop)) {
+        if (!start_workers(l))
+            no_memory(&s->loop);
+        pool_run(s->pool, l->bins.count, make_bin, l);
+        pool_run(s->pool, (size_t)pool_threads(s->pool), make_rest, l);
+    }
+    return ok;
 }
 
 bool make_visible_normals(const lam_mesh *mesh, uint32_t first, double crease_angle_rad,
@@ -225,19 +318,11 @@ bool make_visible_normals(const lam_mesh *mesh, uint32_t first, double crease_an
     arena_start(&s.arena, call);
     s.triangles_of_others = triangles_before(&s, 0);
     lend_normals(&s, visible);
-    bool ok = find_positions(&s, error);
-    if (ok && !position_bins_fill(&l.bins, &s) && should_continue(&s.loop)) {
-        ok = find_positions_by_sorting(&s, error);
-        if (ok)
-            position_bins_fill(&l.bins, &s);
-    }
-    scratch_return(&s.scratch);
-    if (ok && should_continue(&s.loop)) {
-        if (!start_workers(&l))
-            no_memory(&s.loop);
-        pool_run(pool, l.bins.count, make_bin, &l);
-        pool_run(pool, (size_t)pool_threads(pool), make_rest, &l);
-    }
+    const bool some_closed = mesh->indices && corners >= 3 * s.vertices;
+    bool ok = ((!mesh->indices || find_wanted(&s)) && (!some_closed || make_closed(&l))) ||
+              call_memory_error(call, s.vertices / 4, error);
+    if (ok && should_continue(&s.loop) && (!s.done.bits || s.wanted.count))
+        ok = make_others(&l, error);
     if (ok)
         ok = should_continue(&s.loop) || loop_error(&s.loop, corners * 8, error);
     stop_workers(&l);

@@ -49,6 +49,10 @@ LAM_API const lam_field *lam_light_field(int index);
 
 // Reads the numbers of a field (angles in radians, a flag as 0 or 1) and returns how many there are: 1, 3 or 4.
 LAM_API int lam_field_get(const lam_field *field, const void *object, double numbers[4]);
+// The numbers as scene files, options and reports have them: as lam_field_get, but angles in degrees, the shortest
+// decimal that gives the same angle.
+LAM_API int lam_field_get_written(const lam_field *field, const void *object, double numbers[4]);
+
 // Sets them, whatever their range.
 LAM_API void lam_field_set(const lam_field *field, void *object, const double numbers[4]);
 

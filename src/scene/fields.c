@@ -57,6 +57,22 @@ void lam_field_set(const lam_field *field, void *object, const double numbers[4]
         }
 }
 
+int lam_field_get_written(const lam_field *field, const void *object, double numbers[4])
+{
+    int count = lam_field_get(field, object, numbers);
+    if (field->type != LAM_FIELD_ANGLE)
+        return count;
+    const double exact = math_degrees(numbers[0]);
+    double power = 1, decimal = exact;
+    for (int decimals = 0; decimals <= 12; decimals++, power *= 10) {
+        decimal = (double)(int64_t)(exact * power + 0.5) / power;
+        if ((float)math_radians(decimal) == (float)numbers[0])
+            break;
+    }
+    numbers[0] = decimal;
+    return count;
+}
+
 void field_set_written(const lam_field *field, void *object, const double numbers[4])
 {
     double radians[4] = {math_radians(numbers[0])};

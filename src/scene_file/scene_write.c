@@ -58,13 +58,13 @@ static json_t *color(struct scene_writer *w, const float *parts, int count)
 }
 
 // Degrees that come back as the same radians: with few decimals, else the nearest number that does.
-static json_t *degrees(double radians, bool is_float)
+static json_t *degrees(double radians)
 {
     double plain = math_degrees(radians), power = 1, best = plain, error = 1e300;
     for (int decimals = 0; decimals <= 12; decimals++, power *= 10) {
         double shorter = (double)(int64_t)(plain * power + (plain < 0 ? -0.5 : 0.5)) / power,
                back = math_radians(shorter);
-        if (is_float ? (float)back == (float)radians : back == radians)
+        if (back == radians)
             return number(shorter);
     }
     int64_t bits;
@@ -149,14 +149,14 @@ static bool put_path(struct scene_writer *w, json_t *object, const char *key, co
 static void put_field(struct scene_writer *w, json_t *out, const lam_field *field, const void *object)
 {
     double numbers[4];
-    int count = lam_field_get(field, object, numbers);
+    int count = lam_field_get_written(field, object, numbers);
     const float *floats = (const float *)((const char *)object + field->offset);
     switch (field->type) {
     case LAM_FIELD_NUMBER:
         put(w, out, field->key, number_float(*floats));
         break;
     case LAM_FIELD_ANGLE:
-        put(w, out, field->key, degrees(numbers[0], true));
+        put(w, out, field->key, number(numbers[0]));
         break;
     case LAM_FIELD_FLAG:
         put(w, out, field->key, json_boolean(numbers[0] != 0));
@@ -295,7 +295,7 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
         put(w, entry, "normals", word(normals_words, (int)origin->normals));
     if (origin->crease_angle_rad > 0)
         put(w, entry, "crease_angle",
-            origin->crease_angle_rad <= 1e-6 ? json_integer(0) : degrees(origin->crease_angle_rad, false));
+            origin->crease_angle_rad <= 1e-6 ? json_integer(0) : degrees(origin->crease_angle_rad));
     if (origin->field_tangents)
         put(w, entry, "tangents", json_string("field"));
     put_transform(w, entry, object, own);
@@ -392,7 +392,7 @@ static void put_camera(struct scene_writer *w, json_t *root, const lam_camera *c
     if (camera->ortho_half_height > 0)
         put(w, out, "ortho_half_height", number(camera->ortho_half_height));
     else
-        put(w, out, "fovy", degrees(camera->fovy_rad, false));
+        put(w, out, "fovy", degrees(camera->fovy_rad));
     if (camera->near_plane != 0 || camera->far_plane != 0) {
         put(w, out, "near", number(camera->near_plane));
         put(w, out, "far", number(camera->far_plane));
@@ -431,7 +431,7 @@ static bool put_environment(struct scene_writer *w, json_t *root, const lam_pict
             return false;
     if (s->environment_picture && !put_path(w, out, "equirectangular", s->environment_picture))
         return false;
-    put(w, out, "rotation", degrees(s->environment_rotation_rad, false));
+    put(w, out, "rotation", degrees(s->environment_rotation_rad));
     return true;
 }
 

@@ -65,7 +65,7 @@ class Compare(Case):
         self.sheet("cube.obj", "-s", 8, "--font", "/nowhere.ttf", "--no-captions")
 
     def test_across(self):
-        for across, count in (("reflection", 6), ("shininess", 3), ("light", 5), ("stage", 3), ("term", 5), ("show=normals,depth", 2), ("samples=1,4", 2),
+        for across, count in (("reflection=lambert,phong,blinn-phong", 3), ("shininess", 3), ("light", 5), ("stage", 3), ("term", 5), ("show=normals,depth", 2), ("samples=1,4", 2),
                               ("material=gold;ruby,shininess=5", 2), ("material=gold,ruby,jade", 3), ("azimuth=0,30,60", 3)):
             with self.subTest(across):
                 page = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", across)

@@ -289,7 +289,7 @@ static void check_material_field(lam_scene *scene, const lam_field *field)
     for (size_t i = 0; i < 3; i++) {
         lam_material m = lam_material_default();
         double numbers[4];
-        int count = lam_field_get(field, &m, numbers);
+        int count = lam_field_get_written(field, &m, numbers);
         for (int k = 0; k < count; k++)
             assert_true((float)numbers[k] == (float)field->standard[k]);
         assert_true(lam_scene_add_material(scene, &m, NULL) >= 0);

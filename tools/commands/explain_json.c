@@ -161,7 +161,7 @@ static void write_point(struct json *json, const lam_explained_point *p)
 static void write_field(struct json *json, const lam_field *field, const lam_material *m)
 {
     double numbers[4];
-    int count = lam_field_get(field, m, numbers);
+    int count = lam_field_get_written(field, m, numbers);
     bool in_matrix = field->offset == offsetof(lam_material, ambient) ||
                      field->offset == offsetof(lam_material, diffuse) ||
                      field->offset == offsetof(lam_material, specular);

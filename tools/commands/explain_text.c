@@ -263,13 +263,13 @@ static void print_number(const lam_explained_fragment *f, const lam_field *field
 {
     double numbers[4];
     char text[64];
-    if (lam_field_get(field, m, numbers) > 1)
+    if (lam_field_get_written(field, m, numbers) > 1)
         return;
     if (field->offset == offsetof(lam_material, shininess))
         number(4, field_label(field, text), (double)f->shininess,
                f->shininess == m->shininess ? "" : "as changed by the options");
     else if (numbers[0] != field->standard[0])
-        number(4, field_label(field, text), numbers[0], "");
+        number(4, field_label(field, text), numbers[0], field->unit ? field->unit : "");
 }
 
 static void print_material(const lam_explanation *e, const lam_explained_fragment *f)

@@ -35,7 +35,7 @@ static bool is_column(const lam_field *field)
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
         lam_material m = lam_material_named((lam_material_id)i);
         double numbers[4];
-        for (int k = lam_field_get(field, &m, numbers) - 1; k >= 0; k--)
+        for (int k = lam_field_get_written(field, &m, numbers) - 1; k >= 0; k--)
             differs |= (float)numbers[k] != (float)field->standard[k];
     }
     return differs;
@@ -51,7 +51,7 @@ static void print_row(const lam_material *m)
         if (!is_column(field))
             continue;
         if (m)
-            lam_field_get(field, m, numbers);
+            lam_field_get_written(field, m, numbers);
         if (!m)
             printf(color ? "  %-26s" : "  %s", field->key);
         else if (color)
@@ -87,7 +87,7 @@ static void print_json(void)
         for (int k = 0; lam_material_field(k); k++) {
             const lam_field *field = lam_material_field(k);
             double numbers[4];
-            bool single = lam_field_get(field, &m, numbers) == 1;
+            bool single = lam_field_get_written(field, &m, numbers) == 1;
             if (!is_column(field))
                 continue;
             if (!single)

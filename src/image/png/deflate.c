@@ -211,7 +211,7 @@ static inline uint64_t key_of(const uint32_t *at, int bytes_per_pixel)
     uint64_t key = 0;
     const int shift = 8 * bytes_per_pixel;
     for (int i = 0; i < key_pixels[bytes_per_pixel]; i += 2) {
-        const uint64_t pair = two_pixels(at + i), mask = (1u << 2 * (unsigned)shift) - 1;
+        const uint64_t pair = two_pixels(at + i), mask = (UINT64_C(1) << 2 * shift) - 1;
         key |= ((pair | pair >> (32 - shift)) & mask) << i * shift;
     }
     return key;

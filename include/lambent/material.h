@@ -17,6 +17,7 @@ typedef enum lam_reflection {
     LAM_REFLECTION_BLINN_PHONG,        // highlight by the half vector
     LAM_REFLECTION_KAJIYA_KAY,         // threads along the tangents
     LAM_REFLECTION_KAJIYA_KAY_LECTURE, // the same as lectures print it
+    LAM_REFLECTION_OREN_NAYAR,         // rough diffuse surfaces, no highlight
     LAM_REFLECTION_COUNT
 } lam_reflection;
 
@@ -77,7 +78,10 @@ typedef struct lam_material {
     int illum;                              // MTL's illumination model as written; −1: none given
     const char *map_names[LAM_MAP_COUNT];   // file names as written; NULL: none
     const char *map_options[LAM_MAP_COUNT]; // MTL's options before them, "-s 1 1 1"; NULL: none
-    LAM_RESERVED(64);
+    // σ of Oren–Nayar: standard deviation of the slope angle of the surface's facets, radians, 0..π/2. 0: Lambert's
+    // surface.
+    float roughness_angle_rad;
+    LAM_RESERVED(63);
 } lam_material;
 
 // The material of parts that name none: neutral light grey with a soft highlight.

@@ -155,6 +155,27 @@ FN lobe_sample kajiya_kay_lecture_lobe(surface s, vec3 l)
     return b;
 }
 
+// Oren and Nayar (1994), the qualitative model: a rough matt surface is made of small matt facets, whose slopes vary
+// with the standard deviation sigma (radians). Facets seen from the light's side return more of it, so that such a
+// surface (the moon, clay) looks flatter than Lambert's. With the angles of l and v from the normal, and phi between
+// the planes that they make with it:
+//     A = 1 - 0.5 sigma^2 / (sigma^2 + 0.33)
+//     B = 0.45 sigma^2 / (sigma^2 + 0.09)
+//     D = max(n.l, 0) (A + B max(cos phi, 0) sin(larger angle) tan(smaller angle))
+// The product of cosine, sine and tangent is (l.v - n.l n.v) / max(n.l, n.v).
+FN lobe_sample oren_nayar_lobe(surface s, vec3 l, num sigma)
+{
+    lobe_sample b = lambert_lobe(s, l);
+    num square = sigma * sigma;
+    num n_dot_v = cosine(dot3(s.n, s.v));
+    num beside = positive(dot3(l, s.v) - b.n_dot_l * n_dot_v);
+    num larger = max_of(max_of(b.n_dot_l, n_dot_v), num_of(1.0e-6f));
+    num rest = 1.0f - 0.5f * square / (square + 0.33f);
+    num back = 0.45f * square / (square + 0.09f);
+    b.diffuse = b.diffuse * rest + back * beside * (b.diffuse / larger);
+    return b;
+}
+
 // The highlight, raised to its power.
 FN lobe_value reflected_of(lobe_sample b, num shininess)
 {
@@ -171,7 +192,8 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 // The numbers of a material that lobes read, named as in lam_material, in its table of fields and in the shaders.
 #define LOBE_PARAMETERS(X)                                                                                             \
     X(shininess)                                                                                                       \
-    X(fibre)
+    X(fibre)                                                                                                           \
+    X(roughness_angle_rad)
 
 // The table of the reflection models: the dispatch in C and in GLSL, the words of the command line and of scene files,
 // reports, explanations and tests are made from it. A new model is an enumerator in lambent/material.h, a function
@@ -199,7 +221,10 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
       "sin(t,l)", "max(sin(t,l) sin(t,v) − cos(t,l) cos(t,v), 0)") \
     X(KAJIYA_KAY_LECTURE, kajiya_kay_lecture_lobe(s, l), LOBE_HIGHLIGHT | LOBE_TANGENT | LOBE_BACKLIT, \
       "kajiya-kay-lecture", "the same with the sign that a lecture prints", \
-      "sin(t,l)", "max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)")
+      "sin(t,l)", "max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)") \
+    X(OREN_NAYAR, oren_nayar_lobe(s, l, m.roughness_angle_rad), 0, \
+      "oren-nayar", "rough matt surfaces, no highlight", \
+      "max(n·l, 0) (A + B max(l·v − n·l n·v, 0) ÷ max(n·l, n·v))", "")
 // clang-format on
 
 enum { LOBE_HIGHLIGHT = 1, LOBE_TANGENT = 2, LOBE_BACKLIT = 4, LOBE_BACKLIT_FIBRE = 8 };

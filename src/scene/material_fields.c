@@ -44,6 +44,17 @@ static const struct material_field rows[] = {
                .summary = "for hair and thread: Kajiya-Kay without the gate [n.l > 0]"},
      .reader = FIELD_LOBE,
      .optional = true},
+    {.field = {.name = "roughness_angle_rad",
+               .key = "roughness_angle",
+               .symbol = "σ",
+               .unit = "degrees",
+               .type = LAM_FIELD_ANGLE,
+               .offset = offsetof(lam_material, roughness_angle_rad),
+               .max = 90,
+               .standard = {30},
+               .summary = "Oren-Nayar's sigma: standard deviation of the slope of the surface's facets"},
+     .reader = FIELD_LOBE,
+     .optional = true},
 };
 enum { COUNT = sizeof rows / sizeof *rows };
 _Static_assert((int)COUNT <= LAM_FIELDS_MAX, "more fields than LAM_FIELDS_MAX");

@@ -111,6 +111,17 @@ static struct reflected reflect_kajiya_kay_lecture(const struct geometry *g)
     return reflect_thread(g, cos(g->theta_l - g->theta_v), 0);
 }
 
+// By the angles themselves.
+static struct reflected reflect_oren_nayar(const struct geometry *g)
+{
+    double sigma = (double)g->parameters[2], square = sigma * sigma;
+    double incoming = acos(limit(g->n_l, -1, 1)), outgoing = acos(limit(inner(g->n, g->v), -1, 1));
+    vector l = normalize(minus(g->l, times(g->n_l, g->n))), v = normalize(minus(g->v, times(inner(g->n, g->v), g->n)));
+    double a = 1 - 0.5 * square / (square + 0.33), b = 0.45 * square / (square + 0.09);
+    double beside = fmax(inner(l, v), 0) * sin(fmax(incoming, outgoing)) * tan(fmin(incoming, outgoing));
+    return (struct reflected){.diffuse = fmax(g->n_l, 0) * (a + b * beside)};
+}
+
 // Each with the hash over the results of all widths (test_widths.c prints it).
 static const struct lobe {
     struct reflected (*of)(const struct geometry *g);
@@ -122,6 +133,7 @@ static const struct lobe {
     [LAM_REFLECTION_BLINN_PHONG] = {reflect_blinn_phong, 0x64be24bc5d552f2b},
     [LAM_REFLECTION_KAJIYA_KAY] = {reflect_kajiya_kay, 0x86fdeb727f396564},
     [LAM_REFLECTION_KAJIYA_KAY_LECTURE] = {reflect_kajiya_kay_lecture, 0xfa54dbabeeecf5f4},
+    [LAM_REFLECTION_OREN_NAYAR] = {reflect_oren_nayar, 0xc42745003ceb023c},
 };
 
 uint64_t textbook_hash(int model) { return lobes[model].hash; }

@@ -21,9 +21,10 @@ static lam_scene *make_shape(const char *name, const lam_control *control, lam_e
     return NULL;
 }
 
-static bool shows_threads(const lam_draw_params *draw)
+static bool reads_tangents(const lam_draw_params *draw)
 {
-    return draw->reflection == LAM_REFLECTION_KAJIYA_KAY || draw->reflection == LAM_REFLECTION_KAJIYA_KAY_LECTURE;
+    const lam_reflection_info *info = lam_reflection_describe(draw->reflection); // NULL: drawing will refuse it
+    return info && info->tangents;
 }
 
 static lam_scene *load(const char *model, const lam_render_params *params, lam_error *error)
@@ -32,7 +33,7 @@ static lam_scene *load(const char *model, const lam_render_params *params, lam_e
         return make_shape(model, params->control, error);
     // A device of this call draws one frame: the normals that it shows are enough, and the CPU device makes them. Threads
     // (Kajiya–Kay) need tangents, which are made from all normals.
-    bool draws_once = !params->device && !(params->draw && shows_threads(params->draw));
+    bool draws_once = !params->device && !(params->draw && reads_tangents(params->draw));
     lam_load_params plain = {.models_anywhere = true, .threads = params->threads, .normals_when_drawn = draws_once};
     lam_scene *scene = lam_scene_load(model, params->load ? params->load : &plain, params->control, error);
     if (!scene || lam_scene_triangle_count(scene) > 0)
@@ -83,7 +84,7 @@ static bool draw(lam_scene *scene, const lam_render_params *params, lam_image *i
         camera = lam_camera_fit(scene, image->width, image->height, params->view);
     lam_device *device =
         params->device ? params->device : lam_device_cpu(&(lam_cpu_params){.threads = params->threads}, error);
-    bool ok = device && (!shows_threads(&drawn) || lam_scene_make_tangents(scene, params->control, error)) &&
+    bool ok = device && (!reads_tangents(&drawn) || lam_scene_make_tangents(scene, params->control, error)) &&
               lam_draw(device, scene, &camera, &drawn, image, params->control, error);
     if (ok && report)
         fill_report(scene, &camera, device, report);

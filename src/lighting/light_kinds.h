@@ -10,7 +10,7 @@
 #define LIGHT_SPOT_EXPONENT 3 // a power of the cosine, no edge
 #define LIGHT_SPOT_CONES    4 // full inside an inner cone, nothing outside an outer one, smooth between
 
-// What weakens a light with the distance, uniform as well. Directional lights have FALLOFF_NONE.
+// Falloff with distance, also a uniform number. Directional lights have FALLOFF_NONE.
 #define FALLOFF_NONE     0 // nothing: attenuation 1/0/0 and no range
 #define FALLOFF_DISTANCE 1 // 1 / (constant + linear d + quadratic d^2)
-#define FALLOFF_RANGE    2 // that, and the window that ends at the range
+#define FALLOFF_RANGE    2 // the same, times the window that ends at the range

@@ -7,7 +7,7 @@
 STRUCT(light_source)
 {
     vec3 position;     // point and spot
-    vec3 direction;    // unit: the way a directional light travels, the axis of a spot
+    vec3 direction;    // unit: the direction in which the light travels, the axis of a spot
     vec3 diffuse;      // kd * Ld
     vec3 specular;     // ks * Ls
     num constant;      // attenuation: a,
@@ -42,12 +42,12 @@ FN num attenuation_at(num d, light_source light, int falloff)
     return attenuation;
 }
 
-// The cone's factor from c, the cosine between the spot's axis and the way from the light to the point:
+// The cone's factor from c, the cosine between the spot's axis and the direction from the light to the point:
 //     cutoff:    [c >= cos cutoff] max(c, 0)^exponent
 //     exponent:  max(c, 0)^exponent
 //     cones:     clamp((c - cos outer) / max(0.001, cos inner - cos outer), 0, 1)^2, as in KHR_lights_punctual
-// The sharp edge itself is lit, whichever way c was rounded: hence the 5e-7, the most that c may be off. The cones
-// enlarge that error by 1 / (cos inner - cos outer), the power by its exponent.
+// The sharp edge itself is lit however c was rounded: 5e-7 is the largest error of c. The cones multiply that error by
+// 1 / (cos inner - cos outer), the power by its exponent.
 FN num spot_at(num c, light_source light, int kind)
 {
     num spot = num_of(1.0f);
@@ -64,7 +64,7 @@ FN num spot_at(num c, light_source light, int kind)
     return spot;
 }
 
-// The light at the end of the way from a point; `square` is the way's length squared, `inverse` 1 by the length.
+// The light at the end of the vector `way` from a point; `square` is its squared length, `inverse` 1 / length.
 FN light_sample toward_along(vec3 way, num square, num inverse)
 {
     light_sample t;
@@ -75,7 +75,7 @@ FN light_sample toward_along(vec3 way, num square, num inverse)
     return t;
 }
 
-// What distance and cone leave of it. At the light itself nothing arrives: there is no direction to it.
+// Applies attenuation and cone. No light arrives at the light's own position, since it has no direction there.
 FN light_sample weaken_light(light_sample t, num square, light_source light, int kind, int falloff)
 {
     if (falloff != FALLOFF_NONE) {
@@ -88,7 +88,7 @@ FN light_sample weaken_light(light_sample t, num square, light_source light, int
     return t;
 }
 
-// The light as seen from the point p.
+// The light that arrives at the point p.
 FN light_sample toward_light(vec3 p, light_source light, int kind, int falloff)
 {
     light_sample t;

@@ -1,9 +1,9 @@
-// lobes.h: how a point of a surface answers the light of one direction: the reflection models and their table.
+// lobes.h: how a point of a surface reflects light from one direction: the reflection models and their table.
 //
 // One text for C and GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space: n is the unit normal, l points to
-// the light, v to the eye, t along the tangent. Each has length 1, or 0 where there is none; the answer is then 0.
-// D is the share of diffuse light, S the strength of the highlight, both in 0...1; sum.h multiplies them with colours.
-// No light comes through a surface: S is 0 where n.l <= 0, although r.v and n.h may be positive there.
+// the light, v to the eye, t along the tangent. Each has length 1, or 0 where there is none; the result is then 0.
+// D is the fraction of diffuse light, S the strength of the highlight, both in 0...1; sum.h multiplies them by colours.
+// No light passes through a surface: S is 0 where n.l <= 0, although r.v and n.h may be positive there.
 //
 // `lambent shader` prints this text, and src/glsl/equations.c and specialize.c read it line by line. They rely on its
 // shape, here and in lights.h and sum.h: a definition begins in column 1 and its closing brace stands in column 1; an
@@ -13,17 +13,17 @@
 STRUCT(surface)
 {
     vec3 p; // the point
-    vec3 n; // its normal, on the side that is seen
+    vec3 n; // its normal, on the visible side
     vec3 v; // towards the eye
     vec3 t; // along the surface, perpendicular to n; for the lobes of threads
 };
 
-// How the surface meets the light of one direction, but for the highlight's power.
+// The response to light from one direction, before the highlight is raised to its power.
 STRUCT(lobe_sample)
 {
     num diffuse; // D
     num n_dot_l; // cosine between normal and light, -1...1
-    num base;    // of the highlight before it goes to the power: r.v or n.h or the cone's cosine, at most 1
+    num base;    // of the highlight's power: r.v, n.h or the cosine of Kajiya and Kay's cone, at most 1
     mask lit;    // whether there is a highlight: S is 0 elsewhere
 };
 
@@ -35,14 +35,15 @@ STRUCT(lobe_value)
     num base;     // as above, 0...1
 };
 
-// x in -1...1: a dot product of unit vectors may be a rounding more.
+// Clamps a dot product of unit vectors to -1...1, which rounding may exceed.
 FN num cosine(num x) { return min_of(max_of(x, num_of(-1.0f)), num_of(1.0f)); }
 
-// Whether a direction is there at all: not the zero vector.
+// Whether a direction exists: it is not the zero vector.
 FN mask present(vec3 w) { return dot3(w, w) > 0.0f; }
 
-// The mirror image of w about n:  2 (n.w) n - w.  Of l it is the lectures' r, of v the ray that an environment is
-// looked up with.
+// The mirror image of w about n:
+//     2 (n.w) n - w
+// Of l it is the lectures' r; of v it is the direction in which an environment is looked up.
 FN vec3 mirror3(vec3 w, vec3 n) { return sub3(scale3(n, 2.0f * dot3(n, w)), w); }
 
 // The vector halfway between l and v, both of length 1.
@@ -51,8 +52,9 @@ FN vec3 halfway3(vec3 l, vec3 v) { return unit3(add3(l, v)); }
 // w made perpendicular to n and unit (Gram and Schmidt); 0 where w lies along n.
 FN vec3 perpendicular3(vec3 w, vec3 n) { return unit3(sub3(w, scale3(n, dot3(n, w)))); }
 
-// Lambert (1760): a matt surface sends the light it takes in evenly to all sides, and takes in the more the steeper the
-// light falls:  D = max(n.l, 0)
+// Lambert (1760): a matt surface reflects light evenly in all directions, and receives less of it the more obliquely
+// the light falls:
+//     D = max(n.l, 0)
 FN lobe_sample lambert_lobe(surface s, vec3 l)
 {
     lobe_sample b;
@@ -63,9 +65,10 @@ FN lobe_sample lambert_lobe(surface s, vec3 l)
     return b;
 }
 
-// Phong (1975): the highlight is round the mirror image of the light.  S = [n.l > 0] max(r.v, 0)^shininess
-// r.v is taken as 1 - |r - v|^2 / 2, the same for unit vectors: an error in the length of n would count fourfold in the
-// product where the highlight is brightest, and here it does not count at all.
+// Phong (1975): the highlight surrounds the mirror image of the light.
+//     S = [n.l > 0] max(r.v, 0)^shininess
+// r.v is computed as 1 - |r - v|^2 / 2, which is equal for unit vectors. Where the highlight is brightest, the product
+// would multiply an error in the length of n by four; this form does not depend on it.
 FN num phong_base(vec3 n, vec3 l, vec3 v)
 {
     vec3 apart = sub3(mirror3(l, n), v);
@@ -79,10 +82,11 @@ FN lobe_sample phong_lobe(surface s, vec3 l)
     return b;
 }
 
-// Blinn (1977), the lectures' modified Phong: how near the normal comes to the vector halfway between light and eye.
-// S = [n.l > 0] max(n.h, 0)^shininess  with  h = (l + v) / |l + v|
-// The length is divided by after the product with n, which saves three products; n.l + n.v in place of n.(l + v) would
-// save more and lose digits where l and v are nearly opposite.
+// Blinn (1977), the lectures' modified Phong: the highlight is brightest where the normal lies halfway between light and
+// eye.
+//     S = [n.l > 0] max(n.h, 0)^shininess   with   h = (l + v) / |l + v|
+// The division by the length follows the product with n, which saves three multiplications; n.l + n.v in place of
+// n.(l + v) would save more, but loses digits where l and v are nearly opposite.
 STRUCT(halfway)
 {
     num product; // n.(l + v)
@@ -106,7 +110,7 @@ FN lobe_sample blinn_phong_lobe(surface s, vec3 l)
     return b;
 }
 
-// Kajiya and Kay (1989): a thread along t mirrors light into a cone round t. With the angles between t and l, t and v:
+// Kajiya and Kay (1989): a thread along t reflects light into a cone around t. With the angles between t and l, t and v:
 //     D = sin(t,l)
 //     S = max(sin(t,l) sin(t,v) - cos(t,l) cos(t,v), 0)^shininess
 // On a solid surface D and S are gated by n.l > 0; a fibre (1, else 0) has no inside and no gate.
@@ -189,7 +193,7 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 
 // --- C only: the text of GLSL ends here (src/glsl/embed.py).
 
-// The numbers of a material that lobes read, named as in lam_material, in its table of fields and in the shaders.
+// The numbers of a material that lobes read. They have the same names in lam_material, its table of fields and shaders.
 #define LOBE_PARAMETERS(X)                                                                                             \
     X(shininess)                                                                                                       \
     X(fibre)                                                                                                           \
@@ -274,7 +278,7 @@ LANE_FN lobe_value reflect_light(surface s, vec3 l, lobe_parameters m, int model
     return r;
 }
 
-// A material's; `shininess` is the one in use (frame_shininess).
+// The parameters of a material; `shininess` is the exponent in use (frame_shininess).
 LANE_FN lobe_parameters lobe_parameters_of(const lam_material *material, float shininess)
 {
 #define OF_MATERIAL(name) .name = num_of((float)material->name),

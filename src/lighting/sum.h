@@ -6,11 +6,10 @@
 //         + sum over lights of  spot_i attenuation_i (kd * Ld_i D_i + ks * Ls_i S_i)
 //         + kr * environment
 //
-// where * between colours goes channel by channel. The products ka * La, kd * Ld, ks * Ls are formed once for each
-// draw and come in here as colours. Ambient light is neither attenuated nor narrowed by a cone, so that all of it is
-// one colour for a draw.
+// where * multiplies colours channel by channel. The products ka * La, kd * Ld, ks * Ls are formed once for each draw
+// and are parameters here. Ambient light is neither attenuated nor limited by a cone, so all of it is one colour.
 
-// The terms before their sum: pictures of one term, and the explanation of one pixel, come from these.
+// The terms before their sum, for pictures of one term and the explanation of a pixel.
 STRUCT(terms) { vec3 ambient, diffuse, specular, emission, reflection; };
 
 // A sky over a ground, as products with the material: ka * sky, ka * ground.
@@ -20,7 +19,7 @@ STRUCT(hemisphere)
     vec3 sky, ground;
 };
 
-// How the eye sees: from one place (local), or from infinitely far in front, as an orthographic camera does.
+// The viewer: at the eye's position (local), or infinitely far in front, as with an orthographic camera.
 #define VIEWER_LOCAL    0
 #define VIEWER_INFINITE 1
 
@@ -47,7 +46,7 @@ FN surface surface_at(vec3 p, vec3 normal, vec3 tangent, int viewer)
     return s;
 }
 
-// What is there before any light: ambient = ka * (La global + sum of the lights' La), and the surface's own emission.
+// The terms before any light is added: ambient = ka * (La global + sum of the lights' La), and the surface's emission.
 FN terms start_terms(vec3 ambient, vec3 emission)
 {
     terms sum;
@@ -75,7 +74,7 @@ FN terms add_hemisphere(terms sum, surface s, hemisphere h)
     return sum;
 }
 
-// Adds spot * attenuation * (kd * Ld D + ks * Ls S), both known already.
+// Adds spot * attenuation * (kd * Ld D + ks * Ls S) for known D and S.
 FN terms add_reflected(terms sum, light_source light, light_sample t, lobe_value r)
 {
     num arriving = t.attenuation * t.spot;
@@ -84,21 +83,21 @@ FN terms add_reflected(terms sum, light_source light, light_sample t, lobe_value
     return sum;
 }
 
-// Adds a light's ambient share as OpenGL 1 did: weakened by distance and cone like the rest of it.
+// Adds a light's ambient colour as OpenGL 1 did: multiplied by attenuation and cone like the other terms.
 FN terms add_arriving_ambient(terms sum, vec3 ambient, light_sample t)
 {
     sum.ambient = add3(sum.ambient, scale3(ambient, t.attenuation * t.spot));
     return sum;
 }
 
-// Adds kr * environment, the environment's colour having been looked up with mirror3(v, n).
+// Adds kr * environment, the environment's colour in the direction mirror3(v, n).
 FN terms add_environment(terms sum, vec3 kr, vec3 colour)
 {
     sum.reflection = add3(sum.reflection, mul3(kr, colour));
     return sum;
 }
 
-// A colour that varies over the surface (vertex colours, a texture) multiplies what is reflected evenly: ka and kd.
+// Multiplies the ambient and diffuse terms by a colour that varies over the surface (vertex colours, a texture).
 FN terms tint_terms(terms sum, vec3 colour)
 {
     sum.ambient = mul3(sum.ambient, colour);
@@ -106,7 +105,7 @@ FN terms tint_terms(terms sum, vec3 colour)
     return sum;
 }
 
-// The sum, nothing clamped.
+// The sum of the terms, unclamped.
 FN vec3 sum_terms(terms t)
 {
     return add3(add3(add3(add3(t.emission, t.ambient), t.diffuse), t.specular), t.reflection);

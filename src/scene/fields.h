@@ -5,10 +5,10 @@
 #include <lambent/fields.h>
 #include <lambent/light.h>
 
-// What of a shader reads a field of the material.
+// The part of a shader that reads a field of the material.
 enum field_reader {
     FIELD_ALWAYS,
-    FIELD_LIT,         // whatever is lit
+    FIELD_LIT,         // every lit surface
     FIELD_HIGHLIGHT,   // reflection models with a highlight
     FIELD_LOBE,        // reflection models that name it as a parameter
     FIELD_ENVIRONMENT, // the mirrored environment
@@ -17,8 +17,8 @@ enum field_reader {
 
 struct material_field {
     lam_field field; // first
-    // Its name and comment in shaders whose materials come multiplied with the lights. NULL: as elsewhere; "": it stands
-    // in the lights' products alone.
+    // Name and comment in shaders whose uniforms are products of materials and lights. NULL: as elsewhere; "": the
+    // field appears only within those products.
     const char *product, *product_summary;
     enum field_reader reader;
     bool optional; // a scene file leaves it out where it is 0, which is the default
@@ -33,7 +33,7 @@ struct light_field {
 const struct light_field *light_field(int index);
 static inline bool field_is_of(const lam_field *field, lam_light_type type) { return field->light_types >> type & 1; }
 
-// The number of a field that lies outside of its range, its name and the range, as words for a sentence.
+// A number outside the range of its field; name and range are words for an error sentence.
 struct field_fault {
     char name[48], expected[48];
     double found;

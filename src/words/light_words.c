@@ -281,7 +281,7 @@ static bool set_cone(struct reading *reading, lam_error *error)
     return true;
 }
 
-// The place and the direction: w = 0 and directional lights have rules of their own.
+// Position and direction: w = 0 and directional lights have rules of their own.
 static bool set_place(struct reading *reading, lam_error *error)
 {
     lam_light *light = &reading->light;
@@ -388,7 +388,7 @@ static int find_object(const lam_scene *scene, const char *name, lam_error *erro
     return -1;
 }
 
-// The sphere as the light's frame sees it.
+// The sphere in the light's frame.
 static bool sphere_in_frame(const lam_light *light, const lam_light_text_params *params, const lam_scene *scene,
                             struct sphere *out, lam_error *error)
 {

@@ -110,7 +110,8 @@ static void set_factor(const struct reading *reading, int index, lam_material *m
     double color[4];
     lam_field_get(field, m, color);
     const double *from = color;
-    if (field->standard[0] == 0 && !given(reading, index)) // of no light by default a share would be nothing
+    if (field->standard[0] == 0 &&
+        !given(reading, index)) // a factor of a colour that is black by default starts from white
         from = given(reading, MATERIAL_SPECULAR_COLOR) ? reading->numbers[MATERIAL_SPECULAR_COLOR] : white;
     set_color(field, m, from, reading->numbers[factor_of(index)][0]);
 }

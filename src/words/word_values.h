@@ -8,13 +8,13 @@
 // Bytes of a text with its end.
 enum { WORDS_MAX = 1024 };
 
-// Copies a text that is to be taken apart. False: it is too long.
+// Copies a text that will be split. False: it is too long.
 bool word_copy(const char *text, char copy[WORDS_MAX], lam_error *error);
 
 // The index of `name` in a list that ends with NULL; −1 with the nearest one, or all of them, in the error.
 int word_key(const char *name, const char *const *names, lam_error *error);
 
-// A finite decimal number, not "inf" or "nan". Returns the place behind it; NULL: there is none.
+// A finite decimal number, not "inf" or "nan". Returns the position after it; NULL: there is no number.
 const char *word_number(const char *text, double *number);
 
 // Numbers with '/' between them, `min` to `max` of them. Where `radii` is not NULL, each may end in 'r', which sets

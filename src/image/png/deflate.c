@@ -105,7 +105,7 @@ static inline bool chunk_repeats(const uint32_t *row, int x)
     return (halves[0] | halves[1]) == 0;
 }
 
-// What the pixels of a chunk become, found from each one's neighbours.
+// The tokens of a chunk's pixels, from each pixel and its neighbours.
 struct chunk {
     uint64_t literal[CHUNK]; // the pixel's bytes as a token
     uint32_t in_run[CHUNK];  // all bits set: the pixel belongs to a run; else 0

@@ -41,7 +41,7 @@ struct best_thread {
     uint32_t *words;              // two filtered rows
 };
 
-// What the threads share, and their own states.
+// State shared by the threads, and the state of each.
 struct best_state {
     struct libdeflate libdeflate;
     size_t count;

@@ -422,7 +422,6 @@ class Several(CheckTest):
         (self.folder / "dee" / "phong.frag").write_text("void main() { gl_FragColor = vec4(1.0); }\n")
         names = [f"{name}/phong" for name in ("ann", "bob", "cem", "dee")]
         files = [n + ".frag" for n in names] + [n + ".vert" for n in names[:3]] + ["eve/phong.frag"]
-        (self.folder / "sheets").mkdir()
         words = ("check", *files, "-s", "32", "--scenes", "gate,all")
         done = self.run_program(*words, "--json", "-o", "sheets/", "--no-captions")
         self.assertEqual(done.returncode, 6, done.stderr)
@@ -439,6 +438,8 @@ class Several(CheckTest):
         self.assertIn("--contract", reports[3]["error"])
         self.assertIn("eve/phong.frag", reports[4]["error"])
         self.assertEqual(sorted(p.name for p in (self.folder / "sheets").iterdir()), [f"{n}-phong.png" for n in ("ann", "bob", "cem")])
+        self.run_program("check", *files[:1], files[4], "-s", "32", "--scenes", "gate", "-o", "one/", "--no-captions")
+        self.assertEqual([p.name for p in (self.folder / "one").iterdir()], ["ann-phong.png"])
         text = self.run_program(*words).stdout.decode()
         self.assertIn("1 of 5 pass", text)
         self.assertEqual(text.count("no-gate:"), 2)

@@ -235,7 +235,6 @@ class Materials(Pictures):
         self.assertTrue(all(pixel(plain, x, y)[3] == 0 for x, y in differs))
         self.bad(2, "materials", "-o", "none.png", "--font", "/nowhere.ttf", says="/nowhere.ttf", leaves={"sheet.png"})
         self.bad(1, "materials", "gold", says="unexpected argument", leaves={"sheet.png"})
-        self.bad(1, "materials", "-o", "folder/", says="is a folder", leaves={"sheet.png"})
 
 
 class Methods(Pictures):

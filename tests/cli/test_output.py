@@ -69,8 +69,33 @@ class Names(Case):
         self.assertEqual(set(os.listdir(self.folder / "out")), {"cube.png", "second.png"})
         (self.folder / "out" / "cube.png").write_bytes(b"precious")
         self.bad(5, "cube.obj", "-s", 16, "-o", "out/", says=["out/cube.png", "-o"])
-        self.bad(5, "cube.obj", "-s", 16, "-o", "none/", says="none/cube.png")
         self.bad(1, "cube.obj", "cube.stl", "-o", "out/", says="would both be written to 'out/cube.png'")
+
+    def test_missing_folder_is_made(self):
+        """A folder with a trailing slash is made by every command that writes files, once there is something to write."""
+        (self.folder / "one.png").write_bytes(self.good("cube.obj", "-s", 16, "-o", "-", "-q").stdout)
+        self.given.add("one.png")
+        data = (self.folder / "cube.obj").read_bytes()
+        for words, names in ((("cube.obj", "-s", 16), {"cube.png"}), (("teapot", "./cube.obj", "-s", 16), {"teapot.png", "cube.png"}),
+                             (("-", "-s", 16), {"model.png"}), (("compare", "cube.obj", "-s", 16, "--no-captions"), {"cube-summary.png"}),
+                             (("materials", "-s", 64, "--no-captions"), {"materials.png"}),
+                             (("plot", "spot", "-s", 64, "--no-captions"), {"spot.png"}),
+                             (("shader", "cube.obj", "--host", "c"), {"cube.vert", "cube.frag", "cube.c"}),
+                             (("diff", "one.png", "one.png"), {"one-difference.png"})):
+            with self.subTest(words[0]):
+                for _ in range(2):  # a file that lambent wrote is replaced
+                    self.good(*words, "-o", "deep/new/", stdin=data)
+                    self.assertEqual(set(os.listdir(self.folder / "deep" / "new")), names)
+                shutil.rmtree(self.folder / "deep")
+        self.bad(1, "cube.obj", "cube.stl", "-o", "deep/new/", says="would both be written")
+        self.bad(2, "missing.obj", "-o", "deep/new/", says="missing.obj")
+        self.bad(5, "cube.obj", "-o", "deep/x.png", says="deep")  # a named picture's folder may be a mistake
+        self.bad(3, "cube.obj", "-o", "deep", says="the name of a folder ends in a slash: deep/")
+        self.bad(5, "cube.obj", "-o", "cube.mtl/", says="'cube.mtl' is not a folder")
+        self.bad(5, "cube.obj", "-o", "cube.mtl/in/", says="cube.mtl/in")
+        user = self.plain_user()
+        if user:
+            self.bad(5, "cube.obj", "-o", "deep/new/", says="deep/new/cube.png", user=user)
 
     def test_several_models(self):
         shutil.copy(self.folder / "cube.stl", self.folder / "second.stl")

@@ -59,12 +59,12 @@ struct batch {
 
 static bool check_output(const struct batch *c, const char *path, const char *shader, lam_error *error)
 {
-    lam_pixel_format format = LAM_RGBA8;
+    lam_pixel_format format;
     if (output_is_stream(path))
         return true;
-    return lam_image_format_for(path, &format, error) &&
+    return output_format(path, &format, error) &&
            (format == LAM_RGBA8 || complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", path)) &&
-           output_check(path, shader, !c->several, error);
+           output_check(path, shader, output_is_named(c->options->output), error);
 }
 
 static void print_report(const struct batch *c, const lam_check_report *report, const struct check_pair *pair,
@@ -141,8 +141,6 @@ static bool prepare(struct batch *c, int pair_count, const struct check_pair *pa
     if (o->output && c->several && output_is_named(o->output))
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--output' names one sheet for %d shaders; name a folder: -o sheets/", pair_count);
-    if (o->output && !c->several && !output_is_named(o->output))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file", o->output);
     return !c->several || (c->cache = lam_check_cache_make(max_cache_bytes, error));
 }
 

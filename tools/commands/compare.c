@@ -1,6 +1,7 @@
 // compare.c: the command `compare`: several pictures of a model on one labelled sheet.
 #include "command.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -241,26 +242,23 @@ static bool draw_sheet(struct compare *c, lam_error *error)
 // The sheet's path; "koala-terms.png" by default.
 static char *path_of(const struct options *o, const char *model, const char *sheet)
 {
-    char *plain = output_path(o->output, model);
-    if (!plain || output_is_named(o->output))
-        return plain;
-    char *path = malloc(strlen(plain) + strlen(sheet) + sizeof "-.png");
-    if (path)
-        sprintf(path, "%.*s-%s.png", (int)(strlen(plain) - strlen(".png")), plain, sheet);
-    free(plain);
-    return path;
+    char ending[64];
+    snprintf(ending, sizeof ending, "-%s.png", sheet);
+    return output_path(o->output, model, ending);
 }
 
 static bool check(const struct options *o, const char *model, const char *path, lam_error *error)
 {
-    lam_pixel_format format = LAM_RGBA8;
+    lam_pixel_format format;
     if (strcmp(model, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "compare reads the model once for each picture, so it cannot read '-' (standard input)");
     if (strcmp(path, "-") == 0)
         return !isatty(STDOUT_FILENO) ||
                complain(error, LAM_BAD_ARGUMENT, "standard output is a terminal, and the picture is not text");
-    if (!output_is_stream(path) && (!lam_image_format_for(path, &format, error) || format != LAM_RGBA8))
+    if (!output_format(path, &format, error))
+        return false;
+    if (format != LAM_RGBA8)
         return complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", path);
     return output_check(path, model, output_is_named(o->output), error);
 }

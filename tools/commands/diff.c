@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 
 struct pair {
     const char *name[2];
+    char *output; // path of the picture; NULL: none
     lam_image image[2];
     lam_difference difference;
     lam_image where; // the difference; made only for --output
@@ -51,23 +53,18 @@ static bool to_bytes(lam_image *image, lam_error *error)
 
 static bool write_picture(struct pair *pair, const struct options *o, lam_error *error)
 {
-    bool stream = output_is_stream(o->output);
-    lam_pixel_format format = LAM_RGBA8;
-    if (!stream && !lam_image_format_for(o->output, &format, error))
+    lam_pixel_format format;
+    if (!output_format(pair->output, &format, error))
         return false;
     if (format == LAM_RGBA32F && pair->image[0].format == LAM_RGBA8)
         return complain(error, LAM_BAD_ARGUMENT, "%s holds floats, and the pictures hold bytes; write .png or .ppm",
-                        o->output);
+                        pair->output);
     if (!lam_image_difference(&pair->image[0], &pair->image[1], (float)o->gain, &pair->where, error) ||
         (pair->where.format != format && !to_bytes(&pair->where, error)))
         return false;
     lam_save_params params = {.raw = true};
-    if (!stream)
-        return lam_image_save(&pair->where, o->output, &params, error);
-    lam_bytes bytes = {0};
-    bool ok = lam_image_encode(&pair->where, "png", &params, &bytes, error) && output_write(o->output, &bytes, error);
-    lam_bytes_free(&bytes);
-    return ok;
+    uint64_t size;
+    return output_save(&pair->where, pair->output, &params, &size, error);
 }
 
 static void print_json(FILE *file, const struct pair *pair, const struct options *o, bool differ)
@@ -87,7 +84,7 @@ static void print_json(FILE *file, const struct pair *pair, const struct options
     json_number(&json, "share_over_2", d->share_over_2);
     json_number(&json, "tolerance", o->tolerance);
     json_count(&json, "differ", differ);
-    json_text(&json, "picture", o->output);
+    json_text(&json, "picture", pair->output);
     json_close(&json, '}');
     putc('\n', file);
 }
@@ -123,11 +120,10 @@ int run_diff(int operand_count, char **operands, const struct options *options)
         ok = complain(&error, LAM_BAD_ARGUMENT,
                       "standard output is a terminal, and the picture is not text; redirect it: lambent diff "
                       "A B -o - > FILE");
-    else if (options->output && !output_is_named(options->output))
-        ok = complain(&error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file",
-                      options->output);
+    else if (options->output && !(pair.output = output_path(options->output, pair.name[0], "-difference.png")))
+        ok = complain(&error, LAM_LIMIT, "out of memory");
     else if (options->output && !to_stdout)
-        ok = output_check(options->output, pair.name[0], true, &error);
+        ok = output_check(pair.output, pair.name[0], output_is_named(options->output), &error);
     ok = ok && load_pair(&pair, &error) && (!options->output || write_picture(&pair, options, &error));
     bool differ = ok && pair.difference.maximum > options->tolerance / 255.0;
     if (ok) {
@@ -140,6 +136,7 @@ int run_diff(int operand_count, char **operands, const struct options *options)
     for (int i = 0; i < 2; i++)
         lam_image_free(&pair.image[i]);
     lam_image_free(&pair.where);
+    free(pair.output);
     if (!ok)
         return report_failure(&error, options);
     return differ ? EXIT_DIFFERS : 0;

@@ -193,7 +193,7 @@ static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_imag
     return ok && (o->no_captions || draw_captions(scene, o, &camera, image, error));
 }
 
-static bool write_sheet(const struct options *o, const lam_image *image, lam_error *error)
+static bool write_sheet(const struct options *o, const lam_image *image, const char *path, lam_error *error)
 {
     lam_rgba under = {0, 0, 0, 0};
     if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &under, error))
@@ -201,22 +201,15 @@ static bool write_sheet(const struct options *o, const lam_image *image, lam_err
     lam_save_params params = {.background = {under.r, under.g, under.b},
                               .raw = o->color == LAM_COLOR_RAW,
                               .compress = (lam_compress)o->compress};
-    if (!output_is_stream(o->output))
-        return lam_image_save(image, o->output, &params, error);
-    lam_bytes bytes = {0};
-    bool ok = lam_image_encode(image, "png", &params, &bytes, error) && output_write(o->output, &bytes, error);
-    lam_bytes_free(&bytes);
-    return ok;
+    uint64_t size;
+    return output_save(image, path, &params, &size, error);
 }
 
-static bool make_sheet(const struct options *o, lam_error *error)
+static bool make_sheet(const struct options *o, const char *path, lam_error *error)
 {
-    if (!output_is_named(o->output))
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--output': '%.200s' is a folder, expected the sheet's own name", o->output);
-    lam_pixel_format format = LAM_RGBA8;
-    if ((!output_is_stream(o->output) && !lam_image_format_for(o->output, &format, error)) ||
-        !(output_is_stream(o->output) || output_check(o->output, "", true, error)))
+    lam_pixel_format format;
+    if (!output_format(path, &format, error) ||
+        !(output_is_stream(path) || output_check(path, "", output_is_named(o->output), error)))
         return false;
     lam_scene *scene = lam_scene_make(error);
     lam_image image = {0};
@@ -224,7 +217,7 @@ static bool make_sheet(const struct options *o, lam_error *error)
     int height = o->width == o->height ? o->height * 58 / 100 : o->height;
     bool ok = scene && build_scene(scene, error) &&
               lam_image_make(&image, o->width, height > 0 ? height : 1, format, error) &&
-              draw_sheet(scene, o, &image, error) && write_sheet(o, &image, error);
+              draw_sheet(scene, o, &image, error) && write_sheet(o, &image, path, error);
     lam_image_free(&image);
     lam_scene_free(scene);
     return ok;
@@ -239,7 +232,10 @@ int run_materials(int operand_count, char **operands, const struct options *opti
         return 0;
     }
     interrupt_start();
-    if (!make_sheet(options, &error))
+    char *path = output_path(options->output, "materials", ".png");
+    bool ok = path ? make_sheet(options, path, &error) : complain(&error, LAM_LIMIT, "out of memory");
+    free(path);
+    if (!ok)
         return report_failure(&error, options);
     if (!output_is_stream(options->output))
         print_list(options);

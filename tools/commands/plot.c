@@ -376,14 +376,14 @@ static bool draw_to(const struct plot *plot, const char *path, const struct opti
 {
     const char *dot = strrchr(path, '.');
     bool svg = dot && strcmp(dot, ".svg") == 0, to_stdout = strcmp(path, "-") == 0;
-    lam_pixel_format format = LAM_RGBA8;
+    lam_pixel_format format;
     if (to_stdout && isatty(STDOUT_FILENO))
         return complain(error, LAM_BAD_ARGUMENT, "standard output is a terminal, and the picture is not text");
-    if (!output_is_named(path))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--output' names the folder '%s', expected a file", path);
-    if (!svg && !output_is_stream(path) && (!lam_image_format_for(path, &format, error) || format != LAM_RGBA8))
+    if (!svg && !output_format(path, &format, error))
+        return false;
+    if (!svg && format != LAM_RGBA8)
         return complain(error, LAM_UNSUPPORTED, "%s: a plot is written as .svg, .png or .ppm", path);
-    if (!to_stdout && !output_check(path, "", o->output != NULL, error))
+    if (!to_stdout && !output_check(path, "", output_is_named(o->output), error))
         return false;
     struct drawing drawing;
     bool sized = o->has_size;
@@ -401,9 +401,8 @@ int run_plot(int operand_count, char **operands, const struct options *options)
     const struct kind *kind = find_kind(operands[0], &error);
     struct plot *plot = kind ? malloc(sizeof *plot) : NULL;
     bool ok = kind && (plot || complain(&error, LAM_LIMIT, "out of memory"));
-    char standard[64];
-    snprintf(standard, sizeof standard, "%s.png", kind ? kind->name : "");
-    const char *path = options->output ? options->output : standard;
+    char *path = ok ? output_path(options->output, kind->name, ".png") : NULL;
+    ok = ok && (path || complain(&error, LAM_LIMIT, "out of memory"));
     ok = ok && fill(plot, kind, operand_count - 1, operands + 1, options, &error) &&
          draw_to(plot, path, options, &error);
     if (ok) {
@@ -413,6 +412,7 @@ int run_plot(int operand_count, char **operands, const struct options *options)
         else if (!options->quiet)
             print_text(file, plot);
     }
+    free(path);
     free(plot);
     return ok ? 0 : report_failure(&error, options);
 }

@@ -96,7 +96,7 @@ static bool check_names(int count, char **models, const char *output, lam_error 
     struct named_output *named = count > 0 ? calloc((size_t)count, sizeof *named) : NULL;
     bool ok = named != NULL;
     for (int i = 0; ok && i < count; i++) {
-        named[i] = (struct named_output){models[i], output_path(output, models[i])};
+        named[i] = (struct named_output){models[i], output_path(output, models[i], ".png")};
         ok = named[i].output != NULL;
     }
     if (!ok)
@@ -169,7 +169,7 @@ static int render_one(const char *model, lam_device *device, const struct option
     bool may_talk = stream != stderr;
     struct progress progress;
     progress_start(&progress, model, console_is_terminal() && !o->quiet && may_talk);
-    char *path = output_path(o->output, model);
+    char *path = output_path(o->output, model, ".png");
     job.output = path;
     lam_error error = {0};
     bool ok = job.output ? job_run(&job, &progress, &error) : complain(&error, LAM_LIMIT, "out of memory");

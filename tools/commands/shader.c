@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "command.h"
 #include "console.h"
@@ -73,25 +74,18 @@ void shader_contract(FILE *file, const lam_shader *s)
 // `output`.
 static char *base_of(const char *output, const char *model)
 {
-    size_t length = strlen(output);
-    const char *last = strrchr(model, '/');
-    const char *name = strcmp(model, "-") == 0 ? "model" : last ? last + 1 : model;
-    char *base = malloc(length + strlen(name) + 2);
-    if (!base)
-        return NULL;
-    strcpy(base, output);
-    if (length && output[length - 1] == '/') {
-        strcat(base, name);
-        char *point = strrchr(base + length, '.');
-        if (point && point > base + length)
-            *point = 0;
-    } else if (length > 5 && (strcmp(base + length - 5, ".vert") == 0 || strcmp(base + length - 5, ".frag") == 0)) {
+    char *base = output_path(output, model, "");
+    size_t length = base ? strlen(base) : 0;
+    bool named = output_is_named(output);
+    if (named && length > 5 && (strcmp(base + length - 5, ".vert") == 0 || strcmp(base + length - 5, ".frag") == 0))
         base[length - 5] = 0;
-    }
     return base;
 }
 
-static bool write_file(const char *base, const char *ending, const char *text, size_t size, lam_error *error)
+// Files of these names are replaced, in a folder too: unlike pictures they do not say what wrote them. The folder of
+// `output` may be missing.
+static bool write_file(const char *output, const char *base, const char *ending, const char *text, size_t size,
+                       lam_error *error)
 {
     char *path = malloc(strlen(base) + strlen(ending) + 1);
     if (!path)
@@ -99,7 +93,8 @@ static bool write_file(const char *base, const char *ending, const char *text, s
     strcpy(path, base);
     strcat(path, ending);
     lam_bytes bytes = {(void *)(uintptr_t)text, size};
-    bool ok = output_check(path, "", true, error) && output_replace(path, &bytes, error);
+    bool named = output_is_named(output) || access(path, F_OK) == 0;
+    bool ok = output_check(path, "", named, error) && output_replace(path, &bytes, error);
     free(path);
     return ok;
 }
@@ -110,15 +105,15 @@ static bool write_files(const struct options *o, const lam_shader *shader, const
     size_t host_size = 0;
     if (!base)
         return complain(error, LAM_LIMIT, "out of memory");
-    bool ok = write_file(base, ".vert", shader->vertex, strlen(shader->vertex), error) &&
-              write_file(base, ".frag", shader->fragment, strlen(shader->fragment), error);
+    bool ok = write_file(o->output, base, ".vert", shader->vertex, strlen(shader->vertex), error) &&
+              write_file(o->output, base, ".frag", shader->fragment, strlen(shader->fragment), error);
     if (ok && o->host) {
         FILE *file = open_memstream(&host, &host_size);
         const char *name = strrchr(base, '/');
         if (file)
             shader_host(file, shader, name ? name + 1 : base, model);
         ok = (file && fclose(file) == 0) || complain(error, LAM_LIMIT, "out of memory");
-        ok = ok && write_file(base, ".c", host, host_size, error);
+        ok = ok && write_file(o->output, base, ".c", host, host_size, error);
         free(host);
     }
     if (ok && !o->quiet)

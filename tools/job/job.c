@@ -208,17 +208,12 @@ static bool write_output(struct job *job, lam_error *error)
                               .control = &control,
                               .compress = (lam_compress)o->compress,
                               .raw = o->color == LAM_COLOR_RAW || !lam_output_is_light(show_option_what(o->show))};
-    lam_bytes bytes = {0};
     bool ok;
-    if (output_is_stream(job->output)) {
-        ok = lam_image_encode(&job->image, job->format, &params, &bytes, error) &&
-             output_write(job->output, &bytes, error);
-        job->bytes = bytes.size;
-        lam_bytes_free(&bytes);
-    } else {
-        ok = show_is_all(o) ? show_all_write(job, &control, error)
-                            : lam_image_save(&job->image, job->output, &params, error);
+    if (show_is_all(o)) {
+        ok = output_make_folder(job->output, error) && show_all_write(job, &control, error);
         job->bytes = ok ? output_size(job->output) : 0;
+    } else {
+        ok = output_save(&job->image, job->output, &params, &job->bytes, error);
     }
     job->times.encode = clock_ms() - start;
     job->written = ok;
@@ -264,8 +259,8 @@ bool job_draw(struct job *job, lam_pixel_format format, struct progress *progres
 bool job_run(struct job *job, struct progress *progress, lam_error *error)
 {
     bool stream = output_is_stream(job->output);
-    lam_pixel_format format = LAM_RGBA8;
-    if (!stream && !lam_image_format_for(job->output, &format, error))
+    lam_pixel_format format;
+    if (!output_format(job->output, &format, error))
         return false;
     job->format = stream ? "png" : strrchr(job->output, '.') + 1;
     if (strcmp(job->output, "-") != 0 &&

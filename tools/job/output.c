@@ -18,7 +18,7 @@ static bool is_folder(const char *path)
 
 bool output_is_named(const char *output) { return output && output[strlen(output) - 1] != '/' && !is_folder(output); }
 
-char *output_path(const char *output, const char *model)
+char *output_path(const char *output, const char *model, const char *ending)
 {
     if (output_is_named(output))
         return strdup(output);
@@ -34,19 +34,34 @@ char *output_path(const char *output, const char *model)
         dot--;
     int stem = (int)((dot > start ? dot : end) - start);
     bool slash = *folder && folder[strlen(folder) - 1] != '/';
-    char *path = malloc(strlen(folder) + (size_t)stem + sizeof "/model.png");
-    if (path)
-        sprintf(path, "%s%s%.*s%s.png", folder, slash ? "/" : "", stem, start, stem ? "" : "model");
+    char *path = NULL;
+    if (asprintf(&path, "%s%s%.*s%s%s", folder, slash ? "/" : "", stem, start, stem ? "" : "model", ending) < 0)
+        return NULL;
     return path;
 }
 
-static bool check_folder(const char *path, lam_error *error)
+// The folder of a path, from malloc: "." if it names none.
+static char *folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
-    char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+    while (slash > path && slash[-1] == '/')
+        slash--;
+    return slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+}
+
+// Checks that files can be made in the folder of `path`, or, if it is missing and `makes`, in the nearest folder above
+// it that exists.
+static bool check_folder(const char *path, bool makes, lam_error *error)
+{
+    char *folder = folder_of(path);
+    struct stat found;
+    while (folder && makes && stat(folder, &found) != 0 && errno == ENOENT && strcmp(folder, ".") != 0) {
+        char *above = folder_of(folder);
+        free(folder);
+        folder = above;
+    }
     if (!folder)
         return complain(error, LAM_LIMIT, "out of memory");
-    struct stat found;
     bool ok = true;
     if (stat(folder, &found) != 0)
         ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder, strerror(errno));
@@ -58,11 +73,31 @@ static bool check_folder(const char *path, lam_error *error)
     return ok;
 }
 
+bool output_make_folder(const char *path, lam_error *error)
+{
+    char *folder = folder_of(path);
+    if (!folder)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool ok = true;
+    for (char *end = folder; ok && *end;) { // from the top down
+        end += 1 + strcspn(end + 1, "/");
+        char kept = *end;
+        struct stat found;
+        *end = 0;
+        if (stat(folder, &found) != 0 && mkdir(folder, 0777) != 0 && errno != EEXIST)
+            ok =
+                complain(error, LAM_CANNOT_WRITE, "%s: cannot make the folder '%s': %s", path, folder, strerror(errno));
+        *end = kept;
+    }
+    free(folder);
+    return ok;
+}
+
 bool output_check(const char *path, const char *model, bool named, lam_error *error)
 {
     struct stat there, of_model;
     if (stat(path, &there) != 0)
-        return check_folder(path, error);
+        return check_folder(path, !named, error);
     // The model is itself a picture: loading it reports the real mistake.
     if (!named && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev && there.st_ino == of_model.st_ino)
         return true;
@@ -78,7 +113,7 @@ bool output_check(const char *path, const char *model, bool named, lam_error *er
         return complain(error, LAM_CANNOT_WRITE,
                         "%s: already exists, and lambent did not write it; -o %s replaces it, -o FILE writes another",
                         path, path);
-    return check_folder(path, error);
+    return check_folder(path, false, error);
 }
 
 uint64_t output_size(const char *path)
@@ -95,7 +130,20 @@ bool output_is_stream(const char *path)
                                       !lam_image_format_for(path, &format, NULL));
 }
 
-bool output_write(const char *path, const lam_bytes *bytes, lam_error *error)
+bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
+{
+    *format = LAM_RGBA8; // of a stream
+    if (output_is_stream(path) || lam_image_format_for(path, format, error))
+        return true;
+    const char *slash = strrchr(path, '/');
+    size_t used = strlen(error->text);
+    if (!strchr(slash ? slash : path, '.'))
+        snprintf(error->text + used, sizeof error->text - used, "; the name of a folder ends in a slash: %.100s/",
+                 path);
+    return false;
+}
+
+static bool write_stream(const char *path, const lam_bytes *bytes, lam_error *error)
 {
     bool to_stdout = strcmp(path, "-") == 0;
     FILE *file = to_stdout ? stdout : fopen(path, "wb");
@@ -108,8 +156,25 @@ bool output_write(const char *path, const lam_bytes *bytes, lam_error *error)
     return ok;
 }
 
+bool output_save(const lam_image *image, const char *path, const lam_save_params *params, uint64_t *size,
+                 lam_error *error)
+{
+    if (!output_is_stream(path)) {
+        bool ok = output_make_folder(path, error) && lam_image_save(image, path, params, error);
+        *size = ok ? output_size(path) : 0;
+        return ok;
+    }
+    lam_bytes bytes = {0};
+    bool ok = lam_image_encode(image, "png", params, &bytes, error) && write_stream(path, &bytes, error);
+    *size = bytes.size;
+    lam_bytes_free(&bytes);
+    return ok;
+}
+
 bool output_replace(const char *path, const lam_bytes *bytes, lam_error *error)
 {
+    if (!output_make_folder(path, error))
+        return false;
     char *beside = malloc(strlen(path) + sizeof ".XXXXXX");
     if (!beside)
         return complain(error, LAM_LIMIT, "out of memory");

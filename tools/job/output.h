@@ -7,25 +7,35 @@
 // True if --output names the picture itself: it is neither NULL (not given) nor a folder ("thumbs/").
 bool output_is_named(const char *output);
 
-// The path of a model's picture, from malloc: `output` if it names a file; else the model's name with .png in that
-// folder or the current one: "dir/koala.obj" gives "koala.png", "-" gives "model.png". NULL: out of memory.
-char *output_path(const char *output, const char *model);
+// The path of a picture, from malloc: `output` if it names a file; else the model's name with `ending` in that folder or
+// the current one: "dir/koala.obj" gives "koala.png" for ".png" and "koala-terms.png" for "-terms.png", "-" gives
+// "model.png". NULL: out of memory.
+char *output_path(const char *output, const char *model, const char *ending);
 
 // Checks before the work whether `path` can be written: its folder exists and is writable, the path is not a folder,
-// and, unless the user named it (`named`), it is not a file that lambent did not write.
+// and, unless the user named it (`named`), it is not a file that lambent did not write. Unless the user named the file,
+// the folder may be missing (-o pictures/), if it can be made.
 bool output_check(const char *path, const char *model, bool named, lam_error *error);
+
+// Makes the missing folder of a path that output_check has accepted, with those above it. Error: LAM_CANNOT_WRITE.
+bool output_make_folder(const char *path, lam_error *error);
 
 // True if the picture is written directly to `path` as a PNG: "-", or a pipe or device without a picture's extension.
 bool output_is_stream(const char *path);
 
-// Writes to a stream, as output_is_stream defines it. Error: LAM_CANNOT_WRITE.
-bool output_write(const char *path, const lam_bytes *bytes, lam_error *error);
+// The pixels of the format that the extension of `path` selects; bytes for a stream. Error: LAM_UNSUPPORTED.
+bool output_format(const char *path, lam_pixel_format *format, lam_error *error);
 
-// Writes a temporary file next to the target and renames it, so that the target is complete or untouched.
-// Error: LAM_CANNOT_WRITE.
-bool output_replace(const char *path, const lam_bytes *bytes, lam_error *error);
+// Writes a picture to a file, whose missing folder is made, or to a stream. `size` receives the bytes written, 0 for a
+// file that is not regular.
+bool output_save(const lam_image *image, const char *path, const lam_save_params *params, uint64_t *size,
+                 lam_error *error);
 
 // The size of the file at `path` in bytes; 0 if it is not a file.
 uint64_t output_size(const char *path);
+
+// Writes a temporary file next to the target and renames it, so that the target is complete or untouched; a missing
+// folder is made. Error: LAM_CANNOT_WRITE.
+bool output_replace(const char *path, const lam_bytes *bytes, lam_error *error);
 
 #endif

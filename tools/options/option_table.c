@@ -185,7 +185,8 @@ const struct option option_table[] = {
      "PNG to standard output; a pipe or device whose name has no such extension also gets a PNG. Without this "
      "option the picture is written to the current folder under the model's name with the extension `.png` "
      "(`model.png` if the model comes from standard input); a file of that name that lambent did not write is "
-     "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder.",
+     "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder, and makes it if it "
+     "is missing; every command that writes files takes it.",
      .takes_file = true, .store = store_text, FIELD(output), .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
      .store = store_size, .max = 65535, .single = TAKES_SIZE},

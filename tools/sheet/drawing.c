@@ -279,19 +279,14 @@ void draw_image(struct drawing *d, const lam_image *image, int left, int top)
 
 bool drawing_write(struct drawing *d, const char *path, lam_error *error)
 {
-    lam_bytes bytes = {0};
     lam_save_params params = {.compress = d->compress};
-    bool stream = output_is_stream(path), ok;
+    uint64_t size;
     if (d->svg) {
         fprintf(d->svg, "</svg>\n");
         if (fflush(d->svg) != 0 || ferror(d->svg))
             return complain(error, LAM_LIMIT, "out of memory");
-        bytes = (lam_bytes){d->svg_text, d->svg_size};
+        lam_bytes bytes = {d->svg_text, d->svg_size};
         return output_replace(path, &bytes, error);
     }
-    if (!stream)
-        return lam_image_save(&d->image, path, &params, error);
-    ok = lam_image_encode(&d->image, "png", &params, &bytes, error) && output_write(path, &bytes, error);
-    lam_bytes_free(&bytes);
-    return ok;
+    return output_save(&d->image, path, &params, &size, error);
 }

@@ -50,9 +50,9 @@ static const char *read_directive(struct declarations *d, const char *c, int *li
 {
     const char *start = c;
     while (*c && *c != '\n') {
-        if (c[0] == '\\' && c[1] == '\n') {
+        if (c[0] == '\\' && (c[1] == '\n' || (c[1] == '\r' && c[2] == '\n'))) { // the directive goes on
             (*line)++;
-            c++;
+            c += c[1] == '\r' ? 2 : 1;
         }
         c++;
     }
@@ -69,7 +69,9 @@ static const char *read_directive(struct declarations *d, const char *c, int *li
 static bool split(struct declarations *d, const char *c)
 {
     int line = 1, depth = 0;
-    bool fresh = true; // only blanks on this line so far
+    bool fresh = true;                      // only blanks on this line so far
+    if (strncmp(c, "\xef\xbb\xbf", 3) == 0) // a byte order mark
+        c += 3;
     while (*c) {
         if (*c == '\n') {
             line++;

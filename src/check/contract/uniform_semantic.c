@@ -38,6 +38,15 @@ static void limit_light(const struct contract *contract, unsigned supports, int 
         light->color = light->specular = light->ambient = (lam_rgb){1, 1, 1};
 }
 
+// A point light has an axis too, which shaders of spots normalize: towards the model, so that every lit point is in
+// front of it.
+static void set_axis(struct reference_light *light, lam_vec3 target)
+{
+    lam_vec3 to_light = light->to_light;
+    if (to_light.x == 0 && to_light.y == 0 && to_light.z == 0)
+        light->to_light = v3_unit(v3_sub(light->position, target));
+}
+
 struct reference_scene contract_reference_scene(const struct contract *contract, unsigned supports,
                                                 const struct reference_scene *reference_scene, int light_count)
 {
@@ -52,8 +61,10 @@ struct reference_scene contract_reference_scene(const struct contract *contract,
             .type = s.lights[0].type, .position = {1, 2, 3}, .to_light = {1, 2, 3}, .attenuation = {1, 0, 0}};
     if (s.light_count > light_count)
         s.light_count = light_count;
-    for (int i = 0; i < s.light_count; i++)
+    for (int i = 0; i < s.light_count; i++) {
         limit_light(contract, supports, i, &s.lights[i]);
+        set_axis(&s.lights[i], s.target);
+    }
     if (supports & RULE_NO_SPECULAR)
         s.ks = 0;
     s.flat |= (supports & RULE_FLAT) != 0;

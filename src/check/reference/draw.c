@@ -1,7 +1,7 @@
 // draw.c: compiles the shaders under test, sets their uniforms for each reference scene, and draws.
 #include "draw_request.h"
-#include "shader_interface.h"
 #include "offscreen.h"
+#include "shader_dialect.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,16 +44,6 @@ struct shader_run {
     GLuint blocks[MAX_BLOCKS];
     int block_bytes[MAX_BLOCKS];
 };
-
-static enum gl_profile profile_of(const struct shader_interface *r)
-{
-    const struct declarations *d = r->vertex.version > r->fragment.version ? &r->vertex : &r->fragment;
-    if (strcmp(d->profile, "es") == 0 || d->version == 100)
-        return GL_PROFILE_ES;
-    if (d->version < 150 || strcmp(d->profile, "compatibility") == 0)
-        return GL_PROFILE_COMPATIBILITY;
-    return GL_PROFILE_CORE;
-}
 
 static void report_unknown(struct draw_result *drawn, const char *name)
 {
@@ -312,28 +302,49 @@ static double time_limit_s(int size)
     return limit > min_time_limit_s ? limit : min_time_limit_s;
 }
 
-// Compiles and links. Errors are recorded in run->drawn.
-static void build(struct shader_run *run)
+// Compiles and links two texts. 0: refused; `state` says where and `log` why.
+static GLuint build_texts(struct offscreen *t, const char *vertex_text, const char *fragment_text, int *state,
+                          char *log, size_t capacity)
+{
+    const struct gl *gl = &t->context.gl;
+    GLuint vertex = offscreen_compile(t, GL_VERTEX_SHADER, vertex_text, log, capacity), fragment = 0, program = 0;
+    *state = DRAWN_REFUSED_VERTEX;
+    if (vertex) {
+        *state = DRAWN_REFUSED_FRAGMENT;
+        fragment = offscreen_compile(t, GL_FRAGMENT_SHADER, fragment_text, log, capacity);
+    }
+    if (fragment) {
+        program = offscreen_link(t, vertex, fragment, log, capacity);
+        *state = program ? DRAWN_PICTURES : DRAWN_REFUSED_LINK;
+    }
+    gl->DeleteShader(vertex); // ignores 0
+    gl->DeleteShader(fragment);
+    return program;
+}
+
+// Compiles and links the shaders. Errors are recorded in run->drawn. They are those of the texts as they stand; then
+// both are built with full precision, which a correct shader may lack (shader_dialect.h).
+static bool build(struct shader_run *run, lam_error *error)
 {
     struct draw_result *d = &run->drawn;
-    const struct gl *gl = &run->offscreen.context.gl;
-    GLuint vertex = offscreen_compile(&run->offscreen, GL_VERTEX_SHADER, run->request.vertex, d->log, sizeof d->log);
-    if (!vertex) {
-        d->state = DRAWN_REFUSED_VERTEX;
-        return;
+    const char *vertex = shader_dialect_skip_mark(run->request.vertex),
+               *fragment = shader_dialect_skip_mark(run->request.fragment);
+    run->program = build_texts(&run->offscreen, vertex, fragment, &d->state, d->log, sizeof d->log);
+    if (!run->program || !(shader_dialect_lowers_precision(vertex) || shader_dialect_lowers_precision(fragment)))
+        return true;
+    char *high_vertex = shader_dialect_highp(vertex), *high_fragment = shader_dialect_highp(fragment), log[1024];
+    int state = DRAWN_PICTURES;
+    GLuint high = 0;
+    if (high_vertex && high_fragment)
+        high = build_texts(&run->offscreen, high_vertex, high_fragment, &state, log, sizeof log);
+    if (high) {
+        run->offscreen.context.gl.DeleteProgram(run->program);
+        run->program = high;
     }
-    GLuint fragment =
-        offscreen_compile(&run->offscreen, GL_FRAGMENT_SHADER, run->request.fragment, d->log, sizeof d->log);
-    if (!fragment) {
-        d->state = DRAWN_REFUSED_FRAGMENT;
-    } else {
-        run->program = offscreen_link(&run->offscreen, vertex, fragment, d->log, sizeof d->log);
-        if (!run->program)
-            d->state = DRAWN_REFUSED_LINK;
-    }
-    gl->DeleteShader(vertex);
-    if (fragment)
-        gl->DeleteShader(fragment);
+    bool ok = high_vertex && high_fragment;
+    free(high_vertex);
+    free(high_fragment);
+    return ok || fail_memory(error, strlen(vertex) + strlen(fragment));
 }
 
 static bool draw_scenes(struct shader_run *run, enum gl_profile profile, float *pixels, lam_error *error)
@@ -386,7 +397,7 @@ bool lam_check_draw(const void *request, size_t size, const char *gl_device, lam
                                     (lam_check_contract)run->request.contract, error);
     bool open = false;
     if (ok) {
-        enum gl_profile profile = profile_of(&run->interface);
+        enum gl_profile profile = shader_dialect_profile(&run->interface);
         ok = open = offscreen_open(&run->offscreen, profile, gl_device, run->request.size, error);
         size_t count = 0;
         if (ok) {
@@ -398,9 +409,7 @@ bool lam_check_draw(const void *request, size_t size, const char *gl_device, lam
             pixels = malloc(count * sizeof *pixels + 1);
             ok = pixels || fail_memory(error, count * sizeof *pixels);
         }
-        if (ok)
-            build(run);
-        ok = ok && (!run->program || draw_scenes(run, profile, pixels, error)) &&
+        ok = ok && build(run, error) && (!run->program || draw_scenes(run, profile, pixels, error)) &&
              draw_result_write(&run->drawn, run->drawn.state == DRAWN_PICTURES ? pixels : NULL,
                                run->drawn.state == DRAWN_PICTURES ? count : 0, out, error);
     }

@@ -46,7 +46,11 @@ const struct reference_scene reference_scenes[] = {
     {"near", "two large triangles and a light close to them", NEED_POINT, .mesh = MESH_PLANE, .scale = {1.6, 1, 1.6},
      .turn_axis = {1, 0, 0}, .turn_deg = 25, .eye = {0.4, 1.9, 3}, .target = {0, 0, 0}, MATTER, .kd = 1, .ks = 0.3f,
      .shininess = 10, .light_count = 1,
-     .lights = {{.type = LAM_LIGHT_POINT, .position = {0.35, 0.75, 0.3}, WHITE, .attenuation = {0.4f, 0.3f, 0.6f}}}},
+     .lights = {{.type = LAM_LIGHT_POINT,
+                 .position = {0.35, 0.75, 0.3},
+                 .to_light = {0, 0.906, 0.423}, // the plane's normal: all of the plane is in front of the light
+                 WHITE,
+                 .attenuation = {0.4f, 0.3f, 0.6f}}}},
     {"directional", "a light infinitely far away", NEED_DIRECTIONAL, STRETCHED, MATTER, .ka = 0.1f, .kd = 0.7f,
      .ks = 0.6f, .shininess = 14, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_DIRECTIONAL, .to_light = {0.9, 1.3, 1.1}, WHITE, .attenuation = {1, 0, 0}}}},

@@ -43,7 +43,9 @@ enum reference_rule {
 struct reference_light {
     lam_light_type type; // point, directional, spot
     lam_vec3 position;
-    lam_vec3 to_light;    // directional: the direction to it; spot: opposite to its axis
+    // Directional: the direction to it; spot: opposite to its axis; point: likewise, for shaders that read an axis
+    // (zero: from the camera's target).
+    lam_vec3 to_light;
     lam_rgb color;        // Ld
     lam_rgb specular;     // Ls
     lam_rgb ambient;      // La

@@ -1,0 +1,87 @@
+// shader_dialect.c: the context for a pair of shaders, and precision qualifiers.
+#include "shader_dialect.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Names that OpenGL ES does not have.
+static const char *const desktop_names[] = {"gl_Vertex",
+                                            "gl_Normal",
+                                            "gl_Color",
+                                            "gl_MultiTexCoord0",
+                                            "gl_NormalMatrix",
+                                            "gl_ModelViewMatrix",
+                                            "gl_ModelViewProjectionMatrix",
+                                            "gl_ProjectionMatrix",
+                                            "gl_FrontColor",
+                                            "gl_BackColor",
+                                            "gl_TexCoord",
+                                            "gl_LightSource",
+                                            "gl_FrontMaterial",
+                                            "gl_LightModel",
+                                            "ftransform"};
+
+static bool is_web(const struct shader_interface *r)
+{
+    if (r->vertex.version || r->fragment.version)
+        return false;
+    for (size_t i = 0; i < sizeof desktop_names / sizeof *desktop_names; i++)
+        if (declarations_uses(&r->vertex, desktop_names[i]) || declarations_uses(&r->fragment, desktop_names[i]))
+            return false;
+    return declarations_uses(&r->vertex, "precision") || declarations_uses(&r->fragment, "precision");
+}
+
+enum gl_profile shader_dialect_profile(const struct shader_interface *r)
+{
+    const struct declarations *d = r->vertex.version > r->fragment.version ? &r->vertex : &r->fragment;
+    if (strcmp(d->profile, "es") == 0 || d->version == 100 || is_web(r))
+        return GL_PROFILE_ES;
+    if (d->version < 150 || strcmp(d->profile, "compatibility") == 0)
+        return GL_PROFILE_COMPATIBILITY;
+    return GL_PROFILE_CORE;
+}
+
+// The next `mediump` or `lowp` that is a word of its own, and its length. NULL: none.
+static const char *find_qualifier(const char *text, size_t *length)
+{
+    for (const char *c = text; *c;) {
+        if (!isalnum((unsigned char)*c) && *c != '_') {
+            c++;
+            continue;
+        }
+        const char *word = c;
+        while (isalnum((unsigned char)*c) || *c == '_')
+            c++;
+        *length = (size_t)(c - word);
+        if ((*length == 7 && strncmp(word, "mediump", 7) == 0) || (*length == 4 && strncmp(word, "lowp", 4) == 0))
+            return word;
+    }
+    return NULL;
+}
+
+bool shader_dialect_lowers_precision(const char *text)
+{
+    size_t length;
+    return find_qualifier(text, &length) != NULL;
+}
+
+char *shader_dialect_highp(const char *text)
+{
+    size_t at = 0, length = 0;
+    char *out = malloc(2 * strlen(text) + 1); // `lowp` grows by one letter
+    for (const char *word; out && (word = find_qualifier(text, &length)); text = word + length) {
+        memcpy(out + at, text, (size_t)(word - text));
+        at += (size_t)(word - text);
+        memcpy(out + at, "highp", 5);
+        at += 5;
+    }
+    if (out)
+        strcpy(out + at, text);
+    return out;
+}
+
+const char *shader_dialect_skip_mark(const char *text)
+{
+    return strncmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
+}

@@ -5,7 +5,7 @@ prefix  ?= /usr/local
 DESTDIR ?=
 MAKEFLAGS += --no-print-directory
 
-.PHONY: all demo test test-gl bench bench-check bench-check-record docs gallery install uninstall clean help
+.PHONY: all demo test test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
 
 all: $(build)/lambent
 
@@ -14,6 +14,7 @@ help:
 	@echo 'make demo       builds and renders the Utah teapot to out/demo.png'
 	@echo 'make test       builds and runs the whole test suite, both compilers, with sanitizers'
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'
+	@echo 'make test-debian13  make demo and make test on a fresh Debian 13 root, in build-debian13/ (needs root)'
 	@echo 'make bench      measures against other programs, into bench/results and docs/speed.md (BENCH=full: everything)'
 	@echo 'make bench-check         counts instructions, beside the recorded ones (part of make test)'
 	@echo 'make bench-check-record  records them anew, where they were meant to change'
@@ -45,6 +46,9 @@ test:
 test-gl:
 	@scripts/setup.sh build test
 	@python3 tests/run.py gl
+
+test-debian13:
+	@scripts/test_debian13.sh
 
 # A build of its own, of the release kind whatever $(build) is; models and pictures lie there too.
 bench:

@@ -8,17 +8,27 @@ for group in "$@"; do
     wanted="$wanted $(sed -n "s/^$group  *//p" "$list")"
 done
 if ! command -v dpkg-query >/dev/null 2>&1; then
-    echo "setup: this is not Debian; please see that these are installed:$wanted" >&2
+    echo "setup: this is not Debian; please see that these are installed:$(echo "$wanted" | tr '\n' ' ')" >&2
     exit 0
 fi
-missing=""
-installed=" $(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p' | tr '\n' ' ')"
-for package in $wanted; do
-    case "$installed" in
-    *" $package "*) ;;
-    *) missing="$missing $package" ;;
-    esac
-done
+
+# `missing` gets the packages that are not installed; of alternatives (A|B) the first that this release of Debian has.
+find_missing() {
+    missing=""
+    installed=" $(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $(echo "$wanted" | tr '|' ' ') 2>/dev/null |
+        sed -n 's/^installed //p' | tr '\n' ' ')"
+    for choice in $wanted; do
+        package=${choice%%|*}
+        while [ "$package" != "$choice" ] && ! has "$package" && ! apt-cache show "$package" >/dev/null 2>&1; do
+            choice=${choice#*|}
+            package=${choice%%|*}
+        done
+        has "$package" || missing="$missing $package"
+    done
+}
+has() { case "$installed" in *" $1 "*) ;; *) return 1 ;; esac; }
+
+find_missing
 [ -n "$missing" ] || exit 0
 as_root=""
 if [ "$(id -u)" -ne 0 ]; then
@@ -34,9 +44,10 @@ trap 'rm -f "$log"' EXIT
 install() {
     $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing >"$log" 2>&1
 }
-# The package lists may be old or absent: refresh them when the first try fails.
+# The package lists may be old or absent: refresh them when the first try fails, and choose among alternatives again.
 if ! install; then
     echo "setup: refreshing the package lists"
     $as_root apt-get update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+    find_missing
     install || { cat "$log" >&2; exit 1; }
 fi

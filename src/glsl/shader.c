@@ -160,7 +160,8 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
                     const struct glsl_row *member, int index, float out[16])
 {
     const struct frame *frame = &m->frame;
-    const struct frame_draw *draw = range ? &frame->draws[range->draw] : NULL;
+    static const struct frame_draw no_draw = {0}; // what a uniform of the frame has: it reads none of it
+    const struct frame_draw *draw = range ? &frame->draws[range->draw] : &no_draw;
     int number = range ? (row->back ? range->back : range->front) : 0;
     const lam_material *material = frame->materials[number];
     bool of_light = row->semantic == GLSL_LIGHTS || row->semantic == GLSL_DIFFUSE_PRODUCT ||

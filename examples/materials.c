@@ -12,7 +12,7 @@ int main(int argc, char **argv)
     int sphere = scene ? lam_scene_add_shape(scene, "sphere", NULL, &error) : -1;
     bool ok = sphere >= 0;
     for (int i = 0; ok && i < LAM_MATERIAL_COUNT; i++) {
-        lam_material material = lam_material_named((lam_material_id)i);
+        lam_material material = lam_material_named((lam_material_id)i, LAM_COLOR_SRGB);
         lam_object object = lam_object_default();
         object.name = lam_material_name((lam_material_id)i);
         object.mesh = sphere;

@@ -24,7 +24,7 @@ static int material(struct demo *d, lam_rgba diffuse, float specular, float shin
 
 static int named(struct demo *d, lam_material_id id, lam_error *error)
 {
-    lam_material m = lam_material_named(id);
+    lam_material m = lam_material_named(id, d->params.color);
     return lam_scene_add_material(d->scene, &m, error);
 }
 
@@ -418,7 +418,7 @@ static bool mirror_sky(struct demo *d, lam_error *error)
 
 static bool mirror_studio(struct demo *d, lam_error *error)
 {
-    lam_material gold = lam_material_named(LAM_MATERIAL_GOLD);
+    lam_material gold = lam_material_named(LAM_MATERIAL_GOLD, d->params.color);
     gold.reflectivity = (lam_rgb){0.9f, 0.65f, 0.25f};
     bool ok = put(d, shape(d, "teapot", 0, 0, error), lam_scene_add_material(d->scene, &gold, error), error) &&
               surround(d, "studio", 0.6, error);

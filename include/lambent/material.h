@@ -87,7 +87,7 @@ typedef struct lam_material {
 // The material of parts that name none: neutral light grey with a soft highlight.
 LAM_API lam_material lam_material_default(void);
 
-// The classic named materials, as published in OpenGL's `teapots.c` demonstration (SGI, 1993/1997).
+// The classic named materials of OpenGL's `teapots.c` demonstration (SGI, 1993/1997).
 typedef enum lam_material_id {
     // Stones.
     LAM_MATERIAL_EMERALD,
@@ -120,8 +120,10 @@ typedef enum lam_material_id {
     LAM_MATERIAL_COUNT
 } lam_material_id;
 
-// A named material with the published numbers, opaque. Out of range: the default material.
-LAM_API lam_material lam_material_named(lam_material_id id);
+// A named material, opaque. Its published colours were chosen by eye on a display, so they are sRGB and are decoded to
+// linear light: chrome's diffuse 0.4 becomes 0.1329. LAM_COLOR_RAW leaves them as published. Out of range: the default
+// material.
+LAM_API lam_material lam_material_named(lam_material_id id, lam_color_mode color);
 
 // The name of a material in lower case with hyphens, "black-plastic". A static string; NULL out of range.
 LAM_API const char *lam_material_name(lam_material_id id);

@@ -1,5 +1,6 @@
 // material.c: the neutral default and the classic named materials.
 #include "fields.h"
+#include "srgb.h"
 
 #include <lambent/material.h>
 
@@ -14,7 +15,7 @@ struct named_material {
 // The published shininess is a fraction of OpenGL's maximum exponent, 128.
 #define SHININESS(share) ((float)((share) * 128.0))
 
-// The numbers of SGI's demo teapots.c, unchanged.
+// The numbers of SGI's demo teapots.c, unchanged: colours as a display of the time showed them (sRGB).
 static const struct named_material named[LAM_MATERIAL_COUNT] = {
     [LAM_MATERIAL_EMERALD] = {"emerald",
                               {0.0215f, 0.1745f, 0.0215f},
@@ -111,15 +112,24 @@ lam_material lam_material_default(void)
 
 static bool known(lam_material_id id) { return (unsigned)id < LAM_MATERIAL_COUNT; }
 
-lam_material lam_material_named(lam_material_id id)
+static lam_rgb decoded(lam_rgb color, lam_color_mode mode)
+{
+    if (mode == LAM_COLOR_RAW)
+        return color;
+    return (lam_rgb){(float)srgb_linear((double)color.r), (float)srgb_linear((double)color.g),
+                     (float)srgb_linear((double)color.b)};
+}
+
+lam_material lam_material_named(lam_material_id id, lam_color_mode color)
 {
     lam_material material = lam_material_default();
     if (!known(id))
         return material;
     const struct named_material *row = &named[id];
-    material.ambient = row->ambient;
-    material.diffuse = (lam_rgba){row->diffuse.r, row->diffuse.g, row->diffuse.b, 1.0f};
-    material.specular = row->specular;
+    lam_rgb diffuse = decoded(row->diffuse, color);
+    material.ambient = decoded(row->ambient, color);
+    material.diffuse = (lam_rgba){diffuse.r, diffuse.g, diffuse.b, 1.0f};
+    material.specular = decoded(row->specular, color);
     material.shininess = row->shininess;
     material.name = row->name;
     return material;

@@ -76,7 +76,7 @@ bool read_material_value(struct scene_reader *r, const struct place *place, cons
         lam_material_id id = lam_material_find(name);
         if (id == LAM_MATERIAL_COUNT)
             return unknown_name(r, place, name);
-        material = lam_material_named(id);
+        material = lam_material_named(id, r->color);
     } else if (!read_material_keys(r, place, value, !base, &material)) {
         return false;
     }

@@ -116,10 +116,10 @@ static void set_factor(const struct reading *reading, int index, lam_material *m
     set_color(field, m, from, reading->numbers[factor_of(index)][0]);
 }
 
-static lam_material apply(const struct reading *reading, lam_material m)
+static lam_material apply(const struct reading *reading, lam_color_mode mode, lam_material m)
 {
     if (reading->id != LAM_MATERIAL_COUNT)
-        m = lam_material_named(reading->id);
+        m = lam_material_named(reading->id, mode);
     const double *color = reading->numbers[MATERIAL_COLOR], *specular = reading->numbers[MATERIAL_SPECULAR_COLOR];
     if (given(reading, MATERIAL_COLOR)) {
         m.ambient = (lam_rgb){(float)color[0], (float)color[1], (float)color[2]};
@@ -156,6 +156,6 @@ bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *mat
     for (char *pair; (pair = strsep(&rest, ",")) != NULL;)
         if (!read_pair(pair, mode, &reading, error))
             return false;
-    *material = apply(&reading, *material);
+    *material = apply(&reading, mode, *material);
     return true;
 }

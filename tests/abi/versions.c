@@ -16,7 +16,7 @@ static void print_image(const char *name, const lam_image *image)
 
 static bool build_scene(lam_scene *scene, lam_error *error)
 {
-    lam_material material = lam_material_named(LAM_MATERIAL_BRASS);
+    lam_material material = lam_material_named(LAM_MATERIAL_BRASS, LAM_COLOR_SRGB);
     lam_light lights[2] = {lam_light_default(LAM_LIGHT_POINT), lam_light_default(LAM_LIGHT_SPOT)};
     lights[0].position = (lam_vec3){3, 4, 5};
     lights[1].position = (lam_vec3){-3, 1, 5};

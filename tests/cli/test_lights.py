@@ -149,7 +149,14 @@ class Lights(Pictures):
 class Materials(Pictures):
     def test_named(self):
         brass = "ambient=0.329412/0.223529/0.027451,diffuse=0.780392/0.568627/0.113725,specular=0.992157/0.941176/0.807843,shininess="
-        self.same(("--material", "brass"), ("--material", brass + "27.8974"))
+        self.same(("--material", "brass", "--color", "raw"), ("--material", brass + "27.8974", "--color", "raw"))
+        # Published as a display showed them: without --color raw they are decoded.
+        self.same(("--material", "red-rubber"), ("--material", "ambient=0.00393594/0/0,diffuse=0.2140411/0.1328683/0.1328683,"
+                                                 "specular=0.4479884/0.00309598/0.00309598,shininess=10"))
+        (self.folder / "named.json").write_text('{"lambent": 1, "objects": [{"shape": "sphere", "material": "red-rubber"}]}')
+        for mode in ("srgb", "raw"):
+            words = ("--color", mode, "--view", "front")
+            self.assertEqual(self.picture(*words, model="named.json"), self.picture(*words, "--material", "red-rubber"))
         self.same(("--material", "Black_Plastic"), ("--material", "black-plastic"))
         self.same(("--material", "gold,shininess=5"), ("--material", "gold", "--shininess", "5"))
         self.other(("--material", "gold"), ("--material", "ruby"))
@@ -212,22 +219,37 @@ class Materials(Pictures):
             self.bad(1, "sphere", *words, says=[words[0], "expected a number from 0"])
 
     def test_list(self):
-        text = self.good("materials").stdout.decode()
+        text = self.good("materials", "--color", "raw").stdout.decode()
         lines = {line.split()[0]: line.split()[1:] for line in text.splitlines() if line}
         self.assertEqual(lines["brass"][6:10], ["0.992157", "0.941176", "0.807843", "27.8974"])
         self.assertEqual(len([line for line in text.splitlines() if len(line.split()) == 11]), 24)
         self.assertIn("teapots.c", text)
-        told = json.loads(self.good("materials", "--json").stdout)["materials"]
+        told = json.loads(self.good("materials", "--json", "--color", "raw").stdout)["materials"]
         self.assertEqual([material["name"] for material in told], list(lines)[1:25])
         self.assertEqual(told[[material["name"] for material in told].index("brass")],
                          {"name": "brass", "ambient": [0.329412, 0.223529, 0.027451], "diffuse": [0.780392, 0.568627, 0.113725],
                           "specular": [0.992157, 0.941176, 0.807843], "shininess": 27.897436})
+        # Without --color raw: the linear numbers that --material and scene files take.
+        chrome = self.good("materials").stdout.decode().split("chrome")[1].split()
+        self.assertEqual(chrome[3:7], ["0.132868"] * 3 + ["0.561662"])
+        told = json.loads(self.good("materials", "--json").stdout)["materials"]
+        words = ["%s=%s" % (key, "/".join(map(repr, value)) if key != "shininess" else value)
+                 for key, value in told[10].items() if key != "name"]
+        self.same(("--material", "gold"), ("--material", ",".join(words)))
         self.good("materials", "-o", "sheet.png", "-s", "300")
         self.assertEqual(self.new_files(), {"sheet.png"})
         width, height, data = sheet = self.png("materials", "-s", "300x200")
         self.assertEqual((width, height), (300, 200))
         middles = {pixel(sheet, 25 + 50 * column, y)[:3] for column in range(6) for y in (45, 82, 120, 158)}
         self.assertGreaterEqual(len(middles), 20)
+        # Chrome, silver and white plastic are three materials to the eye: the body's grey or the highlight tells each from each.
+        looks = []
+        for column, row in ((2, 1), (5, 1), (4, 2)):
+            greys = sorted(pixel(sheet, x, y)[0] for x in range(50 * column, 50 * column + 50) for y in range(20 + 37 * row, 46 + 37 * row)
+                           if pixel(sheet, x, y)[3] == 255)
+            looks.append((greys[len(greys) // 2], greys[-len(greys) // 50]))
+        for i in range(3):
+            self.assertGreater(max(abs(a - b) for a, b in zip(looks[i], looks[i - 1])), 20, looks)
         # The captions are below the swatches, and nowhere else.
         words, plain = self.png("materials", "-s", "300x200"), self.png("materials", "-s", "300x200", "--no-captions")
         differs = [(x, y) for y in range(200) for x in range(300) if pixel(words, x, y) != pixel(plain, x, y)]

@@ -123,7 +123,7 @@ static void draw(lam_device *device, const lam_scene *scene, lam_draw_params par
 static lam_scene *make_scene(void)
 {
     lam_scene *scene = lam_scene_make(NULL);
-    lam_material material = lam_material_named(LAM_MATERIAL_COPPER);
+    lam_material material = lam_material_named(LAM_MATERIAL_COPPER, LAM_COLOR_SRGB);
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_shape(scene, "torus-knot", NULL, NULL);
     object.material = lam_scene_add_material(scene, &material, NULL);

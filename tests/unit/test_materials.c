@@ -63,12 +63,25 @@ static const struct {
     {LAM_MATERIAL_YELLOW_RUBBER, "yellow-rubber", {0.05, 0.05, 0, 0.5, 0.5, 0.4, 0.7, 0.7, 0.04, 0.078125}},
 };
 
-static void assert_numbers(const lam_material *m, const double n[10])
+// IEC 61966-2-1.
+static double linear(double encoded)
 {
-    const float found[10] = {m->ambient.r, m->ambient.g,  m->ambient.b,  m->diffuse.r,  m->diffuse.g,
-                             m->diffuse.b, m->specular.r, m->specular.g, m->specular.b, m->shininess};
-    for (int i = 0; i < 10; i++)
-        assert_true(found[i] == (float)(i == 9 ? n[i] * 128 : n[i]));
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+static void assert_numbers(lam_material_id id, const double n[10])
+{
+    for (int mode = LAM_COLOR_SRGB; mode <= LAM_COLOR_RAW; mode++) {
+        lam_material m = lam_material_named(id, (lam_color_mode)mode);
+        const float found[9] = {m.ambient.r, m.ambient.g,  m.ambient.b,  m.diffuse.r, m.diffuse.g,
+                                m.diffuse.b, m.specular.r, m.specular.g, m.specular.b};
+        for (int i = 0; i < 9; i++)
+            if (mode == LAM_COLOR_RAW)
+                assert_true(found[i] == (float)n[i]);
+            else
+                assert_true(fabs((double)found[i] - linear(n[i])) <= 3e-7 * linear(n[i]));
+        assert_true(m.shininess == (float)(n[9] * 128));
+    }
 }
 
 static void test_named(void **state)
@@ -80,17 +93,17 @@ static void test_named(void **state)
         assert_int_equal(published[i].id, i);
         assert_string_equal(lam_material_name(published[i].id), published[i].name);
         assert_int_equal(lam_material_find(published[i].name), i);
-        lam_material m = lam_material_named(published[i].id);
-        assert_numbers(&m, published[i].n);
+        assert_numbers(published[i].id, published[i].n);
+        lam_material m = lam_material_named(published[i].id, LAM_COLOR_SRGB);
         assert_true(m.diffuse.a == 1.0f && m.emission.r == 0.0f && m.reflectivity.r == 0.0f && !m.fibre);
         assert_string_equal(m.name, published[i].name);
         assert_int_equal(m.illum, -1);
     }
-    lam_material brass = lam_material_named(LAM_MATERIAL_BRASS);
+    lam_material brass = lam_material_named(LAM_MATERIAL_BRASS, LAM_COLOR_SRGB);
     assert_true(fabs((double)brass.shininess - 27.8974) < 5e-5);
     assert_null(lam_material_name(LAM_MATERIAL_COUNT));
     assert_null(lam_material_name((lam_material_id)-1));
-    lam_material none = lam_material_named(LAM_MATERIAL_COUNT), grey = lam_material_default();
+    lam_material none = lam_material_named(LAM_MATERIAL_COUNT, LAM_COLOR_SRGB), grey = lam_material_default();
     assert_memory_equal(&none.ambient, &grey.ambient, sizeof none.ambient);
 }
 

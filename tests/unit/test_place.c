@@ -240,12 +240,14 @@ static void cameras_in_words(void **state)
 static void materials_in_words(void **state)
 {
     (void)state;
-    lam_material ruby = lam_material_named(LAM_MATERIAL_RUBY), m = lam_material_default();
+    lam_material ruby = lam_material_named(LAM_MATERIAL_RUBY, LAM_COLOR_SRGB), m = lam_material_default();
     lam_error error;
     assert_true(lam_material_parse("Ruby,shininess=9,kd=0.5,opacity=0.25", LAM_COLOR_SRGB, &m, &error));
     assert_string_equal(m.name, ruby.name);
     assert_true(m.shininess == 9 && m.diffuse.a == 0.25f && m.specular.r == ruby.specular.r);
     near((double)m.diffuse.r, 0.5 * (double)ruby.diffuse.r, 1e-7);
+    assert_true(lam_material_parse("ruby", LAM_COLOR_RAW, &m, &error));
+    assert_true(m.diffuse.r == 0.61424f && ruby.diffuse.r < 0.34f); // raw: the published number, else decoded
     m = lam_material_default();
     float shininess = m.shininess;
     assert_true(lam_material_parse("diffuse=0.1/0.2/0.3", LAM_COLOR_SRGB, &m, &error));
@@ -432,7 +434,7 @@ static void parts_change_their_material(void **state)
     lam_part parts[] = {{.name = "a", .triangle_count = 1, .material = -1},
                         {.name = "b", .first_triangle = 1, .triangle_count = 1, .material = -1}};
     lam_scene *scene = square_scene(NULL, parts, 2);
-    lam_material gold = lam_material_named(LAM_MATERIAL_GOLD);
+    lam_material gold = lam_material_named(LAM_MATERIAL_GOLD, LAM_COLOR_SRGB);
     assert_int_equal(lam_scene_add_material(scene, &gold, NULL), 0);
     assert_true(lam_scene_set_part_material(scene, 0, 1, 0, NULL));
     assert_int_equal(lam_scene_mesh(scene, 0)->parts[0].material, -1);

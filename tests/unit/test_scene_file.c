@@ -142,7 +142,7 @@ static void test_objects(void **unused)
     assert_true(red->shininess == 9 && blue->diffuse.b == 1 && blue->shininess == 3);
     assert_int_equal(three->transform.m[1][1], 2);
     assert_true(lam_scene_material(scene, three->material)->shininess ==
-                lam_material_named(LAM_MATERIAL_GOLD).shininess);
+                lam_material_named(LAM_MATERIAL_GOLD, LAM_COLOR_SRGB).shininess);
     const lam_mesh *inner = lam_scene_mesh(scene, three->mesh);
     assert_string_equal(lam_scene_material(scene, inner->parts[0].material)->name, "green");
     assert_null(lam_scene_warning(scene, 0));
@@ -379,7 +379,7 @@ static void test_writing(void **unused)
     lam_shape_params segments = {.radius = 0.1 + 0.2, .slices = 5, .stacks = 3};
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_shape(scene, "torus", &segments, &error);
-    lam_material material = lam_material_named(LAM_MATERIAL_BRASS);
+    lam_material material = lam_material_named(LAM_MATERIAL_BRASS, LAM_COLOR_SRGB);
     material.emission = (lam_rgb){1e-7f, 3e20f, 1.0f / 3};
     material.diffuse.a = 0.7f;
     material.fibre = true;

@@ -29,11 +29,11 @@ static double decimal(float x)
 
 // True for the columns of the list: fields that differ from their default in some classic material. Colours are printed
 // without alpha.
-static bool is_column(const lam_field *field)
+static bool is_column(const lam_field *field, lam_color_mode color)
 {
     bool differs = false;
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
-        lam_material m = lam_material_named((lam_material_id)i);
+        lam_material m = lam_material_named((lam_material_id)i, color);
         double numbers[4];
         for (int k = lam_field_get_written(field, &m, numbers) - 1; k >= 0; k--)
             differs |= (float)numbers[k] != (float)field->standard[k];
@@ -41,54 +41,58 @@ static bool is_column(const lam_field *field)
     return differs;
 }
 
-static void print_row(const lam_material *m)
+static void print_row(const lam_material *m, lam_color_mode mode)
 {
     printf("%-15s", m ? m->name : "");
     for (int i = 0; lam_material_field(i); i++) {
         const lam_field *field = lam_material_field(i);
         double numbers[4] = {0};
         bool color = field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA;
-        if (!is_column(field))
+        if (!is_column(field, mode))
             continue;
         if (m)
             lam_field_get_written(field, m, numbers);
         if (!m)
             printf(color ? "  %-26s" : "  %s", field->key);
         else if (color)
-            printf("  %8g %8g %8g", numbers[0], numbers[1], numbers[2]);
+            printf("  %8.6f %8.6f %8.6f", numbers[0], numbers[1], numbers[2]);
         else
             printf("  %g", numbers[0]);
     }
     printf("\n");
 }
 
-static void print_table(void)
+static void print_table(lam_color_mode color)
 {
-    print_row(NULL);
+    print_row(NULL, color);
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
-        lam_material m = lam_material_named((lam_material_id)i);
-        print_row(&m);
+        lam_material m = lam_material_named((lam_material_id)i, color);
+        print_row(&m, color);
     }
     printf("\nSource: teapots.c, a demonstration program of OpenGL (Silicon Graphics, 1993 and 1997); the "
            "shininess there is\n"
-           "a fraction of 128. The numbers are linear. --material NAME applies a material to a model.\n");
+           "a fraction of 128. %s\n"
+           "--material NAME applies a material to a model.\n",
+           color == LAM_COLOR_RAW ? "The colours are the published ones, which are sRGB."
+                                  : "The colours are linear light, decoded from the published ones, which are sRGB\n"
+                                    "(--color raw lists those).");
 }
 
 // Uses the keys of materials in scene files.
-static void print_json(void)
+static void print_json(lam_color_mode color)
 {
     struct json json = {.file = stdout};
     json_open(&json, NULL, '{');
     json_open(&json, "materials", '[');
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
-        lam_material m = lam_material_named((lam_material_id)i);
+        lam_material m = lam_material_named((lam_material_id)i, color);
         json_open(&json, NULL, '{');
         json_text(&json, "name", m.name);
         for (int k = 0; lam_material_field(k); k++) {
             const lam_field *field = lam_material_field(k);
             double numbers[4];
             bool single = lam_field_get_written(field, &m, numbers) == 1;
-            if (!is_column(field))
+            if (!is_column(field, color))
                 continue;
             if (!single)
                 json_open(&json, field->key, '[');
@@ -107,20 +111,20 @@ static void print_json(void)
 static void print_list(const struct options *options)
 {
     if (options->json)
-        print_json();
+        print_json((lam_color_mode)options->color);
     else
-        print_table();
+        print_table((lam_color_mode)options->color);
 }
 
 // One mesh, and an object for each material: rows of COLUMNS in the order of the list, from the top left. The light is
 // that of the program with the original table: directional, from (0, 3, 3), global ambient 0.2, an infinite viewer.
-static bool build_scene(lam_scene *scene, lam_error *error)
+static bool build_scene(lam_scene *scene, lam_color_mode color, lam_error *error)
 {
     int mesh = lam_scene_add_shape(scene, "teapot", NULL, error);
     if (mesh < 0)
         return false;
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
-        lam_material material = lam_material_named((lam_material_id)i);
+        lam_material material = lam_material_named((lam_material_id)i, color);
         lam_object object = lam_object_default();
         object.name = material.name;
         object.mesh = mesh;
@@ -215,7 +219,7 @@ static bool make_sheet(const struct options *o, const char *path, lam_error *err
     lam_image image = {0};
     // The default size is square, but the sheet is wider than high.
     int height = o->width == o->height ? o->height * 58 / 100 : o->height;
-    bool ok = scene && build_scene(scene, error) &&
+    bool ok = scene && build_scene(scene, (lam_color_mode)o->color, error) &&
               lam_image_make(&image, o->width, height > 0 ? height : 1, format, error) &&
               draw_sheet(scene, o, &image, error) && write_sheet(o, &image, path, error);
     lam_image_free(&image);

@@ -306,7 +306,8 @@ const struct option option_table[] = {
      .max = 1e6},
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@WHERE]", "the model's",
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
-     "A name of the classic table, keys separated by commas, or a name followed by keys (`gold,shininess=80`). "
+     "A name of the classic table, whose colours are sRGB, keys separated by commas, or a name followed by keys "
+     "(`gold,shininess=80`). "
      "Fields without a key keep the model's values. The keys are the fields in the table of materials (colours "
      "are `#rrggbb`, a name, `r/g/b` or one number); or `color` (ambient and diffuse) and `specular_color` with "
      "the factors `ka`, `kd`, `ks` and `kr`, which multiply ambient, diffuse, specular and mirrored light (`kr` "

@@ -39,7 +39,9 @@ typedef struct lam_part {
 // normals; where that array is NULL, `indices` serves. Where `indices` is NULL too, corner i uses element i.
 typedef struct lam_mesh {
     const char *name; // UTF-8; NULL: unnamed
-    // Added to every position, in double: keeps the detail of models far away from zero.
+    // Added to every position, in double: keeps the detail of models far away from zero. A scene gives a mesh that lies
+    // more than 16 times its size from zero on some axis an origin near its middle, and its own copy of the positions
+    // becomes relative to that.
     double origin[3];
 
     const float *positions;  // 3 per vertex, finite

@@ -33,7 +33,7 @@ static lam_vec3 rotate_up(lam_up up, lam_vec3 d)
     }
 }
 
-static struct view_axes axes_of(const lam_scene *scene, const lam_view *view)
+static struct view_axes axes_of(const lam_scene *scene, const lam_view *view, lam_vec3 centre)
 {
     double azimuth = view->from_angles ? view->azimuth_rad : math_radians(30);
     double elevation = view->from_angles ? view->elevation_rad : math_radians(20);
@@ -45,7 +45,15 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view)
         .right = rotate_up(up, v3(cos_azimuth, 0, -sin_azimuth)),
         .above = rotate_up(up, v3(-sin_azimuth * sin_elevation, cos_elevation, -cos_azimuth * sin_elevation)),
         .back = rotate_up(up, v3(sin_azimuth * cos_elevation, sin_elevation, cos_azimuth * cos_elevation)),
+        .centre = centre,
     };
+}
+
+// The world point at (x, y, z) in the axes of the view.
+static lam_vec3 to_world(const struct view_axes *axes, double x, double y, double z)
+{
+    lam_vec3 across = v3_add(v3_scale(axes->right, x), v3_scale(axes->above, y));
+    return v3_add(axes->centre, v3_add(across, v3_scale(axes->back, z)));
 }
 
 // Orthographic: centred on the box of the view extents, half its size divided by the fill.
@@ -54,16 +62,40 @@ static lam_camera fit_orthographic(const lam_scene *scene, const struct view_axe
     struct view_extents box = {0};
     view_extents_find(scene, axes, &box);
     double right = box.value[EXTENT_RIGHT], left = box.value[EXTENT_LEFT], top = box.value[EXTENT_TOP],
-           bottom = box.value[EXTENT_BOTTOM];
+           bottom = box.value[EXTENT_BOTTOM], front = box.value[EXTENT_FRONT];
     double half_width = (right + left) / 2, half_height = (top + bottom) / 2;
     double half = half_height > half_width / aspect ? half_height : half_width / aspect;
-    double size = half > 0 ? half : 1;
-    lam_vec3 centre = v3_add(v3_scale(axes->right, (right - left) / 2), v3_scale(axes->above, (top - bottom) / 2));
-    lam_vec3 target = v3_add(centre, v3_scale(axes->back, box.value[EXTENT_FRONT]));
-    return (lam_camera){.eye = v3_add(target, v3_scale(axes->back, 2 * size)),
-                        .target = target,
+    double size = half > 0 ? half : 1, x = (right - left) / 2, y = (top - bottom) / 2;
+    return (lam_camera){.eye = to_world(axes, x, y, front + 2 * size),
+                        .target = to_world(axes, x, y, front),
                         .up = axes->above,
                         .ortho_half_height = size / fill};
+}
+
+// Centres the horizontal (vertical) axis for an eye at ez: finds the k at which the vertices touch x = ex ± k·(ez − z)
+// on both sides. That k is the root of R(k) + L(k) − 2k·ez, which is convex and piecewise linear, its slope between two
+// corners given by the vertices that have the maxima R and L. A step of Newton's method,
+//
+//   k = (x_R − x_L) / (2ez − z_R − z_L)
+//
+// therefore lands at the root or to its left, from where the steps only grow: when they stop growing, the root is found
+// exactly. No number in it depends on where the scene lies.
+static void centre_axis(const lam_scene *scene, const struct view_axes *axes, bool horizontal, double ez,
+                        struct view_extents *extents)
+{
+    double k = horizontal ? extents->kx : extents->ky;
+    for (int step = 0;; step++) {
+        const lam_vec3 *plus = &extents->point[horizontal ? EXTENT_RIGHT : EXTENT_TOP], *minus = plus + 1;
+        double width = horizontal ? plus->x - minus->x : plus->y - minus->y;
+        double next = width / (2 * ez - plus->z - minus->z);
+        if (next == k || (step > 0 && !(next > k)))
+            return;
+        k = next;
+        if (horizontal)
+            view_extents_horizontal(scene, axes, k, extents);
+        else
+            view_extents_vertical(scene, axes, k, extents);
+    }
 }
 
 // Perspective, for one axis of the picture. A vertex is visible if
@@ -75,8 +107,7 @@ static lam_camera fit_orthographic(const lam_scene *scene, const struct view_axe
 //   ex = (R − L)/2,   ez = (R + L)/(2k)
 //
 // which is exact and takes one pass over the vertices. The axis with the larger ez determines it. The other axis
-// is centred with the smaller k at which it would touch the frame at this ez, found by a few passes of
-// fixed-point iteration.
+// is centred with the smaller k at which it would touch the frame at this ez.
 static lam_camera fit_perspective(const lam_scene *scene, const struct view_axes *axes, double fovy, double aspect,
                                   double fill)
 {
@@ -89,22 +120,10 @@ static lam_camera fit_perspective(const lam_scene *scene, const struct view_axes
     double ez = ez_x > ez_y ? ez_x : ez_y;
     if (!(ez > front)) // a single point, or a line along the view
         ez = front + 1;
-    for (int pass = 0; pass < 4; pass++) {
-        double x = at[EXTENT_RIGHT] - at[EXTENT_LEFT], y = at[EXTENT_TOP] - at[EXTENT_BOTTOM];
-        if (ez_x > ez_y)
-            view_extents_vertical(scene, axes, (at[EXTENT_TOP] + at[EXTENT_BOTTOM]) / (2 * ez), &extents);
-        else
-            view_extents_horizontal(scene, axes, (at[EXTENT_RIGHT] + at[EXTENT_LEFT]) / (2 * ez), &extents);
-        double moved = (at[EXTENT_RIGHT] - at[EXTENT_LEFT]) - x + (at[EXTENT_TOP] - at[EXTENT_BOTTOM]) - y;
-        if (moved < 1e-6 * (ez - front) && moved > -1e-6 * (ez - front))
-            break;
-    }
-    lam_vec3 across = v3_add(v3_scale(axes->right, (at[EXTENT_RIGHT] - at[EXTENT_LEFT]) / 2),
-                             v3_scale(axes->above, (at[EXTENT_TOP] - at[EXTENT_BOTTOM]) / 2));
-    return (lam_camera){.eye = v3_add(across, v3_scale(axes->back, ez)),
-                        .target = v3_add(across, v3_scale(axes->back, front)),
-                        .up = axes->above,
-                        .fovy_rad = fovy};
+    centre_axis(scene, axes, !(ez_x > ez_y), ez, &extents);
+    double x = (at[EXTENT_RIGHT] - at[EXTENT_LEFT]) / 2, y = (at[EXTENT_TOP] - at[EXTENT_BOTTOM]) / 2;
+    return (lam_camera){
+        .eye = to_world(axes, x, y, ez), .target = to_world(axes, x, y, front), .up = axes->above, .fovy_rad = fovy};
 }
 
 lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view)
@@ -117,11 +136,13 @@ lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const l
         refused.reserved[0] = 1;
         return refused;
     }
-    lam_vec3 low, high;
-    if (!lam_scene_bounds(scene, &low, &high))
-        return lam_camera_default();
     uint64_t state = float_state_enter();
-    struct view_axes axes = axes_of(scene, view);
+    lam_vec3 centre;
+    if (!view_extents_centre(scene, &centre)) {
+        float_state_leave(state);
+        return lam_camera_default();
+    }
+    struct view_axes axes = axes_of(scene, view, centre);
     double aspect = (double)(width > 1 ? width : 1) / (height > 1 ? height : 1);
     double fill = view->fill > 0 ? view->fill : 0.92;
     double fovy = view->fovy_rad > 0 && view->fovy_rad < PI ? view->fovy_rad : math_radians(30);

@@ -1,9 +1,11 @@
-// mesh_bounds.c: the vertices that a mesh's triangles use, bounding boxes of meshes and scenes, and translucency of
-// vertex colours.
+// mesh_bounds.c: the vertices that a mesh's triangles use, bounding boxes of meshes and scenes, the origin of meshes
+// that lie far from zero, and translucency of vertex colours.
 #include "scene_internal.h"
 
 #include "linear.h"
+#include "origin.h"
 
+#include <float.h>
 #include <string.h>
 
 // Corners or colours per parallel piece; constant, so that the result does not depend on the number of threads.
@@ -98,7 +100,52 @@ static bool has_translucent_colors(const lam_mesh *mesh, struct pool *pool)
     return alpha_search.found;
 }
 
-static bool measure(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
+struct shifting {
+    float *values;
+    size_t count; // of points, three values each
+    double by[3];
+};
+
+// A vertex that no triangle uses may lie anywhere: it is kept finite.
+static float shifted(float value, double by)
+{
+    double moved = (double)value - by;
+    return (float)(moved<-(double)FLT_MAX ? -(double)FLT_MAX : moved>(double) FLT_MAX ? (double)FLT_MAX : moved);
+}
+
+static void shift_piece(void *user, size_t index, int thread)
+{
+    (void)thread;
+    const struct shifting *shifting = user;
+    size_t first = index * (size_t)PIECE, end = first + PIECE;
+    if (end > shifting->count)
+        end = shifting->count;
+    for (size_t i = first; i < end; i++)
+        for (int axis = 0; axis < 3; axis++)
+            shifting->values[3 * i + axis] = shifted(shifting->values[3 * i + axis], shifting->by[axis]);
+}
+
+// Gives a mesh that lies far from zero an origin, so that drawing, which computes in floats, keeps the detail that its
+// positions have. The new positions are exact: they and the origin are multiples of the old ones' last places, and
+// smaller. The mesh's arrays are the scene's own.
+static void move_origin(lam_mesh *mesh, struct aabb_tree *boxes, struct pool *pool)
+{
+    box_of_six whole;
+    box_tree_whole(boxes, whole);
+    const double low[3] = {(double)whole[0], (double)whole[1], (double)whole[2]};
+    const double high[3] = {(double)whole[3], (double)whole[4], (double)whole[5]};
+    struct shifting shifting = {(float *)(uintptr_t)mesh->positions, mesh->vertex_count, {0}};
+    if (!origin_choose(low, high, shifting.by))
+        return;
+    pool_run(pool, (shifting.count + PIECE - 1) / PIECE, shift_piece, &shifting);
+    shifting.values = (float *)(uintptr_t)boxes->boxes;
+    shifting.count = 2 * (boxes->first[boxes->levels - 1] + boxes->count[boxes->levels - 1]);
+    pool_run(pool, (shifting.count + PIECE - 1) / PIECE, shift_piece, &shifting);
+    for (int axis = 0; axis < 3; axis++)
+        mesh->origin[axis] += shifting.by[axis];
+}
+
+static bool measure(struct lam_scene *scene, lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                     lam_error *error)
 {
     *extent = (struct scene_extent){.translucent = has_translucent_colors(mesh, pool)};
@@ -108,6 +155,7 @@ static bool measure(struct lam_scene *scene, const lam_mesh *mesh, struct scene_
         return false;
     if (!extent->used_count)
         return true;
+    move_origin(mesh, &extent->boxes, pool);
     box_of_six box;
     box_tree_whole(&extent->boxes, box);
     const double *o = mesh->origin;
@@ -120,7 +168,7 @@ bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error)
 {
     for (int i = scene->extents.count; i < scene->meshes.count; i++) {
         struct scene_extent extent;
-        if (!measure(scene, scene_mesh(scene, i), &extent, pool, error) ||
+        if (!measure(scene, (lam_mesh *)scene->meshes.items + i, &extent, pool, error) ||
             scene_append(scene, &scene->extents, &extent, sizeof extent, error) < 0)
             return false;
     }

@@ -109,8 +109,9 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
 // The same, but leaves smooth normals to the device.
 void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad);
 
-// Computes the extents of new meshes. Every public function that adds meshes ends with it, so that read access never
-// writes. False: out of memory.
+// Computes the extents of new meshes, and gives those that lie far from zero an origin (origin.h), which changes their
+// positions in place. Every public function that adds meshes ends with it, so that read access never writes. False: out
+// of memory.
 bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error);
 
 static inline const lam_mesh *scene_mesh(const struct lam_scene *scene, int i)

@@ -27,12 +27,11 @@ static void set_directions(struct search *s)
 {
     const double across[EXTENT_DIRECTIONS][3] = {
         {1, 0, s->extents->kx}, {-1, 0, s->extents->kx}, {0, 1, s->extents->ky}, {0, -1, s->extents->ky}, {0, 0, 1}};
-    const double *o = s->mesh->origin;
-    lam_vec3 low = s->extent->minimum, high = s->extent->maximum;
-    // Upper bounds of |coordinate|, without the origin.
-    double far[3] = {(absolute(low.x) + absolute(high.x) + 2 * absolute(o[0])),
-                     (absolute(low.y) + absolute(high.y) + 2 * absolute(o[1])),
-                     (absolute(low.z) + absolute(high.z) + 2 * absolute(o[2]))};
+    box_of_six box; // relative to the mesh's origin, as the positions are
+    box_tree_whole(&s->extent->boxes, box);
+    double far[3]; // upper bounds of |coordinate|
+    for (int a = 0; a < 3; a++)
+        far[a] = absolute((double)box[a]) + absolute((double)box[a + 3]);
     for (int d = s->first; d < s->end; d++) {
         const double *f = across[d];
         double steps = 0; // the sum of the absolute values of all terms
@@ -61,7 +60,10 @@ static void extend(const struct search *s, lam_vec3 q)
            z = v3_dot(s->row[2], q) + s->shift[2];
     const double value[EXTENT_DIRECTIONS] = {x + kx * z, -x + kx * z, y + ky * z, -y + ky * z, z};
     for (int d = s->first; d < s->end; d++)
-        extents->value[d] = value[d] > extents->value[d] ? value[d] : extents->value[d];
+        if (value[d] > extents->value[d]) {
+            extents->value[d] = value[d];
+            extents->point[d] = v3(x, y, z);
+        }
 }
 
 // Searches the vertices of a block. Most are excluded by their upper bound, which is cheaper than their extents.
@@ -145,7 +147,7 @@ static void search_object(const lam_scene *scene, const lam_object *object, cons
         s.row[i] = v3(t->m[0][0] * rows[i].x + t->m[1][0] * rows[i].y + t->m[2][0] * rows[i].z,
                       t->m[0][1] * rows[i].x + t->m[1][1] * rows[i].y + t->m[2][1] * rows[i].z,
                       t->m[0][2] * rows[i].x + t->m[1][2] * rows[i].y + t->m[2][2] * rows[i].z);
-        s.shift[i] = v3_dot(rows[i], origin);
+        s.shift[i] = v3_dot(rows[i], v3_sub(origin, axes->centre));
     }
     set_directions(&s);
     for (int d = first; d < end; d++)
@@ -160,6 +162,21 @@ static void search(const lam_scene *scene, const struct view_axes *axes, struct 
         extents->value[d] = -1e308;
     for (int i = 0; i < scene->objects.count; i++)
         search_object(scene, scene_object(scene, i), axes, extents, first, end);
+}
+
+bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre)
+{
+    *centre = v3(0, 0, 0);
+    for (int i = 0; i < lam_scene_object_count(scene); i++) {
+        const lam_object *object = scene_object(scene, i);
+        const struct scene_extent *extent = scene_extent(scene, object->mesh);
+        if (!extent->used_count)
+            continue;
+        lam_vec3 half = v3_scale(v3_sub(extent->maximum, extent->minimum), 0.5);
+        *centre = mat4_point(&object->transform, v3_add(extent->minimum, half));
+        return true;
+    }
+    return false;
 }
 
 void view_extents_find(const lam_scene *scene, const struct view_axes *axes, struct view_extents *extents)

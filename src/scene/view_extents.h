@@ -4,9 +4,12 @@
 
 #include <lambent/scene.h>
 
-// The axes of the view as world directions: the picture's right and top, and from the model to the eye.
+// The axes of the view as world directions: the picture's right and top, and from the model to the eye. x, y and z of a
+// vertex are measured along them from `centre`, a point of the scene, so that the numbers keep their digits wherever
+// the scene lies.
 struct view_axes {
     lam_vec3 right, above, back;
+    lam_vec3 centre;
 };
 
 // The maxima over all vertices of ±x + kx·z, ±y + ky·z and z, in the axes of the view. k = 0: the bounding box.
@@ -15,7 +18,11 @@ enum extent_direction { EXTENT_RIGHT, EXTENT_LEFT, EXTENT_TOP, EXTENT_BOTTOM, EX
 struct view_extents {
     double kx, ky;
     double value[EXTENT_DIRECTIONS];
+    lam_vec3 point[EXTENT_DIRECTIONS]; // the vertex that has the maximum: its x, y and z
 };
+
+// A point of the scene: the middle of the box of the first object that has triangles. False, and zero: none has.
+bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre);
 
 // Sets all extents for the given kx and ky.
 void view_extents_find(const lam_scene *scene, const struct view_axes *axes, struct view_extents *extents);

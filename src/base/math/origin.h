@@ -2,7 +2,9 @@
 //
 // Positions are floats, good to 2⁻²⁴ of their size. A part that lies far from zero (survey coordinates, a car in its
 // factory) would lose its detail, so a mesh carries an `origin` in double, and its positions are rounded to float after
-// the origin was subtracted. Readers whose file holds floats need no origin: those are exact as they are.
+// the origin was subtracted. Readers whose file holds more than floats do so themselves. For all others scene_measure
+// subtracts it from the floats, which is exact: what is drawn then has the detail that the floats have, and loses no
+// more of it in the arithmetic of drawing.
 #ifndef ORIGIN_H
 #define ORIGIN_H
 

@@ -251,6 +251,34 @@ class Refused(CheckTest):
         self.told("pittsburgh", [("frag", "uniform vec4 ambient_product;", "uniform mat4 ambient_product;")],
                   "write uniform vec4 ambient_product")
 
+    def test_nearest_of_what_is_declared(self):
+        """A name is looked for among those that its statement can use: by spelling, sound and role, never in another function."""
+        report = self.told("pittsburgh", [("frag", "vec3 v = normalize(V);", "vec3 v = normalise(V) + eye_position + light_dir;"),
+                                          ("frag", "uniform float shininess;", "uniform float shininess;\nuniform vec3 eye_point;\n"
+                                           "float other(float light_dir) { return light_dir; }")],
+                           "no function 'normalise'; did you mean 'normalize'", "'eye_position' is not declared, but 'eye_point' is",
+                           "'light_dir' is not declared: give it a type")
+        self.assertNotIn("'light_dir' is not declared, but", " ".join(self.notes(report, "hint")))
+
+    def test_young_functions(self):
+        matrix = [("vert", "normalize(normal_matrix * vNormal.xyz)", "normalize(transpose(inverse(mat3(model_view))) * vNormal.xyz)")]
+        report = self.told("pittsburgh", matrix, "inverse() needs GLSL 140 (in WebGL 300 es), and this shader is GLSL 120: write `#version 140`")
+        self.assertEqual(len(self.notes(report, "compiler")), 1)  # neither overloads nor errors that follow from it
+        self.assertEqual(self.report_of(*self.shader("pittsburgh", matrix + [("vert", "#version 120", "#version 140"),
+                                                                            ("frag", "#version 120", "#version 140")]))["verdict"], "passes")
+
+    def test_misspelt_position(self):
+        """A misspelt gl_Position does not make attributes of varyings."""
+        report = self.told("pittsburgh", [("vert", "gl_Position", "gl_position")], "'gl_position' should be gl_Position")
+        self.assertEqual(self.notes(report, "unknown"), [])
+
+    def test_both_shaders(self):
+        """The errors of both shaders are reported at once."""
+        report = self.told("pittsburgh", [("vert", "void main()", "main()"), ("frag", "normalize(V)", "normalize(W)")],
+                           "write `void main()`", "'W' is not declared")
+        self.assertEqual({note["file"] for note in report["notes"] if note["kind"] == "compiler"}, {"s.vert", "s.frag"})
+        report = self.told("lambent", [("frag", "lights[i].attenuation;", "lights[i].atenuation;")], "no member 'atenuation'; did you mean 'attenuation'")
+
     def test_old_and_new(self):
         self.told("oregon", [("vert", "#version 330 compatibility\n", ""), ("frag", "#version 330 compatibility\n", "")],
                   "#version 330 compatibility")

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "fail.h"
-#include "spelling.h"
+#include "name_similarity.h"
 
 #include <lambent/fields.h>
 
@@ -299,11 +299,11 @@ const char *contract_nearest(const struct contract *contract, const char *name)
 {
     char plain[96];
     strip_index(name, plain);
-    const char *words[64];
+    const char *words[64] = {NULL};
     int count = 0;
     for (const struct contract_name *n = contract->names; n->name && count < 64; n++)
         words[count++] = n->name;
-    return nearest_word(plain, words, count);
+    return name_nearest(plain, words, count);
 }
 
 static int score(const struct contract *contract, const struct declarations *d)

@@ -18,7 +18,8 @@ enum { MAX_STRUCT_TYPES = 16, MAX_MEMBERS = 128 };
 
 struct reader {
     struct declarations *d;
-    int at; // index of the current word
+    bool vertex; // the text is a vertex shader
+    int at;      // index of the current word
     struct struct_type struct_types[MAX_STRUCT_TYPES];
     int struct_type_count;
     struct declaration members[MAX_MEMBERS];
@@ -276,8 +277,7 @@ static bool read_statement(struct reader *r)
         } else if (next_is(r, "out")) {
             item.kind = DECLARED_OUTPUT;
         } else if (next_is(r, "varying")) {
-            item.kind = DECLARED_OUTPUT; // declarations_read() makes it an input in fragment shaders
-            item.varying = true;
+            item.kind = r->vertex ? DECLARED_OUTPUT : DECLARED_INPUT;
         } else if (!is_qualifier(word_at(r, 0))) {
             break;
         }
@@ -309,13 +309,15 @@ static bool read_statement(struct reader *r)
     return true;
 }
 
-bool declarations_read(struct declarations *d, const char *text, lam_error *error)
+bool declarations_read(struct declarations *d, const char *text, bool vertex, lam_error *error)
 {
     *d = (struct declarations){0};
     struct reader *r = calloc(1, sizeof *r);
     bool ok = r && split(d, text);
-    if (r)
+    if (r) {
         r->d = d;
+        r->vertex = vertex;
+    }
     while (ok && r->at < d->word_count)
         ok = read_statement(r);
     free(r);
@@ -323,13 +325,6 @@ bool declarations_read(struct declarations *d, const char *text, lam_error *erro
         declarations_free(d);
         return fail_memory(error, strlen(text));
     }
-    // Varyings are outputs of the vertex shader, recognised by gl_Position, and inputs of the fragment shader.
-    bool vertex = declarations_uses(d, "gl_Position");
-    for (int i = 0; i < d->count; i++)
-        if (d->items[i].kind == DECLARED_OUTPUT && d->items[i].varying) {
-            d->items[i].kind = vertex ? DECLARED_OUTPUT : DECLARED_INPUT;
-            d->items[i].varying = false;
-        }
     return true;
 }
 

@@ -19,7 +19,6 @@ struct declaration {
     int line;
     bool flat;     // interpolation qualifier
     bool in_block; // member of an interface block
-    bool varying;  // while parsing: a varying, whose kind is not known yet
 };
 
 struct word {
@@ -38,8 +37,8 @@ struct declarations {
     int word_count;
 };
 
-// False: out of memory.
-bool declarations_read(struct declarations *d, const char *text, lam_error *error);
+// Varyings are outputs of a vertex shader (`vertex`) and inputs of a fragment shader. False: out of memory.
+bool declarations_read(struct declarations *d, const char *text, bool vertex, lam_error *error);
 void declarations_free(struct declarations *d);
 
 // Whether an identifier occurs anywhere apart from its own declaration.

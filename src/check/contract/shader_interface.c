@@ -160,8 +160,8 @@ bool shader_interface_make(struct shader_interface *r, const char *vertex, const
                            lam_check_contract which, lam_error *error)
 {
     *r = (struct shader_interface){.which = which};
-    if (!declarations_read(&r->vertex, vertex ? vertex : "", error) ||
-        !declarations_read(&r->fragment, fragment, error)) {
+    if (!declarations_read(&r->vertex, vertex ? vertex : "", true, error) ||
+        !declarations_read(&r->fragment, fragment, false, error)) {
         shader_interface_free(r);
         return false;
     }

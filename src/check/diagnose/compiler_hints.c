@@ -7,7 +7,9 @@
 #include <strings.h>
 
 #include "fail.h"
+#include "name_similarity.h"
 #include "spelling.h"
+#include "visible_names.h"
 
 #define COUNT(list) (int)(sizeof(list) / sizeof *(list))
 
@@ -68,29 +70,64 @@ static bool in_list(const char *word, const char *const *list, int count)
 
 static bool is_name(const char *w) { return isalpha((unsigned char)w[0]) || w[0] == '_'; }
 
-// The declared name that is most similar to an undeclared one. NULL: none.
-static const char *nearest_declared(const struct declarations *d, const char *name)
+// Functions that are younger than GLSL 1.10 and GLSL ES 1.00.
+static const struct {
+    const char *name;
+    int version, es_version;
+    const char *otherwise; // NULL: nothing to advise
+} young_functions[] = {
+    {"inverse", 140, 300, "pass the inverse transpose as a uniform"},
+    {"transpose", 120, 300, NULL},
+    {"outerProduct", 120, 300, NULL},
+    {"determinant", 150, 300, NULL},
+    {"texture", 130, 300, "write texture2D"},
+    {"textureLod", 130, 300, NULL},
+    {"texelFetch", 130, 300, NULL},
+    {"round", 130, 300, "write floor(x + 0.5)"},
+    {"trunc", 130, 300, NULL},
+    {"isnan", 130, 300, "write x != x"},
+    {"isinf", 130, 300, NULL},
+    {"sinh", 130, 300, NULL},
+    {"cosh", 130, 300, NULL},
+    {"tanh", 130, 300, NULL},
+    {"fma", 400, 320, "write a * b + c"},
+};
+
+// Without a version line, a precision statement means WebGL.
+static bool is_es(const struct declarations *d)
 {
-    const char *words[256];
-    int count = 0;
-    for (int i = 0; i < d->count && count < 128; i++)
-        words[count++] = d->items[i].name;
-    for (int i = 1; i < d->word_count && count < 256; i++) // vec3 name, float name …
-        if (in_list(d->words[i - 1].text, types, COUNT(types)) && is_name(d->words[i].text) &&
-            strcmp(d->words[i].text, name) != 0)
-            words[count++] = d->words[i].text;
-    for (int i = 0; i < count; i++) // equal except for case: eye_Position
-        if (strcasecmp(words[i], name) == 0)
-            return words[i];
-    const char *near = nearest_word(name, words, count);
-    if (near)
-        return near;
-    for (int i = 0; i < count; i++) { // the same first word: eye_point, eye_position
-        size_t stem = strcspn(name, "_");
-        if (name[stem] && strncmp(words[i], name, stem + 1) == 0)
-            return words[i];
+    return strcmp(d->profile, "es") == 0 || d->version == 100 || (!d->version && declarations_uses(d, "precision"));
+}
+
+// Explains a function that the shader's version of GLSL does not have. False: it is not one of these.
+static bool hint_young_function(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
+                                int line, const char *name)
+{
+    for (int i = 0; i < COUNT(young_functions); i++) {
+        bool es = is_es(d);
+        int needed = es ? young_functions[i].es_version : young_functions[i].version;
+        int version = d->version ? d->version : es ? 100 : 110;
+        if (strcmp(young_functions[i].name, name) != 0 || version >= needed)
+            continue;
+        const char *otherwise = young_functions[i].otherwise;
+        diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
+                        "%s() needs GLSL %s%d%s, and this shader is GLSL %s%d: write `#version %d%s` in the first "
+                        "line%s%s",
+                        name, es ? "ES " : "", needed, es ? "" : " (in WebGL 300 es)", es ? "ES " : "", version, needed,
+                        es ? " es" : "", otherwise ? ", or " : "", otherwise ? otherwise : "");
+        return true;
     }
-    return nearest_word(name, functions, COUNT(functions));
+    return false;
+}
+
+// The name that was probably meant by an undeclared one, used at word `at`, among those declared there. NULL: none.
+static const char *nearest_declared(const struct declarations *d, const char *name, int at)
+{
+    bool called = at + 1 < d->word_count && strcmp(d->words[at + 1].text, "(") == 0;
+    struct visible_names visible;
+    visible_names_at(d, at, called, &visible);
+    const char *near = name_nearest(name, visible.names, visible.count);
+    return near || !called ? near : name_nearest(name, functions, COUNT(functions));
 }
 
 // Extracts `name' or 'name' from a message.
@@ -104,6 +141,19 @@ static bool quoted_name(const char *words, char name[64])
     return true;
 }
 
+// The word `name` on a line, else the line's first word.
+static int find_on_line(const struct declarations *d, int line, const char *name)
+{
+    int first = -1;
+    for (int i = 0; i < d->word_count; i++) {
+        if (d->words[i].line == line && strcmp(d->words[i].text, name) == 0)
+            return i;
+        if (first < 0 && d->words[i].line >= line)
+            first = i;
+    }
+    return line > 0 && first >= 0 ? first : d->word_count;
+}
+
 static int first_on_line(const struct declarations *d, int line)
 {
     for (int i = 0; i < d->word_count; i++)
@@ -112,21 +162,49 @@ static int first_on_line(const struct declarations *d, int line)
     return d->word_count;
 }
 
+// A member that no struct of the shader has: lights[0].postion.
+static void hint_member(struct diagnostics *diagnostics, const struct declarations *d, const char *file, int line,
+                        const char *name)
+{
+    const char *members[64] = {NULL};
+    int count = 0;
+    for (int i = 0; i < d->count && count < 64; i++) {
+        const char *dot = strrchr(d->items[i].name, '.');
+        if (dot)
+            members[count++] = dot + 1;
+    }
+    const char *near = name_nearest(name, members, count);
+    if (near)
+        diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
+                        "there is no member '%s'; did you mean '%s'?", name, near);
+}
+
 void compiler_hints_for_message(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                 int line, const char *message)
 {
     char name[64];
     if ((strstr(message, "undeclared") || strstr(message, "no function") || strstr(message, "undefined")) &&
         quoted_name(message, name) && strncmp(name, "gl_", 3) != 0) {
-        const char *near = nearest_declared(d, name);
-        if (near)
+        bool called = strstr(message, "function") != NULL;
+        if (called && hint_young_function(diagnostics, d, file, line, name))
+            return;
+        const char *near = nearest_declared(d, name, find_on_line(d, line, name));
+        if (near && called)
+            diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
+                            "there is no function '%s'; did you mean '%s'?", name, near);
+        else if (near)
             diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
                             "'%s' is not declared, but '%s' is: use one name", name, near);
+        else if (called)
+            diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
+                            "there is no function '%s': define it above its first use", name);
         else
             diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
                             "'%s' is not declared: give it a type at its first use", name);
     }
-    if (strstr(message, "no matching function") && (strstr(message, "int") || strstr(message, "(float, int)")))
+    if (strstr(message, " field ") && quoted_name(message, name))
+        hint_member(diagnostics, d, file, line, name);
+    if (strstr(message, "no matching function") && (strstr(message, "(int") || strstr(message, ", int")))
         diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
                         "an integer is used where a float is expected: write 0.0 for 0, 2.0 for 2");
     if (strstr(message, "syntax error") && line > 0) {
@@ -306,12 +384,14 @@ void compiler_hints_for_link(struct diagnostics *diagnostics, const struct shade
                             "'%s' is flat in one shader and not in the other", in->name);
         if (out)
             continue;
-        const char *words[64];
+        const char *words[64] = {NULL};
         int count = 0;
-        for (int k = 0; k < r->vertex.count && count < 64; k++)
-            if (r->vertex.items[k].kind == DECLARED_OUTPUT)
-                words[count++] = r->vertex.items[k].name;
-        const char *near = nearest_word(in->name, words, count);
+        for (int k = 0; k < r->vertex.count && count < 64; k++) {
+            const struct declaration *candidate = &r->vertex.items[k];
+            if (candidate->kind == DECLARED_OUTPUT && !declarations_find(&r->fragment, DECLARED_INPUT, candidate->name))
+                words[count++] = candidate->name;
+        }
+        const char *near = name_nearest(in->name, words, count);
         if (near)
             diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, params->fragment_name, in->line,
                             "the vertex shader writes no '%s'; did you mean '%s'?", in->name, near);

@@ -28,35 +28,65 @@ static int line_of(const char *text, const char **words)
     return 0;
 }
 
-void diagnostics_add_refusal(struct diagnostics *diagnostics, const struct draw_result *drawn,
-                             const struct shader_interface *interface, const lam_check_params *params)
+// Mesa's errors about the operands of an expression. Where its line has an error before, they follow from that.
+static bool is_about_operands(const char *words)
 {
-    bool vertex = drawn->state == DRAWN_REFUSED_VERTEX, link = drawn->state == DRAWN_REFUSED_LINK;
-    const struct declarations *d = vertex ? &interface->vertex : &interface->fragment;
-    const char *file = link ? NULL : vertex ? params->vertex_name : params->fragment_name;
-    char log[sizeof drawn->log];
-    snprintf(log, sizeof log, "%s", drawn->log);
-    int line_count = 0;
+    return strstr(words, "operands to arithmetic operators") || strstr(words, "type mismatch");
+}
+
+// Lines that do not say why a shader is refused: warnings, the overloads that Mesa lists, and the errors that follow
+// from one reported before.
+static bool is_noise(const char *words)
+{
+    return strncmp(words, "warning", 7) == 0 || strncmp(words, "error:    ", 10) == 0 || strstr(words, "(error") ||
+           strstr(words, ", error");
+}
+
+// The messages of one log, each with the hints that explain it. `d` NULL: the linker's.
+static void add_log(struct diagnostics *diagnostics, const char *text, const struct declarations *d, const char *file)
+{
+    char log[sizeof((struct draw_result *)0)->log];
+    snprintf(log, sizeof log, "%s", text);
+    int line_count = 0, last = 0;
     char *rest = log;
     for (char *line; (line = strsep(&rest, "\n")) && line_count < MAX_LOG_LINES;) {
         for (char *c = line; *c; c++)
             if (iscntrl((unsigned char)*c))
                 *c = ' ';
-        if (strspn(line, " ") == strlen(line))
-            continue;
         const char *words;
         int at = line_of(line, &words);
+        if (strspn(line, " ") == strlen(line) || is_noise(words) || (at > 0 && at == last && is_about_operands(words)))
+            continue;
+        last = at;
+        char *candidates = strstr(line, "; candidates are:");
+        if (candidates)
+            *candidates = 0;
         diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_COMPILER, file, at, "%.400s", words);
         line_count++;
-        if (!link)
+        if (d)
             compiler_hints_for_message(diagnostics, d, file, at, words);
     }
     if (!line_count)
         diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_COMPILER, file, 0, "refused without a message");
-    if (link)
+}
+
+void diagnostics_add_refusal(struct diagnostics *diagnostics, const struct draw_result *drawn,
+                             const struct shader_interface *interface, const lam_check_params *params)
+{
+    if (drawn->state == DRAWN_REFUSED_LINK) {
+        add_log(diagnostics, drawn->log, NULL, NULL);
         compiler_hints_for_link(diagnostics, interface, params);
-    else
-        compiler_hints_for_text(diagnostics, d, file, vertex);
+        return;
+    }
+    // A generated vertex shader is refused only because of what the fragment shader declares.
+    if (drawn->refused_vertex && (params->vertex || !drawn->refused_fragment)) {
+        add_log(diagnostics, drawn->log, &interface->vertex, params->vertex_name);
+        compiler_hints_for_text(diagnostics, &interface->vertex, params->vertex_name, true);
+    }
+    if (drawn->refused_fragment) {
+        add_log(diagnostics, drawn->fragment_log, &interface->fragment, params->fragment_name);
+        compiler_hints_for_text(diagnostics, &interface->fragment, params->fragment_name, false);
+    }
 }
 
 static const char *file_of(const lam_check_params *params, bool vertex)

@@ -302,20 +302,21 @@ static double time_limit_s(int size)
     return limit > min_time_limit_s ? limit : min_time_limit_s;
 }
 
-// Compiles and links two texts. 0: refused; `state` says where and `log` why.
-static GLuint build_texts(struct offscreen *t, const char *vertex_text, const char *fragment_text, int *state,
-                          char *log, size_t capacity)
+// Compiles both texts, so that the errors of both are known at once, and links them. 0: refused; `drawn` says why.
+static GLuint build_texts(struct offscreen *t, const char *vertex_text, const char *fragment_text,
+                          struct draw_result *drawn)
 {
     const struct gl *gl = &t->context.gl;
-    GLuint vertex = offscreen_compile(t, GL_VERTEX_SHADER, vertex_text, log, capacity), fragment = 0, program = 0;
-    *state = DRAWN_REFUSED_VERTEX;
-    if (vertex) {
-        *state = DRAWN_REFUSED_FRAGMENT;
-        fragment = offscreen_compile(t, GL_FRAGMENT_SHADER, fragment_text, log, capacity);
-    }
-    if (fragment) {
-        program = offscreen_link(t, vertex, fragment, log, capacity);
-        *state = program ? DRAWN_PICTURES : DRAWN_REFUSED_LINK;
+    GLuint vertex = offscreen_compile(t, GL_VERTEX_SHADER, vertex_text, drawn->log, sizeof drawn->log);
+    GLuint fragment =
+        offscreen_compile(t, GL_FRAGMENT_SHADER, fragment_text, drawn->fragment_log, sizeof drawn->fragment_log);
+    GLuint program = 0;
+    drawn->refused_vertex = !vertex;
+    drawn->refused_fragment = !fragment;
+    drawn->state = DRAWN_REFUSED;
+    if (vertex && fragment) {
+        program = offscreen_link(t, vertex, fragment, drawn->log, sizeof drawn->log);
+        drawn->state = program ? DRAWN_PICTURES : DRAWN_REFUSED_LINK;
     }
     gl->DeleteShader(vertex); // ignores 0
     gl->DeleteShader(fragment);
@@ -326,24 +327,24 @@ static GLuint build_texts(struct offscreen *t, const char *vertex_text, const ch
 // both are built with full precision, which a correct shader may lack (shader_dialect.h).
 static bool build(struct shader_run *run, lam_error *error)
 {
-    struct draw_result *d = &run->drawn;
     const char *vertex = shader_dialect_skip_mark(run->request.vertex),
                *fragment = shader_dialect_skip_mark(run->request.fragment);
-    run->program = build_texts(&run->offscreen, vertex, fragment, &d->state, d->log, sizeof d->log);
+    run->program = build_texts(&run->offscreen, vertex, fragment, &run->drawn);
     if (!run->program || !(shader_dialect_lowers_precision(vertex) || shader_dialect_lowers_precision(fragment)))
         return true;
-    char *high_vertex = shader_dialect_highp(vertex), *high_fragment = shader_dialect_highp(fragment), log[1024];
-    int state = DRAWN_PICTURES;
+    char *high_vertex = shader_dialect_highp(vertex), *high_fragment = shader_dialect_highp(fragment);
+    struct draw_result *unused = calloc(1, sizeof *unused);
     GLuint high = 0;
-    if (high_vertex && high_fragment)
-        high = build_texts(&run->offscreen, high_vertex, high_fragment, &state, log, sizeof log);
+    if (high_vertex && high_fragment && unused)
+        high = build_texts(&run->offscreen, high_vertex, high_fragment, unused);
     if (high) {
         run->offscreen.context.gl.DeleteProgram(run->program);
         run->program = high;
     }
-    bool ok = high_vertex && high_fragment;
+    bool ok = high_vertex && high_fragment && unused;
     free(high_vertex);
     free(high_fragment);
+    free(unused);
     return ok || fail_memory(error, strlen(vertex) + strlen(fragment));
 }
 

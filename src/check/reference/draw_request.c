@@ -99,6 +99,7 @@ bool draw_result_read(const lam_bytes *bytes, int size, struct draw_result *draw
         return fail(error, LAM_CANNOT_READ, "the drawing process returned %zu bytes, expected %zu", bytes->size,
                     sizeof *head + expected * sizeof(float));
     drawn->driver[sizeof drawn->driver - 1] = drawn->log[sizeof drawn->log - 1] = 0;
+    drawn->fragment_log[sizeof drawn->fragment_log - 1] = 0;
     for (int i = 0; i < MAX_UNKNOWN_NAMES; i++)
         drawn->unknown[i][sizeof drawn->unknown[i] - 1] = drawn->types[i][sizeof drawn->types[i] - 1] = 0;
     drawn->pixels = (const float *)(head + 1);

@@ -12,7 +12,7 @@ struct draw_request {
     const char *vertex, *fragment;
 };
 
-enum draw_state { DRAWN_PICTURES, DRAWN_REFUSED_VERTEX, DRAWN_REFUSED_FRAGMENT, DRAWN_REFUSED_LINK, DRAWN_SLOW };
+enum draw_state { DRAWN_PICTURES, DRAWN_REFUSED, DRAWN_REFUSED_LINK, DRAWN_SLOW };
 
 enum { MAX_UNKNOWN_NAMES = 16 };
 
@@ -21,7 +21,9 @@ struct draw_result {
     int light_count; // light capacity of the shaders; 0: one light without a list
     bool has_list;
     char driver[128];
-    char log[4096];                      // DRAWN_SLOW: the scene's name
+    bool refused_vertex, refused_fragment; // DRAWN_REFUSED: which do not compile
+    char log[4096];                        // of the vertex shader, or the linker; DRAWN_SLOW: the scene's name
+    char fragment_log[4096];
     double seconds;                      // DRAWN_SLOW: processor time of that scene
     char unknown[MAX_UNKNOWN_NAMES][64]; // active uniforms and attributes that are not in the contract
     char types[MAX_UNKNOWN_NAMES][96];   // messages about uniforms whose type does not fit

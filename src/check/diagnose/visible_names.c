@@ -1,0 +1,79 @@
+// visible_names.c: follows the braces of a shader and keeps what is declared in those that are open.
+#include "visible_names.h"
+
+#include <ctype.h>
+#include <string.h>
+
+static bool is(const struct declarations *d, int i, const char *text)
+{
+    return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
+}
+
+static bool is_identifier(const struct declarations *d, int i)
+{
+    char first = i >= 0 && i < d->word_count ? d->words[i].text[0] : 0;
+    return isalpha((unsigned char)first) || first == '_';
+}
+
+// Words that may stand before a name without being its type.
+static bool is_keyword(const struct declarations *d, int i)
+{
+    static const char *const words[] = {"return",    "else",      "do",      "in",        "out",    "inout", "uniform",
+                                        "attribute", "const",     "varying", "flat",      "highp",  "lowp",  "mediump",
+                                        "struct",    "precision", "smooth",  "invariant", "layout", "case",  "buffer"};
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (is(d, i, words[k]))
+            return true;
+    return false;
+}
+
+static void add(struct visible_names *out, const char *name, int depth)
+{
+    if (out->count == MAX_VISIBLE_NAMES) {
+        memmove(out->names, out->names + 1, (MAX_VISIBLE_NAMES - 1) * sizeof *out->names);
+        memmove(out->depths, out->depths + 1, (MAX_VISIBLE_NAMES - 1) * sizeof *out->depths);
+        out->count--;
+    }
+    out->names[out->count] = name;
+    out->depths[out->count++] = depth;
+}
+
+static void leave(struct visible_names *out, int depth)
+{
+    int kept = 0;
+    for (int i = 0; i < out->count; i++)
+        if (out->depths[i] <= depth) {
+            out->names[kept] = out->names[i];
+            out->depths[kept++] = out->depths[i];
+        }
+    out->count = kept;
+}
+
+void visible_names_at(const struct declarations *d, int at, bool functions, struct visible_names *out)
+{
+    int end = at < d->word_count ? at : d->word_count; // of the last statement that is complete before `at`
+    while (end > 0 && !is(d, end - 1, ";") && !is(d, end - 1, "{") && !is(d, end - 1, "}"))
+        end--;
+    int parentheses = 0;
+    bool declares = false; // in the list of names of a declaration: float a, b;
+    *out = (struct visible_names){.count = 0};
+    for (int i = 0; i < end; i++) {
+        const struct word *w = &d->words[i];
+        parentheses += is(d, i, "(") - is(d, i, ")");
+        bool parameter = w->depth == 0 && parentheses > 0;
+        int depth = parameter ? 1 : w->depth; // parameters belong to the function's body
+        if (is(d, i, "}") || (is(d, i, ";") && w->depth == 0))
+            leave(out, w->depth);
+        if (is(d, i, ";") || is(d, i, "{") || is(d, i, "}"))
+            declares = false;
+        if (!is_identifier(d, i) || is_keyword(d, i) || is(d, i, "main"))
+            continue;
+        bool instance = is(d, i - 1, "}") && (is(d, i + 1, ";") || is(d, i + 1, "[")); // of a struct or a block
+        bool typed = instance || (is_identifier(d, i - 1) && !is_keyword(d, i - 1) && !is(d, i - 2, "struct"));
+        bool function = typed && is(d, i + 1, "(") && w->depth == 0;
+        bool listed = declares && parentheses == 0 && is(d, i - 1, ",");
+        declares = declares || (typed && !function && !parameter);
+        if (functions ? function : (typed && !function) || listed)
+            add(out, w->text, depth);
+    }
+}

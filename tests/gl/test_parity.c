@@ -4,10 +4,12 @@
 // In 8 bits at least 99.9 % of the pixels differ by at most 1/255, and no pixel outside the mask by more than 2/255. In
 // floats, pixels outside the mask differ by at most 5e-4·max(1, value). The mask consists of the pixels whose 3×3
 // neighbourhood contains, in the CPU device's own values, more than one object, more than one facing, a step in depth, a
-// change in the number of translucent layers, or the edge of a spot's cone: there two rasterizers may legitimately differ.
+// change in the number of translucent layers, or the edge of a spot's cone, and of the pixels with translucent layers that
+// change when the eye moves by the step that corners are snapped to: there two rasterizers may legitimately differ.
 // The mask covers at most 5 % of the covered pixels of all scenes; the test reports its size. A failure writes NAME.gl.png
 // (or NAME.gles.png) and NAME.cpu.png to the working directory.
 #include "context.h"
+#include "linear.h"
 #include "scenes.h"
 
 #include <setjmp.h>
@@ -158,6 +160,38 @@ static void mask_steps(struct mask *mask, lam_image *image, double limit)
     lam_image_free(image);
 }
 
+static int byte_difference(const uint8_t *a, const uint8_t *b)
+{
+    int max = 0;
+    for (int c = 0; c < 4; c++)
+        max = abs(a[c] - b[c]) > max ? abs(a[c] - b[c]) : max;
+    return max;
+}
+
+// Masks the pixels that change when the eye moves by 1/256 pixel, along any diagonal of the picture. Where two surfaces
+// intersect behind a translucent one, snapping decides which of them is nearer.
+static void mask_unstable(struct mask *mask, const struct demo *demo, double pixel)
+{
+    struct demo moved = *demo;
+    moved.params.samples = 1;
+    lam_image still, image;
+    draw(cpu, demo, &moved.params, LAM_RGBA8, &still);
+    lam_vec3 z = v3_sub(demo->camera.target, demo->camera.eye), right = v3_unit(v3_cross(z, demo->camera.up));
+    lam_vec3 up = v3_unit(v3_cross(right, z));
+    for (int i = 0; i < 4; i++) {
+        double step = pixel / 256;
+        lam_vec3 by = v3_add(v3_scale(right, i & 1 ? step : -step), v3_scale(up, i & 2 ? step : -step));
+        moved.camera.eye = v3_add(demo->camera.eye, by);
+        moved.camera.target = v3_add(demo->camera.target, by);
+        draw(cpu, &moved, &moved.params, LAM_RGBA8, &image);
+        for (size_t n = 0; n < (size_t)mask->width * (size_t)mask->height; n++)
+            mask->out[n] |=
+                byte_difference((const uint8_t *)still.pixels + 4 * n, (const uint8_t *)image.pixels + 4 * n) > 2;
+        lam_image_free(&image);
+    }
+    lam_image_free(&still);
+}
+
 static struct mask mask_of(const struct demo *demo)
 {
     struct mask mask = {.width = demo->width, .height = demo->height};
@@ -177,6 +211,7 @@ static struct mask mask_of(const struct demo *demo)
     if (translucent) {
         image = draw_output(demo, LAM_OUTPUT_OVERDRAW, 0);
         mask_where(&mask, &image, differ_first, 0);
+        mask_unstable(&mask, demo, size);
     }
     static lam_light lights[4096];
     int count = lam_draw_lights(demo->scene, demo->params.rig, lights, 4096);
@@ -198,14 +233,6 @@ struct outcome {
 
 static struct outcome worst[2];
 static const char *worst_name[2];
-
-static int byte_difference(const uint8_t *a, const uint8_t *b)
-{
-    int max = 0;
-    for (int c = 0; c < 4; c++)
-        max = abs(a[c] - b[c]) > max ? abs(a[c] - b[c]) : max;
-    return max;
-}
 
 static double float_difference(const float *a, const float *b)
 {

@@ -27,6 +27,9 @@ typedef enum lam_up {
 // LAM_COLOR_RAW leaves their numbers as they are. False: LAM_BAD_ARGUMENT.
 LAM_API bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam_error *error);
 
+// The colour names of lam_color_parse, from 0; NULL out of range. "transparent" is not among them.
+LAM_API const char *lam_color_name(int index);
+
 // Where normals come from.
 typedef enum lam_normals {
     // The file's; smooth ones where it has none. STL's facet normals count as none.

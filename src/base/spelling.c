@@ -29,16 +29,24 @@ int lam_edit_distance(const char *a, const char *b)
     return rows[length_a % 3][length_b];
 }
 
+struct spelling spelling_of(const char *word)
+{
+    return (struct spelling){.word = word, .limit = (int)strlen(word) / 3 + 2};
+}
+
+void spelling_try(struct spelling *spelling, const char *candidate)
+{
+    int distance = lam_edit_distance(spelling->word, candidate);
+    if (distance < spelling->limit) {
+        spelling->limit = distance;
+        spelling->nearest = candidate;
+    }
+}
+
 const char *nearest_word(const char *word, const char *const *words, int count)
 {
-    const char *nearest = NULL;
-    int limit = (int)strlen(word) / 3 + 2;
-    for (int i = 0; i < count; i++) {
-        int distance = lam_edit_distance(word, words[i]);
-        if (distance < limit) {
-            limit = distance;
-            nearest = words[i];
-        }
-    }
-    return nearest;
+    struct spelling spelling = spelling_of(word);
+    for (int i = 0; i < count; i++)
+        spelling_try(&spelling, words[i]);
+    return spelling.nearest;
 }

@@ -3,6 +3,7 @@
 
 #include "fail.h"
 #include "number.h"
+#include "spelling.h"
 #include "srgb.h"
 
 #include <string.h>
@@ -83,6 +84,10 @@ static bool same_word(const char *a, const char *b)
     return *a == *b;
 }
 
+enum { NAMES = sizeof names / sizeof names[0] };
+
+const char *lam_color_name(int index) { return index >= 0 && index < NAMES ? names[index].name : NULL; }
+
 bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam_error *error)
 {
     if (!text || !color)
@@ -96,7 +101,7 @@ bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam
         *color = (lam_rgba){0, 0, 0, 0};
         return true;
     }
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+    for (int i = 0; i < NAMES; i++)
         if (same_word(text, names[i].name)) {
             *color = from_bytes(names[i].rgb << 8 | 255, mode);
             return true;
@@ -106,8 +111,12 @@ bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam
         *color = numbers;
         return true;
     }
-    return fail(
-        error, LAM_BAD_ARGUMENT,
-        "found '%.60s', expected a colour: #rrggbb, #rrggbbaa, r/g/b, one number, transparent, or a name such as white",
-        text);
+    const char *words[NAMES];
+    for (int i = 0; i < NAMES; i++)
+        words[i] = names[i].name;
+    const char *nearest = nearest_word(text, words, NAMES);
+    return fail(error, LAM_BAD_ARGUMENT,
+                "found '%.60s', expected a colour: #rrggbb, #rrggbbaa, r/g/b, one number, transparent, or a name such "
+                "as white%s%s%s",
+                text, nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
 }

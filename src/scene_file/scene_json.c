@@ -26,17 +26,22 @@ static int scene_probe(const uint8_t *bytes, size_t size)
 
 static bool read_image(struct scene_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"size", "samples", "background", "color", "exposure", NULL};
+    static const char *const keys[] = {"size", "samples", "background", "color_mode", "color", "exposure", NULL};
     const json_t *image = json_object_get(root, "image");
     const struct place *place = KEY_OF(NULL, "image");
     lam_picture_settings *s = r->settings;
     int color = LAM_COLOR_SRGB;
     if (!image)
         return true;
-    // The colour mode first: it says how the others are read.
-    if (!check_keys(r, place, image, keys) || !take_word(r, place, image, "color", color_words, &color))
+    // The colour mode first: it says how the others are read. Its former key is `color`.
+    bool mode = json_object_get(image, "color_mode"), former = json_object_get(image, "color");
+    if (!check_keys(r, place, image, keys))
         return false;
-    if (json_object_get(image, "color")) {
+    if (mode && former)
+        return fail_place(r, place, "has both color_mode and color, expected one of them");
+    if (!take_word(r, place, image, mode ? "color_mode" : "color", color_words, &color))
+        return false;
+    if (mode || former) {
         s->present |= LAM_SETTING_COLOR;
         s->draw.color = (lam_color_mode)color;
         if (!r->source->params->override_color)

@@ -409,7 +409,7 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_picture_se
     if (s->present & LAM_SETTING_BACKGROUND)
         put(w, out, "background", color(w, &s->draw.background.r, 4));
     if (s->present & LAM_SETTING_COLOR)
-        put(w, out, "color", word(color_words, (int)s->draw.color));
+        put(w, out, "color_mode", word(color_words, (int)s->draw.color));
     if (s->present & LAM_SETTING_EXPOSURE)
         put(w, out, "exposure", number(s->draw.exposure));
     if (json_object_size(out))

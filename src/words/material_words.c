@@ -83,14 +83,32 @@ static bool read_pair(char *pair, lam_color_mode mode, struct reading *reading, 
     return word_field(&color, value, mode, reading->numbers[key], error);
 }
 
+// A colour without a key: #rrggbb, r/g/b or a name. A number alone is more likely a key's value without its key.
+static bool is_color_alone(const char *word, lam_color_mode mode)
+{
+    lam_rgba color;
+    bool digit = (*word >= '0' && *word <= '9') || *word == '.';
+    return *word == '#' || strchr(word, '/') || (!digit && lam_color_parse(word, mode, &color, NULL));
+}
+
+static bool read_color_alone(const char *word, lam_color_mode mode, struct reading *reading, lam_error *error)
+{
+    static const lam_field color = {.key = "color", .type = LAM_FIELD_RGB};
+    reading->given |= UINT64_C(1) << MATERIAL_COLOR;
+    return word_field(&color, word, mode, reading->numbers[MATERIAL_COLOR], error);
+}
+
 static bool unknown_material(const char *name, lam_error *error)
 {
-    const char *names[LAM_MATERIAL_COUNT];
+    struct spelling spelling = spelling_of(name);
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++)
-        names[i] = lam_material_name((lam_material_id)i);
-    const char *nearest = nearest_word(name, names, LAM_MATERIAL_COUNT);
+        spelling_try(&spelling, lam_material_name((lam_material_id)i));
+    for (int i = 0; lam_color_name(i); i++)
+        spelling_try(&spelling, lam_color_name(i));
+    const char *nearest = spelling.nearest;
     return fail(error, LAM_BAD_ARGUMENT, "unknown material '%.60s'%s%s%s", name, nearest ? "; did you mean '" : "",
-                nearest ? nearest : "", nearest ? "'?" : "; `lambent materials` lists them");
+                nearest ? nearest : "",
+                nearest ? "'?" : "; expected a name of `lambent materials`, a colour or key=value");
 }
 
 // Sets the first three numbers of a colour: an alpha stays.
@@ -150,8 +168,10 @@ bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *mat
     if (!memchr(rest, '=', first) && !is_flag(rest, first)) {
         char *name = strsep(&rest, ",");
         reading.id = lam_material_find(name);
-        if (reading.id == LAM_MATERIAL_COUNT)
+        if (reading.id == LAM_MATERIAL_COUNT && !is_color_alone(name, mode))
             return unknown_material(name, error);
+        if (reading.id == LAM_MATERIAL_COUNT && !read_color_alone(name, mode, &reading, error))
+            return false;
     }
     for (char *pair; (pair = strsep(&rest, ",")) != NULL;)
         if (!read_pair(pair, mode, &reading, error))

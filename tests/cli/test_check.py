@@ -89,7 +89,7 @@ class Right(CheckTest):
                  "spot": "spot:cutoff=30", "cones": "spot:inner=10,outer=20", "exponent": "spot:exponent=9", "sky": "hemisphere"}
         for words, lights in (
                 ("", ""), ("--glsl 120 --products", ""), ("--glsl 300es --lights-in array", "plain"), ("--products", "point plain sun spot"),
-                ("--glsl 120", "cones"), ("--color raw --one-sided", "exponent sky"), ("--shading gouraud --back-material gold", "spot"),
+                ("--glsl 120", "cones"), ("--color-mode raw --one-sided", "exponent sky"), ("--shading gouraud --back-material gold", "spot"),
                 ("--shading flat --glsl 300es", "sun"), ("--shading flat --stage fragment", "point"), ("--reflection phong", "point sun"),
                 ("--reflection lambert --exposure 1", "sun"), ("--glsl 120", "point " * 90), ("--products", "sun " * 90), ("--show diffuse --reflection none", "")):
             with self.subTest(words + " " + lights):

@@ -33,7 +33,7 @@ class Compare(Case):
 
     def test_terms_add_up(self):
         """Raw numbers: ambient + diffuse + specular at shininess 50 are the picture with all of them, to the rounding of bytes."""
-        page = self.sheet("sphere", "--sheet", "terms", "--no-captions", "--color", "raw", "-s", "48x40", "-b", "0/0/0/1")
+        page = self.sheet("sphere", "--sheet", "terms", "--no-captions", "--color-mode", "raw", "-s", "48x40", "-b", "0/0/0/1")
         gap = 3
         at = [part(page, gap + i % 3 * (48 + gap), gap + i // 3 * (40 + gap), 48, 40) for i in range(4)]
         for i in range(0, len(at[0]), 4):
@@ -42,7 +42,7 @@ class Compare(Case):
         self.assertGreater(max(at[2][0::4]), 100)  # there is a highlight
 
     def test_inset_shows_the_highlight(self):
-        page = self.sheet("sphere", "--sheet", "stages", "--samples", 1, "--color", "raw", "-s", "96x96", "--no-captions")
+        page = self.sheet("sphere", "--sheet", "stages", "--samples", 1, "--color-mode", "raw", "-s", "96x96", "--no-captions")
         left = 5 + 96 + 5  # per fragment
         whole = part(page, left, 5, 96, 96)
         inset = part(page, left, 5 + 96 + 2, 96, 48)

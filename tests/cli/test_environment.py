@@ -44,7 +44,7 @@ class EnvironmentOption(Case):
         self.assertEqual(pixel(picture, 34, 20)[:3], FACES[4])
         self.assertEqual(pixel(picture, 20, 20)[:3], FACES[1])
         self.assertEqual(self.draw(self.six(), "--environment-rotation", -270)[1], data)
-        picture, _ = self.draw(self.six(), "--reflectivity", "0/0.5/1", "--color", "raw")
+        picture, _ = self.draw(self.six(), "--reflectivity", "0/0.5/1", "--color-mode", "raw")
         self.assertEqual(pixel(picture, 6, 20)[:3], (0, 128, 255))
 
     def test_equirectangular(self):
@@ -58,7 +58,7 @@ class EnvironmentOption(Case):
         self.assertEqual(self.draw("a.png")[1], self.draw("a.ppm")[1])
         (self.folder / "b.hdr").write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n" + bytes((64, 128, 192, 128)) * 8)
         (self.folder / "b.pfm").write_bytes(b"PF\n4 2\n-1.0\n" + struct.pack("<24f", *(0.25, 0.5, 0.75) * 8))
-        (picture, one), (_, other) = self.draw("b.hdr", "--color", "raw"), self.draw("b.pfm", "--color", "raw")
+        (picture, one), (_, other) = self.draw("b.hdr", "--color-mode", "raw"), self.draw("b.pfm", "--color", "raw")
         self.assertEqual(one, other)
         self.assertEqual(pixel(picture, 20, 20)[:3], (64, 128, 191))
 
@@ -88,7 +88,7 @@ class Opacity(Case):
             picture = self.png(*words, "--opacity", opacity, *more)
             self.assertEqual(pixel(picture, 10, 10)[3], alpha, (opacity, more))
         # Over white, in raw numbers: the mean of the surface and of what is behind it.
-        plain, half = (pixel(self.png(*words, "--cull", "back", "--color", "raw", "-b", "white", "--opacity", opacity), 10, 10) for opacity in (1, 0.5))
+        plain, half = (pixel(self.png(*words, "--cull", "back", "--color-mode", "raw", "-b", "white", "--opacity", opacity), 10, 10) for opacity in (1, 0.5))
         for c in range(3):
             self.assertLessEqual(abs(half[c] - (plain[c] + 255) / 2), 1)
 

@@ -44,7 +44,7 @@ class Explain(Case):
         for samples in (1, 16):
             self.same_as_picture("teapot", "-s", 80, "--samples", samples, "--reflection", "phong", "-b", "#20406080")
         for reflection in ("none", "lambert", "kajiya-kay", "kajiya-kay-lecture"):
-            self.same_as_picture("cone", "-s", 64, "--reflection", reflection, "--rig", "headlight", "--color", "raw", count=3)
+            self.same_as_picture("cone", "-s", 64, "--reflection", reflection, "--rig", "headlight", "--color-mode", "raw", count=3)
         self.same_as_picture("cube.obj", "-s", 64, "--view", "iso", "--projection", "orthographic")
 
     def test_models(self):

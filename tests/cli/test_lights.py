@@ -36,7 +36,7 @@ class Lights(Pictures):
         self.other(("--light", "+" + sky[1]), ())
 
     def test_ambient(self):
-        flat = ("--reflection", "lambert", "--color", "raw", "--material", "ambient=1/0.5/0.25", "--light", "none")
+        flat = ("--reflection", "lambert", "--color-mode", "raw", "--material", "ambient=1/0.5/0.25", "--light", "none")
         self.assertEqual(pixel(self.picture(*flat, "--ambient", "0.4"), 32, 32), (102, 51, 26, 255))
         self.same((*flat, "--ambient", "0.4"), (*flat, "--light", "ambient:ambient=0.4"))
         self.same((*flat, "--ambient", "0.4"), (*flat, "--light", "ambient:color=0.2,intensity=2"))
@@ -75,8 +75,8 @@ class Lights(Pictures):
 
     def test_colors(self):
         at = "directional:direction=-1/-2/-3"
-        self.same(("--light", at + ",color=#ff8000,intensity=0.5", "--color", "raw"),
-                  ("--light", at + ",diffuse=0.5/0.25098039/0,specular=0.5/0.25098039/0", "--color", "raw"))
+        self.same(("--light", at + ",color=#ff8000,intensity=0.5", "--color-mode", "raw"),
+                  ("--light", at + ",diffuse=0.5/0.25098039/0,specular=0.5/0.25098039/0", "--color-mode", "raw"))
         self.same(("--light", at + ",color=red,diffuse=0/1/0,specular=0"), ("--light", at + ",diffuse=0/1/0,specular=0"))
         self.other(("--light", at + ",color=red"), ("--light", at + ",color=0/1/0"))
         self.same(("--light", at, "--light-scale", "0.5"), ("--light", at + ",intensity=0.5"))
@@ -149,8 +149,8 @@ class Lights(Pictures):
 class Materials(Pictures):
     def test_named(self):
         brass = "ambient=0.329412/0.223529/0.027451,diffuse=0.780392/0.568627/0.113725,specular=0.992157/0.941176/0.807843,shininess="
-        self.same(("--material", "brass", "--color", "raw"), ("--material", brass + "27.8974", "--color", "raw"))
-        # Published as a display showed them: without --color raw they are decoded.
+        self.same(("--material", "brass", "--color-mode", "raw"), ("--material", brass + "27.8974", "--color", "raw"))
+        # Published as a display showed them: without --color-mode raw they are decoded.
         self.same(("--material", "red-rubber"), ("--material", "ambient=0.00393594/0/0,diffuse=0.2140411/0.1328683/0.1328683,"
                                                  "specular=0.4479884/0.00309598/0.00309598,shininess=10"))
         (self.folder / "named.json").write_text('{"lambent": 1, "objects": [{"shape": "sphere", "material": "red-rubber"}]}')
@@ -168,14 +168,14 @@ class Materials(Pictures):
         self.same(("--material", "kd=0.5"), ("--material", "diffuse=0.36"))
         self.same(("--material", "color=red,ambient=0"), ("--material", "diffuse=red,ambient=0"))
         self.same(("--material", "shininess=5"), ("--shininess", "5"))
-        glow = self.picture("--material", "ambient=0,diffuse=0,specular=0,emission=0.5", "--color", "raw")
+        glow = self.picture("--material", "ambient=0,diffuse=0,specular=0,emission=0.5", "--color-mode", "raw")
         self.assertEqual(pixel(glow, 32, 32), (128, 128, 128, 255))
         self.other(("--material", "fibre", "--reflection", "kajiya-kay"), ("--reflection", "kajiya-kay"))
         self.same(("--material", "fibre=no", "--reflection", "kajiya-kay"), ("--reflection", "kajiya-kay"))
 
     def test_by_name(self):
         (self.folder / "two.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ng left\nf 1 2 3\ng right\nf 2 4 3\n")
-        words = ("--view", "front", "--reflection", "none", "--color", "raw")
+        words = ("--view", "front", "--reflection", "none", "--color-mode", "raw")
         picture = self.picture(*words, "--material", "diffuse=0/0/1", "--material", "diffuse=1/0/0@right", model="two.obj")
         self.assertEqual((pixel(picture, 20, 44), pixel(picture, 44, 20)), ((0, 0, 255, 255), (255, 0, 0, 255)))
         named = self.picture(*words, "--material", "gold", "--material", "ruby@left", model="two.obj")
@@ -183,9 +183,34 @@ class Materials(Pictures):
         self.bad(1, "two.obj", "--material", "gold@rigth", says=["no object, part or material 'rigth'", "did you mean 'right'?"], leaves={"two.obj"})
         self.same(("--material", "gold@sphere"), ("--material", "gold"))
 
+    def test_color(self):
+        """A colour alone is a material, and --color is the colour of every material."""
+        for color in ("red", "#ff8800", "0.2/0.4/0.1"):
+            wanted = ("--material", "color=" + color)
+            self.same(("--color", color), wanted)
+            self.same(("--material", color), wanted)
+            self.same(("--material", color + ",shininess=90"), ("--material", f"color={color},shininess=90"))
+            self.same(("--material", color + "@sphere"), wanted)
+            self.same(("--back-material", color, "--view", "back"), ("--back-material", "color=" + color, "--view", "back"))
+            self.same(("--material", "gold", "--color", color), ("--material", "gold,color=" + color))
+            self.other(("--color", color), ())
+        top = pixel(self.picture("--color", "red"), 32, 20)
+        self.assertEqual((top[0] > 150, top[1] < 90, top[2] < 90), (True, True, True), top)
+        self.same(("--material", "silver"), ("--material", "silver,opacity=1"))  # the material, not the colour of HTML
+        self.other(("--material", "silver"), ("--color", "silver"))
+        # Every material of a model, and a warning where colours of its own multiply.
+        picture = self.picture("--color", "#00ff00", "--light", "none", "--ambient", "1", "--view", "front", model="cube.obj")
+        self.assertEqual(pixel(picture, 32, 32)[:3], (0, 255, 0))
+        ply = "ply\nformat ascii 1.0\nelement vertex 3\n" + "".join(
+            f"property {kind} {name}\n" for kind, names in (("float", "xyz"), ("uchar", ("red", "green", "blue"))) for name in names)
+        (self.folder / "own.ply").write_text(ply + "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                                             "0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n")
+        self.assertIn("colours of its own, which multiply", self.report("own.ply", "-s", 16, "--color", "white", "-o", "own.png")["warnings"][0])
+        self.assertEqual(self.report("own.ply", "-s", 16, "--material", "ruby", "-o", "own.png")["warnings"], [])
+
     def test_back(self):
         (self.folder / "one.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-        words = ("--reflection", "none", "--color", "raw", "--material", "diffuse=0/0/1", "--back-material", "diffuse=1/0/0", "--view")
+        words = ("--reflection", "none", "--color-mode", "raw", "--material", "diffuse=0/0/1", "--back-material", "diffuse=1/0/0", "--view")
         self.assertEqual(pixel(self.picture(*words, "front", model="one.obj"), 20, 44), (0, 0, 255, 255))
         self.assertEqual(pixel(self.picture(*words, "back", model="one.obj"), 44, 44), (255, 0, 0, 255))
         lit = ("--light", "directional:frame=camera", "--shininess", "3", "--view", "back")
@@ -209,7 +234,8 @@ class Materials(Pictures):
             "bras": "did you mean 'brass'?", "": "empty", "kd=-1": "at least 0", "diffuse=-1/0/0": "at least 0", "kd=nan": "a number",
             "shininess=-2": "at least 0", "shininess=inf": "a number", "opacity=2": "from 0 to 1", "shinines=2": "did you mean 'shininess'?",
             "gold,ruby": "expected key=value", "kd=1,kd=1": "given twice", "gold@": "nothing follows '@'", "fibre=maybe": "yes or no",
-            "specular=#ff000080": "without alpha", "diffuse=blurple": "expected a colour",
+            "specular=#ff000080": "without alpha", "#ff000080": "without alpha", "#ff80": "expected a colour", "rde": "did you mean 'red'?",
+            "0.5": "a colour or key=value", "1/2": "expected a colour", "red,color=blue": "given twice", "diffuse=blurple": "expected a colour",
         }.items():
             with self.subTest(value):
                 self.bad(1, "sphere", "--material", value, says=["option '--material'", says])
@@ -219,17 +245,17 @@ class Materials(Pictures):
             self.bad(1, "sphere", *words, says=[words[0], "expected a number from 0"])
 
     def test_list(self):
-        text = self.good("materials", "--color", "raw").stdout.decode()
+        text = self.good("materials", "--color-mode", "raw").stdout.decode()
         lines = {line.split()[0]: line.split()[1:] for line in text.splitlines() if line}
         self.assertEqual(lines["brass"][6:10], ["0.992157", "0.941176", "0.807843", "27.8974"])
         self.assertEqual(len([line for line in text.splitlines() if len(line.split()) == 11]), 24)
         self.assertIn("teapots.c", text)
-        told = json.loads(self.good("materials", "--json", "--color", "raw").stdout)["materials"]
+        told = json.loads(self.good("materials", "--json", "--color-mode", "raw").stdout)["materials"]
         self.assertEqual([material["name"] for material in told], list(lines)[1:25])
         self.assertEqual(told[[material["name"] for material in told].index("brass")],
                          {"name": "brass", "ambient": [0.329412, 0.223529, 0.027451], "diffuse": [0.780392, 0.568627, 0.113725],
                           "specular": [0.992157, 0.941176, 0.807843], "shininess": 27.897436})
-        # Without --color raw: the linear numbers that --material and scene files take.
+        # Without --color-mode raw: the linear numbers that --material and scene files take.
         chrome = self.good("materials").stdout.decode().split("chrome")[1].split()
         self.assertEqual(chrome[3:7], ["0.132868"] * 3 + ["0.561662"])
         told = json.loads(self.good("materials", "--json").stdout)["materials"]

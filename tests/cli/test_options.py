@@ -30,7 +30,7 @@ class Picture(Case):
                 self.assertEqual(pixel(self.png("cube.obj", "-s", 16, "--background", text), 0, 0), expected)
 
     def test_background_raw(self):
-        words = ("cube.obj", "-s", 16, "--color", "raw", "-b")
+        words = ("cube.obj", "-s", 16, "--color-mode", "raw", "-b")
         self.assertEqual(pixel(self.png(*words, "#336699"), 0, 0), (0x33, 0x66, 0x99, 255))
         self.assertEqual(pixel(self.png(*words, "0.5/0.5/0.5"), 0, 0), (128, 128, 128, 255))
 
@@ -42,8 +42,17 @@ class Picture(Case):
             self.assertTrue(all(abs(a * n / 255 - round(a * n / 255)) < 0.05 for a in pictures[n][2][3::4]))
         self.assertEqual(pictures[4], self.png("cube.obj", "-s", 40))
 
-    def test_color(self):
-        self.assertNotEqual(self.png("cube.obj", "-s", 32, "--color", "raw"), self.png("cube.obj", "-s", 32))
+    def test_color_mode(self):
+        raw, plain = self.png("cube.obj", "-s", 32, "--color-mode", "raw"), self.png("cube.obj", "-s", 32)
+        self.assertNotEqual(raw, plain)
+        # Its former name, for these two words.
+        self.assertEqual(self.png("cube.obj", "-s", 32, "--color", "raw"), raw)
+        self.assertEqual(self.png("cube.obj", "-s", 32, "--color=raw", "--color", "srgb"), plain)
+        self.good("materials", "--color", "raw", "-s", 32, "--no-captions", "-o", "m.png")
+        self.given.add("m.png")
+        self.bad(1, "materials", "--color", "red", says="does not apply")
+        self.assertEqual(self.png("cube.obj", "-s", 32, "--color", "raw", "--color", "#336699"),
+                         self.png("cube.obj", "-s", 32, "--color-mode", "raw", "--color", "0.2/0.4/0.6"))
 
     def test_compress(self):
         self.bad(1, "cube.obj", "--compress", "bst", says=("--compress", "best"))
@@ -281,7 +290,8 @@ class CommandLine(Case):
             ("--size", "10x10x10"): "found", ("--size", "99999999999999999999"): "found", ("--threads", "0"): "from 1",
             ("--threads", "1.5"): "whole", ("--threads", "2000"): "to 1024", ("--azimuth", "abc"): "found 'abc'",
             ("--azimuth", "nan"): "found 'nan'", ("--azimuth", "1,5"): "found '1,5'", ("--elevation", "91"): "to 90",
-            ("--zoom", "0"): "from 0.001", ("--zoom", "inf"): "found", ("--background", "blurple"): "expected a colour",
+            ("--zoom", "0"): "from 0.001", ("--zoom", "inf"): "found", ("--background", "blurple"): "expected a colour", ("--color", "rde"): "did you mean 'red'?",
+            ("--color", "transparent"): "without alpha",
             ("--background", "#12345"): "expected a colour", ("--background", "1/2"): "expected a colour",
             ("--background", "-1/0/0"): "expected a colour", ("--isa", "mmx"): "expected auto, scalar",
             ("--output", ""): "empty", ("--repeat", "0"): "from 1", ("--time-limit", "0"): "from 0.001",
@@ -294,6 +304,8 @@ class CommandLine(Case):
         for word in ("--output", "-o", "--size", "--camera"):
             self.bad(1, "cube.obj", word, says="needs a value")
         self.bad(1, "cube.obj", "-o", "--json", says="needs a value")
+        for word in ("--color", "--background", "-b", "--material"):  # what a shell leaves of: --color #ff8800
+            self.bad(1, "cube.obj", word, says="# begins a comment unless it is quoted")
 
     def test_forms(self):
         for words in (("--size=20", "cube.obj"), ("--size", "20", "cube.obj"), ("-s20", "cube.obj"), ("-s", 20, "cube.obj"),

@@ -94,14 +94,14 @@ class Scene(Case):
     def test_options_go_before_the_file(self):
         self.assertEqual(self.png("scene.json", "-s", "64x48")[:2], (64, 48))
         plain = self.png("scene.json")
-        for words in (["--color", "srgb"], ["--shading", "flat"], ["--reflection", "phong"], ["-b", "white"], ["--view", "top"],
+        for words in (["--color-mode", "srgb"], ["--shading", "flat"], ["--reflection", "phong"], ["-b", "white"], ["--view", "top"],
                       ["--rig", "studio"], ["--samples", "16"]):
             self.assertNotEqual(self.png("scene.json", *words), plain, words)
-        self.assertEqual(self.png("scene.json", "--color", "raw", "--shading", "phong", "--samples", "1"), plain)
+        self.assertEqual(self.png("scene.json", "--color-mode", "raw", "--shading", "phong", "--samples", "1"), plain)
 
     def test_saved_scenes_give_the_same_bytes(self):
         for words in (["scene.json"], ["cube.obj", "--rig", "headlight"], ["cube.stl", "--shading", "flat", "--zoom", "1.37"],
-                      ["torus-knot", "--normals", "facet", "--color", "raw", "-b", "#102030"],
+                      ["torus-knot", "--normals", "facet", "--color-mode", "raw", "-b", "#102030"],
                       ["cube.ply", "--projection", "orthographic", "--crease-angle", "95", "--up", "x"],
                       ["cube.obj", "--material", "gold", "--rotate", "x:20", "--rig", "lecture"],
                       ["cube.obj", "--shininess", "77", "--back-material", "jade", "--light", "point:position=2r/1r/3r,frame=object",
@@ -154,7 +154,7 @@ class Scene(Case):
         self.write(scene)
         self.assertEqual(self.png("scene.json")[2][160:164], bytes([128, 64, 32, 255]))
         # Decoded on the way in and encoded on the way out, the bytes are the same.
-        self.assertEqual(self.png("scene.json", "--color", "srgb")[2][160:164], bytes([128, 64, 32, 255]))
+        self.assertEqual(self.png("scene.json", "--color-mode", "srgb")[2][160:164], bytes([128, 64, 32, 255]))
         scene["image"]["color"] = "srgb"
         self.write(scene)
         self.good("scene.json", "-o", "s.pfm")

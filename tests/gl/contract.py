@@ -279,7 +279,7 @@ CASES = [
     ("infinite", ["--viewer", "infinite", *LIGHTS], []),
     ("match", ["--match-highlights"], []),
     ("exposure", ["--exposure", "1"], []),
-    ("raw", ["--color", "raw", *LIGHTS], []),
+    ("raw", ["--color-mode", "raw", *LIGHTS], []),
     ("specular", ["--show", "specular", *LIGHTS], []),
     ("diffuse", ["--show", "diffuse", *LIGHTS], ["--glsl", "120"]),
     ("one-light", ["--show", "light:3", *LIGHTS], []),

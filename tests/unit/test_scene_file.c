@@ -70,7 +70,7 @@ static void test_picture(void **unused)
     (void)unused;
     lam_scene *scene =
         good("{\"lambent\": 1, \"image\": {\"size\": [30, 20], \"samples\": 8, \"background\": "
-             "\"#80808080\", \"color\": \"raw\", "
+             "\"#80808080\", \"color_mode\": \"raw\", "
              "\"exposure\": 0}, \"camera\": {\"eye\": [1, 2, 3], \"target\": [0, 1, 0], \"up\": [0, 0, 1], "
              "\"ortho_half_height\": 2, \"near\": -1, \"far\": 5}, \"ambient\": [0.1, 0.2, 0.3], "
              "\"shading\": \"flat\", "
@@ -211,6 +211,10 @@ static void test_errors(void **unused)
         WITH("\"image\": {\"size\": [0, 2]}", "image.size[0]: found 0, expected pixels from 1 to 65535"),
         WITH("\"image\": {\"size\": [2.5, 2]}", "image.size[0]: found 2.5, expected pixels from 1 to 65535"),
         WITH("\"image\": {\"samples\": 3}", "image.samples: found 3, expected 1, 2, 4, 8 or 16"),
+        WITH("\"image\": {\"color\": \"raw\", \"color_mode\": \"raw\"}",
+             "image: has both color_mode and color, expected one of them"),
+        WITH("\"image\": {\"color_mode\": \"rwa\"}",
+             "image.color_mode: found \"rwa\", expected srgb or raw; did you mean 'raw'?"),
         WITH("\"image\": {\"color\": \"rwa\"}",
              "image.color: found \"rwa\", expected srgb or raw; did you mean 'raw'?"),
         WITH("\"image\": {\"background\": [0, 0, 0, 2]}",

@@ -360,7 +360,8 @@ static void print_pixel(const lam_explanation *e)
     printf("%13.7g %13.7g %13.7g %13.7g   %ssum + (1 − alpha) · background; .pfm holds this\n", (double)e->result.r,
            (double)e->result.g, (double)e->result.b, (double)e->result.a, e->exposure == 1 ? "" : "exposure · ");
     color(2, "colour ÷ alpha", e->straight, "");
-    color(2, "encoded", e->encoded, e->color == LAM_COLOR_RAW ? "clamped to 0…1 (--color raw)" : "by the sRGB curve");
+    color(2, "encoded", e->encoded,
+          e->color == LAM_COLOR_RAW ? "clamped to 0…1 (--color-mode raw)" : "by the sRGB curve");
     label(2, "bytes");
     printf("%13u %13u %13u %13u   floor(255 x + ½)\n", e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]);
 }

@@ -75,7 +75,7 @@ static void print_table(lam_color_mode color)
            "--material NAME applies a material to a model.\n",
            color == LAM_COLOR_RAW ? "The colours are the published ones, which are sRGB."
                                   : "The colours are linear light, decoded from the published ones, which are sRGB\n"
-                                    "(--color raw lists those).");
+                                    "(--color-mode raw lists those).");
 }
 
 // Uses the keys of materials in scene files.
@@ -111,9 +111,9 @@ static void print_json(lam_color_mode color)
 static void print_list(const struct options *options)
 {
     if (options->json)
-        print_json((lam_color_mode)options->color);
+        print_json((lam_color_mode)options->color_mode);
     else
-        print_table((lam_color_mode)options->color);
+        print_table((lam_color_mode)options->color_mode);
 }
 
 // One mesh, and an object for each material: rows of COLUMNS in the order of the list, from the top left. The light is
@@ -182,11 +182,11 @@ static bool draw_captions(const lam_scene *scene, const struct options *o, const
 static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_image *image, lam_error *error)
 {
     lam_rgba background = {0, 0, 0, 0};
-    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &background, error))
+    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color_mode, &background, error))
         return false;
     lam_draw_params params = {.samples = o->samples,
                               .background = background,
-                              .color = (lam_color_mode)o->color,
+                              .color = (lam_color_mode)o->color_mode,
                               .viewer = LAM_VIEWER_INFINITE};
     lam_view view = {.from_angles = true, .orthographic = true, .elevation_rad = 0.2, .fill = 0.97};
     lam_camera camera = lam_camera_fit(scene, image->width, image->height, &view);
@@ -200,10 +200,10 @@ static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_imag
 static bool write_sheet(const struct options *o, const lam_image *image, const char *path, lam_error *error)
 {
     lam_rgba under = {0, 0, 0, 0};
-    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color, &under, error))
+    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color_mode, &under, error))
         return false;
     lam_save_params params = {.background = {under.r, under.g, under.b},
-                              .raw = o->color == LAM_COLOR_RAW,
+                              .raw = o->color_mode == LAM_COLOR_RAW,
                               .compress = (lam_compress)o->compress};
     uint64_t size;
     return output_save(image, path, &params, &size, error);
@@ -219,7 +219,7 @@ static bool make_sheet(const struct options *o, const char *path, lam_error *err
     lam_image image = {0};
     // The default size is square, but the sheet is wider than high.
     int height = o->width == o->height ? o->height * 58 / 100 : o->height;
-    bool ok = scene && build_scene(scene, (lam_color_mode)o->color, error) &&
+    bool ok = scene && build_scene(scene, (lam_color_mode)o->color_mode, error) &&
               lam_image_make(&image, o->width, height > 0 ? height : 1, format, error) &&
               draw_sheet(scene, o, &image, error) && write_sheet(o, &image, path, error);
     lam_image_free(&image);

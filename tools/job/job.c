@@ -117,8 +117,8 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
         job->times.prepare = clock_ms() - job->times.start;
     } else {
         lam_load_params params = {.up = (lam_up)o->up,
-                                  .color = (lam_color_mode)o->color,
-                                  .override_color = option_given(o, "color"),
+                                  .color = (lam_color_mode)o->color_mode,
+                                  .override_color = option_given(o, "color-mode"),
                                   .models_anywhere = true,
                                   .normals = (lam_normals)o->normals,
                                   .crease_angle_rad = crease_of(o),
@@ -207,7 +207,7 @@ static bool write_output(struct job *job, lam_error *error)
                               .threads = o->threads,
                               .control = &control,
                               .compress = (lam_compress)o->compress,
-                              .raw = o->color == LAM_COLOR_RAW || !lam_output_is_light(show_option_what(o->show))};
+                              .raw = o->color_mode == LAM_COLOR_RAW || !lam_output_is_light(show_option_what(o->show))};
     bool ok;
     if (show_is_all(o)) {
         ok = output_make_folder(job->output, error) && show_all_write(job, &control, error);
@@ -225,7 +225,7 @@ static bool find_background(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
     if (o->background)
-        return lam_color_parse(o->background, (lam_color_mode)o->color, &job->background, error);
+        return lam_color_parse(o->background, (lam_color_mode)o->color_mode, &job->background, error);
     job->background = job->settings.draw.background;
     return true;
 }

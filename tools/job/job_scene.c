@@ -2,6 +2,7 @@
 #include "job_scene.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "options.h"
@@ -15,7 +16,7 @@ static bool set_materials(const struct texts *texts, bool back, const char *name
 {
     for (int i = 0; i < texts->count; i++) {
         struct material_option option;
-        if (!material_option_parse(texts->items[i], (lam_color_mode)o->color, &option, error) ||
+        if (!material_option_parse(texts->items[i], (lam_color_mode)o->color_mode, &option, error) ||
             !material_option_set(&option, back, name, scene, error))
             return false;
         material_option_warn(&option, name, scene);
@@ -23,10 +24,36 @@ static bool set_materials(const struct texts *texts, bool back, const char *name
     return true;
 }
 
-// Shininess and opacity are set before the back materials, so that back faces derived from the front share them.
+// Colours of vertices and triangles multiply those of materials.
+static void warn_of_own_colors(lam_scene *scene)
+{
+    for (int i = 0; i < lam_scene_mesh_count(scene); i++)
+        if (lam_scene_mesh(scene, i)->colors) {
+            lam_scene_add_warning(scene, "option '--color': the model has colours of its own, which multiply this one");
+            return;
+        }
+}
+
+static bool set_color(const struct options *o, lam_scene *scene, lam_error *error)
+{
+    char *text;
+    struct material_option color;
+    if (asprintf(&text, "color=%s", o->model_color) < 0)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool ok = material_option_parse(text, (lam_color_mode)o->color_mode, &color, error) &&
+              material_option_set(&color, false, "color", scene, error);
+    if (ok)
+        material_option_warn(&color, "color", scene);
+    free(text);
+    warn_of_own_colors(scene);
+    return ok;
+}
+
+// Colour, shininess and opacity are set before the back materials, so that back faces derived from the front share them.
 static bool apply_materials(const struct options *o, lam_scene *scene, lam_error *error)
 {
-    if (!set_materials(&o->materials, false, "material", o, scene, error))
+    if (!set_materials(&o->materials, false, "material", o, scene, error) ||
+        (o->model_color && !set_color(o, scene, error)))
         return false;
     char text[100] = "", *at = text;
     if (o->has_shininess)
@@ -36,7 +63,7 @@ static bool apply_materials(const struct options *o, lam_scene *scene, lam_error
     if (at > text) {
         at[-1] = 0;
         struct material_option plain;
-        if (!material_option_parse(text, (lam_color_mode)o->color, &plain, error) ||
+        if (!material_option_parse(text, (lam_color_mode)o->color_mode, &plain, error) ||
             !material_option_set(&plain, false, "shininess", scene, error))
             return false;
     }
@@ -150,8 +177,10 @@ static bool scale_lights(lam_scene *scene, double factor, lam_error *error)
 bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *error)
 {
     const struct options *o = job->options;
-    lam_light_text_params params = {
-        .color = (lam_color_mode)o->color, .camera = &job->camera, .centre = sphere->centre, .radius = sphere->radius};
+    lam_light_text_params params = {.color = (lam_color_mode)o->color_mode,
+                                    .camera = &job->camera,
+                                    .centre = sphere->centre,
+                                    .radius = sphere->radius};
     for (int i = 0; i < o->lights.count; i++) {
         const char *text = o->lights.items[i];
         lam_error reason;
@@ -161,7 +190,7 @@ bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *er
     }
     if (o->ambient) {
         lam_rgba color;
-        if (!lam_color_parse(o->ambient, (lam_color_mode)o->color, &color, error))
+        if (!lam_color_parse(o->ambient, (lam_color_mode)o->color_mode, &color, error))
             return false;
         lam_scene_set_ambient(job->scene, (lam_rgb){color.r, color.g, color.b});
     }
@@ -175,7 +204,7 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
     bool by_vertex = o->stage == LAM_STAGE_APPLICATION || o->stage == LAM_STAGE_VERTEX;
     return (lam_draw_params){
         .samples = o->samples,
-        .color = (lam_color_mode)o->color,
+        .color = (lam_color_mode)o->color_mode,
         .exposure = o->exposure,
         .rig = rig,
         .shading = o->has_shading ? (lam_shading)o->shading

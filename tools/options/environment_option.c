@@ -134,7 +134,7 @@ bool environment_option_apply(const struct options *options, lam_scene *scene, c
     double rotation_rad = radians(options->environment_rotation_deg);
     bool ok = true;
     if (options->environment) {
-        lam_environment *environment = load(options->environment, (lam_color_mode)options->color, control, error);
+        lam_environment *environment = load(options->environment, (lam_color_mode)options->color_mode, control, error);
         ok = environment && lam_scene_set_environment(scene, environment, rotation_rad, error);
         lam_environment_free(environment); // the scene holds a reference
     } else if (option_given(options, "environment-rotation") && lam_scene_environment(scene)) {

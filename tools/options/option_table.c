@@ -46,7 +46,7 @@ static const struct word compress_words[] = {{"fast", LAM_COMPRESS_FAST, "some m
                                              {"best", LAM_COMPRESS_BEST, "the smallest file, in a second or two"},
                                              {NULL, 0, NULL}};
 
-static const struct word color_words[] = {
+static const struct word color_mode_words[] = {
     {"srgb", LAM_COLOR_SRGB, "colours of files are decoded, lighting is linear, the picture is encoded"},
     {"raw", LAM_COLOR_RAW, "no conversion either way: the file holds the results of the equations"},
     {NULL, 0, NULL}};
@@ -199,8 +199,8 @@ const struct option option_table[] = {
      "`gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour "
      "names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",
      .store = store_color, FIELD(background)},
-    {"color", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL, color_words,
-     .store = store_word, FIELD(color)},
+    {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
+     color_mode_words, .store = store_word, FIELD(color_mode)},
     {"compress", 0, GROUP_PICTURE, "HOW", "fast", "The compression of PNG files: fast or best.",
      "`best` makes a file that is about a third smaller and takes a second or two for a million pixels; `fast` "
      "takes some milliseconds. The pixels are the same; other formats ignore the option. `best` needs "
@@ -210,7 +210,7 @@ const struct option option_table[] = {
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0",
      "Make the picture brighter or darker: 1 doubles its light, -1 halves it.",
      "The light of the model is multiplied by 2 to the power of STOPS before clamping and encoding, also with "
-     "`--color raw`, in float pictures and in the light terms of `--show`. The background keeps its colour.",
+     "`--color-mode raw`, in float pictures and in the light terms of `--show`. The background keeps its colour.",
      .store = store_number, FIELD(exposure), .min = -100, .max = 100},
     {"show", 0, GROUP_PICTURE, "WHAT", "the picture",
      "Show a term of the light, one light, or a surface quantity instead of the picture.",
@@ -287,7 +287,7 @@ const struct option option_table[] = {
      "A named rig replaces the model's own lights. `docs/lighting/lights.md` lists the numbers.", rig_words,
      .store = store_word, FIELD(rig), .has_field = offsetof(struct options, has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Ambient light: #rrggbb, r/g/b, a name or one number.", NULL,
-     .store = store_light_color, FIELD(ambient)},
+     .store = store_opaque_color, FIELD(ambient)},
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
      "Draw markers at the lights: balls, with cones along the light's direction.",
      "The marker of a directional light stands one and a half radii from the model's centre. Markers glow in "
@@ -315,6 +315,11 @@ const struct option option_table[] = {
      "`@WHERE` limits the option to the objects of that name, else to the parts (OBJ groups, STL solids), else "
      "to the model's materials: `ruby@handle`. Of several options for one surface, the last one wins.",
      .store = store_material, FIELD(materials)},
+    {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
+     "It replaces the ambient and diffuse colour of every material, including those of `--material`; highlights keep "
+     "theirs. It is short for `--material color=COLOR`, and a colour alone is a material too: "
+     "`--material '#ff8800@handle'`. (`--color raw` and `--color srgb` still mean `--color-mode`.)",
+     .store = store_opaque_color, FIELD(model_color), .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
      "The material of back faces, as in `--material`; fields without a key are the front's.", NULL,
      .store = store_material, FIELD(back_materials)},

@@ -263,7 +263,7 @@ bool store_across(const struct option *option, const char *value, struct options
     return append(option, value, options, error);
 }
 
-bool store_light_color(const struct option *option, const char *value, struct options *options, lam_error *error)
+bool store_opaque_color(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_rgba color;
     if (!lam_color_parse(value, LAM_COLOR_SRGB, &color, error))

@@ -71,9 +71,11 @@ static const struct option *find_letter(char letter)
     return NULL;
 }
 
+const struct option *option_find(const char *name) { return find_long(name, strlen(name)); }
+
 bool option_given(const struct options *options, const char *name)
 {
-    const struct option *option = find_long(name, strlen(name));
+    const struct option *option = option_find(name);
     return option && options->given[option - option_table];
 }
 
@@ -95,9 +97,20 @@ static bool is_known_option(const char *word)
     return word[0] == '-' && word[1] == '-' && word[2] && find_long(word + 2, strcspn(word + 2, "="));
 }
 
+// The option that is meant where a name has been given to another option since, and the value is a word of the old one.
+static const struct option *meant_by(const struct option *option, const char *value)
+{
+    const struct option *former = option->former ? option_find(option->former) : NULL;
+    for (const struct word *w = former ? former->words : NULL; w && w->name; w++)
+        if (strcmp(w->name, value) == 0)
+            return former;
+    return option;
+}
+
 static bool apply(const struct option *option, const char *value, unsigned groups, struct options *options,
                   lam_error *error)
 {
+    option = meant_by(option, value);
     if (!option_is_taken(option, groups))
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' does not apply to this command", option->name);
     lam_error reason = {0};
@@ -113,7 +126,9 @@ static const char *next_value(const struct option *option, int count, char **wor
 {
     if (*at + 1 < count && !is_known_option(words[*at + 1]))
         return words[++*at];
-    complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs a value: %s", option->name, option->value);
+    bool color = option->store == store_color || option->store == store_opaque_color || option->store == store_material;
+    complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs a value: %s%s", option->name, option->value,
+             color ? "; in a shell, # begins a comment unless it is quoted: '#ff8800'" : "");
     return NULL;
 }
 

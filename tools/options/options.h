@@ -21,7 +21,7 @@ struct options {
     bool has_size;          // the size was given
     int samples;            // 0: the library's default
     const char *background; // as written; NULL: clear
-    int color;              // lam_color_mode
+    int color_mode;         // lam_color_mode
     int compress;           // lam_compress
     double exposure;        // stops
     const char *show;       // as written (show_option.h); NULL: the picture
@@ -48,6 +48,7 @@ struct options {
     // Materials
     struct texts materials; // as written, checked
     struct texts back_materials;
+    const char *model_color;   // of all materials, as written; NULL: their own
     double shininess, opacity; // valid if the flag below is set
     bool has_shininess, has_opacity;
 
@@ -177,6 +178,7 @@ struct option {
     size_t field, has_field; // has_field: a bool to set as well (words and numbers); 0: none
     double min, max;         // for numbers
     unsigned single;         // TAKES_…, if commands may accept it without its group
+    const char *former; // the option that had this name before: a value that is one of its words means it; NULL: none
 };
 
 extern const struct option option_table[]; // ends with a NULL name
@@ -189,6 +191,9 @@ void options_free(struct options *options);
 
 // Makes an independent copy. False: out of memory; there is nothing to free.
 bool options_copy(struct options *to, const struct options *from);
+
+// The option of a long name; NULL: no such option.
+const struct option *option_find(const char *name);
 
 // True if the command line has the option, given by its long name.
 bool option_given(const struct options *options, const char *name);
@@ -222,8 +227,8 @@ bool store_across(const struct option *, const char *, struct options *,
                   lam_error *); // repeatable, to ACROSS_MAX
 bool store_rotation(const struct option *, const char *, struct options *,
                     lam_error *); // struct texts, checked
-bool store_light_color(const struct option *, const char *, struct options *,
-                       lam_error *); // const char *, checked
+bool store_opaque_color(const struct option *, const char *, struct options *,
+                        lam_error *); // const char *, checked
 
 // Reads a plain decimal number at the start of `text` ("-1.5e3"; no hexadecimal, no "inf"). Returns the text after it;
 // NULL if there is no number or it is too large.

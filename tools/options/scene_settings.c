@@ -27,8 +27,8 @@ void scene_settings_apply(struct job *job)
     }
     if (takes_setting(job, LAM_SETTING_SAMPLES, "samples"))
         own->samples = s->draw.samples;
-    if (takes_setting(job, LAM_SETTING_COLOR, "color"))
-        own->color = (int)s->draw.color;
+    if (takes_setting(job, LAM_SETTING_COLOR, "color-mode"))
+        own->color_mode = (int)s->draw.color;
     if (takes_setting(job, LAM_SETTING_EXPOSURE, "exposure"))
         own->exposure = s->draw.exposure;
     if (takes_setting(job, LAM_SETTING_SHADING, "shading")) {

@@ -104,7 +104,7 @@ static const struct option *find_option(const char *name, size_t length, lam_err
     for (const struct option *o = option_table; o->name; o++) {
         bool fits = o->value && groups & 1u << o->group && o->group != GROUP_PICTURE && o->group != GROUP_REPORT &&
                     o->group != GROUP_ABOUT && o->group != GROUP_WORK;
-        fits = fits || strcmp(o->name, "samples") == 0 || strcmp(o->name, "color") == 0 ||
+        fits = fits || strcmp(o->name, "samples") == 0 || strcmp(o->name, "color-mode") == 0 ||
                strcmp(o->name, "background") == 0 || strcmp(o->name, "show") == 0;
         if (fits && strcmp(o->name, typed) == 0)
             return o;

@@ -24,7 +24,11 @@ $as_root unshare --mount --pid --fork sh -eu -c '
     root=$1
     mount -t proc proc "$root/proc"
     mount --rbind /dev "$root/dev"
+    if [ -d "$2" ]; then # real models, where they lie beside the tree
+        mkdir -p "$root/shared"
+        mount --bind -o ro "$2" "$root/shared"
+    fi
     cp -L /etc/resolv.conf "$root/etc/resolv.conf"
     exec chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
         sh -eu -c "cat /etc/debian_version; cd /lambent; make demo; sha256sum out/demo.png; make test"
-' sh "$root"
+' sh "$root" "$tree/../shared"

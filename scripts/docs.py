@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""docs.py LAMBENT: regenerates the generated parts of the documentation: the manual of the command line, and every picture drawn by
-a command in a Markdown file of the project. Such a command is a line of a code block that begins with `lambent ` and names its
-picture with `-o docs/pictures/…`."""
+"""docs.py LAMBENT [--text]: regenerates the generated parts of the documentation: the manual of the command line, the tables that are
+made from the program's own numbers, and (not with --text) every picture drawn by a command in a Markdown file of the project. Such a
+command is a line of a code block that begins with `lambent ` and names its picture with `-o docs/pictures/…`. A made table stands
+between `<!-- NAME: made by scripts/docs.py -->` and `<!-- end of NAME -->`."""
 import glob
+import json
 import os
 import re
 import shlex
@@ -12,19 +14,91 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
+def pages():
+    return [os.path.join(ROOT, "README.md")] + sorted(glob.glob(os.path.join(ROOT, "docs", "**", "*.md"), recursive=True))
+
+
 def commands():
-    for path in [os.path.join(ROOT, "README.md")] + sorted(glob.glob(os.path.join(ROOT, "docs", "**", "*.md"), recursive=True)):
+    for path in pages():
         for line in open(path, encoding="utf-8"):
             if re.match(r"\s*lambent .*-o docs/pictures/", line):
                 yield shlex.split(line, comments=True)
 
 
+def output(program, *words):
+    return subprocess.run([program, *words], stdout=subprocess.PIPE, check=True).stdout.decode()
+
+
+def grey(color):
+    """A colour of equal channels as one number, another as three."""
+    return "%g" % color[0] if len(set(color)) == 1 else ", ".join("%g" % c for c in color)
+
+
+def light_row(rig, light):
+    place, more = "", []
+    if light["type"] == "directional":
+        place = ", ".join("%g" % (0.0 - x) for x in light["direction"])
+    if "position" in light:
+        place = ", ".join("%gr" % round(x, 6) for x in light["position"])
+    if light["type"] in ("ambient", "hemisphere"):
+        more = ["%s %s" % (key, grey(light[key])) for key in ("ambient", "sky", "ground") if key in light]
+    elif any(light["ambient"]):
+        more = ["ambient " + grey(light["ambient"])]
+    if "attenuation" in light:
+        more.append("attenuation %g/%g/%g" % tuple(light["attenuation"]))
+    name = light["name"] + ("" if light["name"] == light["type"] else ", " + light["type"])
+    return "| %s | %s | %s | %s | %s | %s |" % (rig, name, place, grey(light["diffuse"]) if "diffuse" in light else "",
+                                                grey(light["specular"]) if "specular" in light else "", "; ".join(more))
+
+
+def rigs(program, _):
+    """The rigs' lights, from `lambent lights`: of a sphere, whose radius is 1 and whose centre is the origin."""
+    yield "| rig | light | from | diffuse | specular | others |"
+    yield "|---|---|---|---|---|---|"
+    manual = output(program, "generate", "markdown")
+    words = re.search(r"(?m)^\| `--rig NAME`.*$", manual).group()
+    for rig in re.findall(r"<br>`([\w-]+)`:", words):
+        lights = json.loads(output(program, "lights", "sphere", "--rig", rig))["lights"] if rig not in ("auto", "none", "file") else []
+        for i, light in enumerate(lights):
+            yield light_row("`%s`" % rig if i == 0 else "", light)
+
+
+def explained(program, before):
+    """What the last command before the section prints, as a code block."""
+    command = re.findall(r"`lambent (explain [^`]*)`", before)[-1]
+    yield ""
+    for line in output(program, *shlex.split(command)).splitlines():
+        yield "    " + line if line else ""
+    yield ""
+
+
+SECTIONS = {"rigs": rigs, "explained": explained}
+
+
+def pages_with_sections(program):
+    """The pages that have made sections, by their path in the project, as they should be."""
+    made = {}
+    for path in pages():
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        for name, lines in SECTIONS.items():
+            begin, end = "<!-- %s: made by scripts/docs.py -->\n" % name, "<!-- end of %s -->" % name
+            if begin in text:
+                before, rest = text.split(begin, 1)
+                text = before + begin + "\n".join(lines(program, before)) + "\n" + end + rest.split(end, 1)[1]
+                made[os.path.relpath(path, ROOT)] = text
+    return made
+
+
 def main():
     program = os.path.abspath(sys.argv[1])
+    texts = {"docs/command-line.md": output(program, "generate", "markdown"), **pages_with_sections(program)}
+    for path, text in texts.items():
+        with open(os.path.join(ROOT, path), "w", encoding="utf-8") as file:
+            file.write(text)
+    if "--text" in sys.argv:
+        return
     os.makedirs(os.path.join(ROOT, "docs", "pictures", "lighting"), exist_ok=True)
-    manual = subprocess.run([program, "generate", "markdown"], stdout=subprocess.PIPE, check=True).stdout
-    with open(os.path.join(ROOT, "docs", "command-line.md"), "wb") as file:
-        file.write(manual)
     for command in commands():
         print(" ".join(command))
         done = subprocess.run([program] + command[1:], cwd=ROOT)

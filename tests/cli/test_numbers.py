@@ -1,0 +1,306 @@
+# test_numbers.py: the numbers in pages, help and headers are those of the code. Defaults are tried; tables are made from the program's
+# own; numbers in sentences are read from the page and from the source and compared.
+import importlib.util
+import json
+import math
+import re
+import subprocess
+import unittest
+
+from harness import PROGRAM, ROOT, Case
+
+WORDS = {w: n for n, w in enumerate("zero one two three four five six seven eight nine ten eleven twelve".split())}
+NUMBER = r"((?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?|\.\d+|" + "|".join(WORDS) + ")"
+
+
+def number(text):
+    return WORDS[text] if text in WORDS else float(text.replace(",", ""))
+
+
+def c_value(text):
+    """The value of a C constant: a number, a product or a shift of numbers."""
+    text = re.sub(r"(?<=[\d.])(?:f|u|L|ULL)\b", "", text.strip())
+    if not re.fullmatch(r"[\d.eE+x() */<-]+", text):
+        raise ValueError("not a constant: " + text)
+    return float(eval(text.replace("/", "*1.0/")))  # digits and operators alone
+
+
+class Source:
+    """A number of the code, looked up when a row is checked."""
+
+    def __init__(self, what, look_up):
+        self.what, self.look_up = what, look_up
+
+
+def constant(path, name):
+    """An enumerator or a macro."""
+    def look_up():
+        found = re.search(r"(?m)(?:^#define\s+%s\s+|\b%s\s*=\s*)([^,;}\n]+?)\s*(?:[,;}]|//|$)" % (name, name), (ROOT / path).read_text())
+        return found and c_value(found.group(1))
+    return Source(f"{name} of {path}", look_up)
+
+
+def code(path, pattern):
+    """What the group of a pattern finds in a source, where the number has no name."""
+    def look_up():
+        found = re.search(pattern, (ROOT / path).read_text())
+        return found and c_value(found.group(1))
+    return Source(f"/{pattern}/ of {path}", look_up)
+
+
+def generated(kind):
+    return subprocess.run([PROGRAM, "generate", kind], stdout=subprocess.PIPE, check=True).stdout.decode()
+
+
+def option(name):
+    """The default of an option in the table of options, which test_defaults_of_options tries."""
+    def look_up():
+        found = re.search(r"(?m)^\| `(?:-\w`, `)?--%s[ `][^|]*(?:\\\|[^|]*)*\| ([^|]*?) \|" % name, generated("markdown"))
+        return found and number(re.match(NUMBER, found.group(1)).group())
+    return Source("the default of --" + name, look_up)
+
+
+def field(name, key="default"):
+    """The default (or bound) of a field of materials, from its table by way of the schema."""
+    return Source(f"the {key} of the field {name}",
+                  lambda: float(json.loads(generated("scene-schema"))["$defs"]["material"]["properties"][name][key]))
+
+
+def counted(what, count):
+    return Source(what, lambda: float(count()))
+
+
+LAYERS = constant("src/cpu/raster/tile.h", "LAYERS_MAX")
+TILE = constant("src/cpu/raster/tile.h", "TILE")
+FEW_LIGHTS = constant("src/cpu/shade/light_bounds.h", "LIGHTS_ALL_SUMMED")
+FOVY = code("src/scene/camera.c", r"fovy_rad = (\d+) \* \(PI / 180\)")
+FILL = code("src/scene/camera.c", r"view->fill : ([\d.]+)")
+CREASE = code("src/scene/scene.c", r"math_radians\((\d+)\)")
+SPHERE = constant("src/environment/cube_map.h", "CUBE_SIDE_MOST")
+PERCENT_FILL = counted("100 times " + FILL.what, lambda: 100 * FILL.look_up())
+TEAPOT = counted("the triangles of `lambent teapot`", lambda: json.loads(subprocess.run(
+    [PROGRAM, "teapot", "-s", "8", "-o", "/dev/null", "--json"], stdout=subprocess.PIPE, check=True).stdout)["model"]["triangles"])
+OVER_CHECK = code("src/check/diagnose/fault_search.c", r"share_over <= ([\d.]+)")
+PIXELS_OVER_CHECK = counted("1 divided by " + OVER_CHECK.what, lambda: 1 / OVER_CHECK.look_up())
+TOLERANCE = code("src/check/check.c", r"p->tolerance : ([\d.]+) / 255")
+
+BLOCK = constant("src/cpu/shade/light_cull_blocks.inc", "BLOCK_SHIFT")
+LEAST_ID = code("src/device/encode_values.c", r"uint8_t\)\((\d+) \+")
+OVERDRAW = code("src/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
+
+# A page, a sentence of it in which every number that the code decides is {}, and where those numbers come from.
+ROWS = [
+    ("docs/lighting/pixels.md", "snapped to 1/{} of a pixel", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
+    ("docs/lighting/pixels.md", "lies up to 1/{} of a pixel outside", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
+    ("docs/lighting/pixels.md", "at that many positions in each pixel ({} by default)", option("samples")),
+    ("docs/lighting/diffuse.md", "`roughness_angle` in degrees, {} by default", field("roughness_angle")),
+    ("docs/lighting/lights.md", "With more than {}, each part of the picture skips", FEW_LIGHTS),
+    ("docs/lighting/surfaces.md", "At most {} translucent triangles may lie over one pixel", LAYERS),
+    ("docs/lighting/reflection.md", "Faces may have up to {} pixels on a side", SPHERE),
+    ("docs/lighting/reflection.md", "built in, computed, {} pixels on a side", constant("src/environment/environment_made.c", "SIDE")),
+    ("docs/scene-file.md", "with more than {} lights", FEW_LIGHTS),
+    ("docs/rooms/cpu.md", "tiles of {}×{} pixels", TILE, TILE),
+    ("docs/rooms/cpu.md", "A thread holds {} such fragments", LAYERS),
+    ("docs/rooms/cpu.md", "shaded in batches of {}", constant("src/cpu/shade/shading_batch.h", "BATCH_MAX")),
+    ("docs/rooms/cpu.md", "over up to {} points", constant("src/cpu/shade/light_loop.inc", "LIGHT_BATCH")),
+    ("docs/rooms/cpu.md", "With more than {} lights ({} for Gouraud and flat shading)",
+     code("src/cpu/shade/light_bounds.h", r"LAM_SHADING_PHONG \? (\d+) :"), FEW_LIGHTS),
+    ("include/lambent/check.h", "32..1024 pixels; 0: {}", code("src/check/check.c", r"p->size : (\d+);")),
+    ("docs/rooms/cpu.md", "with more than {} lights the weakest", FEW_LIGHTS),
+    ("docs/rooms/cpu.md", "in groups of {} that are tested first", constant("src/cpu/shade/light_bounds.h", "LIGHTS_IN_GROUP")),
+    ("docs/rooms/cpu.md", "one block of {}×{} pixels", *2 * [counted("1 << BLOCK_SHIFT of light_cull_blocks.inc", lambda: 2 ** BLOCK.look_up())]),
+    ("docs/rooms/normals.md", "until {} of them can be computed", constant("src/geometry/normals/corner_fan_simd.h", "FAN_POSITIONS")),
+    ("docs/show.md", "front blue (0, {}, 255), back red (255, {}, 0)", code("src/device/encode_values.c", r"front\[3\] = \{0, (\d+)"),
+     code("src/device/encode_values.c", r"back\[3\] = \{255, (\d+)")),
+    ("docs/show.md", "no channel below {}", LEAST_ID),
+    ("docs/show.md", "c/(c + {}): 1 is {}, 2 is {}, 3 is {}", OVERDRAW, *[counted(f"the byte of {n} of {n} + OVERDRAW",
+     lambda n=n: math.floor(255 * n / (n + OVERDRAW.look_up()) + 0.5)) for n in (1, 2, 3)]),
+    ("docs/check.md", "exponent {}; attenuation 1/(1 + {} d + {} d²)", code("src/check/contract/contract.c", r"\.shininess = (\d+),"),
+     code("src/check/contract/contract.c", r"\.attenuation = \{1, ([\d.]+)f, "),
+     code("src/check/contract/contract.c", r"\.attenuation = \{1, [\d.]+f, ([\d.]+)f")),
+    ("tools/options/option_table.c", "the number of triangles over a pixel: c/(c + {})", OVERDRAW),
+    ("include/lambent/device.h", "no channel below {}", LEAST_ID),
+    ("docs/opengl.md", "drawn in parts of {}×{}", *2 * [constant("src/gl/gl_device.h", "PART_SIZE_MAX")]),
+    ("docs/opengl.md", "The teapot ({} triangles)", TEAPOT),
+    ("docs/shaders.md", "RGBA32F, {} texels wide", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
+    ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the lights", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
+    ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the products", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
+    ("docs/formats.md", "more than {} times its own size from zero", constant("src/base/math/origin.h", "ORIGIN_RATIO")),
+    ("docs/formats.md", "| `Ns` | shininess, 0 to {}; none: {} |", code("src/import/obj/mtl.c", r"field->max : (\w+)f"), field("shininess")),
+    ("docs/check.md", "at most one pixel in {} differs by more than `--tolerance` ({} steps of 1/255)", PIXELS_OVER_CHECK, TOLERANCE),
+    ("docs/check.md", "it exceeded `--stop-after` ({} seconds)", option("stop-after")),
+    ("docs/lighting.md", "about {} hundred lines", counted("the hundreds of lines of lobes.h, lights.h and sum.h", lambda: round(sum(
+        len((ROOT / "src/lighting" / name).read_text().splitlines()) for name in ("lobes.h", "lights.h", "sum.h")) / 100))),
+    ("tools/commands/command_table.c", "`--tolerance` (default {}) applies to each channel of a pixel: one pixel in {} may exceed",
+     TOLERANCE, PIXELS_OVER_CHECK),
+    ("tools/options/option_table.c", "fills {} % of the picture's tighter side", PERCENT_FILL),
+    ("tools/options/option_table.c", "a vertical field of view of {} degrees", FOVY),
+    ("tools/options/option_table.c", "`fovy` (the full vertical angle in degrees: {})", FOVY),
+    ("tools/options/option_table.c", "With more than {} lights, each part of the picture skips", FEW_LIGHTS),
+    ("include/lambent/camera.h", "in (0, π); 0: {}°", FOVY),
+    ("include/lambent/camera.h", "in (0, 1]. 0: {}.", FILL),
+    ("include/lambent/camera.h", "fovy=degrees default: {};", FOVY),
+    ("include/lambent/scene.h", "do not share a made normal. 0: {}°", CREASE),
+    ("include/lambent/device.h", "In frames of more than {} lights", FEW_LIGHTS),
+    ("include/lambent/device.h", "more than {} translucent triangles over one pixel", LAYERS),
+    ("include/lambent/check.h", "1 = full range; 0: {}/255. A scene passes when at most one pixel in {}", TOLERANCE, PIXELS_OVER_CHECK),
+    ("include/lambent/words.h", "A text is at most {} bytes long",
+     counted("WORDS_MAX - 1", lambda: constant("src/words/word_values.h", "WORDS_MAX").look_up() - 1)),
+]
+
+
+def plain(text):
+    """The text of a page, a header or a C string, without what its lines break at."""
+    return re.sub(r"\s+(?://\s+)?", " ", re.sub(r'"\s*\n\s*"', "", text))
+
+
+class Sentences(Case):
+    def test_sentences(self):
+        """Every number of a row is the one in the code."""
+        for path, sentence, *sources in ROWS:
+            with self.subTest(f"{path}: {sentence}"):
+                pattern = NUMBER.join(re.escape(part) for part in sentence.split("{}"))
+                found = re.search(pattern, plain((ROOT / path).read_text()))
+                self.assertIsNotNone(found, "the sentence is not there: change its row with it")
+                self.assertEqual(len(found.groups()), len(sources))
+                for text, source in zip(found.groups(), sources):
+                    value = source.look_up()
+                    self.assertIsNotNone(value, source.what + " is not there")
+                    self.assertAlmostEqual(number(text), value, delta=1e-6 * abs(value), msg=source.what)
+
+    def test_made_sections(self):
+        """The sections that scripts/docs.py makes are what it makes now."""
+        spec = importlib.util.spec_from_file_location("docs_script", ROOT / "scripts" / "docs.py")
+        script = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(script)
+        pages = script.pages_with_sections(PROGRAM)
+        self.assertEqual(set(pages), {"docs/lighting/lights.md", "docs/lighting/explain.md"})
+        for path, text in pages.items():
+            self.assertEqual((ROOT / path).read_text(), text, f"{path}: python3 scripts/docs.py build/lambent --text rewrites it")
+
+    def test_shown_shader(self):
+        """The sum that docs/shaders.md shows is a part of what its command prints."""
+        page = (ROOT / "docs/shaders.md").read_text()
+        command, shown = re.search(r"(?s)    lambent (shader [^\n]*--products)\n\nwhose sum is\n\n```glsl\n(.*?)```", page).groups()
+        self.assertIn(shown, self.good(*command.split()).stdout.decode())
+
+
+# Options whose default is not a value that can be given, with what stands there.
+NOT_VALUES = {"output", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
+              "gl-device", "time-limit", "memory-limit", "show", "up", "reflection", "isa", "device", "repeat"}
+# What else to give so that the option matters, and another value of it.
+CONTEXT = {
+    "size": ([], "64"), "samples": ([], "16"), "exposure": ([], "1"), "crease-angle": ([], "20"), "compress": ([], None),
+    "background": ([], "white"), "color": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"),
+    "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
+    "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),
+    "viewer": ([], "infinite"), "normals": ([], "facet"),
+    "environment-rotation": (["--environment", "studio", "--reflectivity", "0.5"], "90"),
+}
+
+
+class Defaults(Case):
+    def setUp(self):
+        super().setUp()
+        # A tent of twelve sides without normals: they meet at 30 degrees.
+        ring = [(round(math.cos(i * math.pi / 6), 4), round(math.sin(i * math.pi / 6), 4)) for i in range(12)]
+        (self.folder / "tent.obj").write_text(
+            "".join(f"v {x} -1 {z}\n" for x, z in ring) + "".join(f"v {x} 1 {z}\n" for x, z in ring) +
+            "".join(f"f {i + 1} {i + 13} {(i + 1) % 12 + 13} {(i + 1) % 12 + 1}\n" for i in range(12)))
+        lights = [{"type": "point", "position": [i % 5 - 2, i // 5 - 2, 3], "color": [.05, .05, .05], "attenuation": [0, 0, 1]} for i in range(25)]
+        (self.folder / "lights.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "sphere"}], "lights": lights}))
+
+    def test_defaults_of_options(self):
+        """An option given its own default changes nothing; given another value, it does."""
+        made = generated("markdown")
+        table = made[made.index("### Picture"):made.index("### Comparing")] if "### Comparing" in made else made[made.index("### Picture"):]
+        tried = 0
+        for name, standard in re.findall(r"(?m)^\| `(?:-\w`, `)?--([\w-]+) [^`]*` \| ([^|]+?) \|", table):
+            if name in NOT_VALUES or name not in CONTEXT and name in self.other_commands(made):
+                continue
+            self.assertIn(name, CONTEXT, f"--{name}: add a row for it")
+            more, other = CONTEXT[name]
+            model = more[0] if more and more[0].endswith(".json") else "tent.obj"
+            words = [model, *[w for w in more if w != model], *([] if name == "size" else ["-s", "96"])]
+            with self.subTest(name):
+                value = re.match(r"\S+", standard).group().rstrip(",")
+                without = self.good(*words, "-o", "-").stdout
+                self.assertTrue(self.good(*words, f"--{name}", value, "-o", "-").stdout == without, f"--{name} {value} is not the default")
+                if other:
+                    self.assertFalse(self.good(*words, f"--{name}", other, "-o", "-").stdout == without, f"--{name} {other} changes nothing")
+                tried += 1
+        self.assertGreaterEqual(tried, len(CONTEXT))
+
+    def other_commands(self, made):
+        """Options that belong to another command than the one that draws."""
+        return {name for name in re.findall(r"(?m)^\| `(?:-\w`, `)?--([\w-]+)", made)
+                if b"does not apply" in self.run_program("tent.obj", "-s", 8, "-o", "-", f"--{name}", "1").stderr}
+
+    def scene(self):
+        return {"lambent": 1, "image": {"size": [96, 96]}, "camera": {"eye": [0, 1, 4]},
+                "objects": [{"file": "tent.obj"}, {"shape": "torus"}],
+                "lights": [{"type": kind} for kind in ("ambient", "hemisphere", "point", "directional", "spot")]}
+
+    def draw(self, scene):
+        (self.folder / "scene.json").write_text(json.dumps(scene))
+        return self.good("scene.json", "-o", "-").stdout
+
+    def test_defaults_of_scene_files(self):
+        """A key of a scene file with the default that its schema states changes nothing."""
+        schema = json.loads(generated("scene-schema"))
+        own = schema["properties"]
+        places = [(own, lambda s: s), (own["image"]["properties"], lambda s: s["image"]), (own["camera"]["properties"], lambda s: s["camera"]),
+                  (schema["$defs"]["file"]["properties"], lambda s: s["objects"][0]),
+                  (schema["$defs"]["shape"]["properties"], lambda s: s["objects"][1])]
+        for i, kind in enumerate(("ambient_light", "hemisphere", "point", "directional", "spot")):
+            places.append((schema["$defs"][kind]["properties"], lambda s, i=i: s["lights"][i]))
+        tried = 0
+        without = self.draw({k: v for k, v in self.scene().items()})
+        for properties, place in places:
+            for key, about in properties.items():
+                # Given together with their rivals these would be an error: a spot's other cone.
+                if "default" not in about or key in ("size", "inner", "outer"):
+                    continue
+                with self.subTest(f"{key} {about['default']}"):
+                    scene = self.scene()
+                    place(scene)[key] = about["default"]
+                    self.assertTrue(self.draw(scene) == without)
+                    tried += 1
+        self.assertGreater(tried, 30)
+        with self.subTest("size"):
+            scene = self.scene()
+            del scene["image"]["size"]
+            one = self.draw(scene)
+            scene["image"]["size"] = own["image"]["properties"]["size"]["default"]
+            self.assertTrue(self.draw(scene) == one)
+
+    def test_defaults_on_the_page_of_scene_files(self):
+        """The default column of the tables in docs/scene-file.md is that of the schema."""
+        schema = json.loads(generated("scene-schema"))
+        own, checked = schema["properties"], 0
+        tables = {"At the top": own, "image": own["image"]["properties"], "camera": own["camera"]["properties"],
+                  "Objects": schema["$defs"]["shape"]["properties"], "Lights": schema["$defs"]["point"]["properties"]}
+        page = (ROOT / "docs/scene-file.md").read_text()
+        for title, properties in tables.items():
+            section = re.search(r"(?ms)^##+ %s\n(.*?)(?=^#|\Z)" % title, page).group(1)
+            header = [cell.strip() for cell in re.search(r"(?m)^\| key \|.*$", section).group().split("|")]
+            for row in re.findall(r"(?m)^\| `.*$", section):
+                cells = [cell.strip() for cell in row.split("|")]
+                for key in re.findall(r"`(\w+)`", cells[1]):
+                    stated = properties.get(key, {}).get("default")
+                    if stated is None or key == "intensity":
+                        continue
+                    with self.subTest(f"{title}: {key}"):
+                        cell = cells[header.index("default")]
+                        found = re.match(r"`([^`]*)`|[\d./]+", cell)
+                        self.assertIsNotNone(found, cell)
+                        if isinstance(stated, (int, float)) and not isinstance(stated, bool):
+                            self.assertAlmostEqual(stated, c_value(found.group()), delta=1e-5)
+                        else:
+                            self.assertEqual(found.group(1), stated if isinstance(stated, str) else json.dumps(stated))
+                        checked += 1
+        self.assertGreater(checked, 15)
+
+
+if __name__ == "__main__":
+    unittest.main()

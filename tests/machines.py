@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-ROOMS = ["base", "image", "geometry", "environment", "scene", "shapes", "import", "scene_file", "load", "frame", "device", "cpu"]
+ROOMS = ["base", "json", "image", "geometry", "environment", "scene", "shapes", "import", "scene_file", "load", "frame", "device", "cpu"]
 INCLUDES = ["include", "src/lighting"] + [os.path.relpath(path, ROOT) for room in ROOMS
                                          for path, _, _ in os.walk(os.path.join(ROOT, "src", room))]
 FLAGS = ["-std=gnu11", "-O2", "-D_GNU_SOURCE", "-DNDEBUG", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Werror", "-Wno-psabi", "-c"]

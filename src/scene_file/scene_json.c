@@ -123,7 +123,7 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
     int shading = 0, reflection = 0, stage = 0, viewer = 0, flat_normal = 0, up = LAM_UP_Y;
     lam_rgb ambient = {0, 0, 0};
     double cutoff = 0;
-    struct scene_word reflections[LAM_REFLECTION_COUNT + 1];
+    struct json_choice reflections[LAM_REFLECTION_COUNT + 1];
     reflection_words(reflections);
     if (!take_word(r, NULL, root, "shading", shading_words, &shading) ||
         !take_word(r, NULL, root, "reflection", reflections, &reflection) ||

@@ -179,7 +179,7 @@ static bool read_light(struct scene_reader *r, const struct place *place, const 
         return fail_place(r, place, "found %s, expected a light, { … }", json_kind(value, kind));
     }
     int type = LAM_LIGHT_POINT;
-    struct scene_word types[LAM_LIGHT_TYPE_COUNT + 1];
+    struct json_choice types[LAM_LIGHT_TYPE_COUNT + 1];
     light_type_words(types);
     if (!json_object_get(value, "type"))
         return fail_place(r, place, "'type' is missing, expected ambient, hemisphere, point, directional or spot");

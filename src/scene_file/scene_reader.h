@@ -5,8 +5,7 @@
 
 #include "fields.h"
 #include "importer.h"
-
-#include <jansson.h>
+#include "json_reader.h"
 
 struct scene_reader {
     const struct import_source *source;
@@ -19,21 +18,9 @@ struct scene_reader {
     lam_error *error;
 };
 
-// A value's place in the file: objects[1].material.shininess, from its end to its beginning.
-struct place {
-    const struct place *within; // NULL: the file itself
-    const char *key;            // NULL: an element of a list
-    size_t index;
-};
-#define KEY_OF(parent, name)       (&(struct place){.within = (parent), .key = (name)})
-#define ELEMENT_OF(parent, number) (&(struct place){.within = (parent), .index = (number)})
-
 // LAM_CANNOT_READ with "NAME: PLACE: sentence". Returns false.
 bool fail_place(struct scene_reader *r, const struct place *place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-
-// "a number", "a text", "a list of 3", …, as found; for sentences.
-const char *json_kind(const json_t *value, char out[32]);
 
 // Keys that may stand in an object; another one is an error that names the nearest. The list ends with NULL.
 bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys);
@@ -56,18 +43,14 @@ bool take_text(struct scene_reader *r, const struct place *place, const json_t *
 bool take_rgb(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgb *out);
 bool take_rgba(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgba *out);
 
-struct scene_word {
-    const char *name;
-    int value;
-};
 // One of some words; the list ends with a NULL name.
 bool take_word(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
-               const struct scene_word *words, int *out);
-extern const struct scene_word color_words[], shading_words[], stage_words[], viewer_words[], flat_normal_words[],
+               const struct json_choice *words, int *out);
+extern const struct json_choice color_words[], shading_words[], stage_words[], viewer_words[], flat_normal_words[],
     normals_words[], cull_words[], up_words[], frame_words[], tangent_words[];
 
-void light_type_words(struct scene_word words[LAM_LIGHT_TYPE_COUNT + 1]);
-void reflection_words(struct scene_word words[LAM_REFLECTION_COUNT + 1]);
+void light_type_words(struct json_choice words[LAM_LIGHT_TYPE_COUNT + 1]);
+void reflection_words(struct json_choice words[LAM_REFLECTION_COUNT + 1]);
 
 // The key of a field, set in a material or light.
 bool take_field(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,

@@ -83,7 +83,7 @@ static json_t *degrees(double radians)
     return number(best);
 }
 
-static json_t *word(const struct scene_word *words, int value)
+static json_t *word(const struct json_choice *words, int value)
 {
     while (words->name && words->value != value)
         words++;

@@ -1,0 +1,64 @@
+// json_reader.h: values of a JSON file, checked as they are taken: each error names the file, the place in it, what was
+// found and what is expected. Scene files and contracts of shaders are read with it.
+#ifndef JSON_READER_H
+#define JSON_READER_H
+
+#include <lambent/base.h>
+
+#include <jansson.h>
+#include <stdarg.h>
+
+struct json_reader {
+    const char *file; // its name, for messages
+    lam_error *error; // LAM_CANNOT_READ with "FILE: PLACE: sentence"
+};
+
+// A value's place in the file: objects[1].material.shininess, from its end to its beginning.
+struct place {
+    const struct place *within; // NULL: the file itself
+    const char *key;            // NULL: an element of a list
+    size_t index;
+};
+#define KEY_OF(parent, name)       (&(struct place){.within = (parent), .key = (name)})
+#define ELEMENT_OF(parent, number) (&(struct place){.within = (parent), .index = (number)})
+
+// Returns false.
+bool json_fail(const struct json_reader *r, const struct place *place, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+bool json_vfail(const struct json_reader *r, const struct place *place, const char *format, va_list arguments);
+// "found KIND, expected …". Returns false.
+bool json_unexpected(const struct json_reader *r, const struct place *place, const json_t *found, const char *expected);
+
+// "a number", "a text", "a list of 3", …, as found; for sentences.
+const char *json_kind(const json_t *value, char out[32]);
+
+// Keys that may stand in an object; another one is an error that names the nearest. The list ends with NULL.
+bool json_check_keys(const struct json_reader *r, const struct place *place, const json_t *object,
+                     const char *const *keys);
+
+// A value itself, checked. Numbers lie in [min, max]; a list has from `min` to `max` of them. *count may be NULL.
+bool json_number_of(const struct json_reader *r, const struct place *place, const json_t *value, double min, double max,
+                    double *out);
+bool json_numbers_of(const struct json_reader *r, const struct place *place, const json_t *list, size_t min, size_t max,
+                     double *out, size_t *count);
+
+// The value of a key of `object`, checked; *out stays as it is where the key is missing. False: it is wrong.
+bool json_take_number(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
+                      double min, double max, double *out);
+bool json_take_bool(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
+                    bool *out);
+// A text that is not empty; it belongs to `object`.
+bool json_take_text(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
+                    const char **out);
+
+struct json_choice {
+    const char *name;
+    int value;
+};
+// One of some words, at most 16; the list ends with a NULL name.
+bool json_choice_of(const struct json_reader *r, const struct place *place, const json_t *value,
+                    const struct json_choice *words, int *out);
+bool json_take_word(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
+                    const struct json_choice *words, int *out);
+
+#endif

@@ -16,11 +16,20 @@ typedef struct lam_scene lam_scene;
 
 // The axis that points up.
 typedef enum lam_up {
-    LAM_UP_AUTO = 0, // the format's: y for glTF, OBJ and PLY, z for STL
-    LAM_UP_X,        // +x
-    LAM_UP_Y,        // +y
-    LAM_UP_Z,        // +z
+    LAM_UP_AUTO = 0,   // the format's: y for glTF, OBJ and PLY, z for STL
+    LAM_UP_X,          // +x
+    LAM_UP_Y,          // +y
+    LAM_UP_Z,          // +z
+    LAM_UP_NEGATIVE_X, // −x
+    LAM_UP_NEGATIVE_Y, // −y
+    LAM_UP_NEGATIVE_Z, // −z
+    LAM_UP_COUNT
 } lam_up;
+
+// The word of an up axis: "auto", "x", "y", "z", "-x", "-y" or "-z"; NULL out of range.
+LAM_API const char *lam_up_name(lam_up up);
+// The up axis of a word, in capitals or not, also with a plus ("+Z"); LAM_UP_COUNT: there is none.
+LAM_API lam_up lam_up_find(const char *name);
 
 // Reads a colour: "#rgb", "#rrggbb", "#rrggbbaa", a colour name of HTML 4 or "orange", "transparent", linear numbers
 // "r/g/b" or "r/g/b/a", or one linear number for all three channels. Hexadecimal colours and names are sRGB: LAM_COLOR_SRGB decodes them to linear light, and
@@ -185,7 +194,9 @@ LAM_API void lam_scene_add_warning(lam_scene *scene, const char *text);
 // The box around the triangles of all objects, in world space. False, and all zero, for a scene without triangles.
 LAM_API bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec3 *maximum);
 
-// The up axis (LAM_UP_AUTO: y). It turns the fitted camera and the rig, never the coordinates.
+// The up axis (LAM_UP_AUTO: y; a value out of range changes nothing). It turns the fitted camera, the rig and the
+// environment, never the coordinates. The front of the model, which faces the viewer at azimuth 0, is +Z with x or y up
+// and −Y with z up; of two opposite axes the second turns the picture upside down.
 LAM_API lam_up lam_scene_up(const lam_scene *scene);
 LAM_API void lam_scene_set_up(lam_scene *scene, lam_up up);
 

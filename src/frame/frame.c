@@ -3,6 +3,7 @@
 
 #include "fail.h"
 #include "linear.h"
+#include "up_axis.h"
 
 #include <string.h>
 
@@ -243,11 +244,6 @@ static void build_light(struct frame_light *out, const lam_light *light, const l
     store_rgb(out->specular, light->specular);
 }
 
-static lam_vec3 up_vector(lam_up up)
-{
-    return up == LAM_UP_X ? v3(1, 0, 0) : up == LAM_UP_Z ? v3(0, 0, 1) : v3(0, 1, 0);
-}
-
 static bool add_light(struct frame *frame, const lam_scene *scene, const lam_light *light, int index,
                       const lam_mat4 *view, lam_error *error)
 {
@@ -258,7 +254,7 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
         struct frame_hemisphere *out = &frame->hemispheres[frame->hemisphere_count++];
         bool own = light->up.x != 0 || light->up.y != 0 || light->up.z != 0;
         const lam_mat4 *by = own ? &space : view;
-        store3(out->up, v3_unit(mat4_vector(by, own ? light->up : up_vector(scene->up))));
+        store3(out->up, v3_unit(mat4_vector(by, own ? light->up : from_y_up(scene->up, v3(0, 1, 0)))));
         store_rgb(out->sky, light->sky);
         store_rgb(out->ground, light->ground);
         out->light = index;
@@ -353,17 +349,14 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
 }
 
 // Sets the matrix from directions in eye space to the environment's axes: eye space to world space, the scene's up axis
-// to +Y (as in camera.c), then the inverse of the environment's rotation.
+// to +Y (as the fitted camera), then the inverse of the environment's rotation.
 static void build_environment(struct frame *frame, const lam_scene *scene, const lam_mat4 *view)
 {
     frame->environment = scene->environment;
     double s = math_sin(scene->environment_rotation_rad), c = math_cos(scene->environment_rotation_rad);
     for (int j = 0; j < 3; j++) {
-        lam_vec3 w = v3(view->m[j][0], view->m[j][1], view->m[j][2]); // eye axis j in world space
-        if (scene->up == LAM_UP_Z)
-            w = v3(w.x, w.z, -w.y);
-        else if (scene->up == LAM_UP_X)
-            w = v3(-w.y, w.x, w.z);
+        lam_vec3 axis = v3(view->m[j][0], view->m[j][1], view->m[j][2]); // eye axis j in world space
+        lam_vec3 w = to_y_up(scene->up, axis);
         const double turned[3] = {c * w.x - s * w.z, w.y, s * w.x + c * w.z};
         for (int i = 0; i < 3; i++)
             frame->to_environment[i][j] = rounded(turned[i]);

@@ -19,7 +19,7 @@ static bool check_params(const lam_load_params *params, const char *name, lam_er
         return fail(error, LAM_BAD_ARGUMENT, "%s: crease_angle_rad is %g, expected 0 to pi", name, crease);
     if (params->threads < 0 || params->threads > 1024)
         return fail(error, LAM_BAD_ARGUMENT, "%s: threads is %d, expected 0 to 1024", name, params->threads);
-    if ((unsigned)params->up > LAM_UP_Z || (unsigned)params->color > LAM_COLOR_RAW ||
+    if ((unsigned)params->up >= LAM_UP_COUNT || (unsigned)params->color > LAM_COLOR_RAW ||
         (unsigned)params->normals > LAM_NORMALS_FACET)
         return fail(error, LAM_BAD_ARGUMENT, "%s: up, color or normals is not one of its constants", name);
     return true;

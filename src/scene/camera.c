@@ -4,6 +4,7 @@
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
+#include "up_axis.h"
 #include "view_extents.h"
 
 lam_camera lam_camera_default(void)
@@ -19,20 +20,6 @@ lam_mat4 lam_camera_view_matrix(const lam_camera *camera)
     return view;
 }
 
-// Rotates a direction from Y up and front +Z to the scene's up axis. With Z up the front is −Y, as in CAD; with X
-// up +Z.
-static lam_vec3 rotate_up(lam_up up, lam_vec3 d)
-{
-    switch (up) {
-    case LAM_UP_Z:
-        return v3(d.x, -d.z, d.y);
-    case LAM_UP_X:
-        return v3(d.y, -d.x, d.z);
-    default:
-        return d;
-    }
-}
-
 static struct view_axes axes_of(const lam_scene *scene, const lam_view *view, lam_vec3 centre)
 {
     double azimuth = view->from_angles ? view->azimuth_rad : math_radians(30);
@@ -42,9 +29,9 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view, la
     lam_up up = lam_scene_up(scene);
     // Seen from above, `right` still follows the azimuth: the view does not tumble.
     return (struct view_axes){
-        .right = rotate_up(up, v3(cos_azimuth, 0, -sin_azimuth)),
-        .above = rotate_up(up, v3(-sin_azimuth * sin_elevation, cos_elevation, -cos_azimuth * sin_elevation)),
-        .back = rotate_up(up, v3(sin_azimuth * cos_elevation, sin_elevation, cos_azimuth * cos_elevation)),
+        .right = from_y_up(up, v3(cos_azimuth, 0, -sin_azimuth)),
+        .above = from_y_up(up, v3(-sin_azimuth * sin_elevation, cos_elevation, -cos_azimuth * sin_elevation)),
+        .back = from_y_up(up, v3(sin_azimuth * cos_elevation, sin_elevation, cos_azimuth * cos_elevation)),
         .centre = centre,
     };
 }

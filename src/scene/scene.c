@@ -255,7 +255,7 @@ lam_up lam_scene_up(const lam_scene *scene) { return scene ? scene->up : LAM_UP_
 
 void lam_scene_set_up(lam_scene *scene, lam_up up)
 {
-    if (scene)
+    if (scene && (unsigned)up < LAM_UP_COUNT)
         scene->up = up == LAM_UP_AUTO ? LAM_UP_Y : up;
 }
 

@@ -137,7 +137,9 @@ const struct json_choice normals_words[] = {
     {"file", LAM_NORMALS_FILE}, {"smooth", LAM_NORMALS_SMOOTH}, {"facet", LAM_NORMALS_FACET}, {NULL, 0}};
 const struct json_choice cull_words[] = {
     {"none", LAM_CULL_NONE}, {"back", LAM_CULL_BACK}, {"front", LAM_CULL_FRONT}, {NULL, 0}};
-const struct json_choice up_words[] = {{"x", LAM_UP_X}, {"y", LAM_UP_Y}, {"z", LAM_UP_Z}, {NULL, 0}};
+const struct json_choice up_words[] = {
+    {"x", LAM_UP_X},           {"y", LAM_UP_Y},           {"z", LAM_UP_Z}, {"-x", LAM_UP_NEGATIVE_X},
+    {"-y", LAM_UP_NEGATIVE_Y}, {"-z", LAM_UP_NEGATIVE_Z}, {NULL, 0}};
 const struct json_choice frame_words[] = {
     {"world", LAM_FRAME_WORLD}, {"camera", LAM_FRAME_CAMERA}, {"object", LAM_FRAME_OBJECT}, {NULL, 0}};
 const struct json_choice tangent_words[] = {{"file", false}, {"field", true}, {NULL, 0}};

@@ -5,6 +5,7 @@
 
 #include "fail.h"
 #include "linear.h"
+#include "up_axis.h"
 #include "word_values.h"
 
 // --- sides
@@ -128,9 +129,7 @@ bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *came
     lam_vec3 low, high;
     if (!reading.seen[TARGET] && scene && lam_scene_bounds(scene, &low, &high))
         camera->target = v3((low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2);
-    if (!reading.seen[UP] && scene) {
-        lam_up up = lam_scene_up(scene);
-        camera->up = v3(up == LAM_UP_X, up == LAM_UP_Y || up == LAM_UP_AUTO, up == LAM_UP_Z);
-    }
+    if (!reading.seen[UP] && scene)
+        camera->up = from_y_up(lam_scene_up(scene), v3(0, 1, 0));
     return true;
 }

@@ -134,9 +134,33 @@ class View(Case):
     def test_up(self):
         self.assertEqual(self.report("cube.obj", "-s", 16)["model"]["up"], "y")
         self.assertEqual(self.report("cube.stl", "-s", 16)["model"]["up"], "z")
-        for axis, expected in {"x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]}.items():
+        # Every direction: what is above, and what is in front.
+        for axis, above, front in (("x", [1, 0, 0], [0, 0, 1]), ("y", [0, 1, 0], [0, 0, 1]), ("z", [0, 0, 1], [0, -1, 0]),
+                                   ("-x", [-1, 0, 0], [0, 0, 1]), ("-y", [0, -1, 0], [0, 0, 1]), ("-z", [0, 0, -1], [0, -1, 0])):
             self.assertEqual(self.report("cube.stl", "-s", 16, "--up", axis)["model"]["up"], axis)
-            self.assertEqual(self.direction("--view", "top", "--up", axis), expected)
+            self.assertEqual(self.direction("--view", "top", "--up", axis), above)
+            self.assertEqual(self.direction("--view", "front", "--up", axis), front)
+            right = [above[1] * front[2] - above[2] * front[1], above[2] * front[0] - above[0] * front[2],
+                     above[0] * front[1] - above[1] * front[0]]
+            self.assertEqual(self.direction("--view", "right", "--up", axis), right)
+            sky = ("torus-knot", "-s", 48, "--up", axis, "--light", "hemisphere:sky=1,ground=0")
+            self.assertEqual(self.png(*sky), self.png(*sky[:-1], sky[-1] + ",up=" + "/".join(map(str, above))))
+            plain = self.png("torus-knot", "-s", 48, "--up", axis)
+            self.assertEqual(self.png("torus-knot", "-s", 48, "--up=" + axis.upper()), plain)
+            if len(axis) == 1:
+                self.assertEqual(self.png("torus-knot", "-s", 48, "--up", "+" + axis), plain)
+                # The opposite axis from the front is the same picture, turned upside down.
+                words = ("torus-knot", "-s", 48, "--samples", 1, "--view", "front", "--rig", "none", "--ambient", "1", "--projection", "orthographic", "--up")
+                (_, _, one), (_, _, other) = self.png(*words, axis), self.png(*words, "-" + axis)
+                turned = b"".join(one[i:i + 4] for i in range(len(one) - 4, -4, -4))
+                self.assertLess(sum(a != b for a, b in zip(other, turned)), 0.005 * len(one))
+            # A scene file keeps it.
+            self.good("cube.obj", "-s", 48, "--up", axis, "--save-scene", "up.json", "-o", "a.png")
+            self.assertEqual(self.png("up.json"), read_png((self.folder / "a.png").read_bytes()))
+            (self.folder / "own.json").write_text(json.dumps({"lambent": 1, "up": axis, "objects": [{"shape": "torus-knot"}]}))
+            self.assertEqual(self.png("own.json", "-s", 48), plain)
+        for name in ("+-z", "--z", "zz", "w", "+", "-"):
+            self.bad(1, "cube.obj", "--up=" + name, says="expected auto, x, y, z, -x, -y or -z", leaves=self.new_files())
         # The coordinates do not change.
         self.assertEqual(self.report("teapot", "-s", 16, "--up", "z")["model"]["bounds"],
                          self.report("teapot", "-s", 16)["model"]["bounds"])

@@ -229,6 +229,12 @@ static vec into_environment(const struct ball *ball, vec w)
         w = of(w.x, w.z, -w.y);
     if (ball->up == LAM_UP_X)
         w = of(-w.y, w.x, w.z);
+    if (ball->up == LAM_UP_NEGATIVE_Z)
+        w = of(-w.x, -w.z, -w.y);
+    if (ball->up == LAM_UP_NEGATIVE_Y)
+        w = of(-w.x, -w.y, w.z);
+    if (ball->up == LAM_UP_NEGATIVE_X)
+        w = of(w.y, -w.x, w.z);
     double a = -ball->rotation;
     return of(cos(a) * w.x + sin(a) * w.z, w.y, -sin(a) * w.x + cos(a) * w.z);
 }
@@ -367,6 +373,9 @@ static void test_ball_x_up(void **state)
 {
     (void)state;
     check_ball(&(struct ball){.up = LAM_UP_X, .light = true});
+    check_ball(&(struct ball){.up = LAM_UP_NEGATIVE_X, .rotation = 1});
+    check_ball(&(struct ball){.up = LAM_UP_NEGATIVE_Y, .rotation = 1});
+    check_ball(&(struct ball){.up = LAM_UP_NEGATIVE_Z, .rotation = 1});
 }
 static void test_ball_lit(void **state)
 {

@@ -99,10 +99,13 @@ static const struct word projection_words[] = {{"perspective", 0, "a vertical fi
                                                {"orthographic", 1, "parallel, as in a drawing"},
                                                {NULL, 0, NULL}};
 
-static const struct word up_words[] = {{"auto", LAM_UP_AUTO, "by format: Z for STL, Y for the others"},
+static const struct word up_words[] = {{"auto", LAM_UP_AUTO, "by format: z for STL, y for the others"},
                                        {"x", LAM_UP_X, NULL},
-                                       {"y", LAM_UP_Y, NULL},
-                                       {"z", LAM_UP_Z, NULL},
+                                       {"y", LAM_UP_Y, "the model's front is +Z"},
+                                       {"z", LAM_UP_Z, "the model's front is -Y"},
+                                       {"-x", LAM_UP_NEGATIVE_X, NULL},
+                                       {"-y", LAM_UP_NEGATIVE_Y, "like y, upside down"},
+                                       {"-z", LAM_UP_NEGATIVE_Z, "like z, upside down"},
                                        {NULL, 0, NULL}};
 
 static const struct word shading_words[] = {
@@ -244,10 +247,11 @@ const struct option option_table[] = {
      .store = store_number, FIELD(zoom), .min = 0.001, .max = 1000},
     {"projection", 0, GROUP_VIEW, "KIND", "perspective", "The projection: perspective or orthographic.", NULL,
      projection_words, .store = store_word, FIELD(projection)},
-    {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z or auto.",
+    {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
      "The camera and the lights attached to it follow the axis; the model's coordinates do not change. STL "
-     "files are read as Z up, as in CAD and 3D printing; other formats as Y up.",
-     up_words, .store = store_word, FIELD(up)},
+     "files are read as Z up, as in CAD and 3D printing; other formats as Y up. Capitals and a plus (`+Z`) are "
+     "accepted.",
+     up_words, .store = store_up, FIELD(up)},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Turn the model about its centre, such as y:30; repeatable.",
      "The axis is x, y or z of the scene; turns are applied in the order given. Lights stay where they are "
      "(except those in the model's frame), radii refer to the model before the turn, and the camera is fitted "

@@ -59,6 +59,12 @@ bool store_glsl(const struct option *option, const char *value, struct options *
     return store_word(option, strcmp(value, "300 es") == 0 ? "300es" : value, options, error);
 }
 
+bool store_up(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    const char *name = lam_up_name(lam_up_find(value));
+    return store_word(option, name ? name : value, options, error);
+}
+
 double radians(double degrees) { return degrees * (3.14159265358979323846 / 180); }
 
 const char *read_number(const char *text, double *value)

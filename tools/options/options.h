@@ -210,6 +210,7 @@ bool store_switch(const struct option *, const char *, struct options *, lam_err
 bool store_text(const struct option *, const char *, struct options *, lam_error *);         // const char *
 bool store_word(const struct option *, const char *, struct options *, lam_error *);         // int
 bool store_glsl(const struct option *, const char *, struct options *, lam_error *);         // likewise
+bool store_up(const struct option *, const char *, struct options *, lam_error *);           // likewise
 bool store_integer(const struct option *, const char *, struct options *, lam_error *);      // int
 bool store_number(const struct option *, const char *, struct options *, lam_error *);       // double
 bool store_size(const struct option *, const char *, struct options *, lam_error *);         // width, height

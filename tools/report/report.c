@@ -9,12 +9,6 @@
 #include "exit_codes.h"
 #include "json.h"
 
-static char up_letter(const lam_scene *scene)
-{
-    lam_up up = lam_scene_up(scene);
-    return up == LAM_UP_X ? 'x' : up == LAM_UP_Z ? 'z' : 'y';
-}
-
 // The model's format; "shape" for a built-in shape.
 static const char *format_of(const lam_scene *scene)
 {
@@ -48,8 +42,9 @@ void report_table(const struct job *job)
     lam_scene_bounds(scene, &low, &high);
     say_plain("model    %s (%s), %" PRIu64 " triangles, %" PRIu64 " vertices\n", job->model, format_of(scene),
               job->model_counts.triangles, job->model_counts.vertices);
-    say_plain("         meshes %d, objects %d, materials %d, lights %d, up %c\n", job->model_counts.meshes,
-              job->model_counts.objects, job->model_counts.materials, job->model_counts.lights, up_letter(scene));
+    say_plain("         meshes %d, objects %d, materials %d, lights %d, up %s\n", job->model_counts.meshes,
+              job->model_counts.objects, job->model_counts.materials, job->model_counts.lights,
+              lam_up_name(lam_scene_up(scene)));
     say_plain("box      %.7g %.7g %.7g to %.7g %.7g %.7g\n", low.x, low.y, low.z, high.x, high.y, high.z);
     const lam_camera *camera = &job->camera;
     say_plain("camera   eye %.7g %.7g %.7g, target %.7g %.7g %.7g, ", camera->eye.x, camera->eye.y, camera->eye.z,
@@ -113,7 +108,6 @@ static void json_model(struct json *json, const struct job *job)
     json_open(json, "model", '{');
     json_text(json, "path", job->model);
     if (scene) {
-        char up[2] = {up_letter(scene), 0};
         lam_vec3 low, high;
         lam_scene_bounds(scene, &low, &high);
         json_text(json, "format", format_of(scene));
@@ -123,7 +117,7 @@ static void json_model(struct json *json, const struct job *job)
         json_count(json, "objects", (uint64_t)job->model_counts.objects);
         json_count(json, "materials", (uint64_t)job->model_counts.materials);
         json_count(json, "lights", (uint64_t)job->model_counts.lights);
-        json_text(json, "up", up);
+        json_text(json, "up", lam_up_name(lam_scene_up(scene)));
         json_open(json, "bounds", '{');
         json_vector(json, "min", low);
         json_vector(json, "max", high);

@@ -49,8 +49,14 @@ FN vec3 mirror3(vec3 w, vec3 n) { return sub3(scale3(n, 2.0f * dot3(n, w)), w); 
 // The vector halfway between l and v, both of length 1.
 FN vec3 halfway3(vec3 l, vec3 v) { return unit3(add3(l, v)); }
 
-// w made perpendicular to n and unit (Gram and Schmidt); 0 where w lies along n.
-FN vec3 perpendicular3(vec3 w, vec3 n) { return unit3(sub3(w, scale3(n, dot3(n, w)))); }
+// w made perpendicular to n and unit (Gram and Schmidt); 0 where w lies along n, |w x n| < 1e-4 |w|: what is left of w
+// is then the error of rounding.
+FN vec3 perpendicular3(vec3 w, vec3 n)
+{
+    vec3 across = sub3(w, scale3(n, dot3(n, w)));
+    mask along = dot3(across, across) < 1.0e-8f * dot3(w, w);
+    return unit3(pick3(along, vec3_of(num_of(0.0f), num_of(0.0f), num_of(0.0f)), across));
+}
 
 // Lambert (1760): a matt surface reflects light evenly in all directions, and receives less of it the more obliquely
 // the light falls:

@@ -115,7 +115,7 @@ static void add_tangent(struct tangents *m, const struct corner *corners, uint32
     }
     sum = v3_unit(sum);
     sum = v3_sub(sum, v3_scale(n, v3_dot(n, sum)));
-    sum = v3_dot(sum, sum) < 1e-12 ? field_tangent(n) : v3_unit(sum);
+    sum = v3_dot(sum, sum) < 1e-8 ? field_tangent(n) : v3_unit(sum); // along the normal: no direction
     float *out = m->tangents + 4 * (size_t)m->count;
     out[0] = (float)sum.x;
     out[1] = (float)sum.y;

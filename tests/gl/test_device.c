@@ -115,6 +115,58 @@ static void test_stages(void **state)
     lam_device_free(gl);
 }
 
+// Tangents along the normals: there is none (conventions, rule 10), on both devices and in every stage. Rounding leaves
+// a different direction at every point of a tilted square.
+static void test_tangents_along_normals(void **state)
+{
+    static const float corners[4][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    static const float normals[4][3] = {{0.1f, 0.2f, 1}, {-0.3f, 0.1f, 1}, {0.2f, -0.1f, 1}, {-0.1f, -0.3f, 1}};
+    (void)state;
+    lam_device *gl = device_or_skip(LAM_GL_CORE);
+    lam_error error = {0};
+    float tangents[4][4];
+    for (int i = 0; i < 4; i++)
+        for (int c = 0; c < 4; c++)
+            tangents[i][c] = c < 3 ? 0.7f * normals[i][c] : 1;
+    lam_mesh mesh = {.positions = corners[0],
+                     .indices = indices,
+                     .vertex_count = 4,
+                     .triangle_count = 2,
+                     .normals = normals[0],
+                     .normal_count = 4,
+                     .tangents = tangents[0],
+                     .tangent_count = 4};
+    struct demo demo = {.scene = lam_scene_make(NULL), .width = 64, .height = 64};
+    lam_object object = lam_object_default();
+    lam_mat4 turn = {{{0.8, 0.36, -0.48, 0.1}, {0, 0.8, 0.6, 0.2}, {0.6, -0.48, 0.64, 0.3}, {0, 0, 0, 1}}};
+    object.transform = turn;
+    object.mesh = lam_scene_add_mesh(demo.scene, &mesh, &error);
+    if (object.mesh < 0 || lam_scene_add_object(demo.scene, &object, &error) < 0)
+        fail_msg("%s", error.text);
+    demo.camera = lam_camera_fit(demo.scene, demo.width, demo.height, NULL);
+    for (int stage = LAM_STAGE_APPLICATION; stage <= LAM_STAGE_FRAGMENT; stage++)
+        for (int model = LAM_REFLECTION_KAJIYA_KAY; model <= LAM_REFLECTION_KAJIYA_KAY_LECTURE; model++)
+            for (int output = 0; output < 3; output++) {
+                static const lam_output outputs[] = {LAM_OUTPUT_PICTURE, LAM_OUTPUT_DIFFUSE, LAM_OUTPUT_SPECULAR};
+                lam_draw_params params = {.samples = 1,
+                                          .rig = LAM_RIG_HEADLIGHT,
+                                          .stage = (lam_stage)stage,
+                                          .shading =
+                                              stage == LAM_STAGE_FRAGMENT ? LAM_SHADING_PHONG : LAM_SHADING_GOURAUD,
+                                          .reflection = (lam_reflection)model,
+                                          .output = outputs[output]};
+                lam_image image = draw(gl, &demo, &params, LAM_RGBA32F);
+                const float *middle = (const float *)image.pixels + 4 * (32 * 64 + 32);
+                assert_true(middle[3] > 0.999f && middle[0] == 0);
+                lam_image_free(&image);
+                struct apart apart = compare(gl, &demo, &params);
+                assert_true(apart.share == 0 && apart.floats < 1e-5);
+            }
+    lam_scene_free(demo.scene);
+    lam_device_free(gl);
+}
+
 // Every output: with each shading method in an opaque scene, and in a translucent scene.
 static void test_shows(void **state)
 {
@@ -271,6 +323,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_stages),
+        cmocka_unit_test(test_tangents_along_normals),
         cmocka_unit_test(test_shows),
         cmocka_unit_test(test_sharp_highlights),
         cmocka_unit_test(test_many_lights),

@@ -63,6 +63,8 @@ static inline void points_fill(struct points *p, uint64_t seed)
         for (int k = IN_PARAMETERS; k < INPUTS; k++)
             p->in[k][i] = random_between(&own, 0, 1.5f);
         p->in[IN_SHININESS][i] = exponents[i % 8];
+        for (int c = 0; i % 32 == 9 && c < 3; c++) // along the normal, as far as floats can say
+            p->in[IN_TANGENT + c][i] = p->in[IN_NORMAL + c][i] * 0.7f;
     }
 }
 

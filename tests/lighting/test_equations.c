@@ -42,13 +42,13 @@ static void compare(const struct points *p, const struct modes *m, int i)
     point_inputs(p, i, in);
     struct textbook t = textbook_light(m, in);
     double alpha = (double)in[IN_SHININESS], lobe = 2e-6 + 4e-7 * alpha, matt = 2e-6, base = 2e-6;
-    // Where one last digit decides between all and nothing, either is right; nearly parallel tangents have no
-    // direction.
+    // Where one last digit decides between all and nothing, either is right. Of tangents that lie nearly along the
+    // normal, rounding decides the direction; of those that lie along it there is none.
     if (m->model != LAM_REFLECTION_LAMBERT && fabs(t.out[OUT_N_DOT_L]) < 1e-6)
         return;
     if (m->kind == LIGHT_SPOT_CUTOFF && fabs(t.cone_cosine - (double)in[IN_COS_CUTOFF]) < 1e-6)
         return;
-    if (lam_reflection_describe((lam_reflection)m->model)->tangents && t.tangent_sine < 0.3)
+    if (lam_reflection_describe((lam_reflection)m->model)->tangents && t.tangent_sine < 0.3 && t.tangent_sine > 0.99e-4)
         return;
     if (m->model == LAM_REFLECTION_BLINN_PHONG &&
         t.half_length < 0.1) {       // light from straight behind: what is left of l + v
@@ -199,6 +199,27 @@ static void test_degenerate_points(void **state)
     adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, THREADS, 1);
     in[IN_TANGENT + 2] = 3;
     adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, THREADS, 1);
+
+    // Tilted, so that rounding leaves something of it. From 1e-4 on there is one again.
+    plain_point(in);
+    static const float tilted[3] = {0.36f, 0.48f, 0.8f};
+    static const struct {
+        float sine;
+        int there;
+    } near[] = {{0, 0}, {1e-6f, 0}, {9e-5f, 0}, {1.1e-4f, 1}, {1e-3f, 1}};
+    for (size_t i = 0; i < sizeof near / sizeof *near; i++)
+        for (float length = 1e-6f; length < 2e6f; length *= 10) {
+            for (int c = 0; c < 3; c++) {
+                in[IN_NORMAL + c] = tilted[c];
+                in[IN_TANGENT + c] = tilted[c] * length;
+            }
+            in[IN_TANGENT] -= 0.8f * near[i].sine * length; // along (-0.8, 0.6, 0), across the normal
+            in[IN_TANGENT + 1] += 0.6f * near[i].sine * length;
+            if (!near[i].there)
+                adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, THREADS, 1);
+            light_one(&(struct modes){LIGHT_POINT, 0, LAM_REFLECTION_KAJIYA_KAY, 0, 0}, in, out);
+            assert_true((out[OUT_D] > 0.1f) == near[i].there);
+        }
 
     plain_point(in); // the eye at the point: no highlight
     in[IN_POINT + 2] = 0;

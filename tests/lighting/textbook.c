@@ -98,7 +98,7 @@ static struct reflected reflect_blinn_phong(const struct geometry *g)
 static struct reflected reflect_thread(const struct geometry *g, double base, int gated)
 {
     int there = !none(g->t) && !none(g->l) && (g->n_l > 0 || !gated);
-    return (struct reflected){there ? sin(g->theta_l) : 0, base, there};
+    return (struct reflected){there ? sin(g->theta_l) : 0, none(g->t) ? 0 : base, there};
 }
 
 static struct reflected reflect_kajiya_kay(const struct geometry *g)
@@ -131,8 +131,8 @@ static const struct lobe {
     [LAM_REFLECTION_LAMBERT] = {reflect_lambert, 0x0ddab406a9be3458},
     [LAM_REFLECTION_PHONG] = {reflect_phong, 0xaaf98f248c7e0654},
     [LAM_REFLECTION_BLINN_PHONG] = {reflect_blinn_phong, 0x64be24bc5d552f2b},
-    [LAM_REFLECTION_KAJIYA_KAY] = {reflect_kajiya_kay, 0x86fdeb727f396564},
-    [LAM_REFLECTION_KAJIYA_KAY_LECTURE] = {reflect_kajiya_kay_lecture, 0xfa54dbabeeecf5f4},
+    [LAM_REFLECTION_KAJIYA_KAY] = {reflect_kajiya_kay, 0x7e895ba25bd9210a},
+    [LAM_REFLECTION_KAJIYA_KAY_LECTURE] = {reflect_kajiya_kay_lecture, 0x7914335629de57cd},
     [LAM_REFLECTION_OREN_NAYAR] = {reflect_oren_nayar, 0xc42745003ceb023c},
 };
 
@@ -145,8 +145,9 @@ struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]
     double *out = result.out;
 
     vector p = take(in + IN_POINT), n = normalize(take(in + IN_NORMAL)), tangent = take(in + IN_TANGENT);
-    vector t = normalize(minus(tangent, times(inner(tangent, n), n)));
-    result.tangent_sine = none(tangent) ? 0 : length(minus(tangent, times(inner(tangent, n), n))) / length(tangent);
+    vector across = minus(tangent, times(inner(tangent, n), n));
+    result.tangent_sine = none(tangent) ? 0 : length(across) / length(tangent);
+    vector t = result.tangent_sine < 1e-4 ? (vector){0, 0, 0} : normalize(across); // convention 10
     vector v = modes->viewer == VIEWER_INFINITE ? (vector){0, 0, 1} : normalize(times(-1, p));
 
     vector l, axis = take(in + IN_DIRECTION);

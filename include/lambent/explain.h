@@ -98,14 +98,15 @@ typedef struct lam_explained_fragment {
     int object, mesh, part;
     // Their names; NULL: unnamed.
     const char *object_name, *mesh_name, *part_name;
-    uint32_t triangle;    // index in the mesh
-    bool back;            // the back side is seen
-    bool flipped;         // the back side is seen and lit with −n
-    int material;         // index in the scene; −1: the default material
-    lam_material surface; // the material
-    float shininess;      // the power in use; match_highlights and gl1 change it
-    int samples;          // number of samples that show the triangle
-    int lit_sample;       // the sample that it is lit at; −1: the pixel's centre
+    uint32_t triangle;         // index in the mesh
+    bool back;                 // the back side is seen
+    bool flipped;              // the back side is seen and lit with −n
+    int material;              // index in the scene; −1: the default material
+    lam_material surface;      // the material
+    float shininess;           // the power in use; match_highlights and gl1 change it
+    lam_reflection reflection; // the model in use, never AUTO
+    int samples;               // number of samples that show the triangle
+    int lit_sample;            // the sample that it is lit at; −1: the pixel's centre
     // The place of that sample in the picture, in pixels from the upper left corner.
     double picture_x, picture_y;
     float weights[3];                  // perspective-correct barycentric coordinates there
@@ -118,7 +119,7 @@ typedef struct lam_explained_fragment {
     float transmittance[16];
     // Σ transmittance / samples of a pixel: the fragment's share of the pixel.
     float weight;
-    LAM_RESERVED(8);
+    LAM_RESERVED(12);
 } lam_explained_fragment;
 
 // One pixel of a picture.
@@ -129,7 +130,7 @@ typedef struct lam_explanation {
     lam_pixel_format format;   // the picture's
     lam_color_mode color;      // as in lam_draw_params
     lam_shading shading;       // as in lam_draw_params
-    lam_reflection reflection; // the one in use, never AUTO
+    lam_reflection reflection; // of the first of `fragments`, never AUTO
     bool distant_viewer;       // v = (0, 0, 1) for every point
     bool gl1;                  // as in lam_draw_params
     bool has_environment;      // the scene has one

@@ -89,7 +89,8 @@ static void take_frame(lam_explanation *out, const struct frame *frame)
     out->samples = frame->samples;
     out->color = frame->color;
     out->shading = frame->shading;
-    out->reflection = frame->reflection;
+    out->reflection =
+        out->fragment_count ? out->fragments[0].reflection : frame_reflection(frame, &frame->default_material);
     out->distant_viewer = frame->distant_viewer;
     out->gl1 = frame->gl1;
     out->has_environment = frame->environment != NULL;

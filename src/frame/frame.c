@@ -317,7 +317,8 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
                            (!draw->one_sided && frame->materials[back]->diffuse.a < 1);
         frame->translucent |= translucent;
         frame->ranges[frame->range_count++] = (struct frame_draw_range){
-            draw->first_id + part->first_triangle, part->triangle_count, draw_index, front, back, translucent};
+            draw->first_id + part->first_triangle,           part->triangle_count, draw_index, front, back, translucent,
+            frame_reflection(frame, frame->materials[front])};
     }
 }
 
@@ -379,7 +380,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->stage = params->stage                            ? params->stage
                    : params->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX
                                                             : LAM_STAGE_FRAGMENT;
-    frame->reflection = params->reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : params->reflection;
+    frame->reflection = params->reflection;
     frame->orthographic = camera->ortho_half_height > 0;
     frame->distant_viewer = frame->orthographic || params->viewer == LAM_VIEWER_INFINITE;
     frame->flat_normal = params->flat_normal;
@@ -436,10 +437,16 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
                         &view, error);
 }
 
+lam_reflection frame_reflection(const struct frame *frame, const lam_material *material)
+{
+    (void)material;
+    return frame->reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : frame->reflection;
+}
+
 float frame_shininess(const struct frame *frame, const lam_material *material)
 {
     float shininess = material->shininess;
-    if (frame->match_highlights && frame->reflection == LAM_REFLECTION_BLINN_PHONG)
+    if (frame->match_highlights && frame_reflection(frame, material) == LAM_REFLECTION_BLINN_PHONG)
         shininess *= 4;
     return frame->gl1 && shininess > 128 ? 128 : shininess;
 }

@@ -32,8 +32,9 @@ struct frame_draw {
 struct frame_draw_range {
     uint32_t first_id, count;
     int draw;
-    int front, back;  // indices into materials
-    bool translucent; // the alpha of a material or a vertex colour is below 1: the triangles are blended
+    int front, back;           // indices into materials
+    bool translucent;          // the alpha of a material or a vertex colour is below 1: the triangles are blended
+    lam_reflection reflection; // of both sides; never AUTO
 };
 
 // A point, directional or spot light in eye space.
@@ -70,7 +71,7 @@ struct frame {
     float exposure; // 2^stops
     lam_shading shading;
     lam_stage stage;           // never AUTO
-    lam_reflection reflection; // never AUTO
+    lam_reflection reflection; // AUTO: the material's own; see frame_draw_range.reflection
     lam_flat_normal flat_normal;
     bool match_highlights, gl1;
     lam_output output;
@@ -103,6 +104,9 @@ struct frame {
     lam_material default_material;
     struct buffer storage; // of the arrays
 };
+
+// The reflection model that lights a material; never AUTO.
+lam_reflection frame_reflection(const struct frame *frame, const lam_material *material);
 
 // Returns the highlight exponent of a material, after match_highlights and gl1.
 float frame_shininess(const struct frame *frame, const lam_material *material);

@@ -23,6 +23,7 @@ struct side {
     const lam_material *material;
     bool flip; // the back: lit with −n
     bool translucent;
+    lam_reflection reflection;
 };
 
 LANE_FN vec3 of3(const float *v) { return (vec3){num_of(v[0]), num_of(v[1]), num_of(v[2])}; }
@@ -72,7 +73,7 @@ LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color)
 {
     const struct frame *frame = side->frame;
     const lam_material *m = side->material;
-    int model = (int)frame->reflection;
+    int model = (int)side->reflection;
     if (model == LAM_REFLECTION_NONE)
         return tint_terms(unlit_terms(of3(&m->diffuse.r)), color);
     terms sum = start_terms(product3(&m->ambient.r, frame->ambient), of3(&m->emission.r));
@@ -95,9 +96,9 @@ LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color)
     return tint_terms(sum, color);
 }
 
-LANE_FN vec3 output_terms(const struct frame *frame, terms t)
+LANE_FN vec3 output_terms(const struct side *side, terms t)
 {
-    switch (frame->output) {
+    switch (side->frame->output) {
     case LAM_OUTPUT_AMBIENT:
         return t.ambient;
     case LAM_OUTPUT_DIFFUSE:
@@ -109,7 +110,7 @@ LANE_FN vec3 output_terms(const struct frame *frame, terms t)
     case LAM_OUTPUT_REFLECTION:
         return t.reflection;
     case LAM_OUTPUT_LIGHT:
-        return frame->reflection == LAM_REFLECTION_NONE ? black3() : add3(add3(t.ambient, t.diffuse), t.specular);
+        return side->reflection == LAM_REFLECTION_NONE ? black3() : add3(add3(t.ambient, t.diffuse), t.specular);
     default:
         return sum_terms(t);
     }
@@ -149,7 +150,7 @@ LANE_FN surface surface_of(const struct side *side, const struct mesh_vertex *fr
     s.n = unit3(side->flip ? negate3(n) : n);
     s.v = to_eye(s.p, frame->distant_viewer ? VIEWER_INFINITE : VIEWER_LOCAL);
     s.t = black3();
-    if (lobe_properties(frame->reflection) & LOBE_TANGENT || frame->output == LAM_OUTPUT_TANGENTS)
+    if (lobe_properties((int)side->reflection) & LOBE_TANGENT || frame->output == LAM_OUTPUT_TANGENTS)
         s.t = perpendicular3(
             side->mesh->tangents ? unit3(turn(side->draw->tangent, load3(from, 10))) : field_tangent(side, s.n), s.n);
     return s;
@@ -165,7 +166,7 @@ static void light_side(const struct side *side, const struct mesh_vertex *from, 
         vec3 white = vec3_of(num_of(1.0f), num_of(1.0f), num_of(1.0f));
         vec3 color = output_is_vector(frame->output)
                          ? output_vector(side, s)
-                         : output_terms(frame, evaluate_terms(side, s, side->mesh->colors ? load3(from, 6) : white));
+                         : output_terms(side, evaluate_terms(side, s, side->mesh->colors ? load3(from, 6) : white));
         if (clamped)
             color = vec3_of(saturate(color.x), saturate(color.y), saturate(color.z));
         for (int i = 0; i < LANES; i++) {
@@ -225,7 +226,7 @@ static bool key_add_material(struct gl_frame *f, struct gl_vertex_lighting *row,
 static bool key_add_range(struct gl_frame *f, struct gl_vertex_lighting *row, size_t *size,
                           const struct frame_draw_range *s, lam_error *error)
 {
-    const uint32_t run[] = {s->first_id, s->count, s->translucent};
+    const uint32_t run[] = {s->first_id, s->count, s->translucent, s->reflection};
     return key_add(f, row, size, run, sizeof run, error) &&
            key_add_material(f, row, size, f->frame->materials[s->front], error) &&
            key_add_material(f, row, size, f->frame->materials[s->back], error);
@@ -237,9 +238,10 @@ static bool make_key(struct gl_frame *f, struct gl_vertex_lighting *row, const s
 {
     const struct frame *frame = f->frame;
     const struct frame_draw *draw = &frame->draws[number];
-    const int choices[] = {frame->output,         frame->reflection,       frame->shading,     frame->gl1,
-                           frame->distant_viewer, frame->match_highlights, frame->light_count, frame->hemisphere_count,
-                           draw->one_sided,       frame->flat_normal,      (int)mesh->form,    frame->translucent};
+    const int choices[] = {frame->output,           frame->shading,          frame->gl1,
+                           frame->distant_viewer,   frame->match_highlights, frame->light_count,
+                           frame->hemisphere_count, draw->one_sided,         frame->flat_normal,
+                           (int)mesh->form,         frame->translucent};
     const void *pointers[] = {frame->environment, mesh->mesh.positions, mesh->token};
     bool ok = key_add(f, row, size, choices, sizeof choices, error) &&
               key_add(f, row, size, pointers, sizeof pointers, error) &&
@@ -265,7 +267,11 @@ static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const stru
                       uint32_t first, uint32_t end, float (*lit)[2][4])
 {
     const struct frame_draw *draw = &f->frame->draws[run->draw];
-    struct side side = {.frame = f->frame, .draw = draw, .mesh = &mesh->mesh, .translucent = run->translucent};
+    struct side side = {.frame = f->frame,
+                        .draw = draw,
+                        .mesh = &mesh->mesh,
+                        .translucent = run->translucent,
+                        .reflection = run->reflection};
     struct mesh_vertex *from = f->device->scratch.data;
     float(*colors)[4] = (float(*)[4])(from + CHUNK);
     for (; first < end; first += CHUNK) {

@@ -28,7 +28,7 @@ struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_dr
     const struct frame_draw *draw = &frame->draws[range->draw];
     c.shading = frame->shading;
     c.stage = stage ? stage : frame->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX : LAM_STAGE_FRAGMENT;
-    c.reflection = frame->reflection;
+    c.reflection = range->reflection;
     c.output = frame->output;
     c.distant_viewer = frame->distant_viewer;
     c.gl1 = frame->gl1;

@@ -184,6 +184,7 @@ static void write_fragment(struct json *json, const lam_explained_fragment *f)
     index_of(json, "part", f->part);
     json_text(json, "part_name", f->part_name);
     json_count(json, "triangle", f->triangle);
+    json_text(json, "model", lam_reflection_describe(f->reflection)->word);
     json_text(json, "side", f->back ? "back" : "front");
     json_text(json, "lit_normal", f->flipped ? "-n" : "n");
     json_count(json, "samples", (uint64_t)f->samples);

@@ -87,10 +87,9 @@ static void print_attenuation(const lam_explained_light *l)
     number(4, "attenuation", (double)l->attenuation, remark);
 }
 
-static void print_highlight(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
-                            const lam_explained_light *l)
+static void print_highlight(const lam_explained_fragment *f, const lam_explained_point *p, const lam_explained_light *l)
 {
-    const lam_reflection_info *model = lam_reflection_describe(e->reflection);
+    const lam_reflection_info *model = lam_reflection_describe(f->reflection);
     bool gated = !model->backlit && !(model->backlit_fibre && f->surface.fibre);
     const char *gate = gated ? "[n·l > 0] " : "";
     char remark[200];
@@ -145,7 +144,7 @@ static void print_light(const lam_explanation *e, const lam_explained_fragment *
         number(4, "spot", (double)l->spot, "the cone's factor");
     }
     number(4, "n·l", (double)l->n_dot_l, "");
-    print_highlight(e, f, p, l);
+    print_highlight(f, p, l);
     char text[200];
     product(text, l, "kd ⊙ Ld · D", l->kd_Ld, l->D);
     color(4, "diffuse", l->diffuse_term, text);
@@ -220,7 +219,7 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
     printf("\n  terms\n");
     const char *tint = colored ? ", times the vertex colour" : "";
     char text[200];
-    if (e->reflection == LAM_REFLECTION_NONE) {
+    if (f->reflection == LAM_REFLECTION_NONE) {
         snprintf(text, sizeof text, "kd: unlit%s", tint);
         color(4, "diffuse", p->diffuse, text);
     } else {

@@ -73,6 +73,14 @@ typedef struct lam_check_cache lam_check_cache;
 LAM_API lam_check_cache *lam_check_cache_make(size_t max_bytes, lam_error *error);
 LAM_API void lam_check_cache_free(lam_check_cache *cache); // NULL is fine
 
+// The terms of the lighting that an exercise asks for.
+typedef enum lam_check_term {
+    LAM_CHECK_TERM_AMBIENT = 1,
+    LAM_CHECK_TERM_DIFFUSE = 2,
+    LAM_CHECK_TERM_SPECULAR = 4,
+    LAM_CHECK_TERM_ALL = 7
+} lam_check_term;
+
 // The shaders to check, and how. Zero is the default of each field.
 typedef struct lam_check_params {
     const char *fragment;      // GLSL; required
@@ -97,7 +105,10 @@ typedef struct lam_check_params {
     // Runs lam_check_draw in another process. NULL: in this process, for trusted shaders.
     lam_check_draw_fn *draw;
     void *user; // passed to `draw`
-    LAM_RESERVED(16);
+    // The terms that the shaders are expected to compute, bits of lam_check_term; 0: those of which they declare a name.
+    // A colour that is not declared is taken as white.
+    unsigned terms;
+    LAM_RESERVED(15);
 } lam_check_params;
 
 // The result of a check.
@@ -134,7 +145,9 @@ typedef struct lam_check_finding {
     bool certain;
     // Mean difference over all scenes without and with the mistake.
     double mean_before, mean_after;
-    LAM_RESERVED(8);
+    // The share of the difference that this mistake and those before it explain: 1 where they explain all of it.
+    double share;
+    LAM_RESERVED(7);
 } lam_check_finding;
 
 // The origin of a message.

@@ -29,7 +29,7 @@ void fault_shader_close(struct fault_shader *shader) { (void)shader; }
 
 bool fault_shader_draw(struct fault_shader *shader, const struct reference_scene *reference_scene,
                        const struct shader_interface *interface, int capacity, lam_light_frame frame,
-                       lam_reflection reflection, fault_set set, float *pixels, lam_error *error)
+                       lam_reflection reflection, const fault_set *set, float *pixels, lam_error *error)
 {
     (void)shader, (void)reference_scene, (void)interface, (void)capacity, (void)frame, (void)reflection, (void)set,
         (void)pixels;

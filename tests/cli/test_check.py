@@ -151,6 +151,52 @@ class Right(CheckTest):
         self.assertEqual(report["verdict"], "passes")
         self.assertEqual(self.report_of(*words, "--tolerance", 255)["verdict"], "passes")
 
+    def test_terms(self):
+        """A term of which no name is declared is not asked for, unless --terms says so."""
+        lines = (SHADERS / "pittsburgh.frag").read_text().splitlines(keepends=True)
+        text = "".join(line for line in lines if "specular_product;" not in line and "specular = vec4(0.0)" not in line and "dot(n, l) <=" not in line)
+        text = text.replace("specular_product * pow(max(dot(n, h), 0.0), shininess)", "vec4(0.0)")
+        words = self.shader("pittsburgh")
+        (self.folder / "s.frag").write_text(text)
+        report = self.report_of(*words)
+        self.assertEqual(report["verdict"], "passes")
+        self.assertIn("not expected: specular; --terms all", " ".join(self.notes(report, "hint")))
+        self.assertEqual(self.report_of(*words, "--terms", "ambient,diffuse")["notes"], [])
+        report = self.report_of(*words, "--terms", "all", code=6)
+        self.assertEqual([m["id"] for m in report["mistakes"]], ["no-specular"])
+        self.bad(1, "check", "s.frag", "--terms", "ambient,difuse", says="did you mean 'diffuse'", leaves=("s.frag", "s.vert"))
+
+    def test_low_precision(self):
+        """mediump, which llvmpipe computes with 16 bits: the pictures agree as closely as with highp."""
+        for first in ("#version 100\nprecision mediump float;\n", "precision mediump float;\n",
+                      "#ifdef GL_ES\nprecision lowp float;\n#endif\nvarying mediump vec3 unused;\n"):
+            words = self.shader("pittsburgh")
+            for ending in ("vert", "frag"):
+                text = (SHADERS / f"pittsburgh.{ending}").read_text().replace("#version 120\n", "" if ending == "vert" else first)
+                (self.folder / f"s.{ending}").write_text(("#version 100\n" if "#version" in first and ending == "vert" else "") + text)
+            report = self.report_of(*words, size=128)
+            self.assertEqual((report["verdict"], report["notes"]), ("passes", []))
+            self.assertLess(max(scene["maximum"] for scene in report["scenes"]), 1e-3)
+        (self.folder / "s.frag").write_text("precision mediump float;\nuniform vec4 ambient_product;\nvoid main() { lowp x = 1; }\n")
+        report = self.report_of(*words, code=6)
+        self.assertEqual([note["line"] for note in report["notes"] if note["kind"] == "compiler"][:1], [3])
+
+    def test_byte_order_mark(self):
+        words = self.shader("pittsburgh")
+        for ending in ("vert", "frag"):
+            path = self.folder / f"s.{ending}"
+            path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\n", b"\r\n"))
+        self.assertEqual(self.report_of(*words)["verdict"], "passes")
+
+    def test_styles(self):
+        """A normal turned to the eye by faceforward() is no mistake, and does not hide one."""
+        turned = ("frag", "vec3 v = normalize(V);", "vec3 v = normalize(V);\n    n = faceforward(n, -v, n);")
+        report = self.report_of(*self.shader("pittsburgh", [turned]))
+        self.assertEqual((report["verdict"], report["mistakes"]), ("passes", []))
+        self.assertIn("faceforward", " ".join(self.notes(report, "hint")))
+        report = self.report_of(*self.shader("pittsburgh", [turned, ("frag", "dot(n, l) <= 0.0", "false")]), code=6)
+        self.assertEqual([m["id"] for m in report["mistakes"]], ["no-gate"])
+
     def test_sheet_and_text(self):
         words = self.shader("oregon", [("frag", "dot(n, l) > 0.0 ?", "true ?")])
         done = self.run_program("check", *words, "-s", 48, "-o", "sheet.png", "--no-captions")
@@ -387,7 +433,9 @@ class Unruly(CheckTest):
             if said:
                 self.assertIn(said, " ".join(self.notes(report, "hint")))
             else:
-                self.assertEqual((report["verdict"], report["notes"]), ("passes", []))
+                self.assertEqual(report["verdict"], "passes")
+                self.assertEqual(len(report["notes"]), 1, report["notes"])  # no name of a diffuse or specular term
+                self.assertIn("not expected: diffuse, specular", report["notes"][0]["text"])
 
     def test_unused_and_unset(self):
         """An unknown name that nothing depends on does no harm; one with the value 0 is reported before any mistake."""

@@ -101,6 +101,7 @@ static int check_one(struct batch *c, const struct check_pair *pair, lam_error *
             .tolerance = c->tolerance / 255,
             .light_frame = (lam_light_frame)o->light_frame,
             .reflection = (lam_reflection)o->highlight,
+            .terms = (unsigned)o->terms,
             .scenes = c->scene_count ? c->scenes : NULL,
             .scene_count = c->scene_count,
             .cache = c->cache,

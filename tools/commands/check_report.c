@@ -67,9 +67,12 @@ static void print_findings(FILE *file, const lam_check_report *r)
             fputs("No known mistake explains it.\n", file);
         return;
     }
-    bool certain = r->findings[0].certain;
-    fprintf(file, certain ? "It looks like%s:\n" : "It looks most like%s, which does not explain everything:\n",
-            r->finding_count > 1 ? " these together" : " this");
+    const char *these = r->finding_count > 1 ? " these together" : " this";
+    if (r->findings[0].certain)
+        fprintf(file, "It looks like%s:\n", these);
+    else
+        fprintf(file, "It looks most like%s, which explains %.0f %% of the difference; there is more:\n", these,
+                r->findings[r->finding_count - 1].share * 100);
     for (int i = 0; i < r->finding_count; i++) {
         const lam_check_finding *f = &r->findings[i];
         fprintf(file, "  %s: %s\n    mean difference %.5f without it, %.5f with it\n    write  %s\n", f->mistake,
@@ -127,6 +130,7 @@ void check_report_json(FILE *file, const lam_check_report *r, const char *shader
         json_count(&json, "certain", f->certain);
         json_number(&json, "mean_before", f->mean_before);
         json_number(&json, "mean_after", f->mean_after);
+        json_number(&json, "share", f->share);
         json_close(&json, '}');
     }
     json_close(&json, ']');

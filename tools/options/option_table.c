@@ -42,6 +42,12 @@ static const struct word light_frame_words[] = {
 static const struct word highlight_words[] = {
     {"phong", LAM_REFLECTION_PHONG, "r.v"}, {"blinn-phong", LAM_REFLECTION_BLINN_PHONG, "n.h"}, {NULL, 0, NULL}};
 
+static const struct word term_words[] = {{"all", LAM_CHECK_TERM_ALL, NULL},
+                                         {"ambient", LAM_CHECK_TERM_AMBIENT, NULL},
+                                         {"diffuse", LAM_CHECK_TERM_DIFFUSE, NULL},
+                                         {"specular", LAM_CHECK_TERM_SPECULAR, NULL},
+                                         {NULL, 0, NULL}};
+
 static const struct word compress_words[] = {{"fast", LAM_COMPRESS_FAST, "some milliseconds for a million pixels"},
                                              {"best", LAM_COMPRESS_BEST, "the smallest file, in a second or two"},
                                              {NULL, 0, NULL}};
@@ -452,6 +458,11 @@ const struct option option_table[] = {
      light_frame_words, .store = store_word, FIELD(light_frame)},
     {"highlight", 0, GROUP_CHECK, "NAME", "the contract's", "The expected highlight: phong or blinn-phong.", NULL,
      highlight_words, .store = store_word, FIELD(highlight)},
+    {"terms", 0, GROUP_CHECK, "NAMES", "as declared",
+     "The terms that the exercise asks for: all, or some of ambient,diffuse,specular.",
+     "By default a term is asked for if the shaders declare one of its names: without a specular colour no highlight "
+     "is expected. A colour that is asked for and not declared is white.",
+     term_words, .store = store_words, FIELD(terms)},
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(scenes)},
     {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "The limit of a shader's processor time, for all scenes.",

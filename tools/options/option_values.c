@@ -54,6 +54,20 @@ bool store_word(const struct option *option, const char *value, struct options *
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s", value, known, guess);
 }
 
+bool store_words(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    int *field = field_of(options, option->field), all = 0;
+    for (const char *from = value; from; from = strchr(from, ',') ? strchr(from, ',') + 1 : NULL) {
+        char word[32];
+        snprintf(word, sizeof word, "%.*s", (int)(strcspn(from, ",") < 31 ? strcspn(from, ",") : 31), from);
+        if (!store_word(option, word, options, error))
+            return false;
+        all |= *field;
+    }
+    *field = all;
+    return true;
+}
+
 bool store_glsl(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     return store_word(option, strcmp(value, "300 es") == 0 ? "300es" : value, options, error);

@@ -96,6 +96,7 @@ struct options {
     int contract;       // lam_check_contract
     int light_frame;    // lam_light_frame; WORLD: the contract's
     int highlight;      // lam_reflection; AUTO: the contract's
+    int terms;          // bits of lam_check_term; 0: as the shaders declare
     double stop_after_s;
     bool list;
 
@@ -209,6 +210,7 @@ int options_parse(int count, char **words, unsigned groups, struct options *opti
 bool store_switch(const struct option *, const char *, struct options *, lam_error *);       // bool
 bool store_text(const struct option *, const char *, struct options *, lam_error *);         // const char *
 bool store_word(const struct option *, const char *, struct options *, lam_error *);         // int
+bool store_words(const struct option *, const char *, struct options *, lam_error *);        // int, bits
 bool store_glsl(const struct option *, const char *, struct options *, lam_error *);         // likewise
 bool store_up(const struct option *, const char *, struct options *, lam_error *);           // likewise
 bool store_integer(const struct option *, const char *, struct options *, lam_error *);      // int

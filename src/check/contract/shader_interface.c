@@ -6,7 +6,7 @@
 
 #include "fail.h"
 
-static bool has_semantic(const struct shader_interface *r, enum uniform_semantic semantic)
+bool shader_interface_declares(const struct shader_interface *r, enum uniform_semantic semantic)
 {
     const struct declarations *sides[] = {&r->vertex, &r->fragment};
     for (int s = 0; s < 2; s++)
@@ -141,7 +141,7 @@ static void apply_lambent_rules(struct shader_interface *r)
 static unsigned light_kinds(const struct shader_interface *r)
 {
     if (r->which == LAM_CONTRACT_NYU)
-        return has_semantic(r, SEMANTIC_LIGHT_POSITION) ? NEED_POINT : NEED_DIRECTIONAL;
+        return shader_interface_declares(r, SEMANTIC_LIGHT_POSITION) ? NEED_POINT : NEED_DIRECTIONAL;
     if (r->which == LAM_CONTRACT_LAMBENT) {
         const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
         int cone = 0, attenuation = 0, position = 0;
@@ -193,7 +193,7 @@ bool shader_interface_make(struct shader_interface *r, const char *vertex, const
     if (r->light_count < 2)
         r->supports &= ~(unsigned)NEED_LIGHTS;
     r->supports |= r->vertex_lit ? NEED_VERTEX_LIT : 0;
-    if (!has_semantic(r, SEMANTIC_FLAT))
+    if (!shader_interface_declares(r, SEMANTIC_FLAT))
         r->supports &= ~(unsigned)NEED_FLAT;
     apply_lambent_rules(r);
     return true;

@@ -18,6 +18,9 @@ struct shader_interface {
 // `vertex` NULL or "": none. `which` AUTO: recognised. LAM_BAD_ARGUMENT: no contract has any of the names.
 bool shader_interface_make(struct shader_interface *interface, const char *vertex, const char *fragment,
                            lam_check_contract which, lam_error *error);
+// Whether one of the shaders declares a uniform with that meaning.
+bool shader_interface_declares(const struct shader_interface *interface, enum uniform_semantic semantic);
+
 void shader_interface_free(struct shader_interface *interface);
 
 #endif

@@ -6,8 +6,7 @@ uniform bool flat_shading, two_sided;
 in vec4 vertex_color, vertex_color_back;
 flat in vec4 flat_color;
 #else
-in vec4 point_light, point_eye, point_normal, early_eye;
-in vec4 early[LAMPS];
+in vec4 surface_normal, surface_light, surface_eye, early_eye, early_light[LAMPS], early_mirror[LAMPS];
 in float distances[LAMPS];
 #endif
 
@@ -19,6 +18,6 @@ void main()
 #ifdef IN_VERTEX
     pixel = flat_shading && !is(SMOOTH_FOR_FLAT) ? flat_color : (back ? vertex_color_back : vertex_color);
 #else
-    pixel = shade(back ? -point_normal : point_normal, point_light, point_eye, early, early_eye, distances);
+    pixel = shade(Surface(back ? -surface_normal : surface_normal, surface_light, surface_eye, early_eye, early_light, early_mirror, distances));
 #endif
 }

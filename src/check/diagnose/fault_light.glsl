@@ -23,6 +23,7 @@ uniform vec3 specular_as_diffuse;
 uniform vec3 tint;                   // multiplies a tinted highlight
 uniform float light_capacity;        // of the shader under test
 uniform float opacity, shininess;
+uniform float exponent_factor, exponent_constant; // of a wrong exponent; 0: none
 uniform bool phong_lobe;
 uniform mat4 model_view, projection;
 
@@ -72,32 +73,104 @@ float attenuation_of(int i, float d)
     if (is(ATTENUATION_SWAPPED)) {
         a = a.xzy;
     }
-    float sum = a.x + a.y * d + a.z * d * d;
+    if (is(SQUARE_FOR_D)) {
+        d *= d;
+    }
+    if (is(DISTANCE_ONE)) {
+        d = 1.0;
+    }
+    if (is(INVERSE_SQUARE) || is(INVERSE_DISTANCE)) {
+        return 1.0 / (is(INVERSE_SQUARE) ? d * d : d);
+    }
+    float sum = a.x + a.y * d + a.z * d * (is(D_FOR_SQUARE) ? 1.0 : d);
     return is(ATTENUATION_INVERTED) ? sum : 1.0 / sum;
 }
 
 float cone_of(int i, vec4 l)
 {
     vec2 cone = lamps[i].cone.xy;
-    if (cone.x <= -1.0 || is(NO_CONE)) {
+    bool spot = cone.x > -1.0 || is(EVERY_LIGHT_A_SPOT);
+    if (!spot || is(NO_CONE)) {
         return 1.0;
     }
     float c = dot(-l.xyz, lamps[i].axis.xyz);
-    if (c < cone.x && !is(NO_CUTOFF)) {
+    if (is(CONE_REVERSED)) {
+        c = -c;
+    }
+    float compared = is(CONE_BY_ACOS) || is(CONE_IN_DEGREES) ? acos(clamp(c, -1.0, 1.0)) : c;
+    bool inside = is(CONE_BY_ACOS) ? compared <= cone.x : (is(CONE_IN_DEGREES) ? degrees(compared) <= cone.x : c >= cone.x);
+    if (inside == is(CONE_INSIDE_OUT) && !is(NO_CUTOFF)) {
         return 0.0;
     }
     return is(NO_EXPONENT) ? 1.0 : pow(max(c, 0.0), cone.y);
 }
 
-// n: the interpolated normal. pl, pv: the points from which l and v are computed. early: l of each light, normalized at
-// the vertices; early_eye: v likewise; distances: of the vertices.
-vec4 shade(vec4 n, vec4 pl, vec4 pv, vec4 early[LAMPS], vec4 early_eye, float distances[LAMPS])
+// What a vertex shader hands on.
+struct Surface {
+    vec4 normal;
+    vec4 light, eye;           // the points from which l and v are computed
+    vec4 early_eye;            // v, normalized at the vertices
+    vec4 early_light[LAMPS];   // l of each light likewise
+    vec4 early_mirror[LAMPS];  // the half vector, or r, of each light likewise
+    float distance[LAMPS];     // of the vertices
+};
+
+vec4 mirrored(vec4 l, vec4 n) { return 2.0 * dot(n, l) * n - l; }
+
+bool is_phong() { return is(OTHER_LOBE) ? !phong_lobe : phong_lobe; }
+
+// cos of the angle between n and the half vector, or between r and v. `way`: l before it was normalized.
+float highlight_base(int i, Surface s, vec4 n, vec4 l, vec4 way, vec4 v)
 {
-    if (!is(LONG_NORMAL)) {
-        n = unit4(n);
+    if (is_phong()) {
+        vec4 r = is(EARLY_MIRROR) ? unit4(s.early_mirror[i]) : mirrored(l, n);
+        r = is(UNIT_REFLECTION) ? unit4(r) : r;
+        return dot(is(REFLECT_SIGN) ? -r : r, v);
     }
-    vec4 way_eye = is(EARLY_EYE) ? early_eye : to_eye(pv);
+    vec4 h = is(EARLY_MIRROR) ? s.early_mirror[i] : (is(RAW_HALF) ? way : l) + v;
+    return dot(n, is(HALF_LONG) ? h : (is(HALF_MEAN) ? 0.5 * h : unit4(h)));
+}
+
+float diffuse_of(float nl)
+{
+    float d = max(nl, 0.0);
+    if (is(NO_CLAMP)) {
+        d = nl;
+    } else if (is(ABSOLUTE) || is(ABSOLUTE_DIFFUSE)) {
+        d = abs(nl);
+    } else if (is(HALF_LAMBERT)) {
+        d = 0.5 * nl + 0.5;
+    }
+    return is(SQUARED_DIFFUSE) ? d * d : d;
+}
+
+float specular_of(float base, float nl)
+{
+    float exponent = exponent_constant > 0.0 ? exponent_constant : shininess;
+    exponent *= exponent_factor > 0.0 ? exponent_factor : 1.0;
+    float S = base > 0.0 ? pow(base, exponent) : (exponent > 0.0 ? 0.0 : 1.0);
+    if (is(ABSOLUTE)) {
+        S = pow(abs(base), exponent);
+    } else if (nl <= 0.0 && !is(NO_GATE)) {
+        S = 0.0;
+    }
+    return is(SPECULAR_TIMES_D) ? S * max(nl, 0.0) : S;
+}
+
+bool is_left_out(int i)
+{
+    return (is(FIRST_LIGHT_ONLY) && i > 0) || (is(LAST_LIGHT_ONLY) && i < lamp_count - 1) ||
+           (is(LAST_LIGHT_MISSING) && i == lamp_count - 1) || (is(FIRST_LIGHT_MISSING) && i == 0);
+}
+
+vec4 shade(Surface s)
+{
+    vec4 n = is(LONG_NORMAL) ? s.normal : unit4(s.normal);
+    vec4 way_eye = is(EARLY_EYE) ? s.early_eye : to_eye(s.eye);
     vec4 v = is(LONG_EYE) ? way_eye : unit4(way_eye);
+    if (is(FACE_FORWARD) && dot(n, v) < 0.0) {
+        n = -n;
+    }
     vec3 diffuse_color = is(KD_KS_SWAPPED) ? kd_with_ks : kd, specular_color = is(KD_KS_SWAPPED) ? ks_with_kd : ks;
     vec3 ambient_color = ambient_product;
     if (is(KA_KD_SWAPPED)) {
@@ -113,40 +186,23 @@ vec4 shade(vec4 n, vec4 pl, vec4 pv, vec4 early[LAMPS], vec4 early_eye, float di
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
     float diffuse_alpha = 0.0, specular_alpha = 0.0, arrived = 1.0;
     for (int i = 0; i < lamp_count; i++) {
-        if ((is(FIRST_LIGHT_ONLY) && i > 0) || (is(LAST_LIGHT_ONLY) && i < lamp_count - 1)) {
+        if (is_left_out(i)) {
             continue;
         }
-        vec4 exact = to_lamp(i, pl);
-        vec4 way = is(EARLY_LIGHT) ? early[i] : exact;
+        vec4 exact = to_lamp(i, s.light);
+        vec4 way = is(EARLY_LIGHT) ? s.early_light[i] : exact;
         vec4 l = is(LONG_LIGHT) ? way : unit4(way);
         if (is(DIRECTION_MINUS_ORIGIN) && is_far(i)) {
             l = vec4(way.xyz * inversesqrt(dot(way.xyz, way.xyz) + 1.0), 0.0);
         }
-        float d = is(MEAN_DISTANCE) ? distances[i] : length(exact);
+        float d = is(MEAN_DISTANCE) ? s.distance[i] : length(exact);
         float attenuation = attenuation_of(i, d), cone = cone_of(i, unit4(exact));
         arrived = attenuation * cone;
-        float nl = dot(n, l);
-        float D = is(NO_CLAMP) ? nl : (is(ABSOLUTE) ? abs(nl) : max(nl, 0.0));
-        bool phong = is(OTHER_LOBE) ? !phong_lobe : phong_lobe;
-        float base;
-        if (phong) {
-            vec4 r = 2.0 * dot(n, l) * n - l;
-            base = dot(is(REFLECT_SIGN) ? -r : r, v);
-        } else {
-            vec4 h = (is(RAW_HALF) ? way : l) + v;
-            base = dot(n, is(HALF_LONG) ? h : (is(HALF_MEAN) ? 0.5 * h : unit4(h)));
-        }
-        float exponent = shininess * (is(SHININESS_4) ? 4.0 : (is(SHININESS_QUARTER) ? 0.25 : 1.0));
-        float S = is(ABSOLUTE) ? pow(abs(base), exponent) : (base > 0.0 ? pow(base, exponent) : (exponent > 0.0 ? 0.0 : 1.0));
-        if (nl <= 0.0 && !is(NO_GATE) && !is(ABSOLUTE)) {
-            S = 0.0;
-        }
-        if (is(SPECULAR_TIMES_D)) {
-            S *= max(nl, 0.0);
-        }
+        float nl = dot(n, l), D = diffuse_of(nl);
+        float S = specular_of(highlight_base(i, s, n, l, way, v), nl);
         float kept_d = is(BARE_DIFFUSE) ? cone : arrived, kept_s = is(BARE_SPECULAR) ? cone : arrived;
-        diffuse += lamps[i].diffuse * diffuse_color * (kept_d * D);
-        specular += lamps[i].specular * specular_color * (kept_s * S);
+        diffuse += (is(WHITE_LIGHT) ? vec3(1.0) : lamps[i].diffuse) * diffuse_color * (kept_d * D);
+        specular += (is(SPECULAR_LIGHT_AS_DIFFUSE) ? lamps[i].diffuse : lamps[i].specular) * specular_color * (kept_s * S);
         diffuse_alpha += kept_d * opacity * D;
         specular_alpha += kept_s * S;
     }

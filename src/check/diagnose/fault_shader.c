@@ -16,9 +16,9 @@ struct fault_shader {
     GLuint program;     // the one in use
 };
 
-static const char *const bit_names[] = {
+static const char *const bit_names[FAULT_BIT_COUNT] = {"NONE",
 #define BIT_NAME(name) #name,
-    FAULT_BITS(BIT_NAME)
+                                                       FAULT_BITS(BIT_NAME)
 #undef BIT_NAME
 };
 
@@ -129,18 +129,18 @@ static void set_color(const struct fault_shader *m, const char *name, lam_rgb c,
 
 bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *reference_scene,
                        const struct shader_interface *interface, int light_capacity, lam_light_frame frame,
-                       lam_reflection reflection, fault_set set, float *pixels, lam_error *error)
+                       lam_reflection reflection, const fault_set *set, float *pixels, lam_error *error)
 {
     const struct gl *gl = &m->offscreen.context.gl;
     struct reference_matrices matrices;
     reference_matrices(reference_scene, &matrices);
-    bool smooth = set >> BIT_SMOOTH_FOR_FLAT & 1;
+    bool smooth = fault_set_has(set, BIT_SMOOTH_FOR_FLAT);
     if (!build(m, interface->vertex_lit || (reference_scene->flat && !smooth), error))
         return false;
     gl->UseProgram(m->program);
     GLint bits[FAULT_BIT_COUNT];
     for (int i = 0; i < FAULT_BIT_COUNT; i++)
-        bits[i] = (GLint)(set >> i & 1);
+        bits[i] = fault_set_has(set, (enum fault_bit)i);
     gl->Uniform1iv(place(m, "fault_on"), FAULT_BIT_COUNT, bits);
     gl->UniformMatrix4fv(place(m, "model_view"), 1, GL_FALSE, matrix_value(&matrices.model_view).v);
     gl->UniformMatrix4fv(place(m, "projection"), 1, GL_FALSE, matrix_value(&matrices.projection).v);
@@ -162,6 +162,8 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     gl->Uniform1f(place(m, "light_capacity"), (float)light_capacity);
     gl->Uniform1f(place(m, "opacity"), reference_scene->alpha);
     gl->Uniform1f(place(m, "shininess"), reference_scene->shininess);
+    gl->Uniform1f(place(m, "exponent_factor"), set->factor);
+    gl->Uniform1f(place(m, "exponent_constant"), set->constant);
     gl->Uniform1i(place(m, "phong_lobe"), reflection == LAM_REFLECTION_PHONG);
     gl->Uniform1i(place(m, "flat_shading"), reference_scene->flat);
     gl->Uniform1i(place(m, "two_sided"), (interface->supports & NEED_TWO_SIDES) != 0);

@@ -13,6 +13,6 @@ void fault_shader_close(struct fault_shader *shader); // NULL is fine
 // rows top-down.
 bool fault_shader_draw(struct fault_shader *shader, const struct reference_scene *reference_scene,
                        const struct shader_interface *interface, int light_capacity, lam_light_frame frame,
-                       lam_reflection reflection, fault_set set, float *pixels, lam_error *error);
+                       lam_reflection reflection, const fault_set *set, float *pixels, lam_error *error);
 
 #endif

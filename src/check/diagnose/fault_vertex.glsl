@@ -9,8 +9,7 @@ uniform mat4 normal_matrix4; // inverse transpose of model_view
 out vec4 vertex_color, vertex_color_back;
 flat out vec4 flat_color;
 #else
-out vec4 point_light, point_eye, point_normal, early_eye;
-out vec4 early[LAMPS];
+out vec4 surface_normal, surface_light, surface_eye, early_eye, early_light[LAMPS], early_mirror[LAMPS];
 out float distances[LAMPS];
 #endif
 
@@ -21,6 +20,12 @@ vec4 normal_of()
         n = vec4(normal, 0.0);
     } else if (is(NORMAL_BY_MODEL)) {
         n = vec4(mat3(model_view) * normal, 0.0);
+    } else if (is(NORMAL_BY_INVERSE)) {
+        n = vec4(transpose(mat3(normal_matrix4)) * normal, 0.0);
+    } else if (is(NORMAL_BY_TRANSPOSE)) {
+        n = vec4(transpose(mat3(model_view)) * normal, 0.0);
+    } else if (is(NORMAL_AS_POINT)) {
+        n = vec4((model_view * vec4(normal, 1.0)).xyz, 0.0);
     } else if (is(NORMAL_WITH_W)) {
         n = normalize(normal_matrix4 * vec4(normal, 0.0));
         return vec4(n.xyz, 0.0);
@@ -38,30 +43,37 @@ vec4 normal_of()
 void main()
 {
     vec4 at = vec4(position, 1.0), eye = model_view * at;
-#ifdef IN_VERTEX
-    vec4 point_light, point_eye, point_normal, early_eye, early[LAMPS];
-    float distances[LAMPS];
-#endif
-    point_light = is(LIGHT_FROM_OBJECT) ? at : (is(POINT_CLIP) ? projection * eye : eye);
-    point_eye = is(EYE_FROM_OBJECT) ? at : (is(EYE_CLIP) ? projection * eye : eye);
-    point_normal = normal_of();
-    early_eye = unit4(to_eye(point_eye));
+    Surface s;
+    s.light = is(LIGHT_FROM_OBJECT) ? at : (is(POINT_CLIP) ? projection * eye : eye);
+    s.eye = is(EYE_FROM_OBJECT) ? at : (is(EYE_CLIP) ? projection * eye : eye);
+    s.normal = normal_of();
+    s.early_eye = unit4(to_eye(s.eye));
     for (int i = 0; i < LAMPS; i++) {
-        early[i] = vec4(0.0);
-        distances[i] = 0.0;
+        s.early_light[i] = s.early_mirror[i] = vec4(0.0);
+        s.distance[i] = 0.0;
     }
     for (int i = 0; i < lamp_count; i++) {
-        vec4 way = to_lamp(i, point_light);
-        early[i] = unit4(way);
-        distances[i] = length(way);
+        vec4 way = to_lamp(i, s.light);
+        s.early_light[i] = unit4(way);
+        s.distance[i] = length(way);
+        s.early_mirror[i] = is_phong() ? mirrored(s.early_light[i], unit4(s.normal)) : unit4(s.early_light[i] + s.early_eye);
     }
 #ifdef IN_VERTEX
-    vertex_color = shade(point_normal, point_light, point_eye, early, early_eye, distances);
-    vertex_color_back = shade(-point_normal, point_light, point_eye, early, early_eye, distances);
+    vertex_color = shade(s);
+    s.normal = -s.normal;
+    vertex_color_back = shade(s);
     if (is(VERTEX_CLAMPED)) {
         vertex_color = clamp(vertex_color, 0.0, 1.0);
     }
     flat_color = vertex_color;
+#else
+    surface_normal = s.normal;
+    surface_light = s.light;
+    surface_eye = s.eye;
+    early_eye = s.early_eye;
+    early_light = s.early_light;
+    early_mirror = s.early_mirror;
+    distances = s.distance;
 #endif
     gl_Position = projection * eye;
     if (is(UPSIDE_DOWN)) {

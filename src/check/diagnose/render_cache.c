@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <string.h>
 
 #include "arena.h"
 #include "fail.h"
@@ -40,6 +41,13 @@ void lam_check_cache_free(lam_check_cache *cache)
     free(cache);
 }
 
+static uint64_t bits_of(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
 static size_t bucket_of(const struct render_key *k)
 {
     const uint64_t parts[] = {(uint64_t)k->scene,
@@ -50,7 +58,11 @@ static size_t bucket_of(const struct render_key *k)
                               (uint64_t)k->size,
                               (uint64_t)k->light_capacity,
                               k->supports,
-                              k->set};
+                              k->expectation,
+                              k->set.words[0],
+                              k->set.words[1],
+                              bits_of(k->set.factor),
+                              bits_of(k->set.constant)};
     uint64_t hash = 14695981039346656037u; // FNV-1a, one number at a time
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         hash = (hash ^ parts[i] ^ parts[i] >> 29) * 1099511628211u;
@@ -61,7 +73,8 @@ static bool same(const struct render_key *a, const struct render_key *b)
 {
     return a->scene == b->scene && a->contract == b->contract && a->light_frame == b->light_frame &&
            a->reflection == b->reflection && a->vertex_lit == b->vertex_lit && a->size == b->size &&
-           a->light_capacity == b->light_capacity && a->supports == b->supports && a->set == b->set;
+           a->light_capacity == b->light_capacity && a->supports == b->supports && a->expectation == b->expectation &&
+           fault_set_equal(&a->set, &b->set);
 }
 
 const float *render_cache_find(const lam_check_cache *cache, const struct render_key *key)

@@ -10,7 +10,8 @@ struct render_key {
     int contract, light_frame, reflection, vertex_lit;
     int size; // width and height in pixels
     int light_capacity;
-    unsigned supports; // of shader_interface
+    unsigned supports;    // of shader_interface
+    unsigned expectation; // of fault_search
     fault_set set;
 };
 

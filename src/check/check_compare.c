@@ -1,0 +1,336 @@
+// check_compare.c: the reference pictures, their comparison with the shader's, and what explains a difference.
+#include "check_run.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "arena.h"
+#include "expectation.h"
+#include "fail.h"
+#include "fault_search.h"
+#include "srgb.h"
+
+// --- the reference
+
+static bool draw_reference(struct run *r, lam_device *device, struct scene_comparison *scene, lam_error *error)
+{
+    lam_camera camera;
+    struct reference_scene opaque = scene->reference_scene; // the shader under test is drawn without blending
+    opaque.alpha = 1;
+    lam_scene *world = reference_to_scene(&opaque, &camera, error);
+    lam_image image = {0};
+    bool two_sides = (r->interface.supports & NEED_TWO_SIDES) != 0;
+    lam_draw_params draw = {
+        .samples = 1,
+        .rig = LAM_RIG_NONE,
+        .reflection = r->reflection,
+        .shading = scene->reference_scene.flat ? LAM_SHADING_FLAT
+                   : r->interface.vertex_lit   ? LAM_SHADING_GOURAUD
+                                               : LAM_SHADING_PHONG,
+        .flat_normal = LAM_FLAT_NORMAL_VERTEX,
+    };
+    if (world && !two_sides) {
+        lam_object object = *lam_scene_object(world, 0);
+        object.one_sided = true;
+        lam_scene_set_object(world, 0, &object, NULL);
+    }
+    bool ok = world && lam_image_make(&image, r->size, r->size, LAM_RGBA32F, error) &&
+              lam_draw(device, world, &camera, &draw, &image, NULL, error);
+    if (ok) {
+        memcpy(scene->reference, image.pixels, 4 * (size_t)r->size * (size_t)r->size * sizeof(float));
+        for (size_t i = 0; i < (size_t)r->size * (size_t)r->size; i++)
+            scene->reference[4 * i + 3] *= scene->reference_scene.alpha;
+    }
+    lam_image_free(&image);
+    lam_scene_free(world);
+    return ok;
+}
+
+static bool make_scenes(struct run *r, unsigned scenes, lam_error *error)
+{
+    size_t pixels = (size_t)r->size * (size_t)r->size, at = 0;
+    r->scenes = arena_alloc_zeroed(r->arena, (size_t)reference_scene_count * sizeof *r->scenes);
+    r->report->scenes = arena_alloc_zeroed(r->arena, (size_t)reference_scene_count * sizeof *r->report->scenes);
+    r->numbers = arena_array(r->arena, pixels, 4 * sizeof *r->numbers);
+    bool ok = (r->scenes && r->report->scenes && r->numbers) || fail_memory(error, pixels * 4 * sizeof(float));
+    for (int i = 0; ok && i < reference_scene_count; i++) {
+        if (!(scenes >> i & 1))
+            continue;
+        struct scene_comparison *scene = &r->scenes[r->scene_count++];
+        scene->row = &reference_scenes[i];
+        scene->theirs = r->drawn.pixels + at;
+        scene->alpha = reference_scenes[i].needs & NEED_ALPHA;
+        scene->inside = arena_array(r->arena, pixels, sizeof *scene->inside);
+        scene->samples = arena_array(r->arena, pixels, 4 * sizeof *scene->samples);
+        lam_check_scene *out = &r->report->scenes[r->report->scene_count++];
+        *out = (lam_check_scene){.name = scene->row->name, .description = scene->row->description};
+        ok = ((scene->inside && scene->samples) || fail_memory(error, pixels * 4 * sizeof(float))) &&
+             lam_image_make(&out->reference, r->size, r->size, LAM_RGBA32F, error) &&
+             lam_image_make(&out->theirs, r->size, r->size, LAM_RGBA32F, error);
+        scene->reference = out->reference.pixels;
+        if (ok)
+            memcpy(out->theirs.pixels, scene->theirs, pixels * 4 * sizeof(float));
+        at += 4 * pixels;
+    }
+    return ok;
+}
+
+// Draws the references of an expectation, and measures the difference. Returns the mean over all scenes; `fits`: every
+// scene is within the tolerance.
+static bool try_expectation(struct run *r, lam_device *device, unsigned expectation, double *mean, bool *fits,
+                            lam_error *error)
+{
+    int lights = r->drawn.has_list ? r->drawn.light_count : 1;
+    r->expectation = expectation;
+    *mean = 0;
+    *fits = true;
+    for (int i = 0; i < r->scene_count; i++) {
+        struct scene_comparison *scene = &r->scenes[i];
+        scene->reference_scene =
+            contract_reference_scene(r->interface.contract, r->interface.supports, scene->row, lights);
+        expectation_apply(expectation, &scene->reference_scene);
+        if (!draw_reference(r, device, scene, error))
+            return false;
+        scene_comparison_find_inside(scene, r->size);
+        scene_comparison_sample(scene, scene->theirs, scene->samples);
+        scene_comparison_sample(scene, scene->reference, r->numbers);
+        struct difference d = scene_comparison_difference(scene, r->numbers, r->tolerance);
+        *mean += d.mean / r->scene_count;
+        *fits = *fits && d.fits;
+    }
+    return true;
+}
+
+// Of the possible expectations, the first that the pictures fulfil, else the nearest.
+static bool draw_references(struct run *r, lam_error *error)
+{
+    unsigned choices[MAX_EXPECTATIONS];
+    int count = expectations_of(&r->interface, r->params->terms, choices), best = 0;
+    lam_device *device = lam_device_cpu(NULL, error);
+    double mean = 0, best_mean = 0;
+    bool ok = device, fits = false;
+    for (int i = 0; ok && !fits && i < count; i++) {
+        ok = try_expectation(r, device, choices[i], &mean, &fits, error);
+        if (i == 0 || fits || mean < best_mean) {
+            best = i;
+            best_mean = mean;
+        }
+    }
+    if (ok && r->expectation != choices[best])
+        ok = try_expectation(r, device, choices[best], &mean, &fits, error);
+    lam_device_free(device);
+    char text[400];
+    expectation_describe(r->expectation, &r->interface, r->params->terms, text, sizeof text);
+    if (ok && text[0])
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", text);
+    return ok;
+}
+
+// --- the verdict
+
+static uint64_t count_not_numbers(const float *pixels, size_t count)
+{
+    uint64_t found = 0;
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 4; c++) {
+            float x = pixels[4 * i + (size_t)c];
+            if (!(x - x == 0)) {
+                found++;
+                break;
+            }
+        }
+    return found;
+}
+
+static float decode(float encoded) { return (float)srgb_linear((double)encoded); }
+
+// Whether the shader encodes its colours as sRGB, as those of `lambent shader` do: the constant 12.92 of the encoding
+// occurs in its text. Its pictures are then decoded before they are compared.
+static bool is_encoded(const struct run *r)
+{
+    return r->interface.which == LAM_CONTRACT_LAMBENT && declarations_uses(&r->interface.fragment, "12.92");
+}
+
+static bool decode_all(struct run *r)
+{
+    size_t count = 4 * (size_t)r->size * (size_t)r->size;
+    for (int k = 0; k < r->scene_count; k++) {
+        float *decoded = arena_array(r->arena, count, sizeof *decoded);
+        if (!decoded)
+            return false;
+        for (size_t i = 0; i < count; i++)
+            decoded[i] = i % 4 == 3 ? r->scenes[k].theirs[i] : decode(r->scenes[k].theirs[i]);
+        r->scenes[k].theirs = decoded;
+        memcpy(r->report->scenes[k].theirs.pixels, decoded, count * sizeof *decoded);
+    }
+    return true;
+}
+
+// Compares every scene with its reference, and sets the verdict.
+static void measure(struct run *r, bool writes)
+{
+    lam_check_report *report = r->report;
+    report->verdict = LAM_CHECK_PASSES;
+    report->mean = 0;
+    for (int i = 0; i < r->scene_count; i++) {
+        lam_check_scene *out = &report->scenes[i];
+        scene_comparison_sample(&r->scenes[i], r->scenes[i].theirs, r->scenes[i].samples);
+        scene_comparison_sample(&r->scenes[i], r->scenes[i].reference, r->numbers);
+        struct difference d = scene_comparison_difference(&r->scenes[i], r->numbers, r->tolerance);
+        r->scenes[i].mean_difference = d.mean;
+        r->scenes[i].passes = d.fits;
+        out->maximum = d.maximum;
+        out->mean = d.mean;
+        out->share_over = d.share_over;
+        out->pixels = d.pixels;
+        out->not_numbers = count_not_numbers(r->scenes[i].theirs, (size_t)r->size * (size_t)r->size);
+        out->passes = d.fits && out->not_numbers == 0;
+        report->mean += d.mean / r->scene_count;
+        if (!out->passes && report->verdict == LAM_CHECK_PASSES)
+            report->verdict = LAM_CHECK_DIFFERS;
+        if (out->not_numbers)
+            report->verdict = LAM_CHECK_NOT_NUMBER;
+    }
+    if (report->verdict == LAM_CHECK_NOT_NUMBER && writes)
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+                        "NaN or infinity reaches the picture: pow() of a negative base, normalize() of a zero "
+                        "vector and division by 0 produce it; pow(max(x, 0.0), shininess) does not");
+}
+
+// Fraction of the compared pixels that are unwritten, or NaN or infinite.
+static double missing_share(const struct scene_comparison *scene, bool not_numbers)
+{
+    size_t missing = 0;
+    for (size_t i = 0; i < scene->inside_count; i++) {
+        const float *p = scene->theirs + 4 * (size_t)scene->inside[i];
+        bool clear = p[0] == 0 && p[1] == 0 && p[2] == 0 && p[3] == 0, number = true;
+        for (int c = 0; c < 4; c++)
+            number = number && p[c] - p[c] == 0;
+        missing += not_numbers ? !number : clear;
+    }
+    return scene->inside_count ? (double)missing / (double)scene->inside_count : 0;
+}
+
+// Whether a search for faults makes sense: not for pictures that are nearly empty.
+static bool is_searchable(struct run *r, bool writes)
+{
+    double clear = 0, no_number = 0;
+    bool spoilt = false; // NaN counts as black, so such a scene resembles faults that darken
+    for (int i = 0; i < r->scene_count; i++) {
+        double here = missing_share(&r->scenes[i], true);
+        clear += missing_share(&r->scenes[i], false) / r->scene_count;
+        no_number += here / r->scene_count;
+        spoilt = spoilt || here > 0.25;
+    }
+    if (writes && clear > 0.02)
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+                        "%.0f %% of the model is not drawn: the shader discards it, or gl_Position puts it elsewhere",
+                        clear * 100);
+    return writes && clear < 0.9 && no_number < 0.5 && !spoilt;
+}
+
+// Whether the pictures differ by more than NaN and infinity, which count as 0 and 1.
+static bool has_differences(const struct run *r)
+{
+    bool fits = true;
+    for (int i = 0; i < r->scene_count; i++)
+        fits = fits && r->scenes[i].passes;
+    return !fits;
+}
+
+// Reports a style of the shader that is as right as the reference, and compares with pictures that have it too.
+static bool accept_style(struct run *r, struct fault_search *s, bool writes, lam_error *error)
+{
+    if (s->count == 0)
+        for (int i = 0; i < r->scene_count; i++)
+            if (!r->scenes[i].passes && !fault_search_draw_style(s, i, r->scenes[i].reference, error))
+                return false;
+    diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", s->style->explanation);
+    if (s->count == 0)
+        measure(r, writes);
+    return true;
+}
+
+static void report_findings(struct run *r, const struct fault_search *s)
+{
+    lam_check_report *report = r->report;
+    report->findings = arena_alloc_zeroed(r->arena, MAX_FOUND_FAULTS * sizeof *report->findings);
+    for (int i = 0; report->findings && i < s->count; i++) {
+        char explanation[400], correction[400];
+        const struct found_fault *found = &s->found[i];
+        fault_text(found->row->explanation, &r->interface, r->frame, r->reflection, explanation, sizeof explanation);
+        fault_text(found->row->correction, &r->interface, r->frame, r->reflection, correction, sizeof correction);
+        size_t at = strlen(explanation);
+        double number = found->row->fit == FIT_SMALLER ? 1 / (double)found->exponent : (double)found->exponent;
+        if (found->row->fit)
+            snprintf(explanation + at, sizeof explanation - at, ", here %.3g", number);
+        double before = i ? s->found[i - 1].after : s->before;
+        report->findings[report->finding_count++] =
+            (lam_check_finding){.mistake = found->row->id,
+                                .explanation = arena_string(r->arena, explanation),
+                                .correction = arena_string(r->arena, correction),
+                                .certain = s->certain,
+                                .mean_before = before,
+                                .mean_after = found->after,
+                                .share = s->certain && i == s->count - 1 ? 1
+                                         : found->after < s->before      ? 1 - found->after / s->before
+                                                                         : 0};
+    }
+    for (int i = 0; i < r->scene_count; i++)
+        if (!report->scenes[i].passes && s->scene_faults[i])
+            report->scenes[i].looks_like = s->scene_faults[i]->id;
+}
+
+static bool explain(struct run *r, bool writes, lam_error *error)
+{
+    struct fault_search s = {.interface = &r->interface,
+                             .frame = r->frame,
+                             .reflection = r->reflection,
+                             .gl_device = r->params->gl_device,
+                             .cache = r->params->cache,
+                             .scenes = r->scenes,
+                             .scene_count = r->scene_count,
+                             .size = r->size,
+                             .light_capacity = r->drawn.has_list ? r->drawn.light_count : 1,
+                             .expectation = r->expectation,
+                             .tolerance = r->tolerance,
+                             .before = r->report->mean,
+                             .has_unset_names = r->drawn.unknown_count > 0 || r->drawn.types_count > 0};
+    for (int i = 0; i < r->scene_count; i++)
+        s.needs |= r->scenes[i].row->needs;
+    for (int i = 0; i < r->scene_count; i++) // some scenes show more than they need
+        s.needs |=
+            (r->scenes[i].reference_scene.ka > 0 ? NEED_AMBIENT : 0) |
+            (r->interface.contract->has_attenuation && (r->interface.supports & NEED_POINT) ? NEED_ATTENUATION : 0);
+    s.scene_faults = arena_alloc_zeroed(r->arena, (size_t)r->scene_count * sizeof *s.scene_faults + 1);
+    if (!s.scene_faults)
+        return fail_memory(error, 1);
+    if (!fault_search_run(&s, error))
+        return false;
+    if (s.style && !accept_style(r, &s, writes, error))
+        return false;
+    if (r->report->verdict == LAM_CHECK_PASSES)
+        return true;
+    if (s.has_unset_names)
+        diagnostics_add(
+            &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+            "a name that is not in the contract has the value 0, which may be the only mistake: correct the "
+            "names first");
+    report_findings(r, &s);
+    return true;
+}
+
+bool check_compare(struct run *r, unsigned scenes, bool writes, lam_error *error)
+{
+    if (!make_scenes(r, scenes, error))
+        return false;
+    if (is_encoded(r) && !decode_all(r))
+        return fail_memory(error, 4 * (size_t)r->size * (size_t)r->size * sizeof(float));
+    if (!draw_references(r, error))
+        return false;
+    measure(r, writes);
+    if (r->report->verdict == LAM_CHECK_PASSES || !is_searchable(r, writes) || !has_differences(r))
+        return true;
+    return explain(r, writes, error);
+}

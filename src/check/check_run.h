@@ -1,0 +1,33 @@
+// check_run.h: one check, from its parameters to its report. check.c prepares and draws, check_compare.c compares.
+#ifndef CHECK_RUN_H
+#define CHECK_RUN_H
+
+#include "diagnostics.h"
+#include "draw_request.h"
+#include "scene_comparison.h"
+#include "shader_interface.h"
+
+struct run {
+    const lam_check_params *params;
+    lam_check_report *report;
+    struct arena *arena;
+    struct diagnostics diagnostics;
+    struct shader_interface interface;
+    int size;
+    double tolerance;
+    lam_light_frame frame;
+    lam_reflection reflection;
+    char *vertex;    // generated, where none was given
+    lam_bytes bytes; // the drawing process's message, which `drawn` points into
+    struct draw_result drawn;
+    struct scene_comparison *scenes;
+    int scene_count;
+    unsigned expectation; // bits of enum expectation
+    float *numbers;       // scratch memory for the samples of a picture
+};
+
+// Compares the pictures of `drawn` with the reference scenes `scenes` (bits), and fills the report: scenes, verdict,
+// findings. `writes`: the fragment shader writes a colour.
+bool check_compare(struct run *run, unsigned scenes, bool writes, lam_error *error);
+
+#endif

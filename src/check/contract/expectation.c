@@ -1,0 +1,168 @@
+// expectation.c: the terms that shaders are expected to compute, read from their declarations.
+#include "expectation.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include <lambent/check.h>
+
+static bool declares(const struct shader_interface *r, enum uniform_semantic semantic)
+{
+    return shader_interface_declares(r, semantic);
+}
+
+static bool names(const struct shader_interface *r, enum uniform_semantic semantic)
+{
+    for (const struct contract_name *n = r->contract->names; n->name; n++)
+        if (n->semantic == semantic)
+            return true;
+    return false;
+}
+
+// The contract has the name, and the shaders do not declare it.
+static bool lacks(const struct shader_interface *r, enum uniform_semantic semantic)
+{
+    return names(r, semantic) && !declares(r, semantic);
+}
+
+// --- the possible expectations of each term, most complete first
+
+enum { MAX_CHOICES = 3 };
+
+static int ambient_choices(const struct shader_interface *r, unsigned terms, unsigned out[MAX_CHOICES])
+{
+    bool declared = names(r, SEMANTIC_KA) ? declares(r, SEMANTIC_KA)
+                                          : declares(r, SEMANTIC_AMBIENT) || declares(r, SEMANTIC_AMBIENT_PRODUCT);
+    out[0] = EXPECT_NO_AMBIENT;
+    if (terms ? terms & LAM_CHECK_TERM_AMBIENT : declared)
+        out[0] = lacks(r, SEMANTIC_AMBIENT_LIGHT) && !declares(r, SEMANTIC_LIGHT_AMBIENT) &&
+                         !declares(r, SEMANTIC_AMBIENT_PRODUCT)
+                     ? EXPECT_WHITE_AMBIENT_LIGHT
+                     : 0;
+    return 1;
+}
+
+static int diffuse_choices(const struct shader_interface *r, unsigned terms, unsigned out[MAX_CHOICES])
+{
+    bool product = declares(r, SEMANTIC_DIFFUSE_PRODUCT);
+    bool surface = declares(r, SEMANTIC_DIFFUSE) || declares(r, SEMANTIC_COLOR) || product;
+    bool light = declares(r, SEMANTIC_LIGHT_COLOR);
+    bool declared = names(r, SEMANTIC_KD) ? declares(r, SEMANTIC_KD) : surface || light;
+    unsigned complete = (surface ? 0 : EXPECT_WHITE_DIFFUSE | (declares(r, SEMANTIC_KD) ? 0 : EXPECT_FULL_DIFFUSE)) |
+                        (lacks(r, SEMANTIC_LIGHT_COLOR) && !product ? EXPECT_WHITE_LIGHT : 0);
+    int count = 0;
+    if (!terms || terms & LAM_CHECK_TERM_DIFFUSE)
+        out[count++] = complete;
+    // The colour of the light alone may serve a highlight.
+    if (terms ? !count : !declared || (!surface && !declares(r, SEMANTIC_LIGHT_SPECULAR)))
+        out[count++] = EXPECT_NO_DIFFUSE;
+    return count;
+}
+
+static int specular_choices(const struct shader_interface *r, unsigned terms, unsigned out[MAX_CHOICES])
+{
+    bool product = declares(r, SEMANTIC_SPECULAR_PRODUCT);
+    bool surface = declares(r, SEMANTIC_SPECULAR) || declares(r, SEMANTIC_SPECULAR_COLOR) || product;
+    bool light = declares(r, SEMANTIC_LIGHT_SPECULAR);
+    bool declared = names(r, SEMANTIC_KS) ? declares(r, SEMANTIC_KS) : surface || light;
+    bool has_surface_color = names(r, SEMANTIC_SPECULAR) || names(r, SEMANTIC_SPECULAR_COLOR);
+    unsigned white = surface || !has_surface_color ? 0 : EXPECT_WHITE_SPECULAR;
+    if (white && !declares(r, SEMANTIC_KS))
+        white |= EXPECT_FULL_SPECULAR;
+    int count = 0;
+    if (!(r->supports & RULE_NO_SPECULAR) && (!terms || terms & LAM_CHECK_TERM_SPECULAR)) {
+        bool light_open = lacks(r, SEMANTIC_LIGHT_SPECULAR) && !product;
+        if (light_open && declares(r, SEMANTIC_LIGHT_COLOR))
+            out[count++] = white | EXPECT_SPECULAR_LIGHT_AS_DIFFUSE;
+        out[count++] = white | (light_open ? EXPECT_WHITE_SPECULAR_LIGHT : 0);
+    }
+    if (terms || r->supports & RULE_NO_SPECULAR ? !count : !declared)
+        out[count++] = EXPECT_NO_SPECULAR;
+    return count;
+}
+
+int expectations_of(const struct shader_interface *r, unsigned terms, unsigned out[MAX_EXPECTATIONS])
+{
+    const unsigned nothing = EXPECT_NO_AMBIENT | EXPECT_NO_DIFFUSE | EXPECT_NO_SPECULAR;
+    unsigned ambient[MAX_CHOICES], diffuse[MAX_CHOICES], specular[MAX_CHOICES];
+    ambient_choices(r, terms, ambient);
+    int diffuse_count = diffuse_choices(r, terms, diffuse), specular_count = specular_choices(r, terms, specular);
+    int count = 0;
+    for (int i = 0; i < diffuse_count; i++)
+        for (int k = 0; k < specular_count; k++) {
+            unsigned whole = ambient[0] | diffuse[i] | specular[k];
+            if (terms || (whole & nothing) != nothing)
+                out[count++] = whole;
+        }
+    return count;
+}
+
+void expectation_apply(unsigned e, struct reference_scene *s)
+{
+    const lam_rgb white = {1, 1, 1};
+    if (e & EXPECT_NO_AMBIENT)
+        s->ka = 0;
+    if (e & EXPECT_WHITE_DIFFUSE) {
+        bool one = s->ambient.r == s->diffuse.r && s->ambient.g == s->diffuse.g && s->ambient.b == s->diffuse.b;
+        s->ambient = one ? white : s->ambient; // the contract has one colour for both
+        s->diffuse = white;
+    }
+    if (e & EXPECT_WHITE_SPECULAR)
+        s->specular = white;
+    if (e & EXPECT_FULL_DIFFUSE)
+        s->kd = 1;
+    if (e & EXPECT_FULL_SPECULAR)
+        s->ks = 1;
+    for (int i = 0; i < s->light_count; i++) {
+        struct reference_light *light = &s->lights[i];
+        if (e & EXPECT_WHITE_LIGHT)
+            light->color = white;
+        if (e & EXPECT_WHITE_SPECULAR_LIGHT)
+            light->specular = white;
+        if (e & EXPECT_SPECULAR_LIGHT_AS_DIFFUSE)
+            light->specular = light->color;
+        if (e & EXPECT_WHITE_AMBIENT_LIGHT) // the sum over all lights
+            light->ambient = i ? (lam_rgb){0, 0, 0} : white;
+    }
+    if (e & EXPECT_NO_DIFFUSE)
+        s->kd = 0;
+    if (e & EXPECT_NO_SPECULAR)
+        s->ks = 0;
+}
+
+void expectation_describe(unsigned e, const struct shader_interface *r, unsigned terms, char *out, size_t capacity)
+{
+    static const struct {
+        unsigned bit;
+        const char *name;
+    } terms_of[] = {{EXPECT_NO_AMBIENT, "ambient"}, {EXPECT_NO_DIFFUSE, "diffuse"}, {EXPECT_NO_SPECULAR, "specular"}},
+      white[] = {{EXPECT_WHITE_DIFFUSE, "colour of the surface"},
+                 {EXPECT_WHITE_SPECULAR, "colour of the highlight"},
+                 {EXPECT_WHITE_LIGHT, "light's diffuse colour"},
+                 {EXPECT_WHITE_SPECULAR_LIGHT, "light's specular colour"},
+                 {EXPECT_WHITE_AMBIENT_LIGHT, "ambient light"}};
+    size_t at = 0;
+    out[0] = 0;
+    if (!r->contract->has_ambient)
+        e &= ~(unsigned)EXPECT_NO_AMBIENT;
+    if (r->supports & RULE_NO_SPECULAR)
+        e &= ~(unsigned)EXPECT_NO_SPECULAR;
+    int count = 0;
+    for (size_t i = 0; !terms && i < sizeof terms_of / sizeof *terms_of; i++)
+        if (e & terms_of[i].bit)
+            at += (size_t)snprintf(
+                out + at, capacity - at, "%s%s",
+                count++ ? ", " : "no name of these terms is declared, so they are not expected: ", terms_of[i].name);
+    if (count)
+        at += (size_t)snprintf(out + at, capacity - at, "; --terms all expects them");
+    count = 0;
+    for (size_t i = 0; i < sizeof white / sizeof *white; i++)
+        if (e & white[i].bit)
+            at += (size_t)snprintf(out + at, capacity - at, "%s%s",
+                                   count++ ? ", "
+                                   : at    ? "; not declared and taken as white: "
+                                           : "not declared and taken as white: ",
+                                   white[i].name);
+    if (e & EXPECT_SPECULAR_LIGHT_AS_DIFFUSE)
+        snprintf(out + at, capacity - at, "%sthe light has one colour for both terms", at ? "; " : "");
+}

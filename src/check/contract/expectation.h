@@ -1,0 +1,39 @@
+// expectation.h: what a pair of shaders is expected to compute: the terms that the exercise asks for, and the value of
+// colours that the shaders do not declare.
+//
+// A term of whose names none is declared is not asked for. A colour that is not declared is white. Where the
+// declarations leave it open whether a term is asked for, several expectations are right.
+#ifndef EXPECTATION_H
+#define EXPECTATION_H
+
+#include "shader_interface.h"
+
+// How the expected scene departs from the reference scene.
+enum expectation {
+    EXPECT_NO_AMBIENT = 1,
+    EXPECT_NO_DIFFUSE = 2,
+    EXPECT_NO_SPECULAR = 4,
+    EXPECT_WHITE_DIFFUSE = 8,               // of the surface
+    EXPECT_WHITE_SPECULAR = 16,             // of the surface
+    EXPECT_WHITE_LIGHT = 32,                // Ld
+    EXPECT_WHITE_SPECULAR_LIGHT = 64,       // Ls
+    EXPECT_SPECULAR_LIGHT_AS_DIFFUSE = 128, // Ls is Ld
+    EXPECT_WHITE_AMBIENT_LIGHT = 256,
+    EXPECT_FULL_DIFFUSE = 512,   // kd is 1
+    EXPECT_FULL_SPECULAR = 1024, // ks is 1
+};
+
+enum { MAX_EXPECTATIONS = 12 };
+
+// Stores the possible expectations, bits of enum expectation, those with most terms first. `terms`: bits of
+// lam_check_term that are asked for; 0: those that the declarations tell. Returns their count, at least 1.
+int expectations_of(const struct shader_interface *interface, unsigned terms, unsigned out[MAX_EXPECTATIONS]);
+
+// Changes a scene from contract_reference_scene to the expected one.
+void expectation_apply(unsigned expectation, struct reference_scene *scene);
+
+// A sentence about what is not asked for or taken as white; "" where there is nothing to say.
+void expectation_describe(unsigned expectation, const struct shader_interface *interface, unsigned terms, char *out,
+                          size_t capacity);
+
+#endif

@@ -1,0 +1,38 @@
+// scene_comparison.h: the difference between the shader's picture of a scene and another.
+#ifndef SCENE_COMPARISON_H
+#define SCENE_COMPARISON_H
+
+#include "reference_scene.h"
+
+// The comparison of one scene. A pixel is compared where its 3×3 neighbours are all covered in the reference.
+struct scene_comparison {
+    const struct reference_scene *row;      // of the table
+    struct reference_scene reference_scene; // as it is expected to look
+    const float *theirs;                    // straight RGBA
+    float *reference;                       // straight alpha
+    uint32_t *inside;                       // indices of the compared pixels
+    size_t inside_count;
+    float *samples; // of `theirs` (scene_comparison_sample)
+    bool alpha;     // alpha is compared too
+    double mean_difference;
+    bool passes;
+};
+
+struct difference {
+    double maximum, mean, share_over;
+    uint64_t pixels;
+    bool fits; // within the tolerance: one pixel in 200 may exceed it, and the mean may be a quarter of it
+};
+
+// Finds the pixels to compare. The caller allocates `inside`, of size² elements.
+void scene_comparison_find_inside(struct scene_comparison *scene, int size);
+
+// Copies the compared pixels of a picture to `out`: red, green, blue (clamped to 0…1), and alpha where it is compared.
+size_t scene_comparison_sample_count(const struct scene_comparison *scene);
+void scene_comparison_sample(const struct scene_comparison *scene, const float *picture, float *out);
+
+// The difference between scene->samples and those of another picture.
+struct difference scene_comparison_difference(const struct scene_comparison *scene, const float *other,
+                                              double tolerance);
+
+#endif

@@ -137,6 +137,11 @@ LAM_API int lam_utf8_length(const void *bytes, size_t size);
 // (optimal string alignment). Words of more than 63 bytes count as 63 apart.
 LAM_API int lam_edit_distance(const char *a, const char *b);
 
+// How far a typed word is from a word of this interface, for suggestions. 0: it means that word (they differ in capitals,
+// '-', '_' and spaces at most, or people call it so: "sun" for "directional"). 1: the word begins with it, three letters
+// or more. Else the edit distance.
+LAM_API int lam_word_distance(const char *typed, const char *word);
+
 #ifdef __cplusplus
 }
 #endif

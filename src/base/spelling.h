@@ -4,16 +4,19 @@
 
 #include <lambent/base.h>
 
-// A search for the word that a mistyped one stands for.
+// A search for the word of the interface that a typed one stands for, by lam_word_distance.
 struct spelling {
     const char *word;    // as typed
     const char *nearest; // of those tried; NULL: none is near
-    int limit;           // an edit distance below it is nearer than all before
+    int limit;           // a distance below it is nearer than all before
 };
 struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);
 
 // The word of `words` with the smallest edit distance to `word`, at most a third of its length; NULL: none is that near.
 const char *nearest_word(const char *word, const char *const *words, int count);
+
+// The word of the interface among `words` that a typed one stands for; NULL: none is near.
+const char *meant_word(const char *word, const char *const *words, int count);
 
 #endif

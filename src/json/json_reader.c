@@ -82,7 +82,7 @@ bool json_check_keys(const struct json_reader *r, const struct place *place, con
             i++;
         if (i < count)
             continue;
-        const char *nearest = strlen(key) <= 40 ? nearest_word(key, keys, count) : NULL;
+        const char *nearest = strlen(key) <= 40 ? meant_word(key, keys, count) : NULL;
         char known[300] = "";
         for (i = 0; !nearest && i < count; i++) {
             size_t used = strlen(known);
@@ -184,7 +184,7 @@ bool json_choice_of(const struct json_reader *r, const struct place *place, cons
                  names[count]);
     }
     bool text = json_is_string(value) && json_string_length(value) <= 40;
-    const char *nearest = text ? nearest_word(json_string_value(value), names, count) : NULL;
+    const char *nearest = text ? meant_word(json_string_value(value), names, count) : NULL;
     char expected[240];
     snprintf(expected, sizeof expected, "%s%s%s%s", known, nearest ? "; did you mean '" : "", nearest ? nearest : "",
              nearest ? "'?" : "");

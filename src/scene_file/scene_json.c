@@ -216,7 +216,7 @@ static bool read_built_in(struct scene_reader *r, const struct place *place, con
         }
         count++;
     }
-    const char *near_word = nearest_word(*name, known, count);
+    const char *near_word = meant_word(*name, known, count);
     return fail_place(r, place, "found '%.60s', expected sky or studio%s%s%s", *name,
                       near_word ? "; did you mean '" : "", near_word ? near_word : "", near_word ? "'?" : "");
 }

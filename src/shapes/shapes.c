@@ -451,7 +451,7 @@ static bool fail_unknown_shape(const char *name, lam_error *error)
     const char *names[SHAPES];
     for (int i = 0; i < SHAPES; i++)
         names[i] = shapes[i].name;
-    const char *nearest = nearest_word(name, names, SHAPES);
+    const char *nearest = meant_word(name, names, SHAPES);
     return fail(error, LAM_BAD_ARGUMENT, "no shape is named '%s'%s%s%s", name, nearest ? ", the nearest name is '" : "",
                 nearest ? nearest : "", nearest ? "'" : "");
 }

@@ -329,7 +329,7 @@ static bool find_type(const char *name, lam_light_type *type, lam_error *error)
             return true;
         }
     }
-    const char *nearest = nearest_word(name, words, LAM_LIGHT_TYPE_COUNT);
+    const char *nearest = meant_word(name, words, LAM_LIGHT_TYPE_COUNT);
     return fail(error, LAM_BAD_ARGUMENT, "unknown light '%.60s'%s%s%s", name, nearest ? "; did you mean '" : "",
                 nearest ? nearest : "", nearest ? "'?" : "; expected ambient, hemisphere, point, directional or spot");
 }

@@ -23,7 +23,7 @@ int word_key(const char *name, const char *const *names, lam_error *error)
                                     : " or ",
                  names[count]);
     }
-    const char *nearest = nearest_word(name, names, count);
+    const char *nearest = meant_word(name, names, count);
     if (nearest)
         fail(error, LAM_BAD_ARGUMENT, "unknown key '%.60s'; did you mean '%s'?", name, nearest);
     else

@@ -22,6 +22,10 @@ class Models(Case):
     def test_missing(self):
         self.one_sentence(self.bad(2, "missing.obj", says="missing.obj"))
         self.bad(2, "teapto", says="did you mean 'teapot'?")
+        self.bad(2, "bunny", says="`lambent shapes` lists them")
+        self.bad(2, "box", says="did you mean 'cube'?")
+        self.bad(2, "version", says="an option begins with dashes: --version")
+        self.bad(2, "missing.obj", "shapes", says="a command comes first: lambent shapes")
 
     def test_folder(self):
         (self.folder / "folder.obj").mkdir()

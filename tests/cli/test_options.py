@@ -117,6 +117,9 @@ class View(Case):
         self.assertEqual(self.direction("--azimuth", "30", "--elevation", "20"), self.direction())
         self.assertEqual(self.direction("--view", "front", "--elevation", "90"), [0, 1, 0])
 
+    def test_default_view_has_a_name(self):
+        self.assertEqual(self.png("cube.obj", "-s", 32, "--view", "three-quarter"), self.png("cube.obj", "-s", 32))
+
     def test_fit_fills_the_picture(self):
         for words in ((), ("--view", "front"), ("--projection", "orthographic"), ("--azimuth", "200")):
             left, top, right, bottom = covered(self.png("cube.obj", "-s", "200", "--samples", 16, *words))
@@ -302,6 +305,10 @@ class CommandLine(Case):
         for word, nearest in {"--szie": "--size", "--ouput": "--output", "--backgroun": "--background",
                               "--colour": "--color", "-size": "--size", "--crease": "--crease-angle"}.items():
             self.bad(1, "cube.obj", word, "3", says=[f"unknown option '{word}'", f"did you mean '{nearest}'?"])
+        for word, nearest in {"--resolution": "size", "--bg": "background", "--fov": "camera", "--antialias": "samples", "--width": "size",
+                              "--transparency": "opacity", "--jobs": "threads", "--gpu": "device", "--out": "output", "--ortho": "projection",
+                              "--smooth": "shading", "--hdri": "environment", "--sun": "light", "--Size": "size", "--light_scale": "light-scale"}.items():
+            self.bad(1, "cube.obj", word, "3", says=[f"unknown option '{word}'", f"did you mean '--{nearest}'?"])
         done = self.bad(1, "cube.obj", "--entirely-else", says="unknown option '--entirely-else'")
         self.assertNotIn(b"did you mean", done.stderr)
         self.bad(1, "cube.obj", "-Z", says="unknown option '-Z'")
@@ -320,6 +327,21 @@ class CommandLine(Case):
             ("--background", "-1/0/0"): "expected a colour", ("--isa", "mmx"): "expected auto, scalar",
             ("--output", ""): "empty", ("--repeat", "0"): "from 1", ("--time-limit", "0"): "from 0.001",
             ("--json=yes",): "takes no value",
+            # Other names of the same things.
+            ("--light", "distant"): "did you mean 'directional'?", ("--light", "sun:color=red"): "did you mean 'directional'?",
+            ("--light", "spotlight"): "did you mean 'spot'?", ("--light", "sky"): "did you mean 'hemisphere'?",
+            ("--light", "omni"): "did you mean 'point'?", ("--light", "spot:angle=20"): "did you mean 'cutoff'?",
+            ("--light", "point:pos=1/2/3"): "did you mean 'position'?", ("--light", "point:power=2"): "did you mean 'intensity'?",
+            ("--shading", "per-vertex"): "did you mean 'gouraud'?", ("--shading", "per-pixel"): "did you mean 'phong'?",
+            ("--shading", "Faceted"): "did you mean 'flat'?", ("--stage", "per_pixel"): "did you mean 'fragment'?",
+            ("--show", "ndotl"): "did you mean 'n.l'?", ("--show", "NdotH"): "did you mean 'n.h'?", ("--show", "normal"): "did you mean 'normals'?",
+            ("--show", "zbuffer"): "did you mean 'depth'?", ("--projection", "ortho"): "did you mean 'orthographic'?",
+            ("--view", "isometric"): "did you mean 'iso'?", ("--view", "FRONT"): "did you mean 'front'?",
+            ("--reflection", "blinn"): "did you mean 'blinn-phong'?", ("--rig", "3-point"): "did you mean 'three-point'?",
+            ("--device", "gpu"): "did you mean 'gl'?", ("--material", "albedo=red"): "did you mean 'diffuse'?",
+            ("--material", "roughness=0.5"): "did you mean 'roughness_angle'?", ("--material", "alpha=0.5"): "did you mean 'opacity'?",
+            ("--camera", "pos=1/2/3"): "did you mean 'eye'?", ("--camera", "fov=30"): "did you mean 'fovy'?",
+            ("--sheet", "terms"): "does not apply to this command; it belongs to compare",
         }.items():
             with self.subTest(words):
                 self.bad(1, "cube.obj", *words, says=[words[0].split("=")[0], says])

@@ -75,6 +75,45 @@ static void test_edit_distance(void **state)
     assert_null(nearest_word("shadow", words, 3));
 }
 
+// What people type for a word of the interface.
+static void test_word_distance(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *typed, *word;
+        int distance;
+    } cases[] = {
+        {"directional", "directional", 0},
+        {"sun", "directional", 0},
+        {"Distant", "directional", 0},
+        {"per-vertex", "gouraud", 0},
+        {"PER_PIXEL", "phong", 0},
+        {"ndotl", "n.l", 0},
+        {"Blinn Phong", "blinn-phong", 0},
+        {"dir", "direction", 0},
+        {"pos", "position", 0},
+        {"back", "background", 1},
+        {"ba", "background", 8},
+        {"specualr", "specular", 1},
+        {"sun", "spot", 3},
+        {"su", "directional", 11},
+        {"", "n.l", 3},
+        {"sunsun", "directional", 10},
+        {"un", "directional", 10},
+        {"distan", "directional", 7},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        if (lam_word_distance(cases[i].typed, cases[i].word) != cases[i].distance)
+            fail_msg("%s, %s: %d", cases[i].typed, cases[i].word, lam_word_distance(cases[i].typed, cases[i].word));
+    static const char *const types[] = {"ambient", "hemisphere", "point", "directional", "spot"};
+    assert_string_equal(meant_word("distant", types, 5), "directional");
+    assert_string_equal(meant_word("spotlight", types, 5), "spot");
+    assert_null(meant_word("per-vertex", types, 5));
+    char many[70] = {0};
+    memset(many, 'a', 69);
+    assert_int_equal(lam_word_distance(many, "a"), 63);
+}
+
 static void test_libraries(void **state)
 {
     (void)state;
@@ -93,10 +132,8 @@ static void test_libraries(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_text),
-        cmocka_unit_test(test_utf8),
-        cmocka_unit_test(test_edit_distance),
-        cmocka_unit_test(test_libraries),
+        cmocka_unit_test(test_text),          cmocka_unit_test(test_utf8),      cmocka_unit_test(test_edit_distance),
+        cmocka_unit_test(test_word_distance), cmocka_unit_test(test_libraries),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -282,6 +282,10 @@ static void test_errors(void **unused)
                ".transform: the matrix's last row is 0, 0, 1, 1, expected 0, 0, 0, 1"),
         OBJECT(SPHERE "\"cull\": \"both\"", ".cull: found \"both\", expected none, back or front"),
         LIGHT("\"name\": \"x\"", ": 'type' is missing, expected ambient, hemisphere, point, directional or spot"),
+        LIGHT("\"type\": \"sun\"",
+              ".type: found \"sun\", expected ambient, hemisphere, point, directional or spot; did you "
+              "mean 'directional'?"),
+        LIGHT("\"type\": \"point\", \"power\": 4", ".power: unknown key; did you mean 'intensity'?"),
         LIGHT("\"type\": \"point\", \"cutoff\": 4",
               ".cutoff: unknown key; expected name, type, frame, object, color, "
               "intensity, position, ambient, diffuse, specular, attenuation, range"),

@@ -76,7 +76,7 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     return NULL;
 }
 
-// Adds a suggestion to the error: a model that does not exist may be a mistyped shape or command.
+// Adds to the error what may have been meant by the name of a model that does not exist.
 static void add_guess(const struct job *job, lam_error *error)
 {
     if (error->code != LAM_CANNOT_READ || strpbrk(job->model, "./") || access(job->model, F_OK) == 0)
@@ -86,6 +86,10 @@ static void add_guess(const struct job *job, lam_error *error)
         snprintf(error->text + length, sizeof error->text - length, "; a command comes first: lambent %s", job->model);
         return;
     }
+    if (option_find(job->model)) {
+        snprintf(error->text + length, sizeof error->text - length, "; an option begins with dashes: --%s", job->model);
+        return;
+    }
     struct suggestion nearest = suggest_start(job->model);
     for (int i = 0; i < lam_shape_count(); i++)
         suggest_try(&nearest, lam_shape_name(i));
@@ -93,6 +97,9 @@ static void add_guess(const struct job *job, lam_error *error)
         suggest_try(&nearest, c->name);
     if (nearest.best)
         snprintf(error->text + length, sizeof error->text - length, "; did you mean '%s'?", nearest.best);
+    else
+        snprintf(error->text + length, sizeof error->text - length,
+                 "; no built-in shape has this name either: `lambent shapes` lists them");
 }
 
 // True if only one frame is drawn, so that normals of its visible triangles suffice.

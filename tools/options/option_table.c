@@ -92,6 +92,7 @@ static const struct word lights_in_words[] = {
 static const struct word host_words[] = {{"c", 1, NULL}, {NULL, 0, NULL}};
 
 static const struct word view_words[] = {
+    {"three-quarter", LAM_SIDE_THREE_QUARTER, "30 degrees to the right of the front, 20 above"},
     {"front", LAM_SIDE_FRONT, "level, from +Z (with Y up)"},
     {"back", LAM_SIDE_BACK, "level, from behind"},
     {"left", LAM_SIDE_LEFT, "level, from the model's left side in the picture (-X)"},
@@ -196,31 +197,34 @@ const struct option option_table[] = {
      "(`model.png` if the model comes from standard input); a file of that name that lambent did not write is "
      "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder, and makes it if it "
      "is missing; every command that writes files takes it.",
-     .takes_file = true, .store = store_text, FIELD(output), .single = TAKES_OUTPUT},
+     .takes_file = true, .store = store_text, .others = "out outfile file format export save write", FIELD(output),
+     .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
-     .store = store_size, .max = 65535, .single = TAKES_SIZE},
+     .store = store_size, .others = "resolution width height dimensions pixels", .max = 65535, .single = TAKES_SIZE},
     {"samples", 0, GROUP_PICTURE, "N", "4", "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges. Each triangle that covers part of a pixel is lit once in that pixel.",
-     sample_words, .store = store_word, FIELD(samples)},
+     sample_words, .store = store_word,
+     .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(samples)},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
      "A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), one of the basic names (`black`, `white`, "
      "`gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour "
      "names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",
-     .store = store_color, FIELD(background)},
+     .store = store_color, .others = "bg background-color backdrop transparent", FIELD(background)},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
-     color_mode_words, .store = store_word, FIELD(color_mode)},
+     color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
+     FIELD(color_mode)},
     {"compress", 0, GROUP_PICTURE, "HOW", "fast", "The compression of PNG files: fast or best.",
      "`best` makes a file that is about a third smaller and takes a second or two for a million pixels; `fast` "
      "takes some milliseconds. The pixels are the same; other formats ignore the option. `best` needs "
      "libdeflate, and the bytes of the file depend on its version; with `fast` they depend on the picture "
      "alone.",
-     compress_words, .store = store_word, FIELD(compress)},
+     compress_words, .store = store_word, .others = "compression level png-compression", FIELD(compress)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0",
      "Make the picture brighter or darker: 1 doubles its light, -1 halves it.",
      "The light of the model is multiplied by 2 to the power of STOPS before clamping and encoding, also with "
      "`--color-mode raw`, in float pictures and in the light terms of `--show`. The background keeps its colour.",
-     .store = store_number, FIELD(exposure), .min = -100, .max = 100},
+     .store = store_number, .others = "brightness ev tone", FIELD(exposure), .min = -100, .max = 100},
     {"show", 0, GROUP_PICTURE, "WHAT", "the picture",
      "Show a term of the light, one light, or a surface quantity instead of the picture.",
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. "
@@ -229,47 +233,49 @@ const struct option option_table[] = {
      "show surface quantities. `all` writes the picture, every term and every light as layers of one `.exr`. "
      "`.pfm` and `.exr` store the values unchanged; 8-bit pictures store an encoding of them, without the sRGB "
      "curve. `docs/show.md` has the complete table.",
-     show_words, .store = store_show, FIELD(show)},
+     show_words, .store = store_show, .others = "pass aov channel layer debug term only", FIELD(show)},
 
     {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that reproduces this picture.",
      "The file stores the result of the command line: the model's path relative to FILE, the camera, all lights "
      "(those of the rig written out), materials, transforms and the picture's options. `lambent FILE` then "
      "writes the same bytes. An existing FILE is replaced. `docs/scene-file.md` describes the format.",
-     .takes_file = true, .store = store_text, FIELD(save_scene)},
+     .takes_file = true, .store = store_text, .others = "export-scene write-scene", FIELD(save_scene)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
-     "The side to view from: front, back, left, right, top, bottom or iso.",
+     "The side to view from: front, back, left, right, top, bottom, iso or three-quarter.",
      "By default the camera stands 30 degrees to the right of the front and 20 degrees above. The model always "
      "fills 92 % of the picture's tighter side. `--azimuth` and `--elevation` change the angles of a named "
      "side.",
-     view_words, .store = store_word, FIELD(view)},
+     view_words, .store = store_word, .others = "side angle orientation front back left right top bottom isometric",
+     FIELD(view)},
     {"azimuth", 0, GROUP_VIEW, "DEGREES", "30", "The camera's angle around the model; 0 is the front, 90 the right.",
-     NULL, .store = store_number, FIELD(azimuth_deg), .has_field = offsetof(struct options, has_azimuth), .min = -3600,
-     .max = 3600},
+     NULL, .store = store_number, .others = "yaw heading orbit", FIELD(azimuth_deg),
+     .has_field = offsetof(struct options, has_azimuth), .min = -3600, .max = 3600},
     {"elevation", 0, GROUP_VIEW, "DEGREES", "20",
      "The camera's angle above the horizon; 0 is level, 90 straight above.", NULL, .store = store_number,
-     FIELD(elevation_deg), .has_field = offsetof(struct options, has_elevation), .min = -90, .max = 90},
+     .others = "pitch altitude tilt", FIELD(elevation_deg), .has_field = offsetof(struct options, has_elevation),
+     .min = -90, .max = 90},
     {"zoom", 0, GROUP_VIEW, "FACTOR", "1", "Magnification; 2 shows the model twice as large.", NULL,
-     .store = store_number, FIELD(zoom), .min = 0.001, .max = 1000},
+     .store = store_number, .others = "scale magnify magnification distance", FIELD(zoom), .min = 0.001, .max = 1000},
     {"projection", 0, GROUP_VIEW, "KIND", "perspective", "The projection: perspective or orthographic.", NULL,
-     projection_words, .store = store_word, FIELD(projection)},
+     projection_words, .store = store_word, .others = "ortho orthographic perspective parallel", FIELD(projection)},
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
      "The camera and the lights attached to it follow the axis; the model's coordinates do not change. STL "
      "files are read as Z up, as in CAD and 3D printing; other formats as Y up. Capitals and a plus (`+Z`) are "
      "accepted.",
-     up_words, .store = store_up, FIELD(up)},
+     up_words, .store = store_up, .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(up)},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Turn the model about its centre, such as y:30; repeatable.",
      "The axis is x, y or z of the scene; turns are applied in the order given. Lights stay where they are "
      "(except those in the model's frame), radii refer to the model before the turn, and the camera is fitted "
      "to the result.",
-     .store = store_rotation, FIELD(rotations)},
+     .store = store_rotation, .others = "rotation turn spin", FIELD(rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS", "fitted", "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more.",
      "Keys are separated by commas and use the model's own coordinates: `eye` (required), `target` (default: "
      "the middle of the model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30) or "
      "`ortho` (parallel projection: model units from the picture's middle to its top), `near` and `far` (both "
      "or neither; fitted by default). The option cannot be combined with `--view`, `--azimuth`, `--elevation`, "
      "`--zoom` or `--projection`. `--json` reports the camera of any picture in these terms.",
-     .store = store_camera, FIELD(camera)},
+     .store = store_camera, .others = "eye fov fovy position lookat look-at near far", FIELD(camera)},
 
     {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
      "A light: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
@@ -291,13 +297,14 @@ const struct option option_table[] = {
      "(half angle in degrees, 45) and `exponent`, or `inner` and `outer` half angles. `name` appears in "
      "reports.\n"
      "The table of the fields of lights lists all keys.",
-     .store = store_light, FIELD(lights)},
+     .store = store_light, .others = "lamp sun spot point directional lighting", FIELD(lights)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A predefined set of lights: studio, headlight, three-point, lecture, file, none or auto.",
      "A named rig replaces the model's own lights. `docs/lighting/lights.md` lists the numbers.", rig_words,
-     .store = store_word, FIELD(rig), .has_field = offsetof(struct options, has_rig)},
+     .store = store_word, .others = "preset lights light-setup studio headlight", FIELD(rig),
+     .has_field = offsetof(struct options, has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Ambient light: #rrggbb, r/g/b, a name or one number.", NULL,
-     .store = store_opaque_color, FIELD(ambient)},
+     .store = store_opaque_color, .others = "ambient-light", FIELD(ambient)},
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
      "Draw markers at the lights: balls, with cones along the light's direction.",
      "The marker of a directional light stands one and a half radii from the model's centre. Markers glow in "
@@ -312,8 +319,8 @@ const struct option option_table[] = {
      .store = store_number, FIELD(light_cutoff), .has_field = offsetof(struct options, has_light_cutoff), .min = 0,
      .max = 1},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "Multiply the brightness of all lights except `--ambient`.", NULL,
-     .store = store_number, FIELD(light_scale), .has_field = offsetof(struct options, has_light_scale), .min = 0,
-     .max = 1e6},
+     .store = store_number, .others = "intensity light-intensity light-power", FIELD(light_scale),
+     .has_field = offsetof(struct options, has_light_scale), .min = 0, .max = 1e6},
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@WHERE]", "the model's",
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
      "A name of the classic table, whose colours are sRGB, keys separated by commas, or a name followed by keys "
@@ -324,33 +331,37 @@ const struct option option_table[] = {
      "multiplies the specular colour, white by default).\n"
      "`@WHERE` limits the option to the objects of that name, else to the parts (OBJ groups, STL solids), else "
      "to the model's materials: `ruby@handle`. Of several options for one surface, the last one wins.",
-     .store = store_material, FIELD(materials)},
+     .store = store_material, .others = "mat specular diffuse", FIELD(materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
      "It replaces the ambient and diffuse colour of every material, including those of `--material`; highlights keep "
      "theirs. It is short for `--material color=COLOR`, and a colour alone is a material too: "
      "`--material '#ff8800@handle'`. (`--color raw` and `--color srgb` still mean `--color-mode`.)",
-     .store = store_opaque_color, FIELD(model_color), .former = "color-mode"},
+     .store = store_opaque_color, .others = "paint tint albedo model-color mesh-color surface-color",
+     FIELD(model_color), .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
      "The material of back faces, as in `--material`; fields without a key are the front's.", NULL,
      .store = store_material, FIELD(back_materials)},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 sharp.",
      "It replaces the shininess of every material, including those of `--material`.", .store = store_number,
-     FIELD(shininess), .has_field = offsetof(struct options, has_shininess), .min = 0, .max = 1e30},
+     .others = "gloss glossiness specular-exponent exponent", FIELD(shininess),
+     .has_field = offsetof(struct options, has_shininess), .min = 0, .max = 1e30},
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "The alpha of all materials: 1 is opaque, 0 is clear.",
      "It replaces the opacity of every material, including those of `--material`; vertex colours may contribute "
      "an alpha as well.",
-     .store = store_number, FIELD(opacity), .has_field = offsetof(struct options, has_opacity), .min = 0, .max = 1},
+     .store = store_number, .others = "alpha transparency translucency", FIELD(opacity),
+     .has_field = offsetof(struct options, has_opacity), .min = 0, .max = 1},
 
     {"shading", 0, GROUP_SHADING, "METHOD", "phong",
      "The shading method: flat, gouraud (per vertex) or phong (per pixel).", NULL, shading_words, .store = store_word,
-     FIELD(shading), .has_field = offsetof(struct options, has_shading)},
+     .others = "flat smooth gouraud phong interpolation", FIELD(shading),
+     .has_field = offsetof(struct options, has_shading)},
     {"reflection", 0, GROUP_SHADING, "MODEL", "auto", reflection_summary, NULL, reflection_words, .store = store_word,
-     FIELD(reflection)},
+     .others = "brdf lobe lighting-model reflection-model blinn-phong lambert", FIELD(reflection)},
     {"stage", 0, GROUP_SHADING, "WHERE", "fragment", "Where lighting is evaluated: application, vertex or fragment.",
      "Without `--shading`, application and vertex imply gouraud, and fragment implies phong. flat works with "
      "all three, gouraud with application and vertex, phong with fragment. On the CPU all stages of a shading "
      "method give the same bytes.",
-     stage_words, .store = store_word, FIELD(stage)},
+     stage_words, .store = store_word, .others = "per-vertex per-pixel per-fragment", FIELD(stage)},
     {"flat-normal", 0, GROUP_SHADING, "SOURCE", "face", "The normal of flat shading: face, or vertex (the last one's).",
      NULL, flat_normal_words, .store = store_word, FIELD(flat_normal)},
     {"viewer", 0, GROUP_SHADING, "KIND", "local", "The eye's position for highlights: local or infinite.", NULL,
@@ -368,17 +379,18 @@ const struct option option_table[] = {
      .store = store_switch, FIELD(one_sided)},
     {"cull", 0, GROUP_SHADING, "SIDE", "the model's",
      "Omit the back or front faces of all objects: none, back or front.", NULL, cull_words, .store = store_word,
-     FIELD(cull), .has_field = offsetof(struct options, has_cull)},
+     .others = "culling backface-culling", FIELD(cull), .has_field = offsetof(struct options, has_cull)},
     {"normals", 0, GROUP_SHADING, "SOURCE", "file",
      "The source of normals: the file, or computed smooth or facet normals.", NULL, normals_words, .store = store_word,
-     FIELD(normals)},
+     .others = "recompute-normals smooth-normals facet-normals", FIELD(normals)},
     {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Computed normals are split at edges sharper than this.", NULL,
-     .store = store_number, FIELD(crease_angle_deg), .min = 0, .max = 180},
+     .store = store_number, .others = "smoothing-angle smooth-angle crease autosmooth", FIELD(crease_angle_deg),
+     .min = 0, .max = 180},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "Segments of a built-in shape: slices around and stacks along, such as 64x32.",
      "N is 3 to 16384; `lambent shapes` describes the segments of each shape. The default of M depends on the "
      "shape. gyroid and metaballs have at most 1024 cells and take no M.",
-     .store = store_segments, .max = 16384},
+     .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "The surroundings that shiny surfaces mirror: an image, six faces, sky or studio.",
      "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, PPM, PFM or "
@@ -386,55 +398,57 @@ const struct option option_table[] = {
      "square and of one size. `sky` and `studio` are built in (`./sky` is a file). Only materials with a "
      "reflectivity show the environment: see `--reflectivity`. `docs/lighting/reflection.md` describes how each "
      "kind surrounds the model.",
-     .takes_file = true, .store = store_text, FIELD(environment)},
+     .takes_file = true, .store = store_text, .others = "env envmap environment-map hdri hdr ibl sky skybox cubemap",
+     FIELD(environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
      "Turn the environment about the up axis, counter-clockwise from above.", NULL, .store = store_number,
      FIELD(environment_rotation_deg), .min = -3600, .max = 3600},
     {"reflectivity", 0, GROUP_SHADING, "SHARE", "the materials' own",
      "The share of the environment that every material mirrors: 0.5 or r/g/b.", NULL, .store = store_reflectivity,
-     FIELD(reflectivity), .has_field = offsetof(struct options, has_reflectivity), .max = 1000},
+     .others = "mirror reflective", FIELD(reflectivity), .has_field = offsetof(struct options, has_reflectivity),
+     .max = 1000},
 
     {"threads", 'j', GROUP_WORK, "N", "one for each processor",
-     "The number of threads; the picture does not depend on it.", NULL, .store = store_integer, FIELD(threads),
-     .min = 1, .max = 1024},
+     "The number of threads; the picture does not depend on it.", NULL, .store = store_integer,
+     .others = "jobs cores cpus parallel", FIELD(threads), .min = 1, .max = 1024},
     {"isa", 0, GROUP_WORK, "NAME", "auto", "The instruction set: scalar, sse4, avx2, avx512, neon or auto.",
      "All give the same bytes; one that this machine or this build lacks is refused (exit 3).", isa_words,
-     .store = store_word, FIELD(isa)},
+     .store = store_word, .others = "simd instruction-set", FIELD(isa)},
     {"device", 0, GROUP_WORK, "NAME", "auto", "The device that draws: cpu, gl, gles or auto.",
      "OpenGL gives the same picture within a tolerance (`docs/opengl.md`). If it is not available, the error "
      "gives the reason (exit 3), and no other device takes its place. `lambent devices` lists the devices.",
-     device_words, .store = store_word, FIELD(device)},
+     device_words, .store = store_word, .others = "gpu cpu backend renderer engine opengl gl", FIELD(device)},
     {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable", "The OpenGL device, by number or part of its name.",
      "`lambent devices` lists the numbers, hardware before software.", .store = store_text, FIELD(gl_device)},
     {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median time.", NULL, .store = store_integer,
-     FIELD(repeat), .min = 1, .max = 100000},
+     .others = "frames iterations benchmark bench", FIELD(repeat), .min = 1, .max = 100000},
     {"time-limit", 0, GROUP_WORK, "SECONDS", "none", "Give up on a model after this time (exit 4).", NULL,
-     .store = store_number, FIELD(time_limit_s), .min = 0.001, .max = 1e9},
+     .store = store_number, .others = "timeout", FIELD(time_limit_s), .min = 0.001, .max = 1e9},
     {"memory-limit", 0, GROUP_WORK, "BYTES", "none",
      "Give up on a model that needs more memory, such as 500M or 2Gi (exit 4).",
      "Reading a model and drawing it may each use this much at once. k, M, G and T are powers of 1000; Ki, Mi, "
      "Gi and Ti of 1024.",
-     .store = store_bytes, FIELD(memory_limit_bytes)},
+     .store = store_bytes, .others = "max-memory memory ram", FIELD(memory_limit_bytes)},
 
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "The report goes to standard output, or to standard error when the picture goes to standard output (then "
      "nothing else is written there). It replaces the line with the file's name, and is printed on failure as "
      "well. Its schema is `docs/report.schema.json`.",
-     .store = store_switch, FIELD(json), .single = TAKES_JSON},
+     .store = store_switch, .others = "report stats info", FIELD(json), .single = TAKES_JSON},
     {"verbose", 'v', GROUP_REPORT, NULL, NULL, "Print on standard error what was read and the time of each step.", NULL,
      .store = store_switch, FIELD(verbose)},
-    {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print nothing but errors.", NULL, .store = store_switch, FIELD(quiet),
-     .single = TAKES_QUIET},
+    {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print nothing but errors.", NULL, .store = store_switch,
+     .others = "silent", FIELD(quiet), .single = TAKES_QUIET},
 
     {"tolerance", 0, GROUP_DIFF, "STEPS", "0",
      "The largest allowed difference of a channel, in steps of 1/255; above it the exit code is 6.", NULL,
-     .store = store_number, FIELD(tolerance), .min = 0, .max = 1e9},
+     .store = store_number, .others = "threshold epsilon", FIELD(tolerance), .min = 0, .max = 1e9},
     {"gain", 0, GROUP_DIFF, "FACTOR", "16", "The factor that amplifies the picture of the difference.", NULL,
-     .store = store_number, FIELD(gain), .min = 0.001, .max = 1e6},
+     .store = store_number, .others = "amplify", FIELD(gain), .min = 0.001, .max = 1e6},
 
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "The sheet: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words, .store = store_word,
-     FIELD(sheet)},
+     .others = "layout", FIELD(sheet)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
      "A row of pictures: shading, or shininess=10,50,1000; a second --across makes columns.",
      "OPTION is one of the options above without its dashes. Values are separated by commas, or by semicolons "
@@ -443,7 +457,7 @@ const struct option option_table[] = {
      "`shininess` 10, 50 and 1000 (with `--material specular=0.5` unless a material is given), for `light` one "
      "light of each type, for `show`, also called `term`, the five terms. If the option is given twice, the "
      "first makes the rows of a grid and the second its columns.",
-     .store = store_across, FIELD(across)},
+     .store = store_across, .others = "vary sweep grid columns rows", FIELD(across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or degrees.", NULL,
      .store = store_number, FIELD(to), .min = 1e-6, .max = 1e9},
@@ -472,7 +486,8 @@ const struct option option_table[] = {
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(list)},
     {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The version of GLSL: 330, 120 or 300es.",
-     "The form of a shader's first line, \"300 es\", works as well.", glsl_words, .store = store_glsl, FIELD(glsl)},
+     "The form of a shader's first line, \"300 es\", works as well.", glsl_words, .store = store_glsl,
+     .others = "glsl-version shader-version", FIELD(glsl)},
     {"host", 0, GROUP_SHADER, "LANGUAGE", NULL, "Also print code that sets all inputs of the shaders: c.",
      "The code compiles the sources, describes the vertex layout to OpenGL and sets every uniform to its value "
      "in this picture, with OpenGL's own calls only. With `-o NAME` it is written to `NAME.c`.",
@@ -494,13 +509,14 @@ const struct option option_table[] = {
      "DejaVu Sans, Liberation Sans, Noto Sans, FreeSans and Roboto, where Debian puts them. FreeType draws the "
      "letters, which may differ by a few shades between its versions; the pictures on the sheet never do. An "
      "SVG names DejaVu Sans, and its viewer selects the font.",
-     .takes_file = true, .store = store_text, FIELD(font)},
+     .takes_file = true, .store = store_text, .others = "typeface", FIELD(font)},
     {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw without text; no font is needed.", NULL, .store = store_switch,
-     FIELD(no_captions)},
+     .others = "no-text no-labels", FIELD(no_captions)},
 
     {"version", 0, GROUP_ABOUT, NULL, NULL, "Print the version and the build information.", NULL, .store = store_switch,
      FIELD(version)},
-    {"help", 'h', GROUP_ABOUT, NULL, NULL, "Print this help.", NULL, .store = store_switch, FIELD(help)},
+    {"help", 'h', GROUP_ABOUT, NULL, NULL, "Print this help.", NULL, .store = store_switch, .others = "usage",
+     FIELD(help)},
     {.name = NULL},
 };
 

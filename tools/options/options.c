@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command.h"
 #include "console.h"
 #include "suggest.h"
 
@@ -85,8 +86,10 @@ static bool unknown_long(const char *name, size_t length, unsigned groups, lam_e
     snprintf(typed, sizeof typed, "%.*s", (int)(length < 60 ? length : 60), name);
     struct suggestion nearest = suggest_start(typed);
     for (const struct option *o = option_table; o->name; o++)
-        if (option_is_taken(o, groups))
+        if (option_is_taken(o, groups)) {
             suggest_try(&nearest, o->name);
+            suggest_also(&nearest, o->name, o->others);
+        }
     if (nearest.best)
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; did you mean '--%s'?", typed, nearest.best);
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'", typed);
@@ -107,12 +110,25 @@ static const struct option *meant_by(const struct option *option, const char *va
     return option;
 }
 
+// Error: another command takes the option.
+static bool does_not_apply(const struct option *option, lam_error *error)
+{
+    char takers[200] = "";
+    for (const struct command *c = command_table; c->name; c++)
+        if (option_is_taken(option, c->groups)) {
+            size_t used = strlen(takers);
+            snprintf(takers + used, sizeof takers - used, "%s%s", used ? ", " : "", c->name);
+        }
+    return complain(error, LAM_BAD_ARGUMENT, "option '--%s' does not apply to this command; it belongs to %s",
+                    option->name, takers);
+}
+
 static bool apply(const struct option *option, const char *value, unsigned groups, struct options *options,
                   lam_error *error)
 {
     option = meant_by(option, value);
     if (!option_is_taken(option, groups))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' does not apply to this command", option->name);
+        return does_not_apply(option, error);
     lam_error reason = {0};
     if (option->store(option, value, options, &reason)) {
         options->given[option - option_table] = true;

@@ -179,6 +179,7 @@ struct option {
     size_t field, has_field; // has_field: a bool to set as well (words and numbers); 0: none
     double min, max;         // for numbers
     unsigned single;         // TAKES_…, if commands may accept it without its group
+    const char *others;      // other names that people try, separated by spaces, for suggestions; NULL: none
     const char *former; // the option that had this name before: a value that is one of its words means it; NULL: none
 };
 

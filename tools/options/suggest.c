@@ -3,6 +3,7 @@
 
 #include <lambent/base.h>
 
+#include <stdio.h>
 #include <string.h>
 
 struct suggestion suggest_start(const char *typed)
@@ -14,13 +15,22 @@ struct suggestion suggest_start(const char *typed)
 
 void suggest_try(struct suggestion *suggestion, const char *word)
 {
-    int distance = lam_edit_distance(suggestion->typed, word);
-    // A prefix counts as near: "back" for "background".
-    size_t typed = strlen(suggestion->typed);
-    if (typed >= 3 && strncmp(suggestion->typed, word, typed) == 0)
-        distance = distance < 1 ? distance : 1;
+    int distance = lam_word_distance(suggestion->typed, word);
     if (distance < suggestion->distance) {
         suggestion->distance = distance;
         suggestion->best = word;
+    }
+}
+
+void suggest_also(struct suggestion *suggestion, const char *word, const char *others)
+{
+    for (size_t length; others && *others; others += length + (others[length] == ' ')) {
+        char other[64];
+        length = strcspn(others, " ");
+        snprintf(other, sizeof other, "%.*s", (int)length, others);
+        if (lam_word_distance(suggestion->typed, other) == 0 && suggestion->distance > 0) {
+            suggestion->distance = 0;
+            suggestion->best = word;
+        }
     }
 }

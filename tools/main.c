@@ -51,7 +51,7 @@ static int execute(const struct command *command, int operands, char **words, st
 {
     lam_error error = {0};
     if (options->help) {
-        print_help(command);
+        (options->brief_help ? print_brief_help : print_help)(command);
         return 0;
     }
     if (options->version) {
@@ -67,13 +67,20 @@ static int execute(const struct command *command, int operands, char **words, st
     return functions[command - command_table](operands, words, options);
 }
 
+// Parses the options, except for a command whose words are none. Returns the number of operands; −1 with the error.
+static int parse(const struct command *command, int count, char **words, struct options *options, lam_error *error)
+{
+    bool help = count && (strcmp(words[0], "-h") == 0 || strcmp(words[0], "--help") == 0);
+    return command->verbatim && !help ? count : options_parse(count, words, command->groups, options, error);
+}
+
 static int run(int count, char **words)
 {
     struct options options = option_defaults();
     lam_error error = {0};
     struct options scanned = scan_report_options(count, words);
     const struct command *command = take_command(&count, words);
-    int operands = options_parse(count, words, command->groups, &options, &error);
+    int operands = parse(command, count, words, &options, &error);
     int code = operands < 0 ? report_failure(&error, &scanned) : execute(command, operands, words, &options);
     options_free(&options);
     return code;

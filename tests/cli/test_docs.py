@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import unittest
 
-from harness import PROGRAM, ROOT, Case
+from harness import PROGRAM, ROOT, Case, pixel, read_png
 
 
 def options_of(text):
@@ -27,6 +27,85 @@ class Docs(Case):
             self.assertIn(f"--{option}", text)
         for code in ("0", "1", "2", "3", "4", "5", "6", "130"):
             self.assertRegex(text, rf"(?m)^  {code} ")
+
+    def test_brief_help(self):
+        """-h is for the many: 25 lines of 80 columns, the examples first, every command named."""
+        lines = self.good("-h").stdout.decode().splitlines()
+        self.assertLessEqual(len(lines), 25)
+        self.assertLessEqual(max(map(len, lines)), 80)
+        text = "\n".join(lines)
+        self.assertNotIn("`", text)
+        self.assertLess(text.index("lambent koala.obj"), text.index("--output"))
+        for option in ("output", "size", "background", "view", "up", "material", "color", "light", "shading"):
+            self.assertRegex(text, rf"(?m)^  .*--{option}\b")
+        for word in ("gl-device", "light-cutoff", "tolerance"):
+            self.assertNotIn(f"--{word}", text)
+        self.assertIn("lambent --help", text)
+        commands = re.search(r"Commands: ([\w\s,]*)\nEverything", text).group(1).replace(",", "").split()
+        self.assertGreater(len(commands), 10)
+        for command in ("render", *commands):
+            brief, whole = (self.good(command, way).stdout.decode() for way in ("-h", "--help"))
+            self.assertTrue(brief.startswith(("Usage: lambent " + command, "lambent lights")), brief)
+            self.assertLessEqual(options_of(brief) - {"help"}, options_of(whole), command)
+            self.assertLessEqual(len(brief.splitlines()), 40, command)
+        self.assertEqual(self.good("-qh").stdout, self.good("-h").stdout)
+
+    def test_help_by_subject(self):
+        """Every subject, command and option has its page, and every option belongs to a subject."""
+        listed = self.good("help").stdout.decode()
+        subjects, commands = (re.findall(r"(?m)^  ([a-z-]+)", part) for part in
+                              listed.split("Subjects:")[1].split("Options:")[0].split("Commands:"))
+        self.assertGreater(len(subjects), 15)
+        pages = {name: self.good("help", name).stdout.decode() for name in subjects + commands}
+        for name, page in pages.items():
+            self.assertGreater(len(page.splitlines()), 1, name)
+            self.assertNotIn("`", page)
+            self.assertLessEqual(max(map(len, page.splitlines())), 100, name)
+        options = options_of(self.good("generate", "markdown").stdout.decode().split("## Commands")[0]) - {"help", "version"}
+        options = {name for name in options if self.run_program("help", name).returncode == 0}
+        self.assertGreater(len(options), 60)
+        for name in options:
+            own = self.good("help", "--" + name).stdout.decode()
+            self.assertRegex(own, rf"^  (-\w, |    )--{name}\b")
+            self.assertTrue(any(re.search(rf"(?m)^  (-\w, |    )--{name}\b", pages[s]) for s in subjects), name)
+        self.assertEqual(self.good("help", "-o").stdout, self.good("help", "--output").stdout)
+        self.assertEqual(self.good("help", "all").stdout, self.good("--help").stdout)
+        self.assertIn("frame=world|camera|object", pages["lights"])
+        for key in ("cutoff", "attenuation", "sky"):
+            self.assertRegex(pages["lights"], rf"(?m)^  {key} ")
+        self.assertRegex(pages["materials"], r"(?m)^  roughness_angle ")
+        self.assertRegex(pages["exit-codes"], r"(?m)^  130 ")
+
+    def test_commands_show_their_own_defaults(self):
+        def default(command, option):
+            page = " ".join(self.good(command, "--help").stdout.decode().split())
+            return re.search(rf"--{option} .*?(?:\[([^]]*)\] (?=--|-\w,|[A-Z]|$)|(?= --| -\w,))", page).group(1)
+        for command, size in (("render", "1024"), ("compare", "480x400 each"), ("plot", "1600x1000"), ("check", "128"), ("materials", "1024x593")):
+            self.assertEqual(default(command, "size W[xH]".replace("[", "\\[").replace("]", "\\]")), size)
+        self.assertEqual(read_png(self.good("plot", "spot", "-o", "-", "-q", "--no-captions").stdout)[:2], (1600, 1000))
+        self.assertEqual(read_png(self.good("materials", "-o", "-", "--no-captions").stdout)[:2], (1024, 593))
+        page = read_png(self.good("compare", "cube.obj", "--across", "azimuth=1", "-o", "-", "-q", "--no-captions").stdout)
+        self.assertEqual(page[:2], (480 + 2 * 25, 400 + 2 * 25))
+        self.assertEqual(pixel(page, 28, 28), (255, 255, 255, 255))
+        self.assertEqual([default(c, "output FILE") for c in ("render", "compare", "plot", "shader", "diff", "materials", "check")],
+                         ["MODEL.png", "MODEL-SHEET.png", "KIND.png", "standard output", "no picture", "no sheet", "no sheet"])
+        self.assertEqual([default(c, "background COLOR") for c in ("render", "compare")], ["transparent", "white"])
+        self.assertEqual([default(c, "tolerance STEPS") for c in ("diff", "check")], ["0", "2"])
+        # What they do without -o.
+        self.good("compare", "cube.obj", "-s", 16, "--no-captions", "-q")
+        self.good("plot", "spot", "-s", 64, "--no-captions", "-q")
+        self.assertEqual(self.new_files(), {"cube-summary.png", "spot.png"})
+        self.good("materials")
+        self.assertIn(b"#version", self.good("shader", "cube.obj").stdout)
+        self.good("diff", "spot.png", "spot.png")
+        self.assertEqual(self.new_files(), {"cube-summary.png", "spot.png"})
+
+    def test_usage_errors_say_where_to_look(self):
+        for words, says in ((("cube.obj", "--light", "sun"), "lambent help light"), (("plot", "x"), "lambent plot -h"),
+                            ((), "lambent -h"), (("diff", "a"), "lambent diff -h"), (("cube.obj", "--nothing-like-it"), "lambent -h"),
+                            (("cube.obj", "-o"), "lambent help output")):
+            done = self.bad(1, *words, says=f"Try '{says}'.")
+            self.good(*says.split()[1:])
 
     def test_every_output_has_every_option(self):
         wanted = options_of(self.help())

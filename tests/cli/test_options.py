@@ -402,7 +402,10 @@ class CommandLine(Case):
         self.bad(1, "generate", says="missing argument")
         self.bad(1, "generate", "mna", says="did you mean 'man'?")
         self.bad(1, "help", "shaeps", says="did you mean 'shapes'?")
-        self.bad(1, "help", "nope", says=("unknown command 'nope'", "render, compare, explain"))
+        self.bad(1, "help", "colour", says="did you mean 'color'?")
+        self.bad(1, "help", "bg", says="did you mean 'background'?")
+        self.bad(1, "help", "nope", says=("nothing is named 'nope'", "`lambent help` lists them"))
+        self.bad(1, "help", "light", "spot", says="unexpected argument 'spot'")
         render = self.good("help", "render").stdout
         self.assertTrue(render.startswith(b"Usage: lambent render MODEL"))
         self.assertIn(b"--exposure", render)

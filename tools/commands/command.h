@@ -18,12 +18,19 @@ typedef int command_fn(int operand_count, char **operands, const struct options 
 #define COMMAND_FUNCTION(name) command_fn run_##name;
 COMMANDS(COMMAND_FUNCTION)
 
+// A command's own default of an option that others take too. Ends with a NULL option.
+struct own_default {
+    const char *option, *standard;
+};
+
 struct command {
     const char *name;
-    const char *operands;           // as the help shows them; NULL: none
-    const char *summary;            // one sentence
-    unsigned groups;                // bit g: accepts the options of group g; TAKES_…: single options
-    int min_operands, max_operands; // max −1: no limit
+    const char *operands;               // as the help shows them; NULL: none
+    const char *summary;                // one sentence
+    unsigned groups;                    // bit g: accepts the options of group g; TAKES_…: single options
+    int min_operands, max_operands;     // max −1: no limit
+    const struct own_default *defaults; // NULL: none of its own
+    bool verbatim;                      // its words are no options, but for -h and --help as the first
 };
 
 extern const struct command command_table[]; // in the order of COMMANDS; ends with a NULL name
@@ -31,17 +38,14 @@ extern const struct command command_table[]; // in the order of COMMANDS; ends w
 const struct command *find_command(const char *name); // NULL: no such command
 unsigned find_groups(const char *name);               // of a command; 0: no such command
 
+// The default of an option in words, for a command: its own, else the option's. NULL: none is shown.
+const char *default_of(const struct command *command, const struct option *option);
+
 // Examples: a command line and what it does. Ends with NULL.
 struct example {
     const char *line, *meaning;
+    bool brief; // shown by -h too
 };
 extern const struct example examples[];
-
-// The prose sections of the man page and the docs: a title and its paragraphs, with `code` in back quotes. Ends
-// with NULL.
-struct topic {
-    const char *title, *text;
-};
-extern const struct topic topics[];
 
 #endif

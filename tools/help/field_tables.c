@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "help_print.h"
+
 const char *field_standard(const lam_field *field, char text[80])
 {
     static const int counts[] = {[LAM_FIELD_RGB] = 3,
@@ -112,4 +114,17 @@ void field_tables_man(void)
     man_rows(lam_material_field);
     printf(".SH \"FIELDS OF LIGHTS\"\n");
     man_rows(lam_light_field);
+}
+
+void field_tables_text(const lam_field *(*row)(int))
+{
+    for (int i = 0; row(i); i++) {
+        const lam_field *field = row(i);
+        char left[40], range[80], standard[80], types[80] = "", text[400];
+        snprintf(left, sizeof left, "  %s", field->key);
+        snprintf(text, sizeof text, "%s (%s) [%s]%s%s", field->summary, field_range(field, range),
+                 field_standard(field, standard), field->light_types ? "; " : "",
+                 field->light_types ? types_of(field, types) : "");
+        help_row(left, HELP_COLUMN, HELP_WIDTH, text);
+    }
 }

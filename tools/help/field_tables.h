@@ -6,6 +6,7 @@
 
 void field_tables_markdown(void);
 void field_tables_man(void);
+void field_tables_text(const lam_field *(*row)(int)); // the rows of lam_light_field or lam_material_field, for `help`
 
 // Return the default and the range in words.
 const char *field_standard(const lam_field *field, char text[80]);

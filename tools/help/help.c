@@ -1,154 +1,110 @@
-// help.c: --help and the command `help`: prints the examples, then the options by group.
+// help.c: --help and -h.
 #include "help.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "console.h"
-#include "exit_codes.h"
-#include "suggest.h"
+#include "help_print.h"
 
-enum { WIDTH = 100, COLUMN = 29, EXAMPLE_COLUMN = 41 };
-
-// Prints words up to WIDTH columns, starting at column `at`; further lines begin at `indent`. Omits back quotes.
-static void print_wrapped(const char *text, int at, int indent)
-{
-    while (*text) {
-        size_t length = strcspn(text, " ");
-        int shown = 0;
-        for (size_t i = 0; i < length; i++)
-            shown += text[i] != '`';
-        if (at > indent && at + 1 + shown > WIDTH) {
-            printf("\n%*s", indent, "");
-            at = indent;
-        } else if (at > indent) {
-            putchar(' ');
-            at++;
-        }
-        for (size_t i = 0; i < length; i++)
-            if (text[i] != '`')
-                putchar(text[i]);
-        at += shown;
-        text += length;
-        text += strspn(text, " ");
-    }
-    putchar('\n');
-}
-
-static void print_row(const char *left, int column, const char *text)
-{
-    int width = (int)strlen(left);
-    printf("%s", left);
-    if (width + 1 > column) {
-        putchar('\n');
-        width = 0;
-    }
-    printf("%*s", column - width, "");
-    print_wrapped(text, column, column);
-}
-
-static void print_option(const struct option *option)
-{
-    char left[96], text[512];
-    char letter[8] = "    ";
-    if (option->letter)
-        snprintf(letter, sizeof letter, "-%c, ", option->letter);
-    snprintf(left, sizeof left, "  %s--%s%s%s", letter, option->name, option->value ? " " : "",
-             option->value ? option->value : "");
-    snprintf(text, sizeof text, "%s%s%s%s", option->summary, option->standard ? " [" : "",
-             option->standard ? option->standard : "", option->standard ? "]" : "");
-    print_row(left, COLUMN, text);
-}
-
-static void print_options(unsigned groups)
-{
-    for (int group = 0; group < GROUP_COUNT; group++) {
-        bool titled = false;
-        for (const struct option *o = option_table; o->name; o++) {
-            if ((int)o->group != group || !option_is_taken(o, groups))
-                continue;
-            if (!titled)
-                printf("\n%s:\n", group_titles[group]);
-            titled = true;
-            print_option(o);
-        }
-    }
-}
-
-// Prints the examples that begin with `words`; NULL: all.
-static void print_examples(const char *words)
-{
-    bool any = false;
-    for (const struct example *e = examples; e->line; e++) {
-        if (words && strncmp(e->line, words, strlen(words)) != 0)
-            continue;
-        if (!any)
-            printf(words ? "\nExamples:\n" : "Examples:\n");
-        any = true;
-        char left[128];
-        snprintf(left, sizeof left, "  %s", e->line);
-        print_row(left, EXAMPLE_COLUMN, e->meaning);
-    }
-}
-
-static void print_command(const struct command *command)
-{
-    printf("Usage: lambent %s%s%s\n\n%s\n", command->name, command->operands ? " " : "",
-           command->operands ? command->operands : "", command->summary);
-    char words[64];
-    snprintf(words, sizeof words, "lambent %s ", command->name);
-    print_examples(words);
-    print_options(command->groups);
-}
+enum { WIDTH = HELP_WIDTH, BRIEF_WIDTH = 80, BRIEF_COLUMN = 28, BRIEF_EXAMPLE_COLUMN = 41 };
 
 void print_help(const struct command *command)
 {
     if (command != command_table) {
-        print_command(command);
+        help_command_head(command);
+        help_options(command);
         return;
     }
     printf("lambent lights 3D models: a model file becomes a picture.\n\n"
            "Usage: lambent [OPTIONS] MODEL...\n"
-           "       lambent COMMAND [ARGUMENTS]\n\n");
-    print_examples(NULL);
-    print_options(command->groups);
+           "       lambent COMMAND [ARGUMENTS]\n\n"
+           "Examples:\n");
+    for (const struct example *e = examples; e->line; e++) {
+        char left[128];
+        snprintf(left, sizeof left, "  %s", e->line);
+        help_row(left, HELP_EXAMPLE_COLUMN, WIDTH, e->meaning);
+    }
+    help_options(command);
     printf("\nCommands:\n");
-    for (const struct command *c = command_table + 1; c->name; c++) {
-        char left[96];
-        snprintf(left, sizeof left, "  %s%s%s", c->name, c->operands ? " " : "", c->operands ? c->operands : "");
-        print_row(left, COLUMN, c->summary);
-    }
+    help_commands();
     printf("\nExit codes:\n");
-    for (const struct exit_code *e = exit_codes; e->meaning; e++) {
-        char left[16];
-        snprintf(left, sizeof left, "  %d", e->code);
-        print_row(left, 7, e->meaning);
-    }
-    printf("\nMore: man lambent\n");
+    help_exit_codes();
+    printf("\nMore: lambent help TOPIC (lambent help lists the topics), man lambent\n");
 }
 
-int run_help(int operand_count, char **operands, const struct options *options)
+// One line: the value is cut to its first form, and the default left out, where they do not fit.
+static void brief_option(const struct option *o, const struct command *command)
 {
-    (void)options;
-    const struct command *command = operand_count ? find_command(operands[0]) : command_table;
-    if (!command) {
-        lam_error error;
-        struct suggestion nearest = suggest_start(operands[0]);
-        for (const struct command *c = command_table; c->name; c++)
-            suggest_try(&nearest, c->name);
-        char known[256] = "";
-        for (const struct command *c = command_table; c->name; c++) {
-            strncat(known, c == command_table ? "" : c[1].name ? ", " : " or ", sizeof known - strlen(known) - 1);
-            strncat(known, c->name, sizeof known - strlen(known) - 1);
+    char left[64], text[512], letter[8] = "    ";
+    const char *standard = default_of(command, o), *brief = o->brief ? o->brief : o->summary, *value = o->value;
+    if (o->letter)
+        snprintf(letter, sizeof letter, "-%c, ", o->letter);
+    bool long_value = value && strlen("  -x, --") + strlen(o->name) + 1 + strlen(value) >= BRIEF_COLUMN;
+    snprintf(left, sizeof left, "  %s--%s%s%.*s", letter, o->name, value ? " " : "",
+             value ? (int)(long_value ? strcspn(value, "|[:") : strlen(value)) : 0, value ? value : "");
+    bool fits = standard && BRIEF_COLUMN + strlen(brief) + strlen(standard) + strlen(" []") <= BRIEF_WIDTH;
+    snprintf(text, sizeof text, "%s%s%s%s", brief, fits ? " [" : "", fits ? standard : "", fits ? "]" : "");
+    help_row(left, BRIEF_COLUMN, BRIEF_WIDTH, text);
+}
+
+// True if the option belongs to a command and not to pictures of models.
+static bool is_own(const struct option *o, const struct command *command)
+{
+    return option_is_taken(o, command->groups) && !option_is_taken(o, command_table->groups);
+}
+
+// A command with options of its own shows those, and the common ones of the picture; the others all common ones. False: there
+// are none.
+static bool brief_options(const struct command *command)
+{
+    bool own = false, any = false;
+    for (const struct option *o = option_table; o->name; o++)
+        own |= is_own(o, command);
+    for (const struct option *o = option_table; o->name; o++)
+        if (is_own(o, command) ||
+            (o->brief && option_is_taken(o, command->groups) && (!own || o->group == GROUP_PICTURE))) {
+            brief_option(o, command);
+            any = true;
         }
-        complain(&error, LAM_BAD_ARGUMENT, "help: unknown command '%.60s', expected %s%s%s%s", operands[0], known,
-                 nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
-        say_error(error.text);
-        return exit_code_of(error.code)->code;
+    return any;
+}
+
+void print_brief_help(const struct command *command)
+{
+    bool whole = command == command_table;
+    char begin[64];
+    if (whole) {
+        printf("lambent lights 3D models: a model file becomes a picture.\n\n");
+        snprintf(begin, sizeof begin, "lambent ");
+    } else {
+        printf("Usage: lambent %s%s%s\n", command->name, command->operands ? " " : "",
+               command->operands ? command->operands : "");
+        help_text(command->summary, 0, BRIEF_WIDTH);
+        printf(command->groups == 1u << GROUP_ABOUT ? "" : "\n");
+        snprintf(begin, sizeof begin, "lambent %s ", command->name);
     }
-    if (operand_count)
-        print_command(command);
-    else
-        print_help(command);
-    return 0;
+    bool examples_shown = false;
+    for (const struct example *e = examples; e->line; e++) {
+        if ((whole && !e->brief) || strncmp(e->line, begin, strlen(begin)) != 0)
+            continue;
+        char left[96];
+        snprintf(left, sizeof left, "  %s", e->line);
+        help_row(left, BRIEF_EXAMPLE_COLUMN, BRIEF_WIDTH, e->meaning);
+        examples_shown = true;
+    }
+    if (examples_shown)
+        printf("\n");
+    bool options_shown = brief_options(command);
+    if (whole) {
+        char names[400] = "";
+        for (const struct command *c = command_table + 1; c->name; c++) {
+            size_t used = strlen(names);
+            snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", c->name);
+        }
+        printf("\n");
+        help_row("Commands:", (int)strlen("Commands: "), BRIEF_WIDTH, names);
+        printf("Everything: lambent --help. A subject, a command or an option: lambent help NAME\n");
+    } else if (options_shown) {
+        printf("\nEverything: lambent %s --help\n", command->name);
+    }
 }

@@ -2,6 +2,7 @@
 #include "generate.h"
 
 #include "field_tables.h"
+#include "topics.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -33,6 +34,18 @@ static void roff_line(const char *text)
     putchar('\n');
 }
 
+// The default of an option, and behind it those of commands that have their own. "": none.
+static const char *standard_of(const struct option *o, char text[400])
+{
+    int used = snprintf(text, 400, "%s", o->standard ? o->standard : "");
+    for (const struct command *c = command_table; c->name; c++) {
+        const char *own = option_is_taken(o, c->groups) ? default_of(c, o) : o->standard;
+        if (own && own != o->standard)
+            used += snprintf(text + used, 400 - (size_t)used, "%s`%s`: %s", used ? "; " : "", c->name, own);
+    }
+    return text;
+}
+
 static void roff_option(const struct option *o)
 {
     printf(".TP\n");
@@ -48,9 +61,10 @@ static void roff_option(const struct option *o)
     }
     printf("\n");
     roff_line(o->summary);
-    if (o->standard) {
+    char standard[400];
+    if (*standard_of(o, standard)) {
         printf("Default: ");
-        roff(o->standard);
+        roff(standard);
         printf(".\n");
     }
     if (o->details)
@@ -106,7 +120,9 @@ void generate_man(void)
         printf("\n");
         roff_line(c->summary);
     }
-    for (const struct topic *t = topics; t->title; t++) {
+    for (const struct topic *t = topics; t->word; t++) {
+        if (!t->text)
+            continue;
         printf(".SH \"");
         for (const char *s = t->title; *s; s++)
             putchar(*s >= 'a' && *s <= 'z' ? *s - 'a' + 'A' : *s);
@@ -139,7 +155,8 @@ static void markdown_option(const struct option *o)
         cell(o->value);
     }
     printf("` | ");
-    cell(o->standard ? o->standard : "");
+    char standard[400];
+    cell(standard_of(o, standard));
     printf(" | ");
     cell(o->summary);
     if (o->details) {
@@ -182,7 +199,9 @@ void generate_markdown(void)
         cell(c->summary);
         printf(" |\n");
     }
-    for (const struct topic *t = topics; t->title; t++) {
+    for (const struct topic *t = topics; t->word; t++) {
+        if (!t->text)
+            continue;
         printf("\n## %s\n\n", t->title);
         for (const char *s = t->text; *s; s++)
             fputs(*s == '\n' ? "\n\n" : (char[]){*s, 0}, stdout);

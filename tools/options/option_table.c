@@ -197,10 +197,11 @@ const struct option option_table[] = {
      "(`model.png` if the model comes from standard input); a file of that name that lambent did not write is "
      "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder, and makes it if it "
      "is missing; every command that writes files takes it.",
-     .takes_file = true, .store = store_text, .others = "out outfile file format export save write", FIELD(output),
-     .single = TAKES_OUTPUT},
+     .takes_file = true, .brief = "FILE.png, .ppm, .pfm or .exr; or a FOLDER/", .store = store_text,
+     .others = "out outfile file format export save write", FIELD(output), .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
-     .store = store_size, .others = "resolution width height dimensions pixels", .max = 65535, .single = TAKES_SIZE},
+     .brief = "pixels: 800, or 1920x1080", .store = store_size, .others = "resolution width height dimensions pixels",
+     .max = 65535, .single = TAKES_SIZE},
     {"samples", 0, GROUP_PICTURE, "N", "4", "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges. Each triangle that covers part of a pixel is lit once in that pixel.",
      sample_words, .store = store_word,
@@ -210,7 +211,8 @@ const struct option option_table[] = {
      "A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), one of the basic names (`black`, `white`, "
      "`gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour "
      "names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",
-     .store = store_color, .others = "bg background-color backdrop transparent", FIELD(background)},
+     .brief = "white, '#dfe6ee' or transparent", .store = store_color,
+     .others = "bg background-color backdrop transparent", FIELD(background)},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
      color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
      FIELD(color_mode)},
@@ -233,7 +235,8 @@ const struct option option_table[] = {
      "show surface quantities. `all` writes the picture, every term and every light as layers of one `.exr`. "
      "`.pfm` and `.exr` store the values unchanged; 8-bit pictures store an encoding of them, without the sRGB "
      "curve. `docs/show.md` has the complete table.",
-     show_words, .store = store_show, .others = "pass aov channel layer debug term only", FIELD(show)},
+     show_words, .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
+     .others = "pass aov channel layer debug term only", FIELD(show)},
 
     {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that reproduces this picture.",
      "The file stores the result of the command line: the model's path relative to FILE, the camera, all lights "
@@ -246,8 +249,8 @@ const struct option option_table[] = {
      "By default the camera stands 30 degrees to the right of the front and 20 degrees above. The model always "
      "fills 92 % of the picture's tighter side. `--azimuth` and `--elevation` change the angles of a named "
      "side.",
-     view_words, .store = store_word, .others = "side angle orientation front back left right top bottom isometric",
-     FIELD(view)},
+     view_words, .brief = "front, back, left, right, top, bottom or iso", .store = store_word,
+     .others = "side angle orientation front back left right top bottom isometric", FIELD(view)},
     {"azimuth", 0, GROUP_VIEW, "DEGREES", "30", "The camera's angle around the model; 0 is the front, 90 the right.",
      NULL, .store = store_number, .others = "yaw heading orbit", FIELD(azimuth_deg),
      .has_field = offsetof(struct options, has_azimuth), .min = -3600, .max = 3600},
@@ -263,12 +266,13 @@ const struct option option_table[] = {
      "The camera and the lights attached to it follow the axis; the model's coordinates do not change. STL "
      "files are read as Z up, as in CAD and 3D printing; other formats as Y up. Capitals and a plus (`+Z`) are "
      "accepted.",
-     up_words, .store = store_up, .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(up)},
+     up_words, .brief = "what is up in the file: y, z, -z ...", .store = store_up,
+     .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(up)},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Turn the model about its centre, such as y:30; repeatable.",
      "The axis is x, y or z of the scene; turns are applied in the order given. Lights stay where they are "
      "(except those in the model's frame), radii refer to the model before the turn, and the camera is fitted "
      "to the result.",
-     .store = store_rotation, .others = "rotation turn spin", FIELD(rotations)},
+     .brief = "turn the model: y:30", .store = store_rotation, .others = "rotation turn spin", FIELD(rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS", "fitted", "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more.",
      "Keys are separated by commas and use the model's own coordinates: `eye` (required), `target` (default: "
      "the middle of the model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30) or "
@@ -297,11 +301,13 @@ const struct option option_table[] = {
      "(half angle in degrees, 45) and `exponent`, or `inner` and `outer` half angles. `name` appears in "
      "reports.\n"
      "The table of the fields of lights lists all keys.",
-     .store = store_light, .others = "lamp sun spot point directional lighting", FIELD(lights)},
+     .brief = "point, spot, directional ... in place of the studio", .store = store_light,
+     .others = "lamp sun spot point directional lighting", FIELD(lights)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A predefined set of lights: studio, headlight, three-point, lecture, file, none or auto.",
      "A named rig replaces the model's own lights. `docs/lighting/lights.md` lists the numbers.", rig_words,
-     .store = store_word, .others = "preset lights light-setup studio headlight", FIELD(rig),
+     .brief = "a set of lights: studio, headlight, three-point ...", .store = store_word,
+     .others = "preset lights light-setup studio headlight", FIELD(rig),
      .has_field = offsetof(struct options, has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Ambient light: #rrggbb, r/g/b, a name or one number.", NULL,
      .store = store_opaque_color, .others = "ambient-light", FIELD(ambient)},
@@ -331,13 +337,14 @@ const struct option option_table[] = {
      "multiplies the specular colour, white by default).\n"
      "`@WHERE` limits the option to the objects of that name, else to the parts (OBJ groups, STL solids), else "
      "to the model's materials: `ruby@handle`. Of several options for one surface, the last one wins.",
-     .store = store_material, .others = "mat specular diffuse", FIELD(materials)},
+     .brief = "gold, ruby ... (lambent materials)", .store = store_material, .others = "mat specular diffuse",
+     FIELD(materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
      "It replaces the ambient and diffuse colour of every material, including those of `--material`; highlights keep "
      "theirs. It is short for `--material color=COLOR`, and a colour alone is a material too: "
      "`--material '#ff8800@handle'`. (`--color raw` and `--color srgb` still mean `--color-mode`.)",
-     .store = store_opaque_color, .others = "paint tint albedo model-color mesh-color surface-color",
-     FIELD(model_color), .former = "color-mode"},
+     .brief = "of the model: red, '#ff8800'", .store = store_opaque_color,
+     .others = "paint tint albedo model-color mesh-color surface-color", FIELD(model_color), .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
      "The material of back faces, as in `--material`; fields without a key are the front's.", NULL,
      .store = store_material, FIELD(back_materials)},
@@ -352,9 +359,9 @@ const struct option option_table[] = {
      .has_field = offsetof(struct options, has_opacity), .min = 0, .max = 1},
 
     {"shading", 0, GROUP_SHADING, "METHOD", "phong",
-     "The shading method: flat, gouraud (per vertex) or phong (per pixel).", NULL, shading_words, .store = store_word,
-     .others = "flat smooth gouraud phong interpolation", FIELD(shading),
-     .has_field = offsetof(struct options, has_shading)},
+     "The shading method: flat, gouraud (per vertex) or phong (per pixel).", NULL, shading_words,
+     .brief = "flat, gouraud or phong", .store = store_word, .others = "flat smooth gouraud phong interpolation",
+     FIELD(shading), .has_field = offsetof(struct options, has_shading)},
     {"reflection", 0, GROUP_SHADING, "MODEL", "auto", reflection_summary, NULL, reflection_words, .store = store_word,
      .others = "brdf lobe lighting-model reflection-model blinn-phong lambert", FIELD(reflection)},
     {"stage", 0, GROUP_SHADING, "WHERE", "fragment", "Where lighting is evaluated: application, vertex or fragment.",
@@ -434,7 +441,8 @@ const struct option option_table[] = {
      "The report goes to standard output, or to standard error when the picture goes to standard output (then "
      "nothing else is written there). It replaces the line with the file's name, and is printed on failure as "
      "well. Its schema is `docs/report.schema.json`.",
-     .store = store_switch, .others = "report stats info", FIELD(json), .single = TAKES_JSON},
+     .brief = "print a report for other programs", .store = store_switch, .others = "report stats info", FIELD(json),
+     .single = TAKES_JSON},
     {"verbose", 'v', GROUP_REPORT, NULL, NULL, "Print on standard error what was read and the time of each step.", NULL,
      .store = store_switch, FIELD(verbose)},
     {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print nothing but errors.", NULL, .store = store_switch,
@@ -515,8 +523,9 @@ const struct option option_table[] = {
 
     {"version", 0, GROUP_ABOUT, NULL, NULL, "Print the version and the build information.", NULL, .store = store_switch,
      FIELD(version)},
-    {"help", 'h', GROUP_ABOUT, NULL, NULL, "Print this help.", NULL, .store = store_switch, .others = "usage",
-     FIELD(help)},
+    {"help", 'h', GROUP_ABOUT, NULL, NULL, "Print all of this help; -h prints what most people need.",
+     "`lambent help TOPIC` explains a subject, a command or an option.", .store = store_switch, .others = "usage",
+     FIELD(help), .letter_field = offsetof(struct options, brief_help)},
     {.name = NULL},
 };
 

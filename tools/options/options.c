@@ -182,6 +182,8 @@ static bool read_letters(int count, char **words, int *at, unsigned groups, stru
         }
         if (!apply(option, value, groups, options, error))
             return false;
+        if (option->letter_field)
+            *(bool *)((char *)options + option->letter_field) = true;
         if (value)
             break;
     }

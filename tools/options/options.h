@@ -110,6 +110,7 @@ struct options {
 
     // Reports
     bool json, quiet, verbose, version, help;
+    bool brief_help; // -h, not --help
 
     bool given[OPTIONS_MAX]; // for each row of the table: the option is on the command line
 };
@@ -179,6 +180,8 @@ struct option {
     size_t field, has_field; // has_field: a bool to set as well (words and numbers); 0: none
     double min, max;         // for numbers
     unsigned single;         // TAKES_…, if commands may accept it without its group
+    const char *brief;       // for -h: a few words; NULL: not shown there
+    size_t letter_field;     // a bool to set as well where the option is given by its letter; 0: none
     const char *others;      // other names that people try, separated by spaces, for suggestions; NULL: none
     const char *former; // the option that had this name before: a value that is one of its words means it; NULL: none
 };

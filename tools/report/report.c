@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command.h"
 #include "console.h"
 #include "exit_codes.h"
 #include "json.h"
@@ -264,6 +265,23 @@ FILE *report_stream(const struct options *options)
     return options->output && strcmp(options->output, "-") == 0 ? stderr : stdout;
 }
 
+// Names the help of the option or command that a usage error begins with.
+static void say_where_to_look(const char *text)
+{
+    char name[64];
+    static const char before[] = "option '--";
+    bool of_option = strncmp(text, before, sizeof before - 1) == 0;
+    if (of_option)
+        text += sizeof before - 1;
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, of_option ? "'" : ": "), text);
+    if (of_option && option_find(name))
+        say_plain("Try 'lambent help %s'.\n", name);
+    else if (!of_option && find_command(name))
+        say_plain("Try 'lambent %s -h'.\n", name);
+    else
+        say_plain("Try 'lambent -h'.\n");
+}
+
 int report_failure(const lam_error *error, const struct options *options)
 {
     FILE *stream = report_stream(options);
@@ -272,6 +290,6 @@ int report_failure(const lam_error *error, const struct options *options)
     if (stream)
         report_json(stream, NULL, error);
     else if (error->code == LAM_BAD_ARGUMENT)
-        say_plain("Try 'lambent --help'.\n");
+        say_where_to_look(error->text);
     return exit_code_of(error->code)->code;
 }

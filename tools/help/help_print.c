@@ -1,0 +1,139 @@
+// help_print.c: the parts that help texts are made of.
+#include "help_print.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "exit_codes.h"
+
+enum { WIDTH = HELP_WIDTH, LETTER_COLUMN = 6 };
+
+// Prints a paragraph up to `width` columns, starting at column `at`; further lines begin at `indent`. Leaves out back
+// quotes. Returns the text after it.
+static const char *print_paragraph(const char *text, int at, int indent, int width)
+{
+    while (*text && *text != '\n') {
+        size_t length = strcspn(text, " \n");
+        int shown = 0;
+        for (size_t i = 0; i < length; i++)
+            shown += text[i] != '`';
+        if (at > indent && at + 1 + shown > width) {
+            printf("\n%*s", indent, "");
+            at = indent;
+        } else if (at > indent) {
+            putchar(' ');
+            at++;
+        }
+        for (size_t i = 0; i < length; i++)
+            if (text[i] != '`')
+                putchar(text[i]);
+        at += shown;
+        text += length;
+        text += strspn(text, " ");
+    }
+    putchar('\n');
+    return text + (*text == '\n');
+}
+
+void help_text(const char *text, int indent, int width)
+{
+    for (bool first = true; *text; first = false) {
+        printf("%s%*s", first ? "" : "\n", indent, "");
+        text = print_paragraph(text, indent, indent, width);
+    }
+}
+
+void help_row(const char *left, int column, int width, const char *text)
+{
+    int used = (int)strlen(left);
+    printf("%s", left);
+    if (used + 1 > column) {
+        putchar('\n');
+        used = 0;
+    }
+    printf("%*s", column - used, "");
+    print_paragraph(text, column, column, width);
+}
+
+static void print_words(const struct option *option)
+{
+    for (const struct word *w = option->words; w && w->name; w++) {
+        char left[96];
+        snprintf(left, sizeof left, "%*s%s", LETTER_COLUMN, "", w->name);
+        if (w->summary)
+            help_row(left, HELP_COLUMN, WIDTH, w->summary);
+        else
+            printf("%s\n", left);
+    }
+}
+
+void help_option(const struct option *option, const struct command *command, bool details)
+{
+    char left[96], letter[8] = "    ";
+    if (option->letter)
+        snprintf(letter, sizeof letter, "-%c, ", option->letter);
+    snprintf(left, sizeof left, "  %s--%s%s%s", letter, option->name, option->value ? " " : "",
+             option->value ? option->value : "");
+    const char *standard = default_of(command, option);
+    char text[512];
+    snprintf(text, sizeof text, "%s%s%s%s", option->summary, standard ? " [" : "", standard ? standard : "",
+             standard ? "]" : "");
+    help_row(left, HELP_COLUMN, WIDTH, text);
+    if (!details)
+        return;
+    if (option->details)
+        help_text(option->details, LETTER_COLUMN, WIDTH);
+    print_words(option);
+}
+
+void help_options(const struct command *command)
+{
+    for (int group = 0; group < GROUP_COUNT; group++) {
+        bool titled = false;
+        for (const struct option *o = option_table; o->name; o++) {
+            if ((int)o->group != group || !option_is_taken(o, command->groups))
+                continue;
+            if (!titled)
+                printf("\n%s:\n", group_titles[group]);
+            titled = true;
+            help_option(o, command, false);
+        }
+    }
+}
+
+void help_commands(void)
+{
+    for (const struct command *c = command_table + 1; c->name; c++) {
+        char left[96];
+        snprintf(left, sizeof left, "  %s%s%s", c->name, c->operands ? " " : "", c->operands ? c->operands : "");
+        help_row(left, HELP_COLUMN, WIDTH, c->summary);
+    }
+}
+
+void help_exit_codes(void)
+{
+    for (const struct exit_code *e = exit_codes; e->meaning; e++) {
+        char left[16];
+        snprintf(left, sizeof left, "  %d", e->code);
+        help_row(left, 7, WIDTH, e->meaning);
+    }
+}
+
+void help_command_head(const struct command *command)
+{
+    printf("Usage: lambent %s%s%s\n\n", command->name, command->operands ? " " : "",
+           command->operands ? command->operands : "");
+    help_text(command->summary, 0, WIDTH);
+    char words[64];
+    bool any = false;
+    snprintf(words, sizeof words, "lambent %s ", command->name);
+    for (const struct example *e = examples; e->line; e++) {
+        if (strncmp(e->line, words, strlen(words)) != 0)
+            continue;
+        printf("%s", any ? "" : "\nExamples:\n");
+        any = true;
+        char left[128];
+        snprintf(left, sizeof left, "  %s", e->line);
+        help_row(left, HELP_EXAMPLE_COLUMN, WIDTH, e->meaning);
+    }
+}

@@ -1,0 +1,29 @@
+// help_print.h: the parts that help texts are made of, on standard output, at most 100 columns wide.
+#ifndef HELP_PRINT_H
+#define HELP_PRINT_H
+
+#include "command.h"
+
+enum { HELP_WIDTH = 100, HELP_COLUMN = 29, HELP_EXAMPLE_COLUMN = 41 };
+
+// Prints paragraphs, separated by empty lines, from column `indent` on, wrapped at `width` columns. Back quotes are left
+// out.
+void help_text(const char *text, int indent, int width);
+
+// A row: `left`, then the text from `column` on, wrapped there at `width` columns; on a line of its own if `left` is too
+// long.
+void help_row(const char *left, int column, int width, const char *text);
+
+// An option's row: its summary and default, for a command the command's own. With `details` all that is known of it.
+void help_option(const struct option *option, const struct command *command, bool details);
+
+// The rows of all options that a command accepts, by group.
+void help_options(const struct command *command);
+
+void help_commands(void);   // rows of the commands that must be named
+void help_exit_codes(void); // rows of the exit codes
+
+// The command's usage, its summary and its examples.
+void help_command_head(const struct command *command);
+
+#endif

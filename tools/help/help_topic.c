@@ -1,0 +1,146 @@
+// help_topic.c: the command `help`: a subject, a command or an option, or the list of them.
+#include "command.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "console.h"
+#include "exit_codes.h"
+#include "field_tables.h"
+#include "help.h"
+#include "help_print.h"
+#include "suggest.h"
+#include "topics.h"
+
+enum { LIST_COLUMN = 15 };
+
+static const struct topic *find_topic(const char *word)
+{
+    for (const struct topic *t = topics; t->word; t++)
+        if (strcmp(t->word, word) == 0)
+            return t;
+    return NULL;
+}
+
+// "light", "--light" or "-o".
+static const struct option *find_option(const char *word)
+{
+    if (word[0] == '-' && word[1] && word[1] != '-' && !word[2])
+        for (const struct option *o = option_table; o->name; o++)
+            if (o->letter == word[1])
+                return o;
+    return option_find(word + (strncmp(word, "--", 2) == 0 ? 2 : 0));
+}
+
+static void print_options(unsigned groups, const struct command *command)
+{
+    for (const struct option *o = option_table; o->name; o++)
+        if (groups & 1u << o->group) {
+            printf("\n");
+            help_option(o, command, true);
+        }
+}
+
+// Options have the defaults of the command whose subject it is.
+static void print_topic(const struct topic *topic)
+{
+    const struct command *command = find_command(topic->word);
+    if (command)
+        help_command_head(command);
+    printf("%s%s\n", command ? "\n" : "", topic->title);
+    if (topic->text) {
+        printf("\n");
+        help_text(topic->text, 0, HELP_WIDTH);
+    }
+    print_options(topic->groups, command ? command : command_table);
+    if (topic->table == TOPIC_LIGHT_FIELDS || topic->table == TOPIC_MATERIAL_FIELDS) {
+        printf("\nKeys:\n");
+        field_tables_text(topic->table == TOPIC_LIGHT_FIELDS ? lam_light_field : lam_material_field);
+    } else if (topic->table == TOPIC_EXIT_CODES) {
+        printf("\n");
+        help_exit_codes();
+    }
+    if (command)
+        printf("\nAll options of the command: lambent %s --help\n", command->name);
+}
+
+// The title of a subject, and its options.
+static void topic_summary(const struct topic *topic, char *text, size_t size)
+{
+    int used = snprintf(text, size, "%s", topic->title);
+    bool first = true;
+    for (const struct option *o = option_table; o->name; o++)
+        if (topic->groups & 1u << o->group && used < (int)size) {
+            used += snprintf(text + used, size - (size_t)used, "%s%s", first ? ": " : ", ", o->name);
+            first = false;
+        }
+}
+
+static void print_list(void)
+{
+    printf("Usage: lambent help TOPIC\n\nSubjects:\n");
+    for (const struct topic *t = topics; t->word; t++) {
+        char left[40], text[600];
+        snprintf(left, sizeof left, "  %s", t->word);
+        topic_summary(t, text, sizeof text);
+        help_row(left, LIST_COLUMN, HELP_WIDTH, text);
+    }
+    printf("\nCommands:\n");
+    help_commands();
+    printf(
+        "\nOptions: lambent help light, lambent help --light or lambent help -o; lambent --help lists all of them.\n");
+}
+
+static bool fail_unknown(const char *word, lam_error *error)
+{
+    struct suggestion nearest = suggest_start(word);
+    for (const struct topic *t = topics; t->word; t++)
+        suggest_try(&nearest, t->word);
+    for (const struct command *c = command_table; c->name; c++)
+        suggest_try(&nearest, c->name);
+    for (const struct option *o = option_table; o->name; o++) {
+        suggest_try(&nearest, o->name);
+        suggest_also(&nearest, o->name, o->others);
+    }
+    return complain(error, LAM_BAD_ARGUMENT,
+                    "help: nothing is named '%.60s', expected a subject, a command or an option (`lambent help` lists "
+                    "them)%s%s%s",
+                    word, nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+                    nearest.best ? "'?" : "");
+}
+
+int run_help(int operand_count, char **operands, const struct options *options)
+{
+    (void)options;
+    const char *word = operand_count ? operands[0] : NULL;
+    const struct topic *topic = word ? find_topic(word) : NULL;
+    const struct command *command = word ? find_command(word) : NULL;
+    const struct option *option = word ? find_option(word) : NULL;
+    lam_error error;
+    if (!word) {
+        print_list();
+    } else if (topic) {
+        print_topic(topic);
+        if (option && !command && !(topic->groups & 1u << option->group)) {
+            printf("\n");
+            help_option(option, command_table, true);
+        }
+    } else if (command == command_table) {
+        help_command_head(command);
+        help_options(command);
+    } else if (command) {
+        print_help(command);
+    } else if (option) {
+        help_option(option, command_table, true);
+        for (const struct topic *t = topics; t->word; t++)
+            if (t->groups & 1u << option->group)
+                printf("\nMore: lambent help %s\n", t->word);
+    } else if (strcmp(word, "all") == 0) {
+        print_help(command_table);
+    } else {
+        fail_unknown(word, &error);
+        say_error(error.text);
+        return exit_code_of(error.code)->code;
+    }
+    return 0;
+}

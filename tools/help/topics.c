@@ -1,0 +1,100 @@
+// topics.c: the subjects of `lambent help TOPIC`, which are the prose of the man page and the docs.
+#include "topics.h"
+
+#include "options.h"
+
+#define BIT(group) (1u << GROUP_##group)
+
+const struct topic topics[] = {
+    {"models", "Models", 0, TOPIC_NO_TABLE,
+     "MODEL is a file, the name of a built-in shape, or `-` for standard input. The content decides the format; "
+     "the extension is only a hint. The name of a built-in shape means the shape even if a file has that name: "
+     "write `./teapot` for the file, and `./shapes` for a file that has the name of a command.\n"
+     "Several models may be given: each becomes its own picture, in the current folder or that of `-o pictures/`. "
+     "A model that fails is reported and the others are still drawn; the exit code is then the highest one. `-o "
+     "FILE` and `-` need a single model."},
+    {"picture", "The picture", BIT(PICTURE), TOPIC_NO_TABLE, NULL},
+    {"output", "Output", 0, TOPIC_NO_TABLE,
+     "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An older picture "
+     "written by lambent (recognised by the `Software` text in the PNG) is replaced; any other file of that name "
+     "stays, and the exit code is 5. With `-o` the named file is replaced. A picture is written completely or not "
+     "at all.\n"
+     "Standard output carries the picture (`-o -`) or the report (`--json`), and nothing else. Warnings, errors, "
+     "the line that names the written file, and a progress bar (only on a terminal, for work of over half a "
+     "second) go to standard error."},
+    {"view", "The view", BIT(VIEW), TOPIC_NO_TABLE, NULL},
+    {"lights", "Lights", BIT(LIGHTS), TOPIC_LIGHT_FIELDS, NULL},
+    {"materials", "Materials", BIT(MATERIALS), TOPIC_MATERIAL_FIELDS, NULL},
+    {"shading", "Shading", BIT(SHADING), TOPIC_NO_TABLE, NULL},
+    {"sheets", "Sheets", BIT(SHEET) | BIT(CAPTIONS), TOPIC_NO_TABLE,
+     "`lambent compare MODEL` writes one PNG with several pictures of a model and a caption under each: `lambent "
+     "MODEL` draws the same picture with the options printed in grey under the caption. `--sheet` selects the "
+     "pictures; `--across OPTION=VALUES` makes a row with one picture for each value. Every other option applies "
+     "to all pictures, `--size` (480x400) to each; the options of the sheet follow those of the command line and "
+     "override them. The background is white by default. The sheet is `MODEL-NAME.png` in the current folder or in "
+     "the folder of `-o`, or the file of `-o`. The pictures are the same bytes everywhere; only the letters are "
+     "FreeType's.\n"
+     "`--sheet stages` frames the brightest highlight (the largest difference to the picture without highlights) "
+     "and shows it below, three times as large. That sheet, `surfaces` and `terms` give the model's materials a "
+     "specular colour of their own, so that there is a highlight to see; `terms` removes the other terms with "
+     "black coefficients; `ambient` sets the ambient coefficient of the default material."},
+    {"explain", "Explaining a pixel", 0, TOPIC_NO_TABLE,
+     "`lambent explain MODEL X,Y` takes the options of a picture and prints the calculation of the pixel in column "
+     "X and row Y (from 0, from the top left corner): each visible triangle with its samples, the object, the "
+     "position in the triangle, n, v and t, and the material; for each light its matrix (rows ambient, diffuse, "
+     "specular), l, r and h, the angles between n and l, r and v, n and h, the distance, attenuation and spot "
+     "factor, the highlight's base and power, and its diffuse and specular terms; then the terms and their sum, "
+     "the weighted sum of the triangles over the background, the encoding and the bytes. Vectors are in eye space. "
+     "The numbers are those of the picture, to the last bit; `docs/lighting.md` has the formulas. `--json` prints "
+     "the same as one line. No picture is written; `--output` has no effect."},
+    {"check", "Checking shaders", BIT(CHECK) | BIT(DIFF), TOPIC_NO_TABLE,
+     "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the shaders and compares "
+     "the pictures with those of the CPU device. Without `--vertex` a correct vertex shader is generated. The "
+     "contract is recognised by the names of uniforms and attributes; `--list` prints the contracts, the scenes "
+     "and the known mistakes. Where pictures differ, the same scenes are drawn with known mistakes made on "
+     "purpose; the smallest set that reproduces the shader's pictures is reported, with a line to write instead. "
+     "`-o` writes a sheet with the shader's picture, the reference and the difference (times `--gain`) of each "
+     "scene. `--tolerance` (default 2) applies to each channel of a pixel: one pixel in 200 may exceed it, and the "
+     "mean difference may be a quarter of it. The shaders run in a process of their own, which `--stop-after` "
+     "limits. Several shaders may be given: `lambent check */phong.frag */phong.vert` checks a class, each vertex "
+     "shader with the fragment shader of the same folder and name, and `-o sheets/` writes a sheet for each. A "
+     "shader that cannot be checked is reported, and the others are still checked. The exit code is 0 if every "
+     "scene of every shader matches the reference, else the highest of all; 6 also for shaders that do not "
+     "compile, do not end, or write NaN. With `--json` the report is one line (`docs/check.schema.json`). More: "
+     "`docs/check.md`."},
+    {"shaders", "Shaders for other programs", BIT(SHADER), TOPIC_NO_TABLE, NULL},
+    {"diff", "Comparing pictures", BIT(DIFF), TOPIC_NO_TABLE,
+     "`lambent diff A B` reads two pictures of the same size (PNG or PPM with 8 bits, PFM with floats, both of one "
+     "kind) and prints the largest difference of a channel, the mean and the root mean square over all channels "
+     "(red, green, blue and alpha as stored in the files, 1 = full range), the PSNR in decibels (`infinite` for "
+     "equal pictures, null in JSON), and the share of pixels in which a channel differs by more than 1/255 and "
+     "2/255. `-o` draws the difference (`-o out/`: as `A-difference.png` in that folder): each channel is its "
+     "difference times `--gain`, clamped at white; black means equal; a pixel that differs only in alpha is grey. "
+     "A `.pfm` stores the differences as floats without clamping. With `--json` the figures are one line: `a`, "
+     "`b`, `width`, `height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, "
+     "`differ` (0 or 1: beyond the tolerance) and `picture`. The exit code is 6 if the largest difference exceeds "
+     "the tolerance, 1 if the sizes or kinds differ."},
+    {"plots", "Plots", BIT(PLOT) | BIT(CAPTIONS), TOPIC_NO_TABLE,
+     "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d. A curve is three such "
+     "numbers, a light as `--light` takes it (`spot:attenuation=0/0/1,range=9`), or every light of a model or "
+     "scene file. A dot marks where each curve falls below 1/255, the last step of a picture with 8 bits; a fourth "
+     "number (`a/b/c/range`) is a range as in glTF. `lambent plot spot cutoff=30,exponent=8 inner=20,outer=35` "
+     "draws the cone of spot lights over the angle from the axis, by OpenGL's law or glTF's. `lambent plot "
+     "highlight 10 50 1000` draws the highlight over the angle between the mirrored light and the eye: for each "
+     "shininess Phong's and Blinn-Phong's, and Blinn-Phong's at four times the shininess, which looks like "
+     "Phong's. Without curves each plot draws a default set. The values come from the functions that light pixels.\n"
+     "The picture is `attenuation.png`, `spot.png` or `highlight.png` (in the folder of `-o plots/`), 1600x1000 "
+     "pixels, unless `-o` and `-s` say otherwise; a name that ends in `.svg` makes an SVG. The table on standard "
+     "output lists where each curve falls below 1/255; with `--json` it is one line: `plot`, `x`, `y`, `curves` "
+     "(each with `label`, `below_1_255_from`, null for never, and `points`, 101 pairs) and `picture`."},
+    {"work", "Threads, devices and limits", BIT(WORK), TOPIC_NO_TABLE, NULL},
+    {"reports", "Reports", BIT(REPORT), TOPIC_NO_TABLE, NULL},
+    {"bytes", "Same picture everywhere", 0, TOPIC_NO_TABLE,
+     "The same model and options give the same bytes, whatever the instruction set, the number of threads, the "
+     "compiler and the machine."},
+    {"variables", "Environment", 0, TOPIC_NO_TABLE,
+     "`NO_COLOR`: if set and not empty, messages have no colours. `TERM=dumb` also disables the progress bar. The "
+     "locale has no effect: numbers always have a point."},
+    {"exit-codes", "Exit codes", 0, TOPIC_EXIT_CODES, NULL},
+    {.word = NULL},
+};

@@ -1,0 +1,17 @@
+// topics.h: the subjects of `lambent help TOPIC`, which are the prose of the man page and the docs.
+#ifndef TOPICS_H
+#define TOPICS_H
+
+enum topic_table { TOPIC_NO_TABLE, TOPIC_LIGHT_FIELDS, TOPIC_MATERIAL_FIELDS, TOPIC_EXIT_CODES };
+
+struct topic {
+    const char *word; // of `lambent help WORD`
+    const char *title;
+    unsigned groups;        // bit g: the options of group g belong to it
+    enum topic_table table; // shown below the options
+    const char *text;       // paragraphs with `code` in back quotes, a section of the man page; NULL: none
+};
+
+extern const struct topic topics[]; // in the order of the man page; ends with a NULL word
+
+#endif

@@ -100,7 +100,7 @@ static struct boxed make_box(struct random *r, int number)
             q[i] = (double)p[3 * c + i] + mesh.origin[i];
         b.corners[c] = moved(&lam_scene_object(scene, 0)->transform, q);
     }
-    lam_scene_set_up(scene, (lam_up)(1 + random_bits(r) % 3));
+    lam_scene_set_up(scene, (lam_up)(1 + random_bits(r) % (LAM_UP_COUNT - 1)));
     b.view = (lam_view){.from_angles = number % 5 > 0,
                         .azimuth_rad = between(r, -4, 4),
                         .elevation_rad = between(r, -1.5, 1.5),

@@ -63,6 +63,8 @@ struct options {
     int cull; // lam_cull
     bool has_cull;
     struct texts rotations;  // as written, checked
+    // Set by `compare`, not by an option: the turns of any picture on its sheet, which all have one camera.
+    struct texts sheet_rotations;
     int slices, stacks;      // of a built-in shape; 0: its own
     int normals;             // lam_normals
     double crease_angle_deg; // < 0: the library's default

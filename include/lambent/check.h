@@ -12,22 +12,30 @@
 extern "C" {
 #endif
 
-// A contract is a set of names by which shaders receive their inputs.
-typedef enum lam_check_contract {
-    LAM_CONTRACT_AUTO = 0,   // recognised by the names of uniforms and attributes
-    LAM_CONTRACT_LAMBENT,    // those of `lambent shader`
-    LAM_CONTRACT_PITTSBURGH, // vPosition, model_view, ambient_product …
-    LAM_CONTRACT_OREGON,     // gl_Vertex, uKa, uColor, uLightX …
-    LAM_CONTRACT_NYU,        // position, modelViewMatrix, lights[].lightPosition …
-    LAM_CONTRACT_COUNT
-} lam_check_contract;
+// A contract: the names by which the shaders of a course receive their inputs, and what its exercise asks for. It is a
+// file of JSON (docs/check.md, "Contracts"). Nothing changes it, so any number of checks may share one.
+typedef struct lam_check_contract lam_check_contract;
 
-LAM_API const char *lam_check_contract_name(lam_check_contract contract); // "auto", "lambent", …; NULL out of range
+// The names of the contracts that are built in: "lambent", "pittsburgh", "oregon", … NULL past the last.
+LAM_API const char *lam_check_contract_shipped(int index);
+// The file of a contract that is built in, by its name. NULL: there is none.
+LAM_API const char *lam_check_contract_text(const char *name);
 
-// One name of a contract. Strings are static.
+// Reads a contract. `file`: its name, for messages; NULL: none. The caller frees the contract. NULL: LAM_CANNOT_READ,
+// with the place that is wrong, or LAM_LIMIT.
+LAM_API lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error);
+LAM_API void lam_check_contract_free(lam_check_contract *contract); // NULL is fine
+
+// Its name and its title, a line. Both belong to the contract.
+LAM_API const char *lam_check_contract_name(const lam_check_contract *contract);
+LAM_API const char *lam_check_contract_title(const lam_check_contract *contract);
+
+// One name of a contract. Strings belong to the contract.
 typedef struct lam_check_name {
     const char *name;    // "lights[].lightPosition" for members of a list
     const char *type;    // "vec4"
+    const char *role;    // "light_position": one of lam_check_role
+    const char *space;   // of positions and directions: "eye", "world" or "object"; NULL: none
     const char *meaning; // one line
     // Other accepted names, separated by blanks. NULL: none.
     const char *synonyms;
@@ -36,7 +44,11 @@ typedef struct lam_check_name {
 } lam_check_name;
 
 // Row `row` of a contract, counted from 0. False past the last one.
-LAM_API bool lam_check_contract_row(lam_check_contract contract, int row, lam_check_name *name);
+LAM_API bool lam_check_contract_row(const lam_check_contract *contract, int row, lam_check_name *name);
+
+// The roles that a contract can give to a name, and what each is. NULL past the last.
+LAM_API const char *lam_check_role(int index);
+LAM_API const char *lam_check_role_meaning(int index);
 
 // The known mistakes: their ids ("no-gate") and a sentence about each. NULL past the last.
 LAM_API const char *lam_check_mistake(int index);
@@ -87,9 +99,10 @@ typedef struct lam_check_params {
     const char *fragment_name; // the file's name, for messages
     // NULL: a correct vertex shader is generated that writes what the fragment shader reads.
     const char *vertex;
-    const char *vertex_name;     // as fragment_name
-    lam_check_contract contract; // the names that the shaders use
-    int size;                    // width and height of each picture, 32..1024 pixels; 0: 128
+    const char *vertex_name; // as fragment_name
+    // The names that the shaders use. NULL: that of the built-in ones which has them.
+    const lam_check_contract *contract;
+    int size; // width and height of each picture, 32..1024 pixels; 0: 128
     // Largest allowed difference of a channel, 1 = full range; 0: 2/255. A scene passes when at most one pixel in 200
     // exceeds it and the mean difference is at most a quarter of it.
     double tolerance;
@@ -168,14 +181,14 @@ typedef struct lam_check_diagnostic {
 
 // The result of a check, with a result for each scene.
 typedef struct lam_check_report {
-    lam_check_verdict verdict;   // over all scenes
-    lam_check_contract contract; // given or recognised
-    bool vertex_lit;             // the vertex shader computes the lighting
-    bool made_vertex;            // the vertex shader was generated
-    char driver[128];            // OpenGL's name of its renderer
-    lam_check_scene *scenes;     // in the order of lam_check_scene_name
-    int scene_count;             // 0 where nothing was drawn
-    double mean;                 // mean difference over all scenes
+    lam_check_verdict verdict; // over all scenes
+    const char *contract;      // the name of the one given or recognised
+    bool vertex_lit;           // the vertex shader computes the lighting
+    bool made_vertex;          // the vertex shader was generated
+    char driver[128];          // OpenGL's name of its renderer
+    lam_check_scene *scenes;   // in the order of lam_check_scene_name
+    int scene_count;           // 0 where nothing was drawn
+    double mean;               // mean difference over all scenes
     // In the order found: the first explains most.
     lam_check_finding *findings;
     int finding_count;                 // 0: no known mistake

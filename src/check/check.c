@@ -40,6 +40,42 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
     return true;
 }
 
+// The names of the shaders' uniforms, for messages.
+static void list_uniforms(const struct declarations *d, char *out, size_t capacity)
+{
+    for (int i = 0; i < d->count; i++) {
+        size_t used = strlen(out);
+        if (d->items[i].kind == DECLARED_UNIFORM && used + 60 < capacity)
+            snprintf(out + used, capacity - used, "%s%.40s", used ? ", " : "", d->items[i].name);
+    }
+}
+
+// The contract that is given, or that has the shaders' names. NULL: see `error`.
+static const struct contract *choose_contract(struct run *r, lam_error *error)
+{
+    const lam_check_params *p = r->params;
+    struct declarations vertex = {0}, fragment = {0};
+    if (p->contract)
+        return &p->contract->contract;
+    const struct contract *found = NULL;
+    if (contracts_read(r->shipped, &r->shipped_count, error) &&
+        declarations_read(&vertex, p->vertex ? p->vertex : "", true, error) &&
+        declarations_read(&fragment, p->fragment, false, error)) {
+        found = contract_recognise(r->shipped, r->shipped_count, &vertex, &fragment);
+        char uniforms[200] = "";
+        list_uniforms(&vertex, uniforms, sizeof uniforms);
+        list_uniforms(&fragment, uniforms, sizeof uniforms);
+        if (!found)
+            fail(error, LAM_BAD_ARGUMENT,
+                 "no uniform or attribute of the shader has a name of a known contract (found %s); `lambent check "
+                 "--list` prints them, and --contract names another or a file",
+                 uniforms[0] ? uniforms : "none");
+    }
+    declarations_free(&vertex);
+    declarations_free(&fragment);
+    return found;
+}
+
 static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -49,7 +85,8 @@ static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
     if (r->size < 32 || r->size > 1024)
         return fail(error, LAM_BAD_ARGUMENT, "check: pictures of %d pixels, expected 32 to 1024", r->size);
     r->tolerance = p->tolerance > 0 ? p->tolerance : 2.0 / 255;
-    if (!shader_interface_make(&r->interface, p->vertex, p->fragment, p->contract, error))
+    const struct contract *contract = choose_contract(r, error);
+    if (!contract || !shader_interface_make(&r->interface, p->vertex, p->fragment, contract, error))
         return false;
     r->frame = p->light_frame == LAM_FRAME_WORLD ? r->interface.contract->light_frame : p->light_frame;
     r->reflection = p->reflection != LAM_REFLECTION_AUTO ? p->reflection
@@ -83,8 +120,8 @@ static bool draw_here(struct run *r, const lam_bytes *request, lam_error *error)
 static bool draw(struct run *r, unsigned scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;
-    struct draw_request request = {.contract = r->interface.which,
-                                   .light_frame = r->frame,
+    struct draw_request request = {.contract = r->interface.contract->text,
+                                   .light_frame = p->light_frame,
                                    .size = r->size,
                                    .scenes = scenes,
                                    .vertex = p->vertex ? p->vertex : r->vertex,
@@ -143,7 +180,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     unsigned scenes = 0;
     bool ok = prepare(&r, &scenes, error) && draw(&r, scenes, error);
     if (ok) {
-        report->contract = r.interface.which;
+        report->contract = arena_string(r.arena, r.interface.contract->name);
         report->vertex_lit = r.interface.vertex_lit;
         diagnostics_add_names(&r.diagnostics, &r.drawn, &r.interface, params);
     }
@@ -156,6 +193,8 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     report->diagnostics = r.diagnostics.items;
     report->diagnostic_count = r.diagnostics.count;
     shader_interface_free(&r.interface);
+    for (int i = 0; i < r.shipped_count; i++)
+        lam_check_contract_free(r.shipped[i]);
     free(r.vertex);
     lam_bytes_free(&r.bytes);
     if (!ok)

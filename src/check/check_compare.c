@@ -87,8 +87,7 @@ static bool try_expectation(struct run *r, lam_device *device, unsigned expectat
     *fits = true;
     for (int i = 0; i < r->scene_count; i++) {
         struct scene_comparison *scene = &r->scenes[i];
-        scene->reference_scene =
-            contract_reference_scene(r->interface.contract, r->interface.supports, scene->row, lights);
+        scene->reference_scene = shader_interface_scene(&r->interface, scene->row, lights);
         expectation_apply(expectation, &scene->reference_scene);
         if (!draw_reference(r, device, scene, error))
             return false;
@@ -149,7 +148,7 @@ static float decode(float encoded) { return (float)srgb_linear((double)encoded);
 // occurs in its text. Its pictures are then decoded before they are compared.
 static bool is_encoded(const struct run *r)
 {
-    return r->interface.which == LAM_CONTRACT_LAMBENT && declarations_uses(&r->interface.fragment, "12.92");
+    return r->interface.contract->printed && declarations_uses(&r->interface.fragment, "12.92");
 }
 
 static bool decode_all(struct run *r)

@@ -12,10 +12,12 @@ struct run {
     lam_check_report *report;
     struct arena *arena;
     struct diagnostics diagnostics;
+    lam_check_contract *shipped[MAX_CONTRACTS]; // read where none is given
+    int shipped_count;
     struct shader_interface interface;
     int size;
     double tolerance;
-    lam_light_frame frame;
+    lam_light_frame frame; // of the first light
     lam_reflection reflection;
     char *vertex;    // generated, where none was given
     lam_bytes bytes; // the drawing process's message, which `drawn` points into

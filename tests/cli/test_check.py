@@ -14,7 +14,6 @@ import time
 from harness import ROOT, Case, PROGRAM, check_value, read_png
 
 sys.path.insert(0, str(ROOT / "tests" / "check"))
-from correct import SHADERS as CORRECT  # noqa: E402
 from mistakes import MISTAKES  # noqa: E402
 
 SHADERS = ROOT / "tests" / "check"
@@ -83,18 +82,6 @@ class Right(CheckTest):
                 # The reference comes from the CPU device: the pictures agree far within the tolerance.
                 self.assertLess(max(scene["maximum"] for scene in report["scenes"]), 1e-3)
                 self.assertGreater(min(scene["pixels"] for scene in report["scenes"]), 1000)
-
-    def test_every_correct_style(self):
-        """The shaders of tests/check/correct.py, each of which is correct in its own way."""
-        self.assertGreaterEqual(len(CORRECT), 60)
-        for name, options, texts in CORRECT:
-            with self.subTest(name):
-                for ending in ("frag", "vert"):
-                    (self.folder / f"s.{ending}").unlink(missing_ok=True)
-                    if ending in texts:
-                        (self.folder / f"s.{ending}").write_text(texts[ending], newline="")
-                report = self.report_of("s.frag", *(["--vertex", "s.vert"] if "vert" in texts else []), *options)
-                self.assertEqual((report["verdict"], report["mistakes"], self.notes(report, "unknown")), ("passes", [], []))
 
     def test_printed_shaders(self):
         """Shaders printed by `lambent shader` pass: their loops say which lights they have."""
@@ -491,6 +478,48 @@ class Unruly(CheckTest):
         self.bad(1, "check", "s.frag", "-s", "64x32", says="square", leaves=("s.frag", "s.vert"))
         (self.folder / "s.frag").write_text("void main() { gl_FragColor = vec4(1.0); }\n")
         self.bad(1, "check", "s.frag", says=("--contract", "none"), leaves=("s.frag", "s.vert"))
+
+
+class Contracts(CheckTest):
+    """A contract is a file: those that are built in, and a teacher's own."""
+
+    def own(self, old_names):
+        """Oregon's contract with other names, as my.json, and its correct shaders with the same."""
+        words = self.shader("oregon")
+        text = (ROOT / "src" / "check" / "contracts" / "oregon.json").read_text()
+        for path, name in ((self.folder / "s.frag", "s.frag"), (self.folder / "s.vert", "s.vert")):
+            shader = path.read_text()
+            for old, new in old_names.items():
+                shader = shader.replace(old, new)
+            path.write_text(shader)
+        for old, new in {**old_names, '"oregon"': '"mine"'}.items():
+            text = text.replace(old, new)
+        (self.folder / "my.json").write_text(text)
+        return words
+
+    def test_own_file(self):
+        words = self.own({"uKa": "shareAmbient", "uKd": "shareDiffuse", "uKs": "shareSpecular", "uColor": "paint", "uLight": "lamp",
+                          "uSpecularColor": "gloss", "uShininess": "power"})
+        report = self.report_of(*words, "--contract", "my.json")
+        self.assertEqual((report["verdict"], report["contract"], report["notes"]), ("passes", "mine", []))
+        text = (self.folder / "s.frag").read_text()
+        self.assertEqual(text.count("dot(n, l) > 0.0 ?"), 1)
+        (self.folder / "s.frag").write_text(text.replace("dot(n, l) > 0.0 ?", "true ?"))
+        report = self.report_of(*words, "--contract", "my.json", code=6)
+        self.assertEqual([m["id"] for m in report["mistakes"]], ["no-gate"])
+        self.assertIn("power", report["mistakes"][0]["write"])
+
+    def test_named(self):
+        words = self.shader("nyu")
+        self.assertEqual(self.report_of(*words, "--contract", "nyu")["contract"], "nyu")
+        self.bad(1, "check", *words, "--contract", "oregan", says=("'oregan'", "auto, lambent", "did you mean 'oregon'"), leaves=("s.frag", "s.vert"))
+
+    def test_wrong_file(self):
+        words = self.shader("nyu")
+        self.bad(2, "check", *words, "--contract", "none.json", says="none.json", leaves=("s.frag", "s.vert"))
+        (self.folder / "my.json").write_text('{"contract": 1, "name": "mine", "uniforms": {"x": {"role": "ligth_position"}}}')
+        self.bad(2, "check", *words, "--contract", "my.json", leaves=("s.frag", "s.vert", "my.json"),
+                 says=("my.json: uniforms.x.role: found \"ligth_position\"", "did you mean 'light_position'"))
 
 
 class Several(CheckTest):

@@ -74,7 +74,7 @@ LAYERS = constant("src/cpu/raster/tile.h", "LAYERS_MAX")
 TILE = constant("src/cpu/raster/tile.h", "TILE")
 FEW_LIGHTS = constant("src/cpu/shade/light_bounds.h", "LIGHTS_ALL_SUMMED")
 FOVY = code("src/scene/camera.c", r"fovy_rad = (\d+) \* \(PI / 180\)")
-FILL = code("src/scene/camera_fit.c", r"view->fill : ([\d.]+)")
+FILL = code("src/scene/camera.c", r"view->fill : ([\d.]+)")
 CREASE = code("src/scene/scene.c", r"math_radians\((\d+)\)")
 SPHERE = constant("src/environment/cube_map.h", "CUBE_SIDE_MOST")
 PERCENT_FILL = counted("100 times " + FILL.what, lambda: 100 * FILL.look_up())
@@ -115,9 +115,9 @@ ROWS = [
     ("docs/show.md", "no channel below {}", LEAST_ID),
     ("docs/show.md", "c/(c + {}): 1 is {}, 2 is {}, 3 is {}", OVERDRAW, *[counted(f"the byte of {n} of {n} + OVERDRAW",
      lambda n=n: math.floor(255 * n / (n + OVERDRAW.look_up()) + 0.5)) for n in (1, 2, 3)]),
-    ("docs/check.md", "exponent {}; attenuation 1/(1 + {} d + {} d²)", code("src/check/contract/contract.c", r"\.shininess = (\d+),"),
-     code("src/check/contract/contract.c", r"\.attenuation = \{1, ([\d.]+)f, "),
-     code("src/check/contract/contract.c", r"\.attenuation = \{1, [\d.]+f, ([\d.]+)f")),
+    ("docs/check.md", "exponent {}; attenuation 1/(1 + {} d + {} d²)", code("src/check/contracts/nyu.json", r'"shininess": (\d+)'),
+     code("src/check/contracts/nyu.json", r'"attenuation": \[1, ([\d.]+),'),
+     code("src/check/contracts/nyu.json", r'"attenuation": \[1, [\d.]+, ([\d.]+)\]')),
     ("tools/options/option_table.c", "the number of triangles over a pixel: c/(c + {})", OVERDRAW),
     ("include/lambent/device.h", "no channel below {}", LEAST_ID),
     ("docs/opengl.md", "drawn in parts of {}×{}", *2 * [constant("src/gl/gl_device.h", "PART_SIZE_MAX")]),

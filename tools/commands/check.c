@@ -11,6 +11,7 @@
 #include "interrupt.h"
 #include "output.h"
 #include "report.h"
+#include "suggest.h"
 
 enum { MAX_TEXT_BYTES = 1 << 20, MAX_SCENES = 32 };
 static const size_t max_cache_bytes = (size_t)384 << 20; // of pictures cached for several shaders
@@ -35,15 +36,41 @@ static char *read_text(const char *path, lam_error *error)
     else if (bad)
         complain(error, LAM_CANNOT_READ, "%s: %s", path, strerror(reason));
     else if (size > MAX_TEXT_BYTES)
-        complain(error, LAM_LIMIT, "%s: the shader is larger than %d bytes", path, MAX_TEXT_BYTES);
+        complain(error, LAM_LIMIT, "%s: the file is larger than %d bytes", path, MAX_TEXT_BYTES);
     else if (memchr(text, 0, size))
-        complain(error, LAM_CANNOT_READ, "%s: expected the text of a shader, found a zero byte", path);
+        complain(error, LAM_CANNOT_READ, "%s: expected text, found a zero byte", path);
     else {
         text[size] = 0;
         return text;
     }
     free(text);
     return NULL;
+}
+
+// The contract of a command line, by its name or from its file. *contract stays NULL for one that is to be recognised.
+static bool read_contract(const char *name, lam_check_contract **contract, lam_error *error)
+{
+    if (!name || strcmp(name, "auto") == 0)
+        return true;
+    const char *text = lam_check_contract_text(name);
+    if (text)
+        return (*contract = lam_check_contract_read(text, strlen(text), name, error)) != NULL;
+    if (!strpbrk(name, "./")) {
+        struct suggestion nearest = suggest_start(name);
+        char known[200] = "auto";
+        for (int i = 0; lam_check_contract_shipped(i); i++) {
+            size_t used = strlen(known);
+            snprintf(known + used, sizeof known - used, ", %s", lam_check_contract_shipped(i));
+            suggest_try(&nearest, lam_check_contract_shipped(i));
+        }
+        return complain(error, LAM_BAD_ARGUMENT, "option '--contract': found '%.60s', expected %s or a file%s%s%s",
+                        name, known, nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+                        nearest.best ? "'?" : "");
+    }
+    char *file = read_text(name, error);
+    *contract = file ? lam_check_contract_read(file, strlen(file), name, error) : NULL;
+    free(file);
+    return *contract != NULL;
 }
 
 // State shared by all shaders of a command line.
@@ -53,7 +80,8 @@ struct batch {
     int scene_count;
     bool several;
     double tolerance;
-    lam_check_cache *cache; // NULL for a single shader
+    lam_check_contract *contract; // NULL: recognised
+    lam_check_cache *cache;       // NULL for a single shader
     int passed;
 };
 
@@ -96,7 +124,7 @@ static int check_one(struct batch *c, const struct check_pair *pair, lam_error *
             .fragment_name = pair->fragment,
             .vertex = vertex,
             .vertex_name = pair->vertex,
-            .contract = (lam_check_contract)o->contract,
+            .contract = c->contract,
             .size = o->has_size ? o->width : 0,
             .tolerance = c->tolerance / 255,
             .light_frame = (lam_light_frame)o->light_frame,
@@ -142,6 +170,8 @@ static bool prepare(struct batch *c, int pair_count, const struct check_pair *pa
     if (o->output && c->several && output_is_named(o->output))
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--output' names one sheet for %d shaders; name a folder: -o sheets/", pair_count);
+    if (!read_contract(o->contract, &c->contract, error))
+        return false;
     return !c->several || (c->cache = lam_check_cache_make(max_cache_bytes, error));
 }
 
@@ -173,12 +203,10 @@ static int check_all(struct batch *c, int count, const struct check_pair *pairs)
 
 int run_check(int operand_count, char **operands, const struct options *o)
 {
-    if (o->list) {
-        check_print_lists(stdout);
-        return 0;
-    }
-    interrupt_start();
     lam_error error = {0};
+    if (o->list)
+        return check_print_lists(stdout, &error) ? 0 : report_failure(&error, o);
+    interrupt_start();
     struct batch c = {.options = o, .tolerance = option_given(o, "tolerance") ? o->tolerance : 2};
     struct check_pair *pairs = calloc((size_t)operand_count + 1, sizeof *pairs);
     char *scenes = o->scenes ? strdup(o->scenes) : NULL;
@@ -190,6 +218,7 @@ int run_check(int operand_count, char **operands, const struct options *o)
     else if (count >= 0 && prepare(&c, count, pairs, &error))
         code = c.several ? check_all(&c, count, pairs) : check_one(&c, pairs, &error);
     lam_check_cache_free(c.cache);
+    lam_check_contract_free(c.contract);
     free(pairs);
     free(scenes);
     if (interrupted())

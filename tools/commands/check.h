@@ -39,7 +39,7 @@ void check_report_json(FILE *file, const lam_check_report *report, const char *s
                        double tolerance, const char *picture);
 // For one of several shaders that could not be checked.
 void check_report_error_json(FILE *file, const char *shader, const char *vertex, const lam_error *error);
-void check_print_lists(FILE *file); // contracts, scenes, mistakes
+bool check_print_lists(FILE *file, lam_error *error); // contracts, scenes, mistakes
 
 // Writes a labelled page with three pictures of each scene: the shader's, the reference and the difference.
 bool check_sheet(const lam_check_report *report, const char *shader, const struct options *options, const char *path,

@@ -83,9 +83,8 @@ static void print_findings(FILE *file, const lam_check_report *r)
 void check_report_text(FILE *file, const lam_check_report *r, const char *shader, double tolerance)
 {
     fprintf(file, "%s %s\n", shader, verdict_text(r->verdict));
-    fprintf(file, "  contract %s; lit in the %s shader%s%s%s\n", lam_check_contract_name(r->contract),
-            r->vertex_lit ? "vertex" : "fragment", r->made_vertex ? "; the vertex shader was generated" : "",
-            r->driver[0] ? "; " : "", r->driver);
+    fprintf(file, "  contract %s; lit in the %s shader%s%s%s\n", r->contract, r->vertex_lit ? "vertex" : "fragment",
+            r->made_vertex ? "; the vertex shader was generated" : "", r->driver[0] ? "; " : "", r->driver);
     print_diagnostics(file, r);
     print_scenes(file, r, tolerance);
     print_findings(file, r);
@@ -99,7 +98,7 @@ void check_report_json(FILE *file, const lam_check_report *r, const char *shader
     json_text(&json, "fragment", shader);
     json_text(&json, "vertex", vertex);
     json_text(&json, "verdict", lam_check_verdict_name(r->verdict));
-    json_text(&json, "contract", lam_check_contract_name(r->contract));
+    json_text(&json, "contract", r->contract);
     json_text(&json, "lit_in", r->vertex_lit ? "vertex" : "fragment");
     json_text(&json, "driver", r->driver[0] ? r->driver : NULL);
     json_number(&json, "tolerance", tolerance);
@@ -162,14 +161,25 @@ void check_report_error_json(FILE *file, const char *shader, const char *vertex,
     putc('\n', file);
 }
 
-void check_print_lists(FILE *file)
+static void print_contract(FILE *file, const lam_check_contract *contract)
 {
     lam_check_name row;
-    for (int c = LAM_CONTRACT_LAMBENT; c < LAM_CONTRACT_COUNT; c++) {
-        fprintf(file, "contract %s\n", lam_check_contract_name((lam_check_contract)c));
-        for (int i = 0; lam_check_contract_row((lam_check_contract)c, i, &row); i++)
-            fprintf(file, "  %-9s %-5s %-28s %s%s%s\n", row.attribute ? "attribute" : "uniform", row.type, row.name,
-                    row.meaning, row.synonyms ? "; also " : "", row.synonyms ? row.synonyms : "");
+    fprintf(file, "contract %s: %s\n", lam_check_contract_name(contract), lam_check_contract_title(contract));
+    for (int i = 0; lam_check_contract_row(contract, i, &row); i++)
+        fprintf(file, "  %-9s %-9s %-28s %s%s%s%s%s\n", row.attribute ? "attribute" : "uniform", row.type, row.name,
+                row.meaning, row.space ? "; space: " : "", row.space ? row.space : "", row.synonyms ? "; also " : "",
+                row.synonyms ? row.synonyms : "");
+}
+
+bool check_print_lists(FILE *file, lam_error *error)
+{
+    for (int i = 0; lam_check_contract_shipped(i); i++) {
+        const char *name = lam_check_contract_shipped(i), *text = lam_check_contract_text(name);
+        lam_check_contract *contract = lam_check_contract_read(text, strlen(text), name, error);
+        if (!contract)
+            return false;
+        print_contract(file, contract);
+        lam_check_contract_free(contract);
     }
     fputs("scenes\n", file);
     for (int i = 0; lam_check_scene_name(i); i++)
@@ -177,4 +187,5 @@ void check_print_lists(FILE *file)
     fputs("mistakes\n", file);
     for (int i = 0; lam_check_mistake(i); i++)
         fprintf(file, "  %-26s %s\n", lam_check_mistake(i), lam_check_mistake_explanation(i));
+    return true;
 }

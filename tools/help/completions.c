@@ -35,7 +35,7 @@ void generate_bash(void)
             printf("|-%c", o->letter);
         printf(") ");
         if (o->words) {
-            printf("COMPREPLY=($(compgen -W '");
+            printf("COMPREPLY=($(compgen %s-W '", o->takes_file ? "-f " : "");
             words_of(o);
             printf("' -- \"$now\"));");
         } else if (o->takes_file) {

@@ -26,13 +26,9 @@ const char *const group_titles[GROUP_COUNT] = {
 static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
                                            {"8", 8, NULL}, {"16", 16, NULL}, {NULL, 0, NULL}};
 
-static const struct word contract_words[] = {
-    {"auto", LAM_CONTRACT_AUTO, "recognised by the shaders' names"},
-    {"lambent", LAM_CONTRACT_LAMBENT, "the names of `lambent shader`"},
-    {"pittsburgh", LAM_CONTRACT_PITTSBURGH, "vPosition, model_view, ambient_product ..."},
-    {"oregon", LAM_CONTRACT_OREGON, "gl_Vertex, uKa, uColor, uLightX ..."},
-    {"nyu", LAM_CONTRACT_NYU, "position, modelViewMatrix, lights[i].lightPosition ..."},
-    {NULL, 0, NULL}};
+// Filled by option_table_fill: auto, and the contracts that are built in.
+enum { CONTRACT_WORDS_MAX = 24 };
+static struct word contract_words[CONTRACT_WORDS_MAX] = {{"auto", 0, NULL}};
 
 static const struct word light_frame_words[] = {
     {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms it, like the vertices"},
@@ -270,9 +266,8 @@ const struct option option_table[] = {
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(up)},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Turn the model about its centre, such as y:30; repeatable.",
      "The axis is x, y or z of the scene; turns are applied in the order given. Lights stay where they are "
-     "(except those in the model's frame), and radii refer to the model before the turn. One camera serves every "
-     "angle, so that the model does not jump in size or place: that of the model before the turn or, where a turn "
-     "about the axis would cut the model, one farther away. All pictures of a sheet share it.",
+     "(except those in the model's frame), radii refer to the model before the turn, and the camera is fitted "
+     "to the result.",
      .brief = "turn the model: y:30", .store = store_rotation, .others = "rotation turn spin", FIELD(rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS", "fitted", "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more.",
      "Keys are separated by commas and use the model's own coordinates: `eye` (required), `target` (default: "
@@ -315,8 +310,7 @@ const struct option option_table[] = {
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
      "Draw markers at the lights: balls, with cones along the light's direction.",
      "The marker of a directional light stands one and a half radii from the model's centre. Markers glow in "
-     "the colours of their lights; the camera is not fitted to them, and markers outside of the "
-     "picture are named.",
+     "the colours of their lights; the camera is not fitted to them.",
      .store = store_switch, FIELD(show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", "0.00196",
      "The largest error from skipping weak lights; 0 evaluates every light everywhere.",
@@ -475,9 +469,10 @@ const struct option option_table[] = {
     {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader that belongs to the fragment shader.",
      "Without it a correct one is generated, which recognises varyings by name and type (`docs/check.md`).",
      .takes_file = true, .store = store_text, FIELD(vertex)},
-    {"contract", 0, GROUP_CHECK, "NAME", "auto",
-     "The names that the shaders use: lambent, pittsburgh, oregon, nyu or auto.", NULL, contract_words,
-     .store = store_word, FIELD(contract)},
+    {"contract", 0, GROUP_CHECK, "NAME", "auto", "The names that the shaders use: a contract's name, or its file.",
+     "The contracts that are built in, which `auto` recognises, are printed by `--list`. A file of your own is JSON "
+     "(`docs/check.md`).",
+     contract_words, .takes_file = true, .store = store_text, FIELD(contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
      light_frame_words, .store = store_word, FIELD(light_frame)},
     {"highlight", 0, GROUP_CHECK, "NAME", "the contract's", "The expected highlight: phong or blinn-phong.", NULL,
@@ -549,4 +544,6 @@ void option_table_fill(void)
             end = append(append(end, i > LAM_REFLECTION_NONE ? ", " : " "), model->word);
     }
     append(end, " or auto.");
+    for (int i = 0; lam_check_contract_shipped(i) && i + 2 < CONTRACT_WORDS_MAX; i++)
+        contract_words[i + 1].name = lam_check_contract_shipped(i);
 }

@@ -62,9 +62,7 @@ struct options {
     bool match_highlights, gl1, two_sided, one_sided, show_lights;
     int cull; // lam_cull
     bool has_cull;
-    struct texts rotations; // as written, checked
-    // Set by `compare`, not by an option: the turns of any picture on its sheet, which all have one camera.
-    struct texts sheet_rotations;
+    struct texts rotations;  // as written, checked
     int slices, stacks;      // of a built-in shape; 0: its own
     int normals;             // lam_normals
     double crease_angle_deg; // < 0: the library's default
@@ -93,12 +91,12 @@ struct options {
     double to;           // right end of a plot's axis; 0: fitted
 
     // Checks of shaders
-    const char *vertex; // file; NULL: none
-    const char *scenes; // as written; NULL: all
-    int contract;       // lam_check_contract
-    int light_frame;    // lam_light_frame; WORLD: the contract's
-    int highlight;      // lam_reflection; AUTO: the contract's
-    int terms;          // bits of lam_check_term; 0: as the shaders declare
+    const char *vertex;   // file; NULL: none
+    const char *scenes;   // as written; NULL: all
+    const char *contract; // as written; NULL: recognised
+    int light_frame;      // lam_light_frame; WORLD: the contract's
+    int highlight;        // lam_reflection; AUTO: the contract's
+    int terms;            // bits of lam_check_term; 0: as the shaders declare
     double stop_after_s;
     bool list;
 

@@ -1,65 +1,11 @@
-// contract.h: the names that each course's shaders use, their meanings, and their values in a reference scene.
+// contract.h: the names that each course's shaders use, and what its exercise asks for.
 #ifndef CONTRACT_H
 #define CONTRACT_H
 
+#include "arena.h"
 #include "declarations.h"
 #include "reference_scene.h"
-
-// The meaning of a uniform or attribute.
-enum uniform_semantic {
-    SEMANTIC_NONE,
-    // Attributes.
-    SEMANTIC_POSITION,
-    SEMANTIC_NORMAL,
-    SEMANTIC_TEXCOORD,
-    // Uniforms.
-    SEMANTIC_MODEL_VIEW,
-    SEMANTIC_PROJECTION,
-    SEMANTIC_MODEL_VIEW_PROJECTION,
-    SEMANTIC_NORMAL_MATRIX,
-    SEMANTIC_MODEL,
-    SEMANTIC_VIEW,
-    // Material colour times its strength; where the contract has `products`, also times the light's colour.
-    SEMANTIC_AMBIENT,
-    SEMANTIC_DIFFUSE,
-    SEMANTIC_SPECULAR,
-    // The same, times the light's colour in every contract.
-    SEMANTIC_AMBIENT_PRODUCT,
-    SEMANTIC_DIFFUSE_PRODUCT,
-    SEMANTIC_SPECULAR_PRODUCT,
-    // The strengths alone.
-    SEMANTIC_KA,
-    SEMANTIC_KD,
-    SEMANTIC_KS,
-    // The colours alone.
-    SEMANTIC_COLOR,
-    SEMANTIC_SPECULAR_COLOR,
-    SEMANTIC_SHININESS,
-    SEMANTIC_EMISSION,
-    SEMANTIC_REFLECTIVITY,
-    SEMANTIC_LIGHT_POSITION, // w 1; for a directional light the direction to it, w 0
-    SEMANTIC_LIGHT_X,
-    SEMANTIC_LIGHT_Y,
-    SEMANTIC_LIGHT_Z,
-    SEMANTIC_LIGHT_DIRECTION, // towards the light
-    SEMANTIC_LIGHT_TRAVEL,    // away from the light; a spot's axis
-    SEMANTIC_LIGHT_COLOR,
-    SEMANTIC_LIGHT_SPECULAR,
-    SEMANTIC_LIGHT_AMBIENT,
-    SEMANTIC_AMBIENT_LIGHT, // sum over all lights
-    SEMANTIC_ATTENUATION_CONSTANT,
-    SEMANTIC_ATTENUATION_LINEAR,
-    SEMANTIC_ATTENUATION_QUADRATIC,
-    SEMANTIC_ATTENUATION, // constant, linear, quadratic, 0
-    SEMANTIC_CONE,        // cosine of the cutoff, exponent, cosine of the outer angle, 1/width
-    SEMANTIC_LIGHT_COUNT,
-    SEMANTIC_FLAT,
-    SEMANTIC_EYE_POSITION,
-    SEMANTIC_LIGHT_IN_EYE, // in eye space whatever the contract's space: for generated vertex shaders
-    SEMANTIC_ZERO,
-    SEMANTIC_ONE,
-    SEMANTIC_COUNT
-};
+#include "role.h"
 
 struct contract_name {
     const char *name; // "lights[].lightPosition" for members of a list
@@ -69,50 +15,86 @@ struct contract_name {
     const char *meaning; // for documentation and messages
     // Other accepted names, separated by blanks. NULL: none.
     const char *synonyms;
+    lam_light_frame space; // of roles with ROLE_IN_SPACE: OBJECT, WORLD or CAMERA
+    int group;             // of ROLE_LIGHT: index in contract.groups; −1: of no light
 };
 
 // The meaning of a varying, for a fragment shader without a vertex shader.
 enum varying_semantic {
-    VARYING_NORMAL,          // unit, eye space
-    VARYING_LIGHT,           // towards the light, not normalized
-    VARYING_EYE,             // towards the eye, not normalized
-    VARYING_POSITION,        // in eye space
-    VARYING_OBJECT_POSITION, // in object space
-    VARYING_DISTANCE,        // to the light
+    VARYING_NORMAL,   // unit
+    VARYING_LIGHT,    // towards the light, not normalized
+    VARYING_EYE,      // towards the eye, not normalized
+    VARYING_POSITION, // of the point
+    VARYING_DISTANCE, // to the light
     VARYING_TEXCOORD,
 };
 
 struct contract_varying {
     const char *names; // separated by blanks
     enum varying_semantic semantic;
+    lam_light_frame space;
 };
 
+// A colour that a shader has no name for: the scene's, or another colour, or a constant.
+enum color_source { COLOR_OF_SCENE, COLOR_GIVEN, COLOR_OF_DIFFUSE, COLOR_OF_LIGHT };
+struct default_color {
+    enum color_source source;
+    lam_rgb value; // COLOR_GIVEN
+};
+struct default_number {
+    bool given; // false: the scene's
+    float value;
+};
+
+// The values of what a shader has no name for.
+struct contract_defaults {
+    struct default_color ambient_color, diffuse_color, specular_color;
+    struct default_color light_color, light_specular, light_ambient;
+    struct default_number ambient_strength, diffuse_strength, specular_strength, shininess, spot_exponent;
+    bool has_attenuation, has_direction;
+    float attenuation[3];
+    lam_vec3 direction; // to the light, in the contract's space
+};
+
+enum contract_term { TERM_AMBIENT = 1, TERM_DIFFUSE = 2, TERM_SPECULAR = 4 };
+enum { MAX_LIGHT_GROUPS = 8 };
+
 struct contract {
-    const char *name, *title;
+    const char *name, *title, *text;         // `text`: the file
+    uint64_t hash;                           // of `text`
+    const char *versions;                    // of GLSL, separated by ", "; "": not said
     const struct contract_name *names;       // ends with NULL
     const struct contract_varying *varyings; // ends with NULL
     // Built-in names whose use identifies the contract. Ends with NULL.
     const char *const *built_ins;
-    unsigned supports; // bits of reference_need
-    // LAM_FRAME_OBJECT: light positions are transformed by the model-view matrix like vertices. LAM_FRAME_CAMERA: they
-    // are in eye space.
+    // The structs and lists that hold lights: "lights[]", "sun"; "" for names outside of any.
+    const char *groups[MAX_LIGHT_GROUPS];
+    int group_count;
+    unsigned supports;     // bits of reference_need
+    unsigned terms;        // bits of contract_term
+    lam_light_frame space; // in which the course lights: CAMERA (eye space) or WORLD
+    // The space of the first light: OBJECT (the model-view matrix transforms it like the vertices), WORLD or CAMERA.
     lam_light_frame light_frame;
-    bool products; // material colours come multiplied by the light's
-    bool has_ambient, has_attenuation, own_ambient_color, light_colors, material_strengths;
     lam_reflection reflection;
-    // > 0: the course's constant, which shaders contain as a number.
-    float shininess;
-    // Likewise, where `attenuated_points`.
-    float attenuation[3];
-    bool attenuated_points;
+    struct contract_defaults defaults;
+    bool has_attenuation;    // names or constants
+    bool material_strengths; // colours and their strengths are apart
+    bool printed;            // shaders of `lambent shader`, whose loops name the kinds of lights
 };
 
-extern const struct contract contracts[];
-const struct contract *contract_of(lam_check_contract which);
+// A contract that owns its memory.
+struct lam_check_contract {
+    struct contract contract;
+    struct arena arena;
+};
+
+enum { MAX_CONTRACTS = 16 };
+// The shipped contracts, read. The caller frees them with lam_check_contract_free.
+bool contracts_read(lam_check_contract *out[MAX_CONTRACTS], int *count, lam_error *error);
 
 // The contract that most of the shaders' names belong to. NULL: none has any of them.
-const struct contract *contract_recognise(const struct declarations *vertex, const struct declarations *fragment,
-                                          lam_check_contract *which);
+const struct contract *contract_recognise(lam_check_contract *const *contracts, int count,
+                                          const struct declarations *vertex, const struct declarations *fragment);
 
 // The row of a name. "lights[0].lightColor" is looked up as "lights[].lightColor", and its index is stored in `index`
 // (may be NULL), 0 outside of lists. NULL: unknown.
@@ -125,22 +107,19 @@ const struct contract_varying *contract_varying(const struct contract *contract,
 // The contract's name most similar to an unknown one. NULL: none is similar.
 const char *contract_nearest(const struct contract *contract, const char *name);
 
-// The name that the shaders use for a semantic: their own, else the contract's, else NULL.
+// The name that the shaders use for a semantic: their own, else the contract's, else NULL. A material's colours may come
+// multiplied by the light's.
 const char *contract_name_used(const struct contract *contract, enum uniform_semantic semantic,
                                const struct declarations *vertex, const struct declarations *fragment);
-
-// The reference scene as the contract can express it: parameters without a name take the contract's fixed values.
-// `supports`: of shader_interface; `light_count`: the shaders' light capacity.
-struct reference_scene contract_reference_scene(const struct contract *contract, unsigned supports,
-                                                const struct reference_scene *reference_scene, int light_count);
 
 // The value of a uniform; matrices by columns.
 struct uniform_value {
     float v[16];
 };
 struct uniform_value matrix_value(const lam_mat4 *m);
-struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int light, const struct contract *contract,
-                                            lam_light_frame light_frame, const struct reference_scene *reference_scene,
+// `space`: of roles with ROLE_IN_SPACE.
+struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int light, lam_light_frame space,
+                                            const struct reference_scene *reference_scene,
                                             const struct reference_matrices *m);
 
 #endif

@@ -1,7 +1,8 @@
 // declarations.h: the declarations of a GLSL source: uniforms, attributes, varyings.
 //
 // They are parsed from the text, not queried from the compiled program: names and lines are needed of shaders that do
-// not compile, and of uniforms that a compiler optimises away. The words are those that the preprocessor leaves.
+// not compile, and of uniforms that a compiler optimises away. Comments and preprocessor lines are skipped; code that
+// the preprocessor would exclude is parsed too.
 #ifndef DECLARATIONS_H
 #define DECLARATIONS_H
 
@@ -32,7 +33,7 @@ struct declarations {
     char profile[16]; // "core", "compatibility", "es", or ""
     struct declaration *items;
     int count;
-    struct word *words; // of the whole text (preprocess.h)
+    struct word *words; // of the whole text
     int word_count;
 };
 

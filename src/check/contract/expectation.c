@@ -25,31 +25,42 @@ static bool lacks(const struct shader_interface *r, enum uniform_semantic semant
     return names(r, semantic) && !declares(r, semantic);
 }
 
+// The contract fixes the colour of what is not declared.
+static bool is_fixed(const struct default_color *color) { return color->source != COLOR_OF_SCENE; }
+
 // --- the possible expectations of each term, most complete first
 
 enum { MAX_CHOICES = 3 };
 
 static int ambient_choices(const struct shader_interface *r, unsigned terms, unsigned out[MAX_CHOICES])
 {
-    bool declared = names(r, SEMANTIC_KA) ? declares(r, SEMANTIC_KA)
-                                          : declares(r, SEMANTIC_AMBIENT) || declares(r, SEMANTIC_AMBIENT_PRODUCT);
-    out[0] = EXPECT_NO_AMBIENT;
-    if (terms ? terms & LAM_CHECK_TERM_AMBIENT : declared)
-        out[0] = lacks(r, SEMANTIC_AMBIENT_LIGHT) && !declares(r, SEMANTIC_LIGHT_AMBIENT) &&
-                         !declares(r, SEMANTIC_AMBIENT_PRODUCT)
-                     ? EXPECT_WHITE_AMBIENT_LIGHT
-                     : 0;
-    return 1;
+    const struct contract_defaults *d = &r->contract->defaults;
+    bool product = declares(r, SEMANTIC_AMBIENT_PRODUCT);
+    bool declared = names(r, SEMANTIC_KA) ? declares(r, SEMANTIC_KA) : declares(r, SEMANTIC_AMBIENT) || product;
+    bool light = declares(r, SEMANTIC_AMBIENT_LIGHT) || declares(r, SEMANTIC_LIGHT_AMBIENT) || product;
+    unsigned complete =
+        light || is_fixed(&d->light_ambient) || !names(r, SEMANTIC_AMBIENT_LIGHT) ? 0 : EXPECT_WHITE_AMBIENT_LIGHT;
+    bool constant = d->ambient_strength.given && !declared; // the exercise has it as a number
+    int count = 0;
+    if (terms ? terms & LAM_CHECK_TERM_AMBIENT : declared || constant)
+        out[count++] = complete;
+    if (terms ? !count : !declared)
+        out[count++] = EXPECT_NO_AMBIENT;
+    return count;
 }
 
 static int diffuse_choices(const struct shader_interface *r, unsigned terms, unsigned out[MAX_CHOICES])
 {
+    const struct contract_defaults *d = &r->contract->defaults;
     bool product = declares(r, SEMANTIC_DIFFUSE_PRODUCT);
     bool surface = declares(r, SEMANTIC_DIFFUSE) || declares(r, SEMANTIC_COLOR) || product;
     bool light = declares(r, SEMANTIC_LIGHT_COLOR);
     bool declared = names(r, SEMANTIC_KD) ? declares(r, SEMANTIC_KD) : surface || light;
-    unsigned complete = (surface ? 0 : EXPECT_WHITE_DIFFUSE | (declares(r, SEMANTIC_KD) ? 0 : EXPECT_FULL_DIFFUSE)) |
-                        (lacks(r, SEMANTIC_LIGHT_COLOR) && !product ? EXPECT_WHITE_LIGHT : 0);
+    unsigned complete = 0;
+    if (!surface && !is_fixed(&d->diffuse_color))
+        complete |= EXPECT_WHITE_DIFFUSE | (declares(r, SEMANTIC_KD) ? 0 : EXPECT_FULL_DIFFUSE);
+    if (lacks(r, SEMANTIC_LIGHT_COLOR) && !product && !is_fixed(&d->light_color))
+        complete |= EXPECT_WHITE_LIGHT;
     int count = 0;
     if (!terms || terms & LAM_CHECK_TERM_DIFFUSE)
         out[count++] = complete;
@@ -61,17 +72,19 @@ static int diffuse_choices(const struct shader_interface *r, unsigned terms, uns
 
 static int specular_choices(const struct shader_interface *r, unsigned terms, unsigned out[MAX_CHOICES])
 {
+    const struct contract_defaults *d = &r->contract->defaults;
     bool product = declares(r, SEMANTIC_SPECULAR_PRODUCT);
     bool surface = declares(r, SEMANTIC_SPECULAR) || declares(r, SEMANTIC_SPECULAR_COLOR) || product;
     bool light = declares(r, SEMANTIC_LIGHT_SPECULAR);
     bool declared = names(r, SEMANTIC_KS) ? declares(r, SEMANTIC_KS) : surface || light;
-    bool has_surface_color = names(r, SEMANTIC_SPECULAR) || names(r, SEMANTIC_SPECULAR_COLOR);
-    unsigned white = surface || !has_surface_color ? 0 : EXPECT_WHITE_SPECULAR;
+    bool has_surface_color =
+        names(r, SEMANTIC_SPECULAR) || names(r, SEMANTIC_SPECULAR_PRODUCT) || names(r, SEMANTIC_SPECULAR_COLOR);
+    unsigned white = surface || !has_surface_color || is_fixed(&d->specular_color) ? 0 : EXPECT_WHITE_SPECULAR;
     if (white && !declares(r, SEMANTIC_KS))
         white |= EXPECT_FULL_SPECULAR;
     int count = 0;
     if (!(r->supports & RULE_NO_SPECULAR) && (!terms || terms & LAM_CHECK_TERM_SPECULAR)) {
-        bool light_open = lacks(r, SEMANTIC_LIGHT_SPECULAR) && !product;
+        bool light_open = lacks(r, SEMANTIC_LIGHT_SPECULAR) && !product && !is_fixed(&d->light_specular);
         if (light_open && declares(r, SEMANTIC_LIGHT_COLOR))
             out[count++] = white | EXPECT_SPECULAR_LIGHT_AS_DIFFUSE;
         out[count++] = white | (light_open ? EXPECT_WHITE_SPECULAR_LIGHT : 0);
@@ -85,15 +98,16 @@ int expectations_of(const struct shader_interface *r, unsigned terms, unsigned o
 {
     const unsigned nothing = EXPECT_NO_AMBIENT | EXPECT_NO_DIFFUSE | EXPECT_NO_SPECULAR;
     unsigned ambient[MAX_CHOICES], diffuse[MAX_CHOICES], specular[MAX_CHOICES];
-    ambient_choices(r, terms, ambient);
-    int diffuse_count = diffuse_choices(r, terms, diffuse), specular_count = specular_choices(r, terms, specular);
+    int ambient_count = ambient_choices(r, terms, ambient), diffuse_count = diffuse_choices(r, terms, diffuse),
+        specular_count = specular_choices(r, terms, specular);
     int count = 0;
-    for (int i = 0; i < diffuse_count; i++)
-        for (int k = 0; k < specular_count; k++) {
-            unsigned whole = ambient[0] | diffuse[i] | specular[k];
-            if (terms || (whole & nothing) != nothing)
-                out[count++] = whole;
-        }
+    for (int a = 0; a < ambient_count; a++)
+        for (int i = 0; i < diffuse_count; i++)
+            for (int k = 0; k < specular_count; k++) {
+                unsigned whole = ambient[a] | diffuse[i] | specular[k];
+                if (terms || (whole & nothing) != nothing)
+                    out[count++] = whole;
+            }
     return count;
 }
 
@@ -143,9 +157,11 @@ void expectation_describe(unsigned e, const struct shader_interface *r, unsigned
                  {EXPECT_WHITE_AMBIENT_LIGHT, "ambient light"}};
     size_t at = 0;
     out[0] = 0;
-    if (!r->contract->has_ambient)
+    if (!(r->contract->terms & TERM_AMBIENT))
         e &= ~(unsigned)EXPECT_NO_AMBIENT;
-    if (r->supports & RULE_NO_SPECULAR)
+    if (!(r->contract->terms & TERM_DIFFUSE))
+        e &= ~(unsigned)EXPECT_NO_DIFFUSE;
+    if (r->supports & RULE_NO_SPECULAR || !(r->contract->terms & TERM_SPECULAR))
         e &= ~(unsigned)EXPECT_NO_SPECULAR;
     int count = 0;
     for (size_t i = 0; !terms && i < sizeof terms_of / sizeof *terms_of; i++)

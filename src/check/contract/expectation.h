@@ -29,7 +29,7 @@ enum { MAX_EXPECTATIONS = 12 };
 // lam_check_term that are asked for; 0: those that the declarations tell. Returns their count, at least 1.
 int expectations_of(const struct shader_interface *interface, unsigned terms, unsigned out[MAX_EXPECTATIONS]);
 
-// Changes a scene from contract_reference_scene to the expected one.
+// Changes a scene from shader_interface_scene to the expected one.
 void expectation_apply(unsigned expectation, struct reference_scene *scene);
 
 // A sentence about what is not asked for or taken as white; "" where there is nothing to say.

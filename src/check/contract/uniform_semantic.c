@@ -1,83 +1,7 @@
-// uniform_semantic.c: a reference scene as a contract can express it, and the value of each uniform.
+// uniform_semantic.c: the value of each uniform in a reference scene.
 #include "contract.h"
 
-#include <string.h>
-
 #include "linear.h"
-
-// For contracts without specular colours or strengths: the surface has one colour, and the highlight the light's. A
-// term is switched off by black.
-static void use_single_color(struct reference_scene *s)
-{
-    if (s->kd == 0)
-        s->diffuse = (lam_rgb){0, 0, 0};
-    for (int i = 0; i < s->light_count; i++) {
-        lam_rgb *c = &s->lights[i].specular;
-        float on = s->ks > 0 ? 1 : 0;
-        *c = (lam_rgb){c->r * s->specular.r * on, c->g * s->specular.g * on, c->b * s->specular.b * on};
-    }
-    s->specular = (lam_rgb){1, 1, 1};
-    s->kd = s->ks = 1;
-}
-
-static void limit_light(const struct contract *contract, unsigned supports, int index, struct reference_light *light)
-{
-    unsigned rule = supports >> (RULE_FIRST + RULE_BITS * index), kind = rule & RULE_KIND;
-    bool directional = kind ? kind == RULE_DIRECTIONAL : !(supports & NEED_POINT);
-    if (rule & RULE_UNATTENUATED)
-        memcpy(light->attenuation, (const float[]){1, 0, 0}, sizeof light->attenuation);
-    if (light->type == LAM_LIGHT_POINT && directional) {
-        light->type = LAM_LIGHT_DIRECTIONAL;
-        light->to_light = light->position;
-    }
-    if (contract->attenuated_points)
-        memcpy(light->attenuation, contract->attenuation, sizeof light->attenuation);
-    if (!contract->has_attenuation || light->type == LAM_LIGHT_DIRECTIONAL)
-        memcpy(light->attenuation, (const float[]){1, 0, 0}, sizeof light->attenuation);
-    if (!contract->light_colors)
-        light->color = light->specular = light->ambient = (lam_rgb){1, 1, 1};
-}
-
-// A point light has an axis too, which shaders of spots normalize: towards the model, so that every lit point is in
-// front of it.
-static void set_axis(struct reference_light *light, lam_vec3 target)
-{
-    lam_vec3 to_light = light->to_light;
-    if (to_light.x == 0 && to_light.y == 0 && to_light.z == 0)
-        light->to_light = v3_unit(v3_sub(light->position, target));
-}
-
-struct reference_scene contract_reference_scene(const struct contract *contract, unsigned supports,
-                                                const struct reference_scene *reference_scene, int light_count)
-{
-    struct reference_scene s = *reference_scene;
-    if (!contract->own_ambient_color)
-        s.ambient = s.diffuse;
-    if (!contract->has_ambient)
-        s.ka = 0;
-    // Unused entries of the list are black.
-    while (s.light_count < light_count && s.light_count < MAX_SCENE_LIGHTS)
-        s.lights[s.light_count++] = (struct reference_light){
-            .type = s.lights[0].type, .position = {1, 2, 3}, .to_light = {1, 2, 3}, .attenuation = {1, 0, 0}};
-    if (s.light_count > light_count)
-        s.light_count = light_count;
-    for (int i = 0; i < s.light_count; i++) {
-        limit_light(contract, supports, i, &s.lights[i]);
-        set_axis(&s.lights[i], s.target);
-    }
-    if (supports & RULE_NO_SPECULAR)
-        s.ks = 0;
-    s.flat |= (supports & RULE_FLAT) != 0;
-    if (!contract->material_strengths && !contract->own_ambient_color)
-        use_single_color(&s);
-    if (contract->shininess > 0)
-        s.shininess = contract->shininess;
-    if (!(contract->supports & NEED_ALPHA))
-        s.alpha = 1;
-    return s;
-}
-
-// --- values
 
 static struct uniform_value color(lam_rgb c, float strength, float alpha)
 {
@@ -110,8 +34,8 @@ static lam_rgb total_ambient(const struct reference_scene *s)
     return sum;
 }
 
-// From world space to the space of the contract's light positions.
-static lam_mat4 light_matrix(lam_light_frame frame, const struct reference_matrices *m)
+// From world space.
+static lam_mat4 matrix_to(lam_light_frame frame, const struct reference_matrices *m)
 {
     lam_mat4 out = lam_mat4_identity();
     if (frame == LAM_FRAME_OBJECT)
@@ -136,18 +60,30 @@ static struct uniform_value cone(const struct reference_light *light)
     return (struct uniform_value){{cosine, light->exponent, cosine, 1000}};
 }
 
-struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int index, const struct contract *contract,
-                                            lam_light_frame light_frame, const struct reference_scene *s,
-                                            const struct reference_matrices *m)
+// The inverse transpose of the matrix from the model's space.
+static struct uniform_value normal_matrix(lam_light_frame space, const struct reference_matrices *m)
+{
+    if (space == LAM_FRAME_CAMERA)
+        return matrix_value(&m->normal4);
+    lam_mat4 inverse = lam_mat4_identity(), out = inverse;
+    if (space == LAM_FRAME_WORLD)
+        mat4_inverse_affine(&m->model, &inverse);
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++)
+            out.m[r][c] = inverse.m[c][r];
+    return matrix_value(&out);
+}
+
+struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int index, lam_light_frame space,
+                                            const struct reference_scene *s, const struct reference_matrices *m)
 {
     static const struct reference_light none = {
         .type = LAM_LIGHT_POINT, .position = {1, 1, 1}, .to_light = {0, 0, 1}, .attenuation = {1, 0, 0}};
     const struct reference_light *light = index < s->light_count ? &s->lights[index] : &none;
     const float *a = light->attenuation;
-    lam_mat4 to = light_matrix(light_frame, m);
-    bool products =
-        contract->products || (semantic >= SEMANTIC_AMBIENT_PRODUCT && semantic <= SEMANTIC_SPECULAR_PRODUCT);
+    lam_mat4 to = matrix_to(space, m);
     lam_rgb one = {1, 1, 1};
+    bool product_of_light = semantic >= SEMANTIC_AMBIENT_PRODUCT && semantic <= SEMANTIC_SPECULAR_PRODUCT;
     switch (semantic) {
     case SEMANTIC_MODEL_VIEW:
         return matrix_value(&m->model_view);
@@ -159,17 +95,21 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         return matrix_value(&m->model);
     case SEMANTIC_VIEW:
         return matrix_value(&m->view);
+    case SEMANTIC_VIEW_PROJECTION: {
+        lam_mat4 both = mat4_mul(&m->projection, &m->view);
+        return matrix_value(&both);
+    }
     case SEMANTIC_NORMAL_MATRIX:
-        return matrix_value(&m->normal4);
+        return normal_matrix(space, m);
     case SEMANTIC_AMBIENT:
     case SEMANTIC_AMBIENT_PRODUCT:
-        return color(product(s->ambient, products ? total_ambient(s) : one), s->ka, 1);
+        return color(product(s->ambient, product_of_light ? total_ambient(s) : one), s->ka, 1);
     case SEMANTIC_DIFFUSE:
     case SEMANTIC_DIFFUSE_PRODUCT:
-        return color(product(s->diffuse, products ? light->color : one), s->kd, s->alpha);
+        return color(product(s->diffuse, product_of_light ? light->color : one), s->kd, s->alpha);
     case SEMANTIC_SPECULAR:
     case SEMANTIC_SPECULAR_PRODUCT:
-        return color(product(s->specular, products ? light->specular : one), s->ks, 1);
+        return color(product(s->specular, product_of_light ? light->specular : one), s->ks, 1);
     case SEMANTIC_KA:
         return number(s->ka);
     case SEMANTIC_KD:
@@ -208,16 +148,20 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         return (struct uniform_value){{a[0], a[1], a[2]}};
     case SEMANTIC_CONE:
         return cone(light);
+    case SEMANTIC_CUTOFF:
+        return number(cone(light).v[0]);
+    case SEMANTIC_OUTER_CUTOFF: // nothing between the two angles, so that every form of a soft edge is the hard one
+        return number(cone(light).v[0] - (light->cutoff_deg > 0 ? 1e-4f : 0.1f));
+    case SEMANTIC_SPOT_EXPONENT:
+        return number(light->exponent);
     case SEMANTIC_ONE:
         return number(1);
     case SEMANTIC_LIGHT_COUNT:
         return number((float)s->light_count);
     case SEMANTIC_FLAT:
         return number(s->flat);
-    case SEMANTIC_LIGHT_IN_EYE:
-        return light_position(light, &m->view);
     case SEMANTIC_EYE_POSITION:
-        return vector((lam_vec3){0, 0, 0}, 1);
+        return vector(mat4_point(&to, s->eye), 1);
     default: // SEMANTIC_ZERO, and attributes
         return (struct uniform_value){{0}};
     }

@@ -60,7 +60,8 @@ static const float *render_faults(struct state *t, int index, const fault_set *s
     struct fault_search *s = t->s;
     const struct scene_comparison *scene = &s->scenes[index];
     struct render_key key = {.scene = (int)(scene->row - reference_scenes),
-                             .contract = (int)s->interface->which,
+                             .contract = s->interface->contract->hash,
+                             .declared = s->interface->declared,
                              .light_frame = s->frame,
                              .reflection = s->reflection,
                              .vertex_lit = s->interface->vertex_lit,

@@ -100,7 +100,7 @@ static GLint lamp_place(const struct fault_shader *m, int i, const char *member)
     return place(m, name);
 }
 
-static void set_lamp(const struct fault_shader *m, int i, const struct contract *contract, lam_light_frame frame,
+static void set_lamp(const struct fault_shader *m, int i, lam_light_frame frame,
                      const struct reference_scene *reference_scene, const struct reference_matrices *matrices)
 {
     const struct gl *gl = &m->offscreen.context.gl;
@@ -114,9 +114,8 @@ static void set_lamp(const struct fault_shader *m, int i, const struct contract 
                    {"axis", SEMANTIC_LIGHT_TRAVEL, LAM_FRAME_CAMERA},
                    {"cone", SEMANTIC_CONE, frame}};
     for (int k = 0; k < 4; k++)
-        gl->Uniform4fv(
-            lamp_place(m, i, members[k].member), 1,
-            uniform_semantic_value(members[k].semantic, i, contract, members[k].frame, reference_scene, matrices).v);
+        gl->Uniform4fv(lamp_place(m, i, members[k].member), 1,
+                       uniform_semantic_value(members[k].semantic, i, members[k].frame, reference_scene, matrices).v);
     gl->Uniform3fv(lamp_place(m, i, "attenuation"), 1, light->attenuation);
     gl->Uniform3f(lamp_place(m, i, "diffuse"), light->color.r, light->color.g, light->color.b);
     gl->Uniform3f(lamp_place(m, i, "specular"), light->specular.r, light->specular.g, light->specular.b);
@@ -145,16 +144,15 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     gl->UniformMatrix4fv(place(m, "model_view"), 1, GL_FALSE, matrix_value(&matrices.model_view).v);
     gl->UniformMatrix4fv(place(m, "projection"), 1, GL_FALSE, matrix_value(&matrices.projection).v);
     gl->UniformMatrix4fv(place(m, "normal_matrix4"), 1, GL_FALSE, matrix_value(&matrices.normal4).v);
-    const struct contract *contract = interface->contract;
     for (int i = 0; i < reference_scene->light_count; i++)
-        set_lamp(m, i, contract, frame, reference_scene, &matrices);
+        set_lamp(m, i, frame, reference_scene, &matrices);
     gl->Uniform1i(place(m, "lamp_count"), reference_scene->light_count);
     gl->Uniform3fv(place(m, "ambient_product"), 1,
-                   uniform_semantic_value(SEMANTIC_AMBIENT_PRODUCT, 0, contract, frame, reference_scene, &matrices).v);
+                   uniform_semantic_value(SEMANTIC_AMBIENT_PRODUCT, 0, frame, reference_scene, &matrices).v);
     set_color(m, "kd", reference_scene->diffuse, reference_scene->kd);
     set_color(m, "ks", reference_scene->specular, reference_scene->ks);
     // In contracts with separate strengths and colours, shaders confuse one of them; in the others, the products.
-    bool apart = contract->material_strengths;
+    bool apart = interface->contract->material_strengths;
     set_color(m, "kd_with_ks", apart ? reference_scene->diffuse : reference_scene->specular, reference_scene->ks);
     set_color(m, "ks_with_kd", apart ? reference_scene->specular : reference_scene->diffuse, reference_scene->kd);
     set_color(m, "specular_as_diffuse", reference_scene->diffuse, apart ? reference_scene->ks : reference_scene->kd);

@@ -9,7 +9,7 @@ struct fault_shader;
 struct fault_shader *fault_shader_open(const char *gl_device, int size, lam_error *error);
 void fault_shader_close(struct fault_shader *shader); // NULL is fine
 
-// Draws a scene from contract_reference_scene. `light_capacity`: of the shaders under test. `pixels`: size² × 4 floats,
+// Draws a scene from shader_interface_scene. `light_capacity`: of the shaders under test. `pixels`: size² × 4 floats,
 // rows top-down.
 bool fault_shader_draw(struct fault_shader *shader, const struct reference_scene *reference_scene,
                        const struct shader_interface *interface, int light_capacity, lam_light_frame frame,

@@ -17,7 +17,6 @@ static const struct {
     {VARYING_LIGHT, "l", "0.0"},
     {VARYING_EYE, "(-p.xyz)", "0.0"},
     {VARYING_POSITION, "p.xyz", "1.0"},
-    {VARYING_OBJECT_POSITION, "lambent_position", "1.0"},
     {VARYING_DISTANCE, "vec3(length(l))", "0.0"},
     {VARYING_TEXCOORD, "vec3(0.0)", "0.0"},
 };
@@ -76,6 +75,8 @@ char *default_vertex_shader(const struct shader_interface *r, char unknown[256],
         if (!v && strlen(unknown) < 150)
             snprintf(unknown + strlen(unknown), 256 - strlen(unknown), "%s%.60s", unknown[0] ? ", " : "", item->name);
         const char *w = "0.0", *from = v ? source_of(v->semantic, &w) : "vec3(0.0)";
+        if (v && v->semantic == VARYING_POSITION && v->space == LAM_FRAME_OBJECT)
+            from = "lambent_position";
         bool four = strcmp(item->type, "vec4") == 0;
         const char *cut = strcmp(item->type, "vec2") == 0 ? ".xy" : strcmp(item->type, "float") == 0 ? ".x" : "";
         if (four)

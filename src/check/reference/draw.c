@@ -25,7 +25,7 @@ static const struct glsl_type {
 
 // An active uniform with a name of the contract, one element of it.
 struct uniform_binding {
-    enum uniform_semantic semantic;
+    const struct contract_name *name;
     int light;
     const struct glsl_type *type;
     GLint location; // −1: in a block
@@ -111,15 +111,14 @@ static void add_binding(struct shader_run *run, GLuint number, const char *name,
         if (bracket && i > 0)
             snprintf(bracket, sizeof element - (size_t)(bracket - element), "[%d]", i);
         run->bindings[run->binding_count++] =
-            (struct uniform_binding){.semantic = known->semantic,
+            (struct uniform_binding){.name = known,
                                      .light = light + i,
                                      .type = type_of(type),
                                      .block = block,
                                      .location = block < 0 ? gl->GetUniformLocation(run->program, element) : -1,
                                      .offset = offset + i * array_stride,
                                      .matrix_stride = stride};
-        if (strchr(name, '[') && known->semantic >= SEMANTIC_LIGHT_POSITION &&
-            known->semantic <= SEMANTIC_LIGHT_AMBIENT && light + i + 1 > run->drawn.light_count)
+        if (strchr(name, '[') && known->group >= 0 && light + i + 1 > run->drawn.light_count)
             run->drawn.light_count = light + i + 1;
     }
 }
@@ -241,7 +240,7 @@ static bool set_values(struct shader_run *run, const struct reference_scene *ref
                        lam_error *error)
 {
     const struct gl *gl = &run->offscreen.context.gl;
-    const struct contract *contract = run->interface.contract;
+    lam_light_frame frame = (lam_light_frame)run->request.light_frame;
     struct reference_matrices m;
     reference_matrices(reference_scene, &m);
     if (profile == GL_PROFILE_COMPATIBILITY)
@@ -251,8 +250,8 @@ static bool set_values(struct shader_run *run, const struct reference_scene *ref
         return fail_memory(error, MAX_BLOCKS * MAX_BLOCK_BYTES);
     for (int i = 0; i < run->binding_count; i++) {
         const struct uniform_binding *w = &run->bindings[i];
-        struct uniform_value value = uniform_semantic_value(
-            w->semantic, w->light, contract, (lam_light_frame)run->request.light_frame, reference_scene, &m);
+        lam_light_frame space = w->name->group >= 0 && frame != LAM_FRAME_WORLD ? frame : w->name->space;
+        struct uniform_value value = uniform_semantic_value(w->name->semantic, w->light, space, reference_scene, &m);
         float shaped[16];
         convert_value(w->type, &value, shaped);
         if (w->block < 0)
@@ -362,8 +361,8 @@ static bool draw_scenes(struct shader_run *run, enum gl_profile profile, float *
     double limit = time_limit_s(run->request.size);
     for (int i = 0; i < reference_scene_count; i++)
         if (run->request.scenes >> i & 1) {
-            struct reference_scene reference_scene = contract_reference_scene(
-                run->interface.contract, run->interface.supports, &reference_scenes[i], lights);
+            struct reference_scene reference_scene =
+                shader_interface_scene(&run->interface, &reference_scenes[i], lights);
             if (!set_values(run, &reference_scene, profile, error))
                 return false;
             double taken = 0;
@@ -393,9 +392,11 @@ bool lam_check_draw(const void *request, size_t size, const char *gl_device, lam
     if (!run)
         return fail_memory(error, sizeof *run);
     float *pixels = NULL;
-    bool ok = draw_request_read(request, size, &run->request, error) &&
-              shader_interface_make(&run->interface, run->request.vertex, run->request.fragment,
-                                    (lam_check_contract)run->request.contract, error);
+    bool ok = draw_request_read(request, size, &run->request, error);
+    const char *text = run->request.contract;
+    lam_check_contract *contract = ok ? lam_check_contract_read(text, strlen(text), NULL, error) : NULL;
+    ok = contract &&
+         shader_interface_make(&run->interface, run->request.vertex, run->request.fragment, &contract->contract, error);
     bool open = false;
     if (ok) {
         enum gl_profile profile = shader_dialect_profile(&run->interface);
@@ -422,6 +423,7 @@ bool lam_check_draw(const void *request, size_t size, const char *gl_device, lam
         offscreen_close(&run->offscreen);
     }
     shader_interface_free(&run->interface);
+    lam_check_contract_free(contract);
     free(pixels);
     free(run->bindings);
     free(run);

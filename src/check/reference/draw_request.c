@@ -7,13 +7,13 @@
 
 #include "fail.h"
 
-static const char request_magic[8] = "lamjob1", result_magic[8] = "lamdrn1";
+static const char request_magic[8] = "lamjob2", result_magic[8] = "lamdrn2";
 
 struct request_header {
     char magic[8];
-    int contract, light_frame, size;
+    int light_frame, size;
     unsigned scenes;
-    size_t vertex_size, fragment_size; // with the terminating zero
+    size_t text_sizes[3]; // of the contract, the vertex and the fragment shader, with the terminating zeros
 };
 
 struct result_header {
@@ -24,43 +24,45 @@ struct result_header {
 
 bool draw_request_write(const struct draw_request *request, lam_bytes *out, lam_error *error)
 {
-    struct request_header head = {.contract = request->contract,
-                                  .light_frame = request->light_frame,
-                                  .size = request->size,
-                                  .scenes = request->scenes,
-                                  .vertex_size = strlen(request->vertex) + 1,
-                                  .fragment_size = strlen(request->fragment) + 1};
+    const char *const texts[] = {request->contract, request->vertex, request->fragment};
+    struct request_header head = {
+        .light_frame = request->light_frame, .size = request->size, .scenes = request->scenes};
     memcpy(head.magic, request_magic, sizeof request_magic);
-    out->size = sizeof head + head.vertex_size + head.fragment_size;
+    out->size = sizeof head;
+    for (int i = 0; i < 3; i++)
+        out->size += head.text_sizes[i] = strlen(texts[i]) + 1;
     char *data = out->data = malloc(out->size);
     if (!data)
         return fail_memory(error, out->size);
     memcpy(data, &head, sizeof head);
-    memcpy(data + sizeof head, request->vertex, head.vertex_size);
-    memcpy(data + sizeof head + head.vertex_size, request->fragment, head.fragment_size);
+    data += sizeof head;
+    for (int i = 0; i < 3; data += head.text_sizes[i++])
+        memcpy(data, texts[i], head.text_sizes[i]);
     return true;
 }
 
 bool draw_request_read(const void *bytes, size_t size, struct draw_request *request, lam_error *error)
 {
     struct request_header head;
-    const char *data = bytes;
+    const char *data = bytes, *texts[3] = {NULL};
     if (size < sizeof head || memcmp(data, request_magic, sizeof request_magic) != 0)
         return fail(error, LAM_BAD_ARGUMENT, "check: the request is invalid: %zu bytes without its header", size);
     memcpy(&head, data, sizeof head);
-    size_t rest = size - sizeof head;
-    if (!contract_of((lam_check_contract)head.contract) || head.size < 32 || head.size > 1024 ||
-        head.scenes >> reference_scene_count || head.vertex_size < 1 || head.vertex_size > rest ||
-        head.fragment_size < 1 || head.fragment_size != rest - head.vertex_size ||
-        data[sizeof head + head.vertex_size - 1] || data[size - 1])
+    size_t at = sizeof head;
+    bool ok = head.size >= 32 && head.size <= 1024 && !(head.scenes >> reference_scene_count);
+    for (int i = 0; ok && i < 3; at += head.text_sizes[i++]) {
+        ok = head.text_sizes[i] >= 1 && head.text_sizes[i] <= size - at && !data[at + head.text_sizes[i] - 1];
+        texts[i] = data + at;
+    }
+    if (!ok || at != size)
         return fail(error, LAM_BAD_ARGUMENT, "check: the request is invalid: its header does not match its %zu bytes",
                     size);
-    *request = (struct draw_request){.contract = head.contract,
+    *request = (struct draw_request){.contract = texts[0],
                                      .light_frame = head.light_frame,
                                      .size = head.size,
                                      .scenes = head.scenes,
-                                     .vertex = data + sizeof head,
-                                     .fragment = data + sizeof head + head.vertex_size};
+                                     .vertex = texts[1],
+                                     .fragment = texts[2]};
     return true;
 }
 

@@ -5,8 +5,8 @@
 #include "contract.h"
 
 struct draw_request {
-    int contract;    // lam_check_contract
-    int light_frame; // lam_light_frame
+    const char *contract; // the file
+    int light_frame;      // lam_light_frame of all lights; WORLD: each has the contract's
     int size;
     unsigned scenes; // bit i: reference_scenes[i]
     const char *vertex, *fragment;

@@ -1,0 +1,169 @@
+// interface_scene.c: a reference scene as a pair of shaders can express it. What they have no name for takes the value
+// that the contract gives to the undeclared; a term that the contract does not have is switched off.
+#include "shader_interface.h"
+
+#include <string.h>
+
+#include "linear.h"
+
+static bool declares(const struct shader_interface *r, enum uniform_semantic semantic)
+{
+    return shader_interface_declares(r, semantic);
+}
+
+static lam_rgb times(lam_rgb a, lam_rgb b) { return (lam_rgb){a.r * b.r, a.g * b.g, a.b * b.b}; }
+
+static lam_rgb color_of(const struct default_color *color, lam_rgb scene, lam_rgb diffuse, lam_rgb light)
+{
+    switch (color->source) {
+    case COLOR_GIVEN:
+        return color->value;
+    case COLOR_OF_DIFFUSE:
+        return diffuse;
+    case COLOR_OF_LIGHT:
+        return light;
+    case COLOR_OF_SCENE:
+        break;
+    }
+    return scene;
+}
+
+// Whether the shader has a name for the product of a term's colour and strength, or the light's colour too.
+static bool has_product(const struct shader_interface *r, enum uniform_semantic term)
+{
+    return declares(r, term) ||
+           declares(r, (enum uniform_semantic)(term + SEMANTIC_AMBIENT_PRODUCT - SEMANTIC_AMBIENT));
+}
+
+enum light_term { LIGHT_DIFFUSE, LIGHT_SPECULAR, LIGHT_AMBIENT };
+
+static lam_rgb *light_color(struct reference_light *light, enum light_term term)
+{
+    return term == LIGHT_DIFFUSE ? &light->color : term == LIGHT_SPECULAR ? &light->specular : &light->ambient;
+}
+
+// Gives a term the strength that is fixed where the shader has no name for it. A scene that switches the term off does
+// so by its strength: then the term's colour becomes black, else that of the lights. `color` NULL, `lit` false: the
+// shader has no such colour of its own.
+static void fix_strength(struct reference_scene *s, const struct default_number *fixed, float *strength, lam_rgb *color,
+                         bool lit, enum light_term term)
+{
+    const lam_rgb black = {0, 0, 0};
+    if (!fixed->given)
+        return;
+    if (*strength == 0 && color)
+        *color = black;
+    for (int i = 0; i < s->light_count && *strength == 0 && !color && lit; i++)
+        *light_color(&s->lights[i], term) = black;
+    *strength = fixed->value;
+}
+
+static void adapt_material(const struct shader_interface *r, struct reference_scene *s)
+{
+    const struct contract_defaults *d = &r->contract->defaults;
+    bool ambient = has_product(r, SEMANTIC_AMBIENT), diffuse = has_product(r, SEMANTIC_DIFFUSE),
+         specular = has_product(r, SEMANTIC_SPECULAR);
+    bool own_specular = specular || declares(r, SEMANTIC_SPECULAR_COLOR);
+    bool own_diffuse = diffuse || declares(r, SEMANTIC_COLOR);
+    bool lit_specular = declares(r, SEMANTIC_LIGHT_SPECULAR);
+    bool lit_ambient = declares(r, SEMANTIC_LIGHT_AMBIENT) || declares(r, SEMANTIC_AMBIENT_LIGHT);
+    // The highlight has the light's colour where the material has none.
+    if (!own_specular && lit_specular && d->specular_color.source != COLOR_OF_SCENE)
+        for (int i = 0; i < s->light_count; i++)
+            s->lights[i].specular = times(s->lights[i].specular, s->specular);
+    if (!own_diffuse)
+        s->diffuse = color_of(&d->diffuse_color, s->diffuse, s->diffuse, s->diffuse);
+    if (!ambient)
+        s->ambient = color_of(&d->ambient_color, s->ambient, s->diffuse, s->diffuse);
+    if (!own_specular)
+        s->specular = color_of(&d->specular_color, s->specular, s->diffuse, s->diffuse);
+    // Black cannot stand for a missing strength where another term has the same colour.
+    bool shared = (!ambient && d->ambient_color.source == COLOR_OF_DIFFUSE) ||
+                  (!own_specular && d->specular_color.source == COLOR_OF_DIFFUSE);
+    bool lit_diffuse = declares(r, SEMANTIC_LIGHT_COLOR) && lit_specular;
+    if (!ambient && !declares(r, SEMANTIC_KA))
+        fix_strength(s, &d->ambient_strength, &s->ka, NULL, lit_ambient, LIGHT_AMBIENT);
+    if (!diffuse && !declares(r, SEMANTIC_KD))
+        fix_strength(s, &d->diffuse_strength, &s->kd, own_diffuse && !shared ? &s->diffuse : NULL, lit_diffuse,
+                     LIGHT_DIFFUSE);
+    if (!specular && !declares(r, SEMANTIC_KS))
+        fix_strength(s, &d->specular_strength, &s->ks, own_specular ? &s->specular : NULL, lit_specular,
+                     LIGHT_SPECULAR);
+}
+
+// A point light has an axis too, which shaders of spots normalize: towards the model, so that every lit point is in
+// front of it.
+static void set_axis(struct reference_light *light, lam_vec3 target)
+{
+    lam_vec3 to_light = light->to_light;
+    if (to_light.x == 0 && to_light.y == 0 && to_light.z == 0)
+        light->to_light = v3_unit(v3_sub(light->position, target));
+}
+
+static void adapt_light(const struct shader_interface *r, int index, const struct reference_scene *s,
+                        struct reference_light *light)
+{
+    const struct contract_defaults *d = &r->contract->defaults;
+    unsigned rule = r->supports >> (RULE_FIRST + RULE_BITS * index), kind = rule & RULE_KIND;
+    bool directional = kind ? kind == RULE_DIRECTIONAL : !(r->supports & NEED_POINT);
+    if (rule & RULE_UNATTENUATED)
+        memcpy(light->attenuation, (const float[]){1, 0, 0}, sizeof light->attenuation);
+    if (light->type == LAM_LIGHT_POINT && directional) {
+        light->type = LAM_LIGHT_DIRECTIONAL;
+        light->to_light = light->position;
+    }
+    if (d->has_direction && !shader_interface_uses(r, SEMANTIC_LIGHT_POSITION) &&
+        !shader_interface_uses(r, SEMANTIC_LIGHT_DIRECTION) && !shader_interface_uses(r, SEMANTIC_LIGHT_TRAVEL)) {
+        struct reference_matrices m;
+        lam_mat4 to_world = lam_mat4_identity();
+        reference_matrices(s, &m);
+        if (r->contract->space == LAM_FRAME_CAMERA)
+            mat4_inverse_affine(&m.view, &to_world);
+        light->type = LAM_LIGHT_DIRECTIONAL;
+        light->to_light = mat4_vector(&to_world, d->direction);
+    }
+    bool attenuated = declares(r, SEMANTIC_ATTENUATION) || declares(r, SEMANTIC_ATTENUATION_CONSTANT) ||
+                      declares(r, SEMANTIC_ATTENUATION_LINEAR) || declares(r, SEMANTIC_ATTENUATION_QUADRATIC);
+    if (!attenuated && d->has_attenuation)
+        memcpy(light->attenuation, d->attenuation, sizeof light->attenuation);
+    if (light->type == LAM_LIGHT_DIRECTIONAL)
+        memcpy(light->attenuation, (const float[]){1, 0, 0}, sizeof light->attenuation);
+    if (!declares(r, SEMANTIC_SPOT_EXPONENT) && !declares(r, SEMANTIC_CONE) && d->spot_exponent.given)
+        light->exponent = d->spot_exponent.value;
+    lam_rgb none = {0, 0, 0};
+    if (!declares(r, SEMANTIC_LIGHT_COLOR) && !declares(r, SEMANTIC_DIFFUSE_PRODUCT))
+        light->color = color_of(&d->light_color, light->color, none, none);
+    if (!declares(r, SEMANTIC_LIGHT_SPECULAR) && !declares(r, SEMANTIC_SPECULAR_PRODUCT))
+        light->specular = color_of(&d->light_specular, light->specular, none, light->color);
+    if (!declares(r, SEMANTIC_LIGHT_AMBIENT) && !declares(r, SEMANTIC_AMBIENT_LIGHT) &&
+        !declares(r, SEMANTIC_AMBIENT_PRODUCT))
+        light->ambient = color_of(&d->light_ambient, light->ambient, none, light->color);
+    set_axis(light, s->target);
+}
+
+struct reference_scene shader_interface_scene(const struct shader_interface *r,
+                                              const struct reference_scene *reference_scene, int light_count)
+{
+    struct reference_scene s = *reference_scene;
+    unsigned terms = r->contract->terms;
+    if (s.light_count > light_count)
+        s.light_count = light_count;
+    for (int i = 0; i < s.light_count; i++)
+        adapt_light(r, i, &s, &s.lights[i]);
+    adapt_material(r, &s);
+    // Unused entries of the list are black.
+    while (s.light_count < light_count && s.light_count < MAX_SCENE_LIGHTS) {
+        struct reference_light black = {
+            .type = s.lights[0].type, .position = {1, 2, 3}, .to_light = {1, 2, 3}, .attenuation = {1, 0, 0}};
+        s.lights[s.light_count++] = black;
+    }
+    s.ka = terms & TERM_AMBIENT ? s.ka : 0;
+    s.kd = terms & TERM_DIFFUSE ? s.kd : 0;
+    s.ks = terms & TERM_SPECULAR && !(r->supports & RULE_NO_SPECULAR) ? s.ks : 0;
+    s.flat |= (r->supports & RULE_FLAT) != 0;
+    if (!declares(r, SEMANTIC_SHININESS) && r->contract->defaults.shininess.given)
+        s.shininess = r->contract->defaults.shininess.value;
+    if (!(r->contract->supports & NEED_ALPHA))
+        s.alpha = 1;
+    return s;
+}

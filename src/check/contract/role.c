@@ -1,0 +1,70 @@
+// role.c: the table of roles. docs/check.md and the schema of contract files are generated from it.
+#include "role.h"
+
+#define UNIFORM  ROLE_UNIFORM
+#define LIGHT    (ROLE_UNIFORM | ROLE_LIGHT)
+#define CONSTANT ROLE_CONSTANT
+
+const struct role roles[] = {
+    {SEMANTIC_POSITION, "position", ROLE_ATTRIBUTE, TYPE_VECTOR, "position of the vertex in the model's space, w 1"},
+    {SEMANTIC_NORMAL, "normal", ROLE_ATTRIBUTE, TYPE_VECTOR, "normal of the vertex in the model's space, w 0"},
+    {SEMANTIC_TEXCOORD, "texture_coordinate", ROLE_ATTRIBUTE, TYPE_VEC2 | TYPE_VECTOR, "texture coordinate: 0"},
+    {SEMANTIC_MODEL, "model", UNIFORM, TYPE_MATRIX, "model to world space"},
+    {SEMANTIC_VIEW, "view", UNIFORM, TYPE_MATRIX, "world to eye space"},
+    {SEMANTIC_PROJECTION, "projection", UNIFORM, TYPE_MATRIX, "eye to clip space"},
+    {SEMANTIC_MODEL_VIEW, "model_view", UNIFORM, TYPE_MATRIX, "model to eye space"},
+    {SEMANTIC_VIEW_PROJECTION, "view_projection", UNIFORM, TYPE_MATRIX, "world to clip space"},
+    {SEMANTIC_MODEL_VIEW_PROJECTION, "model_view_projection", UNIFORM, TYPE_MATRIX, "model to clip space"},
+    {SEMANTIC_NORMAL_MATRIX, "normal_matrix", UNIFORM | ROLE_IN_SPACE, TYPE_MATRIX,
+     "inverse transpose of the matrix to that space"},
+    {SEMANTIC_EYE_POSITION, "eye_position", UNIFORM | ROLE_IN_SPACE, TYPE_VECTOR, "position of the eye, w 1"},
+    {SEMANTIC_AMBIENT, "ambient", UNIFORM, TYPE_VECTOR | TYPE_SAMPLER, "ka: the ambient colour, times its strength"},
+    {SEMANTIC_DIFFUSE, "diffuse", UNIFORM, TYPE_VECTOR | TYPE_SAMPLER, "kd; a: the opacity"},
+    {SEMANTIC_SPECULAR, "specular", UNIFORM, TYPE_VECTOR | TYPE_SAMPLER, "ks"},
+    {SEMANTIC_AMBIENT_PRODUCT, "ambient_product", UNIFORM, TYPE_VECTOR, "ka times the light's ambient colour"},
+    {SEMANTIC_DIFFUSE_PRODUCT, "diffuse_product", UNIFORM, TYPE_VECTOR, "kd times the light's diffuse colour"},
+    {SEMANTIC_SPECULAR_PRODUCT, "specular_product", UNIFORM, TYPE_VECTOR, "ks times the light's specular colour"},
+    {SEMANTIC_KA, "ambient_strength", UNIFORM | CONSTANT, TYPE_SCALAR, "ka without its colour"},
+    {SEMANTIC_KD, "diffuse_strength", UNIFORM | CONSTANT, TYPE_SCALAR, "kd without its colour"},
+    {SEMANTIC_KS, "specular_strength", UNIFORM | CONSTANT, TYPE_SCALAR, "ks without its colour"},
+    {SEMANTIC_COLOR, "color", UNIFORM, TYPE_VECTOR | TYPE_SAMPLER, "colour of the surface"},
+    {SEMANTIC_SPECULAR_COLOR, "specular_color", UNIFORM | CONSTANT, TYPE_VECTOR, "colour of the highlight"},
+    {SEMANTIC_SHININESS, "shininess", UNIFORM | CONSTANT, TYPE_SCALAR, "exponent of the highlight"},
+    {SEMANTIC_AMBIENT_LIGHT, "ambient_light", UNIFORM | CONSTANT, TYPE_VECTOR, "La, the sum over all lights"},
+    {SEMANTIC_LIGHT_POSITION, "light_position", LIGHT | ROLE_IN_SPACE, TYPE_VECTOR,
+     "position of the light; vec4: w 1, or the direction to it, w 0"},
+    {SEMANTIC_LIGHT_X, "light_x", LIGHT | ROLE_IN_SPACE, TYPE_SCALAR, "x of the light's position"},
+    {SEMANTIC_LIGHT_Y, "light_y", LIGHT | ROLE_IN_SPACE, TYPE_SCALAR, "y of the light's position"},
+    {SEMANTIC_LIGHT_Z, "light_z", LIGHT | ROLE_IN_SPACE, TYPE_SCALAR, "z of the light's position"},
+    {SEMANTIC_LIGHT_DIRECTION, "light_direction", LIGHT | CONSTANT | ROLE_IN_SPACE, TYPE_VECTOR,
+     "unit direction to the light, w 0"},
+    {SEMANTIC_LIGHT_TRAVEL, "light_travel", LIGHT | ROLE_IN_SPACE, TYPE_VECTOR,
+     "unit direction in which the light travels, w 0; a spot's axis"},
+    {SEMANTIC_LIGHT_COLOR, "light_color", LIGHT | CONSTANT, TYPE_VECTOR, "Ld, the light's diffuse colour"},
+    {SEMANTIC_LIGHT_SPECULAR, "light_specular", LIGHT | CONSTANT, TYPE_VECTOR, "Ls, the light's specular colour"},
+    {SEMANTIC_LIGHT_AMBIENT, "light_ambient", LIGHT | CONSTANT, TYPE_VECTOR, "La, the light's ambient colour"},
+    {SEMANTIC_ATTENUATION_CONSTANT, "attenuation_constant", LIGHT, TYPE_SCALAR, "a of 1/(a + b d + c d^2)"},
+    {SEMANTIC_ATTENUATION_LINEAR, "attenuation_linear", LIGHT, TYPE_SCALAR, "b, for each unit of distance"},
+    {SEMANTIC_ATTENUATION_QUADRATIC, "attenuation_quadratic", LIGHT, TYPE_SCALAR, "c, for each unit squared"},
+    {SEMANTIC_ATTENUATION, "attenuation", LIGHT, TYPE_VECTOR, "a, b, c, and 0"},
+    {SEMANTIC_CONE, "cone", LIGHT, TYPE_VECTOR,
+     "of a spot: cosine of the cutoff, exponent, cosine of the outer angle, 1/width; no spot: -1 first"},
+    {SEMANTIC_CUTOFF, "cutoff_cosine", LIGHT, TYPE_SCALAR, "cosine of a spot's cutoff; no spot: -1"},
+    {SEMANTIC_OUTER_CUTOFF, "outer_cosine", LIGHT, TYPE_SCALAR,
+     "cosine of the angle at which a spot's light ends: just outside of the cutoff"},
+    {SEMANTIC_SPOT_EXPONENT, "spot_exponent", LIGHT, TYPE_SCALAR, "exponent of a spot's falloff"},
+    {SEMANTIC_LIGHT_COUNT, "light_count", UNIFORM, TYPE_SCALAR, "how many lights there are"},
+    {SEMANTIC_FLAT, "flat", UNIFORM, TYPE_SCALAR, "flat shading: the values of each triangle's last vertex"},
+    {SEMANTIC_ZERO, "zero", ROLE_ATTRIBUTE | UNIFORM,
+     TYPE_SCALAR | TYPE_VEC2 | TYPE_VECTOR | TYPE_MATRIX | TYPE_SAMPLER, "0: the scenes have nothing of the kind"},
+    {SEMANTIC_ONE, "one", UNIFORM, TYPE_SCALAR, "1"},
+};
+const int role_count = sizeof roles / sizeof *roles;
+
+const struct role *role_of(enum uniform_semantic semantic)
+{
+    for (int i = 0; i < role_count; i++)
+        if (roles[i].semantic == semantic)
+            return &roles[i];
+    return &roles[role_count - 1];
+}

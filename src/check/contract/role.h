@@ -1,0 +1,93 @@
+// role.h: the meanings that a contract can give to a name, as contract files write them.
+#ifndef ROLE_H
+#define ROLE_H
+
+#include <lambent/check.h>
+
+// The meaning of a uniform or attribute.
+enum uniform_semantic {
+    SEMANTIC_NONE,
+    // Attributes.
+    SEMANTIC_POSITION,
+    SEMANTIC_NORMAL,
+    SEMANTIC_TEXCOORD,
+    // Uniforms.
+    SEMANTIC_MODEL_VIEW,
+    SEMANTIC_PROJECTION,
+    SEMANTIC_MODEL_VIEW_PROJECTION,
+    SEMANTIC_NORMAL_MATRIX,
+    SEMANTIC_MODEL,
+    SEMANTIC_VIEW,
+    SEMANTIC_VIEW_PROJECTION,
+    // Material colour times its strength.
+    SEMANTIC_AMBIENT,
+    SEMANTIC_DIFFUSE,
+    SEMANTIC_SPECULAR,
+    // The same, times the light's colour.
+    SEMANTIC_AMBIENT_PRODUCT,
+    SEMANTIC_DIFFUSE_PRODUCT,
+    SEMANTIC_SPECULAR_PRODUCT,
+    // The strengths alone.
+    SEMANTIC_KA,
+    SEMANTIC_KD,
+    SEMANTIC_KS,
+    // The colours alone.
+    SEMANTIC_COLOR,
+    SEMANTIC_SPECULAR_COLOR,
+    SEMANTIC_SHININESS,
+    SEMANTIC_LIGHT_POSITION, // w 1; for a directional light the direction to it, w 0
+    SEMANTIC_LIGHT_X,
+    SEMANTIC_LIGHT_Y,
+    SEMANTIC_LIGHT_Z,
+    SEMANTIC_LIGHT_DIRECTION, // towards the light
+    SEMANTIC_LIGHT_TRAVEL,    // away from the light; a spot's axis
+    SEMANTIC_LIGHT_COLOR,
+    SEMANTIC_LIGHT_SPECULAR,
+    SEMANTIC_LIGHT_AMBIENT,
+    SEMANTIC_ATTENUATION_CONSTANT,
+    SEMANTIC_ATTENUATION_LINEAR,
+    SEMANTIC_ATTENUATION_QUADRATIC,
+    SEMANTIC_ATTENUATION,  // constant, linear, quadratic, 0
+    SEMANTIC_CONE,         // cosine of the cutoff, exponent, cosine of the outer angle, 1/width
+    SEMANTIC_CUTOFF,       // cosine of the cutoff; −1: no spot
+    SEMANTIC_OUTER_CUTOFF, // cosine of an angle just outside of the cutoff
+    SEMANTIC_SPOT_EXPONENT,
+    SEMANTIC_AMBIENT_LIGHT, // sum over all lights
+    SEMANTIC_LIGHT_COUNT,
+    SEMANTIC_FLAT,
+    SEMANTIC_EYE_POSITION,
+    SEMANTIC_ZERO,
+    SEMANTIC_ONE,
+    SEMANTIC_COUNT
+};
+
+// What a role may be given to, and the types that fit it.
+enum role_use {
+    ROLE_ATTRIBUTE = 1,
+    ROLE_UNIFORM = 2,
+    ROLE_LIGHT = 4,    // belongs to one light: one of lights[i], or the light of the same struct
+    ROLE_IN_SPACE = 8, // has a space
+    ROLE_CONSTANT = 16 // a shader may write it as a number
+};
+enum role_type {
+    TYPE_SCALAR = 1, // float, int, bool
+    TYPE_VEC2 = 2,
+    TYPE_VECTOR = 4, // vec3, vec4
+    TYPE_MATRIX = 8, // mat3, mat4
+    TYPE_SAMPLER = 16,
+};
+
+struct role {
+    enum uniform_semantic semantic;
+    const char *name; // in contract files
+    unsigned uses;    // bits of role_use
+    unsigned types;   // bits of role_type
+    const char *meaning;
+};
+
+extern const struct role roles[];
+extern const int role_count;
+
+const struct role *role_of(enum uniform_semantic semantic); // never NULL
+
+#endif

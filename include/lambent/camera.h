@@ -77,6 +77,13 @@ LAM_API lam_view lam_view_of_side(lam_side side);
 // call refuses (base.h, "Growth").
 LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view);
 
+// The same for a scene that turns about an axis through `centre` (lam_scene_rotate): one camera for all angles, so that
+// the scene does not jump in size or place. It is the camera of the scene as it is or, where that would cut the scene at
+// some angle, one that the scene fills as it turns. Give it the scene before it turns. An axis of length 0 stands for
+// turns about any axis.
+LAM_API lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_vec3 axis, int width, int height,
+                                          const lam_view *view);
+
 // Reads a camera as people write it: pairs key=value, separated by commas, of
 //   eye=x/y/z     required: its position
 //   target=x/y/z  default: the middle of the scene's box

@@ -83,7 +83,8 @@ typedef struct lam_mesh {
 typedef struct lam_shape_params {
     double radius; // of the whole shape, model units; 0: 1
     // Segments around, 3..16384; 0: the shape's own number, smooth at 1024 pixels. For gyroid and metaballs the cells
-    // along a side, at most 1024.
+    // along a side, at most 1024. teapot rounds up to a multiple of 4 for body and lid; handle and spout have half as
+    // many, at least 4.
     int slices;
     // Segments along, 1..16384; 0: the shape's own number. sphere needs 2, torus and torus-knot 3; teapot takes at most
     // 4096 for each patch; gyroid and metaballs do not use it.

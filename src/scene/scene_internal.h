@@ -114,6 +114,9 @@ void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double cr
 // of memory.
 bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error);
 
+// The largest distance of a triangle's vertex from a point, in world space.
+double scene_radius(const struct lam_scene *scene, lam_vec3 centre);
+
 static inline const lam_mesh *scene_mesh(const struct lam_scene *scene, int i)
 {
     return (const lam_mesh *)scene->meshes.items + i;

@@ -21,6 +21,14 @@ static void extend_radius(const lam_scene *scene, int mesh_index, const lam_mat4
     }
 }
 
+double scene_radius(const struct lam_scene *scene, lam_vec3 centre)
+{
+    double radius = 0;
+    for (int i = 0; i < scene->objects.count; i++)
+        extend_radius(scene, scene_object(scene, i)->mesh, &scene_object(scene, i)->transform, centre, &radius);
+    return radius;
+}
+
 static lam_vec3 midpoint(lam_vec3 a, lam_vec3 b)
 {
     return v3(a.x + (b.x - a.x) * 0.5, a.y + (b.y - a.y) * 0.5, a.z + (b.z - a.z) * 0.5);
@@ -41,8 +49,7 @@ bool lam_scene_sphere(const lam_scene *scene, int object, lam_vec3 *centre, doub
         found = true;
     } else if (object < 0 && scene && lam_scene_bounds(scene, &low, &high)) {
         at = midpoint(low, high);
-        for (int i = 0; i < scene->objects.count; i++)
-            extend_radius(scene, scene_object(scene, i)->mesh, &scene_object(scene, i)->transform, at, &distance_max);
+        distance_max = scene_radius(scene, at);
         found = true;
     }
     float_state_leave(state);

@@ -23,17 +23,27 @@ struct search {
 
 static double absolute(double a) { return a < 0 ? -a : a; }
 
+// The directions of the extents in the axes of the view.
+static void set_across(const struct view_extents *extents, lam_vec3 across[EXTENT_DIRECTIONS])
+{
+    across[EXTENT_RIGHT] = v3(1, 0, extents->kx);
+    across[EXTENT_LEFT] = v3(-1, 0, extents->kx);
+    across[EXTENT_TOP] = v3(0, 1, extents->ky);
+    across[EXTENT_BOTTOM] = v3(0, -1, extents->ky);
+    across[EXTENT_FRONT] = v3(0, 0, 1);
+}
+
 static void set_directions(struct search *s)
 {
-    const double across[EXTENT_DIRECTIONS][3] = {
-        {1, 0, s->extents->kx}, {-1, 0, s->extents->kx}, {0, 1, s->extents->ky}, {0, -1, s->extents->ky}, {0, 0, 1}};
+    lam_vec3 across[EXTENT_DIRECTIONS];
+    set_across(s->extents, across);
     box_of_six box; // relative to the mesh's origin, as the positions are
     box_tree_whole(&s->extent->boxes, box);
     double far[3]; // upper bounds of |coordinate|
     for (int a = 0; a < 3; a++)
         far[a] = absolute((double)box[a]) + absolute((double)box[a + 3]);
     for (int d = s->first; d < s->end; d++) {
-        const double *f = across[d];
+        const double f[3] = {across[d].x, across[d].y, across[d].z};
         double steps = 0; // the sum of the absolute values of all terms
         s->offset[d] = f[0] * s->shift[0] + f[1] * s->shift[1] + f[2] * s->shift[2];
         double sum[3] = {0};
@@ -155,13 +165,26 @@ static void search_object(const lam_scene *scene, const lam_object *object, cons
     search_level(&s, s.extent->boxes.levels - 1, 0);
 }
 
-static void search(const lam_scene *scene, const struct view_axes *axes, struct view_extents *extents, int first,
-                   int end)
+// Sets the extents of a direction to those of a ball around the centre.
+static void find_ball(double radius, struct view_extents *extents, int d)
 {
-    for (int d = first; d < end; d++)
+    lam_vec3 direction[EXTENT_DIRECTIONS];
+    set_across(extents, direction);
+    extents->value[d] = radius * v3_length(direction[d]);
+    extents->point[d] = v3_scale(v3_unit(direction[d]), radius);
+}
+
+static void search(const struct view_points *points, struct view_extents *extents, int first, int end)
+{
+    for (int d = first; d < end; d++) {
         extents->value[d] = -1e308;
-    for (int i = 0; i < scene->objects.count; i++)
-        search_object(scene, scene_object(scene, i), axes, extents, first, end);
+        if (points->ball_radius > 0)
+            find_ball(points->ball_radius, extents, d);
+    }
+    // What one pair of axes has found excludes most vertices for the next.
+    for (int a = 0; a < points->axes_count && !(points->ball_radius > 0); a++)
+        for (int i = 0; i < points->scene->objects.count; i++)
+            search_object(points->scene, scene_object(points->scene, i), &points->axes[a], extents, first, end);
 }
 
 bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre)
@@ -179,21 +202,38 @@ bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre)
     return false;
 }
 
-void view_extents_find(const lam_scene *scene, const struct view_axes *axes, struct view_extents *extents)
+void view_extents_find(const struct view_points *points, struct view_extents *extents)
 {
-    search(scene, axes, extents, 0, EXTENT_DIRECTIONS);
+    search(points, extents, 0, EXTENT_DIRECTIONS);
 }
 
-void view_extents_horizontal(const lam_scene *scene, const struct view_axes *axes, double kx,
-                             struct view_extents *extents)
+void view_extents_horizontal(const struct view_points *points, double kx, struct view_extents *extents)
 {
     extents->kx = kx;
-    search(scene, axes, extents, EXTENT_RIGHT, EXTENT_LEFT + 1);
+    search(points, extents, EXTENT_RIGHT, EXTENT_LEFT + 1);
 }
 
-void view_extents_vertical(const lam_scene *scene, const struct view_axes *axes, double ky,
-                           struct view_extents *extents)
+void view_extents_vertical(const struct view_points *points, double ky, struct view_extents *extents)
 {
     extents->ky = ky;
-    search(scene, axes, extents, EXTENT_TOP, EXTENT_BOTTOM + 1);
+    search(points, extents, EXTENT_TOP, EXTENT_BOTTOM + 1);
+}
+
+bool view_extents_depth(const lam_scene *scene, const lam_mat4 *view, double *nearest, double *farthest)
+{
+    lam_vec3 centre;
+    if (!view_extents_centre(scene, &centre))
+        return false;
+    double from_centre[2], depth = -mat4_point(view, centre).z;
+    for (int away = 0; away < 2; away++) {
+        struct view_axes axes = {.centre = centre};
+        axes.back = v3_scale(v3(view->m[2][0], view->m[2][1], view->m[2][2]), away ? -1 : 1);
+        struct view_extents extents = {0};
+        search(&(struct view_points){.scene = scene, .axes = &axes, .axes_count = 1}, &extents, EXTENT_FRONT,
+               EXTENT_DIRECTIONS);
+        from_centre[away] = extents.value[EXTENT_FRONT];
+    }
+    *nearest = depth - from_centre[0];
+    *farthest = depth + from_centre[1];
+    return true;
 }

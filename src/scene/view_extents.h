@@ -5,32 +5,42 @@
 #include <lambent/scene.h>
 
 // The axes of the view as world directions: the picture's right and top, and from the model to the eye. x, y and z of a
-// vertex are measured along them from `centre`, a point of the scene, so that the numbers keep their digits wherever
+// vertex are measured along them from `centre`, a point near the scene, so that the numbers keep their digits wherever
 // the scene lies.
 struct view_axes {
     lam_vec3 right, above, back;
     lam_vec3 centre;
 };
 
-// The maxima over all vertices of ±x + kx·z, ±y + ky·z and z, in the axes of the view. k = 0: the bounding box.
+// The points that extents are of.
+struct view_points {
+    const lam_scene *scene;
+    // The scene's vertices as seen along each of these axes: a scene that turns, seen from where it is fixed.
+    const struct view_axes *axes;
+    int axes_count;
+    double ball_radius; // > 0: a ball around the axes' centre in place of the scene
+};
+
+// The maxima over all points of ±x + kx·z, ±y + ky·z and z, in the axes of the view. k = 0: the bounding box.
 enum extent_direction { EXTENT_RIGHT, EXTENT_LEFT, EXTENT_TOP, EXTENT_BOTTOM, EXTENT_FRONT, EXTENT_DIRECTIONS };
 
 struct view_extents {
     double kx, ky;
     double value[EXTENT_DIRECTIONS];
-    lam_vec3 point[EXTENT_DIRECTIONS]; // the vertex that has the maximum: its x, y and z
+    lam_vec3 point[EXTENT_DIRECTIONS]; // the point that has the maximum: its x, y and z
 };
 
 // A point of the scene: the middle of the box of the first object that has triangles. False, and zero: none has.
 bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre);
 
 // Sets all extents for the given kx and ky.
-void view_extents_find(const lam_scene *scene, const struct view_axes *axes, struct view_extents *extents);
+void view_extents_find(const struct view_points *points, struct view_extents *extents);
 
 // Set kx (ky) and update the extents that depend on it.
-void view_extents_horizontal(const lam_scene *scene, const struct view_axes *axes, double kx,
-                             struct view_extents *extents);
-void view_extents_vertical(const lam_scene *scene, const struct view_axes *axes, double ky,
-                           struct view_extents *extents);
+void view_extents_horizontal(const struct view_points *points, double kx, struct view_extents *extents);
+void view_extents_vertical(const struct view_points *points, double ky, struct view_extents *extents);
+
+// The smallest and largest distance of the scene's vertices in front of the eye, along the view. False: no vertices.
+bool view_extents_depth(const lam_scene *scene, const lam_mat4 *view, double *nearest, double *farthest);
 
 #endif

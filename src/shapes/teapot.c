@@ -128,6 +128,9 @@ bool teapot_build(const struct shape_request *request, lam_mesh *mesh)
     for (int i = 0; i < 4; i++) {
         struct patches *part = &parts[i];
         part->u_steps = (slices + 3) / 4;
+        // A half of handle or spout with one segment would be flat, and both halves the same sheet seen from its sides.
+        if (part->around == 2 && part->u_steps < 2)
+            part->u_steps = 2;
         part->v_steps = request->stacks ? request->stacks : 32;
         int u = part->u_steps * part->around, v = part->v_steps * part->bands;
         surfaces[i] = (lam_parametric){.surface = patch_point,

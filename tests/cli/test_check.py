@@ -14,6 +14,7 @@ import time
 from harness import ROOT, Case, PROGRAM, check_value, read_png
 
 sys.path.insert(0, str(ROOT / "tests" / "check"))
+from correct import SHADERS as CORRECT  # noqa: E402
 from mistakes import MISTAKES  # noqa: E402
 
 SHADERS = ROOT / "tests" / "check"
@@ -82,6 +83,18 @@ class Right(CheckTest):
                 # The reference comes from the CPU device: the pictures agree far within the tolerance.
                 self.assertLess(max(scene["maximum"] for scene in report["scenes"]), 1e-3)
                 self.assertGreater(min(scene["pixels"] for scene in report["scenes"]), 1000)
+
+    def test_every_correct_style(self):
+        """The shaders of tests/check/correct.py, each of which is correct in its own way."""
+        self.assertGreaterEqual(len(CORRECT), 60)
+        for name, options, texts in CORRECT:
+            with self.subTest(name):
+                for ending in ("frag", "vert"):
+                    (self.folder / f"s.{ending}").unlink(missing_ok=True)
+                    if ending in texts:
+                        (self.folder / f"s.{ending}").write_text(texts[ending], newline="")
+                report = self.report_of("s.frag", *(["--vertex", "s.vert"] if "vert" in texts else []), *options)
+                self.assertEqual((report["verdict"], report["mistakes"], self.notes(report, "unknown")), ("passes", [], []))
 
     def test_printed_shaders(self):
         """Shaders printed by `lambent shader` pass: their loops say which lights they have."""

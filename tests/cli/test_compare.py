@@ -41,6 +41,19 @@ class Compare(Case):
                 self.assertLessEqual(abs(min(at[0][i + k] + at[1][i + k] + at[2][i + k], 255) - at[3][i + k]), 2)
         self.assertGreater(max(at[2][0::4]), 100)  # there is a highlight
 
+    def test_turned_and_unturned_pictures_share_a_camera(self):
+        """The rows of the sheet of frames: the model does not jump in size or place."""
+        page = self.sheet("cube.obj", "--sheet", "frames", "--no-captions", "-s", "48x40")
+        lights = ["point:position=1.5r/1.5r/1.5r,ambient=0.15,frame=" + frame for frame in ("world", "camera", "object")]
+        for i in range(6):
+            turn = "y:-60" if i >= 3 else "y:0"
+            one = self.alone("cube.obj", "-s", "48x40", "--light", lights[i % 3], "--rotate", turn)
+            self.assertEqual(part(page, 3 + i % 3 * 51, 3 + i // 3 * 43, 48, 40), one, i)
+        page = self.sheet("cube.obj", "--no-captions", "-s", "48x40", "--across", "rotate=x:0,y:30")
+        for i, turns in enumerate((("x:0", "y:0"), ("x:0", "y:30"))):
+            one = self.alone("cube.obj", "-s", "48x40", "--rotate", turns[0], "--rotate", turns[1])
+            self.assertEqual(part(page, 3 + i * 51, 3, 48, 40), one, turns)
+
     def test_inset_shows_the_highlight(self):
         page = self.sheet("sphere", "--sheet", "stages", "--samples", 1, "--color-mode", "raw", "-s", "96x96", "--no-captions")
         left = 5 + 96 + 5  # per fragment

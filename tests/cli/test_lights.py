@@ -105,12 +105,30 @@ class Lights(Pictures):
 
     def test_rotation_turns_the_model_under_fixed_lights(self):
         light = ("--light", "directional:direction=-1/-1/-1", *DIFFUSE_ONLY, "--view", "front")
-        cube = {r: self.picture(*light, *r, model="cube.obj") for r in ((), ("--rotate", "y:90"), ("--rotate", "y:30"))}
-        self.assertLessEqual(difference(cube[()], cube[("--rotate", "y:90")]), 1)  # a cube looks the same, lit from there too
-        self.assertGreater(difference(cube[()], cube[("--rotate", "y:30")]), 9)
+        cube = {r: self.picture(*light, *r, model="cube.obj") for r in (("--rotate", "y:0"), ("--rotate", "y:90"), ("--rotate", "y:30"))}
+        still, quarter, between = cube.values()
+        self.assertLessEqual(difference(still, quarter), 1)  # a cube looks the same, lit from there too
+        self.assertGreater(difference(still, between), 9)
         both = ("--rotate", "x:90", "--rotate", "y:90"), ("--rotate", "y:90", "--rotate", "x:90")
         a, b = (self.picture(*light, *r, model="teapot") for r in both)
         self.assertGreater(difference(a, b), 9)  # in the order given
+
+    def test_one_camera_for_every_angle(self):
+        """Turned by any angle about an axis, or about several, a model is seen by one camera, and not cut."""
+        for turns in (["y:0"], ["y:45"], ["y:-100"]), (["x:0", "y:0"], ["x:10", "y:45"], ["y:300", "z:50"]):
+            cameras = []
+            for turn in turns:
+                words = [word for one in turn for word in ("--rotate", one)]
+                cameras.append(self.report("cube.obj", "-s", "120x90", *words)["camera"])
+                width, height, data = self.picture(*words, model="cube.obj", size="120x90")
+                alpha = data[3::4]
+                rim = alpha[:width] + alpha[-width:] + alpha[::width] + alpha[width - 1::width]
+                self.assertEqual(set(rim), {0}, turn)
+            self.assertEqual(cameras[1:], cameras[:1] * 2)
+        # Where the sweep fits, it is the camera of the model as it is.
+        self.assertEqual(*(self.report("sphere", "-s", 64, *words)["camera"] for words in ([], ["--rotate", "y:70"])))
+        # A named or exact camera, and that of a scene file, stay what they are.
+        self.assertEqual(*(self.report("cube.obj", "-s", 64, "--camera", "eye=1/2/9", *words)["camera"] for words in ([], ["--rotate", "y:70"])))
 
     def test_errors(self):
         for value, says in {
@@ -384,3 +402,22 @@ class Markers(Case):
         green = sum(pixel(marked, x, y)[:3] == (0, 255, 0) for x in range(120) for y in range(60))
         self.assertGreater(green, 1)
         self.assertEqual(pixel(plain, 60, 60), pixel(marked, 60, 60))
+
+    def test_markers_outside_of_the_picture_are_named(self):
+        """A marker that shows no pixel has a warning, and one that shows some has none."""
+        def warned(*words):
+            report = self.report("cube.obj", "-s", "120x80", "--samples", "1", "--show-lights", *words)
+            return " ".join(w for w in report.get("warnings", []) if "--show-lights" in w)
+
+        for camera in ("eye=0/0/8,fovy=40", "eye=0/0/8,ortho=3"):
+            for x, y in ((0, 2.5), (3.5, 0), (0, -4), (-4.2, 2.8), (6, 0), (0, 9), (1.5, -1.5)):
+                lamp = ("--camera", camera, "--light", f"point:position={x}/{y}/0,color=lime,name=lamp")
+                plain, marked = self.png("cube.obj", "-s", "120x80", *lamp), self.png("cube.obj", "-s", "120x80", *lamp, "--show-lights")
+                seen = plain[2] != marked[2]
+                self.assertEqual(bool(warned(*lamp)), not seen, (camera, x, y))
+        camera = ("--camera", "eye=0/0/8,fovy=40")
+        self.assertIn("the marker of light 'lamp' lies outside", warned(*camera, "--light", "point:position=0/0/9,name=lamp"))  # behind the eye
+        self.assertEqual(warned(*camera, "--light", "point:position=0/0/7,name=lamp"), "")
+        many = [word for i in range(5) for word in ("--light", f"point:position={90 + i}/0/0")]
+        self.assertIn("the markers of lights 1, 2, 3 and 2 more lie outside", warned(*camera, *many))
+        self.assertEqual(warned("--zoom", "0.2"), "")

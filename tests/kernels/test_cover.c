@@ -359,12 +359,59 @@ static void test_culling(void **state)
     free(soup.corners);
 }
 
+// A tetrahedron of any size up to the largest floats, fitted into a picture of odd size: every instruction set draws the
+// same coverage, and up to 1e33 that of size 1. (Beyond, products of coordinates leave the range of floats.)
+static void test_sizes(void **state)
+{
+    (void)state;
+    enum { WIDTH = 33, HEIGHT = 31 };
+    static const float corners[4][3] = {{-1, -1, -1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
+    static const uint32_t indices[12] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
+    static uint8_t first[WIDTH * HEIGHT * 4], scalar[WIDTH * HEIGHT * 4], pixels[WIDTH * HEIGHT * 4];
+    for (int orthographic = 0; orthographic < 2; orthographic++)
+        for (int power = 0; power <= 38; power++) {
+            lam_error error = {0};
+            float positions[4][3];
+            for (int i = 0; i < 12; i++)
+                positions[i / 3][i % 3] = corners[i / 3][i % 3] * (float)pow(10, power);
+            lam_mesh mesh = {.positions = positions[0], .indices = indices, .vertex_count = 4, .triangle_count = 4};
+            lam_scene *scene = lam_scene_make(NULL);
+            lam_object object = lam_object_default();
+            object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
+            if (object.mesh < 0 || lam_scene_add_object(scene, &object, &error) < 0)
+                fail_msg("%s", error.text);
+            lam_camera camera = lam_camera_fit(scene, WIDTH, HEIGHT, &(lam_view){.orthographic = orthographic});
+            lam_draw_params params = {.samples = 1, .output = LAM_OUTPUT_COVERAGE};
+            for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++) {
+                if (!lam_isa_usable((lam_isa)isa))
+                    continue;
+                lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1, .isa = (lam_isa)isa}, &error);
+                lam_image image = {.width = WIDTH, .height = HEIGHT, .format = LAM_RGBA8, .pixels = pixels};
+                if (!device || !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
+                    fail_msg("%s", error.text);
+                if (power == 0)
+                    memcpy(first, pixels, sizeof first);
+                if (isa == LAM_ISA_SCALAR)
+                    memcpy(scalar, pixels, sizeof scalar);
+                assert_memory_equal(pixels, scalar, sizeof scalar);
+                if (power <= 33)
+                    assert_memory_equal(pixels, first, sizeof first);
+                lam_device_free(device);
+            }
+            lam_scene_free(scene);
+        }
+    int covered = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        covered += first[4 * i] > 0;
+    assert_in_range(covered, 200, 900);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_small),      cmocka_unit_test(test_medium),     cmocka_unit_test(test_large),
         cmocka_unit_test(test_huge),       cmocka_unit_test(test_on_centres), cmocka_unit_test(test_backs),
-        cmocka_unit_test(test_watertight), cmocka_unit_test(test_culling),
+        cmocka_unit_test(test_watertight), cmocka_unit_test(test_culling),    cmocka_unit_test(test_sizes),
     };
     return cmocka_run_group_tests_name("cover", tests, NULL, NULL);
 }

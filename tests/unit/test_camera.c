@@ -100,7 +100,7 @@ static struct boxed make_box(struct random *r, int number)
             q[i] = (double)p[3 * c + i] + mesh.origin[i];
         b.corners[c] = moved(&lam_scene_object(scene, 0)->transform, q);
     }
-    lam_scene_set_up(scene, (lam_up)(1 + random_bits(r) % 3));
+    lam_scene_set_up(scene, (lam_up)(1 + random_bits(r) % (LAM_UP_COUNT - 1)));
     b.view = (lam_view){.from_angles = number % 5 > 0,
                         .azimuth_rad = between(r, -4, 4),
                         .elevation_rad = between(r, -1.5, 1.5),
@@ -177,6 +177,55 @@ static void boxes_fill_the_picture(void **state)
         }
         lam_scene_free(b.scene);
     }
+}
+
+// Turned about an axis by any angle, a box is never cut, and the camera is that of the box as it is wherever that does
+// not cut it either. About any axis it is a ball that is not cut.
+static void turning_boxes_are_not_cut(void **state)
+{
+    (void)state;
+    struct random r = {3};
+    int kept = 0, moved_back = 0;
+    for (int number = 0; number < 150; number++) {
+        struct boxed b = make_box(&r, number);
+        lam_vec3 centre, axis = direction(&r);
+        assert_true(lam_scene_sphere(b.scene, -1, &centre, NULL));
+        bool any = number % 5 == 4;
+        lam_camera still = lam_camera_fit(b.scene, b.width, b.height, &b.view);
+        lam_camera camera =
+            lam_camera_fit_turning(b.scene, centre, any ? (lam_vec3){0} : axis, b.width, b.height, &b.view);
+        lam_vec3 corners[8];
+        memcpy(corners, b.corners, sizeof corners);
+        bool same = memcmp(&still, &camera, sizeof camera) == 0;
+        kept += same;
+        moved_back += !same;
+        double fill = 0, fill_still = 0;
+        for (int turn = 0; turn < 200; turn++) {
+            // A scene of one object at the corners' place carries the turn out.
+            lam_scene *turning = lam_scene_make(NULL);
+            lam_object object = lam_object_default();
+            object.mesh = lam_scene_add_shape(turning, "cube", NULL, NULL);
+            assert_true(lam_scene_add_object(turning, &object, NULL) == 0);
+            lam_vec3 about = any ? direction(&r) : axis;
+            assert_true(lam_scene_rotate(turning, centre, about, between(&r, 0, 6.3), NULL));
+            for (int c = 0; c < 8; c++)
+                b.corners[c] = moved(&lam_scene_object(turning, 0)->transform,
+                                     (const double[3]){corners[c].x, corners[c].y, corners[c].z});
+            struct span span = projected(&b, &camera), before = projected(&b, &still);
+            for (int k = 0; k < 2; k++) {
+                double half = 0.5 * (k ? b.height : b.width);
+                fill = fmax(fill, fmax(half - span.low[k], span.high[k] - half) / half);
+                fill_still = fmax(fill_still, fmax(half - before.low[k], before.high[k] - half) / half);
+            }
+            lam_scene_free(turning);
+        }
+        if (!(fill < (same ? 0.985 : 0.925)))
+            fail_msg("box %d: turned it reaches %g of the side", number, fill);
+        if (!same && !any && fill_still < 0.95)
+            fail_msg("box %d: the camera moved, though %g of the side would do", number, fill_still);
+        lam_scene_free(b.scene);
+    }
+    assert_true(kept >= 10 && moved_back >= 10);
 }
 
 // --- files
@@ -348,6 +397,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(boxes_fill_the_picture),
+        cmocka_unit_test(turning_boxes_are_not_cut),
         cmocka_unit_test(files_far_from_zero),
         cmocka_unit_test(origins_are_exact),
     };

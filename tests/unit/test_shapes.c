@@ -320,6 +320,38 @@ static void test_shape_options(void **state)
     lam_scene_free(scene);
 }
 
+// However coarse a shape is, no side of a triangle occurs twice in one direction: of a tube that is so coarse that it is
+// flat, both sheets lie in one place and share all sides.
+static void test_coarsest_segments(void **state)
+{
+    (void)state;
+    lam_scene *scene = lam_scene_make(NULL);
+    for (int i = 0; i < lam_shape_count() * 6 * 3; i++) {
+        lam_shape_params params = {.slices = 3 + i % 6, .stacks = 1 + i / 6 % 3};
+        lam_error error = {0};
+        int index = lam_scene_add_shape(scene, lam_shape_name(i / 18), &params, &error);
+        if (index < 0) { // sphere needs 2 stacks, torus and torus-knot 3
+            assert_non_null(strstr(error.text, "at least"));
+            continue;
+        }
+        const lam_mesh *mesh = lam_scene_mesh(scene, index);
+        uint32_t *same = weld(mesh);
+        size_t corners = 3 * (size_t)mesh->triangle_count;
+        uint64_t *edges = malloc(corners * sizeof *edges);
+        for (size_t c = 0; c < corners; c++)
+            edges[c] =
+                (uint64_t)same[element(NULL, mesh, c)] << 32 | same[element(NULL, mesh, c % 3 == 2 ? c - 2 : c + 1)];
+        qsort(edges, corners, sizeof *edges, compare_edges);
+        for (size_t c = 1; c < corners; c++)
+            if (edges[c - 1] == edges[c])
+                fail_msg("%s with %d by %d segments: two triangles have the same side", lam_shape_name(i / 18),
+                         params.slices, params.stacks);
+        free(edges);
+        free(same);
+    }
+    lam_scene_free(scene);
+}
+
 // A sphere's triangles approach it: of the face normals against the vertex normals the error halves when the
 // segments double, of the normal of the sphere at the face's middle (the mean of the vertex normals) it falls
 // by four.
@@ -785,6 +817,7 @@ int main(void)
         cmocka_unit_test(test_circle),
         cmocka_unit_test(test_shapes),
         cmocka_unit_test(test_shape_options),
+        cmocka_unit_test(test_coarsest_segments),
         cmocka_unit_test(test_convergence),
         cmocka_unit_test(test_unit_sphere),
         cmocka_unit_test(test_every_cell_case),

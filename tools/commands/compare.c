@@ -39,6 +39,21 @@ struct compare {
 
 // --- one picture
 
+// Sets the turns of all pictures, so that they have one camera and the model has one size.
+static bool share_rotations(const struct sheet *sheet, struct options *options)
+{
+    const char **items = malloc((size_t)CELLS_MAX * CELL_WORDS * sizeof *items);
+    if (!items)
+        return false;
+    free(options->sheet_rotations.items);
+    options->sheet_rotations = (struct texts){.items = items};
+    for (int i = 0; i < sheet->count; i++)
+        for (int k = 0; k + 1 < CELL_WORDS && sheet->cells[i].words[k]; k++)
+            if (strcmp(sheet->cells[i].words[k], "--rotate") == 0)
+                items[options->sheet_rotations.count++] = sheet->cells[i].words[k + 1];
+    return true;
+}
+
 // Draws a cell's picture, `enlarge` times as large, with two additional words of the command line (NULL: none).
 static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, const char *more, const char *value,
                       lam_image *image, lam_error *error)
@@ -46,6 +61,10 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
     struct options options;
     if (!options_copy(&options, c->options))
         return complain(error, LAM_LIMIT, "out of memory");
+    if (!share_rotations(&c->sheet, &options)) {
+        options_free(&options);
+        return complain(error, LAM_LIMIT, "out of memory");
+    }
     char *words[CELL_WORDS + 2];
     int count = 0;
     for (int i = 0; i < CELL_WORDS && cell->words[i]; i++)

@@ -151,19 +151,25 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     return true;
 }
 
-static void place_camera(struct job *job)
+// Fits the camera before the model is turned: one fit serves every angle. A camera in words aims at the turned model.
+static bool place_camera_and_turn(struct job *job, const struct model_sphere *sphere, lam_error *error)
 {
     const struct options *o = job->options;
     double start = clock_ms();
-    if (o->camera) {
-        lam_camera_parse(o->camera, job->scene, &job->camera, NULL); // cannot fail: store_camera has parsed it
-    } else if (scene_settings_has_camera(job)) {
+    lam_view view = view_of(o);
+    lam_vec3 axis;
+    if (scene_settings_has_camera(job))
         job->camera = job->settings.camera;
-    } else {
-        lam_view view = view_of(o);
+    else if (!o->camera && job_turn_axis(o, &axis))
+        job->camera = lam_camera_fit_turning(job->scene, sphere->centre, axis, o->width, o->height, &view);
+    else if (!o->camera)
         job->camera = lam_camera_fit(job->scene, o->width, o->height, &view);
-    }
     job->times.camera = clock_ms() - start;
+    if (!job_turn(job, sphere, error))
+        return false;
+    if (o->camera)
+        lam_camera_parse(o->camera, job->scene, &job->camera, NULL); // cannot fail: store_camera has parsed it
+    return true;
 }
 
 static int by_total(const void *a, const void *b)
@@ -246,8 +252,8 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
         return false;
     if (job->options->save_scene && option_given(job->options, "show"))
         lam_scene_add_warning(job->scene, "the saved scene file describes the picture without --show");
-    place_camera(job);
-    return job_light(job, &sphere, error) && (!job->options->show_lights || light_markers_add(job, error));
+    return place_camera_and_turn(job, &sphere, error) && job_light(job, &sphere, error) &&
+           (!job->options->show_lights || light_markers_add(job, error));
 }
 
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)

@@ -123,13 +123,29 @@ static bool apply_rig(struct job *job, lam_error *error)
     return ok;
 }
 
-static bool apply_rotations(const struct options *o, lam_vec3 centre, lam_scene *scene, lam_error *error)
+bool job_turn_axis(const struct options *o, lam_vec3 *axis)
 {
+    int own = o->rotations.count, count = own + o->sheet_rotations.count;
+    for (int i = 0; i < count; i++) {
+        lam_vec3 one;
+        double angle_deg;
+        rotation_parse(i < own ? o->rotations.items[i] : o->sheet_rotations.items[i - own], &one, &angle_deg);
+        if (i == 0)
+            *axis = one;
+        else if (one.x != axis->x || one.y != axis->y || one.z != axis->z)
+            *axis = (lam_vec3){0, 0, 0};
+    }
+    return count > 0;
+}
+
+bool job_turn(struct job *job, const struct model_sphere *sphere, lam_error *error)
+{
+    const struct options *o = job->options;
     for (int i = 0; i < o->rotations.count; i++) {
         lam_vec3 axis;
         double angle_deg;
         rotation_parse(o->rotations.items[i], &axis, &angle_deg); // cannot fail: store_rotation has parsed it
-        if (!lam_scene_rotate(scene, centre, axis, radians(angle_deg), error))
+        if (!lam_scene_rotate(job->scene, sphere->centre, axis, radians(angle_deg), error))
             return false;
     }
     return true;
@@ -140,13 +156,13 @@ bool job_apply_options(struct job *job, const lam_control *control, struct model
     const struct options *o = job->options;
     lam_scene *scene = job->scene;
     *sphere = (struct model_sphere){.radius = 1};
-    if (o->lights.count || o->rotations.count)
+    lam_vec3 axis;
+    if (o->lights.count || job_turn_axis(o, &axis))
         lam_scene_sphere(scene, -1, &sphere->centre, &sphere->radius);
     if (!(sphere->radius > 0))
         sphere->radius = 1;
     bool threads = lam_reflection_describe((lam_reflection)o->reflection)->tangents;
     return apply_materials(o, scene, error) && apply_sides(o, scene, error) && apply_rig(job, error) &&
-           apply_rotations(o, sphere->centre, scene, error) &&
            (!threads || lam_scene_make_tangents(scene, control, error));
 }
 

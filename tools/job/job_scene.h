@@ -10,8 +10,15 @@ struct model_sphere {
     double radius;
 };
 
-// Applies materials, sides, the rig and the turns: everything that comes before the camera. Fills `sphere`.
+// Applies materials, sides and the rig: everything that comes before the camera and the turns. Fills `sphere`.
 bool job_apply_options(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error);
+
+// The axis of the turns of this picture and of the others on its sheet: length 0 if they have several. False: nothing
+// is turned.
+bool job_turn_axis(const struct options *o, lam_vec3 *axis);
+
+// Turns the model about the sphere's centre.
+bool job_turn(struct job *job, const struct model_sphere *sphere, lam_error *error);
 
 // Adds the lights, after the camera has been placed.
 bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *error);

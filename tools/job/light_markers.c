@@ -1,6 +1,8 @@
 // light_markers.c: --show-lights: adds markers at the lights.
 #include "light_markers.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,14 +42,14 @@ static lam_mat4 to_world(const struct job *job, const lam_light *light)
 
 static lam_vec3 unit(lam_vec3 v)
 {
-    double length = __builtin_sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    double length = sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
     return length > 0 ? (lam_vec3){v.x / length, v.y / length, v.z / length} : (lam_vec3){0, -1, 0};
 }
 
 // A transform with its origin at p and axes scaled by `size`, the second along d.
 static lam_mat4 place(lam_vec3 p, lam_vec3 d, double size, double along)
 {
-    lam_vec3 other = __builtin_fabs(d.y) < 0.9 ? (lam_vec3){0, 1, 0} : (lam_vec3){1, 0, 0};
+    lam_vec3 other = fabs(d.y) < 0.9 ? (lam_vec3){0, 1, 0} : (lam_vec3){1, 0, 0};
     lam_vec3 x =
         unit((lam_vec3){d.y * other.z - d.z * other.y, d.z * other.x - d.x * other.z, d.x * other.y - d.y * other.x});
     lam_vec3 z = {x.y * d.z - x.z * d.y, x.z * d.x - x.x * d.z, x.x * d.y - x.y * d.x};
@@ -76,6 +78,57 @@ static bool put(lam_scene *scene, int mesh, int material, lam_mat4 transform, la
     return mesh >= 0 && material >= 0 && lam_scene_add_object(scene, &object, error) >= 0;
 }
 
+// Whether the picture shows nothing of a ball.
+static bool is_outside(const struct job *job, lam_vec3 centre, double radius)
+{
+    const lam_camera *camera = &job->camera;
+    lam_mat4 view = lam_camera_view_matrix(camera);
+    lam_vec3 e = apply(&view, centre, 1);
+    double depth = -e.z, aspect = (double)job->options->width / job->options->height;
+    if (camera->far_plane > camera->near_plane &&
+        (depth + radius < camera->near_plane || depth - radius > camera->far_plane))
+        return true;
+    double x = fabs(e.x), y = fabs(e.y);
+    if (camera->ortho_half_height > 0)
+        return x > camera->ortho_half_height * aspect + radius || y > camera->ortho_half_height + radius;
+    double ky = tan(camera->fovy_rad / 2), kx = ky * aspect;
+    return depth <= 0 || x > kx * depth + radius * sqrt(1 + kx * kx) || y > ky * depth + radius * sqrt(1 + ky * ky);
+}
+
+// Lights by name, else by number from 1; the first few, and how many more.
+struct names {
+    char text[160];
+    int count, more; // all of them, and those without a place in the text
+};
+
+static void add_name(struct names *names, const lam_light *light, int number)
+{
+    enum { NAMED_MAX = 3, NAME_LENGTH_MAX = 32 };
+    size_t length = strlen(names->text), room = sizeof names->text - length;
+    names->count++;
+    if (names->count > NAMED_MAX) {
+        names->more++;
+        return;
+    }
+    if (light->name)
+        snprintf(names->text + length, room, "%s'%.*s'", length ? ", " : "", NAME_LENGTH_MAX, light->name);
+    else
+        snprintf(names->text + length, room, "%s%d", length ? ", " : "", number);
+}
+
+static void warn_outside(lam_scene *scene, const struct names *names)
+{
+    char text[300], more[32] = "";
+    if (!names->count)
+        return;
+    if (names->more)
+        snprintf(more, sizeof more, " and %d more", names->more);
+    bool several = names->count > 1;
+    snprintf(text, sizeof text, "option '--show-lights': the marker%s of light%s %s%s lie%s outside of the picture",
+             several ? "s" : "", several ? "s" : "", names->text, more, several ? "" : "s");
+    lam_scene_add_warning(scene, text);
+}
+
 bool light_markers_add(struct job *job, lam_error *error)
 {
     lam_scene *scene = job->scene;
@@ -97,6 +150,7 @@ bool light_markers_add(struct job *job, lam_error *error)
     int ball = ok ? lam_scene_add_shape(scene, "sphere", &few, error) : -1;
     int cone = ok ? lam_scene_add_shape(scene, "cone", &few, error) : -1;
     ok = ball >= 0 && cone >= 0;
+    struct names outside = {0};
     for (int i = 0; ok && i < count; i++) {
         const lam_light *l = &lights[i];
         if (l->type == LAM_LIGHT_AMBIENT || l->type == LAM_LIGHT_HEMISPHERE)
@@ -105,12 +159,16 @@ bool light_markers_add(struct job *job, lam_error *error)
         lam_vec3 d = unit(apply(&world, l->direction, 0)), p = apply(&world, l->position, 1);
         if (l->type == LAM_LIGHT_DIRECTIONAL)
             p = (lam_vec3){centre.x - 1.5 * radius * d.x, centre.y - 1.5 * radius * d.y, centre.z - 1.5 * radius * d.z};
+        bool has_cone = l->type != LAM_LIGHT_POINT;
+        lam_vec3 tip = {p.x + 0.09 * radius * d.x, p.y + 0.09 * radius * d.y, p.z + 0.09 * radius * d.z};
+        if (is_outside(job, p, 0.03 * radius) && !(has_cone && !is_outside(job, tip, 0.06 * radius)))
+            add_name(&outside, l, i + 1);
         int material = glowing(scene, l->diffuse, error);
         ok = put(scene, ball, material, place(p, d, 0.03 * radius, 0.03 * radius), error);
-        lam_vec3 tip = {p.x + 0.09 * radius * d.x, p.y + 0.09 * radius * d.y, p.z + 0.09 * radius * d.z};
-        if (l->type != LAM_LIGHT_POINT)
+        if (has_cone)
             ok = ok && put(scene, cone, material, place(tip, d, 0.03 * radius, 0.06 * radius), error);
     }
+    warn_outside(scene, &outside);
     free(lights);
     return ok;
 }

@@ -266,8 +266,9 @@ const struct option option_table[] = {
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(up)},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Turn the model about its centre, such as y:30; repeatable.",
      "The axis is x, y or z of the scene; turns are applied in the order given. Lights stay where they are "
-     "(except those in the model's frame), radii refer to the model before the turn, and the camera is fitted "
-     "to the result.",
+     "(except those in the model's frame), and radii refer to the model before the turn. One camera serves every "
+     "angle, so that the model does not jump in size or place: that of the model before the turn or, where a turn "
+     "about the axis would cut the model, one farther away. All pictures of a sheet share it.",
      .brief = "turn the model: y:30", .store = store_rotation, .others = "rotation turn spin", FIELD(rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS", "fitted", "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more.",
      "Keys are separated by commas and use the model's own coordinates: `eye` (required), `target` (default: "
@@ -310,7 +311,8 @@ const struct option option_table[] = {
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
      "Draw markers at the lights: balls, with cones along the light's direction.",
      "The marker of a directional light stands one and a half radii from the model's centre. Markers glow in "
-     "the colours of their lights; the camera is not fitted to them.",
+     "the colours of their lights; the camera is not fitted to them, and markers outside of the "
+     "picture are named.",
      .store = store_switch, FIELD(show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", "0.00196",
      "The largest error from skipping weak lights; 0 evaluates every light everywhere.",

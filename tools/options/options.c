@@ -26,6 +26,7 @@ void options_free(struct options *options)
     free(options->materials.items);
     free(options->back_materials.items);
     free(options->rotations.items);
+    free(options->sheet_rotations.items);
     free(options->across.items);
 }
 
@@ -45,6 +46,7 @@ bool options_copy(struct options *to, const struct options *from)
     ok = texts_copy(&to->materials) && ok;
     ok = texts_copy(&to->back_materials) && ok;
     ok = texts_copy(&to->rotations) && ok;
+    ok = texts_copy(&to->sheet_rotations) && ok;
     ok = texts_copy(&to->across) && ok;
     if (!ok)
         options_free(to);

@@ -62,7 +62,9 @@ struct options {
     bool match_highlights, gl1, two_sided, one_sided, show_lights;
     int cull; // lam_cull
     bool has_cull;
-    struct texts rotations;  // as written, checked
+    struct texts rotations; // as written, checked
+    // Set by `compare`, not by an option: the turns of any picture on its sheet, which all have one camera.
+    struct texts sheet_rotations;
     int slices, stacks;      // of a built-in shape; 0: its own
     int normals;             // lam_normals
     double crease_angle_deg; // < 0: the library's default

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "fail.h"
+#include "preprocess.h"
 
 // A struct type of the source.
 struct struct_type {
@@ -25,87 +26,6 @@ struct reader {
     struct declaration members[MAX_MEMBERS];
     int member_count;
 };
-
-static bool is_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
-
-static bool add_word(struct declarations *d, const char *from, size_t length, int line, int depth)
-{
-    if ((d->word_count & (d->word_count - 1)) == 0) { // the capacity doubles at each power of two
-        size_t capacity = d->word_count ? 2 * (size_t)d->word_count : 1;
-        struct word *words = realloc(d->words, capacity * sizeof *words);
-        if (!words)
-            return false;
-        d->words = words;
-    }
-    struct word *w = &d->words[d->word_count];
-    snprintf(w->text, sizeof w->text, "%.*s", (int)(length < 63 ? length : 63), from);
-    w->line = line;
-    w->depth = depth;
-    w->is_member = d->word_count > 0 && strcmp(w[-1].text, ".") == 0;
-    d->word_count++;
-    return true;
-}
-
-// Parses a preprocessor line, of which only #version matters. Returns its end.
-static const char *read_directive(struct declarations *d, const char *c, int *line)
-{
-    const char *start = c;
-    while (*c && *c != '\n') {
-        if (c[0] == '\\' && (c[1] == '\n' || (c[1] == '\r' && c[2] == '\n'))) { // the directive goes on
-            (*line)++;
-            c += c[1] == '\r' ? 2 : 1;
-        }
-        c++;
-    }
-    int version = 0;
-    char text[80], profile[16] = "";
-    snprintf(text, sizeof text, "%.*s", (int)(c - start < 79 ? c - start : 79), start);
-    if (sscanf(text, "# version %d %15s", &version, profile) >= 1) {
-        d->version = version;
-        snprintf(d->profile, sizeof d->profile, "%s", isalpha((unsigned char)profile[0]) ? profile : "");
-    }
-    return c;
-}
-
-static bool split(struct declarations *d, const char *c)
-{
-    int line = 1, depth = 0;
-    bool fresh = true;                      // only blanks on this line so far
-    if (strncmp(c, "\xef\xbb\xbf", 3) == 0) // a byte order mark
-        c += 3;
-    while (*c) {
-        if (*c == '\n') {
-            line++;
-            fresh = true;
-            c++;
-        } else if (isspace((unsigned char)*c)) {
-            c++;
-        } else if (c[0] == '/' && c[1] == '/') {
-            while (*c && *c != '\n')
-                c++;
-        } else if (c[0] == '/' && c[1] == '*') {
-            for (c += 2; *c && !(c[0] == '*' && c[1] == '/'); c++)
-                line += *c == '\n';
-            c += *c ? 2 : 0;
-        } else if (*c == '#' && fresh) {
-            c = read_directive(d, c, &line);
-        } else {
-            const char *from = c++;
-            if (isdigit((unsigned char)*from) || (*from == '.' && isdigit((unsigned char)*c)))
-                while (is_name(*c) || *c == '.')
-                    c++;
-            else if (is_name(*from))
-                while (is_name(*c))
-                    c++;
-            depth -= *from == '}';
-            if (!add_word(d, from, (size_t)(c - from), line, depth))
-                return false;
-            depth += *from == '{';
-            fresh = false;
-        }
-    }
-    return true;
-}
 
 static const char *word_at(const struct reader *r, int ahead)
 {
@@ -137,7 +57,7 @@ static int read_count(struct reader *r)
     while (take(r, "[")) {
         int n = -1;
         const char *size = word_at(r, 0);
-        if (isdigit((unsigned char)size[0]))
+        if (isdigit((unsigned char)size[0]) && strcmp(word_at(r, 1), "]") == 0)
             n = atoi(size);
         else
             for (int i = 1; i + 2 < r->d->word_count; i++)
@@ -218,12 +138,15 @@ static bool read_names(struct reader *r, struct declaration item, bool as_member
     return true;
 }
 
-// Parses a struct after the keyword.
-static void read_struct(struct reader *r)
+// Parses a struct after the keyword, and stores its name; one without a name gets a unique one.
+static void read_struct(struct reader *r, char name[32])
 {
     struct struct_type shape = {.first = r->member_count};
-    snprintf(shape.name, sizeof shape.name, "%s", word_at(r, 0));
-    r->at++;
+    if (next_is(r, "{"))
+        snprintf(name, 32, "{%d", r->struct_type_count);
+    else
+        snprintf(name, 32, "%.31s", r->d->words[r->at++].text);
+    snprintf(shape.name, sizeof shape.name, "%s", name);
     if (!take(r, "{"))
         return;
     while (r->at < r->d->word_count && !take(r, "}")) {
@@ -282,14 +205,10 @@ static bool read_statement(struct reader *r)
             break;
         }
     }
-    if (take(r, "struct")) {
-        char name[64];
-        snprintf(name, sizeof name, "%s", word_at(r, 0));
-        read_struct(r);
-        if ((int)item.kind >= 0) {
-            snprintf(item.type, sizeof item.type, "%.31s", name);
+    if (r->at + 1 < r->d->word_count && take(r, "struct")) {
+        read_struct(r, item.type);
+        if ((int)item.kind >= 0)
             return read_names(r, item, false);
-        }
     } else if ((int)item.kind >= 0 && strcmp(word_at(r, 1), "{") == 0) {
         r->at += 2;
         if (!read_block(r, item.kind))
@@ -313,7 +232,7 @@ bool declarations_read(struct declarations *d, const char *text, bool vertex, la
 {
     *d = (struct declarations){0};
     struct reader *r = calloc(1, sizeof *r);
-    bool ok = r && split(d, text);
+    bool ok = r && preprocess(d, text);
     if (r) {
         r->d = d;
         r->vertex = vertex;

@@ -1,8 +1,7 @@
 // declarations.h: the declarations of a GLSL source: uniforms, attributes, varyings.
 //
 // They are parsed from the text, not queried from the compiled program: names and lines are needed of shaders that do
-// not compile, and of uniforms that a compiler optimises away. Comments and preprocessor lines are skipped; code that
-// the preprocessor would exclude is parsed too.
+// not compile, and of uniforms that a compiler optimises away. The words are those that the preprocessor leaves.
 #ifndef DECLARATIONS_H
 #define DECLARATIONS_H
 
@@ -33,7 +32,7 @@ struct declarations {
     char profile[16]; // "core", "compatibility", "es", or ""
     struct declaration *items;
     int count;
-    struct word *words; // of the whole text
+    struct word *words; // of the whole text (preprocess.h)
     int word_count;
 };
 

@@ -14,7 +14,7 @@ out vec4 pixel;
 
 void main()
 {
-    bool back = two_sided && !gl_FrontFacing && !is(NO_FLIP);
+    bool back = (two_sided || is(FLIP)) && !gl_FrontFacing && !is(NO_FLIP);
 #ifdef IN_VERTEX
     pixel = flat_shading && !is(SMOOTH_FOR_FLAT) ? flat_color : (back ? vertex_color_back : vertex_color);
 #else

@@ -29,7 +29,11 @@ static bool is_web(const struct shader_interface *r)
     for (size_t i = 0; i < sizeof desktop_names / sizeof *desktop_names; i++)
         if (declarations_uses(&r->vertex, desktop_names[i]) || declarations_uses(&r->fragment, desktop_names[i]))
             return false;
-    return declarations_uses(&r->vertex, "precision") || declarations_uses(&r->fragment, "precision");
+    static const char *const words[] = {"precision", "highp", "mediump", "lowp"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (declarations_uses(&r->vertex, words[i]) || declarations_uses(&r->fragment, words[i]))
+            return true;
+    return false;
 }
 
 enum gl_profile shader_dialect_profile(const struct shader_interface *r)

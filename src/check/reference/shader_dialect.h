@@ -6,7 +6,7 @@
 #include "shader_interface.h"
 
 // The context that compiles the shaders. Without a version line they are WebGL's, thus for OpenGL ES, if they have a
-// precision statement and no name that only desktop OpenGL has built in.
+// precision statement or qualifier and no name that only desktop OpenGL has built in.
 enum gl_profile shader_dialect_profile(const struct shader_interface *interface);
 
 // Whether the text contains `mediump` or `lowp`.

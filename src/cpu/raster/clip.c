@@ -103,11 +103,12 @@ void clip_triangle(const struct raster_frame *raster, struct thread_bins *bins, 
         // The same operations as in vertex_transform.inc, so that an unclipped corner snaps to the same point in
         // every triangle.
         float inverse = 1.0f / polygon[i].w;
-        if (!(polygon[i].w > 0) || inverse - inverse != 0)
-            return; // the triangle lies in the plane of the eye and is invisible
         x[i] = polygon[i].x * inverse;
         y[i] = polygon[i].y * inverse;
         key[i] = raster->frame->orthographic ? 0.5f - 0.5f * (polygon[i].z * inverse) : inverse;
+        float sum = inverse + x[i] + y[i] + key[i];
+        if (!(inverse > 0) || sum - sum != 0)
+            return; // invisible: in the plane of the eye, or beyond the range of floats
     }
     for (int i = 1; i + 1 < count; i++) {
         int fan[3] = {0, i, i + 1};

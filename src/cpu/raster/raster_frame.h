@@ -45,10 +45,12 @@ static inline bool raster_should_continue(const struct raster_frame *raster)
     return !__atomic_load_n(raster->failure, __ATOMIC_RELAXED) && call_should_continue(raster->call);
 }
 
-// Rounds to the nearest 1/256 pixel.
+// Rounds to the nearest 1/256 pixel, clamped to ±2²⁹: corners that clip.c has cut from ones that were very far away can
+// lie outside of the guard band.
 static inline int32_t snap(float x)
 {
-    float t = x * 256.0f + 0.5f;
+    float t = x * 256.0f + 0.5f, max = 536870912.0f;
+    t = t > -max ? t < max ? t : max : -max;
     int32_t i = (int32_t)t;
     return i - ((float)i > t);
 }

@@ -1,0 +1,230 @@
+// camera_fit.c: placing the camera so that a scene fills the picture.
+#include <lambent/camera.h>
+
+#include "fail.h"
+#include "float_state.h"
+#include "linear.h"
+#include "scene_internal.h"
+#include "up_axis.h"
+#include "view_extents.h"
+
+static struct view_axes axes_of(const lam_scene *scene, const lam_view *view, lam_vec3 centre)
+{
+    double azimuth = view->from_angles ? view->azimuth_rad : math_radians(30);
+    double elevation = view->from_angles ? view->elevation_rad : math_radians(20);
+    double sin_azimuth = math_sin(azimuth), cos_azimuth = math_cos(azimuth), sin_elevation = math_sin(elevation),
+           cos_elevation = math_cos(elevation);
+    lam_up up = lam_scene_up(scene);
+    // Seen from above, `right` still follows the azimuth: the view does not tumble.
+    return (struct view_axes){
+        .right = from_y_up(up, v3(cos_azimuth, 0, -sin_azimuth)),
+        .above = from_y_up(up, v3(-sin_azimuth * sin_elevation, cos_elevation, -cos_azimuth * sin_elevation)),
+        .back = from_y_up(up, v3(sin_azimuth * cos_elevation, sin_elevation, cos_azimuth * cos_elevation)),
+        .centre = centre,
+    };
+}
+
+// What the camera is to show, and how.
+struct fitting {
+    struct view_axes axes;
+    double aspect, fill, fovy, zoom;
+    bool orthographic;
+};
+
+// Extents to be found in perspective, for this fraction of the picture.
+static struct view_extents extents_of(const struct fitting *fitting, double fraction)
+{
+    double ky = math_tan(fitting->fovy / 2) * fraction;
+    return (struct view_extents){.kx = ky * fitting->aspect, .ky = ky};
+}
+
+// The world point at (x, y, z) in the axes of the view.
+static lam_vec3 to_world(const struct view_axes *axes, double x, double y, double z)
+{
+    lam_vec3 across = v3_add(v3_scale(axes->right, x), v3_scale(axes->above, y));
+    return v3_add(axes->centre, v3_add(across, v3_scale(axes->back, z)));
+}
+
+// Orthographic: centred on the box of the view extents, half its size divided by the fill.
+static lam_camera fit_orthographic(const struct fitting *fitting, const struct view_points *points, double fill)
+{
+    const struct view_axes *axes = points->axes;
+    double aspect = fitting->aspect;
+    struct view_extents box = {0};
+    view_extents_find(points, &box);
+    double right = box.value[EXTENT_RIGHT], left = box.value[EXTENT_LEFT], top = box.value[EXTENT_TOP],
+           bottom = box.value[EXTENT_BOTTOM], front = box.value[EXTENT_FRONT];
+    double half_width = (right + left) / 2, half_height = (top + bottom) / 2;
+    double half = half_height > half_width / aspect ? half_height : half_width / aspect;
+    double size = half > 0 ? half : 1, x = (right - left) / 2, y = (top - bottom) / 2;
+    return (lam_camera){.eye = to_world(axes, x, y, front + 2 * size),
+                        .target = to_world(axes, x, y, front),
+                        .up = axes->above,
+                        .ortho_half_height = size / fill};
+}
+
+// Centres the horizontal (vertical) axis for an eye at ez: finds the k at which the points touch x = ex ± k·(ez − z)
+// on both sides. That k is the root of R(k) + L(k) − 2k·ez, which is convex, its slope given by the points that have the
+// maxima R and L; of vertices it is piecewise linear. A step of Newton's method,
+//
+//   k = (x_R − x_L) / (2ez − z_R − z_L)
+//
+// therefore lands at the root or to its left, from where k only grows: when it no longer does, the root is found. No
+// number in it depends on where the scene lies.
+static void centre_axis(const struct view_points *points, bool horizontal, double ez, struct view_extents *extents)
+{
+    double k = horizontal ? extents->kx : extents->ky;
+    for (int step = 0;; step++) {
+        const lam_vec3 *plus = &extents->point[horizontal ? EXTENT_RIGHT : EXTENT_TOP], *minus = plus + 1;
+        double width = horizontal ? plus->x - minus->x : plus->y - minus->y;
+        double next = width / (2 * ez - plus->z - minus->z);
+        if (next == k || (step > 0 && !(next > k)))
+            return;
+        k = next;
+        if (horizontal)
+            view_extents_horizontal(points, k, extents);
+        else
+            view_extents_vertical(points, k, extents);
+    }
+}
+
+// Perspective, for one axis of the picture. A point is visible if
+//
+//   ±(x − ex) ≤ k·(ez − z),   that is   ±x + k·z ≤ ±ex + k·ez
+//
+// With R and L the maxima of x + k·z and −x + k·z, both sides touch the frame at
+//
+//   ex = (R − L)/2,   ez = (R + L)/(2k)
+//
+// which is exact and takes one pass over the points. The axis with the larger ez determines it. The other axis
+// is centred with the smaller k at which it would touch the frame at this ez.
+static lam_camera fit_perspective(const struct fitting *fitting, const struct view_points *points, double fill)
+{
+    const struct view_axes *axes = points->axes;
+    struct view_extents extents = extents_of(fitting, fill);
+    view_extents_find(points, &extents);
+    const double *at = extents.value, front = at[EXTENT_FRONT];
+    double ez_x = (at[EXTENT_RIGHT] + at[EXTENT_LEFT]) / (2 * extents.kx),
+           ez_y = (at[EXTENT_TOP] + at[EXTENT_BOTTOM]) / (2 * extents.ky);
+    double ez = ez_x > ez_y ? ez_x : ez_y;
+    if (!(ez > front)) // a single point, or a line along the view
+        ez = front + 1;
+    centre_axis(points, !(ez_x > ez_y), ez, &extents);
+    double x = (at[EXTENT_RIGHT] - at[EXTENT_LEFT]) / 2, y = (at[EXTENT_TOP] - at[EXTENT_BOTTOM]) / 2;
+    return (lam_camera){.eye = to_world(axes, x, y, ez),
+                        .target = to_world(axes, x, y, front),
+                        .up = axes->above,
+                        .fovy_rad = fitting->fovy};
+}
+
+static lam_camera fit(const struct fitting *fitting, const struct view_points *points, double fill)
+{
+    return fitting->orthographic ? fit_orthographic(fitting, points, fill) : fit_perspective(fitting, points, fill);
+}
+
+// The camera of a view: false: a field of the view is unknown, or the scene has no triangles, and `camera` says so.
+static bool start(struct fitting *fitting, const lam_scene *scene, int width, int height, const lam_view *view,
+                  lam_camera *camera)
+{
+    static const lam_view defaults = {0};
+    if (!view)
+        view = &defaults;
+    *camera = lam_camera_default();
+    if (!check_reserved("lam_view", view, NULL)) {
+        camera->reserved[0] = 1;
+        return false;
+    }
+    lam_vec3 centre;
+    if (!view_extents_centre(scene, &centre))
+        return false;
+    *fitting = (struct fitting){
+        .axes = axes_of(scene, view, centre),
+        .aspect = (double)(width > 1 ? width : 1) / (height > 1 ? height : 1),
+        .fill = view->fill > 0 ? view->fill : 0.92,
+        .fovy = view->fovy_rad > 0 && view->fovy_rad < PI ? view->fovy_rad : math_radians(30),
+        .zoom = view->zoom > 0 ? view->zoom : 1,
+        .orthographic = view->orthographic,
+    };
+    *camera =
+        fit(fitting, &(struct view_points){.scene = scene, .axes = &fitting->axes, .axes_count = 1}, fitting->fill);
+    return true;
+}
+
+// Zoom narrows the view instead of moving the eye, which could enter the model.
+static void apply_zoom(const struct fitting *fitting, lam_camera *camera)
+{
+    if (camera->ortho_half_height > 0)
+        camera->ortho_half_height /= fitting->zoom;
+    else
+        camera->fovy_rad = 2 * math_atan2(math_tan(fitting->fovy / 2), fitting->zoom);
+}
+
+lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view)
+{
+    uint64_t state = float_state_enter();
+    struct fitting fitting;
+    lam_camera camera;
+    if (start(&fitting, scene, width, height, view, &camera))
+        apply_zoom(&fitting, &camera);
+    float_state_leave(state);
+    return camera;
+}
+
+// --- a scene that turns
+
+// Angles at which a turning scene is looked at. Between two of them a vertex is farther out than at both by at most
+// 1 − cos(π/48) = 0.2 % of its distance from the axis.
+enum { TURNS = 48 };
+
+// Whether the camera sees all points, with this fraction of the picture.
+static bool holds(const struct fitting *fitting, const lam_camera *camera, const struct view_points *points,
+                  double fraction)
+{
+    const struct view_axes *axes = &fitting->axes;
+    struct view_extents extents = {0};
+    double half_width = 0, half_height = 0;
+    if (fitting->orthographic) {
+        half_height = camera->ortho_half_height * fraction;
+        half_width = half_height * fitting->aspect;
+    } else {
+        extents = extents_of(fitting, fraction);
+    }
+    view_extents_find(points, &extents);
+    lam_vec3 eye = v3_sub(camera->eye, points->axes[0].centre);
+    double x = v3_dot(axes->right, eye), y = v3_dot(axes->above, eye), z = v3_dot(axes->back, eye);
+    return extents.value[EXTENT_RIGHT] <= x + extents.kx * z + half_width &&
+           extents.value[EXTENT_LEFT] <= -x + extents.kx * z + half_width &&
+           extents.value[EXTENT_TOP] <= y + extents.ky * z + half_height &&
+           extents.value[EXTENT_BOTTOM] <= -y + extents.ky * z + half_height;
+}
+
+lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_vec3 axis, int width, int height,
+                                  const lam_view *view)
+{
+    uint64_t state = float_state_enter();
+    struct fitting fitting;
+    lam_camera camera;
+    bool fitted = start(&fitting, scene, width, height, view, &camera);
+    if (fitted && v3_finite(centre) && v3_finite(axis)) {
+        struct view_axes axes[TURNS];
+        bool any_axis = v3_length(axis) == 0;
+        struct view_points points = {.scene = scene,
+                                     .axes = axes,
+                                     .axes_count = any_axis ? 1 : TURNS,
+                                     .ball_radius = any_axis ? scene_radius(scene, centre) : 0};
+        for (int i = 0; i < points.axes_count; i++) { // the scene turns one way, or the view the other way
+            lam_mat4 turn = mat4_rotate(any_axis ? 0 : 2 * PI * i / TURNS, any_axis ? v3(0, 0, 1) : axis);
+            axes[i] = (struct view_axes){.right = mat4_vector(&turn, fitting.axes.right),
+                                         .above = mat4_vector(&turn, fitting.axes.above),
+                                         .back = mat4_vector(&turn, fitting.axes.back),
+                                         .centre = centre};
+        }
+        // A quarter of the margin is left, which is more than what lies between two angles.
+        if (!holds(&fitting, &camera, &points, fitting.fill + 0.75 * (1 - fitting.fill)))
+            camera = fit(&fitting, &points, fitting.fill);
+    }
+    if (fitted)
+        apply_zoom(&fitting, &camera);
+    float_state_leave(state);
+    return camera;
+}

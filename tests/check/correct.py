@@ -1,0 +1,238 @@
+"""correct.py: correct shaders in unusual valid styles, in every contract and many versions of GLSL. Each must pass.
+
+SHADERS is a list of (name, options of the command line, {"vert": text, "frag": text}). All are our own texts, in the styles of
+lectures, tutorials, games and golfers. `python3 tests/check/correct.py FOLDER` writes them as files."""
+import pathlib
+import sys
+
+from dialects import translate
+
+FOLDER = pathlib.Path(__file__).parent
+
+
+def read(name, ending):
+    return (FOLDER / f"{name}.{ending}").read_text()
+
+
+P_VERT, P_FRAG = read("pittsburgh", "vert"), read("pittsburgh", "frag")
+P_UNIFORMS = """uniform vec4 ambient_product, diffuse_product, specular_product;
+uniform float shininess, attenuation_constant, attenuation_linear, attenuation_quadratic;
+"""
+P_IN = "varying vec3 N, L, V;\n"
+P_HEAD = P_UNIFORMS + P_IN
+P_UNIT = "vec3 n = normalize(N), l = normalize(L), v = normalize(V); float d = length(L);\n"
+P_ATT = "float att = 1.0 / (attenuation_constant + attenuation_linear * d + attenuation_quadratic * d * d);\n"
+P_OUT = "gl_FragColor = vec4(ambient_product.rgb + att * (D * diffuse_product.rgb + S * specular_product.rgb), diffuse_product.a);\n"
+O_VERT, O_FRAG = read("oregon", "vert"), read("oregon", "frag")
+N_VERT, N_FRAG = read("nyu", "vert"), read("nyu", "frag")
+M_VERT, M_FRAG = read("lambent", "vert"), read("lambent", "frag")
+M_OLD = {"vert": M_VERT.replace("#version 330 core\n", "").replace("in vec3", "attribute vec3").replace("out vec3", "varying vec3"),
+         "frag": M_FRAG.replace("#version 330 core\n", "").replace("\nin vec3", "\nvarying vec3").replace("out vec4 pixel;\n", "").replace("pixel", "gl_FragColor")}
+SHADERS = []
+
+
+def add(name, vert, frag, options="", dialect=None):
+    texts = {"vert": vert, "frag": frag}
+    if dialect is not None:
+        texts = {ending: translate(text, ending, dialect) for ending, text in texts.items() if text}
+    SHADERS.append((name, options.split(), {e: t for e, t in texts.items() if t}))
+
+
+def p(name, body, head=P_HEAD, dialect="120", vert=P_VERT, options=""):
+    """Pittsburgh's names, with a fragment shader of its own."""
+    add("pittsburgh " + name, vert, head + "void main() {\n" + body + "}\n", options, dialect)
+
+
+# --- the versions of GLSL
+for dialect in ("", "110", "130", "140", "150", "330 core", "400", "450", "330 compatibility", "100", "web", "300 es", "310 es"):
+    add(f"pittsburgh in {dialect or 'no version'}", P_VERT, P_FRAG, "", dialect)
+for dialect in ("110", "150", "300 es"):
+    add(f"pittsburgh lit per vertex in {dialect}", read("pittsburgh-vertex", "vert"), read("pittsburgh-vertex", "frag"), "", dialect)
+for dialect in ("110", "150", "100", "310 es"):
+    add(f"nyu in {dialect}", N_VERT, N_FRAG, "", dialect)
+for dialect in ("120", "140", "300 es"):
+    add(f"lambent in {dialect}", M_OLD["vert"], M_OLD["frag"], "", dialect)
+for dialect in ("130", "400 compatibility"):
+    add(f"oregon in {dialect}", *(t.replace("330 compatibility", dialect) for t in (O_VERT, O_FRAG)))
+smooth = [("flat out vec3 vNf, vLf, vEf;\n", ""), ("flat in vec3 vNf, vLf, vEf;\n", ""), ("out vec3", "varying vec3"), ("in vec3", "varying vec3"),
+          ("    vNf = vNs;\n    vLf = vLs;\n    vEf = vEs;\n", ""), ("uniform bool uFlat;\n", ""), ("uFlat ? vNf : vNs", "vNs"),
+          ("uFlat ? vLf : vLs", "vLs"), ("uFlat ? vEf : vEs", "vEs"), ("#version 330 compatibility", "#version 120")]
+o_smooth = [O_VERT, O_FRAG]
+for old, new in smooth:
+    o_smooth = [t.replace(old, new) for t in o_smooth]
+add("oregon without flat shading", *o_smooth)
+
+# --- ways to write one thing
+p("on one line", "vec3 n=normalize(N),l=normalize(L),h=normalize(l+normalize(V));float d=length(L),q=dot(n,l);gl_FragColor=vec4(ambient_product.xyz+"
+  "(max(q,0.)*diffuse_product.xyz+(q>0.?pow(max(dot(n,h),0.),shininess):0.)*specular_product.xyz)/(attenuation_constant+d*(attenuation_linear+d*"
+  "attenuation_quadratic)),diffuse_product.w);\n")
+p("gate by step", P_UNIT + P_ATT + "float nl = dot(n, l), D = clamp(nl, 0.0, 1.0);\n"
+  "float S = step(0.0, nl) * pow(clamp(dot(n, normalize(l + v)), 0.0, 1.0), shininess);\n" + P_OUT)
+p("gate by sign and mix", P_UNIT + P_ATT + "float nl = dot(n, l), D = 0.5 * (nl + abs(nl));\n"
+  "float S = mix(0.0, pow(max(0.0, dot(n, normalize(l + v))), shininess), float(nl > 0.0));\n" + P_OUT)
+p("exp2 and log2", P_UNIT + P_ATT + "float nl = dot(n, l), D = nl > 0.0 ? nl : 0.0, b = dot(n, normalize(v + l));\n"
+  "float S = nl > 0.0 && b > 0.0 ? exp2(shininess * log2(b)) : 0.0;\n" + P_OUT)
+p("inversesqrt", "float d2 = dot(L, L), i = inversesqrt(d2), d = d2 * i; vec3 n = N * inversesqrt(dot(N, N)), l = L * i, v = V / sqrt(dot(V, V));\n"
+  "vec3 h = l + v; h /= length(h);\nfloat att = 1.0 / (attenuation_constant + attenuation_linear * d + attenuation_quadratic * d2);\n"
+  "float D = max(dot(l, n), 0.0), S = D > 0.0 ? pow(max(dot(h, n), 0.0), shininess) : 0.0;\n" + P_OUT)
+p("half vector without h", P_UNIT + P_ATT + "float D = max(dot(n, l), 0.0);\n"
+  "float S = D > 0.0 ? pow(max((dot(n, l) + dot(n, v)) / sqrt(2.0 + 2.0 * dot(l, v)), 0.0), shininess) : 0.0;\n" + P_OUT)
+p("arrays and loops", P_UNIT + P_ATT + "float weights[3]; vec3 colors[3]; colors[0] = ambient_product.rgb; colors[1] = diffuse_product.rgb;\n"
+  "colors[2] = specular_product.rgb; weights[0] = 1.0; weights[1] = att * max(dot(n, l), 0.0);\n"
+  "weights[2] = dot(n, l) > 0.0 ? att * pow(max(dot(n, normalize(l + v)), 0.0), shininess) : 0.0;\nvec3 sum = vec3(0.0);\n"
+  "for (int i = 0; i < 3; ++i) { if (weights[i] <= 0.0) continue; sum += weights[i] * colors[i]; }\ngl_FragColor.bgr = sum.bgr; gl_FragColor.a = diffuse_product.a;\n")
+p("out parameters, prototypes, overloads", "vec2 t; vec3 n; lit(t, n); float a = 1.0 / dot(k(), vec3(1.0, length(L), dot(L, L)));\n"
+  "gl_FragColor = vec4(ambient_product.rgb, 0.0) + vec4(a * lit(t), diffuse_product.a);\n",
+  P_HEAD + "void lit(out vec2 t, inout vec3 n); vec3 lit(const in vec2 t);\n"
+  "vec3 k() { return vec3(attenuation_constant, attenuation_linear, attenuation_quadratic); }\n"
+  "vec3 lit(const in vec2 t) { return t.s * diffuse_product.rgb + t[1] * specular_product.rgb; }\n"
+  "void lit(out vec2 t, inout vec3 n) { n = normalize(N); vec3 l = normalize(L); t = vec2(max(dot(n, l), 0.0), 0.0);\n"
+  "  if (t.x > 0.0) { t.y = pow(max(dot(n, normalize(l + normalize(V))), 0.0), shininess); } }\n")
+p("structs", "Ray r = Ray(normalize(L), length(L)); Surface s = Surface(normalize(N), normalize(V)); gl_FragColor = sum(s, r);\n",
+  P_HEAD + "struct Ray { vec3 way; float length; };\nstruct Surface { vec3 n, v; };\n"
+  "vec4 sum(Surface s, Ray r) {\n float nl = dot(s.n, r.way); if (nl <= 0.0) return vec4(ambient_product.rgb, diffuse_product.a);\n"
+  " float a = attenuation_constant + (attenuation_linear + attenuation_quadratic * r.length) * r.length;\n"
+  " return vec4(ambient_product.rgb + (nl * diffuse_product.rgb + pow(max(dot(s.n, normalize(r.way + s.v)), 0.0), shininess) * specular_product.rgb) / a, diffuse_product.a); }\n")
+p("macros", "gl_FragColor = vec4(AMB.rgb + FALL(length(L)) * (LAM * DIF.rgb + SPC * specular_product.rgb), DIF.a);\n",
+  "#define AMB ambient_product\n#define DIF diffuse_product\n#define U(x) normalize(x)\n#define POS(x) max(x, 0.0)\n#define LAM POS(dot(U(N), U(L)))\n"
+  "#define SPC (LAM > 0.0 ? pow(POS(dot(U(N), \\\n    U(U(L) + U(V)))), shininess) : 0.0)\n"
+  "#define FALL(d) (1.0 / (attenuation_constant + attenuation_linear * (d) + attenuation_quadratic * (d) * (d)))\n" +
+  P_HEAD.replace("ambient_product, diffuse_product", "AMB, DIF"))
+p("the preprocessor", P_UNIT + "#if __VERSION__ >= 120 && !defined(NEVER)\n" + P_ATT + "#else\nfloat att = 0.5 /* wrong */;\n#endif\n#line 900\n"
+  "float D = max(dot(n, l), 0.0), S = D > 0.0 ? pow(max(dot(n, normalize(l + v)), 0.0), shininess) : 0.0; // a comment \\\n that goes on\n" + P_OUT,
+  "/* * / */ // #version 330\n#extension GL_ARB_gpu_shader5 : disable\n#pragma optimize(on)\n#if 0\nthis is no GLSL at all ('\n#endif\n#ifdef NEVER\n"
+  "uniform vec4 emission;\n#endif\n" + P_HEAD)
+p("faceforward", P_UNIT + P_ATT + "n = faceforward(n, -v, n); float D = max(dot(n, l), 0.0), S = D > 0.0 ? pow(max(dot(n, normalize(l + v)), 0.0), shininess) : 0.0;\n" + P_OUT)
+p("two sides by gl_FrontFacing", P_UNIT + P_ATT + "n *= gl_FrontFacing ? 1.0 : -1.0; float D = max(dot(n, l), 0.0);\n"
+  "float S = D > 0.0 ? pow(max(dot(n, normalize(l + v)), 0.0), shininess) : 0.0;\n" + P_OUT)
+p("while, do, break", P_UNIT + P_ATT + "float D = 0.0, S = 0.0; int i = 0; while (true) { if (i++ > 0) break; D = max(dot(n, l), 0.0); }\n"
+  "do { if (D <= 0.0) break; S = pow(max(dot(n, normalize(l + v)), 0.0), shininess); } while (false);\n" + P_OUT)
+p("switch, integers, constants", P_UNIT + P_ATT + "float D = max(dot(n, l), zero), S; switch (int(D > zero)) { case 0: S = zero; break; default:\n"
+  "S = pow(max(dot(n, normalize(l + v)), zero), shininess); }\nuint bits = 1u << 3u; if ((bits & 8u) == 0u) discard;\n" + P_OUT,
+  P_HEAD + "const float zero = float(0); const vec2 unused[2] = vec2[2](vec2(1), vec2(2));\n", "330 core")
+p("doubles", P_UNIT + "double e = length(dvec3(L)); float att = float(1.0 / (attenuation_constant + attenuation_linear * e + attenuation_quadratic * e * e));\n"
+  "float D = max(dot(n, l), 0.0), S = D > 0.0 ? pow(max(dot(n, normalize(l + v)), 0.0), shininess) : 0.0;\n" + P_OUT, dialect="400")
+p("Phong's highlight", P_UNIT + P_ATT + "float D = max(dot(n, l), 0.0), S = D > 0.0 ? pow(max(dot(normalize(reflect(-l, n)), v), 0.0), shininess) : 0.0;\n" + P_OUT,
+  options="--highlight phong")
+p("gl_FragData", P_UNIT + P_ATT + "float D = max(dot(n, l), 0.0), S = D > 0.0 ? pow(max(dot(n, normalize(l + v)), 0.0), shininess) : 0.0;\n" +
+  P_OUT.replace("gl_FragColor", "gl_FragData[0]"))
+
+# --- between the stages
+add("pittsburgh with a matrix of varyings", """attribute vec3 vPosition, vNormal;
+uniform mat4 model_view, projection; uniform mat3 normal_matrix; uniform vec4 light_position;
+varying mat3 frame; invariant gl_Position;
+void main() { vec4 p = model_view * vec4(vPosition, 1.0); vec4 q = model_view * light_position;
+  frame = mat3(normalize(normal_matrix * vNormal), q.xyz - q.w * p.xyz, -p.xyz); gl_Position = projection * p; }
+""", P_UNIFORMS + "varying mat3 frame;\nvoid main() { vec3 n = normalize(frame[0]), l = normalize(frame[1]), v = normalize(frame[2]); float d = length(frame[1]);\n" +
+    P_ATT + "float D = max(dot(n, l), 0.0), S = D > 0.0 ? pow(max(dot(n, normalize(l + v)), 0.0), shininess) : 0.0;\n" + P_OUT + "}\n", dialect="120")
+add("pittsburgh with the light in the fragment shader", """attribute vec4 vPosition; attribute vec4 vNormal;
+uniform mat4 model_view, projection;
+varying vec4 at; varying vec3 N;
+mat3 cofactors(mat3 m) { return mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])); }
+void main() { at = model_view * vPosition; N = normalize(cofactors(mat3(model_view)) * vNormal.xyz); gl_Position = projection * at; }
+""", P_UNIFORMS + "uniform mat4 model_view; uniform vec4 light_position;\nvarying vec4 at; varying vec3 N;\nvoid main() {\n"
+    "vec4 place = model_view * light_position; vec3 L = place.xyz - at.xyz * place.w, V = -at.xyz;\n" + P_UNIT + P_ATT +
+    "float D = max(dot(n, l), 0.0), S = D > 0.0 ? pow(max(dot(n, normalize(l + v)), 0.0), shininess) : 0.0;\n" + P_OUT + "}\n", dialect="120")
+add("pittsburgh with blocks and locations", """#version 450 core
+layout(location = 3) in vec4 vNormal; layout(location = 0) in vec4 vPosition;
+layout(std140, binding = 1) uniform Matrices { mat4 model_view, projection; mat3 normal_matrix; } m;
+layout(location = 7) uniform vec4 light_position;
+layout(location = 2) smooth out vec3 out_n; layout(location = 0) out vec4 out_l; layout(location = 1) out vec3 out_p;
+void main() { vec4 p = m.model_view * vPosition; out_p = p.xyz; out_n = normalize(m.normal_matrix * vNormal.xyz);
+  out_l = m.model_view * light_position; gl_Position = m.projection * p; }
+""", """#version 450 core
+layout(std140) uniform Material { vec4 ambient_product; vec4 diffuse_product; vec4 specular_product; float shininess; };
+uniform float attenuation_constant, attenuation_linear, attenuation_quadratic;
+layout(location = 0) in vec4 in_l; layout(location = 1) in vec3 in_p; layout(location = 2) smooth in vec3 in_n;
+layout(location = 0) out vec4 result;
+void main() { vec3 L = in_l.xyz - in_l.w * in_p, N = in_n, V = -in_p;
+""" + P_UNIT + P_ATT + "float D = max(dot(n, l), 0.0), S = D > 0.0 ? pow(max(dot(n, normalize(l + v)), 0.0), shininess) : 0.0;\n" +
+    P_OUT.replace("gl_FragColor", "result") + "}\n")
+add("pittsburgh with a struct between the stages", """#version 330
+in vec4 vPosition, vNormal; uniform mat4 model_view, projection, model_view_inverse_transpose; uniform vec4 light_position;
+struct Point { vec3 n, l, v; }; out Point point;
+void main() { vec4 p = model_view * vPosition, q = model_view * light_position;
+  point = Point(normalize((model_view_inverse_transpose * vec4(vNormal.xyz, 0)).xyz), q.xyz - q.w * p.xyz, -p.xyz); gl_Position = projection * p; }
+""", "#version 330\n" + P_UNIFORMS + "struct Point { vec3 n, l, v; }; in Point point; out vec4 c;\nvoid main() { vec3 N = point.n, L = point.l, V = point.v;\n" +
+    P_UNIT + P_ATT + "float D = max(dot(n, l), 0), S = D > 0 ? pow(max(dot(n, normalize(l + v)), 0), shininess) : 0;\n" + P_OUT.replace("gl_FragColor", "c") + "}\n")
+add("pittsburgh with a mark, CRLF and umlauts", "\ufeff" + P_VERT.replace("\n", "\r\n"), "\ufeff" + P_FRAG.replace("void main", "// Fl\u00e4che, \u5149\nvoid main").replace("\n", "\r\n"))
+add("pittsburgh with a light that moves with the camera", P_VERT.replace("model_view * light_position", "light_position"), P_FRAG, "--light-frame camera")
+add("pittsburgh without a vertex shader", None, P_HEAD + "void main() {\n" + P_UNIT + P_ATT +
+    "float D = max(dot(n, l), 0.0), S = D > 0.0 ? pow(max(dot(n, normalize(l + v)), 0.0), shininess) : 0.0;\n" + P_OUT + "}\n", dialect="web")
+add("pittsburgh, diffuse and ambient light alone", P_VERT, "uniform vec4 ambient_product, diffuse_product;\nvarying vec3 N, L;\n"
+    "uniform float attenuation_constant, attenuation_linear, attenuation_quadratic;\nvoid main() { float d = length(L);\n" + P_ATT +
+    "gl_FragColor = vec4(ambient_product.rgb + att * max(dot(normalize(N), L / d), 0.0) * diffuse_product.rgb, diffuse_product.a); }\n", dialect="120")
+
+# --- NYU's exercises: a term at a time, one light or a list
+NYU_D = """attribute vec4 position; attribute vec4 normal; uniform mat4 modelViewMatrix, projectionMatrix, normalMatrix;
+varying vec3 varyingNormal, varyingPosition;
+void main() { vec4 p = modelViewMatrix * position; varyingPosition = p.xyz; varyingNormal = normalize((normalMatrix * normal).xyz);
+  gl_Position = projectionMatrix * p; }
+"""
+N_IN = "varying vec3 varyingNormal, varyingPosition;\n"
+add("nyu diffuse light, white", NYU_D, "uniform vec3 lightDirection, uColor;\n" + N_IN +
+    "void main() { gl_FragColor = vec4(uColor * max(dot(normalize(varyingNormal), lightDirection), 0.0), 1.0); }\n", dialect="110")
+add("nyu diffuse light, coloured", NYU_D, "uniform vec3 lightDirection, lightColor, uColor;\n" + N_IN +
+    "void main() { gl_FragColor = vec4(lightColor * uColor * max(dot(normalize(varyingNormal), normalize(lightDirection)), 0.0), 1.0); }\n", dialect="web")
+add("nyu specular light alone", NYU_D, "uniform vec3 lightDirection, specularLightColor;\n" + N_IN +
+    "void main() { vec3 n = normalize(varyingNormal), v = normalize(-varyingPosition), h = normalize(lightDirection + v);\n"
+    "float s = dot(n, lightDirection) > 0.0 ? pow(max(dot(n, h), 0.0), 64.0) : 0.0; gl_FragColor = vec4(specularLightColor * s, 1.0); }\n", dialect="120")
+add("nyu specular light alone, white", NYU_D, "uniform vec3 lightDirection;\n" + N_IN +
+    "void main() { vec3 n = normalize(varyingNormal), v = normalize(-varyingPosition), h = normalize(lightDirection + v);\n"
+    "float s = dot(n, lightDirection) > 0.0 ? pow(max(dot(n, h), 0.0), 64.0) : 0.0; gl_FragColor = vec4(vec3(s), 1.0); }\n", dialect="150")
+add("nyu with one colour for both terms", NYU_D, "uniform vec3 lightDirection, lightColor, uColor;\n" + N_IN +
+    "void main() { vec3 n = normalize(varyingNormal), h = normalize(lightDirection - normalize(varyingPosition)); float d = max(dot(n, lightDirection), 0.0);\n"
+    "gl_FragColor = vec4(lightColor * (uColor * d + (d > 0.0 ? pow(max(dot(n, h), 0.0), 64.0) : 0.0)), 1.0); }\n", dialect="120")
+add("nyu with one point light", NYU_D, "uniform vec3 lightPosition, lightColor, specularLightColor, uColor;\n" + N_IN +
+    "void main() { vec3 w = lightPosition - varyingPosition, l = normalize(w), n = normalize(varyingNormal), h = normalize(l - normalize(varyingPosition));\n"
+    "float d = length(w), a = 1.0 / (1.0 + 0.54 * d + 0.2 * d * d), nl = max(dot(n, l), 0.0);\n"
+    "gl_FragColor = vec4(a * (lightColor * uColor * nl + specularLightColor * (nl > 0.0 ? pow(max(dot(n, h), 0.0), 64.0) : 0.0)), 1.0); }\n", dialect="300 es")
+add("nyu with a list of eight, mostly unused", N_VERT, N_FRAG.replace("lights[2]", "lights[COUNT]").replace("i < 2", "i < COUNT").replace(
+    "struct Light", "#define COUNT 8\nstruct Light"))
+
+# --- Lambent's own names
+add("lambent with spots of a normalized axis", M_VERT, M_FRAG.replace("dot(-l, lights[i].direction.xyz)", "dot(l, normalize(-lights[i].direction.xyz))")
+    .replace("float spot = 1.0;\n        if (lights[i].cone.x > -1.0)\n            spot =", "float spot ="))
+add("lambent without a loop", M_VERT, M_FRAG.replace("void main()\n{", "vec3 one(Light light, vec3 n, vec3 v)\n{").replace(
+    "    vec3 n = gl_FrontFacing ? normalize(eye_normal) : -normalize(eye_normal);\n    vec3 v = normalize(-eye_position);\n", "").replace(
+    "vec3 color = material.ambient.rgb * ambient_light.rgb;", "vec3 color = vec3(0);").replace("for (int i = 0; i < 3; i++) {", "{").replace("lights[i]", "light").replace(
+    "    pixel = vec4(color, material.diffuse.a);\n}", "    return color;\n}\n\nvoid main()\n{\n    vec3 n = normalize(eye_normal) * (gl_FrontFacing ? 1.0 : -1.0);\n"
+    "    vec3 v = normalize(-eye_position);\n    pixel.a = material.diffuse.a;\n"
+    "    pixel.rgb = material.ambient.rgb * ambient_light.rgb + one(lights[0], n, v) + one(lights[1], n, v) + one(lights[2], n, v);\n}"))
+add("lambent with one directional light", M_VERT, """#version 330 core
+struct Light { vec4 direction, diffuse, specular; };
+uniform Light lights[1];
+uniform struct { vec4 ambient, diffuse, specular; float shininess; } material;
+uniform vec4 ambient_light;
+in vec3 eye_position, eye_normal;
+out vec4 o;
+void main() {
+    vec3 n = normalize(gl_FrontFacing ? eye_normal : -eye_normal), l = -lights[0].direction.xyz, h = normalize(l - normalize(eye_position));
+    float d = max(dot(n, l), 0.0);
+    o = material.ambient * ambient_light + lights[0].diffuse * material.diffuse * d;
+    if (d > 0.0) o += lights[0].specular * material.specular * pow(max(dot(n, h), 0.0), material.shininess);
+    o.a = material.diffuse.a;
+}
+""")
+add("lambent turned to the eye", M_VERT, M_FRAG.replace("gl_FrontFacing ? normalize(eye_normal) : -normalize(eye_normal)",
+                                                        "normalize(eye_normal); n = dot(n, eye_position) > 0.0 ? -n : n"))
+
+# --- Oregon's names
+add("oregon with its own reflection", o_smooth[0], o_smooth[1].replace("reflect(-l, n)", "2.0 * dot(l, n) * n - l").replace(
+    "uKs * s * uSpecularColor", "uSpecularColor * (uKs * s)"))
+add("oregon with a reflection made unit", o_smooth[0], o_smooth[1].replace("reflect(-l, n)", "normalize(reflect(-l, n))"))
+add("oregon with a white highlight", o_smooth[0], o_smooth[1].replace("uniform vec3 uColor, uSpecularColor", "uniform vec3 uColor").replace("uSpecularColor", "vec3(1.0)"))
+add("oregon lit per vertex", """#version 120
+uniform float uKa, uKd, uKs, uShininess, uLightX, uLightY, uLightZ; uniform vec3 uColor, uSpecularColor; varying vec4 vColor;
+void main() { vec3 p = vec3(gl_ModelViewMatrix * gl_Vertex), n = normalize(gl_NormalMatrix * gl_Normal), l = normalize(vec3(uLightX, uLightY, uLightZ) - p);
+  float d = max(dot(n, l), 0.), s = d > 0. ? pow(max(dot(reflect(-l, n), -normalize(p)), 0.), uShininess) : 0.;
+  vColor = vec4(uColor * (uKa + uKd * d) + uKs * s * uSpecularColor, 1.); gl_Position = ftransform(); }
+""", "#version 120\nvarying vec4 vColor;\nvoid main() { gl_FragColor = vColor; }\n")
+
+if __name__ == "__main__":
+    target = pathlib.Path(sys.argv[1])
+    target.mkdir(parents=True, exist_ok=True)
+    for name, options, texts in SHADERS:
+        for ending, text in texts.items():
+            (target / f"{name.replace(' ', '-').replace(',', '')}.{ending}").write_text(text, newline="")
+    print(len(SHADERS), "shaders in", target)

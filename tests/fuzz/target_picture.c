@@ -1,0 +1,91 @@
+// target_picture.c: fuzz target for drawing: triangles with any coordinates, pictures of any size. Every instruction set
+// must draw the same bytes; a sanitizer sees what overflows.
+//
+// The first bytes of an input are the picture's width and height less one, and flags; then follow numbers of 16 bits
+// each, little-endian, the upper halves of floats: three for the camera's eye, then nine for each triangle.
+#include "target.h"
+
+#include <string.h>
+
+enum { SIDE_MAX = 80, TRIANGLES_MAX = 64, HEAD = 3 + 6 };
+enum flag { ORTHOGRAPHIC = 1, OWN_EYE = 2, TRANSLUCENT = 4, SHARED_CORNERS = 8, SAMPLES_SHIFT = 4, MIRRORED = 128 };
+
+// Always finite.
+static float number(const uint8_t *data)
+{
+    uint32_t bits = (uint32_t)(data[0] | data[1] << 8) << 16;
+    if ((bits & 0x7f800000) == 0x7f800000)
+        bits ^= 0x00800000;
+    float x;
+    memcpy(&x, &bits, 4);
+    return x;
+}
+
+static lam_scene *scene_of(const uint8_t *data, size_t size, int flags)
+{
+    static const uint32_t indices[3 * TRIANGLES_MAX] = {0, 1, 2, 1, 2, 3, 2, 3, 4, 3, 4, 5};
+    float positions[9 * TRIANGLES_MAX];
+    size_t count = size / 18 < TRIANGLES_MAX ? size / 18 : TRIANGLES_MAX;
+    for (size_t i = 0; i < 9 * count; i++)
+        positions[i] = number(data + 2 * i);
+    lam_mesh mesh = {.positions = positions, .vertex_count = (uint32_t)(3 * count), .triangle_count = (uint32_t)count};
+    if (flags & SHARED_CORNERS && count >= 2) {
+        mesh.indices = indices;
+        mesh.triangle_count = 4;
+    }
+    lam_scene *scene = lam_scene_make(NULL);
+    lam_material material = lam_material_default();
+    material.diffuse = (lam_rgba){0.8f, 0.5f, 0.2f, flags & TRANSLUCENT ? 0.5f : 1};
+    lam_object object = lam_object_default();
+    if (flags & MIRRORED)
+        object.transform.m[0][0] = -1;
+    lam_error error;
+    object.material = lam_scene_add_material(scene, &material, &error);
+    object.mesh = count ? lam_scene_add_mesh(scene, &mesh, &error) : -1;
+    if (object.mesh >= 0 && lam_scene_add_object(scene, &object, &error) >= 0)
+        return scene;
+    lam_scene_free(scene);
+    return NULL;
+}
+
+static void draw_everywhere(const lam_scene *scene, const lam_camera *camera, int width, int height, int samples)
+{
+    static lam_device *devices[LAM_ISA_COUNT];
+    static uint8_t pixels[2][SIDE_MAX * SIDE_MAX * 4];
+    lam_draw_params params = {.samples = samples, .rig = LAM_RIG_STUDIO};
+    bool first = true, first_ok = false;
+    for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++) {
+        if (!lam_isa_usable((lam_isa)isa))
+            continue;
+        lam_error error = {0};
+        if (!devices[isa] &&
+            !(devices[isa] = lam_device_cpu(&(lam_cpu_params){.threads = 1, .isa = (lam_isa)isa}, &error)))
+            abort();
+        lam_image image = {.width = width, .height = height, .format = LAM_RGBA8, .pixels = pixels[!first]};
+        bool ok = lam_draw(devices[isa], scene, camera, &params, &image, NULL, &error);
+        if (!ok && (error.code == LAM_OK || !error.text[0]))
+            abort();
+        if (first)
+            first_ok = ok;
+        else if (ok != first_ok || (ok && memcmp(pixels[0], pixels[1], (size_t)width * (size_t)height * 4) != 0))
+            abort();
+        first = false;
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (size < HEAD)
+        return 0;
+    int width = 1 + data[0] % SIDE_MAX, height = 1 + data[1] % SIDE_MAX, flags = data[2];
+    lam_scene *scene = scene_of(data + HEAD, size - HEAD, flags);
+    if (!scene)
+        return 0;
+    lam_view view = {.orthographic = flags & ORTHOGRAPHIC};
+    lam_camera camera = lam_camera_fit(scene, width, height, &view);
+    if (flags & OWN_EYE)
+        camera.eye = (lam_vec3){(double)number(data + 3), (double)number(data + 5), (double)number(data + 7)};
+    draw_everywhere(scene, &camera, width, height, 1 << (flags >> SAMPLES_SHIFT & 7) % 5);
+    lam_scene_free(scene);
+    return 0;
+}

@@ -94,6 +94,9 @@ LAM_API lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centr
 // and the sentence says what was found and what was expected.
 LAM_API bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error);
 
+// The keys of lam_camera_parse, from 0; NULL out of range.
+LAM_API const char *lam_camera_key(int index);
+
 #ifdef __cplusplus
 }
 #endif

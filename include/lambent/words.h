@@ -21,6 +21,9 @@ extern "C" {
 // material is unchanged.
 LAM_API bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *material, lam_error *error);
 
+// The keys of lam_material_parse, from 0; NULL out of range.
+LAM_API const char *lam_material_key(int index);
+
 // How lam_scene_add_light_text reads a light. All zero is the default.
 typedef struct lam_light_text_params {
     lam_color_mode color; // of hexadecimal colours and names
@@ -46,6 +49,9 @@ typedef struct lam_light_text_params {
 // Returns the light's index, −1 on failure. `params` may be NULL. `scene` NULL: the text is checked, and 0 is returned.
 LAM_API int lam_scene_add_light_text(lam_scene *scene, const char *text, const lam_light_text_params *params,
                                      lam_error *error);
+
+// The keys of lam_scene_add_light_text for lights of a type, from 0; NULL out of range.
+LAM_API const char *lam_light_key(lam_light_type type, int index);
 
 #ifdef __cplusplus
 }

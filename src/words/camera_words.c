@@ -48,6 +48,8 @@ lam_view lam_view_of_side(lam_side side)
 enum key { EYE, TARGET, UP, FOVY, ORTHO, NEAR, FAR, KEY_COUNT };
 static const char *const keys[] = {"eye", "target", "up", "fovy", "ortho", "near", "far", NULL};
 
+const char *lam_camera_key(int index) { return index >= 0 && index < KEY_COUNT ? keys[index] : NULL; }
+
 struct reading {
     lam_camera camera; // with fovy in degrees
     bool seen[KEY_COUNT];

@@ -69,6 +69,14 @@ static bool is_of_type(int key, lam_light_type type)
     return false;
 }
 
+const char *lam_light_key(lam_light_type type, int index)
+{
+    for (int key = 0; key < KEYS && (unsigned)type < LAM_LIGHT_TYPE_COUNT; key++)
+        if (key_name(key) && is_of_type(key, type) && index-- == 0)
+            return key_name(key);
+    return NULL;
+}
+
 static int find_key(const char *name, lam_error *error)
 {
     int field = field_index(name);

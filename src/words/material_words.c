@@ -37,6 +37,14 @@ static const char *key_name(int key)
     return is_share(field) ? field->symbol : NULL;
 }
 
+const char *lam_material_key(int index)
+{
+    for (int key = 0; key < MATERIAL_KEYS; key++)
+        if (key_name(key) && index-- == 0)
+            return key_name(key);
+    return NULL;
+}
+
 static int find_key(const char *name, lam_error *error)
 {
     const char *names[MATERIAL_KEYS + 1];

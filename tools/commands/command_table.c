@@ -61,6 +61,9 @@ const struct command command_table[] = {
                          ABOUT | TAKES_JSON, 0, 0},
     [COMMAND_help] = {"help", "[TOPIC]", "Explain a subject, a command or an option; alone, list them.", ABOUT, 0, 1,
                       NULL, true},
+    [COMMAND_complete] = {"complete", "-- WORD...",
+                          "Print the words that may take the last one's place, for the completion of a shell.", ABOUT,
+                          0, -1, NULL, true},
     [COMMAND_generate] =
         {"generate", "man|markdown|bash|zsh|fish|scene-schema",
          "Print the man page, its Markdown form, a shell's completions, or the JSON Schema of scene files.", ABOUT, 1,

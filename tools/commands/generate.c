@@ -15,6 +15,8 @@ static const struct {
 
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
+const char *generate_kind(int index) { return index >= 0 && index < KINDS ? kinds[index].name : NULL; }
+
 int run_generate(int operand_count, char **operands, const struct options *options)
 {
     (void)operand_count, (void)options;

@@ -11,4 +11,7 @@ void generate_zsh(void);
 void generate_fish(void);
 void generate_scene_schema(void); // scene_schema.c
 
+// The texts that can be generated, from 0; NULL out of range.
+const char *generate_kind(int index);
+
 #endif

@@ -270,6 +270,11 @@ static const struct kind kinds[] = {
      3},
 };
 
+const char *plot_kind(int index)
+{
+    return index >= 0 && index < (int)(sizeof kinds / sizeof *kinds) ? kinds[index].name : NULL;
+}
+
 static const struct kind *find_kind(const char *name, lam_error *error)
 {
     struct suggestion nearest = suggest_start(name);

@@ -31,4 +31,7 @@ struct plot {
 // Draws it over the whole page.
 bool plot_draw(const struct plot *plot, struct drawing *drawing, lam_error *error);
 
+// The kinds of plots, from 0; NULL out of range.
+const char *plot_kind(int index);
+
 #endif

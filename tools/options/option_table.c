@@ -193,7 +193,7 @@ const struct option option_table[] = {
      "(`model.png` if the model comes from standard input); a file of that name that lambent did not write is "
      "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder, and makes it if it "
      "is missing; every command that writes files takes it.",
-     .takes_file = true, .brief = "FILE.png, .ppm, .pfm or .exr; or a FOLDER/", .store = store_text,
+     .kind = VALUE_FILE, .brief = "FILE.png, .ppm, .pfm or .exr; or a FOLDER/", .store = store_text,
      .others = "out outfile file format export save write", FIELD(output), .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
      .brief = "pixels: 800, or 1920x1080", .store = store_size, .others = "resolution width height dimensions pixels",
@@ -207,7 +207,7 @@ const struct option option_table[] = {
      "A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), one of the basic names (`black`, `white`, "
      "`gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour "
      "names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",
-     .brief = "white, '#dfe6ee' or transparent", .store = store_color,
+     .kind = VALUE_COLOR, .brief = "white, '#dfe6ee' or transparent", .store = store_color,
      .others = "bg background-color backdrop transparent", FIELD(background)},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
      color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
@@ -238,7 +238,7 @@ const struct option option_table[] = {
      "The file stores the result of the command line: the model's path relative to FILE, the camera, all lights "
      "(those of the rig written out), materials, transforms and the picture's options. `lambent FILE` then "
      "writes the same bytes. An existing FILE is replaced. `docs/scene-file.md` describes the format.",
-     .takes_file = true, .store = store_text, .others = "export-scene write-scene", FIELD(save_scene)},
+     .kind = VALUE_FILE, .store = store_text, .others = "export-scene write-scene", FIELD(save_scene)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "The side to view from: front, back, left, right, top, bottom, iso or three-quarter.",
@@ -276,7 +276,8 @@ const struct option option_table[] = {
      "`ortho` (parallel projection: model units from the picture's middle to its top), `near` and `far` (both "
      "or neither; fitted by default). The option cannot be combined with `--view`, `--azimuth`, `--elevation`, "
      "`--zoom` or `--projection`. `--json` reports the camera of any picture in these terms.",
-     .store = store_camera, .others = "eye fov fovy position lookat look-at near far", FIELD(camera)},
+     .kind = VALUE_CAMERA, .store = store_camera, .others = "eye fov fovy position lookat look-at near far",
+     FIELD(camera)},
 
     {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
      "A light: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
@@ -298,7 +299,7 @@ const struct option option_table[] = {
      "(half angle in degrees, 45) and `exponent`, or `inner` and `outer` half angles. `name` appears in "
      "reports.\n"
      "The table of the fields of lights lists all keys.",
-     .brief = "point, spot, directional ... in place of the studio", .store = store_light,
+     .kind = VALUE_LIGHT, .brief = "point, spot, directional ... in place of the studio", .store = store_light,
      .others = "lamp sun spot point directional lighting", FIELD(lights)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A predefined set of lights: studio, headlight, three-point, lecture, file, none or auto.",
@@ -307,7 +308,7 @@ const struct option option_table[] = {
      .others = "preset lights light-setup studio headlight", FIELD(rig),
      .has_field = offsetof(struct options, has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Ambient light: #rrggbb, r/g/b, a name or one number.", NULL,
-     .store = store_opaque_color, .others = "ambient-light", FIELD(ambient)},
+     .kind = VALUE_COLOR, .store = store_opaque_color, .others = "ambient-light", FIELD(ambient)},
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
      "Draw markers at the lights: balls, with cones along the light's direction.",
      "The marker of a directional light stands one and a half radii from the model's centre. Markers glow in "
@@ -335,17 +336,17 @@ const struct option option_table[] = {
      "multiplies the specular colour, white by default).\n"
      "`@WHERE` limits the option to the objects of that name, else to the parts (OBJ groups, STL solids), else "
      "to the model's materials: `ruby@handle`. Of several options for one surface, the last one wins.",
-     .brief = "gold, ruby ... (lambent materials)", .store = store_material, .others = "mat specular diffuse",
-     FIELD(materials)},
+     .kind = VALUE_MATERIAL, .brief = "gold, ruby ... (lambent materials)", .store = store_material,
+     .others = "mat specular diffuse", FIELD(materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
      "It replaces the ambient and diffuse colour of every material, including those of `--material`; highlights keep "
      "theirs. It is short for `--material color=COLOR`, and a colour alone is a material too: "
      "`--material '#ff8800@handle'`. (`--color raw` and `--color srgb` still mean `--color-mode`.)",
-     .brief = "of the model: red, '#ff8800'", .store = store_opaque_color,
+     .kind = VALUE_COLOR, .brief = "of the model: red, '#ff8800'", .store = store_opaque_color,
      .others = "paint tint albedo model-color mesh-color surface-color", FIELD(model_color), .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
      "The material of back faces, as in `--material`; fields without a key are the front's.", NULL,
-     .store = store_material, FIELD(back_materials)},
+     .kind = VALUE_MATERIAL, .store = store_material, FIELD(back_materials)},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 sharp.",
      "It replaces the shininess of every material, including those of `--material`.", .store = store_number,
      .others = "gloss glossiness specular-exponent exponent", FIELD(shininess),
@@ -403,8 +404,8 @@ const struct option option_table[] = {
      "square and of one size. `sky` and `studio` are built in (`./sky` is a file). Only materials with a "
      "reflectivity show the environment: see `--reflectivity`. `docs/lighting/reflection.md` describes how each "
      "kind surrounds the model.",
-     .takes_file = true, .store = store_text, .others = "env envmap environment-map hdri hdr ibl sky skybox cubemap",
-     FIELD(environment)},
+     .kind = VALUE_ENVIRONMENT, .store = store_text,
+     .others = "env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
      "Turn the environment about the up axis, counter-clockwise from above.", NULL, .store = store_number,
      FIELD(environment_rotation_deg), .min = -3600, .max = 3600},
@@ -463,18 +464,18 @@ const struct option option_table[] = {
      "`shininess` 10, 50 and 1000 (with `--material specular=0.5` unless a material is given), for `light` one "
      "light of each type, for `show`, also called `term`, the five terms. If the option is given twice, the "
      "first makes the rows of a grid and the second its columns.",
-     .store = store_across, .others = "vary sweep grid columns rows", FIELD(across)},
+     .kind = VALUE_VARIED, .store = store_across, .others = "vary sweep grid columns rows", FIELD(across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or degrees.", NULL,
      .store = store_number, FIELD(to), .min = 1e-6, .max = 1e9},
 
     {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader that belongs to the fragment shader.",
      "Without it a correct one is generated, which recognises varyings by name and type (`docs/check.md`).",
-     .takes_file = true, .store = store_text, FIELD(vertex)},
+     .kind = VALUE_FILE, .store = store_text, FIELD(vertex)},
     {"contract", 0, GROUP_CHECK, "NAME", "auto", "The names that the shaders use: a contract's name, or its file.",
      "The contracts that are built in, which `auto` recognises, are printed by `--list`. A file of your own is JSON "
      "(`docs/check.md`).",
-     contract_words, .takes_file = true, .store = store_text, FIELD(contract)},
+     contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
      light_frame_words, .store = store_word, FIELD(light_frame)},
     {"highlight", 0, GROUP_CHECK, "NAME", "the contract's", "The expected highlight: phong or blinn-phong.", NULL,
@@ -516,7 +517,7 @@ const struct option option_table[] = {
      "DejaVu Sans, Liberation Sans, Noto Sans, FreeSans and Roboto, where Debian puts them. FreeType draws the "
      "letters, which may differ by a few shades between its versions; the pictures on the sheet never do. An "
      "SVG names DejaVu Sans, and its viewer selects the font.",
-     .takes_file = true, .store = store_text, .others = "typeface", FIELD(font)},
+     .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(font)},
     {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw without text; no font is needed.", NULL, .store = store_switch,
      .others = "no-text no-labels", FIELD(no_captions)},
 

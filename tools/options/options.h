@@ -165,6 +165,18 @@ struct word {
     const char *summary; // NULL: the name says enough, or is another name of the word before
 };
 
+// What a value is made of, where it is not one of a list of words.
+enum value_kind {
+    VALUE_ANY,
+    VALUE_FILE,
+    VALUE_COLOR,
+    VALUE_MATERIAL,
+    VALUE_LIGHT,
+    VALUE_CAMERA,
+    VALUE_ENVIRONMENT,
+    VALUE_VARIED, // an option and its values
+};
+
 struct option {
     const char *name; // without the dashes
     char letter;      // the short form; 0: none
@@ -174,7 +186,7 @@ struct option {
     const char *summary;      // one sentence for --help
     const char *details;      // more for the man page and the docs, with `code` in back quotes; NULL: none
     const struct word *words; // the accepted values; NULL: any
-    bool takes_file;          // for the completions
+    enum value_kind kind;     // of its value, for the completions
 
     // Stores the value (NULL for a switch) at offset `field` of struct options. On failure error->text describes the
     // mistake without naming the option.

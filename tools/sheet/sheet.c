@@ -95,20 +95,23 @@ static const struct sheet sheets[] = {
 
 // --- a row of variants
 
+bool sheet_varies(const struct option *o)
+{
+    bool of_model = o->value && find_groups("render") & 1u << o->group && o->group != GROUP_PICTURE &&
+                    o->group != GROUP_REPORT && o->group != GROUP_ABOUT && o->group != GROUP_WORK;
+    return of_model || strcmp(o->name, "samples") == 0 || strcmp(o->name, "color-mode") == 0 ||
+           strcmp(o->name, "background") == 0 || strcmp(o->name, "show") == 0;
+}
+
 static const struct option *find_option(const char *name, size_t length, lam_error *error)
 {
     char typed[64];
     snprintf(typed, sizeof typed, "%.*s", (int)(length < 60 ? length : 60), name);
     struct suggestion nearest = suggest_start(typed);
-    unsigned groups = find_groups("render");
     for (const struct option *o = option_table; o->name; o++) {
-        bool fits = o->value && groups & 1u << o->group && o->group != GROUP_PICTURE && o->group != GROUP_REPORT &&
-                    o->group != GROUP_ABOUT && o->group != GROUP_WORK;
-        fits = fits || strcmp(o->name, "samples") == 0 || strcmp(o->name, "color-mode") == 0 ||
-               strcmp(o->name, "background") == 0 || strcmp(o->name, "show") == 0;
-        if (fits && strcmp(o->name, typed) == 0)
+        if (sheet_varies(o) && strcmp(o->name, typed) == 0)
             return o;
-        if (fits)
+        if (sheet_varies(o))
             suggest_try(&nearest, o->name);
     }
     complain(error, LAM_BAD_ARGUMENT,

@@ -20,6 +20,9 @@ struct sheet {
     struct cell cells[CELLS_MAX];
 };
 
+// True if --across may vary the option.
+bool sheet_varies(const struct option *option);
+
 // Selects the sheet of the options. `store` receives the words of each --across; the caller frees them after the sheet.
 bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MAX], lam_error *error);
 

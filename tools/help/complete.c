@@ -1,0 +1,147 @@
+// complete.c: the command `complete`: prints the words that may come next on a command line, for the shells.
+#include "complete.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "command.h"
+#include "generate.h"
+#include "plot.h"
+#include "topics.h"
+
+static struct typed_word whole(const char *word) { return (struct typed_word){word, word, 0}; }
+
+// The option that a word names and whose value is in the next word; NULL: none is expected.
+static const struct option *expects_value(const char *word)
+{
+    const struct option *option = NULL;
+    if (word[0] == '-' && word[1] == '-')
+        option = option_find(word + 2); // not "--name=value"
+    else if (word[0] == '-' && word[1] && !word[2])
+        for (const struct option *o = option_table; o->name && !option; o++)
+            option = o->letter == word[1] ? o : NULL;
+    return option && option->value ? option : NULL;
+}
+
+static void complete_option(const struct command *command, const char *word)
+{
+    const char *equals = strchr(word, '=');
+    if (equals) {
+        char name[64];
+        snprintf(name, sizeof name, "%.*s", (int)(equals - word - 2), word + 2);
+        const struct option *option = option_find(name);
+        struct typed_word value = {word, equals + 1, (int)(equals + 1 - word)};
+        if (option && option->value && option_is_taken(option, command->groups))
+            complete_value(option, &value);
+        return;
+    }
+    struct typed_word name = {"--", strncmp(word, "--", 2) == 0 ? word + 2 : "", 2};
+    for (const struct option *o = option_table; o->name; o++)
+        if (option_is_taken(o, command->groups))
+            complete_offer(&name, o->name, "", o->summary);
+}
+
+static void complete_commands(const struct typed_word *typed)
+{
+    for (const struct command *c = command_table; c->name; c++)
+        complete_offer(typed, c->name, "", c->summary);
+}
+
+static void complete_shapes(const struct typed_word *typed)
+{
+    for (int i = 0; i < lam_shape_count(); i++)
+        complete_offer(typed, lam_shape_name(i), "", lam_shape_summary(i));
+}
+
+static bool is_topic(const char *word)
+{
+    const struct topic *t = topics;
+    while (t->word && strcmp(t->word, word) != 0)
+        t++;
+    return t->word;
+}
+
+static void complete_topics(const struct typed_word *typed)
+{
+    for (const struct topic *t = topics; t->word; t++)
+        complete_offer(typed, t->word, "", t->title);
+    for (const struct command *c = command_table; c->name; c++)
+        if (!is_topic(c->name))
+            complete_offer(typed, c->name, "", c->summary);
+    for (const struct option *o = option_table; o->name; o++)
+        if (!is_topic(o->name) && !find_command(o->name))
+            complete_offer(typed, o->name, "", o->summary);
+}
+
+// The operand number `index`, from 0.
+static void complete_operand(const struct command *command, int index, const char *word)
+{
+    struct typed_word typed = whole(word);
+    if (command->max_operands >= 0 && index >= command->max_operands)
+        return;
+    switch ((enum command_index)(command - command_table)) {
+    case COMMAND_help:
+        complete_topics(&typed);
+        return;
+    case COMMAND_generate:
+        for (int i = 0; generate_kind(i); i++)
+            complete_offer(&typed, generate_kind(i), "", NULL);
+        return;
+    case COMMAND_plot:
+        for (int i = 0; index == 0 && plot_kind(i); i++)
+            complete_offer(&typed, plot_kind(i), "", NULL);
+        if (index > 0)
+            complete_files(); // with lights
+        return;
+    case COMMAND_explain:
+    case COMMAND_render:
+    case COMMAND_compare:
+    case COMMAND_shader:
+    case COMMAND_lights:
+        if (index == 0 || command == command_table) {
+            complete_shapes(&typed);
+            complete_files();
+        }
+        return;
+    default:
+        complete_files();
+        return;
+    }
+}
+
+int run_complete(int count, char **words, const struct options *options)
+{
+    (void)options;
+    if (count && strcmp(words[0], "--") == 0)
+        words++, count--;
+    const char *last = count ? words[count - 1] : "";
+    const struct command *command = count > 1 ? find_command(words[0]) : NULL;
+    int at = command ? 1 : 0, operands = 0;
+    command = command ? command : command_table;
+    bool only_operands = false;
+    const struct option *waiting = NULL; // for its value
+    for (; at < count - 1; at++) {
+        if (waiting)
+            waiting = NULL;
+        else if (only_operands || words[at][0] != '-' || !words[at][1])
+            operands++;
+        else if (strcmp(words[at], "--") == 0)
+            only_operands = true;
+        else
+            waiting = expects_value(words[at]);
+    }
+    struct typed_word typed = whole(last);
+    if (waiting) {
+        if (option_is_taken(waiting, command->groups))
+            complete_value(waiting, &typed);
+        return 0;
+    }
+    if (*last == '-' && !only_operands && !command->verbatim) {
+        complete_option(command, last);
+        return 0;
+    }
+    if (count <= 1)
+        complete_commands(&typed);
+    complete_operand(command, operands, last);
+    return 0;
+}

@@ -1,0 +1,22 @@
+// complete.h: the words that may come next on a command line.
+#ifndef COMPLETE_H
+#define COMPLETE_H
+
+#include "options.h"
+
+// The word that is being typed: `before` is complete, `piece` is the beginning of what may follow.
+struct typed_word {
+    const char *before, *piece;
+    int before_length;
+};
+
+// Prints a candidate if it begins with the piece: the whole word, then `ending`, a tab and the summary (NULL: none).
+void complete_offer(const struct typed_word *typed, const char *word, const char *ending, const char *summary);
+
+// Lets the shell add the names of files that begin with the piece.
+void complete_files(void);
+
+// Prints the candidates for the value of an option.
+void complete_value(const struct option *option, const struct typed_word *typed);
+
+#endif

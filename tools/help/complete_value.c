@@ -1,0 +1,203 @@
+// complete_value.c: prints candidates; completes the values of options: words, files, colours, materials, lights, cameras.
+#include "complete.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "sheet.h"
+
+void complete_offer(const struct typed_word *typed, const char *word, const char *ending, const char *summary)
+{
+    if (strncmp(word, typed->piece, strlen(typed->piece)) != 0)
+        return;
+    printf("%.*s%s%s\t", typed->before_length, typed->before, word, ending);
+    for (const char *s = summary ? summary : ""; *s; s++)
+        if (*s != '`')
+            putchar(*s);
+    putchar('\n');
+}
+
+void complete_files(void) { printf(":files\n"); }
+
+// The word from the place after `complete` letters of the piece on.
+static struct typed_word after(const struct typed_word *typed, size_t complete)
+{
+    return (struct typed_word){typed->before, typed->piece + complete, typed->before_length + (int)complete};
+}
+
+// The piece behind its last comma.
+static struct typed_word after_comma(const struct typed_word *typed)
+{
+    const char *comma = strrchr(typed->piece, ',');
+    return after(typed, comma ? (size_t)(comma + 1 - typed->piece) : 0);
+}
+
+static void complete_words(const struct word *words, const struct typed_word *typed)
+{
+    for (const struct word *w = words; w->name; w++) {
+        // A name in capitals stands for what the user writes: "light:NAME".
+        char fixed[64];
+        snprintf(fixed, sizeof fixed, "%s", w->name);
+        char *colon = strchr(fixed, ':');
+        if (colon && colon[1] >= 'A' && colon[1] <= 'Z')
+            colon[1] = 0;
+        complete_offer(typed, fixed, "", w->summary);
+    }
+}
+
+static void complete_color(const struct typed_word *typed)
+{
+    for (int i = 0; lam_color_name(i); i++)
+        complete_offer(typed, lam_color_name(i), "", NULL);
+}
+
+static void complete_field(const lam_field *field, const char *key, const struct typed_word *value)
+{
+    if (field ? field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA : strstr(key, "color") != NULL)
+        complete_color(value);
+    if (field && field->type == LAM_FIELD_FLAG) {
+        complete_offer(value, "yes", "", NULL);
+        complete_offer(value, "no", "", NULL);
+    }
+}
+
+static const lam_field *field_of(const lam_field *(*row)(int), const char *key, size_t length)
+{
+    for (int i = 0; row(i); i++)
+        if (strlen(row(i)->key) == length && memcmp(row(i)->key, key, length) == 0)
+            return row(i);
+    return NULL;
+}
+
+static void offer_key(const struct typed_word *typed, const char *key, const lam_field *(*row)(int))
+{
+    const lam_field *field = field_of(row, key, strlen(key));
+    complete_offer(typed, key, "=", field ? field->summary : NULL);
+}
+
+static void complete_material(const struct typed_word *typed)
+{
+    if (strchr(typed->piece, '@')) // the names of the model's objects are not known
+        return;
+    struct typed_word pair = after_comma(typed);
+    size_t equals = strcspn(pair.piece, "=");
+    if (pair.piece[equals]) {
+        struct typed_word value = after(&pair, equals + 1);
+        char key[64];
+        snprintf(key, sizeof key, "%.*s", (int)equals, pair.piece);
+        complete_field(field_of(lam_material_field, pair.piece, equals), key, &value);
+        return;
+    }
+    if (pair.piece == typed->piece) {
+        for (int i = 0; i < LAM_MATERIAL_COUNT; i++)
+            complete_offer(&pair, lam_material_name((lam_material_id)i), "", "a material");
+        complete_color(&pair);
+    }
+    for (int i = 0; lam_material_key(i); i++)
+        offer_key(&pair, lam_material_key(i), lam_material_field);
+}
+
+static void complete_light_key(lam_light_type type, const struct typed_word *typed)
+{
+    struct typed_word pair = after_comma(typed);
+    size_t equals = strcspn(pair.piece, "=");
+    if (!pair.piece[equals]) {
+        for (int i = 0; lam_light_key(type, i); i++)
+            offer_key(&pair, lam_light_key(type, i), lam_light_field);
+        return;
+    }
+    struct typed_word value = after(&pair, equals + 1);
+    char key[64];
+    snprintf(key, sizeof key, "%.*s", (int)equals, pair.piece);
+    if (strcmp(key, "frame") == 0) {
+        complete_offer(&value, "world", "", "the scene's");
+        complete_offer(&value, "camera", "", "the eye's");
+        complete_offer(&value, "object", "", "the model's");
+    }
+    complete_field(field_of(lam_light_field, pair.piece, equals), key, &value);
+}
+
+static void complete_light(const struct typed_word *typed)
+{
+    struct typed_word type = after(typed, *typed->piece == '+');
+    size_t length = strcspn(type.piece, ":");
+    if (type.piece == typed->piece)
+        complete_offer(&type, "none", "", "no light but the ambient");
+    for (int i = 0; i < LAM_LIGHT_TYPE_COUNT; i++) {
+        const char *word = lam_light_type_describe((lam_light_type)i)->word;
+        if (!type.piece[length]) {
+            complete_offer(&type, word, "", NULL);
+            complete_offer(&type, word, ":", NULL);
+        } else if (strlen(word) == length && memcmp(word, type.piece, length) == 0) {
+            struct typed_word keys = after(&type, length + 1);
+            complete_light_key((lam_light_type)i, &keys);
+        }
+    }
+}
+
+static void complete_camera(const struct typed_word *typed)
+{
+    struct typed_word pair = after_comma(typed);
+    for (int i = 0; lam_camera_key(i); i++)
+        complete_offer(&pair, lam_camera_key(i), "=", NULL);
+}
+
+static void complete_environment(const struct typed_word *typed)
+{
+    for (int i = 0; lam_environment_built_in_name(i); i++)
+        complete_offer(typed, lam_environment_built_in_name(i), "", "built in");
+    complete_files();
+}
+
+// "OPTION", or "OPTION=value,value".
+static void complete_varied(const struct typed_word *typed)
+{
+    size_t length = strcspn(typed->piece, "=");
+    for (const struct option *o = option_table; o->name; o++) {
+        if (!sheet_varies(o))
+            continue;
+        if (!typed->piece[length]) {
+            if (o->words)
+                complete_offer(typed, o->name, "", o->summary);
+            complete_offer(typed, o->name, "=", o->summary);
+        } else if (strlen(o->name) == length && memcmp(o->name, typed->piece, length) == 0) {
+            struct typed_word values = after(typed, length + 1);
+            if (o->words || o->kind == VALUE_COLOR)
+                values = after_comma(&values);
+            complete_value(o, &values);
+        }
+    }
+}
+
+void complete_value(const struct option *option, const struct typed_word *typed)
+{
+    if (option->words)
+        complete_words(option->words, typed);
+    switch (option->kind) {
+    case VALUE_ANY:
+        return;
+    case VALUE_FILE:
+        complete_files();
+        return;
+    case VALUE_COLOR:
+        complete_color(typed);
+        if (option->store == store_color)
+            complete_offer(typed, "transparent", "", NULL);
+        return;
+    case VALUE_MATERIAL:
+        complete_material(typed);
+        return;
+    case VALUE_LIGHT:
+        complete_light(typed);
+        return;
+    case VALUE_CAMERA:
+        complete_camera(typed);
+        return;
+    case VALUE_ENVIRONMENT:
+        complete_environment(typed);
+        return;
+    case VALUE_VARIED:
+        complete_varied(typed);
+        return;
+    }
+}

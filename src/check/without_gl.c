@@ -18,9 +18,9 @@ bool lam_check_draw(const void *request, size_t size, const char *gl_device, lam
     return left_out(error);
 }
 
-struct fault_shader *fault_shader_open(const char *gl_device, int size, lam_error *error)
+struct fault_shader *fault_shader_open(const char *gl_device, int size, int stride, lam_error *error)
 {
-    (void)gl_device, (void)size;
+    (void)gl_device, (void)size, (void)stride;
     left_out(error);
     return NULL;
 }

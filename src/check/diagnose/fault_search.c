@@ -36,9 +36,11 @@ struct outcome {
 
 struct state {
     struct fault_search *s;
-    struct fault_shader *shader; // opened when it is first needed
-    float *pixels, *samples;     // of one picture
-    int order[MAX_SCENES];       // those that differ first, by descending difference
+    struct scene_comparison *scenes; // of s, reduced to the pixels that are drawn
+    int stride, size;                // of the fault shader's pictures
+    struct fault_shader *shader;     // opened when it is first needed
+    float *pixels, *samples;         // of one picture
+    int order[MAX_SCENES];           // those that differ first, by descending difference
     int differ_count;
     struct outcome *outcomes; // of each row of the table
 };
@@ -48,9 +50,9 @@ struct state {
 static bool draw(struct state *t, int index, const fault_set *set, float *pixels, lam_error *error)
 {
     struct fault_search *s = t->s;
-    if (!t->shader && !(t->shader = fault_shader_open(s->gl_device, s->size, error)))
+    if (!t->shader && !(t->shader = fault_shader_open(s->gl_device, s->size, t->stride, error)))
         return false;
-    return fault_shader_draw(t->shader, &s->scenes[index].reference_scene, s->interface, s->light_capacity, s->frame,
+    return fault_shader_draw(t->shader, &t->scenes[index].reference_scene, s->interface, s->light_capacity, s->frame,
                              s->reflection, set, pixels, error);
 }
 
@@ -58,7 +60,7 @@ static bool draw(struct state *t, int index, const fault_set *set, float *pixels
 static const float *render_faults(struct state *t, int index, const fault_set *set, lam_error *error)
 {
     struct fault_search *s = t->s;
-    const struct scene_comparison *scene = &s->scenes[index];
+    const struct scene_comparison *scene = &t->scenes[index];
     struct render_key key = {.scene = (int)(scene->row - reference_scenes),
                              .contract = s->interface->contract->hash,
                              .declared = s->interface->declared,
@@ -85,7 +87,7 @@ static bool measure(struct state *t, int index, const fault_set *set, struct dif
 {
     const float *samples = render_faults(t, index, set, error);
     if (samples)
-        *d = scene_comparison_difference(&t->s->scenes[index], samples, t->s->tolerance);
+        *d = scene_comparison_difference(&t->scenes[index], samples, t->s->tolerance);
     return samples != NULL;
 }
 
@@ -157,7 +159,7 @@ static bool fit_exponent(struct state *t, const fault_set *base, const struct fa
     static const double golden = 0.6180339887;
     int scene = -1;
     for (int k = 0; k < t->differ_count && scene < 0; k++)
-        if (t->s->scenes[t->order[k]].reference_scene.ks > 0)
+        if (t->scenes[t->order[k]].reference_scene.ks > 0)
             scene = t->order[k];
     *exponent = 0;
     if (scene < 0)
@@ -238,7 +240,7 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
                 return false;
             o->mean += d.mean / s->scene_count;
             fits = fits && d.fits;
-            if (explains(&s->scenes[i], &d))
+            if (explains(&t->scenes[i], &d))
                 o->explained |= (uint32_t)1 << i;
         }
         if (!fits)
@@ -436,7 +438,7 @@ static bool try_sets(struct state *t, struct candidate *best, lam_error *error)
 // Orders the scenes: those that differ first, by descending difference.
 static void order_scenes(struct state *t)
 {
-    const struct scene_comparison *scenes = t->s->scenes;
+    const struct scene_comparison *scenes = t->scenes;
     for (int i = 0; i < t->s->scene_count; i++) {
         int at = i;
         while (at > 0 && (scenes[t->order[at - 1]].passes > scenes[i].passes ||
@@ -503,26 +505,57 @@ static bool search(struct state *t, lam_error *error)
     return store(t, &best, error);
 }
 
+// Copies a scene with those of its compared pixels that the fault shader draws. `memory`: 5 floats for each pixel of
+// its pictures.
+static void reduce_scene(const struct state *t, const struct scene_comparison *from, struct scene_comparison *to,
+                         float *memory)
+{
+    int size = t->s->size, stride = t->stride;
+    size_t pixels = (size_t)t->size * (size_t)t->size;
+    *to = *from;
+    to->inside = (uint32_t *)(memory + 4 * pixels);
+    to->samples = memory;
+    to->inside_count = 0;
+    for (size_t i = 0; i < from->inside_count; i++) {
+        int x = (int)from->inside[i] % size, from_below = size - 1 - (int)from->inside[i] / size;
+        if (x % stride || from_below % stride)
+            continue;
+        int index = (t->size - 1 - from_below / stride) * t->size + x / stride;
+        size_t channels = from->alpha ? 4 : 3;
+        memcpy(to->samples + channels * to->inside_count, from->samples + channels * i, channels * sizeof(float));
+        to->inside[to->inside_count++] = (uint32_t)index;
+    }
+}
+
 bool fault_search_run(struct fault_search *s, lam_error *error)
 {
-    size_t bytes = 4 * (size_t)s->size * (size_t)s->size * sizeof(float);
-    struct state t = {.s = s,
-                      .pixels = malloc(bytes),
-                      .samples = malloc(bytes),
-                      .outcomes = calloc((size_t)fault_count, sizeof *t.outcomes)};
-    order_scenes(&t);
-    bool ok = (t.pixels && t.samples && t.outcomes) || fail_memory(error, bytes);
+    // In large pictures, every second pixel of every second row tells as much.
+    struct state t = {.s = s, .stride = s->size >= 96 ? 2 : 1};
+    t.size = fault_shader_size(s->size, t.stride);
+    size_t pixels = (size_t)t.size * (size_t)t.size, count = (size_t)s->scene_count;
+    t.pixels = malloc(4 * pixels * sizeof *t.pixels);
+    t.samples = malloc(4 * pixels * sizeof *t.samples);
+    t.outcomes = calloc((size_t)fault_count, sizeof *t.outcomes);
+    t.scenes = calloc(count, sizeof *t.scenes);
+    float *memory = malloc(count * 5 * pixels * sizeof *memory + 1);
+    bool ok = (t.pixels && t.samples && t.outcomes && t.scenes && memory) || fail_memory(error, count * 20 * pixels);
+    for (size_t i = 0; ok && i < count; i++)
+        reduce_scene(&t, &s->scenes[i], &t.scenes[i], memory + i * 5 * pixels);
+    if (ok)
+        order_scenes(&t);
     ok = ok && search(&t, error);
     fault_shader_close(t.shader);
     free(t.pixels);
     free(t.samples);
     free(t.outcomes);
+    free(t.scenes);
+    free(memory);
     return ok;
 }
 
 bool fault_search_draw_style(struct fault_search *s, int scene, float *pixels, lam_error *error)
 {
-    struct state t = {.s = s};
+    struct state t = {.s = s, .scenes = s->scenes, .stride = 1, .size = s->size};
     const fault_set none = {0};
     fault_set set = fault_set_add(&none, s->style);
     bool ok = draw(&t, scene, &set, pixels, error);

@@ -14,6 +14,7 @@ struct fault_shader {
     struct offscreen offscreen;
     GLuint programs[2]; // lighting in the fragment shader, in the vertex shader; 0: not built yet
     GLuint program;     // the one in use
+    int size, stride;
 };
 
 static const char *const bit_names[FAULT_BIT_COUNT] = {"NONE",
@@ -43,14 +44,16 @@ static GLuint compile(struct fault_shader *m, GLenum kind, bool in_vertex, const
     return shader;
 }
 
-struct fault_shader *fault_shader_open(const char *gl_device, int size, lam_error *error)
+struct fault_shader *fault_shader_open(const char *gl_device, int size, int stride, lam_error *error)
 {
     struct fault_shader *m = calloc(1, sizeof *m);
     if (!m) {
         fail_memory(error, sizeof *m);
         return NULL;
     }
-    if (!offscreen_open(&m->offscreen, GL_PROFILE_CORE, gl_device, size, error)) {
+    m->size = size;
+    m->stride = stride;
+    if (!offscreen_open(&m->offscreen, GL_PROFILE_CORE, gl_device, fault_shader_size(size, stride), error)) {
         free(m);
         return NULL;
     }
@@ -144,6 +147,9 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     gl->UniformMatrix4fv(place(m, "model_view"), 1, GL_FALSE, matrix_value(&matrices.model_view).v);
     gl->UniformMatrix4fv(place(m, "projection"), 1, GL_FALSE, matrix_value(&matrices.projection).v);
     gl->UniformMatrix4fv(place(m, "normal_matrix4"), 1, GL_FALSE, matrix_value(&matrices.normal4).v);
+    float small = (float)(m->stride * m->offscreen.size), scale = (float)m->size / small;
+    float offset = scale + (float)(m->stride - 1) / small - 1;
+    gl->Uniform4f(place(m, "window"), scale, scale, offset, offset);
     for (int i = 0; i < reference_scene->light_count; i++)
         set_lamp(m, i, frame, reference_scene, &matrices);
     gl->Uniform1i(place(m, "lamp_count"), reference_scene->light_count);

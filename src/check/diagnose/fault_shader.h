@@ -6,11 +6,15 @@
 
 struct fault_shader;
 
-struct fault_shader *fault_shader_open(const char *gl_device, int size, lam_error *error);
+// Draws every `stride`-th pixel of every `stride`-th row of pictures of size² pixels, from the lower left one, thus
+// pictures of fault_shader_size(size, stride)² pixels.
+struct fault_shader *fault_shader_open(const char *gl_device, int size, int stride, lam_error *error);
 void fault_shader_close(struct fault_shader *shader); // NULL is fine
 
-// Draws a scene from shader_interface_scene. `light_capacity`: of the shaders under test. `pixels`: size² × 4 floats,
-// rows top-down.
+static inline int fault_shader_size(int size, int stride) { return (size + stride - 1) / stride; }
+
+// Draws a scene from shader_interface_scene. `light_capacity`: of the shaders under test. `pixels`: RGBA, rows
+// top-down.
 bool fault_shader_draw(struct fault_shader *shader, const struct reference_scene *reference_scene,
                        const struct shader_interface *interface, int light_capacity, lam_light_frame frame,
                        lam_reflection reflection, const fault_set *set, float *pixels, lam_error *error);

@@ -4,6 +4,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 
 uniform mat4 normal_matrix4; // inverse transpose of model_view
+uniform vec4 window;         // scale and offset that put every second pixel of a picture on the pixels of a smaller one
 
 #ifdef IN_VERTEX
 out vec4 vertex_color, vertex_color_back;
@@ -79,4 +80,5 @@ void main()
     if (is(UPSIDE_DOWN)) {
         gl_Position.y = -gl_Position.y;
     }
+    gl_Position.xy = gl_Position.xy * window.xy + gl_Position.w * window.zw;
 }

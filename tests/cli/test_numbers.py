@@ -41,10 +41,11 @@ def constant(path, name):
 
 
 def code(path, pattern):
-    """What the group of a pattern finds in a source, where the number has no name."""
+    """What the group of a pattern finds in a source, or in one of a folder, where the number has no name."""
     def look_up():
-        found = re.search(pattern, (ROOT / path).read_text())
-        return found and c_value(found.group(1))
+        files = sorted((ROOT / path).rglob("*.c")) if (ROOT / path).is_dir() else [ROOT / path]
+        found = [match for file in files for match in [re.search(pattern, file.read_text())] if match]
+        return c_value(found[0].group(1)) if found else None
     return Source(f"/{pattern}/ of {path}", look_up)
 
 
@@ -80,7 +81,7 @@ SPHERE = constant("src/environment/cube_map.h", "CUBE_SIDE_MOST")
 PERCENT_FILL = counted("100 times " + FILL.what, lambda: 100 * FILL.look_up())
 TEAPOT = counted("the triangles of `lambent teapot`", lambda: json.loads(subprocess.run(
     [PROGRAM, "teapot", "-s", "8", "-o", "/dev/null", "--json"], stdout=subprocess.PIPE, check=True).stdout)["model"]["triangles"])
-OVER_CHECK = code("src/check/diagnose/fault_search.c", r"share_over <= ([\d.]+)")
+OVER_CHECK = code("src/check", r"share_over <= ([\d.]+)")
 PIXELS_OVER_CHECK = counted("1 divided by " + OVER_CHECK.what, lambda: 1 / OVER_CHECK.look_up())
 TOLERANCE = code("src/check/check.c", r"p->tolerance : ([\d.]+) / 255")
 
@@ -131,7 +132,7 @@ ROWS = [
     ("docs/check.md", "it exceeded `--stop-after` ({} seconds)", option("stop-after")),
     ("docs/lighting.md", "about {} hundred lines", counted("the hundreds of lines of lobes.h, lights.h and sum.h", lambda: round(sum(
         len((ROOT / "src/lighting" / name).read_text().splitlines()) for name in ("lobes.h", "lights.h", "sum.h")) / 100))),
-    ("tools/commands/command_table.c", "`--tolerance` (default {}) applies to each channel of a pixel: one pixel in {} may exceed",
+    ("tools/help/topics.c", "`--tolerance` (default {}) applies to each channel of a pixel: one pixel in {} may exceed",
      TOLERANCE, PIXELS_OVER_CHECK),
     ("tools/options/option_table.c", "fills {} % of the picture's tighter side", PERCENT_FILL),
     ("tools/options/option_table.c", "a vertical field of view of {} degrees", FOVY),
@@ -186,12 +187,12 @@ class Sentences(Case):
 
 
 # Options whose default is not a value that can be given, with what stands there.
-NOT_VALUES = {"output", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
+NOT_VALUES = {"output", "color", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
               "gl-device", "time-limit", "memory-limit", "show", "up", "reflection", "isa", "device", "repeat"}
 # What else to give so that the option matters, and another value of it.
 CONTEXT = {
     "size": ([], "64"), "samples": ([], "16"), "exposure": ([], "1"), "crease-angle": ([], "20"), "compress": ([], None),
-    "background": ([], "white"), "color": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"),
+    "background": ([], "white"), "color-mode": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"),
     "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),
     "viewer": ([], "infinite"), "normals": ([], "facet"),
@@ -223,7 +224,7 @@ class Defaults(Case):
             model = more[0] if more and more[0].endswith(".json") else "tent.obj"
             words = [model, *[w for w in more if w != model], *([] if name == "size" else ["-s", "96"])]
             with self.subTest(name):
-                value = re.match(r"\S+", standard).group().rstrip(",")
+                value = re.match(r"[^\s,;]+", standard).group()
                 without = self.good(*words, "-o", "-").stdout
                 self.assertTrue(self.good(*words, f"--{name}", value, "-o", "-").stdout == without, f"--{name} {value} is not the default")
                 if other:

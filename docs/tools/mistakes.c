@@ -171,10 +171,10 @@ static vec light_fragment(const struct study *s, enum mistake m, struct fragment
     if (s->look == FLAT)
         n = m == VERTEX_AS_FLAT ? f.last_normal : f.face;
     vec v = unit(sub(eye, f.p));
-    if (m == OBJECT_EYE) // eye minus the vertex before its model-view matrix
-        v = unit(sub(eye, (vec){f.p.x / s->scale.x, f.p.y / s->scale.y, f.p.z / s->scale.z}));
     if (dot(unit(f.face), v) < 0 && m != NO_FLIP && m != INWARD)
         n = mul(n, -1);
+    if (m == OBJECT_EYE) // the eye of eye space, its origin, minus the vertex before its model-view matrix
+        v = unit((vec){-f.p.x / s->scale.x, -f.p.y / s->scale.y, -f.p.z / s->scale.z});
     if (s->look == SKY) {
         vec l = unit(sub(s->light, f.p));
         return sky(m == LIGHT_IN_MIRROR ? mirror(l, n) : mirror(v, n));
@@ -308,7 +308,7 @@ static const struct study studies[] = {
     {"thread-sign", THREAD_SIGN, THREADS, BALL, .light = {-2, 3, 4}},
     {"thread-gate", THREAD_GATE, THREADS, BALL, .light = {-4, 2, -1}},
     {"no-flip", NO_FLIP, PHONG, BALL, .bowl = true, .light = {-1, 3, 2}},
-    {"object-eye", OBJECT_EYE, PHONG, BALL, .scale = {0.4, 1, 0.4}, .shininess = 20, .light = {-2, 2, 4}},
+    {"object-eye", OBJECT_EYE, PHONG, BALL, .scale = {1, 0.6, 1}, .light = {-2, 2, 4}},
     {"affine", AFFINE, STRIPES, .scale = {1, 1, 1}, .attenuation = {1, 0, 0}},
     {"ambient-attenuated", AMBIENT_ATTENUATED, PHONG, BALL, .light = {-2, 3, 4}, .attenuation = {1, 0, 0.2}},
     {"inward", INWARD, PHONG, BALL, .light = {-2, 3, 4}},

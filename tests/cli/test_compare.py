@@ -1,5 +1,13 @@
 # test_compare.py: the command `compare`: every picture of a sheet equals the one drawn with its options alone; captions, names, errors.
-from harness import Case, read_png
+import json
+import re
+import shlex
+
+from harness import ROOT, Case, read_png
+
+# The defaults of sheets about shading (tools/sheet/sheet.c).
+LIGHT = ("--light", "directional:frame=camera,direction=3/-1/-3,ambient=0.15,diffuse=0.7,specular=1")
+GLOSSY = ("--material", "specular=0.7,shininess=100")
 
 
 def part(picture, left, top, width, height):
@@ -19,7 +27,7 @@ class Compare(Case):
         gap = int(24 * 0.1) + 1
         self.assertEqual(page[:2], (3 * (48 + gap) + gap, 40 + 2 * gap))
         for i, shading in enumerate(("flat", "gouraud", "phong")):
-            one = self.alone("cube.obj", "-s", "48x40", "--shading", shading, "--azimuth", 50)
+            one = self.alone("cube.obj", "-s", "48x40", "--shading", shading, "--azimuth", 50, *LIGHT)
             self.assertEqual(part(page, gap + i * (48 + gap), gap, 48, 40), one, shading)
 
     def test_named_sheets(self):
@@ -29,7 +37,8 @@ class Compare(Case):
             with self.subTest(name):
                 width, height, _ = self.sheet("cube.obj", "--sheet", name, "--samples", 1, "-s", "48x36")
                 inset = 36 // 6 * 3 + 1 if name == "stages" else 0
-                self.assertEqual((width, height), (columns * 51 + 3, rows * (36 + inset + 8 + 3) + 6 + 3))
+                head = 10 if name in ("summary", "terms", "stages", "surfaces") else 6  # the light is printed; the cube has a material
+                self.assertEqual((width, height), (columns * 51 + 3, rows * (36 + inset + 8 + 3) + head + 3))
 
     def test_terms_add_up(self):
         """Raw numbers: ambient + diffuse + specular at shininess 50 are the picture with all of them, to the rounding of bytes."""
@@ -66,7 +75,7 @@ class Compare(Case):
         self.assertLess(min(middle), brightest - 10)
 
     def test_captions(self):
-        words = ("cube.obj", "--across", "shading=flat,phong", "-s", "120x60")
+        words = ("cube.obj", "--across", "azimuth=10,40", "-s", "120x60")
         plain, captioned = self.sheet(*words, "--no-captions"), self.sheet(*words)
         self.assertEqual(captioned[1] - plain[1], 15 + 20)
         for i in range(2):  # the pictures are the same
@@ -74,6 +83,14 @@ class Compare(Case):
             self.assertEqual(part(plain, left, 7, 120, 60), part(captioned, left, 7 + 15, 120, 60))
         caption = part(captioned, 7, 7 + 15 + 60, 120, 20)
         self.assertGreater(sum(value < 160 for value in caption[0::4]), 10)
+        # The defaults of a sheet are printed under its title, nowhere beyond the page's margin.
+        words = ("sphere", "--across", "viewer", "-s", "240x200")
+        plain, captioned = self.sheet(*words, "--no-captions"), self.sheet(*words)
+        self.assertEqual(captioned[1] - plain[1], 50 + 41)
+        printed = part(captioned, 0, 29, captioned[0], 12)
+        self.assertGreater(sum(value < 200 for value in printed[0::4]), 100)
+        for left in (0, captioned[0] - 10):
+            self.assertEqual(set(part(captioned, left, 0, 10, 13 + 50)), {255})
         self.bad(2, "compare", "cube.obj", "--font", "/nowhere.ttf", says="/nowhere.ttf")
         self.sheet("cube.obj", "-s", 8, "--font", "/nowhere.ttf", "--no-captions")
 
@@ -90,12 +107,101 @@ class Compare(Case):
 
     def test_shininess(self):
         """Without a material it gets a specular colour, so that there is a highlight; a given material is not changed."""
-        plain = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "shininess=9")
-        glossy = self.alone("cube.obj", "-s", "48x40", "--shininess", 9, "--material", "specular=0.5")
+        plain = self.sheet("cube.stl", "-s", "48x40", "--no-captions", "--across", "shininess=9")
+        glossy = self.alone("cube.stl", "-s", "48x40", "--shininess", 9, "--material", "specular=0.7", *LIGHT)
         self.assertEqual(part(plain, 3, 3, 48, 40), glossy)
         for words in (["--material", "gold", "--across", "shininess=9"], ["--across", "material=gold", "--across", "shininess=9"]):
             page = self.sheet("cube.obj", "-s", "48x40", "--no-captions", *words)
-            self.assertEqual(part(page, 3, 3, 48, 40), self.alone("cube.obj", "-s", "48x40", "--material", "gold", "--shininess", 9))
+            self.assertEqual(part(page, 3, 3, 48, 40), self.alone("cube.obj", "-s", "48x40", "--material", "gold", "--shininess", 9, *LIGHT))
+
+    def test_defaults_yield(self):
+        """What a sheet gives its pictures gives way to the command line and to what the model brings."""
+        sphere = ("--segments", "24x12")
+        (self.folder / "lit.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "sphere"}],
+                                                          "lights": [{"type": "point", "position": [3, 1, 3]}]}))
+        (self.folder / "gold.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "sphere", "material": "gold"}]}))
+        for model, words, defaults in (
+                ("sphere", (), (*sphere, *LIGHT, *GLOSSY)), ("teapot", (), ("--segments", "24x4", *LIGHT, *GLOSSY)),
+                ("sphere", ("--segments", "9x7"), (*LIGHT, *GLOSSY)), ("sphere", ("--material", "diffuse=0.2"), (*sphere, *LIGHT)),
+                ("sphere", ("--shininess", 7), (*sphere, *LIGHT, *GLOSSY)), ("sphere", ("--color", "red"), (*sphere, *LIGHT, *GLOSSY)),
+                ("sphere", ("--rig", "studio"), (*sphere, *GLOSSY)), ("sphere", ("--light", "point"), (*sphere, *GLOSSY)),
+                ("cube.obj", (), LIGHT), ("cube.stl", (), (*LIGHT, *GLOSSY)), ("cube.ply", ("--light", "point"), GLOSSY),
+                ("lit.json", (), GLOSSY), ("gold.json", (), LIGHT)):
+            with self.subTest(f"{model} {words}"):
+                page = self.sheet(model, "-s", "48x40", "--no-captions", "--across", "shading=gouraud", *words)
+                one = self.alone(model, "-s", "48x40", *defaults, *words, "--shading", "gouraud")
+                self.assertTrue(part(page, 3, 3, 48, 40) == one)
+        # The anisotropic picture's own changes of the material give way with it.
+        for words, more in (((), (*GLOSSY, "--material", "diffuse=0.3,shininess=30")), (("--material", "gold"), ())):
+            page = self.sheet("sphere", "-s", "48x40", "--no-captions", *words)
+            one = self.alone("sphere", "-s", "48x40", *sphere, *LIGHT, *more, *words, "--reflection", "kajiya-kay")
+            self.assertTrue(part(page, 3 + 4 * 51, 3, 48, 40) == one)
+        # A row of a default's own option has it from the row.
+        for across, more in (("material=gold", LIGHT), ("segments=9x7", (*LIGHT, *GLOSSY))):
+            option, value = across.split("=")
+            page = self.sheet("sphere", "-s", "48x40", "--no-captions", "--across", "shading=flat", "--across", across)
+            one = self.alone("sphere", "-s", "48x40", *more, *(sphere if option != "segments" else ()), "--shading", "flat", f"--{option}", value)
+            self.assertTrue(part(page, 3, 3, 48, 40) == one, across)
+
+    def shares(self, *words, inset=False):
+        """How far neighbouring pictures of a sheet are apart: the percentage of the model's pixels that differ by more than 16/255."""
+        width, height, gap = 72, 60, 4
+        page = self.sheet(*words, "-s", f"{width}x{height}", "--no-captions")
+        step = height + gap + (height // 6 * 3 + gap // 2 if inset else 0)
+        cells = [part(page, left, top, width, height) for top in range(gap, page[1] - height, step)
+                 for left in range(gap, page[0] - width, width + gap)]
+        while set(cells[-1]) == {255}:
+            cells.pop()
+        shares = []
+        for a, b in zip(cells, cells[1:]):
+            shown = differs = 0
+            for i in range(0, len(a), 4):
+                if a[i:i + 3] != a[:3] or b[i:i + 3] != b[:3]:
+                    shown += 1
+                    differs += max(abs(a[i + k] - b[i + k]) for k in range(3)) > 16
+            shares.append(100 * differs / max(shown, 1))
+        return shares
+
+    def test_sheets_show_their_subject(self):
+        """Each sheet of the teapot, and rows about shading: every picture differs from the one before it. None: equal by nature."""
+        for words, floors in {
+                "--sheet summary": (6, 2.5, 50, 50), "--sheet terms": (50, 50, 50, 6, 2), "--sheet stages": (2.5,),
+                "--sheet light": (50, 50, 50), "--sheet ambient": (50, 50), "--sheet frames": (50, 50, 40, 40, 50),
+                "--sheet surfaces": (50, 50), "--across shading": (6, 2.5), "--across stage": (None, 2.5), "--across normals": (None, 2.5),
+                "--across flat-normal": (10,), "--across reflection": (40, 4, 10, 25, 25, 30), "--across viewer": (3,),
+                "--across rig": (None, 50, 50, 40, 40), "--across shininess": (20, 8), "--across light": (50, 50, 50, 50),
+                "--across show": (50, 50, 50, 50), "--across color-mode=srgb,raw": (50,), "--across projection": (30,)}.items():
+            with self.subTest(words):
+                shares = self.shares("teapot", *words.split(), inset="stages" in words)
+                self.assertEqual(len(shares), len(floors))
+                for share, floor in zip(shares, floors):
+                    if floor is not None:
+                        self.assertGreaterEqual(share, floor, [round(s, 2) for s in shares])
+        # The band of the anisotropic picture runs from the pot's top to its bottom, and is its brightest part.
+        page = self.sheet("teapot", "--sheet", "summary", "-s", "96x80", "--no-captions")
+        pot = part(page, 5 + 4 * 101, 5, 96, 80)
+        bright = {i // 96 for i in range(96 * 80) if pot[4 * i + 3] and 225 < pot[4 * i] < 255}
+        self.assertGreater(len(bright), 25)
+
+    def test_pages_show_their_subject(self):
+        """The sheets of the pages: every picture differs from the one before it, but those that are equal by nature."""
+        equal = {"sphere.png": {0}, "frames.png": {2}, "normals.png": {6, 7}, "sides.png": {0}}
+        commands = [line for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+                    for line in re.findall(r"(?m)^\s+lambent (compare .*-o docs/pictures/\S+)", page.read_text())]
+        self.assertGreater(len(commands), 20)
+        for line in commands:
+            with self.subTest(line):
+                words = shlex.split(line)[1:]
+                picture = words[words.index("-o") + 1].rsplit("/")[-1]
+                for option in ("-o", "-s"):
+                    if option in words:
+                        at = words.index(option)
+                        del words[at:at + 2]
+                words = [str(ROOT / word) if word.startswith("examples/") else word for word in words]
+                shares = self.shares(*words, inset="stages" in words)
+                for i, share in enumerate(shares):
+                    if i not in equal.get(picture, ()):
+                        self.assertGreaterEqual(share, 1.5, [round(s, 2) for s in shares])
 
     def test_grid(self):
         """Two rows crossed: the first makes the rows, the second the columns."""
@@ -103,7 +209,7 @@ class Compare(Case):
         self.assertEqual(page[:2], (3 * 51 + 3, 2 * 43 + 3))
         for line, shading in enumerate(("flat", "phong")):
             for column, azimuth in enumerate((0, 30, 60)):
-                one = self.alone("cube.obj", "-s", "48x40", "--shading", shading, "--azimuth", azimuth)
+                one = self.alone("cube.obj", "-s", "48x40", "--shading", shading, "--azimuth", azimuth, *LIGHT)
                 self.assertEqual(part(page, 3 + column * 51, 3 + line * 43, 48, 40), one, (shading, azimuth))
         self.bad(1, "compare", "cube.obj", "--across", "shading", "--across", "stage", "--across", "view", says="third")
         self.bad(4, "compare", "cube.obj", "--across", "samples=1,2,4,8,16", "--across", "azimuth=1,2,3,4,5", says="24")

@@ -14,6 +14,7 @@
 #include "output.h"
 #include "report.h"
 #include "sheet.h"
+#include "sheet_defaults.h"
 
 enum { CELL_WIDTH = 480, CELL_HEIGHT = 400, ENLARGED = 3, INK = 0x222222, GREY = 0x777777, FRAME = 0xd55e00 };
 
@@ -34,7 +35,10 @@ struct compare {
     struct sheet sheet;
     struct page page;
     struct drawing drawing;
-    int done, pictures; // drawn so far, and in all
+    int done;                                     // pictures drawn so far
+    const char *defaults[2 * SHEET_DEFAULTS_MAX]; // words of every picture that the command line does not have
+    int default_count;
+    bool default_material; // one of them is a material
 };
 
 // --- one picture
@@ -54,6 +58,19 @@ static bool share_rotations(const struct sheet *sheet, struct options *options)
     return true;
 }
 
+// The words that belong to a cell alone; returns how many.
+static int words_of(const struct compare *c, const struct cell *cell, const char *words[CELL_WORDS + 2])
+{
+    int count = 0;
+    if (cell->look && c->default_material) {
+        words[count++] = "--material";
+        words[count++] = cell->look;
+    }
+    for (int i = 0; i < CELL_WORDS && cell->words[i]; i++)
+        words[count++] = cell->words[i];
+    return count;
+}
+
 // Draws a cell's picture, `enlarge` times as large, with two additional words of the command line (NULL: none).
 static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, const char *more, const char *value,
                       lam_image *image, lam_error *error)
@@ -65,10 +82,11 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
         options_free(&options);
         return complain(error, LAM_LIMIT, "out of memory");
     }
-    char *words[CELL_WORDS + 2];
+    char *words[2 * SHEET_DEFAULTS_MAX + CELL_WORDS + 4]; // options are only read
     int count = 0;
-    for (int i = 0; i < CELL_WORDS && cell->words[i]; i++)
-        words[count++] = (char *)(uintptr_t)cell->words[i]; // options are only read
+    for (int i = 0; i < c->default_count; i++)
+        words[count++] = (char *)(uintptr_t)c->defaults[i];
+    count += words_of(c, cell, (const char **)words + count);
     if (more) {
         words[count++] = (char *)(uintptr_t)more;
         words[count++] = (char *)(uintptr_t)value;
@@ -161,28 +179,31 @@ static bool draw_inset(struct compare *c, const struct cell *cell, struct box bo
 
 // --- the page
 
-// Reduces the type size until the text fits the width.
+// Reduces the type size until the text fits the width: hinted letters do not shrink in proportion.
 static void draw_fitting(struct drawing *d, struct point baseline, double size, double width, uint32_t color,
                          const char *text)
 {
-    double needed = text_width(d, size, text);
-    draw_text(d, baseline, needed > width ? size * width / needed : size, ALIGN_MIDDLE, color, text);
+    double needed;
+    while ((needed = text_width(d, size, text)) > width && size > 1)
+        size *= needed > 1.02 * width ? width / needed : 0.98;
+    draw_text(d, baseline, size, ALIGN_MIDDLE, color, text);
 }
 
-static void draw_caption(struct compare *c, const struct cell *cell, int left, int top)
+static void join(const char *const *words, int count, char line[512])
 {
-    double u = c->page.unit, middle = left + c->page.cell_width / 2.0, width = c->page.cell_width;
-    draw_fitting(&c->drawing, (struct point){middle, top + 32 * u}, 23 * u, width, INK, cell->caption);
-    // The options of the picture as typed. A long text would be too small to read; then only the option is shown.
-    char line[512] = "";
-    for (int i = 0; i < CELL_WORDS && cell->words[i]; i++)
-        snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s", i ? " " : "", cell->words[i]);
-    double size = 15 * u, needed = text_width(&c->drawing, size, line);
+    line[0] = 0;
+    for (int i = 0; i < count; i++)
+        snprintf(line + strlen(line), 512 - strlen(line), "%s%s", i ? " " : "", words[i]);
+}
+
+// Draws words in one line or, where they would be too small to read, in two, broken after a comma or a word.
+static void draw_words(struct compare *c, struct point baseline, double width, const char *line)
+{
+    double u = c->page.unit, size = 15 * u, needed = text_width(&c->drawing, size, line);
     if (needed <= width * 1.25) {
-        draw_fitting(&c->drawing, (struct point){middle, top + 55 * u}, size, width, GREY, line);
+        draw_fitting(&c->drawing, baseline, size, width, GREY, line);
         return;
     }
-    // Two lines, broken after a comma or a word.
     size_t length = strlen(line), cut = 0;
     for (size_t i = 1; i < length; i++) {
         bool place = line[i - 1] == ',' || line[i - 1] == ' ';
@@ -192,8 +213,19 @@ static void draw_caption(struct compare *c, const struct cell *cell, int left, i
     }
     char first[512];
     snprintf(first, sizeof first, "%.*s", (int)cut, line);
-    draw_fitting(&c->drawing, (struct point){middle, top + 54 * u}, 13 * u, width, GREY, first);
-    draw_fitting(&c->drawing, (struct point){middle, top + 72 * u}, 13 * u, width, GREY, line + cut);
+    draw_fitting(&c->drawing, (struct point){baseline.x, baseline.y - 1 * u}, 13 * u, width, GREY, first);
+    draw_fitting(&c->drawing, (struct point){baseline.x, baseline.y + 17 * u}, 13 * u, width, GREY, line + cut);
+}
+
+static void draw_caption(struct compare *c, const struct cell *cell, int left, int top)
+{
+    double u = c->page.unit, middle = left + c->page.cell_width / 2.0, width = c->page.cell_width;
+    draw_fitting(&c->drawing, (struct point){middle, top + 32 * u}, 23 * u, width, INK, cell->caption);
+    // The options of the picture as typed.
+    char line[512];
+    const char *words[CELL_WORDS + 2];
+    join(words, words_of(c, cell, words), line);
+    draw_words(c, (struct point){middle, top + 55 * u}, width, line);
 }
 
 static bool lay_out(struct compare *c, lam_error *error)
@@ -204,7 +236,7 @@ static bool lay_out(struct compare *c, lam_error *error)
     p->cell_height = o->has_size ? o->height : CELL_HEIGHT;
     p->unit = p->cell_width / (double)CELL_WIDTH;
     p->gap = (int)(24 * p->unit) + 1;
-    p->head = o->no_captions ? 0 : (int)(60 * p->unit);
+    p->head = o->no_captions ? 0 : (int)((c->default_count ? 100 : 60) * p->unit);
     p->foot = o->no_captions ? 0 : (int)(82 * p->unit);
     p->rows = (c->sheet.count + c->sheet.columns - 1) / c->sheet.columns;
     p->inset = c->sheet.inset ? p->cell_height / (2 * ENLARGED) * ENLARGED + p->gap / 2 : 0;
@@ -240,8 +272,11 @@ static bool draw_sheet(struct compare *c, lam_error *error)
     const char *slash = strrchr(c->model, '/');
     char title[256];
     snprintf(title, sizeof title, "%.120s — %.100s", c->sheet.title, slash && slash[1] ? slash + 1 : c->model);
-    draw_fitting(&c->drawing, (struct point){c->drawing.width / 2.0, p->head * 0.75}, 30 * p->unit,
-                 c->drawing.width - 2.0 * p->gap, INK, title);
+    double middle = c->drawing.width / 2.0, width = c->drawing.width - 2.0 * p->gap;
+    draw_fitting(&c->drawing, (struct point){middle, 45 * p->unit}, 30 * p->unit, width, INK, title);
+    char line[512];
+    join(c->defaults, c->default_count, line);
+    draw_words(c, (struct point){middle, 75 * p->unit}, width, line);
     for (int i = 0; i < c->sheet.count; i++) {
         const struct cell *cell = &c->sheet.cells[i];
         int left = p->gap + i % c->sheet.columns * (p->cell_width + p->gap);
@@ -264,6 +299,27 @@ static char *path_of(const struct options *o, const char *model, const char *she
     char ending[64];
     snprintf(ending, sizeof ending, "-%s.png", sheet);
     return output_path(o->output, model, ending);
+}
+
+// Decides which of the sheet's defaults hold for this command line and model.
+static bool find_defaults(struct compare *c, lam_error *error)
+{
+    int shape = lam_shape_find(c->model);
+    struct sheet_model model = {.shape = shape >= 0 ? lam_shape_name(shape) : NULL};
+    if (shape < 0 && sheet_defaults_need_model(&c->sheet, c->options)) {
+        struct job job = {.options = c->options, .model = c->model, .device = c->device};
+        job.times.start = clock_ms();
+        bool ok = job_load(&job, &c->progress, error);
+        model.materials = job.model_counts.materials > 0;
+        model.lights = job.model_counts.lights > 0;
+        lam_scene_free(job.scene);
+        if (!ok)
+            return false;
+    }
+    c->default_count = sheet_defaults(&c->sheet, c->options, &model, c->defaults);
+    for (int i = 0; i < c->default_count; i += 2)
+        c->default_material |= strcmp(c->defaults[i], "--material") == 0;
+    return true;
 }
 
 static bool check(const struct options *o, const char *model, const char *path, lam_error *error)
@@ -292,11 +348,11 @@ int run_compare(int operand_count, char **operands, const struct options *option
     bool ok = sheet_choose(options, &c.sheet, store, &error);
     if (ok && !(path = path_of(options, c.model, c.sheet.name)))
         ok = complain(&error, LAM_LIMIT, "out of memory");
-    ok = ok && check(options, c.model, path, &error) && lay_out(&c, &error);
+    ok = ok && check(options, c.model, path, &error);
     if (ok) {
         c.device = device_option_make(options, &error);
         progress_start(&c.progress, c.model, console_is_terminal() && !options->quiet);
-        ok = c.device && draw_sheet(&c, &error);
+        ok = c.device && find_defaults(&c, &error) && lay_out(&c, &error) && draw_sheet(&c, &error);
         progress_end(&c.progress);
         c.drawing.compress = (lam_compress)options->compress;
         ok = ok && drawing_write(&c.drawing, path, &error);

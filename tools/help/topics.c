@@ -28,16 +28,19 @@ const struct topic topics[] = {
     {"shading", "Shading", BIT(SHADING), TOPIC_NO_TABLE, NULL},
     {"sheets", "Sheets", BIT(SHEET) | BIT(CAPTIONS), TOPIC_NO_TABLE,
      "`lambent compare MODEL` writes one PNG with several pictures of a model and a caption under each: `lambent "
-     "MODEL` draws the same picture with the options printed in grey under the caption. `--sheet` selects the "
-     "pictures; `--across OPTION=VALUES` makes a row with one picture for each value. Every other option applies "
-     "to all pictures, `--size` (480x400) to each; the options of the sheet follow those of the command line and "
-     "override them. The background is white by default. The sheet is `MODEL-NAME.png` in the current folder or in "
-     "the folder of `-o`, or the file of `-o`. The pictures are the same bytes everywhere; only the letters are "
-     "FreeType's.\n"
+     "MODEL` draws the same picture with the options printed in grey under the title and under the caption. "
+     "`--sheet` selects the pictures; `--across OPTION=VALUES` makes a row with one picture for each value. Every "
+     "other option applies to all pictures, `--size` (480x400) to each; the options under a caption follow those of "
+     "the command line and override them. The background is white by default. The sheet is `MODEL-NAME.png` in the "
+     "current folder or in the folder of `-o`, or the file of `-o`. The pictures are the same bytes everywhere; only "
+     "the letters are FreeType's.\n"
+     "The options under the title are the sheet's defaults, without which there would be little to see. Sheets about "
+     "shading draw a built-in shape with few segments (`--segments` decides otherwise) under one light (not with "
+     "`--light` or `--rig`, nor with a model that has lights), and sheets with highlights a material that has one (not "
+     "with `--material`, nor with a model that has materials).\n"
      "`--sheet stages` frames the brightest highlight (the largest difference to the picture without highlights) "
-     "and shows it below, three times as large. That sheet, `surfaces` and `terms` give the model's materials a "
-     "specular colour of their own, so that there is a highlight to see; `terms` removes the other terms with "
-     "black coefficients; `ambient` sets the ambient coefficient of the default material."},
+     "and shows it below, three times as large. `terms` removes the other terms with black coefficients; `ambient` "
+     "sets the ambient coefficient of the default material."},
     {"explain", "Explaining a pixel", 0, TOPIC_NO_TABLE,
      "`lambent explain MODEL X,Y` takes the options of a picture and prints the calculation of the pixel in column "
      "X and row Y (from 0, from the top left corner): each visible triangle with its samples, the object, the "

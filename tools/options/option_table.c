@@ -461,9 +461,8 @@ const struct option option_table[] = {
      "OPTION is one of the options above without its dashes. Values are separated by commas, or by semicolons "
      "if they contain commas, as those of `light` and `material` do "
      "(`light=point;directional:color=red,frame=camera`). The default values are the words of the option; for "
-     "`shininess` 10, 50 and 1000 (with `--material specular=0.5` unless a material is given), for `light` one "
-     "light of each type, for `show`, also called `term`, the five terms. If the option is given twice, the "
-     "first makes the rows of a grid and the second its columns.",
+     "`shininess` 10, 50 and 1000, for `light` one light of each type, for `show`, also called `term`, the five "
+     "terms. If the option is given twice, the first makes the rows of a grid and the second its columns.",
      .kind = VALUE_VARIED, .store = store_across, .others = "vary sweep grid columns rows", FIELD(across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or degrees.", NULL,

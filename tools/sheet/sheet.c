@@ -8,89 +8,94 @@
 
 #include "command.h"
 #include "console.h"
+#include "sheet_defaults.h"
 #include "suggest.h"
 
-// A light from the upper left front, like the studio's key light.
-#define KEY        "directional:frame=camera,direction=2/-2/-3"
-#define SPECULAR   "specular=0.5"
+// A light from the left front, slightly from above: its highlight is in sight on any rounded model, left of the middle.
+#define KEY        "directional:frame=camera,direction=3/-1/-3"
 #define BRIGHT     "ambient=0.15,diffuse=0.7,specular=1"
-#define WHITE      KEY ",color=1,ambient=0.1"
-#define GREEN      KEY ",color=0/1/0,ambient=0/0.1/0"
+#define WHITE      KEY ",color=0.8,ambient=0.1"
+#define GREEN      KEY ",color=0/0.8/0,ambient=0/0.1/0"
 #define ORANGE     "ambient=0.9/0.35/0.05,diffuse=0.9/0.35/0.05"
 #define AT_A_PLACE "point:position=1.5r/1.5r/1.5r,ambient=0.15,frame="
 
+// Defaults of sheets (sheet_defaults.h). On a coarse shape Gouraud shading loses this highlight, and flat shading shows
+// its facets.
+#define COARSE {"--segments", NULL}
+#define LIT    {"--light", KEY "," BRIGHT}
+#define GLOSSY {"--material", "specular=0.7,shininess=100"}
+
 static const struct sheet sheets[] = {
-    [SHEET_SUMMARY] = {"summary",
-                       "Shading and reflection",
-                       5,
-                       false,
-                       5,
-                       {{"Flat", {"--shading", "flat"}},
-                        {"Smooth (Gouraud)", {"--shading", "gouraud"}},
-                        {"Normal interpolation (Phong)", {"--shading", "phong"}},
-                        {"Reflection (environment)",
-                         {"--environment", "sky", "--reflectivity", "0.7", "--light-scale", "0.4"}},
-                        {"Anisotropic (Kajiya–Kay)", {"--reflection", "kajiya-kay", "--light-scale", "0.6"}}}},
-    [SHEET_TERMS] = {"terms",
-                     "The terms of the sum",
-                     3,
-                     false,
-                     6,
-                     {{"Ambient only", {"--light", KEY "," BRIGHT, "--material", "diffuse=0,specular=0"}},
-                      {"Diffuse only", {"--light", KEY "," BRIGHT, "--material", "ambient=0,specular=0"}},
-                      {"Specular only, shininess 50",
-                       {"--light", KEY "," BRIGHT, "--material", "ambient=0,diffuse=0," SPECULAR ",shininess=50"}},
-                      {"All, shininess 50", {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=50"}},
-                      {"All, shininess 1000", {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=1000"}},
-                      {"All, shininess 1000, flat",
-                       {"--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=1000", "--shading", "flat"}}}},
-    [SHEET_STAGES] = {"stages",
-                      "Where light is worked out",
-                      2,
-                      true,
-                      2,
-                      {{"Per vertex",
-                        {"--stage", "vertex", "--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=200"}},
-                       {"Per fragment",
-                        {"--stage", "fragment", "--light", KEY "," BRIGHT, "--material", SPECULAR ",shininess=200"}}}},
-    [SHEET_LIGHT] = {"light",
-                     "The colour of light",
-                     2,
-                     false,
-                     4,
-                     {{"White light", {"--light", WHITE}},
-                      {"Green light", {"--light", GREEN}},
-                      {"Orange surface, white light", {"--light", WHITE, "--material", ORANGE}},
-                      {"Orange surface, green light", {"--light", GREEN, "--material", ORANGE}}}},
-    [SHEET_AMBIENT] =
-        {"ambient",
-         "Ambient and diffuse light",
-         3,
-         false,
-         3,
-         {{"Ambient white, diffuse white", {"--light", KEY ",ambient=0.25,diffuse=1", "--material", "ambient=0.72"}},
-          {"Ambient red, diffuse white", {"--light", KEY ",ambient=0.25/0/0,diffuse=1", "--material", "ambient=0.72"}},
-          {"Ambient red, diffuse red",
-           {"--light", KEY ",ambient=0.25/0/0,diffuse=1/0/0,specular=1/0/0", "--material", "ambient=0.72"}}}},
-    [SHEET_FRAMES] = {"frames",
-                      "One light in three frames",
-                      3,
-                      false,
-                      6,
-                      {{"World", {"--light", AT_A_PLACE "world"}},
-                       {"Camera", {"--light", AT_A_PLACE "camera"}},
-                       {"Object", {"--light", AT_A_PLACE "object"}},
-                       {"World, the model turned", {"--light", AT_A_PLACE "world", "--rotate", "y:-60"}},
-                       {"Camera, the model turned", {"--light", AT_A_PLACE "camera", "--rotate", "y:-60"}},
-                       {"Object, the model turned", {"--light", AT_A_PLACE "object", "--rotate", "y:-60"}}}},
-    [SHEET_SURFACES] = {"surfaces",
-                        "Three kinds of surfaces",
-                        3,
-                        false,
-                        3,
-                        {{"Specular", {"--material", "ambient=0.2,diffuse=0.2,specular=0.8,shininess=80"}},
-                         {"Diffuse", {"--material", "specular=0"}},
-                         {"Translucent", {"--material", "specular=0.5,shininess=80,opacity=0.45"}}}},
+    [SHEET_SUMMARY] =
+        {.name = "summary",
+         .title = "Shading and reflection",
+         .columns = 5,
+         .defaults = {COARSE, LIT, GLOSSY},
+         .count = 5,
+         .cells = {{"Flat", {"--shading", "flat"}},
+                   {"Smooth (Gouraud)", {"--shading", "gouraud"}},
+                   {"Normal interpolation (Phong)", {"--shading", "phong"}},
+                   {"Reflection (environment)",
+                    {"--environment", "sky", "--reflectivity", "0.7", "--light-scale", "0.4"}},
+                   {"Anisotropic (Kajiya–Kay)", {"--reflection", "kajiya-kay"}, "diffuse=0.3,shininess=30"}}},
+    [SHEET_TERMS] = {.name = "terms",
+                     .title = "The terms of the sum",
+                     .columns = 3,
+                     .defaults = {COARSE, LIT, {"--material", "specular=0.7"}},
+                     .count = 6,
+                     .cells = {{"Ambient only", {"--material", "diffuse=0,specular=0"}},
+                               {"Diffuse only", {"--material", "ambient=0,specular=0"}},
+                               {"Specular only, shininess 50",
+                                {"--material", "ambient=0,diffuse=0", "--shininess", "50"}},
+                               {"All, shininess 50", {"--shininess", "50"}},
+                               {"All, shininess 1000", {"--shininess", "1000"}},
+                               {"All, shininess 1000, flat", {"--shininess", "1000", "--shading", "flat"}}}},
+    [SHEET_STAGES] = {.name = "stages",
+                      .title = "Where light is worked out",
+                      .columns = 2,
+                      .inset = true,
+                      .defaults = {COARSE, LIT, GLOSSY},
+                      .count = 2,
+                      .cells = {{"Per vertex", {"--stage", "vertex"}}, {"Per fragment", {"--stage", "fragment"}}}},
+    [SHEET_LIGHT] = {.name = "light",
+                     .title = "The colour of light",
+                     .columns = 2,
+                     .defaults = {{"--material", "specular=0.5,shininess=50"}},
+                     .count = 4,
+                     .cells = {{"White light", {"--light", WHITE}},
+                               {"Green light", {"--light", GREEN}},
+                               {"Orange surface, white light", {"--light", WHITE, "--material", ORANGE}},
+                               {"Orange surface, green light", {"--light", GREEN, "--material", ORANGE}}}},
+    [SHEET_AMBIENT] = {.name = "ambient",
+                       .title = "Ambient and diffuse light",
+                       .columns = 3,
+                       .count = 3,
+                       .cells = {{"Ambient white, diffuse white",
+                                  {"--light", KEY ",ambient=0.25,diffuse=1", "--material", "ambient=0.72"}},
+                                 {"Ambient red, diffuse white",
+                                  {"--light", KEY ",ambient=0.25/0/0,diffuse=1", "--material", "ambient=0.72"}},
+                                 {"Ambient red, diffuse red",
+                                  {"--light", KEY ",ambient=0.25/0/0,diffuse=1/0/0,specular=1/0/0", "--material",
+                                   "ambient=0.72"}}}},
+    [SHEET_FRAMES] = {.name = "frames",
+                      .title = "One light in three frames",
+                      .columns = 3,
+                      .defaults = {{"--material", "specular=0.5,shininess=50"}},
+                      .count = 6,
+                      .cells = {{"World", {"--light", AT_A_PLACE "world"}},
+                                {"Camera", {"--light", AT_A_PLACE "camera"}},
+                                {"Object", {"--light", AT_A_PLACE "object"}},
+                                {"World, the model turned", {"--light", AT_A_PLACE "world", "--rotate", "y:-60"}},
+                                {"Camera, the model turned", {"--light", AT_A_PLACE "camera", "--rotate", "y:-60"}},
+                                {"Object, the model turned", {"--light", AT_A_PLACE "object", "--rotate", "y:-60"}}}},
+    [SHEET_SURFACES] = {.name = "surfaces",
+                        .title = "Three kinds of surfaces",
+                        .columns = 3,
+                        .defaults = {LIT},
+                        .count = 3,
+                        .cells = {{"Specular", {"--material", "ambient=0.2,diffuse=0.2,specular=0.8,shininess=80"}},
+                                  {"Diffuse", {"--material", "specular=0"}},
+                                  {"Translucent", {"--material", "specular=0.5,shininess=80,opacity=0.45"}}}},
 };
 
 // --- a row of variants
@@ -154,7 +159,41 @@ static bool lacks_semicolons(const struct option *option, const char *values)
     return false;
 }
 
-static bool choose_across(const char *across, bool own_material, struct sheet *sheet, char **store, lam_error *error)
+// Rows of variants that need more than the option that varies to show a difference.
+static const struct row {
+    const char *option;
+    const char *values; // where none are given; NULL: the option's words
+    struct sheet_default defaults[SHEET_DEFAULTS_MAX + 1];
+} row_table[] = {
+    {"shading", NULL, {COARSE, LIT, GLOSSY}},
+    {"stage", NULL, {COARSE, LIT, GLOSSY}},
+    {"normals", NULL, {COARSE, LIT, GLOSSY}},
+    {"flat-normal", NULL, {COARSE, LIT, GLOSSY, {"--shading", "flat"}}},
+    {"reflection", NULL, {LIT, {"--material", "diffuse=0.4,specular=0.5,shininess=30"}}},
+    {"viewer", NULL, {LIT, GLOSSY}},
+    {"rig", NULL, {GLOSSY}},
+    {"shininess", "10,50,1000", {LIT, {"--material", "specular=0.7"}}},
+    {"light",
+     "ambient:color=0.4;hemisphere:sky=0.55/0.65/0.85,ground=0.3/0.2/0.1;point:position=0.4r/0.9r/1.1r;"
+     "directional:direction=2/-2/-3;spot:position=1r/2r/3r,cutoff=7",
+     {GLOSSY}},
+    {"show",
+     "ambient,diffuse,specular,emission,reflection",
+     {LIT,
+      {"--material", "specular=0.7,shininess=50,emission=0.2/0.05/0"},
+      {"--environment", "sky"},
+      {"--reflectivity", "0.3"}}},
+};
+
+static const struct row *find_row(const char *option)
+{
+    for (size_t i = 0; i < sizeof row_table / sizeof *row_table; i++)
+        if (strcmp(row_table[i].option, option) == 0)
+            return &row_table[i];
+    return NULL;
+}
+
+static bool choose_across(const char *across, struct sheet *sheet, char **store, lam_error *error)
 {
     size_t length = strcspn(across, "=");
     bool term = length == 4 && memcmp(across, "term", 4) == 0; // another name of --show
@@ -162,13 +201,10 @@ static bool choose_across(const char *across, bool own_material, struct sheet *s
     if (!option)
         return false;
     const char *values = across[length] ? across + length + 1 : NULL;
-    bool glossy = strcmp(option->name, "shininess") == 0 && !own_material; // a highlight must be visible
-    if (!values && strcmp(option->name, "shininess") == 0)
-        values = "10,50,1000";
-    if (!values && strcmp(option->name, "show") == 0)
-        values = "ambient,diffuse,specular,emission,reflection";
-    if (!values && strcmp(option->name, "light") == 0)
-        values = "ambient;hemisphere;point;directional:direction=-1/-2/-3;spot:position=1r/2r/3r,cutoff=12";
+    const struct row *row = find_row(option->name);
+    bool all_terms = !values && strcmp(option->name, "show") == 0;
+    if (!values && row)
+        values = row->values;
     if (!values && !option->words)
         return complain(error, LAM_BAD_ARGUMENT, "option '--across': '%s' needs values: %s=A,B,C", option->name,
                         option->name);
@@ -182,7 +218,10 @@ static bool choose_across(const char *across, bool own_material, struct sheet *s
     if (!*store)
         return complain(error, LAM_LIMIT, "out of memory");
     sprintf(*store, "--%s", option->name);
-    *sheet = (struct sheet){.name = option->name};
+    *sheet = (struct sheet){.name = option->name, .across = true};
+    // Named terms and numbers are those of the model as it is; the five terms are made visible.
+    if (row && (all_terms || strcmp(option->name, "show") != 0))
+        memcpy(sheet->defaults, row->defaults, sizeof sheet->defaults);
     snprintf(sheet->title, sizeof sheet->title, "By %s", option->name);
     bool ok = true;
     if (!values) {
@@ -200,10 +239,6 @@ static bool choose_across(const char *across, bool own_material, struct sheet *s
             value = end;
         }
     }
-    for (int i = 0; glossy && i < sheet->count; i++) {
-        sheet->cells[i].words[2] = "--material";
-        sheet->cells[i].words[3] = "specular=0.5";
-    }
     // Up to six in a row; more are distributed evenly over rows.
     int rows = (sheet->count + 5) / 6;
     sheet->columns = rows ? (sheet->count + rows - 1) / rows : 1;
@@ -213,7 +248,9 @@ static bool choose_across(const char *across, bool own_material, struct sheet *s
 // Crosses two rows: one row for each picture of the first, one column for each of the second.
 static bool cross(const struct sheet *lines, const struct sheet *columns, struct sheet *sheet, lam_error *error)
 {
-    *sheet = (struct sheet){.name = "across", .columns = columns->count};
+    *sheet = (struct sheet){.name = "across", .columns = columns->count, .across = true};
+    sheet_defaults_merge(sheet, lines);
+    sheet_defaults_merge(sheet, columns);
     snprintf(sheet->title, sizeof sheet->title, "By %.24s and %.24s", lines->name, columns->name);
     if (lines->count * columns->count > CELLS_MAX)
         return complain(error, LAM_LIMIT, "options '--across': %d times %d pictures, at most %d", lines->count,
@@ -246,12 +283,9 @@ bool sheet_choose(const struct options *options, struct sheet *sheet, char *stor
                         sheet->cells[i].words[k] = options->environment;
         return true;
     }
-    bool own = options->materials.count > 0;
-    for (int i = 0; i < across->count; i++)
-        own = own || strncmp(across->items[i], "material", 8) == 0;
     if (across->count == 1)
-        return choose_across(across->items[0], own, sheet, &store[0], error);
+        return choose_across(across->items[0], sheet, &store[0], error);
     struct sheet lines, columns;
-    return choose_across(across->items[0], own, &lines, &store[0], error) &&
-           choose_across(across->items[1], own, &columns, &store[1], error) && cross(&lines, &columns, sheet, error);
+    return choose_across(across->items[0], &lines, &store[0], error) &&
+           choose_across(across->items[1], &columns, &store[1], error) && cross(&lines, &columns, sheet, error);
 }

@@ -4,18 +4,28 @@
 
 #include "options.h"
 
-enum { CELLS_MAX = 24, CELL_WORDS = 8 };
+enum { CELLS_MAX = 24, CELL_WORDS = 8, SHEET_DEFAULTS_MAX = 4 };
 
 struct cell {
     char caption[96];
     const char *words[CELL_WORDS]; // options of this picture, after those of the command line; ends with NULL
+    // Changes of the sheet's default material, as --material takes them, for this picture; NULL: none.
+    const char *look;
+};
+
+// An option of all pictures that holds unless it is given (sheet_defaults.h).
+struct sheet_default {
+    const char *option; // "--light"
+    const char *value;  // NULL, of --segments: few for the shape
 };
 
 struct sheet {
     const char *name;
     char title[64];
     int columns;
-    bool inset; // frame and enlarge the brightest highlight
+    bool inset;  // frame and enlarge the brightest highlight
+    bool across; // a row of variants: each picture's words are options with their values
+    struct sheet_default defaults[SHEET_DEFAULTS_MAX + 1];
     int count;
     struct cell cells[CELLS_MAX];
 };

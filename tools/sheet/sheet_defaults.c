@@ -1,0 +1,77 @@
+// sheet_defaults.c: which defaults of a sheet apply to a command line and a model.
+#include "sheet_defaults.h"
+
+#include <string.h>
+
+// Segments with which a shape shows its facets at a glance, where 24x12 is not it: the teapot counts stacks for each
+// patch, the knot is long, and implicit surfaces count cells.
+static const struct {
+    const char *shape, *segments;
+} coarse_shapes[] = {{"teapot", "24x4"}, {"torus-knot", "72x10"}, {"gyroid", "32"}, {"metaballs", "24"}};
+
+static const char *coarse(const char *shape)
+{
+    for (size_t i = 0; i < sizeof coarse_shapes / sizeof *coarse_shapes; i++)
+        if (strcmp(coarse_shapes[i].shape, shape) == 0)
+            return coarse_shapes[i].segments;
+    return "24x12";
+}
+
+// In a row of variants the option that varies is given.
+static bool is_given(const struct sheet *sheet, const struct options *options, const char *dashed)
+{
+    if (option_given(options, dashed + 2))
+        return true;
+    for (int i = 0; sheet->across && i < sheet->count; i++)
+        for (int k = 0; k < CELL_WORDS && sheet->cells[i].words[k]; k += 2)
+            if (strcmp(sheet->cells[i].words[k], dashed) == 0)
+                return true;
+    return false;
+}
+
+// Whether the command line leaves a default to the model.
+static bool is_open(const struct sheet *sheet, const struct options *options, const struct sheet_default *one)
+{
+    bool light = strcmp(one->option, "--light") == 0;
+    return !is_given(sheet, options, one->option) && !(light && is_given(sheet, options, "--rig"));
+}
+
+bool sheet_defaults_need_model(const struct sheet *sheet, const struct options *options)
+{
+    for (const struct sheet_default *one = sheet->defaults; one->option; one++)
+        if ((strcmp(one->option, "--light") == 0 || strcmp(one->option, "--material") == 0) &&
+            is_open(sheet, options, one))
+            return true;
+    return false;
+}
+
+int sheet_defaults(const struct sheet *sheet, const struct options *options, const struct sheet_model *model,
+                   const char *words[2 * SHEET_DEFAULTS_MAX])
+{
+    int count = 0;
+    for (const struct sheet_default *one = sheet->defaults; one->option; one++) {
+        const char *value = one->value;
+        bool light = strcmp(one->option, "--light") == 0, material = strcmp(one->option, "--material") == 0;
+        if (!is_open(sheet, options, one) || (light && model->lights) || (material && model->materials))
+            continue;
+        if (strcmp(one->option, "--segments") == 0) {
+            if (!model->shape)
+                continue;
+            value = coarse(model->shape);
+        }
+        words[count++] = one->option;
+        words[count++] = value;
+    }
+    return count;
+}
+
+void sheet_defaults_merge(struct sheet *sheet, const struct sheet *other)
+{
+    for (const struct sheet_default *one = other->defaults; one->option; one++) {
+        int at = 0;
+        while (sheet->defaults[at].option && strcmp(sheet->defaults[at].option, one->option) != 0)
+            at++;
+        if (!sheet->defaults[at].option && at < SHEET_DEFAULTS_MAX)
+            sheet->defaults[at] = *one;
+    }
+}

@@ -1,0 +1,24 @@
+// sheet_defaults.h: what the pictures of a sheet share where neither the command line nor the model says otherwise: a
+// coarse shape, one light, a visible highlight. Without them a sheet about shading shows no difference.
+#ifndef SHEET_DEFAULTS_H
+#define SHEET_DEFAULTS_H
+
+#include "sheet.h"
+
+// What the model brings.
+struct sheet_model {
+    const char *shape;      // the built-in shape's name; NULL: a file
+    bool materials, lights; // of its own
+};
+
+// True if the model must be read to know which defaults apply.
+bool sheet_defaults_need_model(const struct sheet *sheet, const struct options *options);
+
+// The words of the defaults that apply, in `words`; returns how many. They stand for options that are not given.
+int sheet_defaults(const struct sheet *sheet, const struct options *options, const struct sheet_model *model,
+                   const char *words[2 * SHEET_DEFAULTS_MAX]);
+
+// Adds the defaults of the other sheet for options that have none yet.
+void sheet_defaults_merge(struct sheet *sheet, const struct sheet *other);
+
+#endif

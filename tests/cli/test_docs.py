@@ -1,4 +1,6 @@
 # test_docs.py: the help, the man page, the completions and the docs are complete, well formed and up to date.
+import os
+import pathlib
 import re
 import shlex
 import shutil
@@ -128,6 +130,48 @@ class Docs(Case):
         made = self.good("generate", "markdown").stdout.decode()
         kept = (ROOT / "docs" / "command-line.md").read_text()
         self.assertEqual(kept, made, "refresh it: lambent generate markdown > docs/command-line.md")
+
+    def test_readme_commands(self):
+        """Every command of the README's code blocks, in order, works as it stands in a tree that has been built."""
+        (self.folder / "build").mkdir()
+        os.symlink(PROGRAM, self.folder / "build" / "lambent")
+        shutil.copytree(ROOT / "examples", self.folder / "examples")
+        (self.folder / "docs" / "pictures").mkdir(parents=True)  # the tree has it
+        blocks = re.findall(r"(?m)^\n((?:    \S.*\n)+)", (ROOT / "README.md").read_text())
+        lines = [line.strip() for block in blocks for line in block.splitlines()]
+        ours = [line for line in lines if not line.startswith("make ")]
+        self.assertGreater(sum(line.startswith("lambent ") for line in ours), 12)
+        for line in lines:
+            if line not in ours:
+                target = line.split("#")[0].split()[1:]
+                self.assertRegex((ROOT / "Makefile").read_text(), rf"(?m)^{target[0]}:", line)
+        gl = self.run_program("sphere", "--device", "gl", "-s", 8, "-o", "-").returncode == 0
+        path = [p for p in os.environ["PATH"].split(":") if not (pathlib.Path(p) / "lambent").exists()]
+        settings = [line for line in ours if not line.startswith("lambent ")]
+        for line in ours:
+            if line in settings or (not gl and ("--device gl" in line or "lambent check" in line)):
+                continue
+            done = subprocess.run(["bash", "-c", "\n".join([*settings, line])], cwd=self.folder, capture_output=True, timeout=120,
+                                  env={**os.environ, "PATH": ":".join(path)})
+            self.assertEqual(done.returncode, 0, f"{line}: {done.stderr.decode()}")
+            for name in re.findall(r"-o (\S+)", line):
+                self.assertTrue((self.folder / name).exists(), line)
+        self.assertEqual(os.listdir(self.folder / "out" / "catalogue"), ["spot.png"])
+
+    def test_commands_of_the_pages(self):
+        """Every command in a code block of docs/ is understood: options, values and commands. Most names of files are made up."""
+        tried = 0
+        for page in sorted((ROOT / "docs").rglob("*.md")):
+            for line in re.findall(r"(?m)^    (lambent .*)$", page.read_text()):
+                words = shlex.split(re.split(r" [<>|] |\s#\s", line)[0])[1:]
+                if "[OPTIONS]" in words or "COMMAND" in words:
+                    continue
+                tried += 1
+                limit = ["--memory-limit", "1k"] if words[0] not in ("diff", "plot", "check", "materials", "devices", "generate", "formats") else []
+                (self.folder / "docs" / "pictures" / "lighting").mkdir(parents=True, exist_ok=True)
+                done = self.run_program(*words, *limit)
+                self.assertNotEqual(done.returncode, 1, (page.name, line, done.stderr))
+        self.assertGreater(tried, 20)
 
     def test_links_and_pictures(self):
         """Every link has a target, every picture is shown on a page, and each is drawn by a command on a page or by the program of

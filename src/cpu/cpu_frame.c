@@ -124,10 +124,8 @@ void thread_free(struct thread_state *thread, struct thread_bins *bins)
 
 // --- pieces of work
 
-static uint32_t vertices_of(const lam_mesh *mesh)
-{
-    return mesh->indices ? mesh->vertex_count : 3 * mesh->triangle_count;
-}
+// How many vertices are transformed and stored before triangles are binned: those that triangles share (corners.inc).
+static uint32_t vertices_of(const lam_mesh *mesh) { return mesh->indices ? mesh->vertex_count : 0; }
 
 static size_t pieces_of(uint32_t count, uint32_t size) { return ((size_t)count + size - 1) / size; }
 

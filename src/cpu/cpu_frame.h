@@ -1,8 +1,8 @@
 // cpu_frame.h: one frame of the CPU device, and the state of a thread. Seen only by the functions that call the steps;
 // a step sees the parts that it reads and writes (kernels.h).
 //
-//   vertices   positions → pixel x, y and depth key of every vertex        vertex_transform.inc
-//   triangles  index triples → tile bins                                   bin_triangles.inc, clip.c
+//   vertices   positions → pixel x, y and depth key of shared vertices     vertex_transform.inc
+//   triangles  index triples, or positions → tile bins                     bin_triangles.inc, corners.inc, clip.c
 //   tiles      bins → depth key and triangle number of every sample        cover*.inc, occlusion.inc
 //              translucent triangles → layers over the samples, blended    translucent_fragments.inc, blend.c
 //              samples → fragments (a pixel and a triangle that it shows)  visibility_resolve.inc, fragments.c
@@ -62,7 +62,7 @@ static inline struct tile tile_number(const struct cpu_frame *cpu, size_t index)
 
 // Memory that the device keeps from frame to frame.
 struct frame_memory {
-    struct buffer vertices; // x, y and key of all vertices
+    struct buffer vertices; // x, y and key of the vertices of meshes with indices
     struct buffer pieces;   // and the first vertex of each draw
     struct buffer products; // materials × lights
     struct buffer lights;   // the rows of light_bounds

@@ -30,12 +30,13 @@ struct kernels {
     int lanes;
 
     // Writes x, y and depth key of the piece's vertices into raster->vertices. A vertex that needs clipping gets a NaN
-    // that names the planes (clip.h). Pieces may be transformed in any order, by any threads.
+    // that names the planes (clip.h). Pieces may be transformed in any order, by any threads. Only meshes with indices
+    // have any.
     void (*vertex_transform)(const struct raster_frame *raster, const struct piece *piece);
 
     // Appends the piece's triangles to the bins of the tiles that they touch, and clips the ones that need it. Drops
     // triangles that are outside of the window, have no area, are culled or have no sample in their box. All vertices
-    // of the draw must have been transformed.
+    // of the draw must have been transformed, if its mesh has indices.
     void (*bin_triangles)(const struct raster_frame *raster, struct thread_bins *bins, const struct piece *piece);
 
     // Clears the tile's samples, then draws the opaque triangles of all threads' bins: for each sample the nearest key,

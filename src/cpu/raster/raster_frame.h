@@ -29,8 +29,10 @@ struct raster_frame {
     // The guard band: |x| and |y| of a vertex, from the middle of the window and in multiples of w, up to which the
     // triangle needs no clipping.
     float guard[2];
-    float *vertices; // x, y, key of each vertex of all draws: pixels (y down, not snapped), larger is nearer
-    const uint32_t *first_vertex;   // of each draw
+    // x, y, key of each vertex of the meshes with indices: pixels (y down, not snapped), larger is nearer. Corners of other
+    // meshes are transformed where they are needed (corners.inc).
+    float *vertices;
+    const uint32_t *first_vertex;   // of each draw with indices
     const struct thread_bins *bins; // of each thread
     int thread_count;
 };

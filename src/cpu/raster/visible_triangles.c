@@ -159,7 +159,7 @@ bool make_normals_of_visible(struct cpu_frame *cpu, struct visible_buffers *buff
     }
     if (!raster_should_continue(&cpu->raster))
         return true; // the caller reports why
-    // The vertices are no longer needed either: their memory serves again.
+    // The transformed vertices are no longer needed either: their memory serves again. (Meshes without indices have none.)
     struct scratch_memory scratch = {0};
     if (cpu->fragment_stores) {
         release_bins(cpu);

@@ -10,7 +10,8 @@ extern "C" {
 
 // Reflection models (docs/lighting.md has their equations and sources).
 typedef enum lam_reflection {
-    LAM_REFLECTION_AUTO = 0,           // Blinn–Phong
+    // The material's own: none where it is unlit, GGX where it is physical, else Blinn–Phong.
+    LAM_REFLECTION_AUTO = 0,
     LAM_REFLECTION_NONE,               // the diffuse colour, unlit
     LAM_REFLECTION_LAMBERT,            // diffuse only
     LAM_REFLECTION_PHONG,              // highlight by the mirrored light
@@ -18,6 +19,7 @@ typedef enum lam_reflection {
     LAM_REFLECTION_KAJIYA_KAY,         // threads along the tangents
     LAM_REFLECTION_KAJIYA_KAY_LECTURE, // the same as lectures print it
     LAM_REFLECTION_OREN_NAYAR,         // rough diffuse surfaces, no highlight
+    LAM_REFLECTION_GGX,                // metals and dielectrics of tiny mirrors, as glTF has them
     LAM_REFLECTION_COUNT
 } lam_reflection;
 
@@ -34,7 +36,9 @@ typedef struct lam_reflection_info {
     bool tangents;
     // Whether light from behind the surface (n·l ≤ 0) counts: always, or where the material is a fibre.
     bool backlit, backlit_fibre;
-    LAM_RESERVED(8);
+    // It lights physical materials, and Fresnel's factor colours its highlight.
+    bool microfacet;
+    LAM_RESERVED(7);
 } lam_reflection_info;
 
 // NULL: no such model.
@@ -81,11 +85,27 @@ typedef struct lam_material {
     // σ of Oren–Nayar: standard deviation of the slope angle of the surface's facets, radians, 0..π/2. 0: Lambert's
     // surface.
     float roughness_angle_rad;
-    LAM_RESERVED(63);
+
+    // A metallic–roughness material (glTF 2.0, appendix B): `diffuse` is the base colour, `metallic` and `roughness` say
+    // the rest; `specular` and `shininess` are not read. false: a classic material. A reflection model of the other kind
+    // lights it as lam_material_as_classic or lam_material_as_physical turns it.
+    bool physical;
+    // The diffuse colour is shown as it is, unless a reflection model is asked for.
+    bool unlit;
+    float metallic;  // 0: a dielectric, 1: a metal
+    float roughness; // 0 a mirror … 1; the lobe takes at least 0.045
+    LAM_RESERVED(53);
 } lam_material;
 
 // The material of parts that name none: neutral light grey with a soft highlight.
 LAM_API lam_material lam_material_default(void);
+
+// A metallic–roughness material as the classic models can show it: kd = base (1 − metallic), ks = f0 (α + 8)/8 with
+// f0 = mix(0.04, base, metallic), α = 2/roughness⁴ − 2 within 1…4096, ka = base. A classic material is returned as it is.
+LAM_API lam_material lam_material_as_classic(const lam_material *material);
+
+// The reverse: base and metallic from kd and ks, roughness from α. A physical material is returned as it is.
+LAM_API lam_material lam_material_as_physical(const lam_material *material);
 
 // The classic named materials of OpenGL's `teapots.c` demonstration (SGI, 1993/1997).
 typedef enum lam_material_id {

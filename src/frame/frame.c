@@ -307,7 +307,8 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
         if (!part->triangle_count)
             continue;
         int front = material_index(object->material >= 0 ? object->material : part->material);
-        int back = object->back_material >= 0 ? material_index(object->back_material) : front;
+        int back = object->back_material >= 0 ? frame_back_material(frame, front, material_index(object->back_material))
+                                              : front;
         struct frame_draw_range *last = frame->range_count ? &frame->ranges[frame->range_count - 1] : NULL;
         if (last && last->draw == draw_index && last->front == front && last->back == back) {
             last->count += part->triangle_count;
@@ -331,14 +332,17 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
         uint32_t parts = scene_mesh(scene, scene_object(scene, (int)i)->mesh)->part_count;
         ranges += parts ? parts : 1;
     }
-    size_t materials = (size_t)scene->materials.count + 1;
+    size_t materials = 2 * ((size_t)scene->materials.count + 1), turned = frame_materials_turned(frame, scene);
     size_t bytes = objects * sizeof *frame->draws + ranges * sizeof *frame->ranges + lights * sizeof *frame->lights +
-                   lights * sizeof *frame->hemispheres + materials * sizeof *frame->materials + 64;
+                   lights * sizeof *frame->hemispheres + materials * sizeof *frame->materials +
+                   turned * sizeof *frame->turned + 64;
     if (!buffer_reserve(&frame->storage, bytes, call, error))
         return false;
     char *at = frame->storage.data;
     frame->materials = (void *)at; // first, because pointers have the strictest alignment
     at += materials * sizeof *frame->materials;
+    frame->turned = (void *)at;
+    at += turned * sizeof *frame->turned;
     frame->draws = (void *)at;
     at += objects * sizeof *frame->draws;
     frame->ranges = (void *)at;
@@ -367,7 +371,10 @@ static void build_environment(struct frame *frame, const lam_scene *scene, const
 bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
                  int width, int height, struct call_control *call, lam_error *error)
 {
-    if (!check_camera(camera, error) || !check_params(params, error) || !allocate_arrays(frame, scene, call, error))
+    if (!check_camera(camera, error) || !check_params(params, error))
+        return false;
+    frame->reflection = params->reflection;
+    if (!allocate_arrays(frame, scene, call, error))
         return false;
     frame->token = scene->token;
     frame->width = width;
@@ -380,7 +387,6 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->stage = params->stage                            ? params->stage
                    : params->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX
                                                             : LAM_STAGE_FRAGMENT;
-    frame->reflection = params->reflection;
     frame->orthographic = camera->ortho_half_height > 0;
     frame->distant_viewer = frame->orthographic || params->viewer == LAM_VIEWER_INFINITE;
     frame->flat_normal = params->flat_normal;
@@ -394,11 +400,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->triangle_count = 0;
     frame->translucent = frame->makes_normals = false;
 
-    frame->default_material = scene->default_material;
-    frame->material_count = scene->materials.count + 1;
-    frame->materials[0] = &frame->default_material;
-    for (int i = 0; i < scene->materials.count; i++)
-        frame->materials[i + 1] = lam_scene_material(scene, i);
+    frame_materials_build(frame, scene);
 
     lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up);
     double near_plane = camera->near_plane, far_plane = camera->far_plane, aspect = (double)width / height;
@@ -435,20 +437,6 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         frame->translucent = false;
     return build_lights(frame, scene, params->rig, output_is_one_light(frame->output) ? params->output_light : -1,
                         &view, error);
-}
-
-lam_reflection frame_reflection(const struct frame *frame, const lam_material *material)
-{
-    (void)material;
-    return frame->reflection == LAM_REFLECTION_AUTO ? LAM_REFLECTION_BLINN_PHONG : frame->reflection;
-}
-
-float frame_shininess(const struct frame *frame, const lam_material *material)
-{
-    float shininess = material->shininess;
-    if (frame->match_highlights && frame_reflection(frame, material) == LAM_REFLECTION_BLINN_PHONG)
-        shininess *= 4;
-    return frame->gl1 && shininess > 128 ? 128 : shininess;
 }
 
 void frame_free(struct frame *frame) { buffer_free(&frame->storage); }

@@ -89,8 +89,12 @@ struct frame {
     struct frame_draw_range *ranges; // by first_id, without gaps
     int range_count;
     uint32_t triangle_count;
-    const lam_material **materials; // 0: the default material; 1 + i: the scene's
-    int material_count;
+    // 0: the default material; 1 + i: the scene's; then, where some are the back of a front that another kind of model
+    // lights, all of them again for such backs. Each is of the kind that its model lights.
+    const lam_material **materials;
+    int material_count, scene_material_count; // all; without those backs
+    lam_material *turned;                     // materials of the other kind than the scene's
+    int turned_count;
     struct frame_light *lights;
     int light_count;
     struct frame_hemisphere *hemispheres;
@@ -107,6 +111,19 @@ struct frame {
 
 // The reflection model that lights a material; never AUTO.
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material);
+
+// The greatest number of materials that frame_materials_build and frame_back_material turn into the other kind.
+size_t frame_materials_turned(const struct frame *frame, const lam_scene *scene);
+void frame_materials_build(struct frame *frame, const lam_scene *scene);
+// The index of a back's material beside this front.
+int frame_back_material(struct frame *frame, int front, int back);
+
+// The colours that lights are multiplied by: kd and ks; of a physical material base (1 − metallic), and 1, since Fresnel's
+// factor comes later (fresnel_of).
+void frame_material_colors(const lam_material *material, float kd[3], float ks[3]);
+
+// The greatest S of a material's lobe, with Fresnel's factor.
+float frame_lobe_max(const lam_material *material);
 
 // Returns the highlight exponent of a material, after match_highlights and gl1.
 float frame_shininess(const struct frame *frame, const lam_material *material);

@@ -21,6 +21,7 @@ struct side {
     const struct frame_draw *draw;
     const lam_mesh *mesh;
     const lam_material *material;
+    float kd[3], ks[3];
     bool flip; // the back: lit with −n
     bool translucent;
     lam_reflection reflection;
@@ -57,8 +58,8 @@ LANE_FN light_source source_of(const struct side *side, const struct frame_light
     s.exponent = num_of(light->exponent);
     s.cos_outer = num_of(light->cos_outer);
     s.inverse_width = num_of(light->inverse_width);
-    s.diffuse = product3(&side->material->diffuse.r, light->diffuse);
-    s.specular = product3(&side->material->specular.r, light->specular);
+    s.diffuse = product3(side->kd, light->diffuse);
+    s.specular = product3(side->ks, light->specular);
     return s;
 }
 
@@ -82,11 +83,14 @@ LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color)
         sum = add_hemisphere(
             sum, s, (hemisphere){of3(h->up), product3(&m->ambient.r, h->sky), product3(&m->ambient.r, h->ground)});
     }
+    fresnel mirror = fresnel_of(mul3(of3(&m->diffuse.r), color), num_of(m->metallic), num_of(0.0f));
     lobe_parameters parameters = lobe_parameters_of(m, frame_shininess(frame, m));
     for (int i = 0; i < frame->light_count; i++) {
         const struct frame_light *l = &frame->lights[i];
         light_source light = source_of(side, l);
         light_sample t = toward_light(s.p, light, l->kind, l->falloff);
+        if (lobe_properties(model) & LOBE_MICROFACET)
+            light = with_fresnel(light, mirror, s.v, t.l);
         sum = add_reflected(sum, light, t, reflect_light(s, t.l, parameters, model));
         if (frame->gl1)
             sum = add_arriving_ambient(sum, product3(&m->ambient.r, l->ambient), t);
@@ -284,6 +288,7 @@ static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const stru
         for (int back = 0; back < 2; back++) {
             if (!back || !draw->one_sided) { // one-sided: the back repeats the front
                 side.material = f->frame->materials[back ? run->back : run->front];
+                frame_material_colors(side.material, side.kd, side.ks);
                 side.flip = back;
                 light_side(&side, from, padded, colors);
                 f->device->base.report.points_lit += chunk;

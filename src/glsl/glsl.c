@@ -51,6 +51,8 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
         text_print(text, "        light_source light = light_of(i%s);\n", list_argument(f));
         text_print(text, "        light_sample t = toward_light(s.p, light, %s, %s);\n", kind_words[group->kind],
                    falloff_words[group->falloff]);
+        if (f->microfacet)
+            text_add(text, "        light = with_fresnel(light, mirror, s.v, t.l);\n");
         text_add(text, "        sum = add_reflected(sum, light, t, ");
         glsl_add_lobe(text, f);
         text_add(text, ");\n");
@@ -120,10 +122,11 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     bool tints = c->colors && f->lit && !f->output_vector;
     bool eye = surface || c->output == LAM_OUTPUT_DEPTH;
     bool triangle_ids = c->output == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS;
-    struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0};
+    struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0}, metallic = {0};
     glsl_declare_attributes(&attributes, f);
     add_groups(&groups, f);
     glsl_add_parameters(&chosen, f);
+    glsl_add_parameter(&metallic, f, "metallic");
     const struct preprocess_flag flags[] = {
         {"glsl_120", glsl_120},
         {"array", c->storage == GLSL_ARRAY},
@@ -157,6 +160,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"has_environment", f->environment},
         {"cube_map", c->environment == GLSL_CUBE},
         {"highlights", f->highlights},
+        {"microfacet", f->microfacet},
         {"selects_parameters", chosen.bytes != NULL},
         {"provoking", flat && glsl_120 && eye},
         {"depth", c->output == LAM_OUTPUT_DEPTH},
@@ -225,6 +229,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"viewer", c->distant_viewer ? "VIEWER_INFINITE" : "VIEWER_LOCAL"},
         {"groups", groups.bytes ? groups.bytes : ""},
         {"parameters", chosen.bytes ? chosen.bytes : ""},
+        {"metallic", metallic.bytes ? metallic.bytes : ""},
         {"output_term", output_term(c)},
         {"output_vector", vector.bytes ? vector.bytes : ""},
         {"texture_cube", glsl_120 ? "textureCube" : "texture"},
@@ -235,8 +240,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {NULL, NULL},
     };
     const struct preprocess_words words = {flags, values};
-    const struct text *parts[] = {&groups, &vector, &attributes, &chosen};
-    for (int i = 0; i < 4; i++)
+    const struct text *parts[] = {&groups, &vector, &attributes, &chosen, &metallic};
+    for (int i = 0; i < 5; i++)
         if (parts[i]->failed) {
             text->failed = true;
             text->error = parts[i]->error;
@@ -249,6 +254,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     free(vector.bytes);
     free(attributes.bytes);
     free(chosen.bytes);
+    free(metallic.bytes);
 }
 
 // --- the shader

@@ -33,7 +33,9 @@ bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
     if (!f->adds_lights || !f->lights)
         return false;
     if (strcmp(parameter, "shininess") == 0)
-        return f->highlights;
+        return f->highlights && !f->microfacet;
+    if (strcmp(parameter, "metallic") == 0) // of Fresnel's factor
+        return f->microfacet;
     const char *at = calls[f->choices->reflection];
     while (at && (at = strstr(at, "m.")) && !is_name(at + 2, name_length(at + 2), parameter))
         at += 2;
@@ -56,9 +58,14 @@ static void add_parameter(struct text *text, const struct glsl_facts *f, const c
     text_print(text, "%s%.*s", !f->choices->products ? "m." : selects(f) ? "own_" : "", (int)length, name);
 }
 
+void glsl_add_parameter(struct text *text, const struct glsl_facts *f, const char *name)
+{
+    add_parameter(text, f, name, strlen(name));
+}
+
 void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
 {
-    text_add(text, "reflected_of(");
+    text_add(text, f->microfacet ? "microfacet_of(" : "reflected_of(");
     for (const char *at = calls[f->choices->reflection]; *at;) {
         size_t length = name_length(at), member = length && at[length] == '.' ? name_length(at + length + 1) : 0;
         if (is_name(at, length, "m") && member) {
@@ -71,6 +78,10 @@ void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
             text_add_part(text, at, length);
         }
         at += length;
+    }
+    if (f->microfacet) {
+        text_add(text, ")");
+        return;
     }
     text_add(text, ", ");
     if (f->highlights)

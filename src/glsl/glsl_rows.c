@@ -24,6 +24,7 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
     f.adds_lights = sums;
     f.tangent = (sums && lobe->tangents) || (f.lit && c->output == LAM_OUTPUT_TANGENTS);
     f.highlights = sums && c->light_count > 0 && lobe->base;
+    f.microfacet = f.highlights && lobe->microfacet;
     f.back_material = c->two_sided && c->back_material && f.lit && !f.output_vector;
     for (int i = 0; i < c->group_count; i++) {
         f.attenuated |= f.lights && !f.output_vector && c->groups[i].falloff != FALLOFF_NONE;
@@ -71,7 +72,7 @@ static bool is_read(const struct glsl_facts *f, const struct material_field *row
     case FIELD_ENVIRONMENT:
         return f->environment;
     case FIELD_HIGHLIGHT:
-        return f->highlights;
+        return f->highlights && !f->microfacet;
     case FIELD_LOBE:
         return glsl_lobe_reads(f, row->field.name);
     default:

@@ -59,6 +59,7 @@ struct glsl_facts {
     bool positions;           // any light is not directional
     bool directions;          // any light is not a point
     bool highlights;          // the reflection model has a highlight
+    bool microfacet;          // Fresnel's factor colours it
     bool tangent;             // light_point reads a tangent
     bool environment;         // light_point reads the environment
     bool back_material;       // the back has a material of its own
@@ -70,6 +71,8 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *choices);
 bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
 // With products and two materials: appends the lines that select these parameters from the front or the back material.
 void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
+// Appends the expression of a parameter of the material.
+void glsl_add_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
 // Appends the call that evaluates the lobe for the light sample `t`: "reflected_of(phong_lobe(s, t.l), shininess)".
 void glsl_add_lobe(struct text *text, const struct glsl_facts *facts);
 

@@ -93,7 +93,7 @@ struct glsl_material_layout glsl_material_layout(bool products)
     for (int wide = 1; wide >= 0; wide--)
         for (int i = 0; material_field(i); i++) {
             const struct material_field *row = material_field(i);
-            if (is_wide(row) != wide || row->reader == FIELD_NEVER || (products && row->product && !*row->product))
+            if (is_wide(row) != wide || row->reader >= FIELD_CHOICE || (products && row->product && !*row->product))
                 continue;
             out.fields[out.count] = row;
             out.at[out.count++] = out.size;
@@ -184,6 +184,8 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
         memcpy(out, head, size * sizeof *out);
         out += size;
     }
+    float kd[3], ks[3];
+    frame_material_colors(material, kd, ks);
     // A block has an array of each product; in a texture the products of a light are consecutive.
     size_t lights = (size_t)c->light_count, hemispheres = (size_t)c->hemisphere_count, at = 0;
     size_t step = block ? 4 : c->gl1 ? 12 : 8, next = block ? 4 * lights : 4;
@@ -192,8 +194,8 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
             const struct frame_light *light = &frame->lights[i];
             if (light->kind != c->groups[g].kind || light->falloff != c->groups[g].falloff)
                 continue;
-            product(out + at, &material->diffuse.r, light->diffuse);
-            product(out + at + next, &material->specular.r, light->specular);
+            product(out + at, kd, light->diffuse);
+            product(out + at + next, ks, light->specular);
             if (c->gl1)
                 product(out + at + 2 * next, &material->ambient.r, light->ambient);
             at += step;

@@ -97,17 +97,25 @@ light_source light_of(int i@list_parameter@)
 //@end
 //@else
 //@if texture
+//@if microfacet
+    light.diffuse = mul3(scale3(m.diffuse.rgb, 1.0 - m.metallic), list_texel(light_list, first + 4).rgb);
+    light.specular = list_texel(light_list, first + 5).rgb;
+//@elif highlights
     light.diffuse = mul3(m.diffuse.rgb, list_texel(light_list, first + 4).rgb);
-//@if highlights
     light.specular = mul3(m.specular.rgb, list_texel(light_list, first + 5).rgb);
 //@else
+    light.diffuse = mul3(m.diffuse.rgb, list_texel(light_list, first + 4).rgb);
     light.specular = black3();
 //@end
 //@else
+//@if microfacet
+    light.diffuse = mul3(scale3(m.diffuse.rgb, 1.0 - m.metallic), lights[i].diffuse.rgb);
+    light.specular = lights[i].specular.rgb;
+//@elif highlights
     light.diffuse = mul3(m.diffuse.rgb, lights[i].diffuse.rgb);
-//@if highlights
     light.specular = mul3(m.specular.rgb, lights[i].specular.rgb);
 //@else
+    light.diffuse = mul3(m.diffuse.rgb, lights[i].diffuse.rgb);
     light.specular = black3();
 //@end
 //@end
@@ -223,6 +231,17 @@ vec4 light_point(@lit_parameters@)
     for (int i = 0; i < @hemispheres@; i++) {
         sum = add_hemisphere(sum, s, hemisphere_of(i@list_argument@));
     }
+//@end
+//@if microfacet
+//@if products
+    vec3 base = $(diffuse).rgb;
+//@else
+    vec3 base = m.diffuse.rgb;
+//@end
+//@if vertex_colors
+    base = mul3(base, tint.rgb);
+//@end
+    fresnel mirror = fresnel_of(base, @metallic@, 0.0);
 //@end
 //@if has_lights
 @groups@

@@ -169,6 +169,8 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
     struct glsl_light light = {0};
     if (of_light)
         light = glsl_light_of(&frame->lights[m->order[index]]);
+    float kd[3], ks[3];
+    frame_material_colors(material, kd, ks);
     switch (row->semantic) {
     case GLSL_MODEL_VIEW_PROJECTION:
         return put_projection(out, draw, m->width, m->height);
@@ -196,9 +198,9 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
         return put_member(out, values, row->semantic == GLSL_MATERIAL ? member : row);
     }
     case GLSL_DIFFUSE_PRODUCT:
-        return put_product(out, &material->diffuse.r, light.diffuse);
+        return put_product(out, kd, light.diffuse);
     case GLSL_SPECULAR_PRODUCT:
-        return put_product(out, &material->specular.r, light.specular);
+        return put_product(out, ks, light.specular);
     case GLSL_LIGHT_AMBIENT_PRODUCT:
         return put_product(out, &material->ambient.r, light.ambient);
     case GLSL_SKY_PRODUCT:

@@ -186,6 +186,71 @@ FN lobe_sample oren_nayar_lobe(surface s, vec3 l, num sigma)
     return b;
 }
 
+// Cook and Torrance (1982) with Walter's distribution GGX (2007): a surface of tiny mirrors, as glTF 2.0 (appendix B)
+// has it for metals and dielectrics. With alpha = roughness^2 and h halfway between l and v
+//     S = pi D V max(n.l, 0)
+//     D = alpha^2 / (pi (|n x h|^2 + (n.h)^2 alpha^2)^2)
+//     V = 1 / (2 (n.l root((n.v)^2 (1 - alpha^2) + alpha^2) + n.v root((n.l)^2 (1 - alpha^2) + alpha^2)))
+//     D' = max(n.l, 0) (1 - F)
+// where V is Smith's shadowing of mirrors by mirrors, height-correlated (Heitz 2014), D' the diffuse share, and F
+// Schlick's Fresnel factor of a dielectric. pi is there because a matt surface returns kd here, not kd / pi. The
+// textbook's (n.h)^2 (alpha^2 - 1) + 1 for the bracket of D loses three digits on smooth surfaces.
+//
+// Smoother than ROUGHNESS_MIN, a highlight of a light without a size would fall between the pixels.
+#define ROUGHNESS_MIN 0.045f
+
+// Schlick (1994): a mirror reflects f0 + (1 - f0) (1 - v.h)^5; this is the power. v.h = |l + v| / 2.
+FN num schlick_weight(vec3 v, vec3 l)
+{
+    vec3 sum = add3(l, v);
+    num m = positive(1.0f - 0.5f * square_root(dot3(sum, sum)));
+    num square = m * m;
+    return square * square * m;
+}
+
+// What a dielectric reflects along the normal: index of refraction 1.5.
+#define DIELECTRIC_F0 0.04f
+
+// The mirrors' visibility times 2 n.l: n.l / (n.l root(...) + n.v root(...)).
+FN num smith_visibility(num n_dot_l, num n_dot_v, num alpha_square)
+{
+    num beyond = 1.0f - alpha_square;
+    num masked = n_dot_l * square_root(n_dot_v * n_dot_v * beyond + alpha_square);
+    num shadowed = n_dot_v * square_root(n_dot_l * n_dot_l * beyond + alpha_square);
+    return n_dot_l / max_of(masked + shadowed, num_of(1.0e-30f));
+}
+
+FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
+{
+    lobe_sample b = lambert_lobe(s, l);
+    num alpha = max_of(roughness, num_of(ROUGHNESS_MIN));
+    alpha = alpha * alpha;
+    num alpha_square = alpha * alpha;
+    num n_dot_v = cosine(dot3(s.n, s.v));
+    vec3 sum = add3(l, s.v);
+    vec3 across = cross3(s.n, sum);
+    num along = dot3(s.n, sum);
+    num square = dot3(sum, sum);
+    // All of it times |l + v|^2, so that h need not be made.
+    num bracket = dot3(across, across) + along * along * alpha_square;
+    num spread = alpha * square / max_of(bracket, num_of(1.0e-30f));
+    b.base = 0.5f * spread * spread * smith_visibility(positive(b.n_dot_l), n_dot_v, alpha_square);
+    b.lit = both(both(b.n_dot_l > 0.0f, n_dot_v > 0.0f), square > 0.0f);
+    b.diffuse = b.diffuse * (1.0f - (DIELECTRIC_F0 + (1.0f - DIELECTRIC_F0) * schlick_weight(s.v, l)));
+    return b;
+}
+
+// A microfacet lobe's base is its S.
+FN lobe_value microfacet_of(lobe_sample b)
+{
+    lobe_value r;
+    r.diffuse = b.diffuse;
+    r.specular = pick(b.lit, b.base, num_of(0.0f));
+    r.n_dot_l = b.n_dot_l;
+    r.base = r.specular;
+    return r;
+}
+
 // The highlight, raised to its power.
 FN lobe_value reflected_of(lobe_sample b, num shininess)
 {
@@ -203,7 +268,9 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 #define LOBE_PARAMETERS(X)                                                                                             \
     X(shininess)                                                                                                       \
     X(fibre)                                                                                                           \
-    X(roughness_angle_rad)
+    X(roughness_angle_rad)                                                                                             \
+    X(roughness)                                                                                                       \
+    X(metallic)
 
 // The table of the reflection models: the dispatch in C and in GLSL, the words of the command line and of scene files,
 // reports, explanations and tests are made from it. A new model is an enumerator in lambent/material.h, a function
@@ -211,6 +278,7 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 //     the enumerator without LAM_REFLECTION_
 //     the call: `s` is the surface, `l` the direction to the light, `m` the material's lobe_parameters
 //     properties: LOBE_HIGHLIGHT   S is not 0: the lobe returns the base of a power
+//                 LOBE_MICROFACET  the base is S itself, and Fresnel's factor colours it (fresnel_of)
 //                 LOBE_TANGENT     it reads the surface's tangent
 //                 LOBE_BACKLIT     light from behind (n.l < 0) counts
 //                 LOBE_BACKLIT_FIBRE   it counts where the material is a fibre
@@ -234,10 +302,13 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
       "sin(t,l)", "max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)") \
     X(OREN_NAYAR, oren_nayar_lobe(s, l, m.roughness_angle_rad), 0, \
       "oren-nayar", "rough matt surfaces, no highlight", \
-      "max(n·l, 0) (A + B max(l·v − n·l n·v, 0) ÷ max(n·l, n·v))", "")
+      "max(n·l, 0) (A + B max(l·v − n·l n·v, 0) ÷ max(n·l, n·v))", "") \
+    X(GGX, ggx_lobe(s, l, m.roughness), LOBE_HIGHLIGHT | LOBE_MICROFACET, \
+      "ggx", "metals and dielectrics of tiny mirrors, glTF's metallic-roughness", \
+      "max(n·l, 0) (1 − F)", "π D V max(n·l, 0)")
 // clang-format on
 
-enum { LOBE_HIGHLIGHT = 1, LOBE_TANGENT = 2, LOBE_BACKLIT = 4, LOBE_BACKLIT_FIBRE = 8 };
+enum { LOBE_HIGHLIGHT = 1, LOBE_TANGENT = 2, LOBE_BACKLIT = 4, LOBE_BACKLIT_FIBRE = 8, LOBE_MICROFACET = 16 };
 
 STRUCT(lobe_parameters){
 #define MEMBER(name) num name;
@@ -278,6 +349,8 @@ static inline int lobe_properties(int model)
 
 LANE_FN lobe_value reflect_light(surface s, vec3 l, lobe_parameters m, int model)
 {
+    if (lobe_properties(model) & LOBE_MICROFACET)
+        return microfacet_of(lobe_of(s, l, m, model));
     lobe_value r = reflected_of(lobe_of(s, l, m, model), m.shininess);
     if (!(lobe_properties(model) & LOBE_HIGHLIGHT))
         r.specular = num_of(0.0f);

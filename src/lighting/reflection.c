@@ -11,11 +11,13 @@
                                .diffuse = diffuse_formula,                                                             \
                                .base = TEXT_OR_NULL(base_formula),                                                     \
                                .tangents = ((flags) & LOBE_TANGENT) != 0,                                              \
+                               .microfacet = ((flags) & LOBE_MICROFACET) != 0,                                         \
                                .backlit = ((flags) & LOBE_BACKLIT) != 0,                                               \
                                .backlit_fibre = ((flags) & LOBE_BACKLIT_FIBRE) != 0},
 
 static const lam_reflection_info models[LAM_REFLECTION_COUNT] = {
-    [LAM_REFLECTION_AUTO] = {.word = "auto", .summary = "blinn-phong for classic materials"},
+    [LAM_REFLECTION_AUTO] = {.word = "auto",
+                             .summary = "the material's own: ggx for physical ones, blinn-phong for classic ones"},
     [LAM_REFLECTION_NONE] = {.word = "none", .summary = "the diffuse colour, unlit"},
     LOBES(LOBE)};
 

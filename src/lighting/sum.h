@@ -74,6 +74,30 @@ FN terms add_hemisphere(terms sum, surface s, hemisphere h)
     return sum;
 }
 
+// Fresnel's factor of a metallic-roughness material, f0 + rest (1 - v.h)^5, for each channel.
+STRUCT(fresnel) { vec3 f0, rest; };
+
+// glTF 2.0, appendix B, the normative mix of a dielectric and a metal whose f0 is the base colour:
+//     (1 - metallic) (0.04 + 0.96 w) + metallic (base + (1 - base) w)
+// Each part times 1 + its f0 gain: the light that mirrors send to one another before it leaves (0: none of it).
+FN fresnel fresnel_of(vec3 base, num metallic, num gain)
+{
+    fresnel f;
+    vec3 white = vec3_of(num_of(1.0f), num_of(1.0f), num_of(1.0f));
+    num dielectric = (1.0f - metallic) * (1.0f + DIELECTRIC_F0 * gain);
+    vec3 metal = scale3(add3(white, scale3(base, gain)), metallic);
+    f.f0 = add3(scale3(white, dielectric * DIELECTRIC_F0), mul3(metal, base));
+    f.rest = add3(scale3(white, dielectric * (1.0f - DIELECTRIC_F0)), mul3(metal, sub3(white, base)));
+    return f;
+}
+
+// The light with Fresnel's factor in its specular colour.
+FN light_source with_fresnel(light_source light, fresnel f, vec3 v, vec3 l)
+{
+    light.specular = mul3(light.specular, add3(f.f0, scale3(f.rest, schlick_weight(v, l))));
+    return light;
+}
+
 // Adds spot * attenuation * (kd * Ld D + ks * Ls S) for known D and S.
 FN terms add_reflected(terms sum, light_source light, light_sample t, lobe_value r)
 {

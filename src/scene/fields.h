@@ -4,6 +4,7 @@
 
 #include <lambent/fields.h>
 #include <lambent/light.h>
+#include <lambent/material.h>
 
 // The part of a shader that reads a field of the material.
 enum field_reader {
@@ -12,6 +13,7 @@ enum field_reader {
     FIELD_HIGHLIGHT,   // reflection models with a highlight
     FIELD_LOBE,        // reflection models that name it as a parameter
     FIELD_ENVIRONMENT, // the mirrored environment
+    FIELD_CHOICE,      // none: it decides about the reflection model
     FIELD_NEVER,       // it is part of another field
 };
 
@@ -22,6 +24,7 @@ struct material_field {
     const char *product, *product_summary;
     enum field_reader reader;
     bool optional; // a scene file leaves it out where it is 0, which is the default
+    bool physical; // only physical materials have it: writing it makes a material physical
 };
 const struct material_field *material_field(int index); // NULL past the end
 
@@ -45,5 +48,8 @@ bool field_is_zero(const lam_field *field, const void *object);
 // Sets the default, and any numbers whose angles are in degrees.
 void field_set_standard(const lam_field *field, void *object);
 void field_set_written(const lam_field *field, void *object, const double numbers[4]);
+
+// To be called for each field that a person or a file has set: see material_field.physical.
+void material_note_written(lam_material *material, int field);
 
 #endif

@@ -55,6 +55,22 @@ static const struct material_field rows[] = {
                .summary = "Oren-Nayar's sigma: standard deviation of the slope of the surface's facets"},
      .reader = FIELD_LOBE,
      .optional = true},
+    {.field = {MEMBER(physical), .type = LAM_FIELD_FLAG, .max = 1,
+               .summary = "a metallic-roughness material (glTF 2.0); diffuse is its base colour"},
+     .reader = FIELD_CHOICE,
+     .optional = true},
+    {.field = {MEMBER(metallic), .max = 1, .summary = "0 a dielectric, 1 a metal"},
+     .reader = FIELD_LOBE,
+     .optional = true,
+     .physical = true},
+    {.field = {MEMBER(roughness), .max = 1, .standard = {0.5},
+               .summary = "0 a mirror, 1 matt; the lobe takes at least 0.045"},
+     .reader = FIELD_LOBE,
+     .physical = true},
+    {.field = {MEMBER(unlit), .type = LAM_FIELD_FLAG, .max = 1,
+               .summary = "the diffuse colour as it is, unless a reflection model is asked for"},
+     .reader = FIELD_CHOICE,
+     .optional = true},
 };
 enum { COUNT = sizeof rows / sizeof *rows };
 _Static_assert((int)COUNT <= LAM_FIELDS_MAX, "more fields than LAM_FIELDS_MAX");
@@ -62,3 +78,9 @@ _Static_assert((int)COUNT <= LAM_FIELDS_MAX, "more fields than LAM_FIELDS_MAX");
 const struct material_field *material_field(int index) { return (unsigned)index < COUNT ? &rows[index] : NULL; }
 
 const lam_field *lam_material_field(int index) { return (unsigned)index < COUNT ? &rows[index].field : NULL; }
+
+void material_note_written(lam_material *material, int field)
+{
+    if (rows[field].physical)
+        material->physical = true;
+}

@@ -17,6 +17,9 @@ bool read_material_keys(struct scene_reader *r, const struct place *place, const
     if (!check_keys(r, place, value, keys))
         return false;
     for (int i = 0; i < count; i++)
+        if (json_object_get(value, keys[i]))
+            material_note_written(material, i);
+    for (int i = 0; i < count; i++)
         if (material_field(i)->reader != FIELD_NEVER && !take_field(r, place, value, lam_material_field(i), material))
             return false;
     if (whole && !json_object_get(value, "ambient")) // a surface answers light from all around as it answers any light

@@ -179,7 +179,8 @@ static json_t *material_json(struct scene_writer *w, const lam_material *m, bool
     json_t *out = json_object();
     for (int i = 0; material_field(i); i++) {
         const struct material_field *row = material_field(i);
-        if (row->reader != FIELD_NEVER && (whole || !row->optional || !field_is_zero(&row->field, m)))
+        bool has = row->reader != FIELD_NEVER && (m->physical || !row->physical);
+        if (has && (whole || !row->optional || !field_is_zero(&row->field, m)))
             put_field(w, out, &row->field, m);
     }
     if (!whole && m->diffuse.a == 1)

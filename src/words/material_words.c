@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "fail.h"
+#include "fields.h"
 #include "spelling.h"
 #include "word_values.h"
 
@@ -154,8 +155,10 @@ static lam_material apply(const struct reading *reading, lam_color_mode mode, la
     if (given(reading, MATERIAL_SPECULAR_COLOR))
         m.specular = (lam_rgb){(float)specular[0], (float)specular[1], (float)specular[2]};
     for (int i = 0; lam_material_field(i); i++)
-        if (given(reading, i))
+        if (given(reading, i)) {
+            material_note_written(&m, i);
             word_set_field(lam_material_field(i), &m, reading->numbers[i]);
+        }
     for (int i = 0; lam_material_field(i); i++)
         if (given(reading, factor_of(i)))
             set_factor(reading, i, &m);

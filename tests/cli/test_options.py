@@ -339,7 +339,7 @@ class CommandLine(Case):
             ("--view", "isometric"): "did you mean 'iso'?", ("--view", "FRONT"): "did you mean 'front'?",
             ("--reflection", "blinn"): "did you mean 'blinn-phong'?", ("--rig", "3-point"): "did you mean 'three-point'?",
             ("--device", "gpu"): "did you mean 'gl'?", ("--material", "albedo=red"): "did you mean 'diffuse'?",
-            ("--material", "roughness=0.5"): "did you mean 'roughness_angle'?", ("--material", "alpha=0.5"): "did you mean 'opacity'?",
+            ("--material", "roughnes=0.5"): "did you mean 'roughness'?", ("--material", "alpha=0.5"): "did you mean 'opacity'?",
             ("--camera", "pos=1/2/3"): "did you mean 'eye'?", ("--camera", "fov=30"): "did you mean 'fovy'?",
             ("--sheet", "terms"): "does not apply to this command; it belongs to compare",
         }.items():

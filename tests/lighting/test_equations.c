@@ -56,6 +56,13 @@ static void compare(const struct points *p, const struct modes *m, int i)
         base *= 0.1 / t.half_length;
     }
 
+    // S of microfacets has no upper bound: its digits count. Its peak is as narrow as alpha = roughness².
+    double S = 1, roughness = fmax((double)in[IN_PARAMETERS + 3], 0.045);
+    if (lam_reflection_describe((lam_reflection)m->model)->microfacet) {
+        S = fmax(t.out[OUT_S], 1);
+        lobe = base = S * (1e-5 + 4e-6 / (roughness * roughness));
+    }
+
     double spot = 0;
     if (m->kind == LIGHT_SPOT_CUTOFF || m->kind == LIGHT_SPOT_EXPONENT)
         spot = 2e-6 + 4e-7 * (double)in[IN_EXPONENT];
@@ -68,7 +75,7 @@ static void compare(const struct points *p, const struct modes *m, int i)
         allowed[OUT_L + k] = 4e-7;
         allowed[OUT_AMBIENT + k] = allowed[OUT_REFLECTION + k] = 2e-6;
         allowed[OUT_DIFFUSE + k] = ((matt + spot) * arrives + window) * (double)in[IN_DIFFUSE + k] + 1e-30;
-        allowed[OUT_SPECULAR + k] = ((lobe + spot) * arrives + window) * (double)in[IN_SPECULAR + k] + 1e-30;
+        allowed[OUT_SPECULAR + k] = ((lobe + spot * S) * arrives + window * S) * (double)in[IN_SPECULAR + k] + 1e-30;
         allowed[OUT_SUM + k] = allowed[OUT_DIFFUSE + k] + allowed[OUT_SPECULAR + k] + 4e-6;
     }
     allowed[OUT_DISTANCE] = 4e-7 * t.out[OUT_DISTANCE];

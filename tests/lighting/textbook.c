@@ -16,6 +16,11 @@ static double inner(vector a, vector b) { return a.x * b.x + a.y * b.y + a.z * b
 static double length(vector a) { return sqrt(inner(a, a)); }
 static vector times(double s, vector a) { return (vector){s * a.x, s * a.y, s * a.z}; }
 static vector plus(vector a, vector b) { return (vector){a.x + b.x, a.y + b.y, a.z + b.z}; }
+#define PI 3.14159265358979323846
+static vector cross(vector a, vector b)
+{
+    return (vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 static vector minus(vector a, vector b) { return plus(a, times(-1, b)); }
 static int none(vector a) { return length(a) < 1e-9; }
 static vector normalize(vector a) { return none(a) ? (vector){0, 0, 0} : times(1 / length(a), a); }
@@ -69,7 +74,8 @@ struct geometry {
 
 struct reflected {
     double diffuse, base;
-    int lit; // there is a highlight where the eye sees the point
+    int lit;        // there is a highlight where the eye sees the point
+    int microfacet; // its S is the base itself
 };
 
 static struct reflected reflect_none(const struct geometry *g)
@@ -86,19 +92,20 @@ static struct reflected reflect_lambert(const struct geometry *g)
 static struct reflected reflect_phong(const struct geometry *g)
 {
     vector r = minus(times(2 * g->n_l, g->n), g->l);
-    return (struct reflected){fmax(g->n_l, 0), inner(r, g->v), g->n_l > 0};
+    return (struct reflected){.diffuse = fmax(g->n_l, 0), .base = inner(r, g->v), .lit = g->n_l > 0};
 }
 
 static struct reflected reflect_blinn_phong(const struct geometry *g)
 {
-    return (struct reflected){fmax(g->n_l, 0), inner(g->n, normalize(plus(g->l, g->v))), g->n_l > 0};
+    return (struct reflected){
+        .diffuse = fmax(g->n_l, 0), .base = inner(g->n, normalize(plus(g->l, g->v))), .lit = g->n_l > 0};
 }
 
 // sin sin ∓ cos cos are −cos of the sum and cos of the difference of the angles.
 static struct reflected reflect_thread(const struct geometry *g, double base, int gated)
 {
     int there = !none(g->t) && !none(g->l) && (g->n_l > 0 || !gated);
-    return (struct reflected){there ? sin(g->theta_l) : 0, none(g->t) ? 0 : base, there};
+    return (struct reflected){.diffuse = there ? sin(g->theta_l) : 0, .base = none(g->t) ? 0 : base, .lit = there};
 }
 
 static struct reflected reflect_kajiya_kay(const struct geometry *g)
@@ -122,6 +129,20 @@ static struct reflected reflect_oren_nayar(const struct geometry *g)
     return (struct reflected){.diffuse = fmax(g->n_l, 0) * (a + b * beside)};
 }
 
+// glTF 2.0, appendix B, in its own form, times pi.
+static struct reflected reflect_ggx(const struct geometry *g)
+{
+    double roughness = fmax((double)g->parameters[3], 0.045), alpha = roughness * roughness, square = alpha * alpha;
+    double n_l = g->n_l, n_v = inner(g->n, g->v);
+    vector h = normalize(plus(g->l, g->v));
+    double n_h = inner(g->n, h), sine = length(cross(g->n, h));
+    double d = square / (PI * pow(sine * sine + n_h * n_h * square, 2));
+    double v = 0.5 / (n_l * sqrt(n_v * n_v * (1 - square) + square) + n_v * sqrt(n_l * n_l * (1 - square) + square));
+    double mirrored = 0.04 + 0.96 * pow(1 - limit(inner(g->v, h), 0, 1), 5);
+    int seen = n_l > 0 && n_v > 0 && !none(h);
+    return (struct reflected){fmax(n_l, 0) * (1 - mirrored), seen ? PI * d * v * n_l : 0, seen, 1};
+}
+
 // Each with the hash over the results of all widths (test_widths.c prints it).
 static const struct lobe {
     struct reflected (*of)(const struct geometry *g);
@@ -134,6 +155,7 @@ static const struct lobe {
     [LAM_REFLECTION_KAJIYA_KAY] = {reflect_kajiya_kay, 0x7e895ba25bd9210a},
     [LAM_REFLECTION_KAJIYA_KAY_LECTURE] = {reflect_kajiya_kay_lecture, 0x7914335629de57cd},
     [LAM_REFLECTION_OREN_NAYAR] = {reflect_oren_nayar, 0xc42745003ceb023c},
+    [LAM_REFLECTION_GGX] = {reflect_ggx, 0xa41c98a56a026d0b},
 };
 
 uint64_t textbook_hash(int model) { return lobes[model].hash; }
@@ -168,8 +190,8 @@ struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]
     g.theta_l = acos(limit(inner(t, l), -1, 1));
     g.theta_v = acos(limit(inner(t, v), -1, 1));
     struct reflected lobe = lobes[modes->model].of(&g);
-    double base = limit(lobe.base, 0, 1);
-    double specular = lobe.lit && !none(v) ? raise(base, (double)in[IN_SHININESS]) : 0;
+    double base = lobe.microfacet ? lobe.base : limit(lobe.base, 0, 1);
+    double specular = !lobe.lit || none(v) ? 0 : lobe.microfacet ? base : raise(base, (double)in[IN_SHININESS]);
 
     put(out + OUT_L, l);
     out[OUT_DISTANCE] = d;

@@ -102,6 +102,11 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
     number(4, "D", (double)l->D, remark);
     if (!model->base)
         return;
+    if (model->microfacet) {
+        snprintf(remark, sizeof remark, "%s%s", gate, model->base);
+        number(4, "S", (double)l->S, remark);
+        return;
+    }
     number(4, "base", (double)l->base, model->base);
     number(4, "power α", (double)l->power, "the shininess");
     snprintf(remark, sizeof remark, "%sbase^α = %s%.7g^%.7g", gate, gated && !(l->n_dot_l > 0) ? "0 · " : "",
@@ -146,9 +151,10 @@ static void print_light(const lam_explanation *e, const lam_explained_fragment *
     number(4, "n·l", (double)l->n_dot_l, "");
     print_highlight(f, p, l);
     char text[200];
-    product(text, l, "kd ⊙ Ld · D", l->kd_Ld, l->D);
+    bool microfacet = lam_reflection_describe(f->reflection)->microfacet;
+    product(text, l, microfacet ? "base (1 − metallic) ⊙ Ld · D" : "kd ⊙ Ld · D", l->kd_Ld, l->D);
     color(4, "diffuse", l->diffuse_term, text);
-    product(text, l, "ks ⊙ Ls · S", l->ks_Ls, l->S);
+    product(text, l, microfacet ? "F ⊙ Ls · S" : "ks ⊙ Ls · S", l->ks_Ls, l->S);
     color(4, "specular", l->specular_term, text);
     if (e->gl1)
         color(4, "ambient", l->ambient_term, "spot · attenuation · ka ⊙ La, as OpenGL 1 did");

@@ -199,13 +199,14 @@ static void fill_materials(const struct bound_rows *w, int count, int capacity, 
     for (int m = 0; m < frame->material_count; m++) {
         float *diffuse = w->max_diffuse + (size_t)m * 2 * (size_t)capacity;
         float *specular = w->max_specular + (size_t)m * 2 * (size_t)capacity;
+        float max_lobe = frame_lobe_max(frame->materials[m]);
         for (int i = 0; i < capacity; i++) {
             diffuse[i] = specular[i] = 0;
             if (i >= count)
                 continue;
             const struct light_products *products = &materials[m].lights[w->number[i]];
             diffuse[i] = max_channel(products->diffuse) + (frame->gl1 ? max_channel(products->ambient) : 0);
-            specular[i] = max_channel(products->specular);
+            specular[i] = max_channel(products->specular) * max_lobe;
         }
     }
 }

@@ -44,9 +44,11 @@ struct material_products *products_make(struct buffer *storage, const struct fra
         multiply_material(out, material, frame);
         struct light_products *list = (struct light_products *)at;
         at += lights * sizeof *list;
+        float kd[3], ks[3];
+        frame_material_colors(material, kd, ks);
         for (size_t i = 0; i < lights; i++) {
-            product(list[i].diffuse, &material->diffuse.r, frame->lights[i].diffuse);
-            product(list[i].specular, &material->specular.r, frame->lights[i].specular);
+            product(list[i].diffuse, kd, frame->lights[i].diffuse);
+            product(list[i].specular, ks, frame->lights[i].specular);
             product(list[i].ambient, &material->ambient.r, frame->lights[i].ambient);
         }
         out->lights = list;

@@ -1,0 +1,107 @@
+// frame_materials.c: the reflection model of each material, and materials turned into the kind that their model lights.
+#define LANES 1
+#include "lighting.h"
+
+#include "frame.h"
+
+static bool is_microfacet(lam_reflection model) { return lobe_properties((int)model) & LOBE_MICROFACET; }
+
+lam_reflection frame_reflection(const struct frame *frame, const lam_material *material)
+{
+    if (frame->reflection != LAM_REFLECTION_AUTO)
+        return frame->reflection;
+    if (material->unlit)
+        return LAM_REFLECTION_NONE;
+    return material->physical ? LAM_REFLECTION_GGX : LAM_REFLECTION_BLINN_PHONG;
+}
+
+// Whether a model lights a material as it is. LAM_REFLECTION_NONE shows the diffuse colour of either kind.
+static bool fits(const lam_material *material, lam_reflection model)
+{
+    return model == LAM_REFLECTION_NONE || material->physical == is_microfacet(model);
+}
+
+static lam_material turned(const lam_material *material, lam_reflection model)
+{
+    if (is_microfacet(model))
+        return lam_material_as_physical(material);
+    lam_material classic = lam_material_as_classic(material);
+    if (model == LAM_REFLECTION_PHONG) // Phong's highlight at α/4 looks like Blinn and Phong's at α
+        classic.shininess /= 4;
+    return classic;
+}
+
+size_t frame_materials_turned(const struct frame *frame, const lam_scene *scene)
+{
+    size_t count = 0;
+    bool physical = scene->default_material.physical, mixed = false;
+    for (int i = -1; i < scene->materials.count; i++) {
+        const lam_material *material = i < 0 ? &scene->default_material : lam_scene_material(scene, i);
+        count += !fits(material, frame_reflection(frame, material));
+        mixed |= material->physical != physical;
+    }
+    // Each may be the back of an object whose front is of the other kind.
+    return count + (mixed && frame->reflection == LAM_REFLECTION_AUTO ? (size_t)scene->materials.count + 1 : 0);
+}
+
+void frame_materials_build(struct frame *frame, const lam_scene *scene)
+{
+    frame->default_material = scene->default_material;
+    frame->scene_material_count = frame->material_count = scene->materials.count + 1;
+    frame->turned_count = 0;
+    for (int i = 0; i < frame->material_count; i++) {
+        const lam_material *material = i ? lam_scene_material(scene, i - 1) : &frame->default_material;
+        lam_reflection model = frame_reflection(frame, material);
+        frame->materials[i] = material;
+        if (!fits(material, model)) {
+            frame->turned[frame->turned_count] = turned(material, model);
+            frame->materials[i] = &frame->turned[frame->turned_count++];
+        }
+    }
+}
+
+int frame_back_material(struct frame *frame, int front, int back)
+{
+    const lam_material *material = frame->materials[back];
+    lam_reflection model = frame_reflection(frame, frame->materials[front]);
+    if (fits(material, model))
+        return back;
+    int second = frame->scene_material_count + back;
+    if (frame->material_count == frame->scene_material_count) { // the first such back: all of them follow the others
+        frame->material_count *= 2;
+        for (int i = 0; i < frame->scene_material_count; i++)
+            frame->materials[frame->scene_material_count + i] = frame->materials[i];
+    }
+    if (frame->materials[second] == material) {
+        frame->turned[frame->turned_count] = turned(material, model);
+        frame->materials[second] = &frame->turned[frame->turned_count++];
+    }
+    return second;
+}
+
+void frame_material_colors(const lam_material *material, float kd[3], float ks[3])
+{
+    const float *diffuse = &material->diffuse.r, *specular = &material->specular.r;
+    for (int i = 0; i < 3; i++) {
+        kd[i] = material->physical ? diffuse[i] * (1 - material->metallic) : diffuse[i];
+        ks[i] = material->physical ? 1 : specular[i];
+    }
+}
+
+float frame_lobe_max(const lam_material *material)
+{
+    if (!material->physical)
+        return 1;
+    // S of microfacets is at most 1 / (2 α³), and the light that they send to one another multiplies it by less than 2.5.
+    float roughness = material->roughness > ROUGHNESS_MIN ? material->roughness : ROUGHNESS_MIN;
+    float alpha = roughness * roughness;
+    return 1.25f / (alpha * alpha * alpha);
+}
+
+float frame_shininess(const struct frame *frame, const lam_material *material)
+{
+    float shininess = material->shininess;
+    if (frame->match_highlights && frame_reflection(frame, material) == LAM_REFLECTION_BLINN_PHONG)
+        shininess *= 4;
+    return frame->gl1 && shininess > 128 ? 128 : shininess;
+}

@@ -1,0 +1,64 @@
+// material_kinds.c: classic materials as metallic–roughness ones, and the reverse.
+#include "linear.h"
+
+#include <lambent/material.h>
+
+static const double dielectric_f0 = 0.04; // index of refraction 1.5
+
+static float mixed(double from, double to, double share) { return (float)(from + (to - from) * share); }
+
+static double within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
+
+lam_material lam_material_as_classic(const lam_material *material)
+{
+    lam_material m = *material;
+    if (!m.physical)
+        return m;
+    const lam_rgba base = m.diffuse;
+    double metallic = (double)m.metallic, slope = (double)m.roughness * (double)m.roughness; // α of the lobe
+    double exponent = within(2 / within(slope * slope, 1e-12, 1) - 2, 1, 4096), energy = (exponent + 8) / 8;
+    m.physical = false;
+    m.ambient = (lam_rgb){base.r, base.g, base.b};
+    m.diffuse.r = mixed((double)base.r, 0, metallic);
+    m.diffuse.g = mixed((double)base.g, 0, metallic);
+    m.diffuse.b = mixed((double)base.b, 0, metallic);
+    m.specular.r = (float)(energy * (double)mixed(dielectric_f0, (double)base.r, metallic));
+    m.specular.g = (float)(energy * (double)mixed(dielectric_f0, (double)base.g, metallic));
+    m.specular.b = (float)(energy * (double)mixed(dielectric_f0, (double)base.b, metallic));
+    m.shininess = (float)exponent;
+    return m;
+}
+
+// The share of a metal with which a base colour gives kd and f0: the solution of
+//     kd = base (1 − metallic),   f0 = 0.04 (1 − metallic) + base metallic
+// for the brightest channel of f0.
+static double metallic_of(double kd, double f0)
+{
+    if (f0 <= dielectric_f0)
+        return 0;
+    // base = kd/(1 − m):  0.04 (1 − m)² + kd m − f0 (1 − m) = 0
+    double a = dielectric_f0, b = f0 + kd - 2 * dielectric_f0, c = dielectric_f0 - f0;
+    return within((-b + math_sqrt(b * b - 4 * a * c)) / (2 * a), 0, 1);
+}
+
+lam_material lam_material_as_physical(const lam_material *material)
+{
+    lam_material m = *material;
+    if (m.physical)
+        return m;
+    double exponent = within((double)m.shininess, 1, 4096), energy = (exponent + 8) / 8;
+    const float *kd = &material->diffuse.r, *ks = &material->specular.r;
+    int brightest = ks[1] > ks[0] ? 1 : 0;
+    brightest = ks[2] > ks[brightest] ? 2 : brightest;
+    double metallic = metallic_of((double)kd[brightest], within((double)ks[brightest] / energy, 0, 1));
+    float *base = &m.diffuse.r;
+    for (int i = 0; i < 3; i++) {
+        double f0 = within((double)ks[i] / energy, 0, 1);
+        double metal = metallic > 0 ? within((f0 - dielectric_f0 * (1 - metallic)) / metallic, 0, 1) : 0;
+        base[i] = (float)within((double)kd[i] + metallic * metal, 0, 1);
+    }
+    m.physical = true;
+    m.metallic = (float)metallic;
+    m.roughness = (float)math_sqrt(math_sqrt(2 / (exponent + 2)));
+    return m;
+}

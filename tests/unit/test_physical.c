@@ -1,0 +1,192 @@
+// test_physical.c: metallic–roughness materials beside classic ones, and each as the other.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include <lambent/device.h>
+#include <lambent/words.h>
+
+enum { WIDTH = 96, HEIGHT = 48 };
+
+static lam_material physical(float r, float g, float b, float metallic, float roughness)
+{
+    lam_material m = lam_material_default();
+    m.diffuse = (lam_rgba){r, g, b, 1};
+    m.physical = true;
+    m.metallic = metallic;
+    m.roughness = roughness;
+    return m;
+}
+
+static bool near(float a, double b) { return fabs((double)a - b) <= 1e-5 * fmax(1, fabs(b)); }
+
+static void test_as_classic(void **state)
+{
+    (void)state;
+    lam_material from = physical(0.8f, 0.4f, 0.1f, 0.25f, 0.5f), m = lam_material_as_classic(&from);
+    double rho = 0.25, alpha = 2 / (rho * rho) - 2, energy = (alpha + 8) / 8; // conventions, "Mapping"
+    assert_false(m.physical);
+    assert_true(near(m.shininess, alpha));
+    assert_true(near(m.diffuse.r, 0.8 * 0.75) && near(m.diffuse.g, 0.4 * 0.75) && near(m.diffuse.b, 0.1 * 0.75));
+    assert_true(near(m.specular.r, (0.04 * 0.75 + 0.8 * 0.25) * energy));
+    assert_true(near(m.specular.b, (0.04 * 0.75 + 0.1 * 0.25) * energy));
+    assert_true(m.ambient.g == 0.4f && m.diffuse.a == 1);
+    from.roughness = 0;
+    assert_true(lam_material_as_classic(&from).shininess == 4096);
+    from.roughness = 1;
+    assert_true(lam_material_as_classic(&from).shininess == 1);
+    lam_material classic = lam_material_default(), same = lam_material_as_classic(&classic);
+    assert_memory_equal(&same.diffuse, &classic.diffuse, sizeof same.diffuse);
+}
+
+// What a physical material becomes comes back.
+static void test_and_back(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 1000; i++) {
+        float metallic = (float)(i % 10) / 9, roughness = 0.2f + 0.075f * (float)(i / 10 % 10);
+        float base = 0.1f + 0.085f * (float)(i / 100);
+        lam_material from = physical(base, base, base, metallic, roughness), classic = lam_material_as_classic(&from);
+        lam_material back = lam_material_as_physical(&classic);
+        assert_true(back.physical);
+        assert_true(fabsf(back.diffuse.r - base) < 1e-4f);
+        assert_true(fabsf(back.roughness - roughness) < 1e-4f);
+        assert_true(fabsf(back.metallic - metallic) < 1e-3f);
+    }
+}
+
+// Two spheres side by side, with a material each.
+static lam_scene *two_spheres(const lam_material *left, const lam_material *right)
+{
+    lam_error error;
+    lam_scene *scene = lam_scene_make(&error);
+    assert_int_equal(lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 32, .stacks = 16}, &error), 0);
+    const lam_material *materials[] = {left, right};
+    for (int i = 0; i < 2; i++) {
+        lam_object object = lam_object_default();
+        object.transform.m[0][3] = i ? 2.4 : -2.4;
+        object.material = lam_scene_add_material(scene, materials[i], &error);
+        assert_true(lam_scene_add_object(scene, &object, &error) >= 0);
+    }
+    lam_light light = lam_light_default(LAM_LIGHT_POINT);
+    light.position = (lam_vec3){1, 3, 4};
+    assert_true(lam_scene_add_light(scene, &light, &error) >= 0);
+    return scene;
+}
+
+static void draw(const lam_scene *scene, lam_reflection reflection, float out[HEIGHT][WIDTH][4])
+{
+    lam_error error;
+    lam_device *device = lam_device_cpu(NULL, &error);
+    lam_camera camera = lam_camera_default();
+    camera.eye = (lam_vec3){0, 0, 9};
+    lam_image image;
+    assert_true(lam_image_make(&image, WIDTH, HEIGHT, LAM_RGBA32F, &error));
+    lam_draw_params params = {.reflection = reflection, .samples = 1};
+    assert_true(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
+    memcpy(out, image.pixels, sizeof(float) * HEIGHT * WIDTH * 4);
+    lam_image_free(&image);
+    lam_device_free(device);
+}
+
+static float picture[5][HEIGHT][WIDTH][4];
+
+static void test_two_kinds_in_one_scene(void **state)
+{
+    (void)state;
+    lam_material metal = physical(1, 0.7f, 0.3f, 1, 0.3f),
+                 plastic = lam_material_named(LAM_MATERIAL_RED_PLASTIC, LAM_COLOR_SRGB);
+    lam_scene *scene = two_spheres(&metal, &plastic);
+    draw(scene, LAM_REFLECTION_AUTO, picture[0]);
+    draw(scene, LAM_REFLECTION_GGX, picture[1]);
+    draw(scene, LAM_REFLECTION_BLINN_PHONG, picture[2]);
+    // Without a model of the caller's, each has its own: left GGX, right Blinn–Phong.
+    int other = 0;
+    for (int y = 0; y < HEIGHT; y++) {
+        assert_memory_equal(picture[0][y], picture[1][y], sizeof picture[0][y] / 2);
+        assert_memory_equal(picture[0][y] + WIDTH / 2, picture[2][y] + WIDTH / 2, sizeof picture[0][y] / 2);
+        other += memcmp(picture[1][y], picture[2][y], sizeof picture[0][y] / 2) != 0;
+        other += memcmp(picture[1][y] + WIDTH / 2, picture[2][y] + WIDTH / 2, sizeof picture[0][y] / 2) != 0;
+    }
+    assert_true(other > HEIGHT / 2); // and the models differ
+    // What another model shows is the material as lam_material_as_classic has it.
+    lam_material classic = lam_material_as_classic(&metal);
+    lam_error error;
+    assert_true(lam_scene_set_material(scene, 0, &classic, &error));
+    draw(scene, LAM_REFLECTION_BLINN_PHONG, picture[3]);
+    assert_memory_equal(picture[2], picture[3], sizeof picture[2]);
+    lam_scene_free(scene);
+}
+
+static void test_unlit(void **state)
+{
+    (void)state;
+    lam_material flat = lam_material_default(), lit = lam_material_default();
+    flat.unlit = true;
+    flat.diffuse = (lam_rgba){0.25f, 0.5f, 0.75f, 1};
+    lam_scene *scene = two_spheres(&flat, &lit);
+    draw(scene, LAM_REFLECTION_AUTO, picture[0]);
+    const float *middle = picture[0][HEIGHT / 2][WIDTH / 4], *beside = picture[0][HEIGHT / 2][WIDTH / 4 + 3];
+    assert_true(middle[0] == 0.25f && middle[1] == 0.5f && middle[2] == 0.75f);
+    assert_memory_equal(middle, beside, 4 * sizeof *middle);
+    const float *round = picture[0][HEIGHT / 2][3 * WIDTH / 4];
+    assert_true(memcmp(round, round + 16, 3 * sizeof *round) != 0);
+    lam_scene_free(scene);
+}
+
+// An object whose front and back are of different kinds is drawn by the model of its front.
+static void test_back_of_the_other_kind(void **state)
+{
+    (void)state;
+    lam_error error;
+    lam_material metal = physical(1, 0.7f, 0.3f, 0.5f, 0.4f),
+                 plastic = lam_material_named(LAM_MATERIAL_RED_PLASTIC, LAM_COLOR_SRGB);
+    lam_scene *scene = two_spheres(&metal, &plastic);
+    for (int i = 0; i < 2; i++) {
+        lam_object object = *lam_scene_object(scene, i);
+        object.back_material = 1 - i;
+        object.cull = LAM_CULL_FRONT;
+        assert_true(lam_scene_set_object(scene, i, &object, &error));
+    }
+    draw(scene, LAM_REFLECTION_AUTO, picture[0]);
+    draw(scene, LAM_REFLECTION_GGX, picture[1]);
+    draw(scene, LAM_REFLECTION_BLINN_PHONG, picture[2]);
+    for (int y = 0; y < HEIGHT; y++) {
+        assert_memory_equal(picture[0][y], picture[1][y], sizeof picture[0][y] / 2);
+        assert_memory_equal(picture[0][y] + WIDTH / 2, picture[2][y] + WIDTH / 2, sizeof picture[0][y] / 2);
+    }
+    assert_true(picture[0][HEIGHT / 2][WIDTH / 4][3] == 1);
+    lam_scene_free(scene);
+}
+
+static void test_words(void **state)
+{
+    (void)state;
+    lam_error error;
+    lam_material m = lam_material_default();
+    assert_true(lam_material_parse("#ffffff,roughness=0.25", LAM_COLOR_SRGB, &m, &error));
+    assert_true(m.physical && m.roughness == 0.25f && m.metallic == 0);
+    m = lam_material_default();
+    assert_true(lam_material_parse("#ffffff,shininess=8", LAM_COLOR_SRGB, &m, &error));
+    assert_false(m.physical);
+    assert_false(lam_material_parse("metallic=2", LAM_COLOR_SRGB, &m, &error));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_as_classic),
+        cmocka_unit_test(test_and_back),
+        cmocka_unit_test(test_two_kinds_in_one_scene),
+        cmocka_unit_test(test_unlit),
+        cmocka_unit_test(test_back_of_the_other_kind),
+        cmocka_unit_test(test_words),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -168,7 +168,7 @@ int main(int count, char **arguments)
     int rounds = count == 3 ? atoi(arguments[2]) : 0;
     if (rounds < 1 || rounds > ROUNDS_MOST)
         stop("usage", "png PICTURE.png ROUNDS, 1 to 1000");
-    if (!lam_image_load(&image, arguments[1], &error) || image.format != LAM_RGBA8)
+    if (!lam_image_load(&image, arguments[1], NULL, &error) || image.format != LAM_RGBA8)
         stop(arguments[1], *error.text ? error.text : "is no 8-bit picture");
     struct growing out[ENCODERS] = {0};
     for (int e = 0; e < ENCODERS; e++) {

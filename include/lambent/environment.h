@@ -46,8 +46,8 @@ LAM_API lam_environment *lam_environment_from_image(const struct lam_image *imag
                                                     lam_error *error);
 
 // The same from files of any format that lam_image_load_linear reads: six faces, or one picture. `control` may be NULL;
-// its memory limit counts the pictures while they are read (16 bytes a pixel) and the faces (12). Errors: those above,
-// LAM_CANNOT_READ, LAM_UNSUPPORTED (a picture's size), LAM_CANCELLED; every sentence names the file.
+// its memory limit counts each file while it is read, the pictures (16 bytes a pixel) and the faces (12). Errors: those
+// above and those of lam_image_load, LAM_UNSUPPORTED (a picture's size); every sentence names the file.
 LAM_API lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
                                                     const lam_control *control, lam_error *error);
 LAM_API lam_environment *lam_environment_load(const char *path, lam_color_mode color, const lam_control *control,

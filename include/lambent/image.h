@@ -110,14 +110,17 @@ LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, la
 
 // Reads a picture: PNG, JPEG (not CMYK) and binary PPM into LAM_RGBA8 (16 bits are cut to 8, grey and palettes become
 // RGB), PFM, EXR (scanlines; the first part) and Radiance (.hdr) into LAM_RGBA32F, with alpha 1 where the file has
-// none. Content decides the format. `image` may hold anything before the call, which does not free it; on failure it is
-// zeroed. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, memory).
-LAM_API bool lam_image_load(lam_image *image, const char *path, lam_error *error);
+// none. Content decides the format. `path` is a regular file, or "-": standard input. `image` may hold anything before
+// the call, which does not free it; on failure it is zeroed. `control` may be NULL; its memory limit counts the file and
+// the pixels. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, more than 400 million pixels,
+// memory, time), LAM_CANCELLED.
+LAM_API bool lam_image_load(lam_image *image, const char *path, const lam_control *control, lam_error *error);
 
 // Reads a picture of any of these formats into LAM_RGBA32F, linear and premultiplied. The numbers of PNG (all 16 bits
 // where it has them), JPEG and PPM are decoded from sRGB, or taken as they are, 0…1, with LAM_COLOR_RAW; PFM and
 // Radiance are linear already. Otherwise as lam_image_load.
-LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, lam_error *error);
+LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, const lam_control *control,
+                                   lam_error *error);
 
 // Whether the file at `path` says that Lambent wrote it: PNG by its text "Software: lambent", PPM by the comment
 // "# lambent" in its second line. False for PFM, which has no room for a remark, and for a file that does not exist, is

@@ -17,8 +17,7 @@ enum { LAM_RENDER_SIZE = 1024 }; // pixels on a side of a picture whose size nob
 
 // How a picture is rendered. All zero: the picture that `lambent MODEL` draws.
 typedef struct lam_render_params {
-    // How the model is loaded. NULL: the defaults, with `models_anywhere`, as on a command line; for scene files of
-    // strangers give a lam_load_params without it. Not used for built-in shapes.
+    // How the model is loaded. NULL: the defaults. Not used for built-in shapes.
     const lam_load_params *load;
     // The side to look from. NULL: a scene file's camera, else the three-quarter view.
     const lam_view *view;

@@ -50,8 +50,9 @@ typedef enum lam_normals {
 
 struct lam_bytes;
 
-// Opens a file that a model names (MTL, texture). `name` is relative to the model's folder and does not leave it. Fills
-// `bytes`. False: it cannot be read, and `error` says why.
+// Opens a file that a model names (MTL, texture), or that a scene file names (a model, a picture). `name` is relative to
+// the folder of the file that was loaded and does not leave it. Fills `bytes`. False: it cannot be read, and `error` says
+// why.
 typedef bool lam_open_fn(void *user, const char *name, struct lam_bytes *bytes, lam_error *error);
 
 // Frees the bytes of a lam_open_fn. The loader calls it once for each file that was opened.
@@ -73,8 +74,8 @@ typedef struct lam_load_params {
     // it draws: faster for a large model that is drawn once. lam_mesh.normals stays NULL; lam_scene_make_normals makes
     // all of them later. Not for scene files, and not for other devices.
     bool normals_when_drawn;
-    // Scene files: true: the models that they name may lie in any folder. false: only in the scene file's folder and
-    // below. Files that models name always stay in the model's folder.
+    // Scene files: true: the models and pictures that they name may lie in any folder. false: only in the scene file's
+    // folder and below, links followed. Files that models name always stay in the model's folder.
     bool models_anywhere;
     // Opens the files that a model names. NULL: those beside the model; for a model in memory none can be opened.
     lam_open_fn *open;

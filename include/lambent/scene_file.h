@@ -48,10 +48,10 @@ typedef struct lam_picture_settings {
 // The settings of a scene that was loaded from a scene file. False, and all zero, for any other scene.
 LAM_API bool lam_scene_picture_settings(const lam_scene *scene, lam_picture_settings *settings);
 
-// Writes a scene file from which lam_scene_load and lam_scene_picture_settings make the same picture again. It has
-// models by their names relative to the folder of `path`, shapes, materials, transforms, all lights (those of
-// settings->draw.rig one by one), and the settings present in `settings` (NULL: none). Either the whole file
-// appears or none. Errors: LAM_UNSUPPORTED (a mesh that neither came from a file nor is a built-in shape),
+// Writes a scene file from which lam_scene_load (with models_anywhere if a file lies outside of the folder of `path`)
+// and lam_scene_picture_settings make the same picture again. It has models by their names relative to that folder,
+// shapes, materials, transforms, all lights (those of settings->draw.rig one by one), and the settings present in
+// `settings` (NULL: none). Either the whole file appears or none. Errors: LAM_UNSUPPORTED (a mesh that neither came from a file nor is a built-in shape),
 // LAM_CANNOT_WRITE, LAM_LIMIT.
 LAM_API bool lam_scene_save(const lam_scene *scene, const lam_picture_settings *settings, const char *path,
                             lam_error *error);

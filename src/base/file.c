@@ -181,26 +181,76 @@ static bool read_stream(int file, const char *path, struct call_control *call, s
     return true;
 }
 
+static const char *kind_of(mode_t mode)
+{
+    return S_ISDIR(mode)                    ? "is a directory, expected a file"
+           : S_ISFIFO(mode)                 ? "is a pipe, expected a regular file"
+           : S_ISSOCK(mode)                 ? "is a socket, expected a regular file"
+           : S_ISCHR(mode) || S_ISBLK(mode) ? "is a device, expected a regular file"
+                                            : NULL;
+}
+
+// Opens a regular file; −1: an error. What is not one is not even opened. `shown` NULL: the user's own path.
+static int open_regular(const char *path, const char *shown, struct stat *about, lam_error *error)
+{
+    const char *advice = shown ? "" : " (- is standard input)";
+    shown = shown ? shown : path;
+    int file = -1;
+    bool found = stat(path, about) == 0;
+    if (found && !kind_of(about->st_mode)) {
+        file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+        found = file >= 0 && fstat(file, about) == 0; // again: another file may have come into its place
+    }
+    if (!found)
+        fail_system(error, LAM_CANNOT_READ, shown, "open");
+    else if (kind_of(about->st_mode))
+        fail(error, LAM_CANNOT_READ, "%s: %s%s", shown, kind_of(about->st_mode),
+             S_ISFIFO(about->st_mode) ? advice : "");
+    else
+        return file;
+    if (file >= 0)
+        close(file);
+    return -1;
+}
+
+bool file_read_named(const char *path, const char *shown, struct pool *pool, struct call_control *call,
+                     struct file_bytes *out, lam_error *error)
+{
+    struct stat about;
+    *out = (struct file_bytes){0};
+    int file = open_regular(path, shown, &about, error);
+    if (file < 0)
+        return false;
+    shown = shown ? shown : path;
+    // A size of 0 says nothing about files that the kernel makes (/proc).
+    bool ok = about.st_size > 0 ? read_sized(file, shown, (size_t)about.st_size, pool, call, out, error)
+                                : read_stream(file, shown, call, out, error);
+    close(file);
+    return ok;
+}
+
 bool file_read(const char *path, struct pool *pool, struct call_control *call, struct file_bytes *out, lam_error *error)
 {
     *out = (struct file_bytes){0};
     if (strcmp(path, "-") == 0)
         return read_stream(STDIN_FILENO, "standard input", call, out, error);
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0)
-        return fail_system(error, LAM_CANNOT_READ, path, "open");
-    struct stat about;
-    bool ok;
-    if (fstat(file, &about) != 0)
-        ok = fail_system(error, LAM_CANNOT_READ, path, "read");
-    else if (S_ISDIR(about.st_mode))
-        ok = fail(error, LAM_CANNOT_READ, "%s: is a directory, expected a file", path);
-    else if (S_ISREG(about.st_mode) && about.st_size > 0)
-        ok = read_sized(file, path, (size_t)about.st_size, pool, call, out, error);
-    else
-        ok = read_stream(file, path, call, out, error);
-    close(file);
-    return ok;
+    return file_read_named(path, NULL, pool, call, out, error);
+}
+
+char *path_within(const char *path, const char *folder, bool *outside)
+{
+    char *real = realpath(path, NULL), *top = real ? realpath(*folder ? folder : ".", NULL) : NULL;
+    size_t length = top ? strlen(top) : 0;
+    *outside = top && !(strncmp(real, top, length) == 0 && (real[length] == '/' || top[length - 1] == '/'));
+    if (top && !*outside) {
+        free(top);
+        return real;
+    }
+    int reason = errno;
+    free(top);
+    free(real);
+    errno = reason;
+    return NULL;
 }
 
 bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out)

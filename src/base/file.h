@@ -17,10 +17,20 @@ struct file_bytes {
     struct call_control *call; // charged for them, refunded at release; may be NULL
 };
 
-// Reads a file, or standard input for "-". `pool` and `call` may be NULL. Errors: LAM_CANNOT_READ (no such file, a
-// directory, a read error, the file was shortened meanwhile), LAM_LIMIT, LAM_CANCELLED.
+// Reads a regular file, or standard input for "-". Folders, pipes, devices and sockets are not opened: opening one can
+// wait for ever, or do something. `pool` and `call` may be NULL. Errors: LAM_CANNOT_READ (no such file, not a regular
+// one, a read error, the file was shortened meanwhile), LAM_LIMIT, LAM_CANCELLED.
 bool file_read(const char *path, struct pool *pool, struct call_control *call, struct file_bytes *out,
                lam_error *error);
+
+// The same for a regular file that another file names: `shown` stands for its path in messages (NULL: the path), and "-"
+// is a file's name.
+bool file_read_named(const char *path, const char *shown, struct pool *pool, struct call_control *call,
+                     struct file_bytes *out, lam_error *error);
+
+// The path after every link and ".." is followed, from malloc, if it lies in the folder ("": the current one) or below.
+// NULL: it does not (*outside is then true), or cannot be followed (errno).
+char *path_within(const char *path, const char *folder, bool *outside);
 
 // A large file that is read in parts, from any thread.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };

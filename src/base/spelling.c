@@ -3,10 +3,15 @@
 
 #include <string.h>
 
-struct spelling spelling_of(const char *word)
+// The distance from which on a word is not near; nothing is near one that is too long to be compared.
+static int limit_of(const char *word)
 {
-    return (struct spelling){.word = word, .limit = (int)strlen(word) / 3 + 2};
+    enum { COMPARED_MAX = 63 }; // as lam_edit_distance
+    size_t length = strlen(word);
+    return length > COMPARED_MAX ? 0 : (int)length / 3 + 2;
 }
+
+struct spelling spelling_of(const char *word) { return (struct spelling){.word = word, .limit = limit_of(word)}; }
 
 void spelling_try(struct spelling *spelling, const char *candidate)
 {
@@ -20,7 +25,7 @@ void spelling_try(struct spelling *spelling, const char *candidate)
 const char *nearest_word(const char *word, const char *const *words, int count)
 {
     const char *nearest = NULL;
-    int limit = (int)strlen(word) / 3 + 2;
+    int limit = limit_of(word);
     for (int i = 0; i < count; i++) {
         int distance = lam_edit_distance(word, words[i]);
         if (distance < limit) {

@@ -33,12 +33,19 @@ static inline size_t cube_bytes(int size)
     return ((size_t)size + 2) * ((size_t)size + 2) * LAM_FACE_COUNT * 3 * sizeof(float);
 }
 
-// lam_environment_load_faces and lam_environment_load within a running call.
+// Opens the file of picture `index`; the caller releases it. *name stands for it in messages.
 struct call_control;
-struct lam_environment *environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
-                                               struct call_control *call, lam_error *error);
-struct lam_environment *environment_load(const char *path, lam_color_mode color, struct call_control *call,
-                                         lam_error *error);
+struct file_bytes;
+struct picture_source {
+    bool (*open)(void *user, int index, struct call_control *call, struct file_bytes *file, const char **name,
+                 lam_error *error);
+    void *user;
+};
+
+// An environment of one picture or of six faces (`count`), read one after the other within a call. `call` may be NULL.
+// What the environment holds stays charged.
+struct lam_environment *environment_read(const struct picture_source *source, int count, lam_color_mode color,
+                                         struct call_control *call, lam_error *error);
 
 // Fills the borders from the faces.
 void cube_close(struct lam_environment *cube);

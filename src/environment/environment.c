@@ -2,29 +2,28 @@
 #include "codec.h"
 #include "cube_map.h"
 #include "fail.h"
+#include "file.h"
 #include "float_state.h"
 #include "linear.h"
 #include "pixels.h"
-#include "call_control.h"
 
 #include <string.h>
 
-// --- memory
+// --- the limits of the call
 
-// Charges the call's budget; `call` may be NULL.
-static bool charge(struct call_control *call, size_t bytes, lam_error *error)
-{
-    return !call || call_charge(call, bytes) || call_memory_error(call, bytes, error);
-}
-
-static size_t bytes_of(const lam_image *image)
-{
-    return image->pixels ? (size_t)image->width * (size_t)image->height * 4 * sizeof(float) : 0;
-}
-
+// `call` may be NULL everywhere here.
 static struct lam_environment *cube_within(struct call_control *call, int size, lam_error *error)
 {
-    return charge(call, cube_bytes(size), error) ? cube_make(size, error) : NULL;
+    if (call && !call_charge(call, cube_bytes(size))) {
+        call_memory_error(call, cube_bytes(size), error);
+        return NULL;
+    }
+    return cube_make(size, error);
+}
+
+static bool continues(struct call_control *call, int row, lam_error *error)
+{
+    return row % 16 != 0 || call_should_continue(call) || call_error(call, error);
 }
 
 // --- faces from parts of a picture
@@ -37,10 +36,12 @@ struct piece {
 };
 
 static bool copy_face(struct lam_environment *cube, int face, const struct piece *piece, const char *name,
-                      lam_error *error)
+                      struct call_control *call, lam_error *error)
 {
     int n = cube->size;
     for (int t = 0; t < n; t++) {
+        if (!continues(call, t, error))
+            return false;
         for (int s = 0; s < n; s++) {
             int x = piece->x + (piece->turned ? n - 1 - s : s), y = piece->y + (piece->turned ? n - 1 - t : t);
             const float *from =
@@ -67,7 +68,7 @@ static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE
     }
     struct lam_environment *cube = cube_within(call, size, error);
     for (int face = 0; cube && face < LAM_FACE_COUNT; face++) {
-        if (!copy_face(cube, face, &pieces[face], names[face], error)) {
+        if (!copy_face(cube, face, &pieces[face], names[face], call, error)) {
             lam_environment_free(cube);
             return NULL;
         }
@@ -117,16 +118,19 @@ static void sample_sphere(const lam_image *image, const double d[3], float out[3
     }
 }
 
-static bool check_light(const lam_image *image, const char *name, lam_error *error)
+static bool check_light(const lam_image *image, const char *name, struct call_control *call, lam_error *error)
 {
     const float *at = image->pixels;
-    for (int y = 0; y < image->height; y++)
+    for (int y = 0; y < image->height; y++) {
+        if (!continues(call, y, error))
+            return false;
         for (int x = 0; x < image->width; x++, at += 4)
             for (int channel = 0; channel < 3; channel++)
                 if (!(at[channel] >= 0 && at[channel] <= 3e38f))
                     return fail(error, LAM_BAD_ARGUMENT,
                                 "%s: pixel %d, %d holds %g, expected light of at least 0, finite", name, x, y,
                                 (double)at[channel]);
+    }
     return true;
 }
 
@@ -139,11 +143,15 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
              (int)(CUBE_SIDE_MOST * PI));
         return NULL;
     }
-    struct lam_environment *cube = check_light(image, name, error) ? cube_within(call, size, error) : NULL;
+    struct lam_environment *cube = check_light(image, name, call, error) ? cube_within(call, size, error) : NULL;
     if (!cube)
         return NULL;
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
         for (int t = 0; t < size; t++) {
+            if (!continues(call, t, error)) {
+                lam_environment_free(cube);
+                return NULL;
+            }
             for (int s = 0; s < size; s++) {
                 double d[3];
                 cube_direction(face, size, 2 * s + 1 - size, 2 * t + 1 - size, d);
@@ -193,7 +201,8 @@ static bool linear_copy(const lam_image *image, lam_color_mode color, lam_image 
         return false;
     if ((unsigned)color > LAM_COLOR_RAW)
         return fail(error, LAM_BAD_ARGUMENT, "environment: color mode %d is not one of lam_color_mode", (int)color);
-    return image_copy(image, out, error) && image_linearize(out, false, color, error);
+    struct picture_file none = {.name = "environment"};
+    return image_copy(image, out, error) && picture_linearize(&none, out, false, color, error);
 }
 
 lam_environment *lam_environment_make(const lam_image *const faces[LAM_FACE_COUNT], lam_color_mode color,
@@ -227,63 +236,72 @@ lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mo
 
 // --- files
 
-// A file's picture, linear; the caller refunds its memory.
-static bool load_picture(lam_image *image, const char *path, lam_color_mode color, struct call_control *call,
-                         lam_error *error)
+// A file's picture, linear; the caller frees it with picture_free.
+static bool read_picture(const struct picture_source *source, int index, lam_color_mode color,
+                         struct call_control *call, lam_image *image, const char **name, lam_error *error)
 {
-    if (!call_should_continue(call))
-        return call_error(call, error);
-    if (!lam_image_load_linear(image, path, color, error))
+    struct file_bytes bytes = {0};
+    if (!source->open(source->user, index, call, &bytes, name, error))
         return false;
-    if (charge(call, bytes_of(image), error))
-        return true;
-    lam_image_free(image);
-    return false;
+    struct picture_file file = {bytes.data, bytes.size, *name, call};
+    bool ok = picture_decode_linear(&file, color, image, error);
+    file_release(&bytes);
+    return ok;
 }
 
-struct lam_environment *environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
-                                               struct call_control *call, lam_error *error)
+struct lam_environment *environment_read(const struct picture_source *source, int count, lam_color_mode color,
+                                         struct call_control *call, lam_error *error)
 {
-    lam_image faces[LAM_FACE_COUNT] = {{0}};
-    bool ok = paths || fail(error, LAM_BAD_ARGUMENT, "environment: no faces are given");
-    for (int face = 0; ok && face < LAM_FACE_COUNT; face++)
-        ok = load_picture(&faces[face], paths[face], color, call, error);
+    lam_image images[LAM_FACE_COUNT] = {{0}};
+    const char *names[LAM_FACE_COUNT];
+    bool ok = true;
+    for (int i = 0; ok && i < count; i++)
+        ok = read_picture(source, i, color, call, &images[i], &names[i], error);
     uint64_t state = float_state_enter();
-    struct lam_environment *cube = ok ? cube_of_faces(faces, paths, call, error) : NULL;
+    struct lam_environment *cube = !ok          ? NULL
+                                   : count == 1 ? cube_of_image(images, names[0], call, error)
+                                                : cube_of_faces(images, names, call, error);
     float_state_leave(state);
-    for (int face = 0; face < LAM_FACE_COUNT; face++) {
-        call_refund(call, bytes_of(&faces[face]));
-        lam_image_free(&faces[face]);
-    }
+    for (int i = 0; i < count; i++)
+        picture_free(call, &images[i]);
     return cube;
 }
 
-struct lam_environment *environment_load(const char *path, lam_color_mode color, struct call_control *call,
-                                         lam_error *error)
+static bool open_path(void *user, int index, struct call_control *call, struct file_bytes *file, const char **name,
+                      lam_error *error)
 {
-    lam_image image = {0};
-    if (!load_picture(&image, path, color, call, error))
+    const char *path = ((const char *const *)user)[index];
+    *name = strcmp(path, "-") == 0 ? "standard input" : path;
+    return file_read(path, NULL, call, file, error);
+}
+
+static lam_environment *load(const char *const *paths, int count, lam_color_mode color, const lam_control *control,
+                             lam_error *error)
+{
+    if ((unsigned)color > LAM_COLOR_RAW) {
+        fail(error, LAM_BAD_ARGUMENT, "environment: color mode %d is not one of lam_color_mode", (int)color);
         return NULL;
-    uint64_t state = float_state_enter();
-    struct lam_environment *cube = cube_of_image(&image, path, call, error);
-    float_state_leave(state);
-    call_refund(call, bytes_of(&image));
-    lam_image_free(&image);
-    return cube;
+    }
+    for (int i = 0; i < count; i++) {
+        if (paths && paths[i])
+            continue;
+        fail(error, LAM_BAD_ARGUMENT, "environment: no path is given for picture %d of %d", i + 1, count);
+        return NULL;
+    }
+    struct call_control call;
+    call_start(&call, control);
+    struct picture_source source = {open_path, (void *)(uintptr_t)paths};
+    return environment_read(&source, count, color, &call, error);
 }
 
 lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
                                             const lam_control *control, lam_error *error)
 {
-    struct call_control call;
-    call_start(&call, control);
-    return environment_load_faces(paths, color, &call, error);
+    return load(paths, LAM_FACE_COUNT, color, control, error);
 }
 
 lam_environment *lam_environment_load(const char *path, lam_color_mode color, const lam_control *control,
                                       lam_error *error)
 {
-    struct call_control call;
-    call_start(&call, control);
-    return environment_load(path, color, &call, error);
+    return load(&path, 1, color, control, error);
 }

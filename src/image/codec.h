@@ -2,9 +2,18 @@
 #ifndef CODEC_H
 #define CODEC_H
 
+#include "call_control.h"
 #include "pool.h"
 
 #include <lambent/image.h>
+
+// A picture's file, in memory.
+struct picture_file {
+    const uint8_t *bytes;
+    size_t size;
+    const char *name;          // stands for the file in messages
+    struct call_control *call; // checked while decoding, and charged for the pixels; may be NULL
+};
 
 struct codec {
     const char *name;  // "png"; also the file-name ending, without its dot
@@ -19,13 +28,13 @@ struct codec {
     // Whether a file that starts with these bytes is of this format.
     bool (*probe)(const uint8_t *bytes, size_t size);
 
-    // Decodes a file into `image`, which is empty; on failure it stays so. `name` stands for the file in messages.
-    bool (*read)(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error);
+    // Decodes a file into `image`, which is empty; on failure it stays so. The pixels are from picture_make, and rows are
+    // decoded one by one under picture_continues.
+    bool (*read)(const struct picture_file *file, lam_image *image, lam_error *error);
 
     // As read, for a format that can have more than 8 bits a number. For such a file `image` becomes LAM_RGBA32F with
     // the file's numbers, 0…1, neither decoded nor premultiplied, and *wide becomes true. NULL: read keeps all bits.
-    bool (*read_wide)(const uint8_t *bytes, size_t size, const char *name, lam_image *image, bool *wide,
-                      lam_error *error);
+    bool (*read_wide)(const struct picture_file *file, lam_image *image, bool *wide, lam_error *error);
 
     // Whether the first bytes of a file of this format (CODEC_HEAD of them or the whole file) say that
     // Lambent wrote it. NULL: the format cannot say it.
@@ -36,12 +45,38 @@ enum { CODEC_HEAD = 512 };
 
 extern const struct codec codec_png, codec_ppm, codec_pfm, codec_exr, codec_jpeg, codec_hdr;
 
-// Converts a picture from a codec to LAM_RGBA32F, linear and premultiplied. `wide`: as read_wide set it.
-bool image_linearize(lam_image *image, bool wide, lam_color_mode color, lam_error *error);
+// The codec of a file that starts with these bytes; NULL: none.
+const struct codec *codec_of(const uint8_t *bytes, size_t size);
 
-// The two halves of codec_png.
+// Whether a header's size can be read; no memory is taken for others. LAM_LIMIT.
+enum { PICTURE_PIXELS_MAX = 400000000 };
+bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_t height, lam_error *error);
+
+// Makes the picture that a codec fills, of a size that was checked. Its bytes are charged to the file's call. LAM_LIMIT.
+bool picture_make(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
+                  lam_image *image, lam_error *error);
+
+// Frees a picture and refunds its bytes. `call` may be NULL; an empty picture is fine.
+void picture_free(struct call_control *call, lam_image *image);
+
+// Whether decoding goes on with row `y`; false: the error is filled.
+static inline bool picture_continues(const struct picture_file *file, int64_t y, lam_error *error)
+{
+    return y % 16 != 0 || call_should_continue(file->call) || call_error(file->call, error);
+}
+
+// Decodes a picture of any format; with `linear` to LAM_RGBA32F, linear and premultiplied. Its bytes stay charged to the
+// file's call (picture_free).
+bool picture_decode(const struct picture_file *file, lam_image *image, lam_error *error);
+bool picture_decode_linear(const struct picture_file *file, lam_color_mode color, lam_image *image, lam_error *error);
+
+// Converts a picture from a codec to LAM_RGBA32F, linear and premultiplied. `wide`: as read_wide set it. On failure the
+// picture is as it was or empty.
+bool picture_linearize(const struct picture_file *file, lam_image *image, bool wide, lam_color_mode color,
+                       lam_error *error);
+
+// codec_png's half that writes.
 bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                lam_error *error);
-bool png_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error);
 
 #endif

@@ -149,7 +149,7 @@ bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error 
     return codec != NULL;
 }
 
-static const struct codec *codec_of(const uint8_t *bytes, size_t size)
+const struct codec *codec_of(const uint8_t *bytes, size_t size)
 {
     for (int i = 0; i < CODECS; i++)
         if (codecs[i]->probe(bytes, size))
@@ -157,62 +157,19 @@ static const struct codec *codec_of(const uint8_t *bytes, size_t size)
     return NULL;
 }
 
-// Reads a picture with its codec; where `wide` is not NULL, with all of its bits (read_wide).
-static bool load(lam_image *image, const char *path, bool *wide, lam_error *error)
-{
-    if (!image || !path)
-        return fail(error, LAM_BAD_ARGUMENT, "load: a path and a picture to fill are needed");
-    *image = (lam_image){0};
-    struct file_bytes file;
-    if (!file_read(path, NULL, NULL, &file, error))
-        return false;
-    uint64_t state = float_state_enter();
-    const char *name = strcmp(path, "-") == 0 ? "standard input" : path;
-    const struct codec *codec = codec_of(file.data, file.size);
-    bool ok;
-    if (codec && wide && codec->read_wide)
-        ok = codec->read_wide(file.data, file.size, name, image, wide, error);
-    else if (codec)
-        ok = codec->read(file.data, file.size, name, image, error);
-    else if (file.size == 0)
-        ok =
-            fail(error, LAM_CANNOT_READ, "%s: is empty, expected a PNG, JPEG, PPM, PFM, EXR or Radiance picture", name);
-    else
-        ok = fail(error, LAM_CANNOT_READ,
-                  "%s: byte 0: not the start of a PNG, JPEG, PPM (P6), PFM, EXR or Radiance picture", name);
-    file_release(&file);
-    float_state_leave(state);
-    return ok;
-}
-
-bool lam_image_load(lam_image *image, const char *path, lam_error *error) { return load(image, path, NULL, error); }
-
-bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, lam_error *error)
-{
-    if ((unsigned)color > LAM_COLOR_RAW)
-        return fail(error, LAM_BAD_ARGUMENT, "load: color mode %d is not one of lam_color_mode", (int)color);
-    bool wide = false;
-    if (!load(image, path, &wide, error))
-        return false;
-    uint64_t state = float_state_enter();
-    bool ok = image_linearize(image, wide, color, error);
-    float_state_leave(state);
-    if (!ok)
-        lam_image_free(image);
-    return ok;
-}
-
 bool lam_image_is_from_lambent(const char *path)
 {
     if (!path)
         return false;
-    // Non-blocking: opening a pipe that nobody writes to must not wait.
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    // Pipes and devices are not opened; non-blocking, should one come into the place of the file.
+    struct stat about;
+    int file = stat(path, &about) == 0 && S_ISREG(about.st_mode)
+                   ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)
+                   : -1;
     if (file < 0)
         return false;
     uint8_t head[CODEC_HEAD];
     size_t size = 0;
-    struct stat about;
     if (fstat(file, &about) == 0 && S_ISREG(about.st_mode))
         for (ssize_t got; size < sizeof head && (got = read(file, head + size, sizeof head - size)) > 0;)
             size += (size_t)got;

@@ -6,6 +6,7 @@
 #include "dynamic_library.h"
 #include "fail.h"
 #include "pixels.h"
+#include "shown_name.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -266,13 +267,30 @@ static int place_of(const char *name)
     return found ? (int)(found - letters) : strcmp(name, "Y") == 0 ? 0 : -1;
 }
 
-static exr_result_t read_chunks(const struct core *core, exr_context_t file, int top, lam_image *image)
+// Whether every chunk is there, before memory is taken for the picture.
+static exr_result_t find_chunks(const struct core *core, exr_context_t file, int top, int64_t height)
+{
+    int32_t rows = 1;
+    exr_result_t result = core->exr_get_scanlines_per_chunk(file, 0, &rows);
+    for (int64_t y = 0; result == EXR_ERR_SUCCESS && y < height; y += rows) {
+        exr_chunk_info_t chunk;
+        result = core->exr_read_scanline_chunk_info(file, 0, (int)(top + y), &chunk);
+    }
+    return result;
+}
+
+// *stopped: the call must end.
+static exr_result_t read_chunks(const struct core *core, exr_context_t file, int top, struct call_control *call,
+                                lam_image *image, bool *stopped)
 {
     int32_t rows = 1;
     exr_result_t result = core->exr_get_scanlines_per_chunk(file, 0, &rows);
     exr_decode_pipeline_t pipe = EXR_DECODE_PIPELINE_INITIALIZER;
     for (int y = 0; result == EXR_ERR_SUCCESS && y < image->height; y += rows) {
         exr_chunk_info_t chunk;
+        *stopped = !call_should_continue(call);
+        if (*stopped)
+            break;
         result = core->exr_read_scanline_chunk_info(file, 0, top + y, &chunk);
         if (result == EXR_ERR_SUCCESS)
             result = y == 0 ? core->exr_decoding_initialize(file, 0, &chunk, &pipe)
@@ -296,8 +314,19 @@ static exr_result_t read_chunks(const struct core *core, exr_context_t file, int
     return result;
 }
 
-static bool read_part(const struct core *core, exr_context_t file, const char *name, lam_image *image, lam_error *error)
+static bool fail_pixels(const struct core *core, const char *name, exr_result_t result, lam_error *error)
 {
+    return result == EXR_ERR_OUT_OF_MEMORY
+               ? fail_memory(error, 0)
+               : fail(error, LAM_CANNOT_READ, "%s: the EXR picture's pixels cannot be read: %s", name,
+                      core->exr_get_default_error_message(result));
+}
+
+static bool read_part(const struct core *core, exr_context_t file, const struct picture_file *picture, lam_image *image,
+                      lam_error *error)
+{
+    const char *name = picture->name;
+    char shown[SHOWN_NAME_SIZE];
     exr_storage_t storage;
     exr_attr_box2i_t window;
     const exr_attr_chlist_t *list;
@@ -318,39 +347,43 @@ static bool read_part(const struct core *core, exr_context_t file, const char *n
         if (c->x_sampling != 1 || c->y_sampling != 1 || c->pixel_type == EXR_PIXEL_UINT)
             return fail(error, LAM_UNSUPPORTED,
                         "%s: the EXR channel %s is subsampled or holds integers, expected floats for each pixel", name,
-                        c->name.str);
+                        shown_name(c->name.str, shown));
         grey |= strcmp(c->name.str, "Y") == 0;
         found |= 1u << place;
     }
     if ((found & 7) != 7 && !(grey && (found & 7) == 1))
         return fail(error, LAM_UNSUPPORTED, "%s: the EXR picture has no channels R, G and B, nor Y", name);
     int64_t width = (int64_t)window.max.x - window.min.x + 1, height = (int64_t)window.max.y - window.min.y + 1;
-    if (width < 1 || height < 1 || width > 65535 || height > 65535)
-        return fail(error, LAM_LIMIT, "%s: the EXR picture has %lld×%lld pixels, expected 1 to 65535 a side", name,
-                    (long long)width, (long long)height);
-    if (!lam_image_make(image, (int)width, (int)height, LAM_RGBA32F, error))
+    if (width < 1 || height < 1 || width > UINT32_MAX || height > UINT32_MAX)
+        width = height = UINT32_MAX;
+    if (!picture_size_check(picture, (uint32_t)width, (uint32_t)height, error))
+        return false;
+    exr_result_t result = find_chunks(core, file, window.min.y, height);
+    if (result != EXR_ERR_SUCCESS)
+        return fail_pixels(core, name, result, error);
+    if (!picture_make(picture, (uint32_t)width, (uint32_t)height, LAM_RGBA32F, image, error))
         return false;
     float *pixels = image->pixels;
     size_t count = (size_t)width * (size_t)height;
     for (size_t i = 0; i < count; i++)
         memcpy(pixels + 4 * i, (const float[4]){0, 0, 0, 1}, 16);
-    exr_result_t result = read_chunks(core, file, window.min.y, image);
-    if (result != EXR_ERR_SUCCESS) {
-        lam_image_free(image);
-        return fail(error, LAM_CANNOT_READ, "%s: the EXR picture's pixels cannot be read: %s", name,
-                    core->exr_get_default_error_message(result));
+    bool stopped = false;
+    result = read_chunks(core, file, window.min.y, picture->call, image, &stopped);
+    if (stopped || result != EXR_ERR_SUCCESS) {
+        picture_free(picture->call, image);
+        return stopped ? call_error(picture->call, error) : fail_pixels(core, name, result, error);
     }
     for (size_t i = 0; (found & 7) == 1 && i < count; i++)
         pixels[4 * i + 1] = pixels[4 * i + 2] = pixels[4 * i];
     return true;
 }
 
-static bool exr_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error)
+static bool exr_read(const struct picture_file *picture, lam_image *image, lam_error *error)
 {
     struct core core;
     if (!open_core(&core, error))
         return false;
-    struct source source = {bytes, size};
+    struct source source = {picture->bytes, picture->size};
     exr_context_initializer_t start = EXR_DEFAULT_CONTEXT_INITIALIZER;
     start.error_handler_fn = stay_silent;
     start.user_data = &source;
@@ -358,12 +391,12 @@ static bool exr_read(const uint8_t *bytes, size_t size, const char *name, lam_im
     start.size_fn = size_of_source;
     start.max_image_width = start.max_image_height = 65535;
     exr_context_t file = NULL;
-    exr_result_t result = core.exr_start_read(&file, name, &start);
+    exr_result_t result = core.exr_start_read(&file, picture->name, &start);
     bool ok = result == EXR_ERR_SUCCESS;
     if (!ok)
-        fail(error, LAM_CANNOT_READ, "%s: the EXR header cannot be read: %s", name,
+        fail(error, LAM_CANNOT_READ, "%s: the EXR header cannot be read: %s", picture->name,
              core.exr_get_default_error_message(result));
-    ok = ok && read_part(&core, file, name, image, error);
+    ok = ok && read_part(&core, file, picture, image, error);
     if (file)
         core.exr_finish(&file);
     library_close(core.handle);
@@ -382,10 +415,10 @@ static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam
     return fail(error, LAM_UNSUPPORTED, NOT_BUILT);
 }
 
-static bool exr_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error)
+static bool exr_read(const struct picture_file *picture, lam_image *image, lam_error *error)
 {
-    (void)bytes, (void)size, (void)image;
-    return fail(error, LAM_UNSUPPORTED, "%s: " NOT_BUILT, name);
+    (void)image;
+    return fail(error, LAM_UNSUPPORTED, "%s: " NOT_BUILT, picture->name);
 }
 
 #endif

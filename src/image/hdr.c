@@ -159,23 +159,26 @@ static void fill_scale(float scale[256])
         scale[exponent] = exponent > 10 ? (float)value : 0.0f;
 }
 
-static bool read_rows(const uint8_t *bytes, size_t size, const char *name, const struct header *header, uint8_t *row,
-                      lam_image *image, lam_error *error)
+static bool read_rows(const struct picture_file *file, const struct header *header, uint8_t *row, lam_image *image,
+                      lam_error *error)
 {
-    const uint8_t *end = bytes + size;
+    const uint8_t *end = file->bytes + file->size;
     float scale[256];
     fill_scale(scale);
     // Every row is read twice: the first pass finds a small file that claims a huge picture before memory is allocated.
     for (int pass = 0; pass < 2; pass++) {
-        const uint8_t *at = bytes + header->pixels;
-        if (pass == 1 && !lam_image_make(image, header->width, header->height, LAM_RGBA32F, error))
+        const uint8_t *at = file->bytes + header->pixels;
+        if (pass == 1 &&
+            !picture_make(file, (uint32_t)header->width, (uint32_t)header->height, LAM_RGBA32F, image, error))
             return false;
         for (int y = 0; y < header->height; y++) {
+            if (!picture_continues(file, y, error))
+                return false;
             const uint8_t *next = read_row(at, end, header->width, row);
             if (!next)
                 return fail(error, LAM_CANNOT_READ,
-                            "%s: byte %zu: row %d of %d is broken off or has a wrong run, expected %d pixels", name,
-                            (size_t)(at - bytes), y + 1, header->height, header->width);
+                            "%s: byte %zu: row %d of %d is broken off or has a wrong run, expected %d pixels",
+                            file->name, (size_t)(at - file->bytes), y + 1, header->height, header->width);
             at = next;
             size_t to = (size_t)(header->up ? header->height - 1 - y : y) * (size_t)header->width * 4;
             if (pass == 1)
@@ -185,18 +188,19 @@ static bool read_rows(const uint8_t *bytes, size_t size, const char *name, const
     return true;
 }
 
-static bool hdr_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error)
+static bool hdr_read(const struct picture_file *file, lam_image *image, lam_error *error)
 {
     struct header header;
-    if (!read_header(bytes, size, name, &header, error))
+    if (!read_header(file->bytes, file->size, file->name, &header, error) ||
+        !picture_size_check(file, (uint32_t)header.width, (uint32_t)header.height, error))
         return false;
     uint8_t *row = malloc((size_t)header.width * 4);
     if (!row)
         return fail_memory(error, (size_t)header.width * 4);
-    bool ok = read_rows(bytes, size, name, &header, row, image, error);
+    bool ok = read_rows(file, &header, row, image, error);
     free(row);
     if (!ok)
-        lam_image_free(image);
+        picture_free(file->call, image);
     return ok;
 }
 

@@ -17,12 +17,17 @@ struct reader {
     struct jpeg_decompress_struct jpeg;
     jmp_buf out;
     char message[JMSG_LENGTH_MAX];
+    const struct picture_file *file;
+    bool stopped;       // the call must end
+    bool out_of_memory; // libjpeg's own
+    size_t charged;     // for libjpeg's coefficients
 };
 
 _Noreturn static void give_up(j_common_ptr jpeg)
 {
     struct reader *reader = (struct reader *)jpeg->err;
     jpeg->err->format_message(jpeg, reader->message);
+    reader->out_of_memory = jpeg->err->msg_code == JERR_OUT_OF_MEMORY;
     longjmp(reader->out, 1);
 }
 
@@ -36,9 +41,13 @@ static void take_message(j_common_ptr jpeg, int level)
 
 static void print_nothing(j_common_ptr jpeg) { (void)jpeg; }
 
-static void count_scans(j_common_ptr jpeg)
+// Called for every row of blocks, in each scan.
+static void monitor(j_common_ptr jpeg)
 {
     struct reader *reader = (struct reader *)jpeg->err;
+    reader->stopped = !call_should_continue(reader->file->call);
+    if (reader->stopped)
+        longjmp(reader->out, 1);
     if (reader->jpeg.input_scan_number > MAX_SCANS) {
         snprintf(reader->message, sizeof reader->message, "more than %d scans", MAX_SCANS);
         longjmp(reader->out, 1);
@@ -57,25 +66,42 @@ static bool jpeg_fits(const struct jpeg_decompress_struct *jpeg, size_t size)
     return (uint64_t)jpeg->image_width * jpeg->image_height / (8 * 64 * 16) <= size;
 }
 
-// The part that libjpeg may jump out of (longjmp): it changes nothing but what its pointers lead to.
-static bool decode(struct reader *reader, const uint8_t *bytes, size_t size, const char *name, lam_image *image,
-                   lam_error *error)
+// A file of several scans has all of its coefficients in memory before the first row: two bytes for each number, at most
+// as many as all components in full resolution have.
+static bool charge_coefficients(struct reader *reader, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
+    struct call_control *call = reader->file->call;
+    size_t bytes = (size_t)jpeg->image_width * jpeg->image_height * (size_t)jpeg->num_components * 2;
+    if (!call || !jpeg_has_multiple_scans(jpeg))
+        return true;
+    reader->charged = call_charge(call, bytes) ? bytes : 0;
+    return reader->charged || call_memory_error(call, bytes, error);
+}
+
+// The part that libjpeg may jump out of (longjmp): it changes nothing but what its pointers lead to.
+static bool decode(struct reader *reader, lam_image *image, lam_error *error)
+{
+    struct jpeg_decompress_struct *jpeg = &reader->jpeg;
+    const struct picture_file *file = reader->file;
     jpeg_create_decompress(jpeg);
     jpeg->progress = &reader->progress;
-    jpeg_mem_src(jpeg, bytes, size);
+    jpeg_mem_src(jpeg, file->bytes, file->size);
     jpeg_read_header(jpeg, TRUE);
     if (jpeg->jpeg_color_space == JCS_CMYK || jpeg->jpeg_color_space == JCS_YCCK)
-        return fail(error, LAM_UNSUPPORTED, "%s: JPEG in CMYK colours, expected RGB or grey", name);
-    if (!jpeg_fits(jpeg, size))
-        return fail(error, LAM_CANNOT_READ, "%s: JPEG of %u×%u pixels, which cannot be in a file of %zu bytes", name,
-                    jpeg->image_width, jpeg->image_height, size);
+        return fail(error, LAM_UNSUPPORTED, "%s: JPEG in CMYK colours, expected RGB or grey", file->name);
+    if (!picture_size_check(file, jpeg->image_width, jpeg->image_height, error))
+        return false;
+    if (!jpeg_fits(jpeg, file->size))
+        return fail(error, LAM_CANNOT_READ, "%s: JPEG of %u×%u pixels, which cannot be in a file of %zu bytes",
+                    file->name, jpeg->image_width, jpeg->image_height, file->size);
     jpeg->out_color_space = JCS_EXT_RGBA; // alpha 255
     jpeg->dct_method = JDCT_ISLOW;
-    jpeg_start_decompress(jpeg);
-    if (!lam_image_make(image, (int)jpeg->output_width, (int)jpeg->output_height, LAM_RGBA8, error))
+    // The picture first: where there is no memory for it, the coefficients need none.
+    if (!picture_make(file, jpeg->image_width, jpeg->image_height, LAM_RGBA8, image, error) ||
+        !charge_coefficients(reader, error))
         return false;
+    jpeg_start_decompress(jpeg);
     while (jpeg->output_scanline < jpeg->output_height) {
         JSAMPROW row = (JSAMPROW)image->pixels + (size_t)jpeg->output_scanline * jpeg->output_width * 4;
         jpeg_read_scanlines(jpeg, &row, 1);
@@ -84,19 +110,38 @@ static bool decode(struct reader *reader, const uint8_t *bytes, size_t size, con
     return true;
 }
 
-static bool jpeg_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error)
+static bool fail_jump(const struct reader *reader, lam_error *error)
+{
+    if (reader->stopped)
+        return call_error(reader->file->call, error);
+    if (reader->out_of_memory)
+        return fail_memory(error, reader->charged);
+    return fail(error, LAM_CANNOT_READ, "%s: JPEG: %s", reader->file->name, reader->message);
+}
+
+// The call that libjpeg jumps back to: nothing of its own changes meanwhile.
+static bool decode_or_jump(struct reader *reader, lam_image *image, lam_error *error)
+{
+    return setjmp(reader->out) == 0 ? decode(reader, image, error) : fail_jump(reader, error);
+}
+
+static bool jpeg_read(const struct picture_file *file, lam_image *image, lam_error *error)
 {
     struct reader reader;
     reader.jpeg = (struct jpeg_decompress_struct){.err = jpeg_std_error(&reader.errors)};
     reader.errors.error_exit = give_up;
     reader.errors.emit_message = take_message;
     reader.errors.output_message = print_nothing;
-    reader.progress = (struct jpeg_progress_mgr){.progress_monitor = count_scans};
-    bool ok = setjmp(reader.out) == 0 ? decode(&reader, bytes, size, name, image, error)
-                                      : fail(error, LAM_CANNOT_READ, "%s: JPEG: %s", name, reader.message);
+    reader.progress = (struct jpeg_progress_mgr){.progress_monitor = monitor};
+    reader.file = file;
+    reader.stopped = reader.out_of_memory = false;
+    reader.charged = 0;
+    bool ok = decode_or_jump(&reader, image, error);
     jpeg_destroy_decompress(&reader.jpeg);
+    if (reader.charged)
+        call_refund(file->call, reader.charged);
     if (!ok)
-        lam_image_free(image);
+        picture_free(file->call, image);
     return ok;
 }
 

@@ -27,47 +27,54 @@ static void premultiply(float pixel[4])
         pixel[channel] *= pixel[3];
 }
 
-static void decode_wide(lam_image *image, const float *table)
+static bool decode_wide(const struct picture_file *file, lam_image *image, const float *table, lam_error *error)
 {
-    size_t count = (size_t)image->width * (size_t)image->height;
-    for (float *pixel = image->pixels; count > 0; count--, pixel += 4) {
-        for (int channel = 0; channel < 3; channel++)
-            pixel[channel] = table[(int)(pixel[channel] * 65535.0f + 0.5f)];
-        premultiply(pixel);
+    float *pixel = image->pixels;
+    for (int y = 0; y < image->height; y++) {
+        if (!picture_continues(file, y, error))
+            return false;
+        for (int x = 0; x < image->width; x++, pixel += 4) {
+            for (int channel = 0; channel < 3; channel++)
+                pixel[channel] = table[(int)(pixel[channel] * 65535.0f + 0.5f)];
+            premultiply(pixel);
+        }
     }
-}
-
-static bool decode_bytes(lam_image *image, const float *table, lam_error *error)
-{
-    lam_image bytes = *image;
-    if (!lam_image_make(image, bytes.width, bytes.height, LAM_RGBA32F, error)) {
-        *image = bytes;
-        return false;
-    }
-    size_t count = (size_t)bytes.width * (size_t)bytes.height;
-    const uint8_t *from = bytes.pixels;
-    for (float *pixel = image->pixels; count > 0; count--, pixel += 4, from += 4) {
-        for (int channel = 0; channel < 3; channel++)
-            pixel[channel] = table[from[channel]];
-        pixel[3] = (float)from[3] / 255.0f;
-        premultiply(pixel);
-    }
-    lam_image_free(&bytes);
     return true;
 }
 
-bool image_linearize(lam_image *image, bool wide, lam_color_mode color, lam_error *error)
+static bool decode_bytes(const struct picture_file *file, lam_image *image, const float *table, lam_error *error)
+{
+    lam_image floats;
+    if (!picture_make(file, (uint32_t)image->width, (uint32_t)image->height, LAM_RGBA32F, &floats, error))
+        return false;
+    const uint8_t *from = image->pixels;
+    float *pixel = floats.pixels;
+    for (int y = 0; y < image->height; y++) {
+        if (!picture_continues(file, y, error)) {
+            picture_free(file->call, &floats);
+            return false;
+        }
+        for (int x = 0; x < image->width; x++, pixel += 4, from += 4) {
+            for (int channel = 0; channel < 3; channel++)
+                pixel[channel] = table[from[channel]];
+            pixel[3] = (float)from[3] / 255.0f;
+            premultiply(pixel);
+        }
+    }
+    picture_free(file->call, image);
+    *image = floats;
+    return true;
+}
+
+bool picture_linearize(const struct picture_file *file, lam_image *image, bool wide, lam_color_mode color,
+                       lam_error *error)
 {
     if (image->format == LAM_RGBA32F && !wide)
         return true; // linear in the file
     float *table = make_table(wide ? 65535 : 255, color, error);
     if (!table)
         return false;
-    bool ok = true;
-    if (wide)
-        decode_wide(image, table);
-    else
-        ok = decode_bytes(image, table, error);
+    bool ok = wide ? decode_wide(file, image, table, error) : decode_bytes(file, image, table, error);
     free(table);
     return ok;
 }

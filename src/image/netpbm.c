@@ -18,11 +18,12 @@ static const uint8_t *skip_space(const uint8_t *at, const uint8_t *end)
     return at;
 }
 
-bool netpbm_read_header(const uint8_t *bytes, size_t size, const char *title, const char *name,
-                        struct netpbm_header *header, lam_error *error)
+bool netpbm_read_header(const struct picture_file *file, const char *title, struct netpbm_header *header,
+                        lam_error *error)
 {
     static const char *const words[3] = {"width", "height", "number after the height"};
-    const uint8_t *at = bytes + 2, *end = bytes + size;
+    const uint8_t *bytes = file->bytes, *at = bytes + 2, *end = bytes + file->size;
+    const char *name = file->name;
     double values[3];
     for (int i = 0; i < 3; i++) {
         const uint8_t *start = skip_space(at, end);

@@ -2,7 +2,7 @@
 #ifndef NETPBM_H
 #define NETPBM_H
 
-#include <lambent/base.h>
+#include "codec.h"
 
 struct netpbm_header {
     int width, height; // 1 … 65535
@@ -12,7 +12,7 @@ struct netpbm_header {
 
 // Reads the header of a file whose first two bytes have been recognised: width, height and one more number, separated
 // by white space and comments from '#' to the line's end, then one white-space character. `title`: the format's name.
-bool netpbm_read_header(const uint8_t *bytes, size_t size, const char *title, const char *name,
-                        struct netpbm_header *header, lam_error *error);
+bool netpbm_read_header(const struct picture_file *file, const char *title, struct netpbm_header *header,
+                        lam_error *error);
 
 #endif

@@ -47,24 +47,32 @@ static float float_at(const uint8_t *at, bool little)
     return value;
 }
 
-static bool pfm_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error)
+static bool pfm_read(const struct picture_file *file, lam_image *image, lam_error *error)
 {
+    const uint8_t *bytes = file->bytes;
+    size_t size = file->size;
     struct netpbm_header header;
-    if (!netpbm_read_header(bytes, size, "PFM", name, &header, error))
+    if (!netpbm_read_header(file, "PFM", &header, error))
         return false;
     if (header.last == 0 || header.last != header.last)
         return fail(error, LAM_CANNOT_READ, "%s: the PFM header has a scale of %g, expected a number above or below 0",
-                    name, header.last);
+                    file->name, header.last);
     const size_t channels = bytes[1] == 'F' ? 3 : 1;
     const bool little = header.last < 0;
     uint64_t wanted = (uint64_t)header.width * (uint64_t)header.height * channels * 4;
+    if (!picture_size_check(file, (uint32_t)header.width, (uint32_t)header.height, error))
+        return false;
     if (wanted > size - header.pixels)
-        return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its %d×%d floats take up to byte %llu", name,
-                    size, header.width, header.height, (unsigned long long)(wanted + header.pixels));
-    if (!lam_image_make(image, header.width, header.height, LAM_RGBA32F, error))
+        return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its %d×%d floats take up to byte %llu",
+                    file->name, size, header.width, header.height, (unsigned long long)(wanted + header.pixels));
+    if (!picture_make(file, (uint32_t)header.width, (uint32_t)header.height, LAM_RGBA32F, image, error))
         return false;
     const uint8_t *at = bytes + header.pixels;
     for (int y = header.height - 1; y >= 0; y--) {
+        if (!picture_continues(file, y, error)) {
+            picture_free(file->call, image);
+            return false;
+        }
         float *pixel = (float *)image->pixels + (size_t)y * (size_t)header.width * 4;
         for (int x = 0; x < header.width; x++, pixel += 4, at += 4 * channels) {
             for (size_t channel = 0; channel < 3; channel++)

@@ -81,24 +81,35 @@ static bool ppm_ours(const uint8_t *bytes, size_t size)
     return size >= sizeof remark - 1 && memcmp(bytes, remark, sizeof remark - 1) == 0;
 }
 
-static bool ppm_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error)
+static bool ppm_read(const struct picture_file *file, lam_image *image, lam_error *error)
 {
+    const uint8_t *bytes = file->bytes;
+    size_t size = file->size;
     struct netpbm_header header;
-    if (!netpbm_read_header(bytes, size, "PPM", name, &header, error))
+    if (!netpbm_read_header(file, "PPM", &header, error))
         return false;
     if (header.last != 255)
-        return fail(error, LAM_UNSUPPORTED, "%s: PPM with a largest value of %g, expected 255", name, header.last);
+        return fail(error, LAM_UNSUPPORTED, "%s: PPM with a largest value of %g, expected 255", file->name,
+                    header.last);
     uint64_t pixels = (uint64_t)header.width * (uint64_t)header.height;
+    if (!picture_size_check(file, (uint32_t)header.width, (uint32_t)header.height, error))
+        return false;
     if (pixels * 3 > size - header.pixels)
-        return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its %d×%d pixels take up to byte %llu", name,
-                    size, header.width, header.height, (unsigned long long)(pixels * 3 + header.pixels));
-    if (!lam_image_make(image, header.width, header.height, LAM_RGBA8, error))
+        return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its %d×%d pixels take up to byte %llu",
+                    file->name, size, header.width, header.height, (unsigned long long)(pixels * 3 + header.pixels));
+    if (!picture_make(file, (uint32_t)header.width, (uint32_t)header.height, LAM_RGBA8, image, error))
         return false;
     const uint8_t *at = bytes + header.pixels;
     uint8_t *pixel = image->pixels;
-    for (uint64_t i = 0; i < pixels; i++, pixel += 4, at += 3) {
-        memcpy(pixel, at, 3);
-        pixel[3] = 255;
+    for (int y = 0; y < header.height; y++) {
+        if (!picture_continues(file, y, error)) {
+            picture_free(file->call, image);
+            return false;
+        }
+        for (int x = 0; x < header.width; x++, pixel += 4, at += 3) {
+            memcpy(pixel, at, 3);
+            pixel[3] = 255;
+        }
     }
     return true;
 }

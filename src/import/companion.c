@@ -1,11 +1,43 @@
-// companion.c: files that a model names: material libraries, pictures, the models of a scene file.
+// companion.c: files that a model or a scene file names: material libraries, models, pictures.
 #include "companion.h"
 
 #include "fail.h"
+#include "shown_name.h"
 
+#include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+
+// --- names
+
+// Copies the components of a path, without "." and empty ones, to `out`, which may be where `name` is. With `resolve` a
+// ".." takes the component before it away; else it is copied. False: it leaves the folder, nothing is left, or
+// `capacity` is too small.
+static bool copy_components(const char *name, bool resolve, char *out, size_t capacity)
+{
+    size_t used = 0;
+    for (const char *at = name; *at; at += strspn(at, "/")) {
+        size_t length = strcspn(at, "/");
+        bool up = resolve && length == 2 && at[0] == '.' && at[1] == '.';
+        if (up && used == 0)
+            return false;
+        if (up) {
+            while (used > 0 && out[--used] != '/')
+                ;
+        } else if (length > 0 && !(length == 1 && *at == '.')) {
+            if (used + length + 2 > capacity)
+                return false;
+            if (used)
+                out[used++] = '/';
+            memmove(out + used, at, length);
+            used += length;
+        }
+        at += length;
+    }
+    out[used] = 0;
+    return used > 0;
+}
 
 bool confine(const char *name, char *out, size_t capacity)
 {
@@ -15,33 +47,43 @@ bool confine(const char *name, char *out, size_t capacity)
     for (size_t i = 0; i <= length; i++)
         out[i] = name[i] == '\\' ? '/' : name[i];
     bool escapes = out[0] == '/' || (out[0] && out[1] == ':');
-    for (const char *component = out; *component;) {
-        size_t end = strcspn(component, "/");
-        escapes |= end == 2 && component[0] == '.' && component[1] == '.';
-        component += end;
-        component += strspn(component, "/");
+    for (const char *at = out; *at; at += strspn(at, "/")) {
+        size_t end = strcspn(at, "/");
+        escapes |= end == 2 && at[0] == '.' && at[1] == '.';
+        at += end;
     }
-    if (escapes) {
-        const char *last = path_name(out);
-        memmove(out, last, strlen(last) + 1);
-    }
-    return true;
+    const char *kept = escapes ? path_name(out) : out;
+    return strcmp(kept, "..") != 0 && copy_components(kept, false, out, capacity);
 }
 
-enum { PATH_CAPACITY = 4096 };
+static bool fail_name(const struct import_source *source, const char *name, const char *why, lam_error *error)
+{
+    char shown[SHOWN_NAME_SIZE];
+    return fail(error, LAM_CANNOT_READ, "%s: names the file '%s', %s", source->name, shown_name(name, shown), why);
+}
 
-// Opens a file through the caller's function. `confined`: the name after confine().
-static bool open_by_caller(const struct import_source *source, const char *confined, struct file_bytes *out,
-                           lam_error *error)
+// --- opening
+
+// Opens a file through the caller's function.
+static bool open_by_caller(const struct import_source *source, const char *name, struct arena *arena,
+                           struct companion *out, lam_error *error)
 {
     const struct companions *companions = source->open_state;
+    char path[2 * COMPANION_NAME_SIZE], shown[SHOWN_NAME_SIZE];
     if (!companions->open)
-        return fail(error, LAM_CANNOT_READ, "%s: the file '%s' cannot be opened: the model has no folder", source->name,
-                    confined);
+        return fail_name(source, name, "which cannot be opened: the model has no folder", error);
+    int length = snprintf(path, sizeof path, "%s%s", companions->inside, name);
+    if (length < 0 || length >= (int)sizeof path)
+        return fail_name(source, name, "whose path is too long", error);
+    out->path = NULL;
+    out->real = arena_string(arena, path);
+    out->shown = arena_string(arena, shown_name(path, shown));
+    if (!out->real || !out->shown)
+        return call_memory_error(source->call, (size_t)length + sizeof shown, error);
     lam_bytes bytes = {0};
-    if (!companions->open(companions->user, confined, &bytes, error))
+    if (!companions->open(companions->user, path, &bytes, error))
         return false;
-    bool ok = file_copy(bytes.data, bytes.size, source->call, out, error);
+    bool ok = file_copy(bytes.data, bytes.size, source->call, &out->file, error);
     if (companions->release)
         companions->release(companions->user, &bytes);
     else
@@ -49,66 +91,84 @@ static bool open_by_caller(const struct import_source *source, const char *confi
     return ok;
 }
 
-// The path of a file in the model's folder.
-static bool path_beside_model(const struct import_source *source, const char *name, char path[2 * PATH_CAPACITY],
-                              lam_error *error)
+static char *join(struct arena *arena, const char *folder, const char *name)
 {
-    const char *model = ((const struct companions *)source->open_state)->model;
-    int folder = name[0] == '/' ? 0 : (int)(path_name(model) - model);
-    // "./-" is a file; "-" alone is standard input.
-    int length =
-        snprintf(path, 2 * PATH_CAPACITY, "%.*s%s%s", folder, model, folder == 0 && name[0] == '-' ? "./" : "", name);
-    if (length < 0 || length >= 2 * PATH_CAPACITY)
-        return fail(error, LAM_CANNOT_READ, "%s: the path to '%.80s' is too long", source->name, name);
-    return true;
-}
-
-// Refuses pipes and devices, which could block.
-static bool read_regular(const struct import_source *source, const char *path, struct file_bytes *out, lam_error *error)
-{
-    struct stat about;
-    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
-        return fail(error, LAM_CANNOT_READ, "%s: not a regular file", path);
-    return file_read(path, source->pool, source->call, out, error);
-}
-
-static bool confine_or_fail(const struct import_source *source, const char *name, char confined[PATH_CAPACITY],
-                            lam_error *error)
-{
-    if (!confine(name, confined, PATH_CAPACITY) || !*confined || strcmp(confined, "..") == 0)
-        return fail(error, LAM_CANNOT_READ, "%s: names the file '%.80s', which is not a valid name", source->name,
-                    name);
-    return true;
-}
-
-bool companion_open(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error)
-{
-    const struct companions *companions = source->open_state;
-    char confined[PATH_CAPACITY], path[2 * PATH_CAPACITY];
-    if (!confine_or_fail(source, name, confined, error))
-        return false;
-    if (companions->open || !companions->model)
-        return open_by_caller(source, confined, out, error);
-    return path_beside_model(source, confined, path, error) && read_regular(source, path, out, error);
-}
-
-bool companion_open_model(const struct import_source *source, const char *name, struct arena *arena, const char **path,
-                          struct file_bytes *out, lam_error *error)
-{
-    const struct companions *companions = source->open_state;
-    char confined[PATH_CAPACITY], at[2 * PATH_CAPACITY];
-    *path = NULL;
-    if (!source->params->models_anywhere || companions->open || !companions->model) {
-        if (!confine_or_fail(source, name, confined, error))
-            return false;
-        if (companions->open || !companions->model)
-            return open_by_caller(source, confined, out, error);
-        name = confined;
+    size_t length = strlen(folder), rest = strlen(name);
+    char *path = arena_alloc(arena, length + rest + 1);
+    if (path) {
+        memcpy(path, folder, length);
+        memcpy(path + length, name, rest + 1);
     }
-    if (!path_beside_model(source, name, at, error))
-        return false;
-    *path = arena_string(arena, at);
-    if (!*path)
-        return call_memory_error(source->call, strlen(at), error);
-    return read_regular(source, at, out, error);
+    return path;
+}
+
+// Opens a file on disk. With `confined` it must lie in the folder or below.
+static bool open_beside(const struct import_source *source, const char *name, bool confined, const char *advice,
+                        struct arena *arena, struct companion *out, lam_error *error)
+{
+    const char *root = ((const struct companions *)source->open_state)->folder, *folder = name[0] == '/' ? "" : root;
+    char shown[SHOWN_NAME_SIZE];
+    out->path = join(arena, folder, name);
+    out->shown = join(arena, folder, shown_name(name, shown));
+    if (!out->path || !out->shown)
+        return call_memory_error(source->call, strlen(folder) + strlen(name), error);
+    bool outside;
+    char *real = path_within(out->path, confined ? root : "/", &outside);
+    if (outside)
+        return fail(error, LAM_CANNOT_READ, "%s: leads out of the folder %s%s", out->shown, *root ? root : ".", advice);
+    if (!real && errno == ENOMEM)
+        return fail_memory(error, COMPANION_NAME_SIZE);
+    // What was checked is read. Of a path that leads nowhere, reading says why.
+    out->real = real ? arena_string(arena, real) : out->path;
+    free(real);
+    return out->real ? file_read_named(out->real, out->shown, source->pool, source->call, &out->file, error)
+                     : call_memory_error(source->call, COMPANION_NAME_SIZE, error);
+}
+
+bool companion_open(const struct import_source *source, const char *name, struct arena *arena, struct companion *out,
+                    lam_error *error)
+{
+    const struct companions *companions = source->open_state;
+    char confined[COMPANION_NAME_SIZE];
+    *out = (struct companion){0};
+    if (!confine(name, confined, sizeof confined))
+        return fail_name(source, name, "which is not a valid name", error);
+    if (companions->open || !companions->folder)
+        return open_by_caller(source, confined, arena, out, error);
+    return open_beside(source, confined, true, "", arena, out, error);
+}
+
+bool companion_open_of_scene(const struct import_source *source, const char *name, struct arena *arena,
+                             struct companion *out, lam_error *error)
+{
+    const struct companions *companions = source->open_state;
+    char inside[COMPANION_NAME_SIZE];
+    *out = (struct companion){0};
+    if (companions->open || !companions->folder) {
+        if (name[0] == '/' || !copy_components(name, true, inside, sizeof inside))
+            return fail_name(source, name, "which does not lie in the scene file's folder", error);
+        return open_by_caller(source, inside, arena, out, error);
+    }
+    return open_beside(source, name, !source->params->models_anywhere,
+                       ", where the files of a scene must lie (--files-anywhere allows others)", arena, out, error);
+}
+
+bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,
+                         struct arena *arena, struct companions *out, lam_error *error)
+{
+    char inside[COMPANION_NAME_SIZE];
+    *out = *(const struct companions *)scene->open_state;
+    const char *path = model->path;
+    if (!path) {
+        copy_components(name, true, inside, sizeof inside); // as open_of_scene has done
+        path = inside;
+    }
+    const char *folder = arena_string_of(arena, path, (size_t)(path_name(path) - path));
+    if (!folder)
+        return call_memory_error(scene->call, strlen(path), error);
+    if (model->path)
+        out->folder = folder;
+    else
+        out->inside = folder;
+    return true;
 }

@@ -1,24 +1,45 @@
-// companion.h: files that a model names, opened in its folder or through the caller's function.
+// companion.h: files that a model or a scene file names, opened beside it or through the caller's function.
 #ifndef COMPANION_H
 #define COMPANION_H
 
 #include "importer.h"
 
-// The state of import_source.open and .open_model.
+// The state of import_source.open and .open_of_scene: where files are sought.
 struct companions {
-    const char *model; // path; NULL: the model came from memory
-    lam_open_fn *open; // the caller's function; NULL: files are opened in the model's folder
+    const char *folder; // of the file that names them, with its '/' (""; the current one); NULL: it has none on disk
+    const char *inside; // put before names for `open`: the folder of a model within a scene, with its '/'; "": none
+    lam_open_fn *open;  // the caller's function; NULL: files are opened in `folder`
     lam_release_fn *release;
     void *user;
 };
 
-// import_source.open and import_source.open_model.
-bool companion_open(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error);
-bool companion_open_model(const struct import_source *source, const char *name, struct arena *arena, const char **path,
-                          struct file_bytes *out, lam_error *error);
+// A file that was opened. The caller releases `file`.
+struct companion {
+    struct file_bytes file;
+    const char *path;  // opens it; NULL: it came from the caller's function
+    const char *real;  // the same for every way to name the file: its path without links, or its name for the function
+    const char *shown; // stands for it in messages: the folder, and the name cut by shown_name
+};
 
-// Confines a file name to a folder: backslashes become slashes, and a name that begins at a root or a drive, or
-// contains "..", is cut to its last component. False: `capacity` is too small.
+// import_source.open. The name is confined first (confine); the file must lie in the model's folder or below, links
+// followed. The strings of `out` are in `arena`.
+bool companion_open(const struct import_source *source, const char *name, struct arena *arena, struct companion *out,
+                    lam_error *error);
+
+// import_source.open_of_scene. The file must lie in the scene file's folder or below, links and ".." followed, unless
+// params->models_anywhere is set; one that does not is an error.
+bool companion_open_of_scene(const struct import_source *source, const char *name, struct arena *arena,
+                             struct companion *out, lam_error *error);
+
+// The companions of a model that a scene file names: `model` was opened by open_of_scene as `name`. The strings are in
+// `arena`. False: out of memory.
+bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,
+                         struct arena *arena, struct companions *out, lam_error *error);
+
+// Confines a file name to a folder: backslashes become slashes, "." and empty components go, and a name that begins at
+// a root or a drive, or contains "..", is cut to its last component. So the names of one file are the same text. False:
+// nothing is left, or `capacity` is too small.
+enum { COMPANION_NAME_SIZE = 4096 };
 bool confine(const char *name, char *out, size_t capacity);
 
 #endif

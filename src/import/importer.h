@@ -8,6 +8,10 @@
 #include "scene_internal.h"
 
 struct importer;
+struct import_source;
+struct companion;
+typedef bool open_companion(const struct import_source *source, const char *name, struct arena *arena,
+                            struct companion *out, lam_error *error);
 
 struct import_source {
     const char *name;     // for messages: the path as the user wrote it
@@ -17,12 +21,8 @@ struct import_source {
     const lam_load_params *params;
     struct pool *pool;         // may be NULL: no threads
     struct call_control *call; // never NULL; every long loop checks it
-    // Opens a file that the model names, confined to the model's folder. The caller releases it.
-    bool (*open)(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error);
-    // Opens a model that a scene file names: as above, or in any folder where the caller allows that. *path, in
-    // `arena`, is the path that opens it; NULL: not on disk.
-    bool (*open_model)(const struct import_source *source, const char *name, struct arena *arena, const char **path,
-                       struct file_bytes *out, lam_error *error);
+    // Opens a file that the model names, or that a scene file names (companion.h).
+    open_companion *open, *open_of_scene;
     // The importer of a model that a scene file names (formats.h).
     const struct importer *(*importer_for)(const char *name, const struct file_bytes *file, const char *wanted,
                                            lam_error *error);

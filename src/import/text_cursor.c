@@ -34,14 +34,11 @@ size_t text_line(const uint8_t *bytes, const uint8_t *at)
 
 const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE])
 {
-    int length = 0;
-    while (at + length < end && length < 33 && !text_white(at[length]))
-        length++;
-    bool cut = length > 32;
-    for (length -= cut; cut && length > 0 && (at[length] & 0xc0) == 0x80;) // not inside a UTF-8 character
-        length--;
-    if (length > 0)
-        snprintf(out, TEXT_FOUND_SIZE, "'%.*s%s'", length, (const char *)at, cut ? "…" : "");
+    // More bytes than are shown.
+    const uint8_t *near = end - at < SHOWN_NAME_SIZE ? end : at + SHOWN_NAME_SIZE, *stop = text_skip_word(at, near);
+    char shown[SHOWN_NAME_SIZE];
+    if (stop > at)
+        snprintf(out, TEXT_FOUND_SIZE, "'%s'", shown_name_of(at, (size_t)(stop - at), shown));
     else
         snprintf(out, TEXT_FOUND_SIZE, "%s", at < end ? "white space" : "the end of the file");
     return out;

@@ -3,6 +3,7 @@
 #define TEXT_CURSOR_H
 
 #include "arena.h"
+#include "shown_name.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -42,8 +43,8 @@ size_t text_count_word(const uint8_t *at, const uint8_t *end, const char *word);
 // The number, from 1, of the line at `at`; lines end in "\n", "\r\n" or "\r". Linear time: for messages only.
 size_t text_line(const uint8_t *bytes, const uint8_t *at);
 
-// The word at `at` for a message: in quotes, cut to 32 bytes; or "the end of the file". Returns `out`.
-enum { TEXT_FOUND_SIZE = 48 };
+// The word at `at` for a message: in quotes, cut by shown_name; or "the end of the file". Returns `out`.
+enum { TEXT_FOUND_SIZE = SHOWN_NAME_SIZE + 2 };
 const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE]);
 
 // Copies a name to a UTF-8 string; invalid bytes and control characters become '?'. NULL: out of memory.

@@ -14,8 +14,10 @@ static size_t print_place(const struct place *place, char *out, size_t capacity)
     size_t used = print_place(place->within, out, capacity);
     if (used >= capacity)
         return used;
-    int length = place->key ? snprintf(out + used, capacity - used, "%s%s", used ? "." : "", place->key)
-                            : snprintf(out + used, capacity - used, "[%zu]", place->index);
+    char shown[SHOWN_NAME_SIZE]; // keys of materials, and unknown ones, are names from the file
+    int length = place->key
+                     ? snprintf(out + used, capacity - used, "%s%s", used ? "." : "", shown_name(place->key, shown))
+                     : snprintf(out + used, capacity - used, "[%zu]", place->index);
     return used + (length > 0 ? (size_t)length : 0);
 }
 
@@ -36,16 +38,17 @@ bool json_fail(const struct json_reader *r, const struct place *place, const cha
     return false;
 }
 
-const char *json_kind(const json_t *value, char out[32])
+const char *json_kind(const json_t *value, char out[JSON_KIND_SIZE])
 {
+    char shown[SHOWN_NAME_SIZE];
     switch (json_typeof(value)) {
     case JSON_OBJECT:
         return "an object";
     case JSON_ARRAY:
-        snprintf(out, 32, "a list of %zu", json_array_size(value));
+        snprintf(out, JSON_KIND_SIZE, "a list of %zu", json_array_size(value));
         return out;
     case JSON_STRING:
-        snprintf(out, 32, "\"%.20s\"", json_string_value(value));
+        snprintf(out, JSON_KIND_SIZE, "\"%s\"", shown_name(json_string_value(value), shown));
         return out;
     case JSON_TRUE:
         return "true";
@@ -54,14 +57,14 @@ const char *json_kind(const json_t *value, char out[32])
     case JSON_NULL:
         return "null";
     default:
-        snprintf(out, 32, "%.10g", json_number_value(value));
+        snprintf(out, JSON_KIND_SIZE, "%.10g", json_number_value(value));
         return out;
     }
 }
 
 bool json_unexpected(const struct json_reader *r, const struct place *place, const json_t *found, const char *expected)
 {
-    char kind[32];
+    char kind[JSON_KIND_SIZE];
     return json_fail(r, place, "found %s, expected %s", json_kind(found, kind), expected);
 }
 

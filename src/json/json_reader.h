@@ -3,6 +3,8 @@
 #ifndef JSON_READER_H
 #define JSON_READER_H
 
+#include "shown_name.h"
+
 #include <lambent/base.h>
 
 #include <jansson.h>
@@ -30,7 +32,8 @@ bool json_vfail(const struct json_reader *r, const struct place *place, const ch
 bool json_unexpected(const struct json_reader *r, const struct place *place, const json_t *found, const char *expected);
 
 // "a number", "a text", "a list of 3", …, as found; for sentences.
-const char *json_kind(const json_t *value, char out[32]);
+enum { JSON_KIND_SIZE = SHOWN_NAME_SIZE + 2 };
+const char *json_kind(const json_t *value, char out[JSON_KIND_SIZE]);
 
 // Keys that may stand in an object; another one is an error that names the nearest. The list ends with NULL.
 bool json_check_keys(const struct json_reader *r, const struct place *place, const json_t *object,

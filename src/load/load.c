@@ -119,8 +119,10 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     uint64_t state = float_state_enter(), start_ns = now_ns();
     struct call_control call;
     call_start(&call, control);
+    // The folder of the path as it is given, with its '/'.
+    char *folder = path ? strndup(path, (size_t)(path_name(path) - path)) : NULL;
     struct companions companions = {
-        .model = path, .open = params->open, .release = params->release, .user = params->user};
+        .folder = folder, .inside = "", .open = params->open, .release = params->release, .user = params->user};
     struct import_source source = {
         .name = name,
         .path = path && strcmp(path, "-") != 0 ? path : NULL,
@@ -128,7 +130,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
         .pool = pool_make(params->threads),
         .call = &call,
         .open = companion_open,
-        .open_model = companion_open_model,
+        .open_of_scene = companion_open_of_scene,
         .importer_for = importer_for,
         .open_state = &companions,
     };
@@ -136,6 +138,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     struct file_bytes file = {0};
     const struct importer *importer = NULL;
     bool ok = source.pool || fail(error, LAM_LIMIT, "%s: out of memory for threads", name);
+    ok = ok && (folder || !path || fail_memory(error, strlen(path)));
     if (ok)
         scene = load_stream(&source, &importer);
     ok = ok && (scene  ? true
@@ -156,6 +159,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
         lam_scene_free(scene);
     file_release(&file);
     pool_free(source.pool);
+    free(folder);
     float_state_leave(state);
     return ok ? scene : NULL;
 }

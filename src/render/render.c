@@ -34,7 +34,7 @@ static lam_scene *load(const char *model, const lam_render_params *params, lam_e
     // A device of this call draws one frame: the normals that it shows are enough, and the CPU device makes them. Threads
     // (Kajiya–Kay) need tangents, which are made from all normals.
     bool draws_once = !params->device && !(params->draw && reads_tangents(params->draw));
-    lam_load_params plain = {.models_anywhere = true, .threads = params->threads, .normals_when_drawn = draws_once};
+    lam_load_params plain = {.threads = params->threads, .normals_when_drawn = draws_once};
     lam_scene *scene = lam_scene_load(model, params->load ? params->load : &plain, params->control, error);
     if (!scene || lam_scene_triangle_count(scene) > 0)
         return scene;

@@ -1,10 +1,8 @@
 // scene_json.c: scene files: the JSON around it all, the picture's settings, and the row in the table of formats.
 #include "scene_reader.h"
 
-#include "cube_map.h"
 #include "fail.h"
 #include "linear.h"
-#include "spelling.h"
 
 #include <string.h>
 
@@ -171,95 +169,6 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
                           "Gouraud shading has the stages application and vertex; fragment goes with "
                           "flat and phong");
     return true;
-}
-
-// A picture's name, relative to the scene file, as it can be opened from here.
-static const char *picture_path(struct scene_reader *r, const char *name)
-{
-    const char *scene = r->source->path;
-    size_t folder = scene && name[0] != '/' ? (size_t)(path_name(scene) - scene) : 0, length = strlen(name);
-    char *path = arena_alloc(&r->scene->arena, folder + length + 1);
-    if (!path) {
-        call_memory_error(r->source->call, folder + length + 1, r->error);
-        return NULL;
-    }
-    if (folder)
-        memcpy(path, scene, folder);
-    memcpy(path + folder, name, length + 1);
-    return path;
-}
-
-static bool read_faces(struct scene_reader *r, const struct place *place, const json_t *faces)
-{
-    char kind[32];
-    if (!json_is_array(faces) || json_array_size(faces) != 6)
-        return fail_place(r, place, "found %s, expected six names of pictures: +x, -x, +y, -y, +z, -z",
-                          json_kind(faces, kind));
-    for (size_t i = 0; i < 6; i++) {
-        const json_t *face = json_array_get(faces, i);
-        if (!json_is_string(face) || !json_string_length(face))
-            return fail_place(r, ELEMENT_OF(place, i), "found %s, expected a picture's name", json_kind(face, kind));
-        if (!(r->settings->environment_faces[i] = picture_path(r, json_string_value(face))))
-            return false;
-    }
-    return true;
-}
-
-static bool read_built_in(struct scene_reader *r, const struct place *place, const char **name)
-{
-    const char *known[8];
-    int count = 0;
-    while (count < 8 && (known[count] = lam_environment_built_in_name(count))) {
-        if (strcmp(known[count], *name) == 0) {
-            *name = known[count];
-            return true;
-        }
-        count++;
-    }
-    const char *near_word = meant_word(*name, known, count);
-    return fail_place(r, place, "found '%.60s', expected sky or studio%s%s%s", *name,
-                      near_word ? "; did you mean '" : "", near_word ? near_word : "", near_word ? "'?" : "");
-}
-
-static struct lam_environment *load_environment(const struct scene_reader *r)
-{
-    const lam_picture_settings *s = r->settings;
-    struct call_control *call = r->source->call;
-    if (s->environment_built_in)
-        return lam_environment_built_in(s->environment_built_in, r->error);
-    return s->environment_picture
-               ? environment_load(s->environment_picture, r->color, call, r->error)
-               : environment_load_faces((const char *const *)s->environment_faces, r->color, call, r->error);
-}
-
-static bool read_environment(struct scene_reader *r, const json_t *root)
-{
-    static const char *const keys[] = {"faces", "equirectangular", "builtin", "rotation", NULL};
-    const json_t *value = json_object_get(root, "environment");
-    const struct place *place = KEY_OF(NULL, "environment");
-    lam_picture_settings *s = r->settings;
-    double rotation = 0;
-    if (!value)
-        return true;
-    if (!check_keys(r, place, value, keys) || !take_text(r, place, value, "equirectangular", &s->environment_picture) ||
-        !take_text(r, place, value, "builtin", &s->environment_built_in) ||
-        !take_number(r, place, value, "rotation", -360000, 360000, &rotation))
-        return false;
-    const json_t *faces = json_object_get(value, "faces");
-    if ((faces != NULL) + (s->environment_picture != NULL) + (s->environment_built_in != NULL) != 1)
-        return fail_place(r, place, "expected one of faces, equirectangular and builtin");
-    if (faces && !read_faces(r, KEY_OF(place, "faces"), faces))
-        return false;
-    if (s->environment_built_in && !read_built_in(r, KEY_OF(place, "builtin"), &s->environment_built_in))
-        return false;
-    if (s->environment_picture && !(s->environment_picture = picture_path(r, s->environment_picture)))
-        return false;
-    s->environment_rotation_rad = math_radians(rotation);
-    s->present |= LAM_SETTING_ENVIRONMENT;
-    lam_environment *environment = load_environment(r);
-    bool ok = environment && lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->error);
-    lam_environment_free(environment);
-    return ok;
 }
 
 // --- the whole

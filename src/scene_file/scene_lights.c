@@ -163,19 +163,20 @@ static bool read_frame(struct scene_reader *r, const struct place *place, const 
     light->frame = (lam_light_frame)frame;
     if (light->object && light->frame != LAM_FRAME_OBJECT)
         return fail_place(r, KEY_OF(place, "object"), "goes only with \"frame\": \"object\"");
+    char shown[SHOWN_NAME_SIZE];
     int named = light->object ? objects_named(r->scene, light->object) : 1;
     if (named == 0)
-        return fail_place(r, KEY_OF(place, "object"), "no object is named '%.60s'", light->object);
+        return fail_place(r, KEY_OF(place, "object"), "no object is named '%s'", shown_name(light->object, shown));
     if (named > 1)
-        return fail_place(r, KEY_OF(place, "object"), "%d objects are named '%.60s', expected one", named,
-                          light->object);
+        return fail_place(r, KEY_OF(place, "object"), "%d objects are named '%s', expected one", named,
+                          shown_name(light->object, shown));
     return true;
 }
 
 static bool read_light(struct scene_reader *r, const struct place *place, const json_t *value)
 {
     if (!json_is_object(value)) {
-        char kind[32];
+        char kind[JSON_KIND_SIZE];
         return fail_place(r, place, "found %s, expected a light, { … }", json_kind(value, kind));
     }
     int type = LAM_LIGHT_POINT;
@@ -211,8 +212,9 @@ static bool warn_of_names(struct scene_reader *r, const json_t *list)
         const json_t *name = json_object_get(light, "name");
         const json_t *earlier = name && ok ? json_object_get(met, json_string_value(name)) : NULL;
         if (earlier) {
-            scene_warn(r->scene, "%s: lights[%zu] and lights[%zu] are both named '%.60s'", r->source->name,
-                       (size_t)json_integer_value(earlier), i, json_string_value(name));
+            char shown[SHOWN_NAME_SIZE];
+            scene_warn(r->scene, "%s: lights[%zu] and lights[%zu] are both named '%s'", r->source->name,
+                       (size_t)json_integer_value(earlier), i, shown_name(json_string_value(name), shown));
             break;
         }
         ok = ok && (!name || json_object_set_new(met, json_string_value(name), json_integer((json_int_t)i)) == 0);
@@ -228,7 +230,7 @@ bool read_lights(struct scene_reader *r, const json_t *root)
     if (!list)
         return true;
     if (!json_is_array(list)) {
-        char kind[32];
+        char kind[JSON_KIND_SIZE];
         return fail_place(r, place, "found %s, expected a list of lights, [ … ]", json_kind(list, kind));
     }
     r->settings->present |= LAM_SETTING_LIGHTS;

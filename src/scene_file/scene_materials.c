@@ -50,8 +50,7 @@ static bool unknown_name(struct scene_reader *r, const struct place *place, cons
 {
     const char *nearest = NULL, *key;
     json_t *value;
-    if (strlen(name) > 60)
-        return fail_place(r, place, "no material has this name");
+    char shown[2][SHOWN_NAME_SIZE];
     json_object_foreach(r->materials, key, value)
     {
         const char *two[2] = {nearest, key};
@@ -62,9 +61,11 @@ static bool unknown_name(struct scene_reader *r, const struct place *place, cons
         const char *classic = lam_material_name((lam_material_id)i);
         nearest = nearest_word(name, &classic, 1);
     }
-    return nearest
-               ? fail_place(r, place, "no material is named '%s'; did you mean '%s'?", name, nearest)
-               : fail_place(r, place, "no material is named '%s', neither in \"materials\" nor a classic one", name);
+    shown_name(name, shown[0]);
+    return nearest ? fail_place(r, place, "no material is named '%s'; did you mean '%s'?", shown[0],
+                                shown_name(nearest, shown[1]))
+                   : fail_place(r, place, "no material is named '%s', neither in \"materials\" nor a classic one",
+                                shown[0]);
 }
 
 bool read_material_value(struct scene_reader *r, const struct place *place, const json_t *value,
@@ -94,7 +95,7 @@ bool read_materials(struct scene_reader *r, const json_t *root)
     if (!list)
         return true;
     if (!json_is_object(list)) {
-        char kind[32];
+        char kind[JSON_KIND_SIZE];
         return fail_place(r, place, "found %s, expected an object of named materials", json_kind(list, kind));
     }
     r->material_at = arena_array(&r->scene->arena, json_object_size(list), sizeof *r->material_at);
@@ -106,7 +107,7 @@ bool read_materials(struct scene_reader *r, const json_t *root)
     json_object_foreach(list, key, value)
     {
         if (!json_is_object(value)) {
-            char kind[32];
+            char kind[JSON_KIND_SIZE];
             return fail_place(r, KEY_OF(place, key), "found %s, expected an object, { … }", json_kind(value, kind));
         }
         if (!read_material_value(r, KEY_OF(place, key), value, NULL, &r->material_at[i]))

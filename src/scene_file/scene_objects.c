@@ -1,6 +1,5 @@
-// scene_objects.c: the objects of a scene file: built-in shapes, and models read by the other importers.
-#include "companion.h"
-#include "scene_reader.h"
+// scene_objects.c: the objects of a scene file: the keys around the models that they show (scene_models.c).
+#include "scene_models.h"
 
 #include "fail.h"
 #include "linear.h"
@@ -14,114 +13,6 @@ static const char *const file_keys[] = {EVERY_OBJECT, "file", "materials", "part
 static const char *const any_keys[] = {EVERY_OBJECT, "shape",     "radius", "slices", "stacks",
                                        "file",       "materials", "parts",  NULL};
 
-// --- a model file, read into the scene
-
-struct nested {
-    const struct import_source *outer;
-    char folder[4096]; // of the model, as the scene file names it, with its '/'
-};
-
-// A companion of the model: in the model's folder.
-static bool open_nested(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error)
-{
-    const struct nested *nested = source->open_state;
-    char inside[4096], path[8192];
-    const char *unused;
-    if (!confine(name, inside, sizeof inside) || !*inside || strcmp(inside, "..") == 0)
-        return fail(error, LAM_CANNOT_READ, "%s: names a file '%.80s' that cannot be looked for", source->name, name);
-    strcpy(path, nested->folder);
-    strcat(path, inside);
-    struct arena scratch;
-    arena_start(&scratch, NULL);
-    bool ok = nested->outer->open_model(nested->outer, path, &scratch, &unused, out, error);
-    arena_free(&scratch);
-    return ok;
-}
-
-// Appends the inner scene's items to those of the outer one, their indices shifted.
-static bool merge(struct scene_reader *r, struct lam_scene *inner)
-{
-    struct lam_scene *scene = r->scene;
-    int meshes = scene->meshes.count, materials = scene->materials.count;
-    bool ok = true;
-    for (int i = 0; ok && i < inner->materials.count; i++)
-        ok = scene_adopt_material(scene, (lam_material *)inner->materials.items + i, r->error) >= 0;
-    for (int i = 0; ok && i < inner->meshes.count; i++) {
-        const lam_mesh *mesh = scene_mesh(inner, i);
-        for (uint32_t p = 0; p < mesh->part_count; p++) {
-            lam_part *part = (lam_part *)(uintptr_t)&mesh->parts[p]; // in the scene's arena
-            part->material += part->material >= 0 ? materials : 0;
-        }
-        ok = scene_adopt_mesh(scene, mesh, r->error) >= 0;
-    }
-    for (int i = 0; ok && i < inner->objects.count; i++) {
-        lam_object object = *scene_object(inner, i);
-        object.mesh += meshes;
-        object.material += object.material >= 0 ? materials : 0;
-        object.back_material += object.back_material >= 0 ? materials : 0;
-        ok = scene_adopt_object(scene, &object, r->error) >= 0;
-    }
-    for (int i = 0; ok && !r->has_lights && i < inner->lights.count; i++)
-        ok = scene_adopt_light(scene, (lam_light *)inner->lights.items + i, r->error) >= 0;
-    for (int i = 0; ok && i < inner->warnings.count; i++)
-        scene_warn(scene, "%s", ((const char **)inner->warnings.items)[i]);
-    return ok;
-}
-
-static bool import_bytes(struct scene_reader *r, const struct place *place, const struct import_source *source,
-                         const struct file_bytes *file, struct scene_origin *origin)
-{
-    const struct importer *importer = source->importer_for(source->name, file, NULL, r->error);
-    if (!importer)
-        return false;
-    if (importer->is_scene_file)
-        return fail_place(r, place, "'%.200s' is a scene file, expected a model", source->name);
-    // The inner scene lives in the outer one's arena.
-    struct lam_scene inner = {
-        .arena = r->scene->arena, .up = importer->up, .format = importer->name, .color = r->color};
-    bool ok = importer->load(source, &inner, r->error) &&
-              scene_prepare(&inner, origin->normals, origin->crease_angle_rad, source->pool, source->call, r->error);
-    r->scene->arena = inner.arena;
-    uint64_t triangles = 0;
-    for (int i = 0; ok && i < inner.meshes.count; i++)
-        triangles += scene_mesh(&inner, i)->triangle_count;
-    if (ok && !triangles)
-        return fail(r->error, LAM_CANNOT_READ, "%s: holds no triangles", source->name);
-    return ok && merge(r, &inner);
-}
-
-static bool add_file(struct scene_reader *r, const struct place *place, const char *name, struct scene_origin *origin)
-{
-    struct nested nested = {.outer = r->source};
-    size_t folder = (size_t)(path_name(name) - name);
-    struct file_bytes file = {0};
-    if (strlen(name) >= sizeof nested.folder)
-        return fail_place(r, KEY_OF(place, "file"), "the name is too long");
-    memcpy(nested.folder, name, folder);
-    lam_load_params params = *r->source->params;
-    params.color = r->color;
-    params.format = NULL;
-    params.normals = origin->normals;
-    params.crease_angle_rad = origin->crease_angle_rad;
-    lam_error reason = {0};
-    if (!r->source->open_model(r->source, name, &r->scene->arena, &origin->path, &file, &reason)) {
-        if (r->error)
-            *r->error = reason;
-        return reason.code == LAM_CANNOT_READ ? fail_place(r, KEY_OF(place, "file"), "%s", reason.text) : false;
-    }
-    struct import_source source = *r->source;
-    source.name = origin->path ? origin->path : name;
-    source.path = origin->path;
-    source.bytes = file.data;
-    source.size = file.size;
-    source.params = &params;
-    source.open = open_nested;
-    source.open_state = &nested;
-    bool ok = import_bytes(r, KEY_OF(place, "file"), &source, &file, origin);
-    file_release(&file);
-    return ok;
-}
-
 // --- keys of all objects
 
 // "materials": changes of the model's own materials, by their names.
@@ -132,13 +23,13 @@ static bool change_materials(struct scene_reader *r, const struct place *place, 
     json_t *change, *list = json_object_get(value, "materials");
     const struct place *here = KEY_OF(place, "materials");
     if (list && !json_is_object(list)) {
-        char kind[32];
+        char kind[JSON_KIND_SIZE];
         return fail_place(r, here, "found %s, expected an object of the model's materials", json_kind(list, kind));
     }
     json_object_foreach(list, key, change)
     {
         bool found = false;
-        for (int i = origin->first_material; i < r->scene->materials.count; i++) {
+        for (int i = origin->first_material; i < origin->first_material + origin->material_count; i++) {
             lam_material *material = (lam_material *)r->scene->materials.items + i;
             if (!material->name || strcmp(material->name, key) != 0)
                 continue;
@@ -158,7 +49,7 @@ static bool replace_parts(struct scene_reader *r, const struct place *place, con
 {
     const json_t *list = json_object_get(value, "parts");
     const struct place *here = KEY_OF(place, "parts");
-    char kind[32];
+    char kind[JSON_KIND_SIZE];
     size_t n = 0;
     if (!list)
         return true;
@@ -230,36 +121,6 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
     return true;
 }
 
-static bool add_shape(struct scene_reader *r, const struct place *place, const json_t *value, const char *shape,
-                      const struct scene_origin *origin)
-{
-    lam_shape_params segments = {0};
-    lam_object object = lam_object_default();
-    lam_error reason;
-    if (lam_shape_find(shape) >= 0 && (!take_number(r, place, value, "radius", 1e-30, 1e30, &segments.radius) ||
-                                       !take_whole(r, place, value, "slices", 3, 16384, &segments.slices) ||
-                                       !take_whole(r, place, value, "stacks", 1, 16384, &segments.stacks)))
-        return false;
-    int meshes = r->scene->meshes.count;
-    object.name = shape;
-    object.mesh = scene_add_shape(r->scene, shape, &segments, r->source->call, &reason);
-    if (object.mesh < 0) {
-        if (r->error)
-            *r->error = reason;
-        return reason.code == LAM_BAD_ARGUMENT ? fail_place(r, KEY_OF(place, "shape"), "%s", reason.text) : false;
-    }
-    // Normals are made as scene_prepare makes them, of this mesh alone.
-    struct lam_scene one = {.arena = r->scene->arena};
-    lam_mesh *mesh = (lam_mesh *)r->scene->meshes.items + meshes;
-    bool ok =
-        scene_adopt_mesh(&one, mesh, r->error) >= 0 &&
-        scene_prepare(&one, origin->normals, origin->crease_angle_rad, r->source->pool, r->source->call, r->error);
-    if (ok)
-        *mesh = *scene_mesh(&one, 0);
-    r->scene->arena = one.arena;
-    return ok && scene_adopt_object(r->scene, &object, r->error) >= 0;
-}
-
 static bool read_object(struct scene_reader *r, const struct place *place, const json_t *value)
 {
     const char *shape = NULL, *file = NULL, *name = NULL;
@@ -278,29 +139,30 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
         !take_number(r, place, value, "crease_angle", 0, 180, &crease_deg) ||
         !take_word(r, place, value, "tangents", tangent_words, &field))
         return false;
-    struct lam_scene *scene = r->scene;
-    int first = scene->objects.count;
-    struct scene_origin origin = {
+    struct model_wanted wanted = {
+        .place = place,
+        .file = file,
+        .shape = shape,
         .normals = (lam_normals)normals,
         // The importers take 0 for their own angle: a negligible one splits at every edge.
         .crease_angle_rad = crease_deg < 0   ? 0
                             : crease_deg > 0 ? math_radians(crease_deg)
                                              : 1e-6,
         .field_tangents = field,
-        .first_mesh = scene->meshes.count,
-        .first_material = scene->materials.count,
+        .materials = json_object_get(value, "materials"),
+        .parts = json_object_get(value, "parts"),
     };
-    if (is_file ? !add_file(r, place, file, &origin) || !scene_note_origin(scene, origin, first, r->error)
-                : !add_shape(r, place, value, shape, &origin))
+    if (shape && lam_shape_find(shape) >= 0 &&
+        (!take_number(r, place, value, "radius", 1e-30, 1e30, &wanted.segments.radius) ||
+         !take_whole(r, place, value, "slices", 3, 16384, &wanted.segments.slices) ||
+         !take_whole(r, place, value, "stacks", 1, 16384, &wanted.segments.stacks)))
         return false;
-    // A shape has noted its own origin, without how it was asked to be made.
-    struct scene_origin *noted = (struct scene_origin *)scene->origins.items + scene->origins.count - 1;
-    noted->normals = origin.normals;
-    noted->crease_angle_rad = origin.crease_angle_rad;
-    noted->field_tangents = field;
-    for (int i = origin.first_mesh; field && i < scene->meshes.count; i++)
-        ((lam_mesh *)scene->meshes.items)[i].tangents = NULL;
-    return change_materials(r, place, value, noted) && replace_parts(r, place, value, noted) &&
+    int first = r->scene->objects.count, index;
+    bool own;
+    if (!add_model(r, &wanted, &index, &own))
+        return false;
+    const struct scene_origin *origin = (const struct scene_origin *)r->scene->origins.items + index;
+    return (!own || (change_materials(r, place, value, origin) && replace_parts(r, place, value, origin))) &&
            finish(r, place, value, first, name);
 }
 
@@ -311,7 +173,7 @@ bool read_objects(struct scene_reader *r, const json_t *root)
     if (!list)
         return fail_place(r, NULL, "'objects' is missing, expected a list of at least one object");
     if (!json_is_array(list) || !json_array_size(list)) {
-        char kind[32];
+        char kind[JSON_KIND_SIZE];
         return fail_place(r, place, "found %s, expected a list of at least one object", json_kind(list, kind));
     }
     for (size_t i = 0; i < json_array_size(list); i++) {

@@ -6,15 +6,19 @@
 #include "fields.h"
 #include "importer.h"
 #include "json_reader.h"
+#include "name_table.h"
+#include "shown_name.h"
 
 struct scene_reader {
     const struct import_source *source;
     struct lam_scene *scene;
-    lam_picture_settings *settings; // in the scene's arena
-    bool has_lights;                // the file lists its lights: the models' own are left out
-    lam_color_mode color;           // of colours in this file and its models
-    json_t *materials;              // the file's named materials; NULL: none
-    int *material_at;               // of each, in the file's order: its index in the scene
+    lam_picture_settings *settings;  // in the scene's arena
+    bool has_lights;                 // the file lists its lights: the models' own are left out
+    lam_color_mode color;            // of colours in this file and its models
+    json_t *materials;               // the file's named materials; NULL: none
+    int *material_at;                // of each, in the file's order: its index in the scene
+    struct name_table models_by_key; // of scene_models.c: the values are indices in `models`
+    struct scene_list models;        // pointers, in the scene's arena
     lam_error *error;
 };
 
@@ -62,6 +66,7 @@ bool numbers_of(struct scene_reader *r, const struct place *place, const json_t 
 
 // The parts of the file. Each fills the scene.
 bool read_materials(struct scene_reader *r, const json_t *root);
+bool read_environment(struct scene_reader *r, const json_t *root);
 bool read_objects(struct scene_reader *r, const json_t *root);
 bool read_lights(struct scene_reader *r, const json_t *root);
 

@@ -16,10 +16,10 @@ static bool read_step(struct scene_reader *r, const struct place *place, const j
     size_t count = json_is_array(step) && json_array_size(step) ? json_array_size(step) - 1 : 0;
     bool translate = strcmp(name, "translate") == 0 && count == 3, rotate = strcmp(name, "rotate") == 0 && count == 4;
     bool scale = strcmp(name, "scale") == 0 && (count == 3 || count == 1);
-    char kind[32];
+    char kind[JSON_KIND_SIZE], shown[SHOWN_NAME_SIZE];
     if (!translate && !rotate && !scale)
-        return *name ? fail_place(r, place, "found \"%.20s\" with %zu number%s, %s", name, count, count == 1 ? "" : "s",
-                                  expected)
+        return *name ? fail_place(r, place, "found \"%s\" with %zu number%s, %s", shown_name(name, shown), count,
+                                  count == 1 ? "" : "s", expected)
                      : fail_place(r, place, "found %s, %s", json_kind(step, kind), expected);
     for (size_t i = 0; i < count; i++) {
         const json_t *value = json_array_get(step, i + 1);
@@ -63,7 +63,7 @@ bool read_transform(struct scene_reader *r, const struct place *place, const jso
 {
     *out = lam_mat4_identity();
     if (!json_is_array(value)) {
-        char kind[32];
+        char kind[JSON_KIND_SIZE];
         return fail_place(r, place, "found %s, expected a list of steps, or of 16 numbers", json_kind(value, kind));
     }
     if (json_is_number(json_array_get(value, 0))) {

@@ -317,18 +317,23 @@ static bool put_objects(struct scene_writer *w, json_t *root)
     json_t *list = json_array();
     put(w, root, "objects", list);
     const struct scene_origin *last = NULL;
+    int follow = 0; // objects that the entry of the one before stands for too
     for (int i = 0; i < lam_scene_object_count(w->scene); i++) {
         const lam_object *object = lam_scene_object(w->scene, i);
         const struct scene_origin *origin = origin_of(w->scene, object->mesh);
+        char shown[SHOWN_NAME_SIZE];
         if (!origin || (!origin->path && !origin->shape))
             return fail(w->error, LAM_UNSUPPORTED,
-                        "%s: the mesh of object %d ('%.60s') came neither from a file nor is a built-in "
+                        "%s: the mesh of object %d ('%s') came neither from a file nor is a built-in "
                         "shape, so a scene file "
                         "cannot name it",
-                        w->path, i, object->name ? object->name : "");
-        if (origin == last && origin->object_count > 1) // one entry stands for all objects of a file
+                        w->path, i, shown_name(object->name ? object->name : "", shown));
+        if (origin == last && follow > 0) { // one entry stands for all objects of a file
+            follow--;
             continue;
+        }
         last = origin;
+        follow = origin->object_count - 1;
         if (!put_object(w, list, object, origin))
             return false;
     }

@@ -7,6 +7,7 @@ picture, explanation and report from today's library; a field that the library d
 draws what the program draws."""
 import glob
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -119,10 +120,11 @@ def check_render(folder):
     if not check("render_one compiles", built.returncode == 0, built.stdout):
         return
     models = os.path.join(ROOT, "tests", "models")
+    for name in ("cube.obj", "cube.mtl"):  # what a scene file names lies beside it
+        shutil.copy(os.path.join(models, name), folder)
     scene = os.path.join(folder, "scene.json")
     open(scene, "w").write('{"lambent": 1, "image": {"size": [300, 200], "samples": 8, "background": "navy"}, "stage": "vertex", '
-                           '"reflection": "phong", "objects": [{"shape": "torus-knot"}, {"file": "%s"}]}' %
-                           os.path.join(models, "cube.obj"))
+                           '"reflection": "phong", "objects": [{"shape": "torus-knot"}, {"file": "cube.obj"}]}')
     for model in (os.path.join(models, "cube.obj"), os.path.join(ROOT, "examples", "models", "spot.obj"), "teapot", scene):
         pictures = [os.path.join(folder, name) for name in ("program.png", "library.png")]
         drawn = run([PROGRAM, model, "-o", pictures[0], "-q"])

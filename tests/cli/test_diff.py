@@ -1,6 +1,7 @@
 # test_diff.py: the command `diff`: numbers with known answers, the picture, exit codes.
 import json
 import struct
+import zlib
 
 from harness import Case, pixel, read_png
 
@@ -52,6 +53,22 @@ class Diff(Case):
         self.assertEqual((same["maximum"], same["psnr_db"], same["differ"]), (0, None, 0))
         self.assertIn("infinite", self.good("diff", a, a).stdout.decode())
         self.assertEqual(self.good("diff", a, a, "-q").stdout, b"")
+
+    def test_interlaced(self):
+        """A PNG in seven passes is the same picture, at every size, with 8 and 16 bits."""
+        passes = ((0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2))
+        for width, height in ((1, 1), (2, 3), (7, 9), (33, 40)):
+            for depth in (1, 2):  # bytes a number
+                pixel_at = lambda x, y: bytes((x * 31 + y * 17 + c * 50 + (x * y) % 7) & 255 for c in range(3 * depth))
+                rows = [b"\0" + b"".join(pixel_at(x, y) for x in range(x0, width, dx))
+                        for x0, y0, dx, dy in passes for y in range(y0, height, dy) if x0 < width]
+                plain = [b"\0" + b"".join(pixel_at(x, y) for x in range(width)) for y in range(height)]
+                for name, interlace, packed in (("i.png", 1, rows), ("p.png", 0, plain)):
+                    chunk = lambda kind, body: struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+                    self.write(name, b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8 * depth, 2, 0, 0, interlace)) +
+                               chunk(b"IDAT", zlib.compress(b"".join(packed))) + chunk(b"IEND", b""))
+                self.assertEqual(self.numbers("i.png", "p.png")["maximum"], 0)
+                self.assertNotEqual(self.run_program("diff", "i.png", self.write("z.ppm", ppm(width, height, bytes(3 * width * height)))).returncode, 0)
 
     def test_picture(self):
         a, b = self.pair()

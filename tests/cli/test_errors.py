@@ -1,9 +1,10 @@
 # test_errors.py: every failure reports one sentence and its exit code, and leaves no files.
+import json
 import os
-import shutil
 import struct
 import subprocess
 import unittest
+import zlib
 
 from harness import PROGRAM, Case
 
@@ -32,6 +33,49 @@ class Models(Case):
         self.given.add("folder.obj")
         for name in ("folder.obj", "folder.obj/", ".", "..", "/"):
             self.one_sentence(self.bad(2, name, says=f"lambent: {name}"))
+
+    def test_not_regular(self):
+        """Pipes, devices and folders are never opened, whoever names them: models, material files, scene files, pictures."""
+        os.mkfifo(self.folder / "pipe")
+        self.given.add("pipe")
+        for name, says in (("pipe", "pipe: is a pipe, expected a regular file (- is standard input)"),
+                           ("/dev/zero", "/dev/zero: is a device, expected a regular file"), (".", ".: is a directory, expected a file")):
+            for words in ([name], ["sphere", "--environment", name], ["diff", name, name], ["lights", name], ["explain", name, "1,1"]):
+                with self.subTest(words):
+                    self.one_sentence(self.bad(2, *words, says=says, timeout=10))
+        self.write("m.obj", b"mtllib pipe\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.assertIn(b"pipe: is a pipe, expected a regular file; its materials", self.good("m.obj", "-s", 8, "-o", "-", timeout=10).stderr)
+        for scene in ({"file": "pipe"}, {"shape": "cube"}):
+            data = {"lambent": 1, "objects": [scene]}
+            if "shape" in scene:
+                data["environment"] = {"equirectangular": "pipe"}
+            self.write("s.json", json.dumps(data).encode())
+            self.one_sentence(self.bad(2, "s.json", says=["s.json: ", "pipe: is a pipe, expected a regular file"], timeout=10))
+        with open(self.folder / "cube.obj", "rb") as model:  # a redirected file is a regular one, under any name
+            self.good("/dev/stdin", "-s", 8, "-o", "-", stdin=model)
+        self.good("-", "-s", 8, "-o", "-", stdin=(self.folder / "cube.obj").read_bytes())
+
+    def test_material_files_are_read_once(self):
+        """60 kB of mtllib lines took gigabytes."""
+        self.write("big.mtl", b"".join(b"newmtl m%d\nKd 1 0 0\nmap_Kd %d.png\n" % (i, i) for i in range(2000)))
+        self.write("many.obj", b"mtllib big.mtl\n" * 4000 + b"v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m3\nf 1 2 3\n")
+        self.good("many.obj", "-s", 8, "-o", "-", "--memory-limit", "16M")
+
+    def test_thousand_spheres(self):
+        spheres = [{"shape": "sphere", "transform": [["translate", i % 32, i // 32, 0], ["scale", 0.4]]} for i in range(1000)]
+        self.write("spheres.json", json.dumps({"lambent": 1, "objects": spheres}).encode())
+        self.good("spheres.json", "-s", 64, "-o", "-", "--memory-limit", "300M")
+
+    def test_huge_picture(self):
+        """A header of 40000×20000 pixels is refused before its memory is taken."""
+        row = b"\0" + bytes(5000)
+        packer = zlib.compressobj()
+        packed = b"".join(packer.compress(row) for _ in range(20000)) + packer.flush()
+        chunk = lambda kind, body: struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+        self.write("huge.png", b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 40000, 20000, 1, 0, 0, 0, 0)) +
+                   chunk(b"IDAT", packed) + chunk(b"IEND", b""))
+        for words in (["sphere", "--environment", "huge.png"], ["diff", "huge.png", "huge.png"]):
+            self.one_sentence(self.bad(4, *words, says=["huge.png", "40000×20000", "at most 400 million"]))
 
     def test_empty(self):
         for name in ("empty.obj", "empty.stl", "empty.ply", "empty"):

@@ -1,11 +1,13 @@
 # test_scene.py: scene files: drawn, overridden by options, written and drawn again to the same bytes, and held to their schema.
 import json
 import shutil
+import signal
 import struct
 import subprocess
+import time
 import unittest
 
-from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, pixel, read_png
+from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, pixel, read_png, write_png
 
 SCHEMA = json.loads(subprocess.run([PROGRAM, "generate", "scene-schema"], stdout=subprocess.PIPE, check=True).stdout)
 KNOWN = {"type", "enum", "const", "required", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
@@ -62,8 +64,8 @@ class Scene(Case):
     def again(self, *words):
         """Draws with --save-scene and draws the scene file: the bytes are the same."""
         (self.folder / "sub").mkdir(exist_ok=True)
-        self.good(*words, "-o", "a.png", "--save-scene", "sub/saved.json")
-        self.good("sub/saved.json", "-o", "b.png")
+        self.good(*words, "-o", "a.png", "--save-scene", "sub/saved.json", "--files-anywhere")
+        self.good("sub/saved.json", "-o", "b.png", "--files-anywhere")
         self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes(), words)
         saved = json.loads((self.folder / "sub" / "saved.json").read_text())
         self.assertIsNone(misfit(saved, SCHEMA))
@@ -112,7 +114,7 @@ class Scene(Case):
             self.assertEqual(saved["image"]["size"], [120, 90])
         self.assertEqual(saved["objects"][0]["file"], "../cube.obj")
         # Written again, the file is the same.
-        self.good("sub/saved.json", "-o", "b.png", "--save-scene", "sub/twice.json")
+        self.good("sub/saved.json", "-o", "b.png", "--save-scene", "sub/twice.json", "--files-anywhere")
         self.assertEqual((self.folder / "sub/saved.json").read_bytes(), (self.folder / "sub/twice.json").read_bytes())
 
     def test_saved_scenes_of_real_models(self):
@@ -163,17 +165,41 @@ class Scene(Case):
         self.assertAlmostEqual(value, ((128 / 255 + 0.055) / 1.055) ** 2.4, places=5)
 
     def test_models_elsewhere(self):
+        """What a scene file names lies in its own folder; --files-anywhere allows other folders."""
         (self.folder / "sub").mkdir()
-        self.example["objects"][1]["file"] = "../cube.ply"
-        self.write(self.example, "sub/up.json")
-        self.assertEqual(self.png("sub/up.json"), self.png("scene.json"))
-        self.example["objects"][1]["file"] = str(self.folder / "cube.ply")
-        self.write(self.example, "sub/absolute.json")
-        self.assertEqual(self.png("sub/absolute.json"), self.png("scene.json"))
-        for name, says in (("none.ply", "none.ply"), ("/dev/zero", "not a regular file"), ("scene.json", "scene file")):
+        self.given.add("sub")
+        picture = self.png("scene.json")
+        for name in ("../cube.ply", str(self.folder / "cube.ply"), "link.ply"):
+            self.example["objects"][1]["file"] = name
+            self.write(self.example, "sub/up.json")
+            (self.folder / "sub/link.ply").unlink(missing_ok=True)
+            (self.folder / "sub/link.ply").symlink_to("../cube.ply")
+            self.bad(2, "sub/up.json", "-o", "x.png", says=["sub/up.json: objects[1].file: ", "leads out of the folder sub/", "--files-anywhere"])
+            self.assertEqual(self.png("sub/up.json", "--files-anywhere"), picture)
+        for name, says in (("none.ply", "none.ply"), ("/dev/zero", "leads out of the folder"), ("scene.json", "scene file")):
             self.example["objects"][1]["file"] = name
             self.write(self.example)
-            self.bad(2, "scene.json", "-o", "x.png", says=["objects[1].file", says], leaves=["sub"])
+            self.bad(2, "scene.json", "-o", "x.png", says=["objects[1].file", says])
+        self.bad(2, "sub/up.json", "--save-scene", "sub/x.json", says="--files-anywhere")
+        self.example["objects"][1]["file"] = "/dev/zero"
+        self.write(self.example)
+        self.bad(2, "scene.json", "--files-anywhere", "-o", "x.png", says=["/dev/zero: is a device, expected a regular file"])
+
+    def test_saved_beside_or_not(self):
+        """--save-scene says when the file that it writes needs --files-anywhere."""
+        (self.folder / "sub").mkdir()
+        self.good("cube.obj", "-s", "8", "-o", "face.png")
+        outside = b"warning: the saved scene file names files outside of its folder"
+        for words, beside in ((["cube.obj", "--save-scene", "s.json"], True), (["sphere", "--save-scene", "sub/s.json"], True),
+                              ([self.folder / "cube.obj", "--save-scene", "./s.json"], True), (["cube.obj", "--save-scene", "sub/s.json"], False),
+                              (["sphere", "--environment", "sky", "--reflectivity", "1", "--save-scene", "sub/s.json"], True),
+                              (["sphere", "--environment", ",".join(["face.png"] * 6), "--reflectivity", "1", "--save-scene", "sub/s.json"], False)):
+            done = self.good(*words, "-s", "8", "-o", "a.png")
+            self.assertEqual(outside in done.stderr, not beside, words)
+            done = self.run_program(words[-1], "-o", "b.png")
+            self.assertEqual(done.returncode, 0 if beside else 2, words)
+            self.good(words[-1], "-o", "b.png", "--files-anywhere")
+            self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
 
     def test_schema_and_program_agree(self):
         """Each wrong key or value fails both."""
@@ -331,6 +357,22 @@ class Environment(Case):
         scene["lights"] = [{"type": "point", "frame": "object", "object": "a"}]
         (self.folder / "s.json").write_text(json.dumps(scene))
         self.bad(2, "s.json", "-o", "no.png", says="2 objects are named 'a'", leaves={"ok.png"})
+
+    def test_limits_while_a_picture_is_read(self):
+        """An environment's picture obeys the limits while it is decoded and while it becomes a cube."""
+        wide = write_png(4096, 2048, bytes(4096 * 2048 * 4))
+        (self.folder / "wide.png").write_bytes(wide)
+        self.scene("wide.json", {"lambent": 1, "environment": {"equirectangular": "wide.png"}, "objects": [{"shape": "cube"}]})
+        self.given.add("wide.png")
+        for words in (["sphere", "--environment", "wide.png"], ["wide.json"]):
+            for seconds in ("0.02", "0.5"):  # decoding takes some 0.1 s, the cube many seconds
+                self.bad(4, *words, "-s", 16, "--time-limit", seconds, "-o", "x.png", says="time limit", timeout=10)
+            started = subprocess.Popen([PROGRAM, *words, "-s", "16", "-o", "x.png"], cwd=self.folder, stderr=subprocess.PIPE)
+            time.sleep(0.5)
+            started.send_signal(signal.SIGINT)
+            self.assertIn(b"interrupted", started.communicate(timeout=10)[1])
+            self.assertEqual(started.returncode, -signal.SIGINT)
+            self.bad(4, *words, "-s", 16, "--memory-limit", "100M", "-o", "x.png", says="memory limit", timeout=10)
 
     def test_missing_face(self):
         (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "environment": {"faces": ["no.png"] * 6},

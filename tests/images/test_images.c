@@ -95,7 +95,7 @@ static void leave_pictures(const char *name, const lam_image *actual)
     snprintf(path, sizeof path, "%s.actual.%s", name, actual->format == LAM_RGBA8 ? "png" : "pfm");
     lam_image_save(actual, path, NULL, &error);
     snprintf(path, sizeof path, EXPECTED "/%s.png", name);
-    if (actual->format != LAM_RGBA8 || !lam_image_load(&expected, path, &error))
+    if (actual->format != LAM_RGBA8 || !lam_image_load(&expected, path, NULL, &error))
         return;
     lam_difference difference;
     if (lam_image_compare(actual, &expected, &difference, &error)) {

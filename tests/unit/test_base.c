@@ -1,5 +1,6 @@
 // test_base.c: small parts of the base: growing text, UTF-8, edit distance, libraries opened when used.
 #include "dynamic_library.h"
+#include "shown_name.h"
 #include "spelling.h"
 #include "text_builder.h"
 
@@ -73,6 +74,37 @@ static void test_edit_distance(void **state)
     static const char *const words[] = {"ambient", "diffuse", "specular"};
     assert_string_equal(nearest_word("difuse", words, 3), "diffuse");
     assert_null(nearest_word("shadow", words, 3));
+    char longer[400]; // cannot be compared: nothing is near
+    memset(longer, 'a', sizeof longer);
+    longer[sizeof longer - 1] = 0;
+    assert_null(nearest_word(longer, words, 3));
+    assert_null(meant_word(longer, words, 3));
+}
+
+static void test_shown_name(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *shown;
+    } rows[] = {
+        {"", ""},
+        {"plain name", "plain name"},
+        {"0123456789abcdef0123456789abcdef", "0123456789abcdef0123456789abcdef"},
+        {"0123456789abcdef0123456789abcdefg", "0123456789abcdef0123456789abcdef…"},
+        // characters, not bytes
+        {"éééééééééééééééééééééééééééééééé", "éééééééééééééééééééééééééééééééé"},
+        {"𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞", "𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞…"},
+        // what terminals obey, and what is no UTF-8
+        {"a\x1b[31m\n\x7f\xc2\x9b"
+         "b\xc2\xa0",
+         "a?[31m???b\xc2\xa0"},
+        {"\xff\xc3", "??"},
+    };
+    char out[SHOWN_NAME_SIZE];
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        assert_string_equal(shown_name(rows[i].name, out), rows[i].shown);
+    assert_string_equal(shown_name_of("abcdef", 3, out), "abc");
+    assert_string_equal(shown_name_of("a\0b", 3, out), "a?b");
 }
 
 // What people type for a word of the interface.
@@ -132,8 +164,8 @@ static void test_libraries(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_text),          cmocka_unit_test(test_utf8),      cmocka_unit_test(test_edit_distance),
-        cmocka_unit_test(test_word_distance), cmocka_unit_test(test_libraries),
+        cmocka_unit_test(test_text),          cmocka_unit_test(test_utf8),       cmocka_unit_test(test_edit_distance),
+        cmocka_unit_test(test_word_distance), cmocka_unit_test(test_shown_name), cmocka_unit_test(test_libraries),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,7 +49,7 @@ static void load(lam_image *image, const void *bytes, size_t size, lam_error *er
     int file = mkstemp(path);
     assert_true(file >= 0 && write(file, bytes, size) == (ssize_t)size);
     close(file);
-    bool ok = lam_image_load(image, path, error);
+    bool ok = lam_image_load(image, path, NULL, error);
     unlink(path);
     if (ok != good)
         fail_msg("%s", ok ? "was read" : error->text);
@@ -78,7 +78,7 @@ static void test_round(void **state)
             int file = mkstemp(path);
             assert_true(file >= 0 && write(file, first.data, cut) == (ssize_t)cut);
             close(file);
-            lam_image_load(&part, path, &error);
+            lam_image_load(&part, path, NULL, &error);
             unlink(path);
             lam_image_free(&part);
         }

@@ -174,7 +174,7 @@ static void png_comes_back(void **state)
     const char *path = in_folder("a.png");
     lam_image image = bytes_picture(61, 47), back;
     assert_true(lam_image_save(&image, path, NULL, NULL));
-    assert_true(lam_image_load(&back, path, NULL));
+    assert_true(lam_image_load(&back, path, NULL, NULL));
     assert_int_equal(back.width, 61);
     assert_int_equal(back.height, 47);
     assert_int_equal(back.format, LAM_RGBA8);
@@ -199,7 +199,7 @@ static void pfm_is_exact(void **state)
     assert_memory_equal((uint8_t *)bytes.data + sizeof header - 1, (float *)image.pixels + 2 * 5 * 4, 12);
     lam_bytes_free(&bytes);
     assert_true(lam_image_save(&image, path, NULL, NULL));
-    assert_true(lam_image_load(&back, path, NULL));
+    assert_true(lam_image_load(&back, path, NULL, NULL));
     assert_int_equal(back.format, LAM_RGBA32F);
     assert_memory_equal(back.pixels, image.pixels, 5 * 3 * 16); // the source's alpha is 1 throughout
     assert_false(lam_image_is_from_lambent(path));
@@ -214,7 +214,7 @@ static void pfm_of_others(void **state)
     static const char grey[] = "Pf 2\n1\r2.5\n\x3F\x80\x00\x00\xC0\x00\x00\x00";
     lam_image image;
     write_file(in_folder("g.pfm"), grey, sizeof grey - 1);
-    assert_true(lam_image_load(&image, in_folder("g.pfm"), NULL));
+    assert_true(lam_image_load(&image, in_folder("g.pfm"), NULL, NULL));
     const float wanted[8] = {1, 1, 1, 1, -2, -2, -2, 1};
     assert_memory_equal(image.pixels, wanted, sizeof wanted);
     lam_image_free(&image);
@@ -273,7 +273,7 @@ static void ppm_comes_back(void **state)
         ((uint8_t *)image.pixels)[4 * i + 3] = 255;
     assert_true(lam_image_save(&image, in_folder("a.ppm"), NULL, NULL));
     assert_true(lam_image_is_from_lambent(in_folder("a.ppm")));
-    assert_true(lam_image_load(&back, in_folder("a.ppm"), NULL));
+    assert_true(lam_image_load(&back, in_folder("a.ppm"), NULL, NULL));
     assert_memory_equal(back.pixels, image.pixels, 9 * 4 * 4);
     lam_image_free(&image);
     lam_image_free(&back);
@@ -347,7 +347,7 @@ static void damaged_files_are_refused(void **state)
         for (size_t size = 0; size < out.size - cases[i].needless; size++) {
             write_file(in_folder("cut"), out.data, size);
             memset(&back, 0xEE, sizeof back);
-            expect_error(lam_image_load(&back, in_folder("cut"), &error), &error, LAM_CANNOT_READ, "/cut: ");
+            expect_error(lam_image_load(&back, in_folder("cut"), NULL, &error), &error, LAM_CANNOT_READ, "/cut: ");
             assert_null(back.pixels);
         }
         uint8_t *data = out.data;
@@ -355,7 +355,7 @@ static void damaged_files_are_refused(void **state)
         for (size_t at = 0; at < out.size; at++) {
             data[at] ^= 0x15;
             write_file(in_folder("bad"), out.data, out.size);
-            if (lam_image_load(&back, in_folder("bad"), &error)) {
+            if (lam_image_load(&back, in_folder("bad"), NULL, &error)) {
                 if (i == 0)
                     assert_memory_equal(back.pixels, bytes.pixels, 7 * 5 * 4);
                 lam_image_free(&back);
@@ -389,26 +389,27 @@ static void refusals_say_why(void **state)
         {"P6\n1 1\n65535\nabcdef", LAM_UNSUPPORTED, "65535"},
         {"P6\n# no end", LAM_CANNOT_READ, "no width"},
         {"P6\n1 1 x", LAM_CANNOT_READ, "no number after the height"},
-        {"PF\n60000 60000\n-1\nxx", LAM_CANNOT_READ, "60000×60000"},
+        {"PF\n60000 60000\n-1\nxx", LAM_LIMIT, "60000×60000"},
+        {"PF\n20000 20000\n-1\nxx", LAM_CANNOT_READ, "20000×20000"},
         {"PF\n1 1\n0\nabcdabcdabcd", LAM_CANNOT_READ, "scale of 0"},
     };
     lam_image image;
     lam_error error;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         write_file(in_folder("r"), cases[i].content, strlen(cases[i].content));
-        expect_error(lam_image_load(&image, in_folder("r"), &error), &error, cases[i].code, cases[i].words);
+        expect_error(lam_image_load(&image, in_folder("r"), NULL, &error), &error, cases[i].code, cases[i].words);
     }
-    expect_error(lam_image_load(&image, in_folder("absent.png"), &error), &error, LAM_CANNOT_READ, "absent.png");
-    expect_error(lam_image_load(&image, folder, &error), &error, LAM_CANNOT_READ, "directory");
-    expect_error(lam_image_load(&image, NULL, &error), &error, LAM_BAD_ARGUMENT, "path");
+    expect_error(lam_image_load(&image, in_folder("absent.png"), NULL, &error), &error, LAM_CANNOT_READ, "absent.png");
+    expect_error(lam_image_load(&image, folder, NULL, &error), &error, LAM_CANNOT_READ, "directory");
+    expect_error(lam_image_load(&image, NULL, NULL, &error), &error, LAM_BAD_ARGUMENT, "path");
 
     // A PNG of 57 bytes that claims 60000×60000 pixels: told before memory is asked for.
     static const uint8_t bomb[] = {137,  80,   78,   71,   13,   10, 26, 10,   0,    0,  0,  13,   73,   72,   68,
                                    82,   0,    0,    0xEA, 0x60, 0,  0,  0xEA, 0x60, 8,  6,  0,    0,    0,    0x1D,
                                    0x3E, 0x8E, 0x51, 0,    0,    0,  0,  73,   68,   65, 84, 0x35, 0xAF, 0x06, 0x1E};
     write_file(in_folder("bomb.png"), bomb, sizeof bomb);
-    assert_false(lam_image_load(&image, in_folder("bomb.png"), &error));
-    assert_int_equal(error.code, LAM_CANNOT_READ);
+    assert_false(lam_image_load(&image, in_folder("bomb.png"), NULL, &error));
+    assert_int_equal(error.code, LAM_LIMIT);
 }
 
 // Whatever goes wrong, no file appears, none is changed, no temporary one stays.

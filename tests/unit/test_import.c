@@ -193,6 +193,187 @@ static void test_files(void **unused)
     rmdir(folder);
 }
 
+// --- what a model names, on disk
+
+static char folder[64];
+
+static const char *in_folder(const char *name)
+{
+    static char paths[4][200];
+    static int next;
+    char *path = paths[next++ % 4];
+    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
+    return path;
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    strcpy(folder, "/tmp/lambent-import-XXXXXX");
+    return mkdtemp(folder) && mkdir(in_folder("inner"), 0700) == 0 && mkdir(in_folder("inner/sub"), 0700) == 0 ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[100];
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    return system(command);
+}
+
+// The model inner/m.obj with this text before its triangle.
+static lam_scene *load_inner(const char *text)
+{
+    char whole[4096];
+    lam_error error;
+    snprintf(whole, sizeof whole, "%s" TRIANGLE, text);
+    write_text(in_folder("inner/m.obj"), whole);
+    lam_scene *scene = lam_scene_load(in_folder("inner/m.obj"), NULL, NULL, &error);
+    if (!scene)
+        fail_msg("%s", error.text);
+    return scene;
+}
+
+// Links are followed as long as they stay in the model's folder or below; a pipe is never opened.
+static void test_links(void **unused)
+{
+    (void)unused;
+    write_text(in_folder("outside.mtl"), "newmtl outside\nKd 1 0 0\n");
+    write_text(in_folder("inner/sub/a.mtl"), "newmtl inside\nKd 1 0 0\n");
+    assert_int_equal(symlink("sub/a.mtl", in_folder("inner/link.mtl")), 0);
+    assert_int_equal(symlink(in_folder("inner/sub/a.mtl"), in_folder("inner/absolute.mtl")), 0);
+    assert_int_equal(symlink("../outside.mtl", in_folder("inner/out.mtl")), 0);
+    assert_int_equal(symlink("out.mtl", in_folder("inner/twice.mtl")), 0);
+    assert_int_equal(symlink("..", in_folder("inner/up")), 0);
+    assert_int_equal(symlink("nowhere.mtl", in_folder("inner/nowhere-link.mtl")), 0);
+    assert_int_equal(symlink("inner", in_folder("also-inner")), 0);
+    assert_int_equal(mkfifo(in_folder("inner/pipe.mtl"), 0600), 0);
+    static const struct {
+        const char *library, *warning; // NULL: it is read
+    } rows[] = {
+        {"link.mtl", NULL},
+        {"absolute.mtl", NULL},
+        {"sub/a.mtl", NULL},
+        {"out.mtl", "/inner/out.mtl: leads out of the folder "},
+        {"twice.mtl", "/inner/twice.mtl: leads out of the folder "},
+        {"up/outside.mtl", "/inner/up/outside.mtl: leads out of the folder "},
+        {"up/inner/sub/a.mtl", NULL}, // out and in again
+        {"nowhere-link.mtl", "/inner/nowhere-link.mtl: cannot open: No such file"},
+        {"pipe.mtl", "/inner/pipe.mtl: is a pipe, expected a regular file; its materials"},
+        {"sub", "/inner/sub: is a directory, expected a file; its materials"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[100];
+        snprintf(text, sizeof text, "mtllib %s\n", rows[i].library);
+        lam_scene *scene = load_inner(text);
+        assert_int_equal(lam_scene_material_count(scene), rows[i].warning == NULL);
+        const char *warning = lam_scene_warning(scene, 0);
+        if (rows[i].warning ? !warning || !strstr(warning, rows[i].warning) : warning != NULL)
+            fail_msg("%s: %s", rows[i].library, warning ? warning : "no warning");
+        lam_scene_free(scene);
+    }
+    // The model's own folder may be named through a link, and from within.
+    load_inner("mtllib sub/a.mtl\n");
+    lam_error error;
+    lam_scene *scene = lam_scene_load(in_folder("also-inner/m.obj"), NULL, NULL, &error);
+    assert_int_equal(lam_scene_material_count(scene), 1);
+    lam_scene_free(scene);
+}
+
+// Warnings about a material file have its path; of a name in a file they show 32 characters, and nothing that a terminal
+// obeys.
+static void test_shown_names(void **unused)
+{
+    (void)unused;
+    write_text(in_folder("inner/b.mtl"), "newmtl b\nKd 0 1\nKd x\nfoo\n");
+    lam_scene *scene = load_inner("mtllib b.mtl\n");
+    char wanted[200];
+    snprintf(wanted, sizeof wanted, "%s/inner/b.mtl:3: found 'x', expected", folder);
+    assert_null(strstr(lam_scene_warning(scene, 0), ":2:"));
+    assert_non_null(strstr(lam_scene_warning(scene, 0), wanted));
+    snprintf(wanted, sizeof wanted, "%s/inner/b.mtl:4: unknown statement 'foo'", folder);
+    assert_string_equal(lam_scene_warning(scene, 1), wanted);
+    lam_scene_free(scene);
+#define LONG  "0123456789abcdef0123456789abcdef"
+#define TO_32 "'" LONG "…'"
+    scene = load_inner("usemtl " LONG "xyz\nf 1 1 1\n");
+    assert_non_null(strstr(lam_scene_warning(scene, 0), TO_32));
+    lam_scene_free(scene);
+    scene = load_inner("mtllib " LONG "xyz.mtl\n");
+    assert_non_null(strstr(lam_scene_warning(scene, 0), "/inner/" LONG "…: cannot open"));
+    lam_scene_free(scene);
+    scene = load_inner("mtllib b.mtl\nusemtl a\x1b[31m\xc2\x9b"
+                       "31m\xff\nf 1 1 1\n");
+    bool found = false;
+    for (int i = 0; lam_scene_warning(scene, i); i++) {
+        const char *text = lam_scene_warning(scene, i);
+        found |= strstr(text, "'a?[31m?31m?'") != NULL;
+        assert_true(!strchr(text, 0x1b) && !strstr(text, "\xc2\x9b"));
+    }
+    assert_true(found);
+    lam_scene_free(scene);
+}
+
+// --- how often material files are read
+
+struct counts {
+    int opened, of_a;
+};
+
+static bool count_and_open(void *user, const char *name, lam_bytes *bytes, lam_error *error)
+{
+    struct counts *counts = user;
+    counts->opened++;
+    counts->of_a += strcmp(name, "a.mtl") == 0;
+    if (strcmp(name, "a.mtl") != 0 && name[0] != 'n') {
+        *error = (lam_error){LAM_CANNOT_READ, "there is no such file"};
+        return false;
+    }
+    char text[100];
+    snprintf(text, sizeof text, "newmtl of %s\nKd 1 0 0\n", name);
+    bytes->data = strdup(text);
+    bytes->size = strlen(text);
+    return true;
+}
+
+static void test_libraries(void **unused)
+{
+    (void)unused;
+    enum { TIMES = 2000 };
+    static const char *const spellings[] = {"a.mtl",  "./a.mtl",      ".//./a.mtl",    "../x/a.mtl",
+                                            "/a.mtl", "C:\\x\\a.mtl", "x.mtl a.mtl x", "a.mtl a.mtl"};
+    enum { SPELLINGS = sizeof spellings / sizeof *spellings };
+    char *text = malloc(TIMES * 40 + 100), *at = text;
+    for (int i = 0; i < TIMES; i++)
+        at += sprintf(at, "mtllib %s\n", spellings[i % SPELLINGS]);
+    strcpy(at, TRIANGLE);
+    struct counts counts = {0};
+    lam_error error;
+    lam_load_params params = {.open = count_and_open, .user = &counts};
+    lam_scene *scene = lam_scene_load_memory(text, strlen(text), "m.obj", &params, NULL, &error);
+    assert_int_equal(counts.of_a, 1);
+    assert_int_equal(counts.opened, 1 + 4); // and "x.mtl a.mtl x", x.mtl, x, "a.mtl a.mtl", once each
+    assert_int_equal(lam_scene_material_count(scene), 1);
+    assert_non_null(lam_scene_warning(scene, 1)); // of x.mtl and x, once each
+    assert_null(lam_scene_warning(scene, 2));
+    lam_scene_free(scene);
+
+    // Different ones: 256 are read, with a warning that names the line.
+    at = text;
+    for (int i = 0; i < TIMES; i++)
+        at += sprintf(at, "mtllib n%d.mtl\n", i);
+    strcpy(at, TRIANGLE);
+    counts = (struct counts){0};
+    scene = lam_scene_load_memory(text, strlen(text), "m.obj", &params, NULL, &error);
+    assert_int_equal(counts.opened, 256);
+    assert_int_equal(lam_scene_material_count(scene), 256);
+    assert_string_equal(lam_scene_warning(scene, 0), "m.obj:257: names more than 256 material files; no more are read, "
+                                                     "and their materials are drawn in neutral grey");
+    assert_null(lam_scene_warning(scene, 1));
+    lam_scene_free(scene);
+    free(text);
+}
+
 // Every OBJ model of the corpus, with the number of triangles that its table gives, on one thread and on three.
 static void test_corpus(void **unused)
 {
@@ -236,8 +417,15 @@ static void test_corpus(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_formats),   cmocka_unit_test(test_choice), cmocka_unit_test(test_foreign),
-        cmocka_unit_test(test_arguments), cmocka_unit_test(test_files),  cmocka_unit_test(test_corpus),
+        cmocka_unit_test(test_formats),
+        cmocka_unit_test(test_choice),
+        cmocka_unit_test(test_foreign),
+        cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_corpus),
+        cmocka_unit_test(test_libraries),
+        cmocka_unit_test_setup_teardown(test_links, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_shown_names, make_folder, remove_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -520,10 +520,11 @@ static void test_mtl_warnings(void **unused)
     "-1 1 2\n"                                                                                                         \
     "o other\ns off\nf 1 2 6\nf 6 5 4 3 2 1\nfoo\nf 1 2\n"
 
-static bool no_companion(const struct import_source *source, const char *name, struct file_bytes *out, lam_error *error)
+static bool no_companion(const struct import_source *source, const char *name, struct arena *arena,
+                         struct companion *out, lam_error *error)
 {
-    (void)out;
-    (void)source;
+    (void)source, (void)arena;
+    *out = (struct companion){0};
     snprintf(error->text, sizeof error->text, "%s: none", name);
     error->code = LAM_CANNOT_READ;
     return false;

@@ -434,7 +434,7 @@ static void the_fewest_channels_are_written(void **state)
             assert_true(lam_image_save(&image, path, &params, NULL));
             assert_true(lam_image_is_from_lambent(path));
             lam_image back;
-            assert_true(lam_image_load(&back, path, NULL));
+            assert_true(lam_image_load(&back, path, NULL, NULL));
             assert_memory_equal(back.pixels, image.pixels, 90 * 40 * 4);
             lam_image_free(&back);
         }

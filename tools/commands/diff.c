@@ -23,7 +23,7 @@ struct pair {
 static bool load_pair(struct pair *pair, lam_error *error)
 {
     for (int i = 0; i < 2; i++)
-        if (!lam_image_load(&pair->image[i], pair->name[i], error))
+        if (!lam_image_load(&pair->image[i], pair->name[i], NULL, error))
             return false;
     const lam_image *a = &pair->image[0], *b = &pair->image[1];
     if (a->width != b->width || a->height != b->height)

@@ -81,6 +81,7 @@ struct options {
     int repeat;
     double time_limit_s;         // 0: none
     uint64_t memory_limit_bytes; // 0: none
+    bool files_anywhere;         // that a scene file names
 
     // Comparison of pictures
     double tolerance, gain;
@@ -123,6 +124,7 @@ enum {
     TAKES_JSON = 1u << 25,
     TAKES_QUIET = 1u << 26,
     TAKES_SIZE = 1u << 27,
+    TAKES_FILES = 1u << 28,
 };
 
 // --rig none: only the ambient light. A value besides those of lam_rig.

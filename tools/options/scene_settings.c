@@ -83,6 +83,37 @@ static bool take_environment(const struct options *o, lam_picture_settings *s, c
            (*names = environment_option_faces(text, s->environment_faces, error)) != NULL;
 }
 
+// Whether a file lies in the folder (real path) or below it. True for one that cannot be found.
+static bool is_below(const char *path, const char *folder)
+{
+    char *real = realpath(path, NULL);
+    size_t length = strlen(folder);
+    bool below = !real || (strncmp(real, folder, length) == 0 && (real[length] == '/' || folder[length - 1] == '/'));
+    free(real);
+    return below;
+}
+
+bool scene_settings_are_beside(const struct job *job)
+{
+    const struct options *o = job->options;
+    const char *slash = strrchr(o->save_scene, '/');
+    char *given = strndup(o->save_scene, slash ? (size_t)(slash - o->save_scene) + 1 : 0), *names = NULL;
+    char *folder = given ? realpath(*given ? given : ".", NULL) : NULL;
+    lam_picture_settings s = {0};
+    lam_error error;
+    bool beside = !folder || lam_shape_find(job->model) >= 0 || strcmp(lam_scene_format(job->scene), "scene") == 0 ||
+                  is_below(job->model, folder);
+    if (folder && take_environment(o, &s, &names, &error)) {
+        for (int i = 0; i < LAM_FACE_COUNT && s.environment_faces[i]; i++)
+            beside &= is_below(s.environment_faces[i], folder);
+        beside &= !s.environment_picture || is_below(s.environment_picture, folder);
+    }
+    free(names);
+    free(folder);
+    free(given);
+    return beside;
+}
+
 bool scene_settings_save(const struct job *job, lam_error *error)
 {
     const lam_draw_params *draw = &job->draw;

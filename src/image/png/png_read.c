@@ -60,36 +60,52 @@ static void widen(lam_image *image)
     }
 }
 
+// Decodes row by row, in the order of the file: an interlaced one has seven passes over the picture.
+static bool decode_rows(spng_ctx *spng, const struct picture_file *file, char *pixels, size_t row_bytes,
+                        enum spng_format format, lam_error *error)
+{
+    struct spng_row_info row = {0};
+    int code = spng_decode_image(spng, NULL, 0, format, SPNG_DECODE_TRNS | SPNG_DECODE_PROGRESSIVE);
+    for (int64_t count = 0; !code; count++) {
+        code = spng_get_row_info(spng, &row);
+        if (!code && !picture_continues(file, count, error))
+            return false;
+        if (!code)
+            code = spng_decode_row(spng, pixels + (size_t)row.row_num * row_bytes, row_bytes);
+    }
+    if (code == SPNG_EOI)
+        code = spng_decode_chunks(spng); // to the file's end, so that a file cut off after the pixels is an error too
+    if (code == SPNG_EMEM)
+        return fail_memory(error, row_bytes);
+    return !code || fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", file->name, spng_strerror(code));
+}
+
 // `wide`: set to whether the file has 16 bits, which then are kept; NULL: they are cut to 8.
-static bool decode(spng_ctx *spng, const uint8_t *bytes, size_t size, const char *name, lam_image *image, bool *wide,
-                   lam_error *error)
+static bool decode(spng_ctx *spng, const struct picture_file *file, lam_image *image, bool *wide, lam_error *error)
 {
     struct spng_ihdr header;
     enum { MAX_CHUNK_BYTES = 64 << 20 }; // texts and profiles, decompressed
     int code = spng_set_chunk_limits(spng, MAX_CHUNK_BYTES, MAX_CHUNK_BYTES);
     if (!code)
-        code = spng_set_png_buffer(spng, bytes, size);
+        code = spng_set_png_buffer(spng, file->bytes, file->size);
     if (!code)
         code = spng_get_ihdr(spng, &header);
+    if (code == SPNG_EMEM)
+        return fail_memory(error, file->size);
     if (code)
-        return fail(error, LAM_CANNOT_READ, "%s: PNG header: %s", name, spng_strerror(code));
-    if (header.width > 65535 || header.height > 65535)
-        return fail(error, LAM_LIMIT, "%s: PNG of %u×%u pixels, expected at most 65535×65535", name, header.width,
-                    header.height);
-    if (!fits(&header, size))
-        return fail(error, LAM_CANNOT_READ, "%s: PNG of %u×%u pixels, which cannot be in a file of %zu bytes", name,
-                    header.width, header.height, size);
-    bool keep = wide && header.bit_depth == 16;
-    if (!lam_image_make(image, (int)header.width, (int)header.height, keep ? LAM_RGBA32F : LAM_RGBA8, error))
+        return fail(error, LAM_CANNOT_READ, "%s: PNG header: %s", file->name, spng_strerror(code));
+    if (!picture_size_check(file, header.width, header.height, error))
         return false;
-    size_t count = (size_t)header.width * header.height;
-    code =
-        keep ? spng_decode_image(spng, (char *)image->pixels + 8 * count, 8 * count, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS)
-             : spng_decode_image(spng, image->pixels, 4 * count, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS);
-    if (!code)
-        code = spng_decode_chunks(spng); // to the file's end, so that a file cut off after the pixels is an error too
-    if (code)
-        return fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", name, spng_strerror(code));
+    if (!fits(&header, file->size))
+        return fail(error, LAM_CANNOT_READ, "%s: PNG of %u×%u pixels, which cannot be in a file of %zu bytes",
+                    file->name, header.width, header.height, file->size);
+    bool keep = wide && header.bit_depth == 16;
+    if (!picture_make(file, header.width, header.height, keep ? LAM_RGBA32F : LAM_RGBA8, image, error))
+        return false;
+    size_t row_bytes = (keep ? 8 : 4) * (size_t)header.width;
+    char *pixels = (char *)image->pixels + (keep ? row_bytes * header.height : 0);
+    if (!decode_rows(spng, file, pixels, row_bytes, keep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8, error))
+        return false;
     if (keep)
         widen(image);
     if (wide)
@@ -97,22 +113,21 @@ static bool decode(spng_ctx *spng, const uint8_t *bytes, size_t size, const char
     return true;
 }
 
-static bool png_read_wide(const uint8_t *bytes, size_t size, const char *name, lam_image *image, bool *wide,
-                          lam_error *error)
+static bool png_read_wide(const struct picture_file *file, lam_image *image, bool *wide, lam_error *error)
 {
     spng_ctx *spng = spng_ctx_new(0);
     if (!spng)
         return fail_memory(error, 1 << 15);
-    bool ok = decode(spng, bytes, size, name, image, wide, error);
+    bool ok = decode(spng, file, image, wide, error);
     spng_ctx_free(spng);
     if (!ok)
-        lam_image_free(image);
+        picture_free(file->call, image);
     return ok;
 }
 
-bool png_read(const uint8_t *bytes, size_t size, const char *name, lam_image *image, lam_error *error)
+static bool png_read(const struct picture_file *file, lam_image *image, lam_error *error)
 {
-    return png_read_wide(bytes, size, name, image, NULL, error);
+    return png_read_wide(file, image, NULL, error);
 }
 
 const struct codec codec_png = {

@@ -5,68 +5,17 @@
 
 #include "srgb.h"
 #include "number.h"
+#include "shown_name.h"
 #include "text_cursor.h"
 
 #include <string.h>
 #include <strings.h>
 
-// --- materials by name: a hash table with open addressing
-
-static uint32_t hash(const char *name)
-{
-    uint32_t h = 2166136261u; // FNV-1a
-    for (; *name; name++)
-        h = (h ^ (uint8_t)*name) * 16777619u;
-    return h;
-}
-
-// The entry of a name, or the free entry for it.
-static struct mtl_entry *entry_of(const struct mtl_set *set, const char *name)
-{
-    for (uint32_t i = hash(name);; i++) {
-        struct mtl_entry *entry = &set->entries[i & (set->capacity - 1)];
-        if (!entry->name || strcmp(entry->name, name) == 0)
-            return entry;
-    }
-}
-
-int32_t mtl_find(const struct mtl_set *set, const char *name)
-{
-    if (set->capacity == 0)
-        return -1;
-    const struct mtl_entry *entry = entry_of(set, name);
-    return entry->name ? entry->material : -1;
-}
-
-static bool add_entry(struct mtl_set *set, const char *name, int32_t material)
-{
-    if (2 * (set->count + 1) > set->capacity) {
-        struct mtl_set larger = *set;
-        larger.capacity = set->capacity ? 2 * set->capacity : 64;
-        larger.entries = arena_alloc_zeroed(set->memory, larger.capacity * sizeof *larger.entries);
-        if (!larger.entries)
-            return false;
-        for (uint32_t i = 0; i < set->capacity; i++) {
-            if (set->entries[i].name)
-                *entry_of(&larger, set->entries[i].name) = set->entries[i];
-        }
-        *set = larger;
-    }
-    struct mtl_entry *entry = entry_of(set, name);
-    if (!entry->name) {
-        *entry = (struct mtl_entry){name, material};
-        set->count++;
-    }
-    return true;
-}
-
-// --- reading
-
 // One file while it is read.
 struct reader {
     struct mtl_set *set;
     struct lam_scene *scene;
-    const char *name; // of the file
+    const char *name; // of the file, for messages
     const uint8_t *begin, *end;
     // Line number cache (line_of): `line` is the number of the line at `counted_to`.
     const uint8_t *counted_to;
@@ -162,8 +111,9 @@ static void replace_black(struct reader *reader, lam_material *m)
     lam_material neutral = lam_material_default();
     m->ambient = neutral.ambient;
     m->diffuse = (lam_rgba){neutral.diffuse.r, neutral.diffuse.g, neutral.diffuse.b, m->diffuse.a};
+    char shown[SHOWN_NAME_SIZE];
     scene_warn(reader->scene, "%s: material '%s' is black in every colour; it is drawn in neutral grey", reader->name,
-               m->name);
+               shown_name(m->name, shown));
 }
 
 // Completes the current material and adds it to the scene.
@@ -187,13 +137,15 @@ static bool close_material(struct reader *reader, lam_error *error)
     if (m->illum == 0 || m->illum == 1)
         m->specular = (lam_rgb){0, 0, 0};
     if (m->diffuse.a == 0)
-        scene_warn(reader->scene, "%s: material '%s' is fully transparent (d 0 or Tr 1)", reader->name, m->name);
+        scene_warn(reader->scene, "%s: material '%s' is fully transparent (d 0 or Tr 1)", reader->name,
+                   shown_name(m->name, (char[SHOWN_NAME_SIZE]){0}));
     int index = scene_adopt_material(reader->scene, m, error);
     if (index < 0)
         return false;
     reader->open = false;
-    return add_entry(reader->set, m->name, index) ||
-           call_memory_error(reader->scene->arena.call, reader->set->capacity * sizeof(struct mtl_entry), error);
+    return name_table_add(&reader->set->by_name, m->name, index) ||
+           call_memory_error(reader->scene->arena.call, reader->set->by_name.capacity * sizeof(struct name_entry),
+                             error);
 }
 
 static bool start_material(struct reader *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
@@ -397,9 +349,11 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
     return true;
 }
 
-bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene, const char *name,
-              const struct file_bytes *file, lam_error *error)
+bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene,
+              const struct companion *library, lam_error *error)
 {
+    const struct file_bytes *file = &library->file;
+    const char *name = library->shown;
     struct reader reader = {
         .set = set,
         .scene = scene,

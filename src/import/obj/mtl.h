@@ -2,27 +2,18 @@
 #ifndef MTL_H
 #define MTL_H
 
-#include "importer.h"
+#include "companion.h"
+#include "name_table.h"
 
-// The materials of one model, by name.
+// The materials of one model.
 struct mtl_set {
-    struct arena *memory; // for the table
-    struct mtl_entry *entries;
-    uint32_t capacity, count; // capacity: a power of two, or 0
-    size_t maps;              // statements that name a texture
-};
-
-struct mtl_entry {
-    const char *name; // NULL: free
-    int32_t material; // index in the scene
+    struct name_table by_name; // of the model; the value is the index in the scene
+    size_t maps;               // statements that name a texture
 };
 
 // Reads a file's materials into the scene and the set; of equal names the first is kept. Errors in the file become
-// warnings: only lack of memory or a cancelled call makes it fail. `name`: the file's, for messages.
-bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene, const char *name,
-              const struct file_bytes *file, lam_error *error);
-
-// The material of a name; −1: none.
-int32_t mtl_find(const struct mtl_set *set, const char *name);
+// warnings: only lack of memory or a cancelled call makes it fail.
+bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene,
+              const struct companion *library, lam_error *error);
 
 #endif

@@ -118,7 +118,7 @@ bool obj_load_chunked(const struct import_source *source, struct lam_scene *scen
     if (source->size >= 3 && memcmp(obj.begin, "\xef\xbb\xbf", 3) == 0) // a byte order mark
         obj.begin += 3;
     arena_start(&obj.memory, source->call);
-    obj.materials.memory = &obj.memory;
+    obj.materials.by_name.memory = obj.libraries.tried.memory = &obj.memory;
     bool ok = load(&obj, chunk_bytes, error);
     arena_free(&obj.memory);
     return ok;

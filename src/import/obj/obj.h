@@ -5,6 +5,7 @@
 //   obj_parse.c, obj_line(s).c pass two: vertices and faces
 //   obj_faces.c                triangulates polygons, completes normals and texture coordinates
 //   obj_groups.c               statements between the faces: named parts, materials, smoothing groups
+//   obj_libraries.c, mtl.c     material files
 //   obj_mesh.c                 the scene's mesh
 //   obj_stream.c               large files on disk: one pass, piece by piece
 //
@@ -21,6 +22,7 @@ enum {
     OBJ_CHUNK = 256 << 10,    // bytes: about a hundred microseconds of work
     OBJ_MISSING = UINT32_MAX, // a corner without this attribute
     OBJ_POLYGONS_PER_PIECE = 1024,
+    OBJ_LIBRARIES_MAX = 256, // names of material files that are tried
 };
 
 // Kinds of statements.
@@ -71,6 +73,13 @@ struct obj_statement {
     uint32_t triangle;
 };
 
+// The material files that were named so far.
+struct obj_libraries {
+    struct name_table tried; // by confined names; the value: 1 read, 0 missing
+    bool named, missing;     // any was; some could not be opened, or was left out
+    bool left_out;           // there are more than OBJ_LIBRARIES_MAX
+};
+
 struct obj {
     const struct import_source *source;
     struct lam_scene *scene;
@@ -98,6 +107,7 @@ struct obj {
     float color_scale; // 1/255 if some channel is above 1
 
     struct mtl_set materials;
+    struct obj_libraries libraries;
 };
 
 // obj_scan.c. The begin of the next logical line, or `end`. A backslash before '\n' continues a line.
@@ -140,6 +150,10 @@ bool obj_complete_normals(struct obj *obj, lam_error *error);
 
 // obj_groups.c
 bool obj_read_statements(struct obj *obj, lam_error *error);
+
+// obj_libraries.c. Reads the file of a mtllib statement at `at`: its name, possibly with spaces, or several names. One
+// that cannot be opened is a warning.
+bool obj_read_libraries(struct obj *obj, const char *names, const uint8_t *at, lam_error *error);
 
 // obj_stream.c: the importer's load_stream.
 bool obj_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);

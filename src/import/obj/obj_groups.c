@@ -7,6 +7,7 @@
 
 #include "fail.h"
 #include "number.h"
+#include "shown_name.h"
 #include "text_cursor.h"
 
 #include <string.h>
@@ -50,7 +51,6 @@ struct state {
     const char *part_name;                // "object/group"
     uint32_t smoothing, smoothing_from;   // the smoothing group, and its first triangle
     uint32_t objects;
-    bool libraries, library_missing;
     size_t counts[STATEMENTS];        // of each kind
     const uint8_t *first[STATEMENTS]; // of each kind
     size_t unknown_materials;
@@ -157,56 +157,10 @@ static void fill_smoothing(struct state *state, uint32_t triangle)
 
 // --- materials
 
-// Opens and reads one material file. *found is false if it cannot be opened; `why` then says why.
-static bool read_library(struct state *state, const char *name, bool *found, lam_error *why, lam_error *error)
-{
-    struct obj *obj = state->obj;
-    struct file_bytes file = {0};
-    *found = false;
-    if (!obj->source->open(obj->source, name, &file, why)) {
-        if (why->code == LAM_CANCELLED || why->code == LAM_LIMIT) {
-            if (error)
-                *error = *why;
-            return false;
-        }
-        return true;
-    }
-    *found = true;
-    bool ok = mtl_read(&obj->materials, obj->source, obj->scene, name, &file, error);
-    file_release(&file);
-    return ok;
-}
-
-// A mtllib statement names one file, possibly with spaces in its name, or several files.
 static bool read_libraries(struct state *state, const uint8_t *at, lam_error *error)
 {
-    struct obj *obj = state->obj;
-    const char *whole;
-    bool found;
-    lam_error why = {0};
-    if (!read_name(state, at, &whole, error))
-        return false;
-    if (!whole)
-        return true;
-    state->libraries = true;
-    if (!read_library(state, whole, &found, &why, error))
-        return false;
-    if (found)
-        return true;
-    char *names = arena_string(&obj->memory, whole);
-    if (!names)
-        return no_memory(state, strlen(whole), error);
-    bool several = strpbrk(names, " \t") != NULL;
-    char *rest;
-    for (char *word = strtok_r(names, " \t", &rest); word; word = strtok_r(NULL, " \t", &rest)) {
-        if (several && !read_library(state, word, &found, &why, error))
-            return false;
-        if (found)
-            continue;
-        state->library_missing = true;
-        scene_warn(obj->scene, "%s; its materials are drawn in neutral grey", why.text);
-    }
-    return true;
+    const char *names;
+    return read_name(state, at, &names, error) && (!names || obj_read_libraries(state->obj, names, at, error));
 }
 
 static bool use_material(struct state *state, const uint8_t *at, lam_error *error)
@@ -214,7 +168,7 @@ static bool use_material(struct state *state, const uint8_t *at, lam_error *erro
     const char *name;
     if (!read_name(state, at, &name, error))
         return false;
-    state->material = name ? mtl_find(&state->obj->materials, name) : -1;
+    state->material = name ? name_table_find(&state->obj->materials.by_name, name) : -1;
     if (name && state->material < 0) {
         if (state->unknown_materials++ == 0) {
             state->unknown_material = name;
@@ -317,20 +271,22 @@ static void warn_materials(struct state *state)
 {
     struct obj *obj = state->obj;
     const char *name = obj->source->name;
-    if (state->unknown_materials && !state->library_missing) {
+    if (state->unknown_materials && !obj->libraries.missing) {
         size_t line = obj_line_number(obj, state->unknown_material_at);
-        if (!state->libraries)
+        char shown[SHOWN_NAME_SIZE];
+        shown_name(state->unknown_material, shown);
+        if (!obj->libraries.named)
             scene_warn(obj->scene,
                        "%s:%zu: uses the material '%s' but names no material file; it is drawn in neutral grey", name,
-                       line, state->unknown_material);
+                       line, shown);
         else if (state->unknown_materials == 1)
             scene_warn(obj->scene, "%s:%zu: no material file defines the material '%s'; it is drawn in neutral grey",
-                       name, line, state->unknown_material);
+                       name, line, shown);
         else
             scene_warn(obj->scene,
                        "%s:%zu: no material file defines the material '%s', the first of %zu uses of undefined "
                        "materials, which are drawn in neutral grey",
-                       name, line, state->unknown_material, state->unknown_materials);
+                       name, line, shown, state->unknown_materials);
     }
     size_t maps = obj->materials.maps;
     if (maps)

@@ -423,7 +423,7 @@ bool obj_load_stream(const struct import_source *source, const struct file_parts
     struct obj obj = {.source = source, .scene = scene, .streamed = true};
     struct stream stream = {.obj = &obj, .file = file, .loop = {.call = source->call}};
     arena_start(&obj.memory, source->call);
-    obj.materials.memory = &obj.memory;
+    obj.materials.by_name.memory = obj.libraries.tried.memory = &obj.memory;
     bool done = load(&stream);
     for (enum array kind = 0; kind < ARRAYS; kind++) {
         if (stream.reserved[kind])

@@ -27,11 +27,11 @@ static bool fail_number(const struct reader *reader, size_t row, int property, c
 {
     if (!error)
         return false;
-    char found[TEXT_FOUND_SIZE];
+    char found[TEXT_FOUND_SIZE], shown[2][SHOWN_NAME_SIZE];
     return fail_line(error, reader->source, text_line(reader->source->bytes, at),
-                     "%s %zu of %llu: found %s as %s, expected %s", reader->element->name, row + 1,
-                     (unsigned long long)reader->element->count, text_found(at, reader->end, found),
-                     reader->element->properties[property].name, expected);
+                     "%s %zu of %llu: found %s as %s, expected %s", shown_name(reader->element->name, shown[0]),
+                     row + 1, (unsigned long long)reader->element->count, text_found(at, reader->end, found),
+                     shown_name(reader->element->properties[property].name, shown[1]), expected);
 }
 
 // Reads a word that is an integer; NULL: it is none.

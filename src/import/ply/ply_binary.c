@@ -5,20 +5,24 @@
 // remaining bytes suggests this layout, the rows are read at its fixed stride and checked.
 #include "parallel_rows.h"
 #include "fail.h"
+#include "shown_name.h"
 #include "ply_load.h"
 
 bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row,
                         lam_error *error)
 {
+    char shown[SHOWN_NAME_SIZE];
     return fail(error, LAM_CANNOT_READ,
                 "%s: the file is truncated: its header declares %llu rows of element \"%s\", found %llu in %zu bytes",
-                source->name, (unsigned long long)element->count, element->name, (unsigned long long)row, source->size);
+                source->name, (unsigned long long)element->count, shown_name(element->name, shown),
+                (unsigned long long)row, source->size);
 }
 
 bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error)
 {
+    char shown[SHOWN_NAME_SIZE];
     return fail(error, LAM_LIMIT, "%s: element \"%s\" has too many rows or list items, expected at most %u",
-                source->name, element->name, UINT32_MAX - 1);
+                source->name, shown_name(element->name, shown), UINT32_MAX - 1);
 }
 
 bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,
@@ -208,11 +212,12 @@ static bool index_rows(struct reader *reader, bool *all_triangles, const uint8_t
                 return ply_fail_truncated(reader->source, element, row, error);
             if (property->list) {
                 int64_t items = ply_load_integer(at, property->count_type, reader->table->swapped);
+                char shown[2][SHOWN_NAME_SIZE];
                 if (items < 0)
                     return fail_byte(error, reader->source, (size_t)(at - reader->source->bytes),
                                      "%s %zu of %llu: found %lld as the number of items of %s, expected 0 or more",
-                                     element->name, row + 1, (unsigned long long)element->count, (long long)items,
-                                     property->name);
+                                     shown_name(element->name, shown[0]), row + 1, (unsigned long long)element->count,
+                                     (long long)items, shown_name(property->name, shown[1]));
                 at += size;
                 size = (size_t)items * ply_type_size(property->type); // at most 2³² · 8
                 if ((size_t)(file_end - at) < size)

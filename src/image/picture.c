@@ -1,0 +1,40 @@
+// picture.c: the memory of pictures that codecs fill: limited, and charged to the call.
+#include "codec.h"
+#include "fail.h"
+#include "pixels.h"
+
+static size_t bytes_of(const lam_image *image)
+{
+    return image->pixels ? (size_t)image->width * (size_t)image->height * pixel_bytes(image->format) : 0;
+}
+
+bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_t height, lam_error *error)
+{
+    if (width > 0 && height > 0 && width <= 65535 && height <= 65535 && (uint64_t)width * height <= PICTURE_PIXELS_MAX)
+        return true;
+    return fail(error, LAM_LIMIT, "%s: a picture of %u×%u pixels, expected 1 to 65535 on a side and at most %d million",
+                file->name, width, height, PICTURE_PIXELS_MAX / 1000000);
+}
+
+bool picture_make(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
+                  lam_image *image, lam_error *error)
+{
+    *image = (lam_image){0};
+    if (!picture_size_check(file, width, height, error))
+        return false;
+    size_t bytes = (size_t)width * height * pixel_bytes(format);
+    if (file->call && !call_charge(file->call, bytes))
+        return call_memory_error(file->call, bytes, error);
+    if (lam_image_make(image, (int)width, (int)height, format, error))
+        return true;
+    if (file->call)
+        call_refund(file->call, bytes);
+    return false;
+}
+
+void picture_free(struct call_control *call, lam_image *image)
+{
+    if (call)
+        call_refund(call, bytes_of(image));
+    lam_image_free(image);
+}

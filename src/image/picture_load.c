@@ -1,0 +1,75 @@
+// picture_load.c: reading pictures of any format, from memory and from files.
+#include "codec.h"
+#include "fail.h"
+#include "file.h"
+#include "float_state.h"
+
+#include <string.h>
+
+// With all of the file's bits where `wide` is not NULL (read_wide).
+static bool decode(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error)
+{
+    const struct codec *codec = codec_of(file->bytes, file->size);
+    *image = (lam_image){0};
+    if (!call_should_continue(file->call))
+        return call_error(file->call, error);
+    if (file->size == 0)
+        return fail(error, LAM_CANNOT_READ, "%s: is empty, expected a PNG, JPEG, PPM, PFM, EXR or Radiance picture",
+                    file->name);
+    if (!codec)
+        return fail(error, LAM_CANNOT_READ,
+                    "%s: byte 0: not the start of a PNG, JPEG, PPM (P6), PFM, EXR or Radiance picture", file->name);
+    uint64_t state = float_state_enter();
+    bool ok = wide && codec->read_wide ? codec->read_wide(file, image, wide, error) : codec->read(file, image, error);
+    float_state_leave(state);
+    return ok;
+}
+
+bool picture_decode(const struct picture_file *file, lam_image *image, lam_error *error)
+{
+    return decode(file, NULL, image, error);
+}
+
+bool picture_decode_linear(const struct picture_file *file, lam_color_mode color, lam_image *image, lam_error *error)
+{
+    bool wide = false;
+    if (!decode(file, &wide, image, error))
+        return false;
+    uint64_t state = float_state_enter();
+    bool ok = picture_linearize(file, image, wide, color, error);
+    float_state_leave(state);
+    if (!ok)
+        picture_free(file->call, image);
+    return ok;
+}
+
+// `color` NULL: the numbers as the file has them.
+static bool load(lam_image *image, const char *path, const lam_color_mode *color, const lam_control *control,
+                 lam_error *error)
+{
+    if (!image || !path)
+        return fail(error, LAM_BAD_ARGUMENT, "load: a path and a picture to fill are needed");
+    *image = (lam_image){0};
+    struct call_control call;
+    struct file_bytes bytes;
+    call_start(&call, control);
+    if (!file_read(path, NULL, &call, &bytes, error))
+        return false;
+    struct picture_file file = {bytes.data, bytes.size, strcmp(path, "-") == 0 ? "standard input" : path, &call};
+    bool ok = color ? picture_decode_linear(&file, *color, image, error) : picture_decode(&file, image, error);
+    file_release(&bytes);
+    return ok;
+}
+
+bool lam_image_load(lam_image *image, const char *path, const lam_control *control, lam_error *error)
+{
+    return load(image, path, NULL, control, error);
+}
+
+bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, const lam_control *control,
+                           lam_error *error)
+{
+    if ((unsigned)color > LAM_COLOR_RAW)
+        return fail(error, LAM_BAD_ARGUMENT, "load: color mode %d is not one of lam_color_mode", (int)color);
+    return load(image, path, &color, control, error);
+}

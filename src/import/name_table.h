@@ -1,0 +1,25 @@
+// name_table.h: numbers by name: a hash table with open addressing.
+#ifndef NAME_TABLE_H
+#define NAME_TABLE_H
+
+#include "arena.h"
+
+struct name_entry {
+    const char *name; // NULL: free
+    int32_t value;
+};
+
+// Zero but for `memory` is empty.
+struct name_table {
+    struct arena *memory; // of the entries; the names are the caller's
+    struct name_entry *entries;
+    uint32_t capacity, count; // capacity: a power of two, or 0
+};
+
+// The value of a name; −1: none.
+int32_t name_table_find(const struct name_table *table, const char *name);
+
+// Adds a name; of equal names the first is kept. False: out of memory.
+bool name_table_add(struct name_table *table, const char *name, int32_t value);
+
+#endif

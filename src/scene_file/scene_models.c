@@ -1,0 +1,279 @@
+// scene_models.c: the models that the objects of a scene file show: built-in shapes, and files that other importers read.
+//
+// A model is read once for each way to make its normals, however many objects show it and however they spell its name.
+// Objects that change nothing of it share its meshes and materials, and so do objects that make the same changes; an
+// object with changes of its own gets its own list of parts and materials, and shares the arrays of vertices.
+#include "scene_models.h"
+
+#include "companion.h"
+#include "fail.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { KEY_SIZE = COMPANION_NAME_SIZE + 160, VARIANTS = 8 };
+
+// A way in which the model is in the scene.
+struct variant {
+    bool field_tangents;
+    const json_t *materials, *parts;
+    int origin; // in scene->origins
+};
+
+struct model {
+    struct lam_scene inner;            // as it was read; its lists and arrays are in the outer scene's arena
+    struct scene_origin origin;        // without the counts and copies
+    struct variant variants[VARIANTS]; // the latest ones
+    int variant_count;                 // ever made
+};
+
+static bool no_memory(const struct scene_reader *r, size_t bytes)
+{
+    return call_memory_error(r->source->call, bytes, r->error);
+}
+
+// --- reading
+
+// Fills model->inner, within the outer scene's arena.
+static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted, struct model *model)
+{
+    lam_error reason = {0};
+    lam_object object = lam_object_default();
+    object.name = wanted->shape;
+    object.mesh = scene_add_shape(&model->inner, wanted->shape, &wanted->segments, r->source->call, &reason);
+    if (object.mesh < 0) {
+        if (reason.code == LAM_BAD_ARGUMENT)
+            return fail_place(r, KEY_OF(wanted->place, "shape"), "%s", reason.text);
+        *r->error = reason;
+        return false;
+    }
+    const struct scene_origin *made = model->inner.origins.items;
+    model->origin.shape = made->shape;
+    model->origin.segments = made->segments;
+    return scene_adopt_object(&model->inner, &object, r->error) >= 0;
+}
+
+static bool import_file(struct scene_reader *r, const struct model_wanted *wanted, const struct companion *file,
+                        struct model *model)
+{
+    struct lam_scene *inner = &model->inner;
+    struct companions companions;
+    lam_load_params params = *r->source->params;
+    params.color = r->color;
+    params.format = NULL;
+    params.normals = wanted->normals;
+    params.crease_angle_rad = wanted->crease_angle_rad;
+    struct import_source source = *r->source;
+    source.name = file->shown;
+    source.path = file->path;
+    source.bytes = file->file.data;
+    source.size = file->file.size;
+    source.params = &params;
+    source.open_state = &companions;
+    if (!companions_of_model(r->source, wanted->file, file, &inner->arena, &companions, r->error))
+        return false;
+    const struct importer *importer = source.importer_for(source.name, &file->file, NULL, r->error);
+    if (!importer)
+        return false;
+    if (importer->is_scene_file)
+        return fail_place(r, KEY_OF(wanted->place, "file"), "'%s' is a scene file, expected a model", source.name);
+    inner->up = importer->up;
+    inner->format = importer->name;
+    inner->color = r->color;
+    if (!importer->load(&source, inner, r->error))
+        return false;
+    uint64_t triangles = 0;
+    for (int i = 0; i < inner->meshes.count; i++)
+        triangles += scene_mesh(inner, i)->triangle_count;
+    return triangles || fail(r->error, LAM_CANNOT_READ, "%s: holds no triangles", source.name);
+}
+
+static bool open_file(struct scene_reader *r, const struct model_wanted *wanted, struct companion *file)
+{
+    lam_error reason = {0};
+    if (r->source->open_of_scene(r->source, wanted->file, &r->scene->arena, file, &reason))
+        return true;
+    if (reason.code == LAM_CANNOT_READ)
+        return fail_place(r, KEY_OF(wanted->place, "file"), "%s", reason.text);
+    *r->error = reason;
+    return false;
+}
+
+// Makes normals and extents.
+static bool complete(struct scene_reader *r, const struct model_wanted *wanted, struct model *model)
+{
+    struct lam_scene *inner = &model->inner;
+    return scene_prepare(inner, wanted->normals, wanted->crease_angle_rad, r->source->pool, r->source->call,
+                         r->error) &&
+           scene_measure(inner, r->source->pool, r->error);
+}
+
+static struct model *read_model(struct scene_reader *r, const struct model_wanted *wanted, const struct companion *file)
+{
+    struct model *model = arena_alloc_zeroed(&r->scene->arena, sizeof *model);
+    if (!model) {
+        no_memory(r, sizeof *model);
+        return NULL;
+    }
+    model->origin = (struct scene_origin){
+        .path = file ? file->path : NULL, .normals = wanted->normals, .crease_angle_rad = wanted->crease_angle_rad};
+    model->inner.arena = r->scene->arena;
+    bool ok = (file ? import_file(r, wanted, file, model) : make_shape(r, wanted, model)) && complete(r, wanted, model);
+    r->scene->arena = model->inner.arena;
+    for (int i = 0; ok && i < model->inner.warnings.count; i++)
+        scene_warn(r->scene, "%s", ((const char **)model->inner.warnings.items)[i]);
+    return ok ? model : NULL;
+}
+
+// --- finding
+
+// The text that identifies a model: how its normals are made, and the shape or the file.
+static bool key_of(const struct model_wanted *wanted, const char *file, char key[KEY_SIZE])
+{
+    const lam_shape_params *s = &wanted->segments;
+    int length = file ? snprintf(key, KEY_SIZE, "file %d %a %s", (int)wanted->normals, wanted->crease_angle_rad, file)
+                      : snprintf(key, KEY_SIZE, "shape %d %a %a %d %d %s", (int)wanted->normals,
+                                 wanted->crease_angle_rad, s->radius, s->slices, s->stacks, wanted->shape);
+    return length > 0 && length < KEY_SIZE;
+}
+
+static struct model *known(const struct scene_reader *r, const char *key)
+{
+    int index = name_table_find(&r->models_by_key, key);
+    return index >= 0 ? ((struct model **)r->models.items)[index] : NULL;
+}
+
+// Notes the model under one more key.
+static bool note(struct scene_reader *r, struct model *model, const char *key)
+{
+    const char *kept = arena_string(&r->scene->arena, key);
+    if (!kept)
+        return no_memory(r, strlen(key));
+    int index = scene_append(r->scene, &r->models, &model, sizeof(struct model *), r->error);
+    return index >= 0 && (name_table_add(&r->models_by_key, kept, index) || no_memory(r, KEY_SIZE));
+}
+
+static struct model *find_file(struct scene_reader *r, const struct model_wanted *wanted, const char *key)
+{
+    struct companion file;
+    char real_key[KEY_SIZE];
+    if (!open_file(r, wanted, &file))
+        return NULL;
+    bool fits = key_of(wanted, file.real, real_key);
+    struct model *model = fits ? known(r, real_key) : NULL;
+    if (!model) {
+        model = read_model(r, wanted, &file);
+        if (model && fits && strcmp(key, real_key) != 0 && !note(r, model, real_key))
+            model = NULL;
+    }
+    file_release(&file.file);
+    return model;
+}
+
+static struct model *find_model(struct scene_reader *r, const struct model_wanted *wanted)
+{
+    char key[KEY_SIZE];
+    if (!key_of(wanted, wanted->file, key)) {
+        fail_place(r, KEY_OF(wanted->place, wanted->file ? "file" : "shape"), "the name is too long");
+        return NULL;
+    }
+    struct model *model = known(r, key);
+    if (model)
+        return model;
+    model = wanted->file ? find_file(r, wanted, key) : read_model(r, wanted, NULL);
+    return model && note(r, model, key) ? model : NULL;
+}
+
+// --- into the scene
+
+static bool add_mesh(struct scene_reader *r, const struct model *model, int index, int materials, bool field_tangents)
+{
+    struct lam_scene *scene = r->scene;
+    lam_mesh mesh = *scene_mesh(&model->inner, index);
+    lam_part *parts = arena_array(&scene->arena, mesh.part_count, sizeof *parts);
+    if (!parts)
+        return no_memory(r, mesh.part_count * sizeof *parts);
+    for (uint32_t i = 0; i < mesh.part_count; i++) {
+        parts[i] = mesh.parts[i];
+        parts[i].material += parts[i].material >= 0 ? materials : 0;
+    }
+    if (mesh.part_count)
+        mesh.parts = parts;
+    if (field_tangents)
+        mesh.tangents = NULL;
+    return scene_append(scene, &scene->extents, scene_extent(&model->inner, index), sizeof(struct scene_extent),
+                        r->error) >= 0 &&
+           scene_adopt_mesh(scene, &mesh, r->error) >= 0;
+}
+
+// Appends the model's items to those of the scene, their indices shifted.
+static bool add_items(struct scene_reader *r, const struct model *model, bool field_tangents, int *index)
+{
+    struct lam_scene *scene = r->scene;
+    const struct lam_scene *inner = &model->inner;
+    int meshes = scene->meshes.count, materials = scene->materials.count, objects = scene->objects.count;
+    bool ok = true;
+    for (int i = 0; ok && i < inner->materials.count; i++)
+        ok = scene_adopt_material(scene, (const lam_material *)inner->materials.items + i, r->error) >= 0;
+    for (int i = 0; ok && i < inner->meshes.count; i++)
+        ok = add_mesh(r, model, i, materials, field_tangents);
+    for (int i = 0; ok && i < inner->objects.count; i++) {
+        lam_object object = *scene_object(inner, i);
+        object.mesh += meshes;
+        object.material += object.material >= 0 ? materials : 0;
+        object.back_material += object.back_material >= 0 ? materials : 0;
+        ok = scene_adopt_object(scene, &object, r->error) >= 0;
+    }
+    struct scene_origin origin = model->origin;
+    origin.field_tangents = field_tangents;
+    origin.first_mesh = meshes;
+    origin.first_material = materials;
+    *index = scene->origins.count;
+    return ok && scene_note_origin(scene, origin, objects, r->error);
+}
+
+// The objects once more, of the same meshes and materials.
+static bool add_objects(struct scene_reader *r, int origin_index)
+{
+    const struct scene_origin *origin = (const struct scene_origin *)r->scene->origins.items + origin_index;
+    for (int i = 0; i < origin->object_count; i++)
+        if (scene_adopt_object(r->scene, &origin->objects[i], r->error) < 0)
+            return false;
+    return true;
+}
+
+static bool same_json(const json_t *a, const json_t *b) { return a == b || (a && b && json_equal(a, b)); }
+
+static const struct variant *find_variant(const struct model *model, const struct model_wanted *wanted)
+{
+    for (int i = 0; i < model->variant_count && i < VARIANTS; i++) {
+        const struct variant *variant = &model->variants[i];
+        if (variant->field_tangents == wanted->field_tangents && same_json(variant->materials, wanted->materials) &&
+            same_json(variant->parts, wanted->parts))
+            return variant;
+    }
+    return NULL;
+}
+
+bool add_model(struct scene_reader *r, const struct model_wanted *wanted, int *origin, bool *own)
+{
+    struct lam_scene *scene = r->scene;
+    r->models_by_key.memory = &scene->arena;
+    struct model *model = find_model(r, wanted);
+    if (!model)
+        return false;
+    const struct variant *variant = find_variant(model, wanted);
+    *own = !variant;
+    bool ok;
+    if (variant) {
+        *origin = variant->origin;
+        ok = add_objects(r, *origin);
+    } else {
+        ok = add_items(r, model, wanted->field_tangents, origin);
+        model->variants[model->variant_count++ % VARIANTS] =
+            (struct variant){wanted->field_tangents, wanted->materials, wanted->parts, *origin};
+    }
+    for (int i = 0; ok && !r->has_lights && i < model->inner.lights.count; i++)
+        ok = scene_adopt_light(scene, (const lam_light *)model->inner.lights.items + i, r->error) >= 0;
+    return ok;
+}

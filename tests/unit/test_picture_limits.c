@@ -1,0 +1,320 @@
+// test_picture_limits.c: reading pictures obeys the limits of the call in every format, and takes no memory for a header
+// that claims too much.
+#include "codec.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#include <jpeglib.h>
+
+enum { SIDE = 64, PIXELS = SIDE * SIDE };
+
+struct file {
+    uint8_t *bytes;
+    size_t size;
+};
+
+// --- one file of every format
+
+static struct file make_jpeg(bool progressive)
+{
+    struct jpeg_compress_struct jpeg;
+    struct jpeg_error_mgr errors;
+    unsigned char *bytes = NULL;
+    unsigned long size = 0;
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&jpeg);
+    jpeg_mem_dest(&jpeg, &bytes, &size);
+    jpeg.image_width = jpeg.image_height = SIDE;
+    jpeg.input_components = 3;
+    jpeg.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&jpeg);
+    if (progressive)
+        jpeg_simple_progression(&jpeg);
+    jpeg_start_compress(&jpeg, TRUE);
+    for (int y = 0; y < SIDE; y++) {
+        uint8_t row[3 * SIDE];
+        for (int i = 0; i < 3 * SIDE; i++)
+            row[i] = (uint8_t)(i * y);
+        JSAMPROW rows = row;
+        jpeg_write_scanlines(&jpeg, &rows, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    jpeg_destroy_compress(&jpeg);
+    return (struct file){bytes, size};
+}
+
+static struct file make_hdr(void)
+{
+    static const char header[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 64 +X 64\n";
+    struct file file = {malloc(sizeof header - 1 + 4 * PIXELS), sizeof header - 1 + 4 * PIXELS};
+    assert_non_null(file.bytes);
+    memcpy(file.bytes, header, sizeof header - 1);
+    memset(file.bytes + sizeof header - 1, 129, 4 * PIXELS);
+    return file;
+}
+
+static struct file encode(const char *format, lam_pixel_format pixels)
+{
+    lam_image image;
+    lam_bytes bytes = {0};
+    lam_error error = {0};
+    assert_true(lam_image_make(&image, SIDE, SIDE, pixels, NULL));
+    memset(image.pixels, 0, PIXELS * (pixels == LAM_RGBA8 ? 4 : 16));
+    bool ok = lam_image_encode(&image, format, NULL, &bytes, &error);
+    if (!ok && error.code != LAM_UNSUPPORTED) // EXR, where OpenEXR is not
+        fail_msg("%s", error.text);
+    lam_image_free(&image);
+    return (struct file){bytes.data, bytes.size};
+}
+
+enum { FORMATS = 7 };
+static const char *const names[FORMATS] = {"a.png", "a.ppm", "a.pfm", "a.exr", "a.hdr", "a.jpg", "progressive.jpg"};
+static struct file files[FORMATS];
+
+static int make_files(void **state)
+{
+    (void)state;
+    files[0] = encode("png", LAM_RGBA8);
+    files[1] = encode("ppm", LAM_RGBA8);
+    files[2] = encode("pfm", LAM_RGBA32F);
+    files[3] = encode("exr", LAM_RGBA32F);
+    files[4] = make_hdr();
+    files[5] = make_jpeg(false);
+    files[6] = make_jpeg(true);
+    return 0;
+}
+
+static int free_files(void **state)
+{
+    (void)state;
+    for (int i = 0; i < FORMATS; i++)
+        free(files[i].bytes);
+    return 0;
+}
+
+// --- limits
+
+static bool decode(int i, struct call_control *call, bool linear, lam_image *image, lam_error *error)
+{
+    struct picture_file file = {files[i].bytes, files[i].size, names[i], call};
+    *error = (lam_error){0};
+    return linear ? picture_decode_linear(&file, LAM_COLOR_SRGB, image, error) : picture_decode(&file, image, error);
+}
+
+// The codecs themselves end within the rows, not only before the first.
+static void test_cancelled(void **state)
+{
+    (void)state;
+    lam_cancel cancel = {0};
+    struct call_control call;
+    call_start(&call, &(lam_control){.cancel = &cancel});
+    lam_cancel_raise(&cancel);
+    for (int i = 0; i < FORMATS; i++) {
+        if (!files[i].bytes)
+            continue;
+        lam_image image = {0};
+        lam_error error = {0};
+        struct picture_file file = {files[i].bytes, files[i].size, names[i], &call};
+        assert_false(codec_of(file.bytes, file.size)->read(&file, &image, &error));
+        assert_int_equal(error.code, LAM_CANCELLED);
+        assert_null(image.pixels);
+        assert_int_equal(call.memory_used, 0);
+        lam_cancel_clear(&cancel);
+        assert_true(decode(i, &call, false, &image, &error));
+        picture_free(&call, &image);
+        lam_cancel_raise(&cancel);
+    }
+    // The conversion to linear light likewise.
+    struct picture_file file = {.name = "bytes", .call = &call};
+    lam_image image;
+    lam_error error = {0};
+    assert_true(picture_make(&file, SIDE, SIDE, LAM_RGBA8, &image, &error));
+    assert_false(picture_linearize(&file, &image, false, LAM_COLOR_SRGB, &error));
+    assert_int_equal(error.code, LAM_CANCELLED);
+    picture_free(&call, &image);
+    assert_int_equal(call.memory_used, 0);
+}
+
+static void test_time(void **state)
+{
+    (void)state;
+    for (int i = 0; i < FORMATS; i++) {
+        struct call_control call;
+        call_start(&call, &(lam_control){.time_limit_s = 1e-9});
+        lam_image image = {0};
+        lam_error error = {0};
+        struct picture_file file = {files[i].bytes, files[i].size, names[i], &call};
+        assert_false(file.bytes && codec_of(file.bytes, file.size)->read(&file, &image, &error));
+        assert_true(!file.bytes || error.code == LAM_LIMIT);
+        assert_null(image.pixels);
+    }
+}
+
+// The pixels are charged while they are there; a limit just below what is needed refuses the picture.
+static void test_memory(void **state)
+{
+    (void)state;
+    for (int i = 0; i < FORMATS; i++) {
+        if (!files[i].bytes)
+            continue;
+        for (int linear = 0; linear < 2; linear++) {
+            lam_image image = {0};
+            lam_error error;
+            struct call_control call;
+            call_start(&call, NULL);
+            assert_true(decode(i, &call, linear, &image, &error));
+            size_t held = PIXELS * (image.format == LAM_RGBA8 ? 4 : 16);
+            assert_int_equal(image.format == LAM_RGBA8, !linear && (i < 2 || i > 4));
+            assert_int_equal(call.memory_used, held);
+            picture_free(&call, &image);
+            assert_int_equal(call.memory_used, 0);
+
+            call_start(&call, &(lam_control){.memory_limit_bytes = held - 1});
+            assert_false(decode(i, &call, linear, &image, &error));
+            assert_int_equal(error.code, LAM_LIMIT);
+            assert_non_null(strstr(error.text, "memory limit"));
+            assert_null(image.pixels);
+            assert_int_equal(call.memory_used, 0);
+        }
+    }
+    // A progressive JPEG's coefficients count too: 6 bytes a pixel beside the 4 of the picture.
+    struct call_control call;
+    lam_image image;
+    lam_error error;
+    call_start(&call, &(lam_control){.memory_limit_bytes = 9 * PIXELS});
+    assert_true(decode(5, &call, false, &image, &error));
+    picture_free(&call, &image);
+    assert_false(decode(6, &call, false, &image, &error));
+    assert_int_equal(error.code, LAM_LIMIT);
+    call_start(&call, &(lam_control){.memory_limit_bytes = 10 * PIXELS});
+    assert_true(decode(6, &call, false, &image, &error));
+    assert_int_equal(call.memory_used, 4 * PIXELS);
+    picture_free(&call, &image);
+}
+
+// --- headers that claim too much
+
+static uint32_t crc_of(const uint8_t *bytes, size_t size)
+{
+    uint32_t crc = ~0u;
+    for (size_t i = 0; i < size; i++) {
+        crc ^= bytes[i];
+        for (int bit = 0; bit < 8; bit++)
+            crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
+    }
+    return ~crc;
+}
+
+static void put_big(uint8_t *to, uint32_t value, int bytes)
+{
+    for (int i = 0; i < bytes; i++)
+        to[i] = (uint8_t)(value >> 8 * (bytes - 1 - i));
+}
+
+// The file with another size in its header.
+static struct file claim(int i, uint32_t width, uint32_t height)
+{
+    struct file file = {malloc(files[i].size + 64), files[i].size};
+    assert_non_null(file.bytes);
+    memcpy(file.bytes, files[i].bytes, files[i].size);
+    char *text = (char *)file.bytes, *at;
+    if (i == 0) {
+        put_big(file.bytes + 16, width, 4);
+        put_big(file.bytes + 20, height, 4);
+        put_big(file.bytes + 29, crc_of(file.bytes + 12, 17), 4);
+    } else if (i == 1 || i == 2) {
+        file.size = (size_t)sprintf(text, i == 1 ? "P6\n%u %u\n255\n" : "PF\n%u %u\n-1.0\n", width, height);
+    } else if (i == 3) {
+        at = memmem(text, file.size, "dataWindow\0box2i", 17);
+        assert_non_null(at);
+        const uint32_t most[2] = {width - 1, height - 1};
+        memcpy(at + 17 + 4 + 8, most, sizeof most);
+    } else if (i == 4) {
+        file.size = (size_t)sprintf(text, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %u +X %u\n", height, width);
+    } else {
+        for (size_t k = 0; k + 9 < file.size; k++) {
+            if (file.bytes[k] != 0xff || file.bytes[k + 1] != (i == 5 ? 0xc0 : 0xc2))
+                continue;
+            put_big(file.bytes + k + 5, height, 2);
+            put_big(file.bytes + k + 7, width, 2);
+            break;
+        }
+    }
+    return file;
+}
+
+static void test_claims(void **state)
+{
+    (void)state;
+    for (int i = 0; i < FORMATS; i++) {
+        if (!files[i].bytes)
+            continue;
+        struct file large = claim(i, 40000, 20000), most = claim(i, 20000, 20000);
+        lam_image image = {0};
+        lam_error error = {0};
+        struct call_control call;
+        // A memory limit of one byte: the size is refused before memory is thought of.
+        call_start(&call, &(lam_control){.memory_limit_bytes = 1});
+        struct picture_file file = {large.bytes, large.size, names[i], &call};
+        assert_false(picture_decode(&file, &image, &error));
+        assert_int_equal(error.code, LAM_LIMIT);
+        if (!strstr(error.text, "40000×20000") || !strstr(error.text, "at most 400 million"))
+            fail_msg("%s", error.text);
+        // 400 million are not refused for their number, but because the file does not hold them (JPEG's few bytes may)
+        // or for the limit.
+        file = (struct picture_file){most.bytes, most.size, names[i], &call};
+        assert_false(picture_decode(&file, &image, &error));
+        assert_null(strstr(error.text, "400 million"));
+        assert_null(image.pixels);
+        free(large.bytes);
+        free(most.bytes);
+    }
+}
+
+// --- what is no regular file
+
+static void test_kinds(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/lambent-limits-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    lam_image image;
+    lam_error error;
+    assert_false(lam_image_load(&image, folder, NULL, &error));
+    assert_non_null(strstr(error.text, "is a directory, expected a file"));
+    assert_false(lam_image_load(&image, "/dev/zero", NULL, &error));
+    assert_non_null(strstr(error.text, "/dev/zero: is a device, expected a regular file"));
+    snprintf(path, sizeof path, "%s/pipe", folder);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_false(lam_image_load(&image, path, NULL, &error)); // and does not wait for a writer
+    assert_non_null(strstr(error.text, "/pipe: is a pipe, expected a regular file (- is standard input)"));
+    unlink(path);
+    struct sockaddr_un address = {.sun_family = AF_UNIX};
+    snprintf(address.sun_path, sizeof address.sun_path, "%s/socket", folder);
+    int made = socket(AF_UNIX, SOCK_STREAM, 0);
+    assert_int_equal(bind(made, (const struct sockaddr *)&address, sizeof address), 0);
+    assert_false(lam_image_load(&image, address.sun_path, NULL, &error));
+    assert_non_null(strstr(error.text, "/socket: is a socket, expected a regular file"));
+    assert_int_equal(error.code, LAM_CANNOT_READ);
+    close(made);
+    unlink(address.sun_path);
+    rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cancelled), cmocka_unit_test(test_time),  cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_claims),    cmocka_unit_test(test_kinds),
+    };
+    return cmocka_run_group_tests(tests, make_files, free_files);
+}

@@ -1,0 +1,359 @@
+// test_scene_models.c: the files that scene files name: what objects share, and which folders they may lie in.
+#include "loading.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+
+// --- files beside a scene in memory
+
+struct counts {
+    int models, materials, pictures;
+};
+
+static bool open_beside(void *user, const char *name, lam_bytes *bytes, lam_error *error)
+{
+    struct counts *counts = user;
+    const char *text = NULL;
+    if (strcmp(name, "a.obj") == 0 || strcmp(name, "in/a.obj") == 0)
+        text = "mtllib a.mtl\n" TRIANGLE "usemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n";
+    if (strcmp(name, "a.mtl") == 0 || strcmp(name, "in/a.mtl") == 0)
+        text = "newmtl red\nKd 1 0 0\nKs x\nnewmtl blue\nKd 0 0 1\n";
+    if (strcmp(name, "sky.ppm") == 0)
+        text = "P6\n2 1\n255\nabcdef";
+    if (!text) {
+        *error = (lam_error){LAM_CANNOT_READ, "there is no such file"};
+        return false;
+    }
+    counts->models += strstr(name, ".obj") != NULL;
+    counts->materials += strstr(name, ".mtl") != NULL;
+    counts->pictures += strstr(name, ".ppm") != NULL;
+    bytes->data = strdup(text);
+    bytes->size = strlen(text);
+    return true;
+}
+
+static lam_scene *load_objects(const char *objects, struct counts *counts)
+{
+    char *text;
+    lam_error error;
+    assert_true(asprintf(&text, "{\"lambent\": 1, \"objects\": [%s]}", objects) > 0);
+    *counts = (struct counts){0};
+    lam_load_params params = {.threads = 1, .open = open_beside, .user = counts};
+    lam_scene *scene = lam_scene_load_memory(text, strlen(text), "s.json", &params, NULL, &error);
+    if (!scene)
+        fail_msg("%s: %s", objects, error.text);
+    free(text);
+    return scene;
+}
+
+static const char *material_of(const lam_scene *scene, int object, int part, lam_rgba *diffuse)
+{
+    const lam_mesh *mesh = lam_scene_mesh(scene, lam_scene_object(scene, object)->mesh);
+    const lam_material *material = lam_scene_material(scene, mesh->parts[part].material);
+    *diffuse = material->diffuse;
+    return material->name;
+}
+
+#define A "{\"file\": \"a.obj\"}"
+
+// The same model is read once, and objects that change nothing of it share one mesh.
+static void test_shared(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *objects;
+        int meshes, materials, models;
+    } rows[] = {
+        {A ", " A ", " A, 1, 2, 1},
+        {A ", {\"file\": \"./a.obj\"}, {\"file\": \"in/../a.obj\"}, {\"file\": \"a.obj\"}, {\"file\": \"./a.obj\"}", 1,
+         2, 3},
+        {A ", {\"file\": \"in/a.obj\"}", 2, 4, 2},
+        {"{\"shape\": \"cube\"}, {\"shape\": \"cube\", \"name\": \"x\", \"transform\": [[\"scale\", 2]], \"material\": "
+         "\"gold\", \"cull\": \"back\"}, {\"shape\": \"cube\", \"two_sided\": false}",
+         1, 1, 0},
+        {"{\"shape\": \"cube\"}, {\"shape\": \"cube\", \"radius\": 2}, {\"shape\": \"cube\", \"slices\": 3}, "
+         "{\"shape\": \"cube\", \"stacks\": 3}, {\"shape\": \"cone\"}",
+         5, 0, 0},
+        {"{\"shape\": \"cube\"}, {\"shape\": \"cube\", \"normals\": \"facet\"}, {\"shape\": \"cube\", \"normals\": "
+         "\"smooth\"}, {\"shape\": \"cube\", \"normals\": \"smooth\", \"crease_angle\": 20}, {\"shape\": \"cube\", "
+         "\"normals\": \"smooth\", \"crease_angle\": 20}",
+         4, 0, 0},
+        {"{\"shape\": \"cone\"}, {\"shape\": \"cone\", \"tangents\": \"field\"}, {\"shape\": \"cone\"}, {\"shape\": "
+         "\"cone\", \"tangents\": \"field\"}",
+         2, 0, 0},
+#define CHANGED(n) "{\"file\": \"a.obj\", \"materials\": {\"red\": {\"shininess\": " #n "}}}"
+        {A ", " CHANGED(3) ", " A ", " CHANGED(4) ", " CHANGED(3) ", " A, 3, 6, 1},
+#define PARTS "{\"file\": \"a.obj\", \"parts\": [null, {\"diffuse\": [0, 1, 0]}]}"
+        {PARTS ", " A ", " PARTS ", " A, 2, 5, 1},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct counts counts;
+        lam_scene *scene = load_objects(rows[i].objects, &counts);
+        if (lam_scene_mesh_count(scene) != rows[i].meshes || lam_scene_material_count(scene) != rows[i].materials ||
+            counts.models != rows[i].models)
+            fail_msg("row %zu: %d meshes, %d materials, %d models opened", i, lam_scene_mesh_count(scene),
+                     lam_scene_material_count(scene), counts.models);
+        // The warning about the material file comes once for each model that is read.
+        int warnings = 0;
+        while (lam_scene_warning(scene, warnings))
+            warnings++;
+        assert_int_equal(warnings, rows[i].models == 0 ? 0 : rows[i].models == 2 ? 2 : 1);
+        // Meshes that are not shared share their vertices where they can.
+        for (int k = 0; k < lam_scene_object_count(scene); k++)
+            assert_non_null(lam_scene_mesh(scene, lam_scene_object(scene, k)->mesh)->normals);
+        lam_scene_free(scene);
+    }
+}
+
+// An object's changes do not reach the others.
+static void test_changes(void **unused)
+{
+    (void)unused;
+    struct counts counts;
+    lam_scene *scene =
+        load_objects(CHANGED(3) ", " PARTS ", " A ", {\"file\": \"a.obj\", \"tangents\": \"field\"}", &counts);
+    lam_rgba diffuse;
+    for (int i = 0; i < 4; i++) {
+        assert_string_equal(material_of(scene, i, 0, &diffuse), "red");
+        assert_true(diffuse.r == 1 && diffuse.b == 0);
+        const lam_mesh *mesh = lam_scene_mesh(scene, lam_scene_object(scene, i)->mesh),
+                       *first = lam_scene_mesh(scene, lam_scene_object(scene, 0)->mesh);
+        assert_ptr_equal(mesh->positions, first->positions);
+        assert_ptr_equal(mesh->normals, first->normals);
+        float shininess = lam_scene_material(scene, mesh->parts[0].material)->shininess;
+        assert_true(shininess == (i == 0 ? 3 : 32));
+        const char *name = material_of(scene, i, 1, &diffuse);
+        assert_true(i == 1 ? !name && diffuse.g == 1 : strcmp(name, "blue") == 0);
+    }
+    lam_vec3 low, high;
+    assert_true(lam_scene_bounds(scene, &low, &high) && low.x == 0 && high.x == 1);
+    lam_scene_free(scene);
+}
+
+// Objects that share a mesh are written one by one, and come back as they were.
+static void test_written(void **unused)
+{
+    (void)unused;
+    char folder[] = "/tmp/lambent-shared-XXXXXX", path[2][64], model[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(model, sizeof model, "%s/m.obj", folder);
+    FILE *file = fopen(model, "w");
+    fputs(TRIANGLE "f 1 2 3\n", file);
+    fclose(file);
+    for (int i = 0; i < 2; i++)
+        snprintf(path[i], sizeof path[i], "%s/%d.json", folder, i);
+    file = fopen(path[0], "w");
+    fputs("{\"lambent\": 1, \"objects\": [{\"file\": \"m.obj\", \"name\": \"a\"}, {\"file\": \"m.obj\", \"transform\": "
+          "[[\"translate\", 3, 0, 0]], \"material\": {\"diffuse\": [1, 0, 0]}}, {\"shape\": \"cube\"}, {\"file\": "
+          "\"m.obj\", \"cull\": \"back\"}, {\"shape\": \"cube\", \"transform\": [[\"scale\", 4]]}]}",
+          file);
+    fclose(file);
+    lam_error error;
+    lam_scene *scene = lam_scene_load(path[0], NULL, NULL, &error), *back;
+    if (!scene)
+        fail_msg("%s", error.text);
+    assert_true(lam_scene_save(scene, NULL, path[1], &error));
+    back = lam_scene_load(path[1], NULL, NULL, &error);
+    if (!back)
+        fail_msg("%s", error.text);
+    assert_int_equal(lam_scene_object_count(back), 5);
+    assert_int_equal(lam_scene_mesh_count(back), 2);
+    for (int i = 0; i < 5; i++) {
+        const lam_object *a = lam_scene_object(scene, i), *b = lam_scene_object(back, i);
+        assert_memory_equal(&a->transform, &b->transform, sizeof a->transform);
+        assert_int_equal(a->mesh, b->mesh);
+        assert_int_equal(a->cull, b->cull);
+        assert_int_equal(a->material >= 0, b->material >= 0);
+    }
+    lam_scene_free(scene);
+    lam_scene_free(back);
+    unlink(path[0]);
+    unlink(path[1]);
+    unlink(model);
+    rmdir(folder);
+}
+
+// A thousand objects of one model need little more than one; so do a thousand with changes of their own.
+static void test_memory(void **unused)
+{
+    (void)unused;
+    enum { OBJECTS = 1000 };
+    for (int kind = 0; kind < 2; kind++) {
+        char *text = malloc(OBJECTS * 100 + 100), *at = text + sprintf(text, "{\"lambent\": 1, \"objects\": [");
+        for (int i = 0; i < OBJECTS; i++)
+            at += kind ? sprintf(at, "%s{\"file\": \"a.obj\", \"materials\": {\"red\": {\"shininess\": %d}}}",
+                                 i ? ", " : "", i)
+                       : sprintf(at, "%s{\"shape\": \"sphere\", \"material\": \"gold\"}", i ? ", " : "");
+        strcpy(at, "]}");
+        struct counts counts = {0};
+        lam_load_params params = {.threads = 1, .open = open_beside, .user = &counts};
+        lam_control control = {.memory_limit_bytes = 24 << 20};
+        lam_error error;
+        lam_scene *scene = lam_scene_load_memory(text, strlen(text), "s.json", &params, &control, &error);
+        if (!scene)
+            fail_msg("%s", error.text);
+        assert_int_equal(lam_scene_object_count(scene), OBJECTS);
+        assert_int_equal(counts.models, kind);
+        lam_scene_free(scene);
+        free(text);
+    }
+}
+
+// --- folders
+
+static char folder[64];
+
+static const char *in_folder(const char *name)
+{
+    static char paths[4][200];
+    static int next;
+    char *path = paths[next++ % 4];
+    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
+    return path;
+}
+
+static void write_bytes(const char *name, const char *bytes)
+{
+    FILE *file = fopen(in_folder(name), "wb");
+    assert_non_null(file);
+    fputs(bytes, file);
+    fclose(file);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    strcpy(folder, "/tmp/lambent-scene-XXXXXX");
+    if (!mkdtemp(folder) || mkdir(in_folder("in"), 0700) || mkdir(in_folder("in/sub"), 0700))
+        return -1;
+    static const char *const places[] = {"", "in/", "in/sub/"};
+    for (int i = 0; i < 3; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "%sm.obj", places[i]);
+        write_bytes(name, TRIANGLE "f 1 2 3\n");
+        snprintf(name, sizeof name, "%ssky.ppm", places[i]);
+        write_bytes(name, "P6\n2 1\n255\nabcdef");
+    }
+    return symlink("../m.obj", in_folder("in/out.obj")) || symlink("sub/m.obj", in_folder("in/link.obj")) ||
+                   symlink("../sky.ppm", in_folder("in/out.ppm")) || mkfifo(in_folder("in/pipe"), 0600)
+               ? -1
+               : 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[100];
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    return system(command);
+}
+
+// A scene file's own folder is the root of what it names, models and pictures; models_anywhere lifts that.
+static void test_root(void **unused)
+{
+    (void)unused;
+    char absolute_in[100], absolute_out[100];
+    snprintf(absolute_in, sizeof absolute_in, "%s", in_folder("in/sub/m.obj"));
+    snprintf(absolute_out, sizeof absolute_out, "%s", in_folder("m.obj"));
+    const struct {
+        const char *model, *picture;
+        const char *sentence; // NULL: it is read
+        bool anywhere;        // then it is read with models_anywhere
+    } rows[] = {
+        {"m.obj", "sky.ppm", NULL, true},
+        {"sub/m.obj", "sub/sky.ppm", NULL, true},
+        {"sub/../m.obj", "sub/.././sky.ppm", NULL, true},
+        {"../in/m.obj", "../in/sky.ppm", NULL, true},
+        {"link.obj", NULL, NULL, true},
+        {absolute_in, NULL, NULL, true},
+        {"../m.obj", "../sky.ppm", "leads out of the folder", true},
+        {"sub/../../m.obj", NULL, "leads out of the folder", true},
+        {"out.obj", "out.ppm", "leads out of the folder", true},
+        {absolute_out, NULL, "leads out of the folder", true},
+        {"pipe", "pipe", "is a pipe, expected a regular file", false},
+        {"sub", "sub", "is a directory, expected a file", false},
+        {"none.obj", "none.ppm", "No such file", false},
+        {"-", "-", "No such file", false}, // not standard input
+    };
+    for (size_t i = 0; i < 2 * (sizeof rows / sizeof *rows); i++) {
+        const char *name = i % 2 ? rows[i / 2].picture : rows[i / 2].model, *sentence = rows[i / 2].sentence;
+        if (!name)
+            continue;
+        char text[400], place[64];
+        snprintf(text, sizeof text,
+                 i % 2 ? "{\"lambent\": 1, \"environment\": {\"equirectangular\": \"%s\"}, \"objects\": [{\"shape\": "
+                         "\"cube\", \"slices\": 4}]}"
+                       : "{\"lambent\": 1, \"objects\": [{\"file\": \"%s\"}]}",
+                 name);
+        write_bytes("in/s.json", text);
+        for (int anywhere = 0; anywhere < 2; anywhere++) {
+            lam_error error = {0};
+            lam_scene *scene =
+                lam_scene_load(in_folder("in/s.json"), &(lam_load_params){.models_anywhere = anywhere}, NULL, &error);
+            bool good = !sentence || (anywhere && rows[i / 2].anywhere);
+            snprintf(place, sizeof place, "in/s.json: %s: ", i % 2 ? "environment.equirectangular" : "objects[0].file");
+            if (good != (scene != NULL) || (!good && (!strstr(error.text, sentence) || !strstr(error.text, place) ||
+                                                      error.code != LAM_CANNOT_READ)))
+                fail_msg("%s: %s", name, scene ? "was read" : error.text);
+            lam_scene_free(scene);
+        }
+    }
+    // Six faces likewise.
+    write_bytes("in/s.json", "{\"lambent\": 1, \"environment\": {\"faces\": [\"sky.ppm\", \"sky.ppm\", \"../sky.ppm\", "
+                             "\"sky.ppm\", \"sky.ppm\", \"sky.ppm\"]}, \"objects\": [{\"shape\": \"cube\"}]}");
+    lam_error error;
+    assert_null(lam_scene_load(in_folder("in/s.json"), NULL, NULL, &error));
+    assert_non_null(strstr(error.text, "environment.faces: "));
+    assert_non_null(strstr(error.text, "/in/../sky.ppm: leads out of the folder"));
+}
+
+// The caller's function gets names within the folder, for models, what they name, and pictures; others are refused.
+static void test_function(void **unused)
+{
+    (void)unused;
+    struct counts counts = {0};
+    lam_load_params params = {.threads = 1, .open = open_beside, .user = &counts, .models_anywhere = true};
+    static const char good[] =
+        "{\"lambent\": 1, \"environment\": {\"equirectangular\": \"in/../sky.ppm\"}, \"objects\": [{\"file\": "
+        "\".//in/./a.obj\"}]}";
+    lam_error error;
+    lam_scene *scene = lam_scene_load_memory(good, sizeof good - 1, "s.json", &params, NULL, &error);
+    if (!scene)
+        fail_msg("%s", error.text);
+    assert_true(counts.models == 1 && counts.materials == 1 && counts.pictures == 1);
+    assert_non_null(lam_scene_environment(scene));
+    assert_string_equal(lam_scene_warning(scene, 0),
+                        "in/a.mtl:3: found 'x', expected a number; the statement is ignored");
+    lam_scene_free(scene);
+    static const char *const names[] = {"../a.obj", "/a.obj", "in/../../a.obj", "in/..", ".", "//a.obj"};
+    for (size_t i = 0; i < 2 * (sizeof names / sizeof *names); i++) {
+        char text[200];
+        snprintf(text, sizeof text,
+                 i % 2 ? "{\"lambent\": 1, \"environment\": {\"equirectangular\": \"%s\"}, \"objects\": [{\"shape\": "
+                         "\"cube\"}]}"
+                       : "{\"lambent\": 1, \"objects\": [{\"file\": \"%s\"}]}",
+                 names[i / 2]);
+        assert_null(lam_scene_load_memory(text, strlen(text), "s.json", &params, NULL, &error));
+        assert_int_equal(error.code, LAM_CANNOT_READ);
+        if (!strstr(error.text, "which does not lie in the scene file's folder"))
+            fail_msg("%s: %s", names[i / 2], error.text);
+    }
+    // Without a function and without a folder nothing can be opened.
+    assert_null(lam_scene_load_memory(good, sizeof good - 1, "s.json", NULL, NULL, &error));
+    assert_non_null(strstr(error.text, "cannot be opened: the model has no folder"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_shared),
+        cmocka_unit_test(test_changes),
+        cmocka_unit_test(test_written),
+        cmocka_unit_test(test_memory),
+        cmocka_unit_test_setup_teardown(test_root, make_folder, remove_folder),
+        cmocka_unit_test(test_function),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

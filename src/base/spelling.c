@@ -16,7 +16,8 @@ struct spelling spelling_of(const char *word) { return (struct spelling){.word =
 void spelling_try(struct spelling *spelling, const char *candidate)
 {
     int distance = lam_word_distance(spelling->word, candidate);
-    if (distance < spelling->limit) {
+    bool shorter = spelling->nearest && strlen(candidate) < strlen(spelling->nearest);
+    if (distance < spelling->limit || (distance == spelling->limit && shorter)) {
         spelling->limit = distance;
         spelling->nearest = candidate;
     }

@@ -89,9 +89,9 @@ typedef enum lam_flat_normal {
 // The content of a frame: the picture, a part of its light, or a number of its surfaces.
 //
 // Light is drawn as the picture is: over the background, and sRGB-encoded in 8 bits (lam_output_is_light). Numbers are
-// neither. A float picture holds the number itself, an 8-bit one the code given here. Where there is no triangle they
-// are 0 with alpha 0, whatever the background. Numbers are not averaged: they are those of the triangle at the covered
-// sample nearest to the pixel's centre.
+// neither. A float picture holds the number itself, an 8-bit one the code given here. Where there is no triangle, 8 bits
+// hold the background, as in the picture, and floats 0 with alpha 0. Numbers are not averaged: they are those of the
+// triangle at the covered sample nearest to the pixel's centre.
 typedef enum lam_output {
     LAM_OUTPUT_PICTURE = 0, // the whole sum
     // Terms of the sum. The five add up to the picture over no background (unlit, the colour is the diffuse term). With
@@ -109,7 +109,9 @@ typedef enum lam_output {
     LAM_OUTPUT_NORMALS,
     // Tangents: the file's, or the direction field, perpendicular to the normal. Coded as normals.
     LAM_OUTPUT_TANGENTS,
-    // Distance in front of the eye along the view, model units. 8 bits: near white, far black.
+    // Distance d in front of the eye along the view, model units. 8 bits: (far − d)/(far − near), where near and far are
+    // the distances of the scene's nearest and farthest vertices, or the camera's planes where these lie between: near
+    // white, far black (lam_frame_report.depth_near, depth_far). A range below 1/100000 of far is all white.
     LAM_OUTPUT_DEPTH,
     LAM_OUTPUT_N_L, // cosine between normal and light; 8 bits: max(n·l, 0)
     // Cosine between normal and half vector. 8 bits: max(n·h, 0).
@@ -119,10 +121,10 @@ typedef enum lam_output {
     // Triangle number in its mesh modulo 2²⁴, object number, triangle number / 2²⁴. 8 bits: a colour for each triangle
     // of each object, no channel below 48.
     LAM_OUTPUT_IDS,
-    // Fraction of the pixel's samples that are covered. Alpha is 1 everywhere.
+    // Fraction of the pixel's samples that are covered. Alpha is 1 everywhere, without triangles too.
     LAM_OUTPUT_COVERAGE,
     // Triangles that cover a sample before the depth test, without culled ones: the mean over the pixel's samples.
-    // Alpha is 1 everywhere. 8 bits: c/(c + 3).
+    // Alpha is 1 everywhere, without triangles too. 8 bits: c/(c + 3).
     LAM_OUTPUT_OVERDRAW,
     // How far each channel of the picture leaves 0…1, negative below. 8 bits: red where a channel is above, blue where
     // one is below, else the picture in dark grey.
@@ -189,7 +191,9 @@ typedef struct lam_frame_report {
     uint64_t points_lit;
     uint64_t lights_evaluated; // summed over those points
     uint64_t memory_bytes;     // held by the device after the frame
-    LAM_RESERVED(16);
+    // LAM_OUTPUT_DEPTH: the distances, in model units, that 8 bits show white and black. Else 0.
+    double depth_near, depth_far;
+    LAM_RESERVED(14);
 } lam_frame_report;
 
 // Draws the scene as the camera sees it into `image`, which the caller made with the size and pixel format

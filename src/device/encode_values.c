@@ -2,11 +2,14 @@
 // lambent/device.h defines. Plain C, the same code for all devices.
 #include "encode_values.h"
 
+#define LANES 4
+#include "picture_pixels.h"
+
 #include <string.h>
 
 static float clamped(float x, float low, float high) { return x > high ? high : x > low ? x : low; } // NaN: low
 
-static uint8_t byte_of(float x) { return (uint8_t)(clamped(x, 0, 1) * 255.0f + 0.5f); }
+static uint8_t code_byte(float x) { return (uint8_t)(clamped(x, 0, 1) * 255.0f + 0.5f); }
 
 // A colour that distinguishes neighbouring triangles; each channel at least 48, to stand out from black.
 static void color_of_ids(const float v[3], uint8_t out[4])
@@ -18,7 +21,14 @@ static void color_of_ids(const float v[3], uint8_t out[4])
         out[c] = (uint8_t)(48 + (h >> (40 + 8 * c) & 0xff) * 207 / 255);
 }
 
-// Encodes the values of a covered pixel.
+// 1 at the scene's nearest vertex, 0 at its farthest. A scene that is flatter than the rounding of depths is all near.
+static float depth_code(const struct frame *frame, float depth)
+{
+    float far = frame->depth_far, range = far - frame->depth_near;
+    return range > 1e-5f * (far < 0 ? -far : far) ? (far - depth) / range : 1;
+}
+
+// Encodes the values in 8 bits.
 static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
 {
     static const uint8_t front[3] = {0, 102, 255}, back[3] = {255, 51, 0};
@@ -37,16 +47,16 @@ static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
         switch (frame->output) {
         case LAM_OUTPUT_NORMALS:
         case LAM_OUTPUT_TANGENTS:
-            out[c] = byte_of((v[c] + 1.0f) * 0.5f);
+            out[c] = code_byte((v[c] + 1.0f) * 0.5f);
             break;
         case LAM_OUTPUT_DEPTH:
-            out[c] = byte_of((frame->far_plane - v[c]) / (frame->far_plane - frame->near_plane));
+            out[c] = code_byte(depth_code(frame, v[c]));
             break;
         case LAM_OUTPUT_OVERDRAW:
-            out[c] = byte_of(v[c] / (v[c] + 3.0f));
+            out[c] = code_byte(v[c] / (v[c] + 3.0f));
             break;
         default: // cosines, coverage
-            out[c] = byte_of(v[c]);
+            out[c] = code_byte(v[c]);
         }
 }
 
@@ -54,10 +64,22 @@ void encode_values(const struct frame *frame, lam_pixel_format format, const flo
 {
     if (format == LAM_RGBA32F)
         memcpy(to, v, 16);
-    else if (v[3] > 0)
-        encode(frame, v, to);
     else
-        memset(to, 0, 4);
+        encode(frame, v, to);
+}
+
+void encode_empty(const struct frame *frame, lam_pixel_format format, void *to)
+{
+    const lam_rgba *b = &frame->background;
+    num zero = num_of(0.0f);
+    if (frame->output == LAM_OUTPUT_CLIPPED)
+        encode_clipped(format, (float[4]){b->r * b->a, b->g * b->a, b->b * b->a, b->a}, to);
+    else if (frame->output == LAM_OUTPUT_COVERAGE || frame->output == LAM_OUTPUT_OVERDRAW)
+        encode_values(frame, format, (float[4]){0, 0, 0, 1}, to);
+    else if (format == LAM_RGBA32F)
+        memset(to, 0, 16);
+    else
+        write_pixels(frame, (struct pixel_lanes){zero, zero, zero, zero}, format, to, 1);
 }
 
 // The excess of the picture's pixel over 0…1, or in 8 bits a colour that marks it.
@@ -76,7 +98,7 @@ void encode_clipped(lam_pixel_format format, const float p[4], void *to)
         memcpy(to, out, 16);
         return;
     }
-    uint8_t grey = byte_of((straight[0] + straight[1] + straight[2]) * (0.5f / 3.0f));
+    uint8_t grey = code_byte((straight[0] + straight[1] + straight[2]) * (0.5f / 3.0f));
     uint8_t code[4] = {above   ? 255
                        : below ? 0
                                : grey,

@@ -4,8 +4,11 @@
 
 #include "frame.h"
 
-// Writes a pixel with the values v; it is covered if v[3] > 0.
+// Writes a pixel with the values v of a surface, or of coverage and overdraw.
 void encode_values(const struct frame *frame, lam_pixel_format format, const float v[4], void *to);
+
+// Writes a pixel without a triangle: the background in 8 bits, 0 in floats; or its coverage, overdraw or excess.
+void encode_empty(const struct frame *frame, lam_pixel_format format, void *to);
 
 // Writes the excess of the picture's pixel p (premultiplied) over 0…1, or in 8 bits a colour that marks it.
 void encode_clipped(lam_pixel_format format, const float p[4], void *to);

@@ -3,6 +3,7 @@
 
 #include "fail.h"
 #include "linear.h"
+#include "view_extents.h"
 #include "up_axis.h"
 
 #include <string.h>
@@ -408,6 +409,12 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         fit_planes(scene, &view, frame->orthographic, &near_plane, &far_plane);
     frame->near_plane = rounded(near_plane);
     frame->far_plane = rounded(far_plane);
+    frame->depth_near = frame->depth_far = 0;
+    double nearest, farthest;
+    if (frame->output == LAM_OUTPUT_DEPTH && view_extents_depth(scene, &view, &nearest, &farthest)) {
+        frame->depth_near = rounded(nearest > near_plane ? nearest : near_plane);
+        frame->depth_far = rounded(farthest < far_plane ? farthest : far_plane);
+    }
     lam_mat4 projection = frame->orthographic
                               ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
                               : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);

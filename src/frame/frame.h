@@ -83,6 +83,8 @@ struct frame {
     bool makes_normals; // a draw has a crease_rad, and the output needs its normals
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;
+    // LAM_OUTPUT_DEPTH: the range of distances that 8 bits spread over, that of the scene's vertices between the planes.
+    float depth_near, depth_far;
 
     struct frame_draw *draws;
     int draw_count;

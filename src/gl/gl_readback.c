@@ -44,10 +44,10 @@ static void store_value(const struct gl_frame *f, const float *from, lam_pixel_f
         encode_values(f->frame, format, (float[4]){share, share, share, 1}, to);
         return;
     }
-    bool covered = from[3] > 0;
-    encode_values(
-        f->frame, format,
-        (float[4]){covered ? from[0] : 0, covered ? from[1] : 0, covered ? from[2] : 0, covered ? 1.0f : 0.0f}, to);
+    if (from[3] > 0)
+        encode_values(f->frame, format, (float[4]){from[0], from[1], from[2], 1}, to);
+    else
+        encode_empty(f->frame, format, to);
 }
 
 bool readback_part(struct gl_frame *f, lam_error *error)

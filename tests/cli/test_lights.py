@@ -287,7 +287,7 @@ class Materials(Pictures):
         middles = {pixel(sheet, 25 + 50 * column, y)[:3] for column in range(6) for y in (45, 82, 120, 158)}
         self.assertGreaterEqual(len(middles), 20)
         # Chrome, silver and white plastic are three materials to the eye: the body's grey or the highlight tells each from each.
-        looks = []
+        looks, sheet = [], self.png("materials", "-s", "300x200", "-b", "transparent")
         for column, row in ((2, 1), (5, 1), (4, 2)):
             greys = sorted(pixel(sheet, x, y)[0] for x in range(50 * column, 50 * column + 50) for y in range(20 + 37 * row, 46 + 37 * row)
                            if pixel(sheet, x, y)[3] == 255)
@@ -295,7 +295,8 @@ class Materials(Pictures):
         for i in range(3):
             self.assertGreater(max(abs(a - b) for a, b in zip(looks[i], looks[i - 1])), 20, looks)
         # The captions are below the swatches, and nowhere else.
-        words, plain = self.png("materials", "-s", "300x200"), self.png("materials", "-s", "300x200", "--no-captions")
+        clear = ("materials", "-s", "300x200", "-b", "transparent")
+        words, plain = self.png(*clear), self.png(*clear, "--no-captions")
         differs = [(x, y) for y in range(200) for x in range(300) if pixel(words, x, y) != pixel(plain, x, y)]
         self.assertGreater(len(differs), 24 * 20)
         self.assertTrue(all(pixel(plain, x, y)[3] == 0 for x, y in differs))

@@ -1,7 +1,7 @@
 # test_show.py: --show: terms that add up, numbers with their codes, lights by name.
 import struct
 
-from harness import Case, pixel
+from harness import Case, pixel, read_png
 
 SIZE = 40
 
@@ -37,7 +37,33 @@ class Show(Case):
         self.assertEqual(middle["coverage"], (255, 255, 255, 255))
         self.assertEqual(middle["overdraw"], (102, 102, 102, 255))  # front and back
         self.assertEqual(middle["n.l"][0], middle["n.l"][2])
-        self.assertEqual(pixel(self.png("sphere", "-s", 16, "--show", "depth", "-b", "white"), 0, 0), (0, 0, 0, 0))
+
+    def test_background(self):
+        """It is the picture's wherever a number is of a surface, and on the sheets; numbers of pixels have no background."""
+        names = {"normals": 1, "depth": 1, "facing": 1, "ids": 1, "n.l": 1, "n.h": 1, "diffuse": 1, "picture": 1, "coverage": 0, "overdraw": 0}
+        for what, shows in names.items():
+            for color, bytes4 in (("#506070", (0x50, 0x60, 0x70, 255)), ("#ff800080", (255, 128, 0, 128)), (None, (0, 0, 0, 0))):
+                words = ["sphere", "-s", 16, "--show", what] + (["-b", color] if color else [])
+                self.assertEqual(pixel(self.png(*words), 0, 0), bytes4 if shows else (0, 0, 0, 255), words)
+        self.good("sphere", "-s", 16, "--show", "depth", "-b", "#506070", "-o", "a.ppm")
+        self.assertEqual((self.folder / "a.ppm").read_bytes()[-3 * 256:][:3], bytes((0x50, 0x60, 0x70)))
+        self.assertEqual(self.floats("sphere", "--show", "depth", "-b", "#506070")[:3], (0, 0, 0))
+        for words, at in (("materials",), (1, 1)), (("compare", "cube.obj", "--across", "show=depth,ambient"), (6, 6)):
+            for color, bytes4 in ((None, (255, 255, 255, 255)), ("#506070", (0x50, 0x60, 0x70, 255))):
+                sheet = self.png(*words, "-s", 60, "--no-captions", *(["-b", color] if color else []))
+                self.assertEqual(pixel(sheet, *at), bytes4, words)
+        self.assertEqual(pixel(self.png("materials", "-s", 60, "-b", "transparent", "--no-captions"), 1, 1), (0, 0, 0, 0))
+
+    def test_depth_range(self):
+        """The nearest vertex is white, and the report tells both ends."""
+        report = self.report("cube.obj", "--view", "front", "-s", 33, "--show", "depth", "-o", "d.png")["image"]
+        near, far = report["depth_near"], report["depth_far"]
+        whole = read_png((self.folder / "d.png").read_bytes())
+        self.assertEqual(pixel(whole, 16, 16), (255, 255, 255, 255))  # the cube's front
+        size = self.report("cube.obj", "-s", 33)["model"]["bounds"]
+        self.assertAlmostEqual(far - near, size["max"][2] - size["min"][2], delta=1e-5)
+        self.good("cube.obj", "-s", 33, "--show", "depth", "-o", "d.pfm")
+        self.assertNotIn("depth_near", self.report("cube.obj", "-s", 33)["image"])
 
     def test_numbers_are_not_srgb(self):
         for what, expected in ("normals", False), ("diffuse", True), ("picture", True):

@@ -178,6 +178,7 @@ static void test_shows(void **state)
         build(names[n], &demo);
         lam_draw_params params = demo.params;
         params.samples = 1;
+        params.background = (lam_rgba){1, 0.5f, 0, 0.4f}; // seen in 8 bits where there is no triangle
         for (int show = 0; show < LAM_OUTPUT_COUNT; show++)
             for (int shading = 0; shading <= (n ? 0 : LAM_SHADING_FLAT); shading++) {
                 params.output = (lam_output)show;

@@ -120,7 +120,11 @@ static struct span projected(const struct boxed *b, const lam_camera *camera)
     for (int c = 0; c < 8; c++) {
         lam_vec3 e = moved(&look, (const double[3]){b->corners[c].x, b->corners[c].y, b->corners[c].z});
         double half = camera->ortho_half_height > 0 ? camera->ortho_half_height : -e.z * tan(camera->fovy_rad / 2);
-        assert_true(half > 0);
+        if (!(half > 0)) { // behind the eye
+            widen(&span, -1e300, -1e300);
+            widen(&span, 1e300, 1e300);
+            continue;
+        }
         widen(&span, 0.5 * b->width + e.x / half * 0.5 * b->height, 0.5 * b->height - e.y / half * 0.5 * b->height);
     }
     return span;

@@ -261,27 +261,30 @@ struct expected {
     uint8_t left_code[4], right_code[4], outside_code[4];
 };
 
+// 8 bits of the background {1, 0.5, 0, 0.4}: sRGB, and not premultiplied, as in the picture.
+#define BACK {255, 188, 0, 102}
+
 static void test_numbers(void **state)
 {
     (void)state;
     static const struct expected all[] = {
-        {LAM_OUTPUT_NORMALS, {0, 0, 1, 1}, {0, 0, 1, 1}, {0}, {128, 128, 255, 255}, {128, 128, 255, 255}, {0}},
-        {LAM_OUTPUT_DEPTH, {4, 4, 4, 1}, {4, 4, 4, 1}, {0}, {128, 128, 128, 255}, {128, 128, 128, 255}, {0}},
+        {LAM_OUTPUT_NORMALS, {0, 0, 1, 1}, {0, 0, 1, 1}, {0}, {128, 128, 255, 255}, {128, 128, 255, 255}, BACK},
+        {LAM_OUTPUT_DEPTH, {4, 4, 4, 1}, {4, 4, 4, 1}, {0}, {255, 255, 255, 255}, {255, 255, 255, 255}, BACK},
         {LAM_OUTPUT_N_L,
          {0.8f, 0.8f, 0.8f, 1},
          {0.8f, 0.8f, 0.8f, 1},
          {0},
          {204, 204, 204, 255},
          {204, 204, 204, 255},
-         {0}},
+         BACK},
         {LAM_OUTPUT_N_H,
          {0.94868330f, 0.94868330f, 0.94868330f, 1},
          {0.94868330f, 0.94868330f, 0.94868330f, 1},
          {0},
          {242, 242, 242, 255},
          {242, 242, 242, 255},
-         {0}}, // 0.9/√0.9
-        {LAM_OUTPUT_FACING, {-1, -1, -1, 1}, {1, 1, 1, 1}, {0}, {255, 51, 0, 255}, {0, 102, 255, 255}, {0}},
+         BACK}, // 0.9/√0.9
+        {LAM_OUTPUT_FACING, {-1, -1, -1, 1}, {1, 1, 1, 1}, {0}, {255, 51, 0, 255}, {0, 102, 255, 255}, BACK},
         {LAM_OUTPUT_COVERAGE,
          {1, 1, 1, 1},
          {1, 1, 1, 1},
@@ -304,8 +307,10 @@ static void test_numbers(void **state)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         for (size_t k = 0; k < 3 * 2; k++) {
             const struct expected *e = &all[i];
-            lam_draw_params params = {
-                .output = e->show, .shading = shadings[k / 2], .samples = k % 2 ? 4 : 1, .background = {1, 1, 1, 1}};
+            lam_draw_params params = {.output = e->show,
+                                      .shading = shadings[k / 2],
+                                      .samples = k % 2 ? 4 : 1,
+                                      .background = {1, 0.5f, 0, 0.4f}};
             lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
             lam_image bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
             const int at[3] = {40 * 60 + 15, 20 * 60 + 40, 2 * 60 + 2}; // left below, right above, outside
@@ -326,6 +331,44 @@ static void test_numbers(void **state)
             lam_image_free(&bytes);
         }
     lam_scene_free(scene);
+}
+
+// 8 bits of depth spread over the scene's vertices, seen or not, wherever the eye stands; the camera's planes cut the
+// range. A range that floats cannot tell apart is all near.
+static void test_depth_range(void **state)
+{
+    (void)state;
+    static const struct {
+        double near_plane, far_plane, scale_z, expected_near, expected_far;
+    } cases[] = {{0, 0, 1, 7, 9}, {0, 0, 0.25, 7.75, 8.25}, {7.5, 100, 1, 7.5, 9}, {1, 7.9, 1, 7, 7.9}};
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
+        lam_scene *scene = lam_scene_make(NULL);
+        lam_object object = lam_object_default();
+        object.mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 128, .stacks = 64}, NULL);
+        object.transform.m[2][2] = cases[i / 2].scale_z;
+        object.transform.m[0][3] = 300; // the sphere's place does not matter
+        assert_true(lam_scene_add_object(scene, &object, NULL) == 0);
+        lam_camera camera = {.eye = {300, 0, 8}, .target = {300, 0, 0}, .up = {0, 1, 0}, .fovy_rad = 0.35};
+        camera.ortho_half_height = i % 2 ? 1.2 : 0;
+        camera.near_plane = cases[i / 2].near_plane;
+        camera.far_plane = cases[i / 2].far_plane;
+        lam_draw_params params = {.output = LAM_OUTPUT_DEPTH, .samples = 4};
+        lam_image floats = draw(scene, &camera, &params, 61, 61, LAM_RGBA32F),
+                  bytes = draw(scene, &camera, &params, 61, 61, LAM_RGBA8);
+        double near = cases[i / 2].expected_near, far = cases[i / 2].expected_far;
+        for (int p = 0; p < 61 * 61; p++) {
+            const float *d = (const float *)floats.pixels + (ptrdiff_t)4 * p;
+            const uint8_t *code = (const uint8_t *)bytes.pixels + (ptrdiff_t)4 * p;
+            double expected = d[3] > 0 ? 255 * (far - (double)d[0]) / (far - near) : 0;
+            assert_true(fabs(fmin(fmax(expected, 0), 255) - code[0]) <= 0.51 && code[0] == code[2]);
+        }
+        const uint8_t middle = ((const uint8_t *)bytes.pixels)[4 * (30 * 61 + 30)];
+        if (cases[i / 2].near_plane < 7)
+            assert_int_equal(middle, 255);
+        lam_image_free(&floats);
+        lam_image_free(&bytes);
+        lam_scene_free(scene);
+    }
 }
 
 static void test_ids(void **state)
@@ -451,8 +494,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_demos),   cmocka_unit_test(test_every_method), cmocka_unit_test(test_one_light),
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_ids),          cmocka_unit_test(test_clipped),
-        cmocka_unit_test(test_names),   cmocka_unit_test(test_relations),
+        cmocka_unit_test(test_numbers), cmocka_unit_test(test_depth_range),  cmocka_unit_test(test_ids),
+        cmocka_unit_test(test_clipped), cmocka_unit_test(test_names),        cmocka_unit_test(test_relations),
     };
     return cmocka_run_group_tests_name("show", tests, set_up, tear_down);
 }

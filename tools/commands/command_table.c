@@ -10,14 +10,15 @@
                                    1u << GROUP_CHECK | 1u << GROUP_SHADER))
 
 static const struct own_default compare_defaults[] = {
-    {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", "white"}, {NULL, NULL}};
+    {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
 static const struct own_default explain_defaults[] = {{"output", NULL}, {NULL, NULL}};
 static const struct own_default check_defaults[] = {
     {"output", "no sheet"}, {"size", "128"}, {"tolerance", "2"}, {NULL, NULL}};
 static const struct own_default shader_defaults[] = {{"output", "standard output"}, {NULL, NULL}};
 static const struct own_default diff_defaults[] = {{"output", "no picture"}, {NULL, NULL}};
 static const struct own_default plot_defaults[] = {{"output", "KIND.png"}, {"size", "1600x1000"}, {NULL, NULL}};
-static const struct own_default materials_defaults[] = {{"output", "no sheet"}, {"size", "1024x593"}, {NULL, NULL}};
+static const struct own_default materials_defaults[] = {
+    {"output", "no sheet"}, {"size", "1024x593"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
 
 const struct command command_table[] = {
     [COMMAND_render] = {"render", "MODEL...",

@@ -95,7 +95,7 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
     options.height = c->page.cell_height * enlarge;
     options.has_size = true;
     if (!options.background)
-        options.background = "white";
+        options.background = SHEET_BACKGROUND;
     struct job job = {.options = &options, .model = c->model, .device = c->device};
     job.times.start = clock_ms();
     bool ok = options_parse(count, words, find_groups("render"), &options, error) >= 0 &&

@@ -181,8 +181,9 @@ static bool draw_captions(const lam_scene *scene, const struct options *o, const
 
 static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_image *image, lam_error *error)
 {
-    lam_rgba background = {0, 0, 0, 0};
-    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color_mode, &background, error))
+    lam_rgba background;
+    if (!lam_color_parse(o->background ? o->background : SHEET_BACKGROUND, (lam_color_mode)o->color_mode, &background,
+                         error))
         return false;
     lam_draw_params params = {.samples = o->samples,
                               .background = background,
@@ -199,8 +200,9 @@ static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_imag
 
 static bool write_sheet(const struct options *o, const lam_image *image, const char *path, lam_error *error)
 {
-    lam_rgba under = {0, 0, 0, 0};
-    if (o->background && !lam_color_parse(o->background, (lam_color_mode)o->color_mode, &under, error))
+    lam_rgba under;
+    if (!lam_color_parse(o->background ? o->background : SHEET_BACKGROUND, (lam_color_mode)o->color_mode, &under,
+                         error))
         return false;
     lam_save_params params = {.background = {under.r, under.g, under.b},
                               .raw = o->color_mode == LAM_COLOR_RAW,

@@ -62,7 +62,7 @@ static const struct word show_words[] = {
     {"light:NAME", LAM_OUTPUT_LIGHT, "the contribution of one light, by its name or its number from 1"},
     {"normals", LAM_OUTPUT_NORMALS, "in eye space: (n + 1)/2"},
     {"tangents", LAM_OUTPUT_TANGENTS, "in eye space: (t + 1)/2"},
-    {"depth", LAM_OUTPUT_DEPTH, "distance in front of the eye: near white, far black"},
+    {"depth", LAM_OUTPUT_DEPTH, "distance in front of the eye: the model's nearest point white, its farthest black"},
     {"n.l", LAM_OUTPUT_N_L, "cosine between normal and light: max(n.l, 0)"},
     {"n.h", LAM_OUTPUT_N_H, "cosine between normal and half vector: max(n.h, 0)"},
     {"facing", LAM_OUTPUT_FACING, "front blue, back red"},
@@ -204,6 +204,8 @@ const struct option option_table[] = {
      .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(samples)},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
+     "It lies wherever the model does not, in pictures of `--show` too, and behind each picture of a sheet. The sheets "
+     "of `compare` and `materials` are white by default. "
      "A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), one of the basic names (`black`, `white`, "
      "`gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour "
      "names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",

@@ -127,6 +127,9 @@ enum {
     TAKES_FILES = 1u << 28,
 };
 
+// The background of the sheets of `compare` and `materials`, unless the command line names another.
+#define SHEET_BACKGROUND "white"
+
 // --rig none: only the ambient light. A value besides those of lam_rig.
 enum { RIG_DARK = 100 };
 

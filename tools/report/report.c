@@ -67,6 +67,8 @@ void report_table(const struct job *job)
                   " points lit, %.1f MB\n",
                   frame->triangles_binned, frame->triangles, frame->pixels_covered, frame->points_lit,
                   (double)frame->memory_bytes / 1e6);
+    if (job->draw.output == LAM_OUTPUT_DEPTH)
+        say_plain("depth    %.7g to %.7g\n", frame->depth_near, frame->depth_far);
     time_row("read", job->times.read);
     time_row("prepare", job->times.prepare);
     time_row("camera", job->times.camera);
@@ -136,6 +138,10 @@ static void json_image(struct json *json, const struct job *job)
     json_count(json, "height", (uint64_t)job->image.height);
     json_count(json, "samples", (uint64_t)(job->options->samples ? job->options->samples : 4));
     json_count(json, "bytes", job->bytes);
+    if (job->draw.output == LAM_OUTPUT_DEPTH) {
+        json_number(json, "depth_near", job->times.frame.depth_near);
+        json_number(json, "depth_far", job->times.frame.depth_far);
+    }
     json_close(json, '}');
 }
 

@@ -66,21 +66,15 @@ void output_tile(const struct resolve_target *target, const struct fragments *fr
                 encode_clipped(format, sums->unclipped + 4 * ((size_t)y * (size_t)tile->width + (size_t)x), to);
             else if (of_pixels)
                 encode_values(frame, format, (float[4]){first, first, first, 1}, to);
+            else if (sum[3][at] > 0)
+                encode_values(frame, format, (float[4]){first, sum[1][at], sum[2][at], 1}, to);
             else
-                encode_values(frame, format, (float[4]){first, sum[1][at], sum[2][at], sum[3][at]}, to);
+                memcpy(to, target->empty_pixel, working_bytes(target->image));
         }
     }
 }
 
 void output_empty(struct resolve_target *target)
 {
-    lam_output output = target->frame->output;
-    lam_pixel_format format = target->image->format;
-    if (output == LAM_OUTPUT_CLIPPED) {
-        const lam_rgba *b = &target->frame->background;
-        encode_clipped(format, (float[4]){b->r * b->a, b->g * b->a, b->b * b->a, b->a}, target->empty_pixel);
-        return;
-    }
-    bool covered = output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW;
-    encode_values(target->frame, format, (float[4]){0, 0, 0, covered ? 1.0f : 0.0f}, target->empty_pixel);
+    encode_empty(target->frame, target->image->format, target->empty_pixel);
 }

@@ -2,6 +2,7 @@
 #include "scene_write.h"
 
 #include "fail.h"
+#include "number.h"
 #include "text_builder.h"
 
 #include <stdlib.h>
@@ -43,12 +44,12 @@ static void add_line(struct text *text, const json_t *value)
         for (int digits = 15; digits <= 17 && !text->failed; digits++) {
             size_t start = text->length;
             text->failed |= json_dump_callback(value, take_chunk, text, flags(digits)) != 0;
-            json_t *back = !text->failed && digits < 17 && json_is_real(value)
-                               ? json_loadb(text->bytes + start, text->length - start, JSON_DECODE_ANY, NULL)
-                               : NULL;
-            bool same = digits == 17 || !json_is_real(value) || (back && json_equal(back, value));
-            json_decref(back);
-            if (same)
+            const uint8_t *begin = (const uint8_t *)text->bytes;
+            double back = 0;
+            if (digits == 17 || !json_is_real(value) || text->failed)
+                return;
+            number_double(begin + start, begin + text->length, &back);
+            if (back == json_real_value(value))
                 return;
             text->length = start;
         }

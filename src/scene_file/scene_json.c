@@ -2,6 +2,7 @@
 #include "scene_reader.h"
 
 #include "fail.h"
+#include "json_parse.h"
 #include "linear.h"
 
 #include <string.h>
@@ -200,8 +201,7 @@ static bool scene_load(const struct import_source *source, struct lam_scene *sce
 {
     lam_picture_settings *settings = arena_alloc_zeroed(&scene->arena, sizeof *settings);
     lam_error unwanted;
-    size_t charge = tree_bytes(source->size),
-           skip = source->size >= 3 && memcmp(source->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    size_t charge = tree_bytes(source->size);
     if (!settings || !call_charge(source->call, charge))
         return call_memory_error(source->call, charge, error);
     struct scene_reader reader = {.source = source,
@@ -209,18 +209,9 @@ static bool scene_load(const struct import_source *source, struct lam_scene *sce
                                   .settings = settings,
                                   .color = source->params->color,
                                   .error = error ? error : &unwanted};
-    json_error_t wrong;
-    json_t *root = json_loadb((const char *)source->bytes + skip, source->size - skip, JSON_REJECT_DUPLICATES, &wrong);
-    bool ok;
-    if (root) {
-        ok = read_root(&reader, root);
-        json_decref(root);
-    } else if (json_error_code(&wrong) == json_error_out_of_memory) {
-        ok = fail_memory(error, charge);
-    } else {
-        ok = fail_line(error, source, (size_t)(wrong.line > 0 ? wrong.line : 1), "column %d: %s", wrong.column,
-                       wrong.text);
-    }
+    json_t *root = json_parse((const char *)source->bytes, source->size, source->name, source->call, error);
+    bool ok = root && read_root(&reader, root);
+    json_decref(root);
     call_refund(source->call, charge);
     scene->settings = settings;
     scene->color = reader.color;

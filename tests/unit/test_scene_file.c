@@ -196,8 +196,8 @@ static void test_errors(void **unused)
 #define OBJECT(more, sentence) {"{\"lambent\": 1, \"objects\": [{" more "}]}", "s.json: objects[0]" sentence}
 #define LIGHT(more, sentence)  WITH("\"lights\": [{" more "}]", "lights[0]" sentence)
 #define SPHERE                 "\"shape\": \"sphere\", "
-        {"{\"lambent\": 1,\n \"objects\": [}", "s.json:2: column 14: unexpected token near '}'"},
-        {"{\"lambent\": 1, \"lambent\": 1}", "s.json:1: column 24: duplicate object key near '\"lambent\"'"},
+        {"{\"lambent\": 1,\n \"objects\": [}", "s.json:2: column 14: found '}', expected a value"},
+        {"{\"lambent\": 1, \"lambent\": 1}", "s.json:1: column 16: the key is given twice"},
         {"{\"x\": \"\\\"lambent\\\"\", \"lambent\": 1}",
          "s.json: x: unknown key; expected lambent, image, camera, ambient, "
          "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, gl1, up, "
@@ -318,7 +318,7 @@ static void test_errors(void **unused)
         lam_error error = {0};
         assert_null(load_scene(rows[i].text, &error));
         if (strstr(rows[i].text, "1e999")) // JSON has no infinity
-            assert_non_null(strstr(error.text, "real number overflow"));
+            assert_non_null(strstr(error.text, "found '1e999', expected a number that a double can hold"));
         else
             assert_string_equal(error.text, rows[i].sentence);
         assert_int_equal(error.code, strstr(rows[i].text, "\"lambent\": 2") ? LAM_UNSUPPORTED : LAM_CANNOT_READ);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "fail.h"
+#include "json_parse.h"
 #include "json_reader.h"
 #include "spelling.h"
 
@@ -508,12 +509,8 @@ lam_check_contract *lam_check_contract_read(const char *text, size_t size, const
     struct reader r = {.json = {.file = file ? file : "contract", .error = error ? error : &unused},
                        .arena = &out->arena,
                        .contract = &out->contract};
-    json_error_t reason;
-    json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &reason);
-    bool ok =
-        root || fail(r.json.error, json_error_code(&reason) == json_error_out_of_memory ? LAM_LIMIT : LAM_CANNOT_READ,
-                     "%s:%d: %s, expected a contract in JSON", r.json.file, reason.line, reason.text);
-    ok = ok && ((out->contract.text = arena_string_of(&out->arena, text, size)) || no_memory(&r));
+    json_t *root = json_parse(text, size, r.json.file, NULL, r.json.error);
+    bool ok = root && ((out->contract.text = arena_string_of(&out->arena, text, size)) || no_memory(&r));
     ok = ok && read_root(&r, root);
     uint64_t hash = 14695981039346656037u; // FNV-1a
     for (size_t i = 0; i < size; i++)

@@ -1,0 +1,19 @@
+// json_parse.h: JSON text as a tree of Jansson's.
+#ifndef JSON_PARSE_H
+#define JSON_PARSE_H
+
+#include "call_control.h"
+
+#include <jansson.h>
+
+// Parses JSON (RFC 8259) with an object or a list at the top; a byte order mark may stand before it. Whole numbers are
+// integers where 64 bits hold them, all others the nearest double. Refused besides: keys given twice, zero characters in
+// texts, numbers that no double can hold, nesting of more than JSON_DEPTH_MAX. `file` stands for the file in messages;
+// `call` may be NULL. NULL: LAM_CANNOT_READ with "FILE:LINE: column C: sentence", LAM_LIMIT, LAM_CANCELLED.
+//
+// Jansson's own parser is not used: without memory it calls an assertion, which ends the process, or reports an invalid
+// token of the file.
+enum { JSON_DEPTH_MAX = 256 };
+json_t *json_parse(const char *text, size_t size, const char *file, struct call_control *call, lam_error *error);
+
+#endif

@@ -37,7 +37,7 @@ def grey(color):
 def light_row(rig, light):
     place, more = "", []
     if light["type"] == "directional":
-        place = ", ".join("%g" % (0.0 - x) for x in light["direction"])
+        place = ", ".join("%g" % (0.0 - x) for x in light["direction"]).replace("-", "−")
     if "position" in light:
         place = ", ".join("%gr" % round(x, 6) for x in light["position"])
     if light["type"] in ("ambient", "hemisphere"):

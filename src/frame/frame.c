@@ -340,17 +340,18 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     if (!buffer_reserve(&frame->storage, bytes, call, error))
         return false;
     char *at = frame->storage.data;
-    frame->materials = (void *)at; // first, because pointers have the strictest alignment
+    // In the order of their alignment: ranges are the only ones without a pointer or a double.
+    frame->materials = (void *)at;
     at += materials * sizeof *frame->materials;
     frame->turned = (void *)at;
     at += turned * sizeof *frame->turned;
     frame->draws = (void *)at;
     at += objects * sizeof *frame->draws;
-    frame->ranges = (void *)at;
-    at += ranges * sizeof *frame->ranges;
     frame->lights = (void *)at;
     at += lights * sizeof *frame->lights;
     frame->hemispheres = (void *)at;
+    at += lights * sizeof *frame->hemispheres;
+    frame->ranges = (void *)at;
     return true;
 }
 

@@ -173,8 +173,8 @@ class Compare(Case):
                 "--across show": (50, 50, 50, 50), "--across color-mode=srgb,raw": (50,), "--across projection": (30,)}.items():
             with self.subTest(words):
                 shares = self.shares("teapot", *words.split(), inset="stages" in words)
-                self.assertEqual(len(shares), len(floors))
-                for share, floor in zip(shares, floors):
+                self.assertGreaterEqual(len(shares), len(floors))
+                for share, floor in zip(shares, [*floors, *[1.5] * len(shares)]):  # new words of an option come last
                     if floor is not None:
                         self.assertGreaterEqual(share, floor, [round(s, 2) for s in shares])
         # The band of the anisotropic picture runs from the pot's top to its bottom, and is its brightest part.

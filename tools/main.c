@@ -1,6 +1,7 @@
 // main.c: finds the command, parses its options, runs it.
 #include "command.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -90,6 +91,7 @@ int main(int count, char **words)
 {
     if (count == 2 && strcmp(words[1], CHECK_WORKER) == 0)
         check_worker();
+    signal(SIGXFSZ, SIG_IGN); // a file over the limit is an error of writing it
     console_start();
     option_table_fill();
     int code = run(count - (count > 0), words + (count > 0));

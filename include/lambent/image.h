@@ -76,6 +76,9 @@ typedef struct lam_bytes {
 // Frees the block and zeroes the struct. NULL and a zeroed struct are fine.
 LAM_API void lam_bytes_free(lam_bytes *bytes);
 
+// Writes a file whole or not at all, as lam_image_save does. Errors: LAM_BAD_ARGUMENT, LAM_CANNOT_WRITE.
+LAM_API bool lam_bytes_save(const lam_bytes *bytes, const char *path, lam_error *error);
+
 // Encodes a picture. `format` is "png" or "ppm" (from formats of 8 bits), "pfm" (from floats; RGB, linear, bottom row
 // first) or "exr" (from floats of 32 bits; LAM_UNSUPPORTED without OpenEXR). The same picture always gives the same
 // bytes. `params` may be NULL. Errors: LAM_BAD_ARGUMENT (bytes where the file holds floats, or floats where it holds
@@ -83,8 +86,9 @@ LAM_API void lam_bytes_free(lam_bytes *bytes);
 LAM_API bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params, lam_bytes *out,
                               lam_error *error);
 
-// Encodes and writes to `path`, whose ending names the format. The file appears whole or not at all: it is written beside
-// the path under another name and then renamed. Errors as above, LAM_CANNOT_WRITE.
+// Encodes and writes to `path`, whose ending names the format. The file appears whole or not at all, and nothing
+// else is left in its folder, even if a signal ends the process while it is written (SIGKILL too, where the file system has
+// files without a name: O_TMPFILE). Errors as above, LAM_CANNOT_WRITE.
 LAM_API bool lam_image_save(const lam_image *image, const char *path, const lam_save_params *params, lam_error *error);
 
 // A layer of an EXR picture.

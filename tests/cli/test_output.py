@@ -2,6 +2,8 @@
 import json
 import os
 import pty
+import random
+import resource
 import select
 import shutil
 import signal
@@ -317,6 +319,108 @@ class RealModels(Case):
                 report = self.report(model, "-s", 128)
                 self.assertEqual(report["model"]["format"], ending)
                 self.assertGreater(report["counts"]["pixels_covered"], 500)
+
+
+NO_UNNAMED_FILES = r"""
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+// As on a file system without unnamed files.
+int open64(const char *path, int flags, ...)
+{
+    va_list more;
+    va_start(more, flags);
+    mode_t mode = va_arg(more, mode_t);
+    va_end(more);
+    if ((flags & O_TMPFILE) == O_TMPFILE) {
+        if (write(2, "refused\\n", 8) != 8)
+            return -1;
+        errno = EOPNOTSUPP;
+        return -1;
+    }
+    return ((int (*)(const char *, int, mode_t))dlsym(RTLD_NEXT, "open64"))(path, flags, mode);
+}
+"""
+
+
+class Killed(Case):
+    """Whatever ends the program while it reads, draws or writes: its folder has the whole picture or nothing new."""
+
+    def setUp(self):
+        super().setUp()
+        self.words = [PROGRAM, "teapot", "-s", "700", "-q", "-o", "x.png"]
+        self.env = dict(os.environ)
+
+    def kill(self, number, delay):
+        process = subprocess.Popen(self.words, cwd=self.folder, stderr=subprocess.DEVNULL, env=self.env)
+        try:
+            process.wait(delay)
+        except subprocess.TimeoutExpired:
+            process.send_signal(number)
+        process.wait(60)
+        return process.returncode
+
+    def kill_with_all(self, numbers):
+        start = time.monotonic()
+        subprocess.run(self.words, cwd=self.folder, check=True, env=self.env, stderr=subprocess.DEVNULL)
+        length, whole = time.monotonic() - start, (self.folder / "x.png").read_bytes()
+        chance = random.Random(11)
+        ended = 0
+        for number in numbers:
+            for old in (False, True):
+                if not old:
+                    (self.folder / "x.png").unlink(missing_ok=True)
+                elif not (self.folder / "x.png").exists():
+                    (self.folder / "x.png").write_bytes(whole)
+                ended += self.kill(number, chance.uniform(0.2, 1) * length) < 0
+                with self.subTest(f"signal {number}"):
+                    self.assertLessEqual(self.new_files(), {"x.png"})
+                    if "x.png" in self.new_files():
+                        self.assertEqual((self.folder / "x.png").read_bytes(), whole)
+        return ended
+
+    def catchable(self):
+        resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
+        harmless = {signal.SIGKILL, signal.SIGSTOP, signal.SIGTSTP, signal.SIGTTIN, signal.SIGTTOU, signal.SIGCONT, signal.SIGCHLD,
+                    signal.SIGURG, signal.SIGWINCH}
+        return sorted(signal.valid_signals() - harmless - set(range(signal.SIGRTMIN + 1, signal.SIGRTMAX)))
+
+    def test_signals(self):
+        self.assertGreater(self.kill_with_all(self.catchable()), 10)
+
+    def test_kill(self):
+        self.assertGreater(self.kill_with_all([signal.SIGKILL] * 15), 5)
+
+    def test_signals_without_unnamed_files(self):
+        (self.folder / "refuse.c").write_text(NO_UNNAMED_FILES)
+        made = shutil.which("cc") and subprocess.run(["cc", "-shared", "-fPIC", "-o", "refuse.so", "refuse.c", "-ldl"], cwd=self.folder, check=False)
+        if not made or made.returncode:
+            self.skipTest("no compiler")
+        self.given |= {"refuse.c", "refuse.so"}
+        self.env["LD_PRELOAD"] = str(self.folder / "refuse.so")
+        done = subprocess.run(self.words, cwd=self.folder, capture_output=True, env=self.env)
+        if done.returncode:
+            self.skipTest("the program does not start with another library")
+        self.assertIn(b"refused", done.stderr)
+        self.assertGreater(self.kill_with_all(self.catchable()), 10)
+
+    def test_file_size_limit(self):
+        """SIGXFSZ, as its receiver has it by default."""
+        done = subprocess.run(["bash", "-c", f'ulimit -f 1; exec "{PROGRAM}" teapot -s 512 -o x.png'], cwd=self.folder,
+                              capture_output=True, timeout=30)
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertIn(b"x.png: cannot write: File too large", done.stderr)
+        self.assertEqual(self.new_files(), set())
+        for words in (("plot", "spot", "-o", "x.svg"), ("shader", "teapot", "-o", "x"), ("teapot", "--save-scene", "x.json", "-s", "8", "-o", "-")):
+            limit = f'ulimit -f 1; exec "{PROGRAM}" {" ".join(words)} > /dev/null'
+            done = subprocess.run(["bash", "-c", limit], cwd=self.folder, capture_output=True, timeout=30)
+            self.assertIn(done.returncode, (0, 5), (words, done.stderr))  # 0: the file is small
+            self.assertFalse([n for n in self.new_files() if "part" in n or n.startswith(".")])
 
 
 if __name__ == "__main__":

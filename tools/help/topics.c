@@ -18,7 +18,7 @@ const struct topic topics[] = {
      "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An older picture "
      "written by lambent (recognised by the `Software` text in the PNG) is replaced; any other file of that name "
      "stays, and the exit code is 5. With `-o` the named file is replaced. A picture is written completely or not "
-     "at all.\n"
+     "at all, and nothing else is left in its folder, even if lambent is killed meanwhile.\n"
      "Standard output carries the picture (`-o -`) or the report (`--json`), and nothing else. Warnings, errors, "
      "the line that names the written file, and a progress bar (only on a terminal, for work of over half a "
      "second) go to standard error."},

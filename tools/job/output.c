@@ -173,28 +173,5 @@ bool output_save(const lam_image *image, const char *path, const lam_save_params
 
 bool output_replace(const char *path, const lam_bytes *bytes, lam_error *error)
 {
-    if (!output_make_folder(path, error))
-        return false;
-    char *beside = malloc(strlen(path) + sizeof ".XXXXXX");
-    if (!beside)
-        return complain(error, LAM_LIMIT, "out of memory");
-    sprintf(beside, "%s.XXXXXX", path);
-    int made = mkstemp(beside);
-    FILE *file = made < 0 ? NULL : fdopen(made, "wb");
-    bool ok = file && fwrite(bytes->data, 1, bytes->size, file) == bytes->size;
-    int reason = errno;
-    if (file && fclose(file) != 0 && ok) {
-        ok = false;
-        reason = errno;
-    }
-    mode_t mask = umask(0);
-    umask(mask);
-    if (ok && (chmod(beside, 0666 & ~mask) != 0 || rename(beside, path) != 0)) {
-        ok = false;
-        reason = errno;
-    }
-    if (!ok && made >= 0)
-        unlink(beside);
-    free(beside);
-    return ok || complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(reason));
+    return output_make_folder(path, error) && lam_bytes_save(bytes, path, error);
 }

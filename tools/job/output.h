@@ -34,8 +34,7 @@ bool output_save(const lam_image *image, const char *path, const lam_save_params
 // The size of the file at `path` in bytes; 0 if it is not a file.
 uint64_t output_size(const char *path);
 
-// Writes a temporary file next to the target and renames it, so that the target is complete or untouched; a missing
-// folder is made. Error: LAM_CANNOT_WRITE.
+// The same for a text: the target is complete or untouched. Error: LAM_CANNOT_WRITE.
 bool output_replace(const char *path, const lam_bytes *bytes, lam_error *error);
 
 #endif

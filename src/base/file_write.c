@@ -1,0 +1,279 @@
+// file_write.c: writes whole files, so that a reader sees the old file or the new one and nothing is left behind.
+//
+// Where the file system has them, the bytes go to a file without a name (O_TMPFILE), which the kernel removes with the
+// process, whatever ends it. The finished file is linked to its name; where that name exists, beside it, and renamed over
+// it. Between the link and the rename every signal waits; SIGKILL cannot, and leaves a file only in those microseconds.
+//
+// Elsewhere (NFS, vfat, some FUSE file systems) the file has a name of its own from the start. Signals wait while it
+// exists, but are looked at after each piece: the file is removed before one that ends the process takes effect.
+#include "file.h"
+
+#include "fail.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PIECE = 1 << 20 };
+
+static bool fail_writing(lam_error *error, const char *path, const char *action)
+{
+    int reason = errno;
+    char buffer[128];
+    const char *text = strerror_r(reason, buffer, sizeof buffer);
+    return fail(error, LAM_CANNOT_WRITE, "%s: cannot %s: %s", path, action, text);
+}
+
+// --- signals
+
+// True if a signal that arrives now ends or stops nothing: it is ignored, or ignored by default.
+static bool is_ignored(int number, const struct sigaction *action)
+{
+    if (action->sa_handler == SIG_IGN)
+        return true;
+    return action->sa_handler == SIG_DFL &&
+           (number == SIGCHLD || number == SIGURG || number == SIGWINCH || number == SIGCONT || number == SIGTSTP ||
+            number == SIGTTIN || number == SIGTTOU);
+}
+
+// Lets the caller's handlers run for the signals that wait. False: one waits that ends the process.
+static bool deliver_handled(const sigset_t *before)
+{
+    sigset_t pending;
+    if (sigpending(&pending) != 0)
+        return true;
+    for (int number = 1; number < NSIG; number++) {
+        struct sigaction action;
+        if (sigismember(&pending, number) != 1 || sigismember(before, number) != 0 ||
+            sigaction(number, NULL, &action) != 0 || is_ignored(number, &action))
+            continue;
+        if (action.sa_handler == SIG_DFL)
+            return false;
+        sigset_t one;
+        sigemptyset(&one);
+        sigaddset(&one, number);
+        pthread_sigmask(SIG_UNBLOCK, &one, NULL);
+        pthread_sigmask(SIG_BLOCK, &one, NULL);
+    }
+    return true;
+}
+
+static void hold_signals(sigset_t *before)
+{
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, before);
+}
+
+// --- writing
+
+// What is written, and where to.
+struct writing {
+    const char *target;
+    const struct stat *existing; // NULL: the target does not exist
+    const void *data;
+    size_t size;
+    struct call_control *call;
+};
+
+// False with errno set; ECANCELED: the call must end; EINTR: a signal waits that ends the process. `before`: what was
+// blocked before signals were held; NULL: they are not.
+static bool write_all(int file, const struct writing *w, const sigset_t *before)
+{
+    const uint8_t *at = w->data;
+    for (size_t left = w->size; left;) {
+        ssize_t wrote = write(file, at, left < PIECE ? left : PIECE);
+        if (wrote < 0 && errno != EINTR)
+            return false;
+        at += wrote > 0 ? wrote : 0;
+        left -= wrote > 0 ? (size_t)wrote : 0;
+        if (before && !deliver_handled(before)) {
+            errno = EINTR;
+            return false;
+        }
+        if (!call_should_continue(w->call)) {
+            errno = ECANCELED;
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool fill(int file, const struct writing *w, const sigset_t *before)
+{
+    if (!write_all(file, w, before))
+        return false;
+    // Closing a copy reports what a file system reports only then, while the file can still be given up.
+    int copy = dup(file);
+    return (!w->existing || fchmod(file, w->existing->st_mode & 07777) == 0) && (copy < 0 || close(copy) == 0);
+}
+
+// The folder of a path, from malloc.
+static char *folder_of(const char *path)
+{
+    const char *name = path_name(path);
+    return name == path ? strdup(".") : strndup(path, (size_t)(name - path));
+}
+
+// A name beside the target that is not in use, so far, from malloc. It is short, and hidden.
+static char *name_beside(const char *target)
+{
+    char *name;
+    int folder = (int)(path_name(target) - target);
+    return asprintf(&name, "%.*s.lambent-%ld-%llx.part", folder, target, (long)getpid(), (unsigned long long)now_ns()) <
+                   0
+               ? NULL
+               : name;
+}
+
+// --- a file without a name
+
+static bool link_file(int file, const char *name)
+{
+    char path[64];
+    snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+    return linkat(AT_FDCWD, path, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0 ||
+           (errno != EEXIST && linkat(file, "", AT_FDCWD, name, AT_EMPTY_PATH) == 0); // without /proc
+}
+
+// Links the file to a name beside the target and renames it over the target.
+static bool link_over(int file, const char *target)
+{
+    bool ok = false;
+    sigset_t before;
+    hold_signals(&before);
+    for (int attempt = 0; attempt < 100; attempt++) {
+        char *name = name_beside(target);
+        bool linked = name && link_file(file, name);
+        ok = linked && rename(name, target) == 0;
+        int reason = name ? errno : ENOMEM;
+        if (linked && !ok)
+            unlink(name);
+        free(name);
+        errno = reason;
+        if (linked || reason != EEXIST)
+            break;
+    }
+    int reason = errno;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    errno = reason;
+    return ok;
+}
+
+// `*possible`: the file system can do it; if it cannot, nothing has been written.
+static bool write_unnamed(const struct writing *w, bool *possible)
+{
+    char *folder = folder_of(w->target);
+    int file = folder ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666) : -1;
+    free(folder);
+    *possible = file >= 0;
+    if (file < 0)
+        return false;
+    bool filled = fill(file, w, NULL), linked = false;
+    if (filled)
+        linked = (!w->existing && link_file(file, w->target)) ||
+                 ((w->existing || errno == EEXIST) && link_over(file, w->target));
+    int reason = errno;
+    *possible = linked || !filled;
+    close(file);
+    errno = reason;
+    return linked;
+}
+
+// --- a file with a name
+
+// Creates a file beside the target, with the mode that the umask gives.
+static int open_beside(const char *target, char **name)
+{
+    for (int attempt = 0; attempt < 100; attempt++) {
+        *name = name_beside(target);
+        int file = *name ? open(*name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
+        if (file >= 0)
+            return file;
+        int reason = *name ? errno : ENOMEM;
+        free(*name);
+        *name = NULL;
+        errno = reason;
+        if (reason != EEXIST)
+            break;
+    }
+    return -1;
+}
+
+static bool write_named(const struct writing *w)
+{
+    char *name = NULL;
+    sigset_t before;
+    hold_signals(&before);
+    int file = open_beside(w->target, &name);
+    bool ok = file >= 0 && fill(file, w, &before);
+    int reason = errno;
+    if (file >= 0)
+        close(file); // fill has seen its errors
+    if (ok && rename(name, w->target) != 0) {
+        reason = errno;
+        ok = false;
+    }
+    if (file >= 0 && !ok)
+        unlink(name);
+    free(name);
+    pthread_sigmask(SIG_SETMASK, &before, NULL); // here a signal ends the process
+    errno = reason;
+    return ok;
+}
+
+// --- the file
+
+static bool write_direct(const char *path, const struct writing *w, lam_error *error)
+{
+    int file = open(path, O_WRONLY | O_CLOEXEC);
+    if (file < 0)
+        return fail_writing(error, path, "open for writing");
+    bool ok = write_all(file, w, NULL);
+    int reason = errno;
+    if (close(file) != 0 && ok) {
+        reason = errno;
+        ok = false;
+    }
+    errno = reason;
+    if (!ok && reason == ECANCELED)
+        return call_error(w->call, error);
+    return ok || fail_writing(error, path, "write");
+}
+
+bool file_write_by(enum file_way way, const char *path, const void *data, size_t size, struct call_control *call,
+                   lam_error *error)
+{
+    struct stat about;
+    bool exists = stat(path, &about) == 0;
+    struct writing w = {.existing = exists ? &about : NULL, .data = data, .size = size, .call = call};
+    if (exists && S_ISDIR(about.st_mode))
+        return fail(error, LAM_CANNOT_WRITE, "%s: is a directory, expected a file name", path);
+    if (exists && !S_ISREG(about.st_mode))
+        return write_direct(path, &w, error);
+
+    // A symbolic link is kept: the file that it points to is replaced.
+    char *target = exists ? realpath(path, NULL) : strdup(path);
+    bool writable = target && (!exists || access(target, W_OK) == 0), possible = false;
+    w.target = target;
+    bool ok = writable && way == FILE_UNNAMED && write_unnamed(&w, &possible);
+    if (writable && !possible)
+        ok = write_named(&w);
+    if (!ok && errno == ECANCELED && !call_should_continue(call))
+        call_error(call, error);
+    else if (!ok)
+        fail_writing(error, path, "write");
+    free(target);
+    return ok;
+}
+
+bool file_write(const char *path, const void *data, size_t size, struct call_control *call, lam_error *error)
+{
+    return file_write_by(FILE_UNNAMED, path, data, size, call, error);
+}

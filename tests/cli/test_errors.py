@@ -77,6 +77,20 @@ class Models(Case):
         for words in (["sphere", "--environment", "huge.png"], ["diff", "huge.png", "huge.png"]):
             self.one_sentence(self.bad(4, *words, says=["huge.png", "40000×20000", "at most 400 million"]))
 
+    def test_half_right_texts(self):
+        """What a cut or edited text model lacks is said with its line: a warning where all is there that is drawn."""
+        stl = (self.folder / "cube.stl").read_bytes()
+        cut = stl[:stl.rindex(b"endsolid")]
+        done = self.good(self.write("cut.stl", cut), "-s", 8, "-o", "-")
+        self.assertIn(b"warning: cut.stl:%d: found the end of the file, expected \"endsolid\" of the solid of line 1" % (cut.count(b"\n") + 1), done.stderr)
+        self.one_sentence(self.bad(2, self.write("zero.stl", stl.replace(b"outer", b"out\0r", 1)), says="zero.stl:3: found a zero byte"))
+        header = b"ply\nformat ascii 1.0\n%selement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n" \
+                 b"property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0%s\n0 1 0\n3 0 1 2\n"
+        done = self.good(self.write("blender.ply", header % (b"Created by Blender\n", b"")), "-s", 8, "-o", "-")
+        self.assertIn(b"warning: blender.ply:3: found 'Created'", done.stderr)
+        self.one_sentence(self.bad(2, self.write("more.ply", header % (b"", b" 5")), says="more.ply:11: vertex 2 of 3: found '5' after z"))
+        self.one_sentence(self.bad(2, self.write("zero.ply", header % (b"comment \0\n", b"")), says="zero.ply:3: found a zero byte in the header"))
+
     def test_empty(self):
         for name in ("empty.obj", "empty.stl", "empty.ply", "empty"):
             self.one_sentence(self.bad(2, self.write(name, b""), says=name))

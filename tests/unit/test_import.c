@@ -314,6 +314,22 @@ static void test_shown_names(void **unused)
     lam_scene_free(scene);
 }
 
+// A zero byte in a material file is a warning, as every mistake in it is.
+static void test_zero_in_materials(void **unused)
+{
+    (void)unused;
+    static const char bytes[] = "newmtl z\nKd 1 0 0\n# a\0b\nNs 7\n";
+    FILE *file = fopen(in_folder("inner/z.mtl"), "wb");
+    assert_non_null(file);
+    fwrite(bytes, 1, sizeof bytes - 1, file);
+    fclose(file);
+    lam_scene *scene = load_inner("mtllib z.mtl\n");
+    assert_non_null(strstr(lam_scene_warning(scene, 0), "/inner/z.mtl:3: found a zero byte, expected text"));
+    assert_null(lam_scene_warning(scene, 1));
+    assert_true(lam_scene_material(scene, 0)->shininess == 7);
+    lam_scene_free(scene);
+}
+
 // --- how often material files are read
 
 struct counts {
@@ -426,6 +442,7 @@ int main(void)
         cmocka_unit_test(test_libraries),
         cmocka_unit_test_setup_teardown(test_links, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(test_shown_names, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_zero_in_materials, make_folder, remove_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -412,7 +412,13 @@ static void test_header_errors(void **state)
     refuse_text("ply\nelement vertex 1\n" XYZ "end_header\n", "a.ply",
                 "a.ply:6: found 'end_header', expected a format line before it");
     refuse_text("ply\nformat ascii 1.0\nvertex 3\n", "a.ply",
-                "a.ply:3: found 'vertex', expected format, comment, element, property or end_header");
+                "a.ply:3: the file ends in its header, expected \"end_header\"");
+    // A zero byte anywhere in the header; one in the body of a binary file is a number.
+    static const char zero[] = HEADER("ascii") "comment a\0b\nelement vertex 3\n" XYZ FACE("1") "end_header\n0 0 0\n";
+    refuse(zero, sizeof zero - 1, "a.ply", LAM_CANNOT_READ, "a.ply:3: found a zero byte in the header, expected text");
+    static const char first[] = "ply \0\nformat ascii 1.0\n";
+    refuse(first, sizeof first - 1, "a.ply", LAM_CANNOT_READ,
+           "a.ply:1: found a zero byte in the header, expected text");
     refuse_text("ply\nformat ascii 1.0\n", "a.ply", "a.ply:2: the file ends in its header, expected \"end_header\"");
     refuse_text(
         HEADER("ascii") "element vertex 1\nproperty float x\nproperty float z\n" FACE("1") "end_header\n0 0\n3 0 0 0\n",
@@ -430,9 +436,68 @@ static void test_header_errors(void **state)
                 "a.ply", "a.ply:7: element vertex appears twice, expected one");
 }
 
+// Blender once wrote its remark without "comment".
+static void test_unknown_header_lines(void **state)
+{
+    (void)state;
+    static const char *const formats[] = {"ascii", "binary_little_endian"};
+    for (int i = 0; i < 2; i++) {
+        char text[512];
+        int length =
+            snprintf(text, sizeof text,
+                     "ply\nformat %s 1.0\nCreated by Blender 2.42 - www.blender.org, source file: 'x'\nelement "
+                     "vertex 3\n" XYZ "unknown\n" FACE("1") "end_header\n",
+                     formats[i]);
+        static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+        static const unsigned char face[13] = {3, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0};
+        if (i == 0)
+            length += sprintf(text + length, "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+        else
+            length += (int)(memcpy(text + length, corners, 36), memcpy(text + length + 36, face, 13), 49);
+        lam_scene *scene = load_with(text, (size_t)length, "a.ply", NULL);
+        assert_int_equal(lam_scene_triangle_count(scene), 1);
+        assert_string_equal(lam_scene_warning(scene, 0),
+                            "a.ply:3: found 'Created', expected format, comment, element, property or end_header; the "
+                            "line is ignored, and others");
+        assert_null(lam_scene_warning(scene, 1));
+        lam_scene_free(scene);
+    }
+}
+
+// A row ends with its line; it may continue on the next one.
+static void test_numbers_left_over(void **state)
+{
+    (void)state;
+#define THREE HEADER("ascii") "element vertex 3\n" XYZ
+    refuse_text(THREE FACE("1") "end_header\n0 0 0\n1 0 0 7 8\n0 1 0\n3 0 1 2\n", "a.ply",
+                "a.ply:11: vertex 2 of 3: found '7' after z, its last property, expected the end of the line");
+    refuse_text(
+        THREE FACE("2") "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n3 0 1 2 255 0 0\n", "a.ply",
+        "a.ply:13: face 1 of 2: found '255' after vertex_indices, its last property, expected the end of the line");
+    refuse_text(THREE "element user 2\nproperty int a\n" FACE("1") "end_header\n0 0 0\n1 0 0\n0 1 0\n1\n2 x\n3 0 1 2\n",
+                "a.ply", "a.ply:16: user 2 of 2: found 'x' after a, its last property, expected the end of the line");
+    // The first error of the file is reported.
+    refuse_text(THREE FACE("1") "end_header\n0 zero 0\n1 0 0 7\n0 1 0\n3 0 1 2\n", "a.ply",
+                "a.ply:10: vertex 1 of 3: found 'zero' as y, expected a number");
+    refuse_text(THREE FACE("2") "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n-3 0 1 2\n", "a.ply",
+                "a.ply:13: face 1 of 2: found '9' as vertex_indices, expected an index from 0 to 2");
+    // Rows over several lines, trailing white space, blank lines, and "\r\n".
+    lam_scene *scene = load_text(THREE FACE("1") "end_header\n0 0\n0 \t\r\n\n1\n0\n0\n0 1 0\n3 0\n1 2", "a.ply");
+    assert_corner(lam_scene_mesh(scene, 0), 0, 1, 1, 0, 0);
+    assert_null(lam_scene_warning(scene, 0));
+    lam_scene_free(scene);
+    // Lines after the last row.
+    scene = load_text(THREE FACE("1") "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n\n3 0 1 2\n", "a.ply");
+    assert_string_equal(lam_scene_warning(scene, 0), "a.ply:15: found '3' after the last row, expected the end of the "
+                                                     "file; the rest is ignored");
+    lam_scene_free(scene);
+}
+
 static void test_body_errors(void **state)
 {
     (void)state;
+    refuse_text(HEADER("ascii") "element vertex 4\n" FACE("1") "end_header\n3 0 1 2\n", "a.ply",
+                "a.ply:3: element vertex has no property x, expected x, y and z");
 #define VERTICES HEADER("ascii") "element vertex 4\n" XYZ
     refuse_text(VERTICES FACE("1") "end_header\n" SQUARE "3 0 1 4\n", "a.ply",
                 "a.ply:14: face 1 of 1: found '4' as vertex_indices, expected an index from 0 to 3");
@@ -582,6 +647,8 @@ int main(void)
         cmocka_unit_test(test_strips),
         cmocka_unit_test(test_far_from_zero),
         cmocka_unit_test(test_header_errors),
+        cmocka_unit_test(test_unknown_header_lines),
+        cmocka_unit_test(test_numbers_left_over),
         cmocka_unit_test(test_body_errors),
         cmocka_unit_test(test_binary_errors),
         cmocka_unit_test(test_threads),

@@ -89,6 +89,74 @@ static void test_ascii_oddities(void **state)
     lam_scene_free(scene);
 }
 
+// A file that ends between two facets may be cut short.
+static void test_ascii_without_end(void **state)
+{
+    (void)state;
+#define ONE "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+    static const struct {
+        const char *text, *warning; // NULL: none
+    } rows[] = {
+        {"solid a\n" ONE "endsolid a\n", NULL},
+        {"solid a\n" ONE "endsolid", NULL},
+        {"solid a\nendsolid a\nsolid b\n" ONE "endsolid b\n", NULL},
+        {ONE, NULL}, // no solid, no end
+        {"solid a\n" ONE "endsolid a\n" ONE, NULL},
+        {"solid a\n" ONE,
+         "a.stl:9: found the end of the file, expected \"endsolid\" of the solid of line 1; the file may "
+         "be cut short"},
+        {"\nsolid\n" ONE ONE "\n",
+         "a.stl:18: found the end of the file, expected \"endsolid\" of the solid of line 2; the "
+         "file may be cut short"},
+        {"solid a\n" ONE "solid b\n" ONE "endsolid b\n",
+         "a.stl:9: found 'solid', expected \"endsolid\" of the solid of line 1"},
+        {"solid a\n" ONE "solid b\n" ONE,
+         "a.stl:9: found 'solid', expected \"endsolid\" of the solid of line 1, the first of several without it"},
+        {"solid a\n" ONE "endsolid a\nsolid b\n", "a.stl:11: found the end of the file, expected \"endsolid\" of the "
+                                                  "solid of line 10; the file may be cut short"},
+        // far from zero, where the text is read twice
+        {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 1e6 0 0\nvertex 1000001 0 0\nvertex 1e6 1 "
+         "0\nendloop\nendfacet\n",
+         "a.stl:9: found the end of the file, expected \"endsolid\" of the solid of line 1; the file may be cut short"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lam_scene *scene = load_text(rows[i].text, "a.stl");
+        const char *warning = lam_scene_warning(scene, 0);
+        if (rows[i].warning ? !warning || strcmp(warning, rows[i].warning) != 0 : warning != NULL)
+            fail_msg("row %zu: %s", i, warning ? warning : "no warning");
+        assert_null(lam_scene_warning(scene, 1));
+        lam_scene_free(scene);
+    }
+}
+
+// A zero byte makes a text no binary file.
+static void test_ascii_with_zero(void **state)
+{
+    (void)state;
+    static const char text[] = "solid a\n" ONE ONE "endsolid a\n";
+    char changed[sizeof text];
+    int lines = 1;
+    for (size_t at = 5; at < sizeof text - 1; at++) {
+        lines = 1;
+        for (size_t i = 0; i < at; i++)
+            lines += text[i] == '\n';
+        memcpy(changed, text, sizeof text);
+        changed[at] = 0;
+        char wanted[80];
+        snprintf(wanted, sizeof wanted, "a.stl:%d: found a zero byte, expected text", lines);
+        refuse(changed, sizeof text - 1, "a.stl", LAM_CANNOT_READ, wanted);
+    }
+    // Far behind the part that decides the format too.
+    size_t size = 200 * (sizeof ONE - 1) + 8;
+    char *large = malloc(size);
+    memcpy(large, "solid a\n", 8);
+    for (int i = 0; i < 200; i++)
+        memcpy(large + 8 + (size_t)i * (sizeof ONE - 1), ONE, sizeof ONE - 1);
+    large[size - 3] = 0;
+    refuse(large, size, "a.stl", LAM_CANNOT_READ, "a.stl:1401: found a zero byte, expected text");
+    free(large);
+}
+
 static void test_ascii_in_one_line(void **state)
 {
     (void)state;
@@ -359,6 +427,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ascii),
         cmocka_unit_test(test_ascii_oddities),
+        cmocka_unit_test(test_ascii_without_end),
+        cmocka_unit_test(test_ascii_with_zero),
         cmocka_unit_test(test_ascii_in_one_line),
         cmocka_unit_test(test_ascii_far_from_zero),
         cmocka_unit_test(test_ascii_errors),

@@ -377,6 +377,9 @@ bool mtl_read(struct mtl_set *set, const struct import_source *source, struct la
         at = stop < reader.end ? stop + 1 : stop;
     }
     char found[TEXT_FOUND_SIZE];
+    const uint8_t *zero = memchr(reader.begin, 0, file->size);
+    if (zero)
+        scene_warn(scene, "%s:%zu: found a zero byte, expected text", name, text_line(reader.begin, zero));
     if (reader.unknown_count)
         scene_warn(scene, "%s:%zu: unknown statement %s%s", name, text_line(reader.begin, reader.unknown),
                    text_found(reader.unknown, reader.end, found), reader.unknown_count > 1 ? " and others" : "");

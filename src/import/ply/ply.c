@@ -106,6 +106,18 @@ static bool read_element(struct reader *reader, const struct ply_element *elemen
                            at, table, error);
 }
 
+// Warns of text after the last row of the last element.
+static void warn_rest(const struct reader *reader, size_t at)
+{
+    const struct import_source *source = reader->source;
+    const uint8_t *end = source->bytes + source->size, *rest = text_skip_white(source->bytes + at, end);
+    char found[TEXT_FOUND_SIZE];
+    if (rest < end)
+        scene_warn(reader->scene,
+                   "%s:%zu: found %s after the last row, expected the end of the file; the rest is ignored",
+                   source->name, text_line(source->bytes, rest), text_found(rest, end, found));
+}
+
 // Reads the elements in the order of the file, up to the last one that is used.
 static bool read_elements(struct reader *reader, lam_error *error)
 {
@@ -125,6 +137,8 @@ static bool read_elements(struct reader *reader, lam_error *error)
         if (!read_element(reader, element, kind, PLY_AS_FLOAT, &at, error))
             return false;
     }
+    if (reader->header.format == PLY_ASCII && last == reader->header.element_count - 1)
+        warn_rest(reader, at);
     return true;
 }
 
@@ -152,6 +166,7 @@ static bool build(struct reader *reader, lam_error *error)
     if (!ply_read_header(source, reader->scratch, &reader->header, error) || !choose_elements(reader, error) ||
         !check_surface(reader, error))
         return false;
+    ply_warn_header(source, scene, &reader->header);
     if (!reader->elements[VERTICES])
         return true; // the caller reports a file without triangles
     if (!read_elements(reader, error))

@@ -39,7 +39,13 @@ struct ply_header {
     const struct ply_element *elements;
     int element_count;
     size_t body; // offset of the first byte after the header
+    // Lines that are none of the format's: their number, and the first one's line and word.
+    size_t unknown_count, unknown_line;
+    const uint8_t *unknown;
 };
+
+// Warns of unknown lines, such as the "Created by …" that Blender once wrote without "comment".
+void ply_warn_header(const struct import_source *source, struct lam_scene *scene, const struct ply_header *header);
 
 // Reads the header into `arena`.
 bool ply_read_header(const struct import_source *source, struct arena *arena, struct ply_header *header,

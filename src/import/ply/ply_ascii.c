@@ -1,7 +1,8 @@
 // ply_ascii.c: converts the rows of one element of an ASCII PLY to a table of binary rows.
 //
-// Numbers are separated by white space of any kind: a row need not be a line. A first, serial pass finds the begin of
-// each piece of rows and the lengths of its lists; then the pieces are read in parallel.
+// Numbers are separated by white space of any kind, and a row may continue on the next line; but it ends where its line
+// ends: numbers left over belong to no property. A first, serial pass finds the begin of each piece of rows and the
+// lengths of its lists; then the pieces are read in parallel.
 #include "parallel_rows.h"
 #include "fail.h"
 #include "number.h"
@@ -20,6 +21,7 @@ struct reader {
     const uint8_t **pieces;     // begin of each piece
     uint32_t *items, *starts;   // of the requested list
     uint8_t *rows;              // scalars; NULL: not requested
+    size_t indexed;             // rows that index_rows found well
 };
 
 static bool fail_number(const struct reader *reader, size_t row, int property, const uint8_t *at, const char *expected,
@@ -102,6 +104,25 @@ static const uint8_t *read_item(const struct reader *reader, size_t row, const u
     return next;
 }
 
+// The first word that follows on the line; NULL: none.
+static const uint8_t *rest_of_line(const uint8_t *at, const uint8_t *end)
+{
+    while (at < end && text_white(*at) && *at != '\n' && *at != '\r')
+        at++;
+    return at < end && !text_white(*at) ? at : NULL;
+}
+
+static bool fail_rest(const struct reader *reader, size_t row, const uint8_t *rest, lam_error *error)
+{
+    const struct ply_element *element = reader->element;
+    char found[TEXT_FOUND_SIZE], shown[2][SHOWN_NAME_SIZE];
+    return fail_line(error, reader->source, text_line(reader->source->bytes, rest),
+                     "%s %zu of %llu: found %s after %s, its last property, expected the end of the line",
+                     shown_name(element->name, shown[0]), row + 1, (unsigned long long)element->count,
+                     text_found(rest, reader->end, found),
+                     shown_name(element->properties[element->property_count - 1].name, shown[1]));
+}
+
 // The serial pass: sets the begin of each piece and the starts of the list, and *at to the end of the last row.
 static bool index_rows(struct reader *reader, bool *all_triangles, const uint8_t **at, lam_error *error)
 {
@@ -110,6 +131,7 @@ static bool index_rows(struct reader *reader, bool *all_triangles, const uint8_t
     uint64_t total = 0;
     *all_triangles = true;
     for (size_t row = 0; row < element->count && element->property_count > 0; row++) {
+        reader->indexed = row;
         if (row % PARALLEL_ROWS == 0) {
             if (reader->pieces)
                 reader->pieces[row / PARALLEL_ROWS] = word;
@@ -142,6 +164,9 @@ static bool index_rows(struct reader *reader, bool *all_triangles, const uint8_t
             }
             word = next;
         }
+        const uint8_t *rest = rest_of_line(word, end);
+        if (rest)
+            return fail_rest(reader, row, rest, error);
         if (total >= UINT32_MAX)
             return ply_fail_too_many(reader->source, element, error);
     }
@@ -151,39 +176,54 @@ static bool index_rows(struct reader *reader, bool *all_triangles, const uint8_t
     return true;
 }
 
+// Reads a row and returns its end; NULL: an error. `scalars` and `items` NULL: the numbers are only checked.
+static const uint8_t *read_row(const struct reader *reader, size_t row, const uint8_t *at, uint8_t *scalars,
+                               uint32_t *items, lam_error *error)
+{
+    const struct ply_element *element = reader->element;
+    const uint8_t *end = reader->end;
+    uint8_t unused[8];
+    uint32_t unused_item;
+    for (int i = 0; at && i < element->property_count; i++) {
+        at = text_skip_white(at, end);
+        if (!element->properties[i].list) {
+            at = !reader->request->scalars
+                     ? text_skip_word(at, end)
+                     : read_scalar(reader, row, i, at, scalars ? scalars + reader->table->offsets[i] : unused, error);
+            continue;
+        }
+        int64_t count = 0;
+        at = read_integer(reader, at, &count); // checked by index_rows
+        for (int64_t item = 0; at && item < count; item++) {
+            at = text_skip_white(at, end);
+            at = i != reader->request->list ? text_skip_word(at, end)
+                                            : read_item(reader, row, at, items ? &items[item] : &unused_item, error);
+        }
+    }
+    return at;
+}
+
 static bool read_piece(void *user, size_t index, lam_error *error)
 {
     const struct reader *reader = user;
-    const struct ply_element *element = reader->element;
     size_t first, last;
+    if (reader->element->property_count == 0)
+        return true; // rows without a word have no beginning
     parallel_rows_range(reader->table->count, index, &first, &last);
-    const uint8_t *at = reader->pieces[index], *end = reader->end;
-    for (size_t row = first; row < last; row++) {
-        for (int i = 0; i < element->property_count; i++) {
-            at = text_skip_white(at, end);
-            if (!element->properties[i].list) {
-                if (!reader->rows) {
-                    at = text_skip_word(at, end);
-                    continue;
-                }
-                at = read_scalar(reader, row, i, at,
-                                 reader->rows + row * reader->table->stride + reader->table->offsets[i], error);
-                if (!at)
-                    return false;
-                continue;
-            }
-            int64_t count = 0;
-            at = read_integer(reader, at, &count); // checked by index_rows
-            for (int64_t item = 0; item < count; item++) {
-                at = text_skip_white(at, end);
-                if (i != reader->request->list)
-                    at = text_skip_word(at, end);
-                else if (!(at = read_item(reader, row, at, &reader->items[reader->starts[row] + item], error)))
-                    return false;
-            }
-        }
-    }
-    return true;
+    const uint8_t *at = reader->pieces[index];
+    for (size_t row = first; at && row < last; row++)
+        at = read_row(reader, row, at, reader->rows ? reader->rows + row * reader->table->stride : NULL,
+                      reader->items ? reader->items + reader->starts[row] : NULL, error);
+    return at != NULL;
+}
+
+// After an error of index_rows: an error in the numbers of the rows before is the file's first one.
+static void check_rows_before(const struct reader *reader, lam_error *error)
+{
+    const uint8_t *at = reader->first;
+    if (error && error->code == LAM_CANNOT_READ)
+        for (size_t row = 0; at && row < reader->indexed; row++)
+            at = read_row(reader, row, at, NULL, NULL, error);
 }
 
 static bool read_rows(struct reader *reader, struct arena *keep, struct arena *scratch, const uint8_t **at,
@@ -204,8 +244,10 @@ static bool read_rows(struct reader *reader, struct arena *keep, struct arena *s
             return call_memory_error(call, table->count * sizeof *reader->starts, error);
     }
     bool all_triangles;
-    if (!index_rows(reader, &all_triangles, at, error))
+    if (!index_rows(reader, &all_triangles, at, error)) {
+        check_rows_before(reader, error);
         return false;
+    }
     all_triangles = all_triangles && !request->restarts;
     if (request->list >= 0) {
         size_t total = reader->starts[table->count];

@@ -198,7 +198,7 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
     enum keyword keyword = BLANK;
     const uint8_t *word;
     struct lines lines = start(source, arena);
-    while (keyword != END && keyword != UNKNOWN && next_line(&lines)) {
+    while (keyword != END && next_line(&lines)) {
         keyword = read_keyword(&lines, &word);
         element_capacity += keyword == ELEMENT;
         property_capacity += keyword == PROPERTY;
@@ -212,9 +212,13 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
     bool has_format = false;
     *header = (struct ply_header){.elements = elements};
     lines = start(source, arena);
-    for (;;) {
-        if (!next_line(&lines))
+    for (bool first = true;; first = false) {
+        if (!first && !next_line(&lines))
             return fail_line(error, source, lines.number, "the file ends in its header, expected \"end_header\"");
+        if (memchr(lines.at, 0, (size_t)(lines.end - lines.at)))
+            return fail_line(error, source, lines.number, "found a zero byte in the header, expected text");
+        if (first) // "ply"
+            continue;
         keyword = read_keyword(&lines, &word);
         struct ply_element *element = header->element_count > 0 ? &elements[header->element_count - 1] : NULL;
         switch (keyword) {
@@ -244,7 +248,20 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
             header->body = (size_t)(lines.next - source->bytes);
             return true;
         default:
-            return fail_word(&lines, word, "format, comment, element, property or end_header", error);
+            if (header->unknown_count++ == 0) {
+                header->unknown_line = lines.number;
+                header->unknown = word;
+            }
         }
     }
+}
+
+void ply_warn_header(const struct import_source *source, struct lam_scene *scene, const struct ply_header *header)
+{
+    char found[TEXT_FOUND_SIZE];
+    if (header->unknown_count)
+        scene_warn(scene,
+                   "%s:%zu: found %s, expected format, comment, element, property or end_header; the line is ignored%s",
+                   source->name, header->unknown_line, text_found(header->unknown, source->bytes + source->size, found),
+                   header->unknown_count > 1 ? ", and others" : "");
 }

@@ -144,6 +144,7 @@ static bool load(struct stream *stream, struct lam_scene *scene, struct arena *s
     lam_mesh mesh = {0};
     if (!ply_read_header(source, scratch, &header, NULL) || !has_usual_layout(&header, stream->file->size))
         return false;
+    ply_warn_header(source, scene, &header);
     const struct ply_element *vertices = &header.elements[0], *faces = &header.elements[1];
     stream->begin = header.body;
     if (!load_vertices(stream, vertices, scene, scratch, &mesh))

@@ -18,8 +18,9 @@ enum { SAMPLE = 1024 }; // bytes that are inspected
 // Text contains no zero byte; a binary STL does: up to 16 million facets, the number of facets has one.
 static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
 
-// ASCII files begin with "solid" (some with "facet"), contain no zero byte, and have "facet" or "endsolid" near the
-// begin. "solid" alone proves nothing: many binary files begin with it too.
+// ASCII files begin with "solid" (some with "facet"), and have "facet" or "endsolid" near the begin. "solid" alone proves
+// nothing: many binary files begin with it too. With a zero byte it is a text where the words of a facet stand around
+// it; the reader of texts then reports the byte.
 static bool looks_ascii(const uint8_t *bytes, size_t size)
 {
     const uint8_t *end = bytes + (size < SAMPLE ? size : SAMPLE), *at = bytes;
@@ -27,7 +28,8 @@ static bool looks_ascii(const uint8_t *bytes, size_t size)
         at += 3;
     at = text_skip_white(at, end);
     if (has_zero(bytes, size))
-        return false;
+        return (text_is_word(at, end, "solid") || text_is_word(at, end, "facet")) &&
+               text_count_word(at, end, "facet") && text_count_word(at, end, "vertex");
     if (text_is_word(at, end, "facet"))
         return true;
     return text_is_word(at, end, "solid") &&

@@ -30,6 +30,10 @@ struct reader {
     lam_part *parts;
     uint32_t part_count;
     uint32_t facets;
+    const uint8_t *solid; // the statement that began the current solid; NULL: none is open
+    // Solids without an end, and the first of them: its statement, and where "endsolid" was expected.
+    uint32_t unclosed;
+    const uint8_t *first_unclosed, *end_expected;
 };
 
 static bool fail_at(const struct reader *reader, lam_error *error, const char *expected)
@@ -145,11 +149,35 @@ static bool begin_part(struct reader *reader, const uint8_t *name, size_t length
     return part->name || call_memory_error(reader->source->call, length, error);
 }
 
+// A solid begins (`at`), or none: the one that was open should have ended.
+static void open_solid(struct reader *reader, const uint8_t *at)
+{
+    if (reader->solid && reader->unclosed++ == 0) {
+        reader->first_unclosed = reader->solid;
+        reader->end_expected = reader->at;
+    }
+    reader->solid = at;
+}
+
+static void warn_unclosed(const struct reader *reader)
+{
+    const struct import_source *source = reader->source;
+    char found[TEXT_FOUND_SIZE];
+    if (!reader->unclosed)
+        return;
+    scene_warn(reader->scene, "%s:%zu: found %s, expected \"endsolid\" of the solid of line %zu%s%s", source->name,
+               text_line(source->bytes, reader->end_expected), text_found(reader->end_expected, reader->end, found),
+               text_line(source->bytes, reader->first_unclosed),
+               reader->end_expected == reader->end ? "; the file may be cut short" : "",
+               reader->unclosed > 1 ? ", the first of several without it" : "");
+}
+
 static bool read_all(struct reader *reader, lam_error *error)
 {
     enum { CHECK_INTERVAL = 1024 }; // facets between two checks of the call
     reader->at = reader->start;
-    reader->facets = reader->part_count = 0;
+    reader->facets = reader->part_count = reader->unclosed = 0;
+    reader->solid = NULL;
     bool inside = false;
     for (;;) {
         const uint8_t *name;
@@ -162,15 +190,19 @@ static bool read_all(struct reader *reader, lam_error *error)
                 return false;
             if (reader->facets % CHECK_INTERVAL == 0 && !call_should_continue(reader->source->call))
                 return call_error(reader->source->call, error);
-        } else if (accept_word(reader, "solid")) {
+        } else if (next_is(reader, "solid")) {
+            open_solid(reader, reader->at);
+            accept_word(reader, "solid");
             read_name(reader, &name, &length);
             if (!begin_part(reader, name, length, error))
                 return false;
             inside = true;
         } else if (accept_word(reader, "endsolid")) {
             read_name(reader, &name, &length);
+            reader->solid = NULL;
             inside = false;
         } else if (reader->at == reader->end) {
+            open_solid(reader, NULL);
             break;
         } else {
             return fail_at(reader, error, "\"facet\", \"endsolid\" or \"solid\"");
@@ -222,6 +254,10 @@ bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene,
         reader.maximum[axis] = -FLT_MAX;
     }
 
+    const uint8_t *zero = memchr(reader.start, 0, (size_t)(reader.end - reader.start));
+    if (zero)
+        return fail_line(error, source, text_line(source->bytes, zero), "found a zero byte, expected text");
+
     // Upper bounds: each corner has the word "vertex", and each part after the first follows "solid" or "endsolid".
     // Names may contain these words too.
     size_t corners = text_count_word(reader.start, reader.end, "vertex");
@@ -237,6 +273,7 @@ bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene,
         return false;
     if (reader.facets == 0)
         return true;
+    warn_unclosed(&reader);
 
     double minimum[3], maximum[3];
     for (int axis = 0; axis < 3; axis++) {

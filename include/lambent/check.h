@@ -32,10 +32,11 @@ LAM_API const char *lam_check_contract_title(const lam_check_contract *contract)
 
 // One name of a contract. Strings belong to the contract.
 typedef struct lam_check_name {
-    const char *name;    // "lights[].lightPosition" for members of a list
-    const char *type;    // "vec4"
-    const char *role;    // "light_position": one of lam_check_role
-    const char *space;   // of positions and directions: "eye", "world" or "object"; NULL: none
+    const char *name; // "lights[].lightPosition" for members of a list
+    const char *type; // "vec4"
+    const char *role; // "light_position": one of lam_check_role
+    // The space of positions and directions: "eye", "world" or "object"; NULL: none.
+    const char *space;
     const char *meaning; // one line
     // Other accepted names, separated by blanks. NULL: none.
     const char *synonyms;
@@ -87,10 +88,10 @@ LAM_API void lam_check_cache_free(lam_check_cache *cache); // NULL is fine
 
 // The terms of the lighting that an exercise asks for.
 typedef enum lam_check_term {
-    LAM_CHECK_TERM_AMBIENT = 1,
-    LAM_CHECK_TERM_DIFFUSE = 2,
-    LAM_CHECK_TERM_SPECULAR = 4,
-    LAM_CHECK_TERM_ALL = 7
+    LAM_CHECK_TERM_AMBIENT = 1,  // light from everywhere
+    LAM_CHECK_TERM_DIFFUSE = 2,  // matt reflection
+    LAM_CHECK_TERM_SPECULAR = 4, // highlights
+    LAM_CHECK_TERM_ALL = 7       // all of them
 } lam_check_term;
 
 // The shaders to check, and how. Zero is the default of each field.

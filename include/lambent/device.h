@@ -155,6 +155,9 @@ typedef struct lam_draw_params {
     lam_flat_normal flat_normal; // the normal of LAM_SHADING_FLAT
     // Shininess is Phong's α: Blinn–Phong takes 4α, so that both highlights look alike.
     bool match_highlights;
+    // GGX without the light that microfacets send to one another before it leaves, for comparison with renderers that
+    // leave it out: rough metals are darker then.
+    bool single_scattering;
     // As OpenGL 1 did: vertex colours are clamped to 0…1 before they are interpolated, shininess is at most 128, and
     // attenuation and cone dim each light's ambient too.
     bool gl1;

@@ -10,22 +10,23 @@ extern "C" {
 
 // The settings that a scene file may have: bits of lam_picture_settings.present.
 enum {
-    LAM_SETTING_SIZE = 1 << 0,              // width, height
-    LAM_SETTING_SAMPLES = 1 << 1,           // draw.samples
-    LAM_SETTING_BACKGROUND = 1 << 2,        // draw.background
-    LAM_SETTING_COLOR = 1 << 3,             // draw.color
-    LAM_SETTING_EXPOSURE = 1 << 4,          // draw.exposure
-    LAM_SETTING_CAMERA = 1 << 5,            // camera
-    LAM_SETTING_SHADING = 1 << 6,           // draw.shading
-    LAM_SETTING_REFLECTION = 1 << 7,        // draw.reflection
-    LAM_SETTING_STAGE = 1 << 8,             // draw.stage
-    LAM_SETTING_VIEWER = 1 << 9,            // draw.viewer
-    LAM_SETTING_FLAT_NORMAL = 1 << 10,      // draw.flat_normal
-    LAM_SETTING_MATCH_HIGHLIGHTS = 1 << 11, // draw.match_highlights
-    LAM_SETTING_GL1 = 1 << 12,              // draw.gl1
-    LAM_SETTING_LIGHTS = 1 << 13,           // the scene's lights, even if the list is empty
-    LAM_SETTING_ENVIRONMENT = 1 << 14,      // environment_…
-    LAM_SETTING_LIGHT_CUTOFF = 1 << 15,     // draw.light_cutoff
+    LAM_SETTING_SIZE = 1 << 0,               // width, height
+    LAM_SETTING_SAMPLES = 1 << 1,            // draw.samples
+    LAM_SETTING_BACKGROUND = 1 << 2,         // draw.background
+    LAM_SETTING_COLOR = 1 << 3,              // draw.color
+    LAM_SETTING_EXPOSURE = 1 << 4,           // draw.exposure
+    LAM_SETTING_CAMERA = 1 << 5,             // camera
+    LAM_SETTING_SHADING = 1 << 6,            // draw.shading
+    LAM_SETTING_REFLECTION = 1 << 7,         // draw.reflection
+    LAM_SETTING_STAGE = 1 << 8,              // draw.stage
+    LAM_SETTING_VIEWER = 1 << 9,             // draw.viewer
+    LAM_SETTING_FLAT_NORMAL = 1 << 10,       // draw.flat_normal
+    LAM_SETTING_MATCH_HIGHLIGHTS = 1 << 11,  // draw.match_highlights
+    LAM_SETTING_GL1 = 1 << 12,               // draw.gl1
+    LAM_SETTING_LIGHTS = 1 << 13,            // the scene's lights, even if the list is empty
+    LAM_SETTING_ENVIRONMENT = 1 << 14,       // environment_…
+    LAM_SETTING_LIGHT_CUTOFF = 1 << 15,      // draw.light_cutoff
+    LAM_SETTING_SINGLE_SCATTERING = 1 << 16, // draw.single_scattering
 };
 
 // The picture that a scene file describes: its size, camera and way of drawing. lam_scene has the rest. Settings that

@@ -394,6 +394,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->flat_normal = params->flat_normal;
     frame->match_highlights = params->match_highlights;
     frame->gl1 = params->gl1;
+    frame->single_scattering = params->single_scattering;
     frame->output = params->output;
     frame->light_cutoff = params->light_cutoff > 0    ? params->light_cutoff
                           : params->light_cutoff == 0 ? 0.5f / 255.0f

@@ -73,7 +73,7 @@ struct frame {
     lam_stage stage;           // never AUTO
     lam_reflection reflection; // AUTO: the material's own; see frame_draw_range.reflection
     lam_flat_normal flat_normal;
-    bool match_highlights, gl1;
+    bool match_highlights, gl1, single_scattering;
     lam_output output;
     // Largest sum, as a fraction of the encoded range, of the lights that a point may skip; 0: no light is skipped.
     float light_cutoff;

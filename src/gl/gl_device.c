@@ -40,6 +40,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->environment = wanted.environment;
     c->distant_viewer = wanted.distant_viewer;
     c->gl1 = wanted.gl1;
+    c->single_scattering = wanted.single_scattering;
     c->back_material = wanted.back_material;
     c->colors = wanted.colors;
     c->tangents = wanted.tangents;

@@ -83,7 +83,10 @@ LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color)
         sum = add_hemisphere(
             sum, s, (hemisphere){of3(h->up), product3(&m->ambient.r, h->sky), product3(&m->ambient.r, h->ground)});
     }
-    fresnel mirror = fresnel_of(mul3(of3(&m->diffuse.r), color), num_of(m->metallic), num_of(0.0f));
+    num gain = frame->single_scattering || !(lobe_properties(model) & LOBE_MICROFACET)
+                   ? num_of(0.0f)
+                   : scattering_gain(s, num_of(m->roughness));
+    fresnel mirror = fresnel_of(mul3(of3(&m->diffuse.r), color), num_of(m->metallic), gain);
     lobe_parameters parameters = lobe_parameters_of(m, frame_shininess(frame, m));
     for (int i = 0; i < frame->light_count; i++) {
         const struct frame_light *l = &frame->lights[i];
@@ -242,10 +245,10 @@ static bool make_key(struct gl_frame *f, struct gl_vertex_lighting *row, const s
 {
     const struct frame *frame = f->frame;
     const struct frame_draw *draw = &frame->draws[number];
-    const int choices[] = {frame->output,           frame->shading,          frame->gl1,
-                           frame->distant_viewer,   frame->match_highlights, frame->light_count,
-                           frame->hemisphere_count, draw->one_sided,         frame->flat_normal,
-                           (int)mesh->form,         frame->translucent};
+    const int choices[] = {frame->output,         frame->shading,          frame->gl1,
+                           frame->distant_viewer, frame->match_highlights, frame->single_scattering,
+                           frame->light_count,    frame->hemisphere_count, draw->one_sided,
+                           frame->flat_normal,    (int)mesh->form,         frame->translucent};
     const void *pointers[] = {frame->environment, mesh->mesh.positions, mesh->token};
     bool ok = key_add(f, row, size, choices, sizeof choices, error) &&
               key_add(f, row, size, pointers, sizeof pointers, error) &&

@@ -122,11 +122,12 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     bool tints = c->colors && f->lit && !f->output_vector;
     bool eye = surface || c->output == LAM_OUTPUT_DEPTH;
     bool triangle_ids = c->output == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS;
-    struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0}, metallic = {0};
+    struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0}, metallic = {0}, roughness = {0};
     glsl_declare_attributes(&attributes, f);
     add_groups(&groups, f);
     glsl_add_parameters(&chosen, f);
     glsl_add_parameter(&metallic, f, "metallic");
+    glsl_add_parameter(&roughness, f, "roughness");
     const struct preprocess_flag flags[] = {
         {"glsl_120", glsl_120},
         {"array", c->storage == GLSL_ARRAY},
@@ -161,6 +162,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"cube_map", c->environment == GLSL_CUBE},
         {"highlights", f->highlights},
         {"microfacet", f->microfacet},
+        {"single_scattering", c->single_scattering},
         {"selects_parameters", chosen.bytes != NULL},
         {"provoking", flat && glsl_120 && eye},
         {"depth", c->output == LAM_OUTPUT_DEPTH},
@@ -230,6 +232,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"groups", groups.bytes ? groups.bytes : ""},
         {"parameters", chosen.bytes ? chosen.bytes : ""},
         {"metallic", metallic.bytes ? metallic.bytes : ""},
+        {"roughness", roughness.bytes ? roughness.bytes : ""},
         {"output_term", output_term(c)},
         {"output_vector", vector.bytes ? vector.bytes : ""},
         {"texture_cube", glsl_120 ? "textureCube" : "texture"},
@@ -240,8 +243,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {NULL, NULL},
     };
     const struct preprocess_words words = {flags, values};
-    const struct text *parts[] = {&groups, &vector, &attributes, &chosen, &metallic};
-    for (int i = 0; i < 5; i++)
+    const struct text *parts[] = {&groups, &vector, &attributes, &chosen, &metallic, &roughness};
+    for (int i = 0; i < 6; i++)
         if (parts[i]->failed) {
             text->failed = true;
             text->error = parts[i]->error;
@@ -255,6 +258,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     free(attributes.bytes);
     free(chosen.bytes);
     free(metallic.bytes);
+    free(roughness.bytes);
 }
 
 // --- the shader

@@ -64,6 +64,7 @@ struct glsl_choices {
     lam_output output;         // COVERAGE and OVERDRAW write 1, CLIPPED the picture
     bool distant_viewer;
     bool gl1;
+    bool single_scattering;
     bool exposes;       // the fragment multiplies its light by the uniform `exposure`
     bool products;      // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
     bool two_sided;     // the back is lit with −n

@@ -241,7 +241,11 @@ vec4 light_point(@lit_parameters@)
 //@if vertex_colors
     base = mul3(base, tint.rgb);
 //@end
+//@if single_scattering
     fresnel mirror = fresnel_of(base, @metallic@, 0.0);
+//@else
+    fresnel mirror = fresnel_of(base, @metallic@, scattering_gain(s, @roughness@));
+//@end
 //@end
 //@if has_lights
 @groups@

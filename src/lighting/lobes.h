@@ -240,6 +240,24 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
     return b;
 }
 
+// The share of light that mirrors of f0 = 1 return at once, the rest being light that other mirrors take up: the
+// integral of S over all l, divided by pi. From a table of 32 roughnesses, ROUGHNESS_MIN to 1, times 32 roots of n.v.
+FN num single_scattering(num n_dot_v, num roughness)
+{
+    num along = 31.0f * square_root(saturate(n_dot_v));
+    num down = (31.0f / (1.0f - ROUGHNESS_MIN)) * positive(min_of(roughness, num_of(1.0f)) - ROUGHNESS_MIN);
+    num column = min_of(whole(along), num_of(30.0f));
+    num row = min_of(whole(down), num_of(30.0f));
+    num a = along - column;
+    num first = 32.0f * row + column;
+    num upper = albedo_texel(first) * (1.0f - a) + albedo_texel(first + 1.0f) * a;
+    num lower = albedo_texel(first + 32.0f) * (1.0f - a) + albedo_texel(first + 33.0f) * a;
+    return upper + (lower - upper) * (down - row);
+}
+
+// What light between the mirrors adds to what they return at once, for f0 = 1.
+FN num scattering_gain(surface s, num roughness) { return 1.0f / single_scattering(dot3(s.n, s.v), roughness) - 1.0f; }
+
 // A microfacet lobe's base is its S.
 FN lobe_value microfacet_of(lobe_sample b)
 {

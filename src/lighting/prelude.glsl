@@ -36,6 +36,15 @@ float absolute(float x) { return abs(x); }
 float positive(float x) { return x > 0.0 ? x : 0.0; }
 float saturate(float x) { return min_of(positive(x), 1.0); }
 
+float whole(float x) { return floor(x); }
+float albedo_texel(float index)
+{
+    const float table[1024] = float[1024](
+#include "albedo.table"
+    );
+    return table[int(index)];
+}
+
 float square_root(float x) { return sqrt(x); }
 float rsqrt(float x) { return inversesqrt(max_of(x, 1.0e-37)); }
 float log2_of(float x) { return log2(max_of(x, 1.17549435e-38)); }

@@ -130,6 +130,7 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
         !take_word(r, NULL, root, "viewer", viewer_words, &viewer) ||
         !take_word(r, NULL, root, "flat_normal", flat_normal_words, &flat_normal) ||
         !take_bool(r, NULL, root, "match_highlights", &draw->match_highlights) ||
+        !take_bool(r, NULL, root, "single_scattering", &draw->single_scattering) ||
         !take_bool(r, NULL, root, "gl1", &draw->gl1) || !take_number(r, NULL, root, "light_cutoff", 0, 1, &cutoff) ||
         !take_word(r, NULL, root, "up", up_words, &up) || !take_rgb(r, NULL, root, "ambient", &ambient))
         return false;
@@ -153,6 +154,7 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
                 {"flat_normal", LAM_SETTING_FLAT_NORMAL},
                 {"match_highlights", LAM_SETTING_MATCH_HIGHLIGHTS},
                 {"gl1", LAM_SETTING_GL1},
+                {"single_scattering", LAM_SETTING_SINGLE_SCATTERING},
                 {"light_cutoff", LAM_SETTING_LIGHT_CUTOFF}};
     for (size_t i = 0; i < sizeof bits / sizeof *bits; i++)
         r->settings->present |= json_object_get(root, bits[i].key) ? bits[i].bit : 0;
@@ -176,10 +178,11 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
 
 static bool read_root(struct scene_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"lambent",          "image",        "camera", "ambient",   "environment",
-                                       "shading",          "reflection",   "viewer", "stage",     "flat_normal",
-                                       "match_highlights", "gl1",          "up",     "materials", "objects",
-                                       "lights",           "light_cutoff", NULL};
+    static const char *const keys[] = {
+        "lambent",    "image",  "camera",    "ambient",     "environment",      "shading",
+        "reflection", "viewer", "stage",     "flat_normal", "match_highlights", "single_scattering",
+        "gl1",        "up",     "materials", "objects",     "lights",           "light_cutoff",
+        NULL};
     int version = 0;
     if (!check_keys(r, NULL, root, keys) || !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
         return false;

@@ -458,6 +458,8 @@ static bool put_settings(struct scene_writer *w, json_t *root, const lam_picture
         put(w, root, "viewer", word(viewer_words, (int)s->draw.viewer));
     if (s->present & LAM_SETTING_FLAT_NORMAL)
         put(w, root, "flat_normal", word(flat_normal_words, (int)s->draw.flat_normal));
+    if ((s->present & LAM_SETTING_SINGLE_SCATTERING) && s->draw.single_scattering)
+        put(w, root, "single_scattering", json_true());
     if ((s->present & LAM_SETTING_MATCH_HIGHLIGHTS) && s->draw.match_highlights)
         put(w, root, "match_highlights", json_true());
     if ((s->present & LAM_SETTING_GL1) && s->draw.gl1)

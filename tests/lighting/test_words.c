@@ -164,19 +164,29 @@ static void test_glsl_words_are_listed(void **state)
     free(text);
 }
 
+// Writes a file of the equations, and in place of an #include the file that it names, as embed.py does.
+static void write_text(FILE *file, const char *name)
+{
+    char *text = read_text(name), *at = text;
+    for (char *include; (include = strstr(at, "#include \"")) != NULL;) {
+        char *start = include + strlen("#include \""), *end = strchr(start, '"');
+        fwrite(at, 1, (size_t)(include - at), file);
+        *end = '\0';
+        write_text(file, start);
+        at = end + 1;
+    }
+    fputs(at, file);
+    free(text);
+}
+
 // A main that uses every word, every lobe and, through their kin, every equation.
 static void write_shader(FILE *file, const char *version)
 {
     int old = strcmp(version, "120") == 0;
     fprintf(file, "#version %s\n", version);
-    char *text = read_text("prelude.glsl");
-    fputs(text, file);
-    free(text);
-    for (int i = 0; i < EQUATION_FILES; i++) {
-        text = read_text(equation_files[i]);
-        fputs(text, file);
-        free(text);
-    }
+    write_text(file, "prelude.glsl");
+    for (int i = 0; i < EQUATION_FILES; i++)
+        write_text(file, equation_files[i]);
     fputs("struct lobe_parameters {", file);
 #define MEMBER(name) fputs(" float " #name ";", file);
     LOBE_PARAMETERS(MEMBER)

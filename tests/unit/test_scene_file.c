@@ -76,11 +76,13 @@ static void test_picture(void **unused)
              "\"shading\": \"flat\", "
              "\"reflection\": \"kajiya-kay\", \"stage\": \"vertex\", \"viewer\": \"infinite\", "
              "\"flat_normal\": \"vertex\", "
-             "\"match_highlights\": true, \"gl1\": true, \"up\": \"z\", \"light_cutoff\": 0.25, \"lights\": "
+             "\"match_highlights\": true, \"single_scattering\": true, \"gl1\": true, \"up\": \"z\", \"light_cutoff\": "
+             "0.25, \"lights\": "
              "[], " BALL "}");
     lam_picture_settings s;
     assert_true(lam_scene_picture_settings(scene, &s));
-    assert_int_equal(s.present, ((LAM_SETTING_LIGHTS << 1) - 1) | LAM_SETTING_LIGHT_CUTOFF);
+    assert_int_equal(s.present,
+                     ((LAM_SETTING_LIGHTS << 1) - 1) | LAM_SETTING_LIGHT_CUTOFF | LAM_SETTING_SINGLE_SCATTERING);
     assert_true(s.draw.light_cutoff == 0.25f);
     assert_true(s.width == 30 && s.height == 20 && s.draw.samples == 8);
     assert_true(s.draw.background.r == (float)(128.0 / 255) && s.draw.background.a == (float)(128.0 / 255));
@@ -89,7 +91,8 @@ static void test_picture(void **unused)
                 s.camera.ortho_half_height == 2 && s.camera.near_plane == -1 && s.camera.far_plane == 5);
     assert_true(s.draw.shading == LAM_SHADING_FLAT && s.draw.reflection == LAM_REFLECTION_KAJIYA_KAY &&
                 s.draw.stage == LAM_STAGE_VERTEX && s.draw.viewer == LAM_VIEWER_INFINITE &&
-                s.draw.flat_normal == LAM_FLAT_NORMAL_VERTEX && s.draw.match_highlights && s.draw.gl1);
+                s.draw.flat_normal == LAM_FLAT_NORMAL_VERTEX && s.draw.match_highlights && s.draw.single_scattering &&
+                s.draw.gl1);
     assert_int_equal(s.draw.rig, LAM_RIG_NONE);
     assert_int_equal(lam_scene_up(scene), LAM_UP_Z);
     assert_true(lam_scene_ambient(scene).b == 0.3f);
@@ -200,7 +203,7 @@ static void test_errors(void **unused)
         {"{\"lambent\": 1, \"lambent\": 1}", "s.json:1: column 16: the key is given twice"},
         {"{\"x\": \"\\\"lambent\\\"\", \"lambent\": 1}",
          "s.json: x: unknown key; expected lambent, image, camera, ambient, "
-         "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, gl1, up, "
+         "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, single_scattering, gl1, up, "
          "materials, objects, lights, light_cutoff"},
         {"{\"lambent\": 1}", "s.json: 'objects' is missing, expected a list of at least one object"},
         {"{\"lambent\": 2, " BALL "}", "s.json: lambent: the format's version is 2, this program reads version 1"},
@@ -416,7 +419,8 @@ static void test_writing(void **unused)
     for (int i = 0; i < 4; i++)
         assert_true(lam_scene_add_light(scene, &lights[i], &error) == i);
     lam_scene_set_ambient(scene, (lam_rgb){0.1f, 0.7f, 1e-3f});
-    lam_picture_settings s = {.present = ((LAM_SETTING_LIGHTS << 1) - 1) | LAM_SETTING_LIGHT_CUTOFF,
+    lam_picture_settings s = {.present = ((LAM_SETTING_LIGHTS << 1) - 1) | LAM_SETTING_LIGHT_CUTOFF |
+                                         LAM_SETTING_SINGLE_SCATTERING,
                               .width = 7,
                               .height = 9,
                               .camera = lam_camera_default()};
@@ -431,7 +435,8 @@ static void test_writing(void **unused)
                                .gl1 = true,
                                .rig = LAM_RIG_NONE,
                                .light_cutoff = -1,
-                               .match_highlights = true};
+                               .match_highlights = true,
+                               .single_scattering = true};
     s.camera.fovy_rad = 0.7123456789012345;
     s.camera.eye = (lam_vec3){1.0 / 3, 1e-9, 12345678.9};
     s.camera.near_plane = 0.1;
@@ -448,7 +453,8 @@ static void test_writing(void **unused)
     assert_true(t.draw.color == s.draw.color && t.draw.shading == s.draw.shading &&
                 t.draw.reflection == s.draw.reflection && t.draw.stage == s.draw.stage &&
                 t.draw.viewer == s.draw.viewer && t.draw.flat_normal == s.draw.flat_normal && t.draw.gl1 &&
-                t.draw.match_highlights && t.draw.rig == LAM_RIG_NONE && t.draw.light_cutoff < 0);
+                t.draw.match_highlights && t.draw.single_scattering && t.draw.rig == LAM_RIG_NONE &&
+                t.draw.light_cutoff < 0);
     assert_memory_equal(&t.camera.eye, &s.camera.eye, sizeof s.camera.eye);
     assert_true(fabs(t.camera.fovy_rad - s.camera.fovy_rad) <= 1.2e-16);
     assert_true(t.camera.near_plane == 0.1 && t.camera.far_plane == 100 && t.width == 7 && t.height == 9);

@@ -232,6 +232,7 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
         .flat_normal = (lam_flat_normal)o->flat_normal,
         .match_highlights = o->match_highlights,
         .gl1 = o->gl1,
+        .single_scattering = o->single_scattering,
         .light_cutoff = !o->has_light_cutoff  ? 0
                         : o->light_cutoff > 0 ? (float)o->light_cutoff
                                               : -1,

@@ -378,6 +378,10 @@ const struct option option_table[] = {
     {"match-highlights", 0, GROUP_SHADING, NULL, NULL,
      "Multiply Blinn-Phong's shininess by 4, so that it looks like Phong.", NULL, .store = store_switch,
      FIELD(match_highlights)},
+    {"single-scattering", 0, GROUP_SHADING, NULL, NULL,
+     "Leave out the light that the mirrors of GGX send to one another.",
+     "Rough metals are darker then, as in renderers that leave it out.", .store = store_switch,
+     FIELD(single_scattering)},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, "Light as OpenGL 1: colours clamped, shininess to 128, ambient attenuated.",
      "For comparison with old programs: vertex colours are clamped to 0...1 before interpolation, the shininess "
      "is at most 128, and the ambient light of a light is attenuated and limited to its cone.",

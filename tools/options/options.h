@@ -59,7 +59,7 @@ struct options {
     int stage;       // lam_stage
     int viewer;      // lam_viewer
     int flat_normal; // lam_flat_normal
-    bool match_highlights, gl1, two_sided, one_sided, show_lights;
+    bool match_highlights, single_scattering, gl1, two_sided, one_sided, show_lights;
     int cull; // lam_cull
     bool has_cull;
     struct texts rotations; // as written, checked

@@ -46,6 +46,7 @@ void scene_settings_apply(struct job *job)
         own->flat_normal = (int)s->draw.flat_normal;
     own->match_highlights |= s->draw.match_highlights;
     own->gl1 |= s->draw.gl1;
+    own->single_scattering |= s->draw.single_scattering;
     if (takes_setting(job, LAM_SETTING_LIGHT_CUTOFF, "light-cutoff")) {
         own->light_cutoff = (double)s->draw.light_cutoff;
         own->has_light_cutoff = true;

@@ -524,7 +524,7 @@ const int demo_count = sizeof demos / sizeof demos[0];
 
 bool demo_build(const struct demo_row *row, struct demo *demo, lam_error *error)
 {
-    *demo = (struct demo){.width = 160, .height = 120};
+    *demo = (struct demo){.width = 160, .height = 120, .params.samples = 4};
     demo->scene = lam_scene_make(error);
     if (!demo->scene)
         return false;

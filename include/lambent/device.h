@@ -138,9 +138,13 @@ LAM_API const char *lam_output_name(lam_output output);
 // Whether an output is light: the picture, its terms, and a light.
 LAM_API bool lam_output_is_light(lam_output output);
 
+// The samples per pixel of a picture of this size, where lam_draw_params do not say: 8 up to 512² pixels, whose edges show
+// steps at 4, and 4 above.
+LAM_API int lam_default_samples(int width, int height);
+
 // How a frame is drawn. All zero is the default.
 typedef struct lam_draw_params {
-    int samples; // per pixel: 1, 2, 4, 8 or 16; 0: 4
+    int samples; // per pixel: 1, 2, 4, 8 or 16; 0: lam_default_samples
     // Linear, not premultiplied. All zero: clear.
     lam_rgba background;
     lam_color_mode color; // of the picture's 8-bit numbers

@@ -13,6 +13,14 @@
 
 static float rounded(double x) { return (float)x; }
 
+// Samples per pixel of pictures of up to SMALL_SIDE² pixels, and of larger ones.
+enum { SMALL_SIDE = 512, SMALL_SAMPLES = 8, LARGE_SAMPLES = 4 };
+
+int lam_default_samples(int width, int height)
+{
+    return (int64_t)width * height <= SMALL_SIDE * SMALL_SIDE ? SMALL_SAMPLES : LARGE_SAMPLES;
+}
+
 static bool check_camera(const lam_camera *camera, lam_error *error)
 {
     if (!check_reserved("camera", camera, error))
@@ -381,7 +389,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->token = scene->token;
     frame->width = width;
     frame->height = height;
-    frame->samples = params->samples ? params->samples : 4;
+    frame->samples = params->samples ? params->samples : lam_default_samples(width, height);
     frame->background = params->background;
     frame->color = params->color;
     frame->exposure = rounded(math_exp2(params->exposure));

@@ -410,8 +410,8 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_picture_se
     json_t *out = json_object();
     if (s->present & LAM_SETTING_SIZE)
         put(w, out, "size", list_of(w, (double[]){s->width, s->height}, 2));
-    if (s->present & LAM_SETTING_SAMPLES)
-        put(w, out, "samples", json_integer(s->draw.samples ? s->draw.samples : 4));
+    if (s->present & LAM_SETTING_SAMPLES && s->draw.samples) // else those of the size
+        put(w, out, "samples", json_integer(s->draw.samples));
     if (s->present & LAM_SETTING_BACKGROUND)
         put(w, out, "background", color(w, &s->draw.background.r, 4));
     if (s->present & LAM_SETTING_COLOR)

@@ -85,6 +85,7 @@ OVER_CHECK = code("src/check", r"share_over <= ([\d.]+)")
 PIXELS_OVER_CHECK = counted("1 divided by " + OVER_CHECK.what, lambda: 1 / OVER_CHECK.look_up())
 TOLERANCE = code("src/check/check.c", r"p->tolerance : ([\d.]+) / 255")
 
+SAMPLES = [constant("src/frame/frame.c", name) for name in ("SMALL_SAMPLES", "SMALL_SIDE", "LARGE_SAMPLES")]
 BLOCK = constant("src/cpu/shade/light_cull_blocks.inc", "BLOCK_SHIFT")
 LEAST_ID = code("src/device/encode_values.c", r"uint8_t\)\((\d+) \+")
 OVERDRAW = code("src/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
@@ -93,7 +94,10 @@ OVERDRAW = code("src/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
 ROWS = [
     ("docs/lighting/pixels.md", "snapped to 1/{} of a pixel", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
     ("docs/lighting/pixels.md", "lies up to 1/{} of a pixel outside", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
-    ("docs/lighting/pixels.md", "at that many positions in each pixel ({} by default)", option("samples")),
+    ("docs/lighting/pixels.md", "(by default {} in pictures of up to {}² pixels, {} above)", *SAMPLES),
+    ("docs/scene-file.md", "| `samples` | {} up to {}² pixels, {} above |", *SAMPLES),
+    ("tools/options/option_table.c", "\"{} up to {}x512 pixels, {} above\"", *SAMPLES),
+    ("include/lambent/device.h", "where lam_draw_params do not say: {} up to {}² pixels, whose edges show steps at 4, and {} above", *SAMPLES),
     ("docs/lighting/diffuse.md", "`roughness_angle` in degrees, {} by default", field("roughness_angle")),
     ("docs/lighting/lights.md", "With more than {}, each part of the picture skips", FEW_LIGHTS),
     ("docs/lighting/surfaces.md", "At most {} translucent triangles may lie over one pixel", LAYERS),

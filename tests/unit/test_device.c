@@ -41,6 +41,34 @@ static lam_image make_image(int width, int height)
     return image;
 }
 
+// Without a number of samples a picture has those of its size, however it is shaped.
+static void test_default_samples(void **state)
+{
+    (void)state;
+    static const struct {
+        int width, height, samples;
+    } cases[] = {{512, 512, 8},  {513, 512, 4}, {512, 513, 4},    {2048, 128, 8},
+                 {2048, 129, 4}, {1, 1, 8},     {65535, 65535, 4}};
+    struct demo demo = make_demo("sphere-phong");
+    lam_device *device = make_device(1);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        int width = cases[i].width, height = cases[i].height;
+        assert_int_equal(lam_default_samples(width, height), cases[i].samples);
+        if (width > 4096)
+            continue;
+        lam_image images[2] = {make_image(width, height), make_image(width, height)};
+        for (int given = 0; given < 2; given++) {
+            lam_draw_params params = {.samples = given ? cases[i].samples : 0};
+            assert_true(lam_draw(device, demo.scene, &demo.camera, &params, &images[given], NULL, NULL));
+        }
+        assert_memory_equal(images[0].pixels, images[1].pixels, (size_t)width * (size_t)height * 4);
+        for (int k = 0; k < 2; k++)
+            lam_image_free(&images[k]);
+    }
+    lam_device_free(device);
+    lam_scene_free(demo.scene);
+}
+
 static void test_arguments(void **state)
 {
     (void)state;
@@ -383,10 +411,15 @@ static void test_normals_when_drawn(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_arguments),          cmocka_unit_test(test_cancel_and_limits),
-        cmocka_unit_test(test_progress),           cmocka_unit_test(test_memory_settles),
-        cmocka_unit_test(test_float_state),        cmocka_unit_test(test_shared_scene),
-        cmocka_unit_test(test_null_device),        cmocka_unit_test(test_fit),
+        cmocka_unit_test(test_default_samples),
+        cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_cancel_and_limits),
+        cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_memory_settles),
+        cmocka_unit_test(test_float_state),
+        cmocka_unit_test(test_shared_scene),
+        cmocka_unit_test(test_null_device),
+        cmocka_unit_test(test_fit),
         cmocka_unit_test(test_normals_when_drawn),
     };
     return cmocka_run_group_tests_name("device", tests, NULL, NULL);

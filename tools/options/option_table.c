@@ -198,8 +198,10 @@ const struct option option_table[] = {
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
      .brief = "pixels: 800, or 1920x1080", .store = store_size, .others = "resolution width height dimensions pixels",
      .max = 65535, .single = TAKES_SIZE},
-    {"samples", 0, GROUP_PICTURE, "N", "4", "Samples per pixel: 1, 2, 4, 8 or 16.",
-     "More samples give smoother edges. Each triangle that covers part of a pixel is lit once in that pixel.",
+    {"samples", 0, GROUP_PICTURE, "N", "8 up to 512x512 pixels, 4 above", "Samples per pixel: 1, 2, 4, 8 or 16.",
+     "More samples give smoother edges, which matters most in small pictures; each picture of a sheet has the samples "
+     "of "
+     "its own size. Each triangle that covers part of a pixel is lit once in that pixel.",
      sample_words, .store = store_word,
      .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(samples)},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",

@@ -136,7 +136,8 @@ static void json_image(struct json *json, const struct job *job)
     json_text(json, "format", job->format);
     json_count(json, "width", (uint64_t)job->image.width);
     json_count(json, "height", (uint64_t)job->image.height);
-    json_count(json, "samples", (uint64_t)(job->options->samples ? job->options->samples : 4));
+    int samples = job->draw.samples ? job->draw.samples : lam_default_samples(job->image.width, job->image.height);
+    json_count(json, "samples", (uint64_t)samples);
     json_count(json, "bytes", job->bytes);
     if (job->draw.output == LAM_OUTPUT_DEPTH) {
         json_number(json, "depth_near", job->times.frame.depth_near);

@@ -25,6 +25,8 @@ class Models(Case):
         self.bad(2, "teapto", says="did you mean 'teapot'?")
         self.bad(2, "bunny", says="`lambent shapes` lists them")
         self.bad(2, "box", says="did you mean 'cube'?")
+        self.bad(2, "*.3mf", says="no file matches this pattern")
+        self.bad(2, "none.png", says="the name of the picture to write follows -o")
         self.bad(2, "version", says="an option begins with dashes: --version")
         self.bad(2, "missing.obj", "shapes", says="a command comes first: lambent shapes")
 
@@ -125,7 +127,7 @@ class Models(Case):
         done = self.run_program("picture.png")
         self.assertIn(done.returncode, (2, 3))
         self.assertIn(b"picture.png", done.stderr)
-        self.assertNotIn(b"-o", done.stderr)  # not the output of the failed picture
+        self.assertNotIn(b"replaces", done.stderr)  # not the output of the failed picture
         self.assertEqual((self.folder / "picture.png").read_bytes(), before)
         for name, data in (("text.obj", b"Dear reader,\nthis is a letter.\n"), ("zeros.stl", bytes(1000)),
                            ("noise", bytes((i * 7919 + i * i) & 255 for i in range(2000)))):

@@ -84,6 +84,10 @@ LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height,
 LAM_API lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_vec3 axis, int width, int height,
                                           const lam_view *view);
 
+// A camera of the scene's file (lam_scene_camera_count). One without a far plane gets it behind the scene's bounds. False,
+// and the default camera: there is no such one.
+LAM_API bool lam_scene_camera(const lam_scene *scene, int index, lam_camera *camera);
+
 // Reads a camera as people write it: pairs key=value, separated by commas, of
 //   eye=x/y/z     required: its position
 //   target=x/y/z  default: the middle of the scene's box

@@ -60,7 +60,7 @@ typedef void lam_release_fn(void *user, struct lam_bytes *bytes);
 
 // How a model is loaded. All zero is the default.
 typedef struct lam_load_params {
-    const char *format;   // "obj", "stl", "ply", "scene"; NULL: by content
+    const char *format;   // "obj", "stl", "ply", "gltf", "scene"; NULL: by content
     lam_up up;            // the up axis
     lam_color_mode color; // of the file's colours
     // Scene files: true: `color` counts whatever the file says. false: the file's mode, and `color` where it has none.
@@ -82,12 +82,20 @@ typedef struct lam_load_params {
     // Frees the bytes of `open`. NULL: the loader frees them with lam_bytes_free, so they come from malloc.
     lam_release_fn *release;
     void *user; // passed to `open` and `release`
-    LAM_RESERVED(16);
+    // glTF: the scene of the file that is read, by its name or its number from 0. NULL: the file's default scene.
+    const char *scene;
+    // glTF: the variant of the materials (KHR_materials_variants), by its name or its number from 0. NULL: the materials
+    // of the primitives themselves.
+    const char *variant;
+    // glTF: true: extensions that the file requires and this version does not know are ignored, as are primitive restart
+    // values among indices. false: LAM_UNSUPPORTED, LAM_CANNOT_READ.
+    bool lenient;
+    LAM_RESERVED(13);
 } lam_load_params;
 
-// Loads a model file into a new scene: its meshes, materials and lights, and an object for each mesh. Where everything is
-// fully transparent, materials and colours become opaque, with a warning. `params` and `control` may be NULL. The caller
-// frees the scene. NULL on failure: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT, LAM_CANCELLED.
+// Loads a model file into a new scene: its meshes, materials and lights, and an object for each mesh. `params`
+// and `control` may be NULL. The caller frees the scene. NULL on failure: LAM_CANNOT_READ, LAM_UNSUPPORTED,
+// LAM_LIMIT, LAM_CANCELLED.
 LAM_API lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control,
                                   lam_error *error);
 
@@ -194,6 +202,14 @@ LAM_API void lam_scene_add_warning(lam_scene *scene, const char *text);
 
 // The box around the triangles of all objects, in world space. False, and all zero, for a scene without triangles.
 LAM_API bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec3 *maximum);
+
+// The cameras that the model's file has, from 0 (lam_scene_camera in camera.h): their number, and their names, NULL for
+// one without a name or out of range. They stand where the file has them; lam_scene_transform does not move them.
+LAM_API int lam_scene_camera_count(const lam_scene *scene);
+LAM_API const char *lam_scene_camera_name(const lam_scene *scene, int index);
+
+// The number of the camera with this name, or with this number in digits where none has that name. −1: there is none.
+LAM_API int lam_scene_find_camera(const lam_scene *scene, const char *name);
 
 // The up axis (LAM_UP_AUTO: y; a value out of range changes nothing). It turns the fitted camera, the rig and the
 // environment, never the coordinates. The front of the model, which faces the viewer at azimuth 0, is +Z with x or y up

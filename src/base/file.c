@@ -34,7 +34,7 @@ static bool fail_system(lam_error *error, lam_code code, const char *path, const
     return fail(error, code, "%s: cannot %s: %s", path, action, text);
 }
 
-static bool hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error)
+bool file_hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error)
 {
     *out = (struct file_bytes){0};
     size_t wanted = size + FILE_PADDING;
@@ -63,7 +63,7 @@ void file_release(struct file_bytes *bytes)
 
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error)
 {
-    if (!hold(size, call, out, error))
+    if (!file_hold(size, call, out, error))
         return false;
     if (size)
         memcpy((void *)(uintptr_t)out->data, bytes, size);
@@ -105,7 +105,7 @@ static void read_piece(void *user, size_t index, int thread)
 static bool read_sized(int file, const char *path, size_t size, struct pool *pool, struct call_control *call,
                        struct file_bytes *out, lam_error *error)
 {
-    if (!hold(size, call, out, error))
+    if (!file_hold(size, call, out, error))
         return false;
     struct reading reading = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .call = call};
     pool_run(pool, (size + PIECE - 1) / PIECE, read_piece, &reading);
@@ -140,7 +140,7 @@ static bool wait_readable(int file, struct call_control *call)
 static bool grow(struct file_bytes *bytes, size_t used, struct call_control *call, lam_error *error)
 {
     struct file_bytes larger;
-    if (!hold(bytes->size * 2, call, &larger, error))
+    if (!file_hold(bytes->size * 2, call, &larger, error))
         return false;
     memcpy((void *)(uintptr_t)larger.data, bytes->data, used);
     file_release(bytes);
@@ -152,7 +152,7 @@ static bool grow(struct file_bytes *bytes, size_t used, struct call_control *cal
 static bool read_stream(int file, const char *path, struct call_control *call, struct file_bytes *out, lam_error *error)
 {
     size_t used = 0, max = pages_of_machine() / 4;
-    bool ok = hold(1 << 20, call, out, error), ended = false;
+    bool ok = file_hold(1 << 20, call, out, error), ended = false;
     while (ok && !ended) {
         if (used == out->size)
             ok = used >= max

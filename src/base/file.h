@@ -43,7 +43,8 @@ bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], s
 bool file_read_part(const struct file_parts *parts, size_t offset, void *to, size_t bytes);
 void file_close_parts(struct file_parts *parts);
 
-// A padded copy of memory, as file_read returns it.
+// Padded memory of zeros for a file's bytes, as file_read returns it; and such a copy of memory.
+bool file_hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 
 void file_release(struct file_bytes *bytes);

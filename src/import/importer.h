@@ -18,6 +18,9 @@ struct import_source {
     const char *path;     // that opens the file; NULL: it came from memory or standard input
     const uint8_t *bytes; // FILE_PADDING zero bytes follow the last one
     size_t size;
+    // The owner of `bytes`. An importer whose arrays lie in them may give it to the scene's arena (arena_adopt). NULL with
+    // load_stream.
+    struct file_bytes *file;
     const lam_load_params *params;
     struct pool *pool;         // may be NULL: no threads
     struct call_control *call; // never NULL; every long loop checks it
@@ -34,6 +37,7 @@ struct importer {
     const char *extensions; // "obj"; several are separated by spaces
     lam_up up;              // the format's up axis
     bool is_scene_file;     // names other models, whose normals and origins it prepares itself
+    bool flat_normals;      // the format says that meshes without normals have those of their triangles
     // Whether the bytes are of this format: 0 no, 1 possibly (the file's extension decides), 2 certainly.
     int (*probe)(const uint8_t *bytes, size_t size);
     // Fills an empty scene: meshes, materials, one object per mesh. On failure the caller frees the scene.
@@ -43,7 +47,14 @@ struct importer {
     bool (*load_stream)(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 };
 
-extern const struct importer importer_obj, importer_stl, importer_ply, importer_scene;
+extern const struct importer importer_obj, importer_stl, importer_ply, importer_gltf, importer_scene;
+
+// The crease angle for scene_prepare, of a load with these parameters (0: the default). Flat normals are smooth ones that
+// are split at every edge.
+static inline double importer_crease(const struct importer *importer, lam_normals normals, double crease_angle_rad)
+{
+    return importer->flat_normals && normals == LAM_NORMALS_FILE && crease_angle_rad == 0 ? 1e-6 : crease_angle_rad;
+}
 
 // LAM_CANNOT_READ with "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". Return false.
 bool fail_line(lam_error *error, const struct import_source *source, size_t line, const char *format, ...)

@@ -24,6 +24,9 @@ struct place {
 #define KEY_OF(parent, name)       (&(struct place){.within = (parent), .key = (name)})
 #define ELEMENT_OF(parent, number) (&(struct place){.within = (parent), .index = (number)})
 
+// Writes "objects[1].material.shininess"; a longer place is cut.
+void json_place(const struct place *place, char *out, size_t capacity);
+
 // Returns false.
 bool json_fail(const struct json_reader *r, const struct place *place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -1,5 +1,4 @@
 // load.c: from a file or memory to a scene: the steps that all formats share.
-#include "clear_models.h"
 #include "companion.h"
 #include "fail.h"
 #include "float_state.h"
@@ -62,12 +61,13 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     const lam_load_params *params = source->params;
     if (!check_not_empty(scene, source->name, error))
         return false;
-    show_clear_scene(scene, source->name);
     // A scene file records the origin of each of its models itself.
     struct scene_origin origin = {.normals = params->normals, .crease_angle_rad = params->crease_angle_rad};
     if (!importer->is_scene_file && source->path) {
         origin.path = arena_string(&scene->arena, source->path);
-        if (!origin.path)
+        origin.scene = arena_string(&scene->arena, params->scene);
+        origin.variant = arena_string(&scene->arena, params->variant);
+        if (!origin.path || !origin.scene != !params->scene || !origin.variant != !params->variant)
             return call_memory_error(source->call, strlen(source->path), error);
     }
     if (!importer->is_scene_file && !scene_note_origin(scene, origin, 0, error))
@@ -75,9 +75,10 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     uint64_t read_ns = now_ns();
     scene->read_ms = (double)(read_ns - start_ns) * 1e-6;
     call_progress(source->call, 0.8, "normals");
+    double crease_angle_rad = importer_crease(importer, params->normals, params->crease_angle_rad);
     if (params->normals_when_drawn && params->normals != LAM_NORMALS_FACET && !importer->is_scene_file)
-        scene_defer_normals(scene, params->normals, params->crease_angle_rad);
-    else if (!scene_prepare(scene, params->normals, params->crease_angle_rad, source->pool, source->call, error))
+        scene_defer_normals(scene, params->normals, crease_angle_rad);
+    else if (!scene_prepare(scene, params->normals, crease_angle_rad, source->pool, source->call, error))
         return false;
     if (!scene_measure(scene, source->pool, error))
         return false;
@@ -149,6 +150,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     if (ok && !scene) {
         source.bytes = file.data;
         source.size = file.size;
+        source.file = &file;
         call_progress(&call, 0.05, "read");
         importer = importer_for(name, &file, params->format, error);
         scene = importer ? start_scene(&source, importer, error) : NULL;

@@ -10,7 +10,6 @@ static const struct kind {
     const char *magic;
     const char *within;
 } kinds[] = {
-    {{"a glTF binary file", true}, 0, 4, "glTF", NULL},
     {{"an FBX file", true}, 0, 18, "Kaydara FBX Binary", NULL},
     {{"an FBX file", true}, 0, 5, "; FBX", NULL},
     {{"a STEP file", true}, 0, 12, "ISO-10303-21", NULL},
@@ -60,8 +59,7 @@ static const struct text_kind {
     char first;
     const char *within;
 } text_kinds[] = {
-    {{"a glTF file", true}, '{', "\"asset\""},
-    {{"a JSON file without the key \"lambent\" of scene files (\"lambent\": 1)", false}, '{', "\":"},
+    {{"a JSON file with neither the key \"asset\" of glTF nor \"lambent\" of scene files", false}, '{', "\":"},
     {{"a COLLADA file", true}, '<', "<COLLADA"},
     {{"an X3D file", true}, '<', "<X3D"},
     {{"an AMF file", true}, '<', "<amf"},

@@ -101,7 +101,8 @@ static bool has_translucent_colors(const lam_mesh *mesh, struct pool *pool)
 }
 
 struct shifting {
-    float *values;
+    const float *from;
+    float *to;    // may be `from`
     size_t count; // of points, three values each
     double by[3];
 };
@@ -122,27 +123,33 @@ static void shift_piece(void *user, size_t index, int thread)
         end = shifting->count;
     for (size_t i = first; i < end; i++)
         for (int axis = 0; axis < 3; axis++)
-            shifting->values[3 * i + axis] = shifted(shifting->values[3 * i + axis], shifting->by[axis]);
+            shifting->to[3 * i + axis] = shifted(shifting->from[3 * i + axis], shifting->by[axis]);
 }
 
 // Gives a mesh that lies far from zero an origin, so that drawing, which computes in floats, keeps the detail that its
 // positions have. The new positions are exact: they and the origin are multiples of the old ones' last places, and
-// smaller. The mesh's arrays are the scene's own.
-static void move_origin(lam_mesh *mesh, struct aabb_tree *boxes, struct pool *pool)
+// smaller. The mesh's arrays are the scene's own; where meshes share them, the mesh gets an array of its own. False: out
+// of memory.
+static bool move_origin(struct lam_scene *scene, lam_mesh *mesh, struct aabb_tree *boxes, struct pool *pool,
+                        lam_error *error)
 {
     box_of_six whole;
     box_tree_whole(boxes, whole);
     const double low[3] = {(double)whole[0], (double)whole[1], (double)whole[2]};
     const double high[3] = {(double)whole[3], (double)whole[4], (double)whole[5]};
-    struct shifting shifting = {(float *)(uintptr_t)mesh->positions, mesh->vertex_count, {0}};
+    struct shifting shifting = {mesh->positions, (float *)(uintptr_t)mesh->positions, mesh->vertex_count, {0}};
     if (!origin_choose(low, high, shifting.by))
-        return;
+        return true;
+    if (scene->shared_arrays && !(shifting.to = arena_array(&scene->arena, shifting.count, 3 * sizeof(float))))
+        return call_memory_error(scene->arena.call, shifting.count * 3 * sizeof(float), error);
     pool_run(pool, (shifting.count + PIECE - 1) / PIECE, shift_piece, &shifting);
-    shifting.values = (float *)(uintptr_t)boxes->boxes;
+    mesh->positions = shifting.to;
+    shifting.from = shifting.to = (float *)(uintptr_t)boxes->boxes;
     shifting.count = 2 * (boxes->first[boxes->levels - 1] + boxes->count[boxes->levels - 1]);
     pool_run(pool, (shifting.count + PIECE - 1) / PIECE, shift_piece, &shifting);
     for (int axis = 0; axis < 3; axis++)
         mesh->origin[axis] += shifting.by[axis];
+    return true;
 }
 
 static bool measure(struct lam_scene *scene, lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
@@ -155,7 +162,8 @@ static bool measure(struct lam_scene *scene, lam_mesh *mesh, struct scene_extent
         return false;
     if (!extent->used_count)
         return true;
-    move_origin(mesh, &extent->boxes, pool);
+    if (!move_origin(scene, mesh, &extent->boxes, pool, error))
+        return false;
     box_of_six box;
     box_tree_whole(&extent->boxes, box);
     const double *o = mesh->origin;

@@ -34,6 +34,8 @@ struct scene_origin {
     lam_normals normals;
     double crease_angle_rad; // 0: the default
     bool field_tangents;     // the file's tangents were dropped
+    // Of a glTF file, as in lam_load_params; NULL: the file's own choice.
+    const char *scene, *variant;
     int first_mesh, mesh_count;
     int first_material, material_count;
     // Copies of the file's materials, objects and parts' materials, before any change by the program.
@@ -51,19 +53,23 @@ struct scene_token {
     int gone;       // atomic; the scene was freed
 };
 
+// A camera of the model's file.
+struct scene_camera {
+    const char *name;  // NULL: unnamed
+    lam_camera camera; // near_plane > 0 and far_plane 0: it sees infinitely far
+};
+
 struct lam_scene {
     struct arena arena;
     struct scene_token *token;
-    struct scene_list meshes;    // lam_mesh
-    struct scene_list extents;   // struct scene_extent, one for each measured mesh, in the same order
-    struct scene_list materials; // lam_material
-    struct scene_list objects;   // lam_object
-    struct scene_list lights;    // lam_light
-    struct scene_list warnings;  // const char *
-    struct scene_list origins;   // struct scene_origin, in the order of their meshes
-    // Materials of MTL files that are fully transparent, and a sentence about the first one, with its place; NULL: none.
-    int clear_materials;
-    const char *first_clear;
+    struct scene_list meshes;             // lam_mesh
+    struct scene_list extents;            // struct scene_extent, one for each measured mesh, in the same order
+    struct scene_list materials;          // lam_material
+    struct scene_list objects;            // lam_object
+    struct scene_list lights;             // lam_light
+    struct scene_list cameras;            // struct scene_camera
+    struct scene_list warnings;           // const char *
+    struct scene_list origins;            // struct scene_origin, in the order of their meshes
     const lam_picture_settings *settings; // of a scene file; NULL: none
     lam_up up;
     lam_mat4 placement; // the product of all lam_scene_transform calls
@@ -76,6 +82,7 @@ struct lam_scene {
     double read_ms, prepare_ms;
     // The crease angle of meshes whose normals are left to the device; 0: all meshes have normals.
     double deferred_crease_rad;
+    bool shared_arrays; // meshes may have arrays in common: none is changed in place
 };
 
 // As lam_scene_make, but allocations are charged to `call` (may be NULL) until scene_built.
@@ -98,9 +105,6 @@ int scene_append(struct lam_scene *scene, struct scene_list *list, const void *i
 // Adds a warning, formatted. At most SCENE_WARNINGS_MAX are kept; the last of them says that others are omitted.
 enum { SCENE_WARNINGS_MAX = 64 };
 void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-// Counts a fully transparent material; the sentence of the first one is kept. The load ends with a warning of them.
-void scene_note_clear(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Records the origin of the meshes and materials from origin.first_… on. False: out of memory.
 bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error);

@@ -23,6 +23,7 @@ struct variant {
 struct model {
     struct lam_scene inner;            // as it was read; its lists and arrays are in the outer scene's arena
     struct scene_origin origin;        // without the counts and copies
+    double crease_angle_rad;           // that its normals are made with; 0: the default
     struct variant variants[VARIANTS]; // the latest ones
     int variant_count;                 // ever made
 };
@@ -53,7 +54,7 @@ static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted
     return scene_adopt_object(&model->inner, &object, r->error) >= 0;
 }
 
-static bool import_file(struct scene_reader *r, const struct model_wanted *wanted, const struct companion *file,
+static bool import_file(struct scene_reader *r, const struct model_wanted *wanted, struct companion *file,
                         struct model *model)
 {
     struct lam_scene *inner = &model->inner;
@@ -63,11 +64,14 @@ static bool import_file(struct scene_reader *r, const struct model_wanted *wante
     params.format = NULL;
     params.normals = wanted->normals;
     params.crease_angle_rad = wanted->crease_angle_rad;
+    params.scene = wanted->scene;
+    params.variant = wanted->variant;
     struct import_source source = *r->source;
     source.name = file->shown;
     source.path = file->path;
     source.bytes = file->file.data;
     source.size = file->file.size;
+    source.file = &file->file;
     source.params = &params;
     source.open_state = &companions;
     if (!companions_of_model(r->source, wanted->file, file, &inner->arena, &companions, r->error))
@@ -80,6 +84,7 @@ static bool import_file(struct scene_reader *r, const struct model_wanted *wante
     inner->up = importer->up;
     inner->format = importer->name;
     inner->color = r->color;
+    model->crease_angle_rad = importer_crease(importer, wanted->normals, wanted->crease_angle_rad);
     if (!importer->load(&source, inner, r->error))
         return false;
     uint64_t triangles = 0;
@@ -103,28 +108,28 @@ static bool open_file(struct scene_reader *r, const struct model_wanted *wanted,
 static bool complete(struct scene_reader *r, const struct model_wanted *wanted, struct model *model)
 {
     struct lam_scene *inner = &model->inner;
-    return scene_prepare(inner, wanted->normals, wanted->crease_angle_rad, r->source->pool, r->source->call,
-                         r->error) &&
+    return scene_prepare(inner, wanted->normals, model->crease_angle_rad, r->source->pool, r->source->call, r->error) &&
            scene_measure(inner, r->source->pool, r->error);
 }
 
-static struct model *read_model(struct scene_reader *r, const struct model_wanted *wanted, const struct companion *file)
+static struct model *read_model(struct scene_reader *r, const struct model_wanted *wanted, struct companion *file)
 {
     struct model *model = arena_alloc_zeroed(&r->scene->arena, sizeof *model);
     if (!model) {
         no_memory(r, sizeof *model);
         return NULL;
     }
-    model->origin = (struct scene_origin){
-        .path = file ? file->path : NULL, .normals = wanted->normals, .crease_angle_rad = wanted->crease_angle_rad};
+    model->origin = (struct scene_origin){.path = file ? file->path : NULL,
+                                          .normals = wanted->normals,
+                                          .crease_angle_rad = wanted->crease_angle_rad,
+                                          .scene = wanted->scene,
+                                          .variant = wanted->variant};
+    model->crease_angle_rad = wanted->crease_angle_rad;
     model->inner.arena = r->scene->arena;
     bool ok = (file ? import_file(r, wanted, file, model) : make_shape(r, wanted, model)) && complete(r, wanted, model);
     r->scene->arena = model->inner.arena;
     for (int i = 0; ok && i < model->inner.warnings.count; i++)
         scene_warn(r->scene, "%s", ((const char **)model->inner.warnings.items)[i]);
-    if (ok && !r->scene->clear_materials)
-        r->scene->first_clear = model->inner.first_clear;
-    r->scene->clear_materials += model->inner.clear_materials;
     return ok ? model : NULL;
 }
 
@@ -134,7 +139,8 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
 static bool key_of(const struct model_wanted *wanted, const char *file, char key[KEY_SIZE])
 {
     const lam_shape_params *s = &wanted->segments;
-    int length = file ? snprintf(key, KEY_SIZE, "file %d %a %s", (int)wanted->normals, wanted->crease_angle_rad, file)
+    int length = file ? snprintf(key, KEY_SIZE, "file %d %a %s\n%s\n%s", (int)wanted->normals, wanted->crease_angle_rad,
+                                 file, wanted->scene ? wanted->scene : "", wanted->variant ? wanted->variant : "")
                       : snprintf(key, KEY_SIZE, "shape %d %a %a %d %d %s", (int)wanted->normals,
                                  wanted->crease_angle_rad, s->radius, s->slices, s->stacks, wanted->shape);
     return length > 0 && length < KEY_SIZE;
@@ -278,5 +284,8 @@ bool add_model(struct scene_reader *r, const struct model_wanted *wanted, int *o
     }
     for (int i = 0; ok && !r->has_lights && i < model->inner.lights.count; i++)
         ok = scene_adopt_light(scene, (const lam_light *)model->inner.lights.items + i, r->error) >= 0;
+    for (int i = 0; ok && i < model->inner.cameras.count; i++)
+        ok = scene_append(scene, &scene->cameras, (const struct scene_camera *)model->inner.cameras.items + i,
+                          sizeof(struct scene_camera), r->error) >= 0;
     return ok;
 }

@@ -12,6 +12,7 @@ struct model_wanted {
     lam_normals normals;
     double crease_angle_rad; // 0: the default
     bool field_tangents;
+    const char *scene, *variant;     // of a glTF file, as in lam_load_params
     const json_t *materials, *parts; // the object's changes of the model; NULL: none
 };
 

@@ -4,14 +4,15 @@
 #include "fail.h"
 #include "linear.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define EVERY_OBJECT                                                                                                   \
     "name", "transform", "material", "back_material", "two_sided", "cull", "tangents", "normals", "crease_angle"
 static const char *const shape_keys[] = {EVERY_OBJECT, "shape", "radius", "slices", "stacks", NULL};
-static const char *const file_keys[] = {EVERY_OBJECT, "file", "materials", "parts", NULL};
-static const char *const any_keys[] = {EVERY_OBJECT, "shape",     "radius", "slices", "stacks",
-                                       "file",       "materials", "parts",  NULL};
+static const char *const file_keys[] = {EVERY_OBJECT, "file", "materials", "parts", "scene", "variant", NULL};
+static const char *const any_keys[] = {EVERY_OBJECT, "shape", "radius", "slices",  "stacks", "file",
+                                       "materials",  "parts", "scene",  "variant", NULL};
 
 // --- keys of all objects
 
@@ -31,7 +32,9 @@ static bool change_materials(struct scene_reader *r, const struct place *place, 
         bool found = false;
         for (int i = origin->first_material; i < origin->first_material + origin->material_count; i++) {
             lam_material *material = (lam_material *)r->scene->materials.items + i;
-            if (!material->name || strcmp(material->name, key) != 0)
+            char number[16]; // of a material without a name
+            snprintf(number, sizeof number, "#%d", i - origin->first_material);
+            if (strcmp(material->name ? material->name : number, key) != 0)
                 continue;
             found = true;
             if (!read_material_keys(r, KEY_OF(here, key), change, false, material))
@@ -96,9 +99,32 @@ static bool is_identity(const lam_mat4 *m)
     return memcmp(m, &identity, sizeof identity) == 0;
 }
 
-// Applies the keys that shapes and files share to the objects from `first` on.
-static bool finish(struct scene_reader *r, const struct place *place, const json_t *value, int first, const char *name)
+// The numbers of the first object, light and camera of an entry.
+struct entry {
+    int object, light, camera;
+};
+
+// Lights and cameras of a file are placed with its objects.
+static void place_lights_and_cameras(struct lam_scene *scene, const struct entry *entry, const lam_mat4 *transform)
 {
+    for (int i = entry->light; i < scene->lights.count; i++) {
+        lam_light *light = (lam_light *)scene->lights.items + i;
+        light->position = mat4_point(transform, light->position);
+        light->direction = mat4_vector(transform, light->direction);
+    }
+    for (int i = entry->camera; i < scene->cameras.count; i++) {
+        lam_camera *camera = &((struct scene_camera *)scene->cameras.items)[i].camera;
+        camera->eye = mat4_point(transform, camera->eye);
+        camera->target = mat4_point(transform, camera->target);
+        camera->up = mat4_vector(transform, camera->up);
+    }
+}
+
+// Applies the keys that shapes and files share to the items of an entry.
+static bool finish(struct scene_reader *r, const struct place *place, const json_t *value, const struct entry *entry,
+                   const char *name)
+{
+    int first = entry->object;
     lam_mat4 transform = lam_mat4_identity();
     const json_t *steps = json_object_get(value, "transform"), *material = json_object_get(value, "material");
     int front = -1;
@@ -106,6 +132,8 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
         return false;
     if (material && !read_material_value(r, KEY_OF(place, "material"), material, NULL, &front))
         return false;
+    if (steps)
+        place_lights_and_cameras(r->scene, entry, &transform);
     for (int i = first; i < r->scene->objects.count; i++) {
         lam_object *object = (lam_object *)r->scene->objects.items + i;
         // not through a product where there is nothing to multiply: it would lose the signs of zeros
@@ -123,7 +151,7 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
 
 static bool read_object(struct scene_reader *r, const struct place *place, const json_t *value)
 {
-    const char *shape = NULL, *file = NULL, *name = NULL;
+    const char *shape = NULL, *file = NULL, *name = NULL, *inner = NULL, *variant = NULL;
     int normals = LAM_NORMALS_FILE, field = false;
     double crease_deg = -1;
     bool is_file = json_is_object(value) && json_object_get(value, "file");
@@ -135,7 +163,9 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
                           is_file ? "has both shape and file, expected one of them"
                                   : "has neither shape nor file, expected one of them");
     if (!take_text(r, place, value, "shape", &shape) || !take_text(r, place, value, "file", &file) ||
-        !take_text(r, place, value, "name", &name) || !take_word(r, place, value, "normals", normals_words, &normals) ||
+        !take_text(r, place, value, "name", &name) || !take_text(r, place, value, "scene", &inner) ||
+        !take_text(r, place, value, "variant", &variant) ||
+        !take_word(r, place, value, "normals", normals_words, &normals) ||
         !take_number(r, place, value, "crease_angle", 0, 180, &crease_deg) ||
         !take_word(r, place, value, "tangents", tangent_words, &field))
         return false;
@@ -149,6 +179,8 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
                             : crease_deg > 0 ? math_radians(crease_deg)
                                              : 1e-6,
         .field_tangents = field,
+        .scene = inner,
+        .variant = variant,
         .materials = json_object_get(value, "materials"),
         .parts = json_object_get(value, "parts"),
     };
@@ -157,13 +189,14 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
          !take_whole(r, place, value, "slices", 3, 16384, &wanted.segments.slices) ||
          !take_whole(r, place, value, "stacks", 1, 16384, &wanted.segments.stacks)))
         return false;
-    int first = r->scene->objects.count, index;
+    struct entry entry = {r->scene->objects.count, r->scene->lights.count, r->scene->cameras.count};
+    int index;
     bool own;
     if (!add_model(r, &wanted, &index, &own))
         return false;
     const struct scene_origin *origin = (const struct scene_origin *)r->scene->origins.items + index;
     return (!own || (change_materials(r, place, value, origin) && replace_parts(r, place, value, origin))) &&
-           finish(r, place, value, first, name);
+           finish(r, place, value, &entry, name);
 }
 
 bool read_objects(struct scene_reader *r, const json_t *root)

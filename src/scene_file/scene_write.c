@@ -196,6 +196,15 @@ static bool same_material(const lam_material *a, const lam_material *b)
     return true;
 }
 
+// Whether at most one material has this name, so that it can be called by it.
+static bool is_only_name(const struct scene_origin *origin, const char *name)
+{
+    int count = 0;
+    for (int i = 0; i < origin->material_count; i++)
+        count += origin->materials[i].name && strcmp(origin->materials[i].name, name) == 0;
+    return count <= 1;
+}
+
 // Changes of the model's own materials since it was read.
 static bool put_changes(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
 {
@@ -205,10 +214,13 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
         if (!now || same_material(now, &origin->materials[i]))
             continue;
         const char *name = origin->materials[i].name;
-        if (!name || !*name)
+        char number[16], shown[SHOWN_NAME_SIZE];
+        snprintf(number, sizeof number, "#%d", i);
+        name = name ? name : number;
+        if (!*name || !is_only_name(origin, name))
             return fail(w->error, LAM_UNSUPPORTED,
-                        "%s: a material of '%.200s' was changed, but has no name to be called by", w->path,
-                        origin->path);
+                        "%s: the material '%s' of '%.200s' was changed, but its name is empty or another one's too",
+                        w->path, shown_name(name, shown), origin->path);
         changes = changes ? changes : json_object();
         bool whole = origin->materials[i].diffuse.a != 1 || origin->materials[i].fibre;
         put(w, changes, name, material_json(w, now, whole));
@@ -261,26 +273,75 @@ static bool is_identity(const lam_mat4 *m)
     return true;
 }
 
-static void put_transform(struct scene_writer *w, json_t *entry, const lam_object *object, const lam_object *own)
+// What the program has changed of an object since it was read.
+struct change {
+    lam_mat4 transform;          // on top of the file's own
+    int material, back_material; // −1: unchanged
+    int one_sided, cull;         // −1: unchanged
+};
+
+static struct change change_of(const struct scene_writer *w, const lam_object *object, const lam_object *own)
 {
-    lam_mat4 matrix = object->transform, inverse;
-    // A file's own transform stays in the file: only the transform on top of it is written.
-    if (!is_identity(&own->transform) && mat4_inverse_affine(&own->transform, &inverse))
-        matrix =
-            memcmp(&matrix, &own->transform, sizeof matrix) == 0 ? lam_mat4_identity() : mat4_mul(&matrix, &inverse);
-    if (!is_identity(&matrix))
-        put(w, entry, "transform", list_of(w, &matrix.m[0][0], 16));
+    struct change change = {.transform = object->transform, .material = -1, .back_material = -1};
+    lam_mat4 inverse, placed = mat4_mul(&w->scene->placement, &own->transform);
+    // A file's own transform stays in the file. The scene's placement gives the same bits again.
+    if (memcmp(&object->transform, &own->transform, sizeof own->transform) == 0)
+        change.transform = lam_mat4_identity();
+    else if (memcmp(&object->transform, &placed, sizeof placed) == 0)
+        change.transform = w->scene->placement;
+    else if (!is_identity(&own->transform) && mat4_inverse_affine(&own->transform, &inverse))
+        change.transform = mat4_mul(&object->transform, &inverse);
+    if (object->material >= 0 && object->material != own->material)
+        change.material = object->material;
+    if (object->back_material >= 0 && object->back_material != own->back_material)
+        change.back_material = object->back_material;
+    change.one_sided = object->one_sided != own->one_sided ? object->one_sided : -1;
+    change.cull = object->cull != own->cull ? (int)object->cull : -1;
+    return change;
+}
+
+// The change that all objects of a file have in common: one entry stands for them. False: they differ.
+static bool common_change(const struct scene_writer *w, const struct scene_origin *origin, int first,
+                          struct change *common)
+{
+    bool material = true, back = true, sides = true, cull = true, changed[4] = {0};
+    const lam_object *one = lam_scene_object(w->scene, first);
+    for (int i = 0; i < origin->object_count; i++) {
+        const lam_object *object = lam_scene_object(w->scene, first + i);
+        if (!object || origin_of(w->scene, object->mesh) != origin)
+            return false;
+        struct change change = change_of(w, object, &origin->objects[i]);
+        if (i == 0)
+            *common = change;
+        if (memcmp(&change.transform, &common->transform, sizeof change.transform) != 0)
+            return false;
+        material &= object->material == one->material;
+        back &= object->back_material == one->back_material;
+        sides &= object->one_sided == one->one_sided;
+        cull &= object->cull == one->cull;
+        changed[0] |= change.material >= 0;
+        changed[1] |= change.back_material >= 0;
+        changed[2] |= change.one_sided >= 0;
+        changed[3] |= change.cull >= 0;
+    }
+    common->material = changed[0] ? one->material : -1;
+    common->back_material = changed[1] ? one->back_material : -1;
+    common->one_sided = changed[2] ? one->one_sided : -1;
+    common->cull = changed[3] ? (int)one->cull : -1;
+    return (material || !changed[0]) && (back || !changed[1]) && (sides || !changed[2]) && (cull || !changed[3]);
 }
 
 static bool put_object(struct scene_writer *w, json_t *list, const lam_object *object,
-                       const struct scene_origin *origin)
+                       const struct scene_origin *origin, const struct change *change)
 {
-    const lam_object plain = lam_object_default(), *own = origin->object_count ? origin->objects : &plain;
     json_t *entry = json_object();
     append(w, list, entry);
     if (!entry)
         return true;
-    put_name(w, entry, "name", object->name);
+    // The key would name all objects of a file that have no name.
+    const char *own_name = origin->object_count > 1 ? origin->objects[0].name : NULL;
+    if (!own_name || !object->name || strcmp(own_name, object->name) != 0)
+        put_name(w, entry, "name", object->name);
     if (origin->shape) {
         put(w, entry, "shape", json_string(origin->shape));
         if (origin->segments.radius > 0)
@@ -299,15 +360,20 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
             origin->crease_angle_rad <= 1e-6 ? json_integer(0) : degrees(origin->crease_angle_rad));
     if (origin->field_tangents)
         put(w, entry, "tangents", json_string("field"));
-    put_transform(w, entry, object, own);
-    if (object->material >= 0 && object->material != own->material)
-        put(w, entry, "material", material_json(w, lam_scene_material(w->scene, object->material), false));
-    if (object->back_material >= 0 && object->back_material != own->back_material)
-        put(w, entry, "back_material", material_json(w, lam_scene_material(w->scene, object->back_material), true));
-    if (object->one_sided != own->one_sided)
-        put(w, entry, "two_sided", json_boolean(!object->one_sided));
-    if (object->cull != own->cull)
-        put(w, entry, "cull", word(cull_words, (int)object->cull));
+    if (origin->scene)
+        put(w, entry, "scene", json_string(origin->scene));
+    if (origin->variant)
+        put(w, entry, "variant", json_string(origin->variant));
+    if (!is_identity(&change->transform))
+        put(w, entry, "transform", list_of(w, &change->transform.m[0][0], 16));
+    if (change->material >= 0)
+        put(w, entry, "material", material_json(w, lam_scene_material(w->scene, change->material), false));
+    if (change->back_material >= 0)
+        put(w, entry, "back_material", material_json(w, lam_scene_material(w->scene, change->back_material), true));
+    if (change->one_sided >= 0)
+        put(w, entry, "two_sided", json_boolean(!change->one_sided));
+    if (change->cull >= 0)
+        put(w, entry, "cull", word(cull_words, change->cull));
     put_parts(w, entry, origin);
     return put_changes(w, entry, origin);
 }
@@ -316,8 +382,6 @@ static bool put_objects(struct scene_writer *w, json_t *root)
 {
     json_t *list = json_array();
     put(w, root, "objects", list);
-    const struct scene_origin *last = NULL;
-    int follow = 0; // objects that the entry of the one before stands for too
     for (int i = 0; i < lam_scene_object_count(w->scene); i++) {
         const lam_object *object = lam_scene_object(w->scene, i);
         const struct scene_origin *origin = origin_of(w->scene, object->mesh);
@@ -328,13 +392,17 @@ static bool put_objects(struct scene_writer *w, json_t *root)
                         "shape, so a scene file "
                         "cannot name it",
                         w->path, i, shown_name(object->name ? object->name : "", shown));
-        if (origin == last && follow > 0) { // one entry stands for all objects of a file
-            follow--;
-            continue;
-        }
-        last = origin;
-        follow = origin->object_count - 1;
-        if (!put_object(w, list, object, origin))
+        const lam_object plain = lam_object_default();
+        bool several = origin->object_count > 1; // one entry stands for all objects of a file
+        struct change change =
+            several ? (struct change){0} : change_of(w, object, origin->object_count ? origin->objects : &plain);
+        if (several && !common_change(w, origin, i, &change))
+            return fail(w->error, LAM_UNSUPPORTED,
+                        "%s: some objects of '%.200s' were changed and others not, or not alike, so one entry of a "
+                        "scene file cannot stand for them",
+                        w->path, origin->path);
+        i += several ? origin->object_count - 1 : 0;
+        if (!put_object(w, list, object, origin, &change))
             return false;
     }
     return true;

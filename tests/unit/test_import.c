@@ -27,11 +27,13 @@ static void test_formats(void **unused)
     assert_string_equal(lam_model_format_name(0), "obj");
     assert_string_equal(lam_model_format_name(1), "stl");
     assert_string_equal(lam_model_format_name(2), "ply");
-    assert_string_equal(lam_model_format_name(3), "scene");
-    assert_null(lam_model_format_name(4));
+    assert_string_equal(lam_model_format_name(3), "gltf");
+    assert_string_equal(lam_model_format_name(4), "scene");
+    assert_null(lam_model_format_name(5));
     assert_null(lam_model_format_name(-1));
     assert_string_equal(lam_model_format_extensions(0), "obj");
-    assert_null(lam_model_format_extensions(4));
+    assert_string_equal(lam_model_format_extensions(3), "gltf glb");
+    assert_null(lam_model_format_extensions(5));
 }
 
 // The content decides the format; the extension only resolves ambiguity.
@@ -86,12 +88,10 @@ static void test_foreign(void **unused)
         lam_code code;
     } rows[] = {
 #define ROW(text, name, sentence, code) {text, sizeof text - 1, name, sentence, code}
-#define YET                             ", which this version cannot read yet; it reads obj, stl, ply and scene"
-#define NOT                             ", not a 3D model; expected obj, stl, ply and scene"
-        ROW("glTF\2\0\0\0\x40\0\0\0", "scene.glb", "scene.glb: this is a glTF binary file" YET, LAM_UNSUPPORTED),
-        ROW("{\n \"asset\": {\"version\": \"2.0\"}}", "a.gltf", "a.gltf: this is a glTF file" YET, LAM_UNSUPPORTED),
+#define YET                             ", which this version cannot read yet; it reads obj, stl, ply, gltf and scene"
+#define NOT                             ", not a 3D model; expected obj, stl, ply, gltf and scene"
         ROW("{\"name\": 1}", "a.json",
-            "a.json: this is a JSON file without the key \"lambent\" of scene files (\"lambent\": 1)" NOT,
+            "a.json: this is a JSON file with neither the key \"asset\" of glTF nor \"lambent\" of scene files" NOT,
             LAM_CANNOT_READ),
         ROW("Kaydara FBX Binary  \0", "a.fbx", "a.fbx: this is an FBX file" YET, LAM_UNSUPPORTED),
         ROW("\x4d\x4d\x8\0\0\0xx", "a.3ds", "a.3ds: this is a 3DS file" YET, LAM_UNSUPPORTED),
@@ -103,8 +103,8 @@ static void test_foreign(void **unused)
         ROW("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "a.obj", "a.obj: this is a PNG picture" NOT, LAM_CANNOT_READ),
         ROW("# x\nnewmtl a\nKd 1 1 1\n", "a.mtl",
             "a.mtl: this is a MTL file (materials only; give the .obj that names it)" NOT, LAM_CANNOT_READ),
-        ROW("hello there\n", "a.txt", "a.txt: this is no model format known here; expected obj, stl, ply and scene",
-            LAM_CANNOT_READ),
+        ROW("hello there\n", "a.txt",
+            "a.txt: this is no model format known here; expected obj, stl, ply, gltf and scene", LAM_CANNOT_READ),
         ROW("", "a.obj", "a.obj: the file is empty", LAM_CANNOT_READ),
         ROW("hello there\n", "a.obj",
             "a.obj:1: found 'hello', expected a statement of OBJ (v, f, …); the file holds no triangles",
@@ -124,7 +124,7 @@ static void test_arguments(void **unused)
     } rows[] = {
         {{.format = "xyz"},
          LAM_UNSUPPORTED,
-         "a: the format 'xyz' cannot be read; this version reads obj, stl, ply and scene"},
+         "a: the format 'xyz' cannot be read; this version reads obj, stl, ply, gltf and scene"},
         {{.crease_angle_rad = -1}, LAM_BAD_ARGUMENT, "a: crease_angle_rad is -1, expected 0 to pi"},
         {{.threads = -1}, LAM_BAD_ARGUMENT, "a: threads is -1, expected 0 to 1024"},
         {{.up = (lam_up)9}, LAM_BAD_ARGUMENT, "a: up, color or normals is not one of its constants"},

@@ -50,7 +50,9 @@ const struct command command_table[] = {
                       1, -1, plot_defaults},
     [COMMAND_lights] = {"lights", "MODEL",
                         "Print the lights of a model, or of the rig if it has none, in scene file form.",
-                        ABOUT | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING | 1u << GROUP_WORK, 1, 1},
+                        ABOUT | 1u << GROUP_MODEL | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING |
+                            1u << GROUP_WORK,
+                        1, 1},
     [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, 0, 0},
     [COMMAND_formats] = {"formats", NULL,
                          "List the model formats that can be read and the picture formats that can be written.", ABOUT,

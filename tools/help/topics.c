@@ -6,7 +6,7 @@
 #define BIT(group) (1u << GROUP_##group)
 
 const struct topic topics[] = {
-    {"models", "Models", 0, TOPIC_NO_TABLE,
+    {"models", "Models", BIT(MODEL), TOPIC_NO_TABLE,
      "MODEL is a file, the name of a built-in shape, or `-` for standard input. The content decides the format; "
      "the extension is only a hint. The name of a built-in shape means the shape even if a file has that name: "
      "write `./teapot` for the file, and `./shapes` for a file that has the name of a command.\n"

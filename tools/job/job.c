@@ -76,43 +76,30 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     return NULL;
 }
 
-// What may have been meant by the name of a model that cannot be read, as the end of a sentence; "": nothing is known.
-static void guess(const struct job *job, const lam_error *error, char *text, size_t size)
-{
-    const char *model = job->model;
-    lam_pixel_format format;
-    *text = 0;
-    if (!job->options->output && lam_image_format_for(model, &format, NULL))
-        snprintf(text, size, "; the name of the picture to write follows -o");
-    if (*text || error->code != LAM_CANNOT_READ || access(model, F_OK) == 0)
-        return;
-    if (strpbrk(model, "*?")) {
-        snprintf(text, size, "; no file matches this pattern");
-    } else if (strpbrk(model, "./")) {
-        return;
-    } else if (find_command(model)) {
-        snprintf(text, size, "; a command comes first: lambent %s", model);
-    } else if (option_find(model)) {
-        snprintf(text, size, "; an option begins with dashes: --%s", model);
-    } else {
-        struct suggestion nearest = suggest_start(model);
-        for (int i = 0; i < lam_shape_count(); i++)
-            suggest_try(&nearest, lam_shape_name(i));
-        for (const struct command *c = command_table; c->name; c++)
-            suggest_try(&nearest, c->name);
-        if (nearest.best)
-            snprintf(text, size, "; did you mean '%s'?", nearest.best);
-        else
-            snprintf(text, size, "; no built-in shape has this name either: `lambent shapes` lists them");
-    }
-}
-
+// Adds to the error what may have been meant by the name of a model that does not exist.
 static void add_guess(const struct job *job, lam_error *error)
 {
-    char text[200];
+    if (error->code != LAM_CANNOT_READ || strpbrk(job->model, "./") || access(job->model, F_OK) == 0)
+        return;
     size_t length = strlen(error->text);
-    guess(job, error, text, sizeof text);
-    snprintf(error->text + length, sizeof error->text - length, "%s", text);
+    if (find_command(job->model)) {
+        snprintf(error->text + length, sizeof error->text - length, "; a command comes first: lambent %s", job->model);
+        return;
+    }
+    if (option_find(job->model)) {
+        snprintf(error->text + length, sizeof error->text - length, "; an option begins with dashes: --%s", job->model);
+        return;
+    }
+    struct suggestion nearest = suggest_start(job->model);
+    for (int i = 0; i < lam_shape_count(); i++)
+        suggest_try(&nearest, lam_shape_name(i));
+    for (const struct command *c = command_table; c->name; c++)
+        suggest_try(&nearest, c->name);
+    if (nearest.best)
+        snprintf(error->text + length, sizeof error->text - length, "; did you mean '%s'?", nearest.best);
+    else
+        snprintf(error->text + length, sizeof error->text - length,
+                 "; no built-in shape has this name either: `lambent shapes` lists them");
 }
 
 // True if only one frame is drawn, so that normals of its visible triangles suffice.
@@ -143,6 +130,9 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
                                   .normals = (lam_normals)o->normals,
                                   .crease_angle_rad = crease_of(o),
                                   .threads = o->threads,
+                                  .scene = o->model_scene,
+                                  .variant = o->variant,
+                                  .lenient = o->lenient,
                                   .normals_when_drawn = draws_once(job)};
         job->scene = lam_scene_load(job->model, &params, &control, error);
         if (job->scene)
@@ -161,7 +151,28 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     scene_settings_apply(job);
     if (o->slices && lam_shape_find(job->model) < 0)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
+    if ((o->model_scene || o->variant || o->lenient) && strcmp(lam_scene_format(job->scene), "gltf") != 0)
+        lam_scene_add_warning(job->scene, "options '--scene', '--variant' and '--lenient' count for glTF files alone");
     return true;
+}
+
+// The camera of the file that `--camera` names.
+static bool find_camera(struct job *job, lam_error *error)
+{
+    int count = lam_scene_camera_count(job->scene), index = lam_scene_find_camera(job->scene, job->options->camera);
+    char known[300] = "";
+    if (lam_scene_camera(job->scene, index, &job->camera))
+        return true;
+    for (int i = 0; i < count && strlen(known) < sizeof known - 60; i++) {
+        const char *name = lam_scene_camera_name(job->scene, i);
+        size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%d%s%.40s%s", i ? ", " : "", i, name ? " ('" : "",
+                 name ? name : "", name ? "')" : "");
+    }
+    return complain(
+        error, LAM_BAD_ARGUMENT,
+        "option '--camera': found '%.60s', expected keys such as eye=2/1/4, or a camera of the file, which has %s%s",
+        job->options->camera, count ? known : "none", count > 1 && strlen(known) >= sizeof known - 60 ? ", ..." : "");
 }
 
 // Fits the camera before the model is turned: one fit serves every angle. A camera in words aims at the turned model.
@@ -180,6 +191,8 @@ static bool place_camera_and_turn(struct job *job, const struct model_sphere *sp
     job->times.camera = clock_ms() - start;
     if (!job_turn(job, sphere, error))
         return false;
+    if (o->camera && !strchr(o->camera, '='))
+        return find_camera(job, error);
     if (o->camera)
         lam_camera_parse(o->camera, job->scene, &job->camera, NULL); // cannot fail: store_camera has parsed it
     return true;

@@ -81,6 +81,9 @@ void materials_warn(lam_scene *scene)
 {
     enum { REPORTED = 3 };
     int over = 0;
+    // Those of glTF are not the file's: highlights that stand for rough surfaces keep their energy, whatever their width.
+    if (strcmp(lam_scene_format(scene), "gltf") == 0)
+        return;
     for (int i = 0; i < lam_scene_material_count(scene); i++) {
         lam_material material = *lam_scene_material(scene, i);
         char subject[80];

@@ -8,6 +8,7 @@
 
 const char *const group_titles[GROUP_COUNT] = {
     [GROUP_PICTURE] = "Picture",
+    [GROUP_MODEL] = "Model files",
     [GROUP_VIEW] = "View",
     [GROUP_SHADING] = "Shading",
     [GROUP_WORK] = "Work",
@@ -245,6 +246,17 @@ const struct option option_table[] = {
      "existing FILE is replaced. `docs/scene-file.md` describes the format.",
      .kind = VALUE_FILE, .store = store_text, .others = "export-scene write-scene", FIELD(save_scene)},
 
+    {"scene", 0, GROUP_MODEL, "NAME|N", "the file's default",
+     "The scene of a glTF file that has several: its name, or its number from 0.", NULL, .store = store_text,
+     .others = "scene-name scene-index", FIELD(model_scene)},
+    {"variant", 0, GROUP_MODEL, "NAME|N", "none",
+     "The variant of a glTF file's materials (KHR_materials_variants): its name, or its number from 0.", NULL,
+     .store = store_text, .others = "material-variant skin", FIELD(variant)},
+    {"lenient", 0, GROUP_MODEL, NULL, NULL, "Read glTF files that require unknown extensions, without them.",
+     "Without this option such a file is refused (exit 3), since its picture may lack what the extension describes. "
+     "Index values that glTF reserves (primitive restart) are accepted as well.",
+     .store = store_switch, .others = "force ignore-extensions permissive", FIELD(lenient)},
+
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "The side to view from: front, back, left, right, top, bottom, iso or three-quarter.",
      "By default the camera stands 30 degrees to the right of the front and 20 degrees above. The model always "
@@ -275,8 +287,10 @@ const struct option option_table[] = {
      "angle, so that the model does not jump in size or place: that of the model before the turn or, where a turn "
      "about the axis would cut the model, one farther away. All pictures of a sheet share it.",
      .brief = "turn the model: y:30", .store = store_rotation, .others = "rotation turn spin", FIELD(rotations)},
-    {"camera", 0, GROUP_VIEW, "KEYS", "fitted", "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more.",
-     "Keys are separated by commas and use the model's own coordinates: `eye` (required), `target` (default: "
+    {"camera", 0, GROUP_VIEW, "KEYS|NAME|N", "fitted",
+     "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more; or one of the file's, by name or number.",
+     "A text without `=` names a camera of the model's file (glTF), or gives its number from 0. Otherwise keys are "
+     "separated by commas and use the model's own coordinates: `eye` (required), `target` (default: "
      "the middle of the model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30) or "
      "`ortho` (parallel projection: model units from the picture's middle to its top), `near` and `far` (both "
      "or neither; fitted by default). The option cannot be combined with `--view`, `--azimuth`, `--elevation`, "

@@ -229,7 +229,8 @@ bool store_reflectivity(const struct option *option, const char *value, struct o
 bool store_camera(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_camera camera;
-    if (!lam_camera_parse(value, NULL, &camera, error))
+    // A text without '=' names a camera of a file that is not read yet.
+    if (strchr(value, '=') && !lam_camera_parse(value, NULL, &camera, error))
         return false;
     *(const char **)field_of(options, option->field) = value;
     return true;

@@ -28,6 +28,10 @@ struct options {
 
     const char *save_scene; // the scene file to write; NULL: none
 
+    // Model files
+    const char *model_scene, *variant; // as written; NULL: the file's own choice
+    bool lenient;
+
     // View
     int view;                          // lam_side
     double azimuth_deg, elevation_deg; // valid if the flag below is set
@@ -147,6 +151,7 @@ enum sheet_name {
 
 enum option_group {
     GROUP_PICTURE,
+    GROUP_MODEL,
     GROUP_VIEW,
     GROUP_LIGHTS,
     GROUP_MATERIALS,

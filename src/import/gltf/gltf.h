@@ -1,0 +1,90 @@
+// gltf.h: internals of the glTF 2.0 importer.
+//
+// The JSON text (gltf_json.c) of a .gltf, or of a .glb (gltf_container.c), describes buffers (gltf_buffers.c) and typed
+// arrays in them (gltf_accessors.c, gltf_numbers.c). Meshes are made of these (gltf_primitives.c, gltf_triangles.c),
+// and the tree of nodes places them (gltf_nodes.c, gltf_objects.c) beside lights and cameras (gltf_lights.c,
+// gltf_cameras.c).
+//
+// Every number of the file that says how much or which one is checked where it is read, and an error names its place:
+// "ship.gltf: meshes[3].primitives[0].attributes.POSITION: found 12, …". Section numbers are those of the specification,
+// https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+#ifndef GLTF_H
+#define GLTF_H
+
+#include "importer.h"
+#include "json_reader.h"
+
+// The file's own bytes, a file beside it, or a data URI. Read when first used.
+struct gltf_buffer {
+    const uint8_t *data; // NULL: not read yet
+    size_t size;
+    struct file_bytes file; // the owner of `data`, where that is not the model file itself
+    bool kept;              // the scene's arrays lie in it
+};
+
+// A bufferView: a run of a buffer's bytes.
+struct gltf_view {
+    const uint8_t *data; // NULL: not looked at yet
+    size_t size, stride; // stride 0: the elements lie one after the other
+    int buffer;
+};
+
+// componentType (section 3.6.2.2).
+enum { GLTF_I8 = 5120, GLTF_U8, GLTF_I16, GLTF_U16, GLTF_U32 = 5125, GLTF_F32 };
+
+// An accessor: a typed array.
+struct gltf_accessor {
+    bool ready;          // the members below are set
+    const uint8_t *data; // the first element; NULL: all elements are zero
+    int buffer;          // that `data` lies in
+    size_t count;        // elements
+    size_t stride;       // bytes from one to the next
+    int component;       // GLTF_…
+    int width;           // numbers of an element
+    const char *type;    // "VEC3"
+    bool normalized;
+    // Elements that replace others (section 3.6.2.3).
+    size_t sparse_count;
+    int sparse_component;
+    const uint8_t *sparse_indices, *sparse_values;
+    // Converted when first used. NULL: not yet.
+    const float *floats;     // `width` of each element
+    bool finite;             // checked, or zeroed where they were not
+    const uint32_t *indices; // one of each element
+    uint32_t max_index;
+    const void *colors[2]; // as a mesh has them; [1]: with an alpha of 1
+};
+
+struct gltf {
+    const struct import_source *source;
+    struct lam_scene *scene;
+    struct arena *scratch; // freed after the load
+    struct json_reader json;
+    json_t *root;
+    size_t json_bytes;     // charged to the call for `root`
+    const uint8_t *binary; // the .glb's BIN chunk; NULL: none
+    size_t binary_size;
+    bool source_kept; // the scene's arrays lie in the model file's own bytes
+
+    struct gltf_buffer *buffers;
+    struct gltf_view *views;
+    struct gltf_accessor *accessors;
+    int first_material;   // of the file's own in the scene
+    int default_material; // of primitives that name none; −1: not made yet
+    int variant;          // that the caller wants; −1: none
+
+    struct gltf_node *nodes; // gltf_nodes.h
+    int node_count;
+    const int *node_order;    // parents before children, children in the file's order
+    struct gltf_mesh *meshes; // gltf_primitives.h
+
+    // Primitives that are left out, for one warning of each kind, and for the error of a file with nothing else.
+    size_t points, lines, without_positions, flattened;
+};
+
+#define GLTF_ALLOC(gltf, count, type) ((type *)arena_alloc_zeroed((gltf)->scratch, (size_t)(count) * sizeof(type)))
+
+// Reports that memory for `bytes` is missing. Returns false.
+bool gltf_no_memory(struct gltf *gltf, size_t bytes);
+
+#endif

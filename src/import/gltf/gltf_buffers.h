@@ -1,0 +1,18 @@
+// gltf_buffers.h: buffers and bufferViews (section 3.6.1).
+#ifndef GLTF_BUFFERS_H
+#define GLTF_BUFFERS_H
+
+#include "gltf.h"
+
+bool gltf_buffers_start(struct gltf *gltf);
+
+// The bufferView of a number that was checked (gltf_take_index), its buffer read. NULL: an error.
+const struct gltf_view *gltf_view_at(struct gltf *gltf, int index);
+
+// From now on an array of the scene lies in this buffer: its bytes stay as long as the scene.
+void gltf_buffer_keep(struct gltf *gltf, int buffer);
+
+// Gives kept buffers to the scene and releases the others. False: out of memory.
+bool gltf_buffers_end(struct gltf *gltf);
+
+#endif

@@ -1,0 +1,96 @@
+// gltf_lights.c: the file's lights (KHR_lights_punctual).
+#include "gltf_lights.h"
+
+#include "gltf_json.h"
+#include "gltf_nodes.h"
+
+#include "linear.h"
+
+static const struct json_choice type_words[] = {
+    {"directional", LAM_LIGHT_DIRECTIONAL}, {"point", LAM_LIGHT_POINT}, {"spot", LAM_LIGHT_SPOT}, {NULL, 0}};
+
+// The cone: half angles with 0 ≤ inner < outer ≤ 90°; others are cut to that.
+static bool take_cone(struct gltf *gltf, const struct place *place, const json_t *object, lam_light *light)
+{
+    double inner = 0, outer = PI / 4;
+    bool ok = true;
+    const json_t *spot = gltf_take_object(gltf, place, object, "spot", &ok);
+    const struct place *here = KEY_OF(place, "spot");
+    if (!ok || !json_take_number(&gltf->json, here, spot, "innerConeAngle", -1e30, 1e30, &inner) ||
+        !json_take_number(&gltf->json, here, spot, "outerConeAngle", -1e30, 1e30, &outer))
+        return false;
+    light->outer_rad = (float)(outer > PI / 2 ? PI / 2 : outer < 1e-4 ? 1e-4 : outer);
+    light->inner_rad = (float)(inner < 0 ? 0 : inner);
+    if (light->inner_rad >= light->outer_rad)
+        light->inner_rad = light->outer_rad * 0.999f;
+    light->cutoff_rad = 0;
+    return true;
+}
+
+static float channel(double x) { return x > 0 ? x < 3e38 ? (float)x : 3e38f : 0; }
+
+static bool read_light(struct gltf *gltf, const struct place *place, const json_t *object, lam_light *light)
+{
+    double color[3] = {1, 1, 1}, intensity = 1, range = 0;
+    int type = LAM_LIGHT_POINT;
+    if (!json_object_get(object, "type"))
+        return json_fail(&gltf->json, place, "type is missing");
+    if (!json_take_word(&gltf->json, place, object, "type", type_words, &type) ||
+        !gltf_take_numbers(gltf, place, object, "color", 3, color) ||
+        !json_take_number(&gltf->json, place, object, "intensity", -1e30, 1e30, &intensity) ||
+        !json_take_number(&gltf->json, place, object, "range", -1e30, 1e30, &range))
+        return false;
+    *light = lam_light_default((lam_light_type)type);
+    // Candela and lux: a white surface of Lambert's law returns 1/π of the light in glTF, and all of it here.
+    light->diffuse = (lam_rgb){channel(color[0] * intensity / PI), channel(color[1] * intensity / PI),
+                               channel(color[2] * intensity / PI)};
+    light->specular = light->diffuse;
+    if (type == LAM_LIGHT_DIRECTIONAL)
+        return true;
+    light->attenuation = (lam_attenuation){0, 0, 1};
+    light->range = channel(range);
+    return type != LAM_LIGHT_SPOT || take_cone(gltf, place, object, light);
+}
+
+static bool add_light(struct gltf *gltf, int node_index, const json_t *list)
+{
+    const json_t *object = gltf_list_item(gltf, "nodes", node_index);
+    const json_t *extension = gltf_extension(object, "KHR_lights_punctual");
+    const struct place *place = KEY_OF(ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)node_index), "extensions");
+    const lam_mat4 *world = &gltf->nodes[node_index].world;
+    size_t index = SIZE_MAX;
+    if (!extension)
+        return true;
+    place = KEY_OF(place, "KHR_lights_punctual");
+    if (!gltf_take_whole(gltf, place, extension, "light", 0, 1e9, &index))
+        return false;
+    if (index >= json_array_size(list))
+        return index == SIZE_MAX ? json_fail(&gltf->json, place, "light is missing")
+                                 : json_fail(&gltf->json, KEY_OF(place, "light"),
+                                             "found %zu, but the file has %zu lights", index, json_array_size(list));
+    const json_t *item = json_array_get(list, index);
+    const struct place *lights = KEY_OF(KEY_OF(KEY_OF(NULL, "extensions"), "KHR_lights_punctual"), "lights");
+    lam_light light;
+    bool ok = read_light(gltf, ELEMENT_OF(lights, index), item, &light);
+    if (ok && !(light.name = gltf_name(gltf, object, &ok)) && ok)
+        light.name = gltf_name(gltf, item, &ok);
+    lam_vec3 forward = mat4_vector(world, v3(0, 0, -1));
+    light.frame = LAM_FRAME_MODEL;
+    light.position = v3(world->m[0][3], world->m[1][3], world->m[2][3]);
+    if (v3_length(forward) > 0)
+        light.direction = forward;
+    return ok && lam_light_check(&light, gltf->json.error) &&
+           scene_adopt_light(gltf->scene, &light, gltf->json.error) >= 0;
+}
+
+bool gltf_lights_add(struct gltf *gltf)
+{
+    bool ok = true;
+    const struct place *place = KEY_OF(KEY_OF(NULL, "extensions"), "KHR_lights_punctual");
+    const json_t *list = gltf_take_list(gltf, place, gltf_extension(gltf->root, "KHR_lights_punctual"), "lights", &ok);
+    for (int i = 0; ok && i < gltf->node_count; i++) {
+        const struct gltf_node *node = &gltf->nodes[gltf->node_order[i]];
+        ok = !node->in_scene || !node->visible || add_light(gltf, gltf->node_order[i], list);
+    }
+    return ok;
+}

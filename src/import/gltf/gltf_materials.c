@@ -1,0 +1,199 @@
+// gltf_materials.c: materials (section 3.9), and which one a primitive has.
+#include "gltf_materials.h"
+
+#include "gltf_json.h"
+
+#include "fail.h"
+
+#include <string.h>
+
+// The numbers of a material as the file has them, with the defaults of the specification.
+struct factors {
+    double base[4];               // colour and alpha
+    double metallic, roughness;   // 0…1
+    double specular[3];           // of specular-glossiness
+    bool has_specular;            // specular-glossiness, not metallic-roughness
+    double emission[3], strength; // emissiveFactor; KHR_materials_emissive_strength
+    double cutoff;
+    int alpha; // ALPHA_…
+    bool unlit;
+};
+enum { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND };
+
+static const struct json_choice alpha_words[] = {
+    {"OPAQUE", ALPHA_OPAQUE}, {"MASK", ALPHA_MASK}, {"BLEND", ALPHA_BLEND}, {NULL, 0}};
+
+// A share, cut to 0…1: numbers a little outside are written by rounding.
+static bool take_share(struct gltf *gltf, const struct place *place, const json_t *object, const char *key, double *out)
+{
+    if (!json_take_number(&gltf->json, place, object, key, -1e30, 1e30, out))
+        return false;
+    *out = *out < 0 ? 0 : *out > 1 ? 1 : *out;
+    return true;
+}
+
+static bool take_metallic_roughness(struct gltf *gltf, const struct place *place, const json_t *object,
+                                    struct factors *f)
+{
+    bool ok = true;
+    const json_t *pbr = gltf_take_object(gltf, place, object, "pbrMetallicRoughness", &ok);
+    const struct place *here = KEY_OF(place, "pbrMetallicRoughness");
+    return ok && (!pbr || (gltf_take_numbers(gltf, here, pbr, "baseColorFactor", 4, f->base) &&
+                           take_share(gltf, here, pbr, "metallicFactor", &f->metallic) &&
+                           take_share(gltf, here, pbr, "roughnessFactor", &f->roughness)));
+}
+
+static bool take_specular_glossiness(struct gltf *gltf, const struct place *place, const json_t *object,
+                                     struct factors *f)
+{
+    const json_t *pbr = gltf_extension(object, "KHR_materials_pbrSpecularGlossiness");
+    const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_pbrSpecularGlossiness");
+    double glossiness = 1;
+    if (!pbr)
+        return true;
+    f->has_specular = true;
+    for (int i = 0; i < 4; i++)
+        f->base[i] = 1;
+    if (!gltf_take_numbers(gltf, here, pbr, "diffuseFactor", 4, f->base) ||
+        !gltf_take_numbers(gltf, here, pbr, "specularFactor", 3, f->specular) ||
+        !take_share(gltf, here, pbr, "glossinessFactor", &glossiness))
+        return false;
+    f->metallic = 0;
+    f->roughness = 1 - glossiness;
+    return true;
+}
+
+static bool take_factors(struct gltf *gltf, const struct place *place, const json_t *object, struct factors *f)
+{
+    const json_t *strength = gltf_extension(object, "KHR_materials_emissive_strength");
+    const struct place *in_strength = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_emissive_strength");
+    f->unlit = gltf_extension(object, "KHR_materials_unlit") != NULL;
+    if (json_object_get(object, "emissiveTexture")) // it alone says where the surface glows, and is not drawn
+        f->strength = 0;
+    return take_metallic_roughness(gltf, place, object, f) && take_specular_glossiness(gltf, place, object, f) &&
+           gltf_take_numbers(gltf, place, object, "emissiveFactor", 3, f->emission) &&
+           (f->strength == 0 ||
+            json_take_number(&gltf->json, in_strength, strength, "emissiveStrength", 0, 1e30, &f->strength)) &&
+           json_take_number(&gltf->json, place, object, "alphaCutoff", 0, 1e30, &f->cutoff) &&
+           json_take_word(&gltf->json, place, object, "alphaMode", alpha_words, &f->alpha);
+}
+
+static float at_least_zero(double x) { return x > 0 ? (float)x : 0; }
+
+static lam_rgb rgb_of(const double c[3], double factor)
+{
+    return (lam_rgb){at_least_zero(c[0] * factor), at_least_zero(c[1] * factor), at_least_zero(c[2] * factor)};
+}
+
+static lam_material material_of(const struct factors *f, const char *name)
+{
+    lam_material material = lam_material_default();
+    double alpha = f->base[3] < 0 ? 0 : f->base[3] > 1 ? 1 : f->base[3];
+    lam_rgb base = rgb_of(f->base, 1);
+    material.name = name;
+    material.ambient = base;
+    material.diffuse = (lam_rgba){base.r, base.g, base.b, 1};
+    if (f->alpha != ALPHA_OPAQUE)
+        material.diffuse.a = f->alpha == ALPHA_BLEND ? (float)alpha : alpha >= f->cutoff ? 1 : 0;
+    material.emission = rgb_of(f->emission, f->strength);
+    material.unlit = f->unlit;
+    if (f->has_specular) { // the metalness that gives both colours
+        material.specular = rgb_of(f->specular, (1.0 + 8) / 8);
+        material.shininess = 1;
+        material = lam_material_as_physical(&material);
+    }
+    material.physical = true;
+    material.metallic = f->has_specular ? material.metallic : (float)f->metallic;
+    material.roughness = (float)f->roughness;
+    return material;
+}
+
+static const struct factors default_factors = {
+    .base = {1, 1, 1, 1}, .metallic = 1, .roughness = 1, .specular = {1, 1, 1}, .strength = 1, .cutoff = 0.5};
+
+// The number of the wanted variant; −1: none is wanted. False: the file has no such one.
+static bool find_variant(struct gltf *gltf)
+{
+    const char *wanted = gltf->source->params->variant;
+    gltf->variant = -1;
+    if (!wanted)
+        return true;
+    bool ok = true;
+    const struct place *place = KEY_OF(KEY_OF(NULL, "extensions"), "KHR_materials_variants");
+    const json_t *list =
+        gltf_take_list(gltf, place, gltf_extension(gltf->root, "KHR_materials_variants"), "variants", &ok);
+    gltf->variant = ok ? gltf_find_named(gltf, list, wanted, "variant") : -1;
+    return gltf->variant >= 0;
+}
+
+bool gltf_materials_read(struct gltf *gltf)
+{
+    size_t count = gltf_list_size(gltf, "materials");
+    gltf->first_material = gltf->scene->materials.count;
+    gltf->default_material = -1;
+    for (size_t i = 0; i < count; i++) {
+        const struct place *place = ELEMENT_OF(KEY_OF(NULL, "materials"), i);
+        const json_t *object = gltf_list_item(gltf, "materials", (int)i);
+        struct factors factors = default_factors;
+        bool ok = take_factors(gltf, place, object, &factors);
+        lam_material material = material_of(&factors, ok ? gltf_name(gltf, object, &ok) : NULL);
+        if (!ok || scene_adopt_material(gltf->scene, &material, gltf->json.error) < 0)
+            return false;
+    }
+    return find_variant(gltf);
+}
+
+// The material that the wanted variant gives a primitive; −1: none of its own.
+static bool take_variant(struct gltf *gltf, const struct place *place, const json_t *primitive, int *index)
+{
+    bool ok = true;
+    const struct place *extension = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_variants");
+    const json_t *mappings =
+        gltf_take_list(gltf, extension, gltf_extension(primitive, "KHR_materials_variants"), "mappings", &ok);
+    *index = -1;
+    for (size_t i = 0; ok && *index < 0 && i < json_array_size(mappings); i++) {
+        const json_t *mapping = json_array_get(mappings, i), *variants = json_object_get(mapping, "variants");
+        for (size_t k = 0; ok && *index < 0 && k < json_array_size(variants); k++)
+            if (json_number_value(json_array_get(variants, k)) == gltf->variant)
+                ok = gltf_take_index(gltf, ELEMENT_OF(KEY_OF(extension, "mappings"), i), mapping, "material",
+                                     "materials", index);
+    }
+    return ok;
+}
+
+// The material of primitives without one: the defaults of the specification.
+static int default_material(struct gltf *gltf)
+{
+    if (gltf->default_material < 0) {
+        lam_material material = material_of(&default_factors, NULL);
+        gltf->default_material = scene_adopt_material(gltf->scene, &material, gltf->json.error);
+    }
+    return gltf->default_material;
+}
+
+bool gltf_take_material(struct gltf *gltf, const struct place *place, const json_t *primitive, int32_t *material)
+{
+    int index = -1;
+    if ((gltf->variant >= 0 && !take_variant(gltf, place, primitive, &index)) ||
+        (index < 0 && !gltf_take_index(gltf, place, primitive, "material", "materials", &index)))
+        return false;
+    *material = index >= 0 ? gltf->first_material + index : default_material(gltf);
+    return *material >= 0;
+}
+
+static const json_t *object_of(const struct gltf *gltf, int32_t material)
+{
+    return material == gltf->default_material ? NULL
+                                              : gltf_list_item(gltf, "materials", material - gltf->first_material);
+}
+
+bool gltf_material_is_opaque(const struct gltf *gltf, int32_t material)
+{
+    const char *mode = json_string_value(json_object_get(object_of(gltf, material), "alphaMode"));
+    return !mode || strcmp(mode, "OPAQUE") == 0;
+}
+
+bool gltf_material_is_double_sided(const struct gltf *gltf, int32_t material)
+{
+    return json_is_true(json_object_get(object_of(gltf, material), "doubleSided"));
+}

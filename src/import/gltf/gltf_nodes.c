@@ -1,0 +1,172 @@
+// gltf_nodes.c: the tree of nodes (section 3.5): transforms, parents, and the nodes of the wanted scene.
+#include "gltf_nodes.h"
+
+#include "gltf_json.h"
+
+#include "linear.h"
+
+#include <string.h>
+
+lam_mat4 gltf_transform(const double translation[3], const double rotation[4], const double scale[3])
+{
+    double x = rotation[0], y = rotation[1], z = rotation[2], w = rotation[3];
+    const double turn[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+                               {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+                               {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+    lam_mat4 m = lam_mat4_identity();
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            m.m[i][j] = turn[i][j] * scale[j];
+        m.m[i][3] = translation[i];
+    }
+    return m;
+}
+
+void gltf_unit_quaternion(double q[4])
+{
+    double length = math_sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (int i = 0; i < 4; i++)
+        q[i] = length > 0 ? q[i] / length : i == 3;
+}
+
+static bool read_node(struct gltf *gltf, const struct place *place, const json_t *object, struct gltf_node *node)
+{
+    *node = (struct gltf_node){.parent = -1, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}, .visible = true};
+    node->has_matrix = json_object_get(object, "matrix");
+    const json_t *visibility = gltf_extension(object, "KHR_node_visibility");
+    const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "KHR_node_visibility");
+    if (!gltf_take_numbers(gltf, place, object, "matrix", 16, node->matrix) ||
+        !gltf_take_numbers(gltf, place, object, "translation", 3, node->translation) ||
+        !gltf_take_numbers(gltf, place, object, "rotation", 4, node->rotation) ||
+        !gltf_take_numbers(gltf, place, object, "scale", 3, node->scale) ||
+        !json_take_bool(&gltf->json, here, visibility, "visible", &node->visible))
+        return false;
+    gltf_unit_quaternion(node->rotation);
+    const double *m = node->matrix;
+    // Rounded numbers pass; gltf_nodes_place puts the exact ones.
+    bool affine = m[3] * m[3] + m[7] * m[7] + m[11] * m[11] + (m[15] - 1) * (m[15] - 1) < 1e-10;
+    if (node->has_matrix && !affine)
+        return json_fail(&gltf->json, KEY_OF(place, "matrix"), "its last row is %.6g %.6g %.6g %.6g, expected 0 0 0 1",
+                         m[3], m[7], m[11], m[15]);
+    return true;
+}
+
+// Sets the parents of a list of children.
+static bool read_children(struct gltf *gltf, int parent)
+{
+    const json_t *object = gltf_list_item(gltf, "nodes", parent), *list = json_object_get(object, "children");
+    const struct place *place = KEY_OF(ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)parent), "children");
+    if (list && !json_is_array(list))
+        return json_unexpected(&gltf->json, place, list, "a list of nodes");
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        int child;
+        const struct place *here = ELEMENT_OF(place, i);
+        if (!gltf_index_of(gltf, here, json_array_get(list, i), "nodes", &child))
+            return false;
+        if (gltf->nodes[child].parent >= 0)
+            return json_fail(&gltf->json, here, "node %d is a child of node %d already, expected one parent", child,
+                             gltf->nodes[child].parent);
+        gltf->nodes[child].parent = parent;
+    }
+    return true;
+}
+
+// Sets node_order: depth first, roots in the file's order. Nodes that no root reaches go round in a circle.
+static bool order_nodes(struct gltf *gltf)
+{
+    size_t count = (size_t)gltf->node_count;
+    int *order = GLTF_ALLOC(gltf, count, int), *stack = GLTF_ALLOC(gltf, count, int);
+    bool *reached = GLTF_ALLOC(gltf, count, bool);
+    int ordered = 0, depth = 0;
+    if (!order || !stack || !reached)
+        return gltf_no_memory(gltf, count * sizeof *order);
+    for (int root = 0; root < gltf->node_count; root++) {
+        if (gltf->nodes[root].parent >= 0)
+            continue;
+        stack[depth++] = root;
+        while (depth > 0) {
+            int node = stack[--depth];
+            const json_t *children = json_object_get(gltf_list_item(gltf, "nodes", node), "children");
+            order[ordered++] = node;
+            reached[node] = true;
+            for (size_t i = json_array_size(children); i-- > 0;)
+                stack[depth++] = (int)json_number_value(json_array_get(children, i));
+        }
+    }
+    gltf->node_order = order;
+    for (int i = 0; i < gltf->node_count; i++)
+        if (!reached[i])
+            return json_fail(&gltf->json, ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)i),
+                             "this node is its own ancestor, expected a tree");
+    return true;
+}
+
+// Marks the roots of the wanted scene: the caller's, else the file's default, else the first. A file without scenes is
+// drawn whole. Some files list nodes that are no roots: they stand where their parents place them.
+static bool mark_roots(struct gltf *gltf)
+{
+    const char *wanted = gltf->source->params->scene;
+    int scene;
+    if (!gltf_take_index(gltf, NULL, gltf->root, "scene", "scenes", &scene))
+        return false;
+    if (wanted && (scene = gltf_find_named(gltf, json_object_get(gltf->root, "scenes"), wanted, "scene")) < 0)
+        return false;
+    if (scene < 0 && !gltf_list_size(gltf, "scenes")) {
+        for (int i = 0; i < gltf->node_count; i++)
+            gltf->nodes[i].in_scene = gltf->nodes[i].parent < 0;
+        return true;
+    }
+    scene = scene < 0 ? 0 : scene;
+    const json_t *list = json_object_get(gltf_list_item(gltf, "scenes", scene), "nodes");
+    const struct place *place = KEY_OF(ELEMENT_OF(KEY_OF(NULL, "scenes"), (size_t)scene), "nodes");
+    if (list && !json_is_array(list))
+        return json_unexpected(&gltf->json, place, list, "a list of nodes");
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        int node;
+        const struct place *here = ELEMENT_OF(place, i);
+        if (!gltf_index_of(gltf, here, json_array_get(list, i), "nodes", &node))
+            return false;
+        gltf->nodes[node].in_scene = true;
+    }
+    return true;
+}
+
+bool gltf_nodes_read(struct gltf *gltf)
+{
+    gltf->node_count = (int)gltf_list_size(gltf, "nodes");
+    gltf->nodes = GLTF_ALLOC(gltf, gltf->node_count, struct gltf_node);
+    if (!gltf->nodes)
+        return gltf_no_memory(gltf, (size_t)gltf->node_count * sizeof *gltf->nodes);
+    for (int i = 0; i < gltf->node_count; i++)
+        if (!read_node(gltf, ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)i), gltf_list_item(gltf, "nodes", i),
+                       &gltf->nodes[i]))
+            return false;
+    for (int i = 0; i < gltf->node_count; i++)
+        if (!read_children(gltf, i))
+            return false;
+    if (!order_nodes(gltf) || !mark_roots(gltf))
+        return false;
+    for (int i = 0; i < gltf->node_count; i++) {
+        struct gltf_node *node = &gltf->nodes[gltf->node_order[i]];
+        node->in_scene |= node->parent >= 0 && gltf->nodes[node->parent].in_scene;
+    }
+    return true;
+}
+
+bool gltf_nodes_place(struct gltf *gltf)
+{
+    for (int i = 0; i < gltf->node_count; i++) {
+        struct gltf_node *node = &gltf->nodes[gltf->node_order[i]];
+        lam_mat4 own = gltf_transform(node->translation, node->rotation, node->scale);
+        for (int j = 0; node->has_matrix && j < 16; j++)
+            if (j % 4 < 3)
+                own.m[j % 4][j / 4] = node->matrix[j];
+        node->world = node->parent >= 0 ? mat4_mul(&gltf->nodes[node->parent].world, &own) : own;
+        node->visible &= node->parent < 0 || gltf->nodes[node->parent].visible;
+        for (int j = 0; j < 12; j++)
+            if (!math_finite(node->world.m[j / 4][j % 4]))
+                return json_fail(&gltf->json, ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)gltf->node_order[i]),
+                                 "its transform is not finite");
+    }
+    return true;
+}

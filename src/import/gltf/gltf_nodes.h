@@ -1,0 +1,29 @@
+// gltf_nodes.h: the tree of nodes (section 3.5).
+#ifndef GLTF_NODES_H
+#define GLTF_NODES_H
+
+#include "gltf.h"
+
+struct gltf_node {
+    int parent; // −1: a root
+    // The transform as a matrix, or as translation, rotation (a unit quaternion x y z w) and scale.
+    bool has_matrix;
+    double matrix[16]; // column by column
+    double translation[3], rotation[4], scale[3];
+    bool visible;   // KHR_node_visibility: of the node itself and all above it
+    bool in_scene;  // of the scene that is drawn
+    lam_mat4 world; // to the file's space
+};
+
+// Reads all nodes, checks that they are trees, and marks those of the scene that the caller wants.
+bool gltf_nodes_read(struct gltf *gltf);
+
+// Computes node->world and node->visible of all nodes.
+bool gltf_nodes_place(struct gltf *gltf);
+
+// Makes a quaternion's length 1; one of length 0 becomes no rotation.
+void gltf_unit_quaternion(double q[4]);
+
+lam_mat4 gltf_transform(const double translation[3], const double rotation[4], const double scale[3]);
+
+#endif

@@ -1,0 +1,135 @@
+// gltf_objects.c: nodes with meshes as objects of the scene, and their instances (EXT_mesh_gpu_instancing).
+#include "gltf_objects.h"
+
+#include "gltf_accessors.h"
+#include "gltf_json.h"
+#include "gltf_materials.h"
+#include "gltf_nodes.h"
+#include "gltf_numbers.h"
+#include "gltf_primitives.h"
+
+#include "linear.h"
+
+// Adds the primitives of a mesh under a transform. A transform that squeezes space into a line or a point shows nothing.
+static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char *name, const lam_mat4 *transform)
+{
+    double cofactors[3][3], determinant = mat4_determinant3(transform);
+    mat4_normal_matrix(transform, cofactors);
+    bool flat = determinant == 0, empty = true;
+    for (int i = 0; i < 9; i++)
+        empty &= cofactors[i / 3][i % 3] == 0;
+    if (flat && empty)
+        return true;
+    if (flat || !math_finite(determinant)) {
+        gltf->flattened++;
+        return true;
+    }
+    for (int i = 0; i < mesh->count; i++) {
+        if (mesh->primitives[i] < 0)
+            continue;
+        lam_object object = lam_object_default();
+        object.mesh = mesh->primitives[i];
+        object.name = name;
+        object.transform = *transform;
+        int32_t material = scene_mesh(gltf->scene, object.mesh)->parts->material;
+        object.cull = gltf_material_is_double_sided(gltf, material) ? LAM_CULL_NONE : LAM_CULL_BACK;
+        if (scene_adopt_object(gltf->scene, &object, gltf->json.error) < 0)
+            return false;
+    }
+    return true;
+}
+
+// The transforms of a node's instances, one attribute after the other; NULL: it has none of this name.
+struct instances {
+    struct gltf_accessor *translation, *rotation, *scale;
+    size_t count;
+};
+
+static bool take_instances(struct gltf *gltf, const struct place *place, const json_t *attributes, const char *key,
+                           int width, struct gltf_accessor **out, size_t *count)
+{
+    char words[64];
+    const struct place *here = KEY_OF(place, key);
+    if (!gltf_take_accessor(gltf, place, attributes, key, out))
+        return false;
+    const struct gltf_accessor *a = *out;
+    if (!a)
+        return true;
+    if (a->width != width || a->type[0] != 'V' || (a->component != GLTF_F32 && (width == 3 || !a->normalized)))
+        return json_fail(&gltf->json, here, "found %s, expected VEC%d of FLOAT%s", gltf_accessor_words(a, words), width,
+                         width == 4 ? ", or of normalized BYTE or SHORT" : "");
+    if (*count && a->count != *count)
+        return json_fail(&gltf->json, here, "found %zu elements, but another attribute has %zu", a->count, *count);
+    *count = a->count;
+    return gltf_floats(gltf, here, *out, true) != NULL;
+}
+
+static void copy_element(const struct gltf_accessor *accessor, size_t i, double *out)
+{
+    for (int c = 0; accessor && c < accessor->width; c++)
+        out[c] = (double)accessor->floats[i * (size_t)accessor->width + (size_t)c];
+}
+
+static lam_mat4 instance_transform(const struct instances *instances, size_t i)
+{
+    double translation[3] = {0}, rotation[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
+    copy_element(instances->translation, i, translation);
+    copy_element(instances->rotation, i, rotation);
+    copy_element(instances->scale, i, scale);
+    gltf_unit_quaternion(rotation);
+    return gltf_transform(translation, rotation, scale);
+}
+
+static bool add_instances(struct gltf *gltf, const struct place *place, const json_t *extension,
+                          const struct gltf_mesh *mesh, const char *name, const lam_mat4 *world)
+{
+    struct instances instances = {0};
+    bool ok = true;
+    const json_t *attributes = gltf_take_object(gltf, place, extension, "attributes", &ok);
+    const struct place *here = KEY_OF(place, "attributes");
+    if (!ok || !take_instances(gltf, here, attributes, "TRANSLATION", 3, &instances.translation, &instances.count) ||
+        !take_instances(gltf, here, attributes, "ROTATION", 4, &instances.rotation, &instances.count) ||
+        !take_instances(gltf, here, attributes, "SCALE", 3, &instances.scale, &instances.count))
+        return false;
+    if (!instances.count)
+        return add_mesh(gltf, mesh, name, world);
+    for (size_t i = 0; i < instances.count; i++) {
+        lam_mat4 own = instance_transform(&instances, i), transform = mat4_mul(world, &own);
+        if (!add_mesh(gltf, mesh, name, &transform))
+            return false;
+    }
+    return true;
+}
+
+static bool add_node(struct gltf *gltf, int index)
+{
+    const struct gltf_node *node = &gltf->nodes[index];
+    const struct place *place = ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)index);
+    const json_t *object = gltf_list_item(gltf, "nodes", index);
+    int mesh_index;
+    bool ok = true;
+    if (!gltf_take_index(gltf, place, object, "mesh", "meshes", &mesh_index))
+        return false;
+    if (mesh_index < 0)
+        return true;
+    const struct gltf_mesh *mesh = gltf_mesh_at(gltf, mesh_index);
+    const char *name = mesh ? gltf_name(gltf, object, &ok) : NULL;
+    if (!mesh || !ok)
+        return false;
+    if (!name && mesh->count && mesh->primitives[0] >= 0)
+        name = scene_mesh(gltf->scene, mesh->primitives[0])->name;
+    const json_t *instancing = gltf_extension(object, "EXT_mesh_gpu_instancing");
+    const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "EXT_mesh_gpu_instancing");
+    return instancing ? add_instances(gltf, here, instancing, mesh, name, &node->world)
+                      : add_mesh(gltf, mesh, name, &node->world);
+}
+
+bool gltf_objects_add(struct gltf *gltf)
+{
+    for (int i = 0; i < gltf->node_count; i++) {
+        const struct gltf_node *node = &gltf->nodes[gltf->node_order[i]];
+        if (node->in_scene && node->visible && !add_node(gltf, gltf->node_order[i]))
+            return false;
+    }
+    return true;
+}

@@ -1,0 +1,190 @@
+// gltf_primitives.c: the primitives of meshes (section 3.7.2): each becomes a mesh of the scene.
+//
+// Primitives of one mesh may have different attributes, materials and sides; meshes of their own share the arrays that
+// they have in common, and the file's own bytes serve as arrays where they can.
+#include "gltf_primitives.h"
+
+#include "gltf_accessors.h"
+#include "gltf_json.h"
+#include "gltf_materials.h"
+#include "gltf_numbers.h"
+#include "gltf_triangles.h"
+
+#include "fail.h"
+
+bool gltf_meshes_start(struct gltf *gltf)
+{
+    size_t count = gltf_list_size(gltf, "meshes");
+    gltf->meshes = GLTF_ALLOC(gltf, count, struct gltf_mesh);
+    return gltf->meshes || gltf_no_memory(gltf, count * sizeof *gltf->meshes);
+}
+
+// Types that an attribute may have (section 3.7.2.1, and KHR_mesh_quantization).
+enum { FLOATS = 1, BYTES = 2, NORMALIZED = 4, UNSIGNED_NORMALIZED = 8 };
+
+struct attribute_rule {
+    const char *name;
+    int min_width, max_width, types;
+    const char *expected;
+};
+
+static const struct attribute_rule position_rule = {"POSITION", 3, 3, FLOATS | BYTES | NORMALIZED,
+                                                    "VEC3 of FLOAT, or of BYTE to UNSIGNED_SHORT"},
+                                   normal_rule = {"NORMAL", 3, 3, FLOATS | NORMALIZED,
+                                                  "VEC3 of FLOAT, or of normalized BYTE or SHORT"},
+                                   tangent_rule = {"TANGENT", 4, 4, FLOATS | NORMALIZED,
+                                                   "VEC4 of FLOAT, or of normalized BYTE or SHORT"},
+                                   texcoord_rule = {"TEXCOORD_0", 2, 2, FLOATS | BYTES | NORMALIZED,
+                                                    "VEC2 of FLOAT, or of BYTE to UNSIGNED_SHORT"},
+                                   color_rule = {"COLOR_0", 3, 4, FLOATS | UNSIGNED_NORMALIZED,
+                                                 "VEC3 or VEC4 of FLOAT, or of normalized UNSIGNED_BYTE or "
+                                                 "UNSIGNED_SHORT"};
+
+static bool has_type(const struct gltf_accessor *a, int types)
+{
+    bool unsigned_type = a->component == GLTF_U8 || a->component == GLTF_U16;
+    if (a->component == GLTF_F32)
+        return types & FLOATS;
+    if (a->component == GLTF_U32)
+        return false;
+    return a->normalized ? types & NORMALIZED || (types & UNSIGNED_NORMALIZED && unsigned_type) : types & BYTES;
+}
+
+// The accessor of an attribute, of `count` elements (0: any number), or *out NULL: the primitive has none.
+static bool take_attribute(struct gltf *gltf, const struct place *place, const json_t *attributes,
+                           const struct attribute_rule *rule, size_t count, struct gltf_accessor **out)
+{
+    char words[64];
+    const struct place *here = KEY_OF(place, rule->name);
+    if (!gltf_take_accessor(gltf, place, attributes, rule->name, out) || !*out)
+        return !json_object_get(attributes, rule->name);
+    const struct gltf_accessor *a = *out;
+    if (a->width < rule->min_width || a->width > rule->max_width || a->type[0] != 'V' || !has_type(a, rule->types))
+        return json_fail(&gltf->json, here, "found %s, expected %s", gltf_accessor_words(a, words), rule->expected);
+    if (count && a->count != count)
+        return json_fail(&gltf->json, here, "found %zu elements, expected %zu, one for each POSITION", a->count, count);
+    return true;
+}
+
+static bool take_floats(struct gltf *gltf, const struct place *place, const json_t *attributes,
+                        const struct attribute_rule *rule, size_t count, const float **out, uint32_t *out_count)
+{
+    struct gltf_accessor *accessor;
+    if (!take_attribute(gltf, place, attributes, rule, count, &accessor))
+        return false;
+    if (!accessor)
+        return true;
+    *out = gltf_floats(gltf, KEY_OF(place, rule->name), accessor, rule == &position_rule);
+    *out_count = (uint32_t)accessor->count;
+    return *out != NULL;
+}
+
+static bool take_colors(struct gltf *gltf, const struct place *place, const json_t *attributes, bool opaque,
+                        lam_mesh *mesh)
+{
+    struct gltf_accessor *accessor;
+    struct gltf_colors colors;
+    if (!take_attribute(gltf, place, attributes, &color_rule, mesh->vertex_count, &accessor))
+        return false;
+    if (!accessor)
+        return true;
+    if (!gltf_colors(gltf, KEY_OF(place, color_rule.name), accessor, opaque, &colors))
+        return false;
+    mesh->colors = colors.items;
+    mesh->colors_format = colors.format;
+    mesh->color_count = mesh->vertex_count;
+    return true;
+}
+
+static bool take_attributes(struct gltf *gltf, const struct place *place, const json_t *attributes, bool opaque,
+                            lam_mesh *mesh)
+{
+    size_t count = mesh->vertex_count;
+    if (!take_floats(gltf, place, attributes, &normal_rule, count, &mesh->normals, &mesh->normal_count) ||
+        !take_floats(gltf, place, attributes, &texcoord_rule, count, &mesh->texcoords, &mesh->texcoord_count) ||
+        !take_colors(gltf, place, attributes, opaque, mesh))
+        return false;
+    // Tangents that come without normals are not used (section 3.7.2.1).
+    return !mesh->normals ||
+           take_floats(gltf, place, attributes, &tangent_rule, count, &mesh->tangents, &mesh->tangent_count);
+}
+
+// One part, of the primitive's material.
+static bool add_part(struct gltf *gltf, const struct place *place, const json_t *primitive, lam_mesh *mesh)
+{
+    lam_part *part = arena_alloc_zeroed(&gltf->scene->arena, sizeof *part);
+    if (!part)
+        return gltf_no_memory(gltf, sizeof *part);
+    *part = (lam_part){.name = mesh->name, .triangle_count = mesh->triangle_count};
+    mesh->parts = part;
+    mesh->part_count = 1;
+    return gltf_take_material(gltf, place, primitive, &part->material);
+}
+
+// Counts the points and lines of a primitive.
+static bool skip_primitive(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode,
+                           uint32_t vertex_count)
+{
+    const uint32_t *indices;
+    size_t count;
+    if (!gltf_corners(gltf, place, primitive, vertex_count, &indices, &count))
+        return false;
+    if (mode == GLTF_POINTS)
+        gltf->points += count;
+    else
+        gltf->lines += mode == GLTF_LINES ? count / 2 : mode == GLTF_LINE_LOOP ? count : count ? count - 1 : 0;
+    return true;
+}
+
+// *index: of the new mesh in the scene; −1: the primitive has no triangles.
+static bool make_primitive(struct gltf *gltf, const struct place *place, const json_t *primitive, const char *name,
+                           int *index)
+{
+    lam_mesh mesh = {.name = name};
+    size_t mode = GLTF_TRIANGLES;
+    bool ok = true;
+    *index = -1;
+    const json_t *attributes = gltf_take_object(gltf, place, primitive, "attributes", &ok);
+    const struct place *here = KEY_OF(place, "attributes");
+    if (!ok || !gltf_take_whole(gltf, place, primitive, "mode", 0, 6, &mode))
+        return false;
+    if (!json_object_get(attributes, "POSITION")) {
+        gltf->without_positions++;
+        return true;
+    }
+    if (!take_floats(gltf, here, attributes, &position_rule, 0, &mesh.positions, &mesh.vertex_count))
+        return false;
+    if (mode < GLTF_TRIANGLES)
+        return skip_primitive(gltf, place, primitive, mode, mesh.vertex_count);
+    if (!gltf_triangles(gltf, place, primitive, mode, &mesh) || !add_part(gltf, place, primitive, &mesh) ||
+        !take_attributes(gltf, here, attributes, gltf_material_is_opaque(gltf, mesh.parts->material), &mesh))
+        return false;
+    if (mesh.triangle_count)
+        *index = scene_adopt_mesh(gltf->scene, &mesh, gltf->json.error);
+    return !mesh.triangle_count || *index >= 0;
+}
+
+const struct gltf_mesh *gltf_mesh_at(struct gltf *gltf, int index)
+{
+    struct gltf_mesh *mesh = &gltf->meshes[index];
+    const struct place *place = ELEMENT_OF(KEY_OF(NULL, "meshes"), (size_t)index);
+    const json_t *object = gltf_list_item(gltf, "meshes", index);
+    bool ok = true;
+    if (mesh->ready)
+        return mesh;
+    if (!call_should_continue(gltf->source->call)) {
+        call_error(gltf->source->call, gltf->json.error);
+        return NULL;
+    }
+    const json_t *primitives = gltf_take_list(gltf, place, object, "primitives", &ok);
+    const char *name = ok ? gltf_name(gltf, object, &ok) : NULL;
+    mesh->count = (int)json_array_size(primitives);
+    mesh->primitives = ok ? GLTF_ALLOC(gltf, mesh->count, int) : NULL;
+    if (ok && !mesh->primitives)
+        ok = gltf_no_memory(gltf, json_array_size(primitives) * sizeof *mesh->primitives);
+    for (int i = 0; ok && i < mesh->count; i++)
+        ok = make_primitive(gltf, ELEMENT_OF(KEY_OF(place, "primitives"), (size_t)i),
+                            json_array_get(primitives, (size_t)i), name, &mesh->primitives[i]);
+    mesh->ready = ok;
+    return ok ? mesh : NULL;
+}

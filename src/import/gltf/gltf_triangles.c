@@ -1,0 +1,98 @@
+// gltf_triangles.c: triangles, strips and fans of a primitive as triangles (section 3.7.2.1).
+#include "gltf_triangles.h"
+
+#include "gltf_accessors.h"
+#include "gltf_numbers.h"
+
+#include "fail.h"
+
+static bool fail_index(struct gltf *gltf, const struct place *place, const struct gltf_accessor *accessor,
+                       uint32_t vertex_count, uint32_t restart)
+{
+    for (size_t i = 0; i < accessor->count; i++) {
+        uint32_t index = accessor->indices[i];
+        if (index >= vertex_count)
+            return json_fail(&gltf->json, place, "number %zu is %u, expected one below the %u vertices", i, index,
+                             vertex_count);
+        if (index == restart)
+            return json_fail(
+                &gltf->json, place,
+                "number %zu is %u, the greatest of its type, which glTF does not allow (primitive restart)", i, index);
+    }
+    return true;
+}
+
+bool gltf_corners(struct gltf *gltf, const struct place *place, const json_t *primitive, uint32_t vertex_count,
+                  const uint32_t **indices, size_t *count)
+{
+    struct gltf_accessor *accessor;
+    const struct place *here = KEY_OF(place, "indices");
+    *indices = NULL;
+    *count = vertex_count;
+    if (!gltf_take_accessor(gltf, place, primitive, "indices", &accessor))
+        return false;
+    if (!accessor)
+        return true;
+    *indices = gltf_indices(gltf, here, accessor);
+    *count = accessor->count;
+    if (!*indices)
+        return false;
+    bool lenient = gltf->source->params->lenient;
+    uint32_t restart = lenient                           ? UINT32_MAX
+                       : accessor->component == GLTF_U8  ? UINT8_MAX
+                       : accessor->component == GLTF_U16 ? UINT16_MAX
+                                                         : UINT32_MAX;
+    return (accessor->max_index < vertex_count && accessor->max_index != restart) ||
+           fail_index(gltf, here, accessor, vertex_count, restart);
+}
+
+// The corners of triangle i, in the order of the specification.
+static void corners_of(size_t mode, size_t i, size_t corner[3])
+{
+    bool strip = mode == GLTF_TRIANGLE_STRIP;
+    corner[0] = strip ? i : i + 1;
+    corner[1] = strip ? i + 1 + i % 2 : i + 2;
+    corner[2] = strip ? i + 2 - i % 2 : 0;
+}
+
+static bool unroll(struct gltf *gltf, size_t mode, const uint32_t *indices, size_t count, lam_mesh *mesh)
+{
+    size_t triangles = count < 3 ? 0 : count - 2;
+    uint32_t *out = arena_array(&gltf->scene->arena, triangles, 3 * sizeof *out), *at = out;
+    if (!out)
+        return gltf_no_memory(gltf, triangles * 3 * sizeof *out);
+    for (size_t i = 0; i < triangles; i++) {
+        size_t corner[3];
+        corners_of(mode, i, corner);
+        for (int c = 0; c < 3; c++)
+            at[c] = indices ? indices[corner[c]] : (uint32_t)corner[c];
+        if (at[0] != at[1] && at[1] != at[2] && at[2] != at[0])
+            at += 3;
+    }
+    mesh->indices = out;
+    mesh->triangle_count = (uint32_t)((at - out) / 3);
+    return true;
+}
+
+bool gltf_triangles(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode, lam_mesh *mesh)
+{
+    const uint32_t *indices;
+    size_t count;
+    if (!gltf_corners(gltf, place, primitive, mesh->vertex_count, &indices, &count))
+        return false;
+    size_t triangles = mode == GLTF_TRIANGLES ? count / 3 : count < 3 ? 0 : count - 2;
+    if (triangles > UINT32_MAX / 3)
+        return fail(gltf->json.error, LAM_LIMIT, "%s: a primitive of %zu triangles, expected at most %u",
+                    gltf->source->name, triangles, UINT32_MAX / 3);
+    if (mode != GLTF_TRIANGLES)
+        return unroll(gltf, mode, indices, count, mesh);
+    mesh->indices = indices;
+    mesh->triangle_count = (uint32_t)triangles;
+    if (count % 3) {
+        char where[200];
+        json_place(place, where, sizeof where);
+        scene_warn(gltf->scene, "%s: %s: the last %zu of %zu corners make no triangle", gltf->source->name, where,
+                   count % 3, count);
+    }
+    return true;
+}

@@ -1,0 +1,114 @@
+# test_gltf.py: options for glTF files: scenes, variants, cameras, required extensions; and scene files that name one.
+import base64
+import json
+import struct
+
+from harness import Case, pixel, read_png
+
+CORNERS = struct.pack("<12f", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0) + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
+FULL = "eye=0/0/4,target=0/0/0,fovy=20"
+
+
+def unlit(r, g, b, **more):
+    return {"pbrMetallicRoughness": {"baseColorFactor": [r, g, b, 1]}, "extensions": {"KHR_materials_unlit": {}}, **more}
+
+
+class Gltf(Case):
+    def model(self, name="model.gltf", **changes):
+        """A square of two scenes, two variants and two cameras: red, and blue in the second scene, green as variant."""
+        def square(material):
+            return {"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": material, "extensions": {
+                "KHR_materials_variants": {"mappings": [{"material": 1, "variants": [1]}]}}}]}
+        file = {
+            "asset": {"version": "2.0"}, "scene": 0,
+            "scenes": [{"name": "day", "nodes": [0, 2, 3]}, {"name": "night", "nodes": [1]}],
+            "nodes": [{"mesh": 0, "name": "left"}, {"mesh": 1}, {"camera": 0, "translation": [0, 0, 9], "name": "near"},
+                      {"camera": 1, "translation": [0, 0, 5]}],
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 0.1, "znear": 0.5}},
+                        {"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 4, "znear": 0, "zfar": 9}}],
+            "materials": [unlit(1, 0, 0), unlit(0, 1, 0), unlit(0, 0, 1)], "meshes": [square(0), square(2)],
+            "extensions": {"KHR_materials_variants": {"variants": [{"name": "plain"}, {"name": "mint"}]}},
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                          {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+            "buffers": [{"byteLength": 60, "uri": "data:;base64," + base64.b64encode(CORNERS).decode()}], **changes}
+        (self.folder / name).write_text(json.dumps(file))
+        self.given.add(name)
+        return name
+
+    def middle(self, *words):
+        self.good(*words, "-o", "a.png", "-s", "32", "-q", "-b", "black")
+        self.given.add("a.png")
+        return pixel(read_png((self.folder / "a.png").read_bytes()), 16, 16)[:3]
+
+    def test_scenes_and_variants(self):
+        model = self.model()
+        self.assertEqual(self.middle(model), (255, 0, 0))
+        self.assertEqual(self.middle(model, "--scene", "night"), (0, 0, 255))
+        self.assertEqual(self.middle(model, "--scene", "1"), (0, 0, 255))
+        self.assertEqual(self.middle(model, "--variant", "mint"), (0, 255, 0))
+        self.assertEqual(self.middle(model, "--variant", "plain"), (255, 0, 0))
+        self.bad(1, model, "--scene", "noon", says="there is no scene 'noon'; expected one of 0 ('day'), 1 ('night')")
+        self.bad(1, model, "--variant", "2", says="there is no variant '2'; expected one of 0 ('plain'), 1 ('mint')")
+        done = self.good("teapot", "--scene", "1", "-o", "a.png", "-s", "32")
+        self.assertIn(b"count for glTF files alone", done.stderr)
+
+    def test_cameras(self):
+        model = self.model()
+        self.assertEqual(self.middle(model, "--camera", "1"), (255, 0, 0))
+        self.good(model, "--camera", "1", "-o", "a.png", "-s", "64", "-q", "-b", "black", "--samples", "1")
+        picture = read_png((self.folder / "a.png").read_bytes())  # 8 units high: the square takes the middle quarter
+        red = [(x, y) for y in range(64) for x in range(64) if pixel(picture, x, y)[0]]
+        self.assertEqual((min(red), max(red), len(red)), ((24, 24), (39, 39), 256))
+        report = json.loads(self.good(model, "--camera", "near", "-o", "a.png", "-s", "32", "--json").stdout)
+        self.assertEqual(report["camera"]["eye"], [0, 0, 9])
+        self.assertEqual(report["camera"]["near"], 0.5)
+        self.assertLess(report["camera"]["far"], 10)
+        self.bad(1, model, "--camera", "far", leaves=(),
+                 says="option '--camera': found 'far', expected keys such as eye=2/1/4, or a camera of the file, which has 0 ('near'), 1")
+        self.bad(1, "cube.obj", "--camera", "0", says="a camera of the file, which has none")
+
+    def test_required_extensions(self):
+        model = self.model(extensionsRequired=["EXT_moonlight"], extensionsUsed=["EXT_moonlight"])
+        self.bad(3, model, says=["extensionsRequired[0]", "EXT_moonlight"])
+        done = self.good(model, "--lenient", "-o", "a.png", "-s", "32")
+        self.assertIn(b"does not draw: EXT_moonlight", done.stderr)
+
+    def test_sides(self):
+        model = self.model()
+        behind = FULL.replace("0/0/4", "0/0/-4")
+        self.assertEqual(self.middle(model, "--camera", FULL), (255, 0, 0))
+        self.assertEqual(self.middle(model, "--camera", behind), (0, 0, 0))
+        self.assertEqual(self.middle(model, "--camera", behind, "--cull", "none"), (255, 0, 0))
+        model = self.model(materials=[unlit(1, 0, 0, doubleSided=True), unlit(0, 1, 0), unlit(0, 0, 1)])
+        self.assertEqual(self.middle(model, "--camera", behind), (255, 0, 0))
+
+    def test_scene_files(self):
+        """--save-scene draws the same bytes again, with what was chosen in the file and changed of its many objects."""
+        light = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 30}]}}
+        model = self.model(
+            nodes=[{"mesh": 0, "children": [1]}, {"mesh": 1, "translation": [1, 0.5, 0.5], "scale": [-1, 1, 1]},
+                   {"translation": [1, 1, 3], "extensions": {"KHR_lights_punctual": {"light": 0}}}, {}],
+            materials=[{"pbrMetallicRoughness": {"metallicFactor": 0.3}}, {"name": "b"}, {}],
+            extensions={**light, "KHR_materials_variants": {"variants": [{"name": "plain"}, {"name": "mint"}]}})
+        for words in ([], ["--rotate", "y:30"], ["--variant", "mint", "--cull", "none"], ["--color", "red", "--one-sided"],
+                      ["--scene", "night", "--shininess", "9"], ["--material", "gold"]):
+            with self.subTest(words=words):
+                self.good(model, *words, "-o", "a.png", "-s", "48", "-q", "--save-scene", "a.json")
+                self.good("a.json", "-o", "b.png", "-q")
+                self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+        self.given.update(["a.png", "b.png", "a.json"])
+
+    def test_moved_lights(self):
+        """A scene file that places a model places its lights and cameras too."""
+        light = {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 30, "name": "lamp"}]}}
+        model = self.model(nodes=[{"mesh": 0}, {"mesh": 1}, {"camera": 0, "translation": [0, 0, 9]},
+                                  {"translation": [1, 0, 3], "extensions": {"KHR_lights_punctual": {"light": 0}}}], extensions=light)
+        (self.folder / "a.json").write_text(json.dumps({"lambent": 1, "objects": [
+            {"file": model, "transform": [["translate", 0, 10, 0], ["rotate", 90, 0, 1, 0]]}]}))
+        self.given.add("a.json")
+        lights = json.loads(self.good("lights", "a.json").stdout)["lights"]
+        self.assertEqual([round(x, 6) for x in lights[0]["position"]], [3, 10, -1])
+        self.assertEqual([round(x, 6) + 0 for x in lights[0]["direction"]], [-1, 0, 0])
+        camera = json.loads(self.good("a.json", "--camera", "0", "-o", "a.png", "-s", "32", "--json").stdout)["camera"]
+        self.assertEqual([round(x, 6) + 0 for x in camera["eye"]], [9, 10, 0])

@@ -93,9 +93,9 @@ typedef struct lam_load_params {
     LAM_RESERVED(13);
 } lam_load_params;
 
-// Loads a model file into a new scene: its meshes, materials and lights, and an object for each mesh. `params`
-// and `control` may be NULL. The caller frees the scene. NULL on failure: LAM_CANNOT_READ, LAM_UNSUPPORTED,
-// LAM_LIMIT, LAM_CANCELLED.
+// Loads a model file into a new scene: its meshes, materials and lights, and an object for each mesh. Where everything is
+// fully transparent, materials and colours become opaque, with a warning. `params` and `control` may be NULL. The caller
+// frees the scene. NULL on failure: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT, LAM_CANCELLED.
 LAM_API lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control,
                                   lam_error *error);
 

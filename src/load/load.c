@@ -1,4 +1,5 @@
 // load.c: from a file or memory to a scene: the steps that all formats share.
+#include "clear_models.h"
 #include "companion.h"
 #include "fail.h"
 #include "float_state.h"
@@ -61,6 +62,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     const lam_load_params *params = source->params;
     if (!check_not_empty(scene, source->name, error))
         return false;
+    show_clear_scene(scene, source->name);
     // A scene file records the origin of each of its models itself.
     struct scene_origin origin = {.normals = params->normals, .crease_angle_rad = params->crease_angle_rad};
     if (!importer->is_scene_file && source->path) {

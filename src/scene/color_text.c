@@ -111,10 +111,16 @@ bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam
         *color = numbers;
         return true;
     }
-    const char *words[NAMES];
-    for (int i = 0; i < NAMES; i++)
-        words[i] = names[i].name;
-    const char *nearest = nearest_word(text, words, NAMES);
+    // The '#' is easily forgotten, and easily lost: in a shell it begins a comment.
+    char hex[16] = "#";
+    struct spelling spelling = spelling_of(text);
+    if (strlen(text) >= 6 && read_hex(text, &rgba))
+        spelling.nearest = strcat(hex, text);
+    for (int i = 0; i < NAMES && !hex[1]; i++)
+        spelling_try(&spelling, names[i].name);
+    if (!hex[1])
+        spelling_try(&spelling, "transparent");
+    const char *nearest = spelling.nearest;
     return fail(error, LAM_BAD_ARGUMENT,
                 "found '%.60s', expected a colour: #rrggbb, #rrggbbaa, r/g/b, one number, transparent, or a name such "
                 "as white%s%s%s",

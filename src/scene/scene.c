@@ -110,6 +110,15 @@ void scene_warn(struct lam_scene *scene, const char *format, ...)
                      NULL); // a lost warning is no reason to fail
 }
 
+void scene_note_clear(struct lam_scene *scene, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (scene->clear_materials++ == 0)
+        scene->first_clear = arena_vformat(&scene->arena, format, arguments);
+    va_end(arguments);
+}
+
 bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error)
 {
     origin.mesh_count = scene->meshes.count - origin.first_mesh;

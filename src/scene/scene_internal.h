@@ -62,14 +62,17 @@ struct scene_camera {
 struct lam_scene {
     struct arena arena;
     struct scene_token *token;
-    struct scene_list meshes;             // lam_mesh
-    struct scene_list extents;            // struct scene_extent, one for each measured mesh, in the same order
-    struct scene_list materials;          // lam_material
-    struct scene_list objects;            // lam_object
-    struct scene_list lights;             // lam_light
-    struct scene_list cameras;            // struct scene_camera
-    struct scene_list warnings;           // const char *
-    struct scene_list origins;            // struct scene_origin, in the order of their meshes
+    struct scene_list meshes;    // lam_mesh
+    struct scene_list extents;   // struct scene_extent, one for each measured mesh, in the same order
+    struct scene_list materials; // lam_material
+    struct scene_list objects;   // lam_object
+    struct scene_list lights;    // lam_light
+    struct scene_list cameras;   // struct scene_camera
+    struct scene_list warnings;  // const char *
+    struct scene_list origins;   // struct scene_origin, in the order of their meshes
+    // Materials of MTL files that are fully transparent, and a sentence about the first one, with its place; NULL: none.
+    int clear_materials;
+    const char *first_clear;
     const lam_picture_settings *settings; // of a scene file; NULL: none
     lam_up up;
     lam_mat4 placement; // the product of all lam_scene_transform calls
@@ -105,6 +108,9 @@ int scene_append(struct lam_scene *scene, struct scene_list *list, const void *i
 // Adds a warning, formatted. At most SCENE_WARNINGS_MAX are kept; the last of them says that others are omitted.
 enum { SCENE_WARNINGS_MAX = 64 };
 void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// Counts a fully transparent material; the sentence of the first one is kept. The load ends with a warning of them.
+void scene_note_clear(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Records the origin of the meshes and materials from origin.first_… on. False: out of memory.
 bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error);

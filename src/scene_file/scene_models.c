@@ -130,6 +130,9 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
     r->scene->arena = model->inner.arena;
     for (int i = 0; ok && i < model->inner.warnings.count; i++)
         scene_warn(r->scene, "%s", ((const char **)model->inner.warnings.items)[i]);
+    if (ok && !r->scene->clear_materials)
+        r->scene->first_clear = model->inner.first_clear;
+    r->scene->clear_materials += model->inner.clear_materials;
     return ok ? model : NULL;
 }
 

@@ -6,7 +6,7 @@ import subprocess
 import unittest
 import zlib
 
-from harness import PROGRAM, Case
+from harness import PROGRAM, Case, pixel, read_png
 
 
 class Models(Case):
@@ -25,6 +25,8 @@ class Models(Case):
         self.bad(2, "teapto", says="did you mean 'teapot'?")
         self.bad(2, "bunny", says="`lambent shapes` lists them")
         self.bad(2, "box", says="did you mean 'cube'?")
+        self.bad(2, "*.3mf", says="no file matches this pattern")
+        self.bad(2, "none.png", says="the name of the picture to write follows -o")
         self.bad(2, "version", says="an option begins with dashes: --version")
         self.bad(2, "missing.obj", "shapes", says="a command comes first: lambent shapes")
 
@@ -91,6 +93,32 @@ class Models(Case):
         self.one_sentence(self.bad(2, self.write("more.ply", header % (b"", b" 5")), says="more.ply:11: vertex 2 of 3: found '5' after z"))
         self.one_sentence(self.bad(2, self.write("zero.ply", header % (b"comment \0\n", b"")), says="zero.ply:3: found a zero byte in the header"))
 
+    def test_meshlab(self):
+        """MeshLab writes `Tr 1` for opaque materials: the picture is not blank, and one warning says why."""
+        mtl = b"#\n# Wavefront material file\n# Converted by Meshlab Group\n#\n\nnewmtl material_0\nKa 0.2 0.2 0.2\nKd 0.8 0.1 0.1\nKs 1 1 1\n" \
+              b"%sillum 2\nNs 0.000000\n\n"
+        self.write("m.obj", b"mtllib ./m.obj.mtl\nusemtl material_0\n" + b"".join(
+            line + b"\n" for line in (self.folder / "cube.obj").read_bytes().split(b"\n") if not line.startswith((b"mtllib", b"usemtl"))))
+        self.write("m.obj.mtl", mtl % b"")
+        done = self.good("m.obj", "-s", 40, "-o", "-")
+        wanted = done.stdout
+        self.assertIn(b"warning: m.obj.mtl:11: with Ns 0 the highlight would cover all that is lit; there is none", done.stderr)
+        red, green, blue, alpha = pixel(read_png(wanted), 20, 24)
+        self.assertTrue(red > 2 * green and red > 2 * blue and alpha == 255, (red, green, blue, alpha))  # not white all over
+        self.write("m.obj.mtl", mtl % b"Tr 1.000000\n")
+        done = self.good("m.obj", "-s", 40, "-o", "-")
+        self.assertEqual(done.stdout, wanted)
+        self.assertEqual(done.stderr.count(b"warning"), 2)
+        self.assertIn(b"warning: m.obj.mtl:10: material 'material_0' is fully transparent (Tr 1); a picture would show nothing else, "
+                      b"so everything is drawn opaque", done.stderr)
+        self.good("m.obj", "-s", 40, "-o", "a.png", "--save-scene", "a.json")
+        self.given |= {"a.png", "a.json"}
+        self.assertEqual((self.folder / "a.png").read_bytes(), wanted)
+        self.assertEqual(self.good("a.json", "-o", "-").stdout, wanted)
+        # What the command line asks for stays as it is.
+        clear = self.good("m.obj", "-s", 40, "--opacity", 0, "-o", "-").stdout
+        self.assertNotEqual(clear, wanted)
+
     def test_empty(self):
         for name in ("empty.obj", "empty.stl", "empty.ply", "empty"):
             self.one_sentence(self.bad(2, self.write(name, b""), says=name))
@@ -125,7 +153,7 @@ class Models(Case):
         done = self.run_program("picture.png")
         self.assertIn(done.returncode, (2, 3))
         self.assertIn(b"picture.png", done.stderr)
-        self.assertNotIn(b"-o", done.stderr)  # not the output of the failed picture
+        self.assertNotIn(b"replaces", done.stderr)  # not the output of the failed picture
         self.assertEqual((self.folder / "picture.png").read_bytes(), before)
         for name, data in (("text.obj", b"Dear reader,\nthis is a letter.\n"), ("zeros.stl", bytes(1000)),
                            ("noise", bytes((i * 7919 + i * i) & 255 for i in range(2000)))):

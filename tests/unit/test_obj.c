@@ -462,6 +462,28 @@ static void test_mtl(void **unused)
     lam_scene_free(scene);
 }
 
+// Ns 0 takes the highlight away, where there is one; a small exponent does not.
+static void test_mtl_exponents(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *mtl;
+        float specular, shininess;
+        bool warned;
+    } rows[] = {
+        {"newmtl a\nKs 1 1 1\nNs 0\n", 0, 0, true},         {"newmtl a\nNs 0\nKs 1 1 1\nillum 2\n", 0, 0, true},
+        {"newmtl a\nKs 1 1 1\nNs 0.01\n", 1, 0.01f, false}, {"newmtl a\nKs 1 1 1\n", 1, 32, false},
+        {"newmtl a\nKs 0 0 0\nNs 0\n", 0, 0, false},        {"newmtl a\nKs 1 1 1\nNs 0\nillum 1\n", 0, 0, false},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lam_scene *scene;
+        const lam_material *m = load_material(rows[i].mtl, LAM_COLOR_RAW, &scene);
+        assert_true(m->specular.r == rows[i].specular && m->shininess == rows[i].shininess);
+        assert_int_equal(lam_scene_warning(scene, 0) != NULL, rows[i].warned);
+        lam_scene_free(scene);
+    }
+}
+
 static void test_mtl_maps(void **unused)
 {
     (void)unused;
@@ -503,11 +525,63 @@ static void test_mtl_warnings(void **unused)
         {"newmtl a\nKd spectral x.rfl\n", "a.mtl:2: Kd as a spectral curve is not supported, expected r g b"},
         {"newmtl a\nKs xyz 1 1 1\n", "a.mtl:2: Ks as a CIE XYZ colour is not supported, expected r g b"},
         {"newmtl a\nillum 99\n", "a.mtl:2: illum is not one of the models 0 to 10; it is ignored"},
-        {"newmtl a\nd 0\n", "a.mtl: material 'a' is fully transparent (d 0 or Tr 1)"},
+        {"newmtl a\nKs 1 1 1\nNs 0.000\nillum 2\n",
+         "a.mtl:3: with Ns 0 the highlight would cover all that is lit; there is none"},
+        {"newmtl a\nNs 0\nKs 1\nnewmtl b\nNs 0\nKs 1\n",
+         "a.mtl:2: with Ns 0 the highlight would cover all that is lit; there is none, here and in other materials"},
+        {"newmtl a\nd 0\n", "a.mtl:2: material 'a' is fully transparent (d 0)"},
+        {"newmtl a\nd 1\nnewmtl b\n\nTr 1.000\nnewmtl c\nd 0\n",
+         "a.mtl:5: material 'b' is fully transparent (Tr 1), the first of 2"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct library libraries[] = {{"a.mtl", rows[i].mtl}, {NULL, NULL}};
         expect_warning("mtllib a.mtl\n" TRIANGLE "f 1 2 3\n", libraries, rows[i].sentence);
+    }
+}
+
+// Where a picture would show nothing, all is opaque: MeshLab writes Tr 1 for that. One warning says so.
+static void test_clear(void **unused)
+{
+    (void)unused;
+#define OPAQUE "; a picture would show nothing else, so everything is drawn opaque"
+    static const struct {
+        const char *faces, *mtl;
+        float a, b; // opacities of the materials
+        const char *warning;
+    } rows[] = {
+        {"usemtl a\nf 1 2 3\n", "newmtl a\nKd 1 0 0\nTr 1.000000\nillum 2\nnewmtl b\n", 1, 1,
+         "a.mtl:3: material 'a' is fully transparent (Tr 1)" OPAQUE},
+        {"usemtl a\nf 1 2 3\n", "newmtl a\nillum 4\nd 0\nnewmtl b\nd 0.5\n", 1, 0.5f,
+         "a.mtl:3: material 'a' is fully transparent (d 0)" OPAQUE},
+        {"usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n", "newmtl a\nTr 1\nnewmtl b\nd 0\n", 1, 1,
+         "a.mtl:2: material 'a' is fully transparent (Tr 1), the first of 2" OPAQUE},
+        // Something is seen: nothing changes.
+        {"usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n", "newmtl a\nTr 1\nnewmtl b\nTr 0.999\n", 0, 1 - 0.999f,
+         "a.mtl:2: material 'a' is fully transparent (Tr 1)"},
+        {"f 1 2 3\nusemtl a\nf 1 2 3\n", "newmtl a\nTr 1\nnewmtl b\n", 0, 1,
+         "a.mtl:2: material 'a' is fully transparent (Tr 1)"},
+        // A material that no face shows does not count.
+        {"usemtl b\nf 1 2 3\n", "newmtl a\nTr 1\nnewmtl b\n", 0, 1,
+         "a.mtl:2: material 'a' is fully transparent (Tr 1)"},
+        {"usemtl b\nusemtl a\nf 1 2 3\n", "newmtl a\nTr 1\nnewmtl b\n", 1, 1,
+         "a.mtl:2: material 'a' is fully transparent (Tr 1)" OPAQUE},
+        // d decides in either order.
+        {"usemtl a\nf 1 2 3\n", "newmtl a\nTr 1\nd 1\nnewmtl b\nd 1\nTr 1\n", 1, 1, NULL},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct library libraries[] = {{"a.mtl", rows[i].mtl}, {NULL, NULL}};
+        char text[300];
+        lam_error error;
+        snprintf(text, sizeof text, "mtllib a.mtl\n" TRIANGLE "%s", rows[i].faces);
+        lam_scene *scene = load_with(text, (lam_load_params){0}, libraries, &error);
+        assert_non_null(scene);
+        float a = lam_scene_material(scene, 0)->diffuse.a, b = lam_scene_material(scene, 1)->diffuse.a;
+        const char *warning = lam_scene_warning(scene, 0);
+        if (a != rows[i].a || b != rows[i].b ||
+            (warning ? strcmp(warning, rows[i].warning ? rows[i].warning : "") != 0 : rows[i].warning != NULL))
+            fail_msg("row %zu: %g, %g, %s", i, (double)a, (double)b, warning ? warning : "no warning");
+        assert_null(lam_scene_warning(scene, warning ? 1 : 0));
+        lam_scene_free(scene);
     }
 }
 
@@ -684,6 +758,8 @@ int main(void)
         cmocka_unit_test(test_origin),
         cmocka_unit_test(test_mtl),
         cmocka_unit_test(test_mtl_maps),
+        cmocka_unit_test(test_mtl_exponents),
+        cmocka_unit_test(test_clear),
         cmocka_unit_test(test_mtl_warnings),
         cmocka_unit_test(test_threads_and_chunks),
         cmocka_unit_test(test_damage),

@@ -493,6 +493,38 @@ static void test_numbers_left_over(void **state)
     lam_scene_free(scene);
 }
 
+// Colours that are all clear are opaque: a picture would show nothing else.
+static void test_clear_colors(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        int clear; // of three numbers of alpha
+    } rows[] = {
+#define RGBA(type) "property " type " red\nproperty " type " green\nproperty " type " blue\nproperty " type " alpha\n"
+        {THREE RGBA("uchar") FACE("1") "end_header\n0 0 0 9 9 9 0\n1 0 0 9 9 9 0\n0 1 0 9 9 9 0\n3 0 1 2\n", 3},
+        {THREE RGBA("float") FACE("1") "end_header\n0 0 0 1 1 1 0\n1 0 0 1 1 1 0\n0 1 0 1 1 1 0\n3 0 1 2\n", 3},
+        {THREE RGBA("uchar") FACE("1") "end_header\n0 0 0 9 9 9 0\n1 0 0 9 9 9 1\n0 1 0 9 9 9 0\n3 0 1 2\n", 2},
+        {THREE FACE("1") RGBA("uchar") "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9 9 9 0\n", 3},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lam_scene *scene = load_text(rows[i].text, "a.ply");
+        const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+        bool floats = mesh->colors_format == LAM_COLORS_LINEAR_F32;
+        for (uint32_t c = 0; c < mesh->color_count; c++) {
+            float alpha = floats ? ((const float *)mesh->colors)[4 * c + 3]
+                                 : (float)((const uint8_t *)mesh->colors)[4 * c + 3] / 255;
+            assert_true(alpha == (rows[i].clear == 3 ? 1.0f : c == 1 ? 1.0f / 255 : 0.0f));
+        }
+        if (rows[i].clear == 3)
+            assert_string_equal(lam_scene_warning(scene, 0),
+                                "a.ply: every material or colour is fully transparent (alpha 0); a picture would show "
+                                "nothing else, so everything is drawn opaque");
+        assert_null(lam_scene_warning(scene, rows[i].clear == 3));
+        lam_scene_free(scene);
+    }
+}
+
 static void test_body_errors(void **state)
 {
     (void)state;
@@ -649,6 +681,7 @@ int main(void)
         cmocka_unit_test(test_header_errors),
         cmocka_unit_test(test_unknown_header_lines),
         cmocka_unit_test(test_numbers_left_over),
+        cmocka_unit_test(test_clear_colors),
         cmocka_unit_test(test_body_errors),
         cmocka_unit_test(test_binary_errors),
         cmocka_unit_test(test_threads),

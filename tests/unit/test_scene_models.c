@@ -132,6 +132,44 @@ static void test_changes(void **unused)
     lam_scene_free(scene);
 }
 
+// It is the whole scene that a picture shows: a clear model beside another object stays clear.
+static void test_clear(void **unused)
+{
+    (void)unused;
+#define CLEAR "{\"file\": \"a.obj\", \"materials\": {\"red\": {\"opacity\": 0}, \"blue\": {\"opacity\": 0}}}"
+#define GHOST "{\"shape\": \"cube\", \"material\": {\"diffuse\": [1, 1, 1, 0]}}"
+    static const struct {
+        const char *objects;
+        bool opaque;
+    } rows[] = {
+        {CLEAR, true},
+        {CLEAR ", " GHOST ", " CLEAR, true},
+        {CLEAR ", {\"shape\": \"cube\"}", false},
+        {CLEAR ", " A, false},
+        {"{\"shape\": \"cube\", \"material\": {\"diffuse\": [1, 1, 1, 0]}, \"back_material\": {\"opacity\": 1, "
+         "\"diffuse\": [1, 0, 0, 1]}}",
+         false},
+        {"{\"shape\": \"cube\", \"material\": {\"diffuse\": [1, 1, 1, 0]}, \"back_material\": {\"shininess\": 3}}",
+         true},
+        // the object's material replaces the model's
+        {"{\"file\": \"a.obj\", \"materials\": {\"red\": {\"opacity\": 0}, \"blue\": {\"opacity\": 0}}, \"material\": "
+         "\"gold\"}",
+         false},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct counts counts;
+        lam_scene *scene = load_objects(rows[i].objects, &counts);
+        bool said = false, clear = false;
+        for (int k = 0; lam_scene_warning(scene, k); k++)
+            said |= strstr(lam_scene_warning(scene, k), "so everything is drawn opaque") != NULL;
+        for (int k = 0; k < lam_scene_material_count(scene); k++)
+            clear |= lam_scene_material(scene, k)->diffuse.a == 0;
+        if (said != rows[i].opaque || clear != !rows[i].opaque)
+            fail_msg("row %zu: %s, %s", i, said ? "said" : "not said", clear ? "clear" : "opaque");
+        lam_scene_free(scene);
+    }
+}
+
 // Objects that share a mesh are written one by one, and come back as they were.
 static void test_written(void **unused)
 {
@@ -348,11 +386,9 @@ static void test_function(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shared),
-        cmocka_unit_test(test_changes),
-        cmocka_unit_test(test_written),
-        cmocka_unit_test(test_memory),
-        cmocka_unit_test_setup_teardown(test_root, make_folder, remove_folder),
+        cmocka_unit_test(test_shared),   cmocka_unit_test(test_changes),
+        cmocka_unit_test(test_clear),    cmocka_unit_test(test_written),
+        cmocka_unit_test(test_memory),   cmocka_unit_test_setup_teardown(test_root, make_folder, remove_folder),
         cmocka_unit_test(test_function),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -76,30 +76,43 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     return NULL;
 }
 
-// Adds to the error what may have been meant by the name of a model that does not exist.
+// What may have been meant by the name of a model that cannot be read, as the end of a sentence; "": nothing is known.
+static void guess(const struct job *job, const lam_error *error, char *text, size_t size)
+{
+    const char *model = job->model;
+    lam_pixel_format format;
+    *text = 0;
+    if (!job->options->output && lam_image_format_for(model, &format, NULL))
+        snprintf(text, size, "; the name of the picture to write follows -o");
+    if (*text || error->code != LAM_CANNOT_READ || access(model, F_OK) == 0)
+        return;
+    if (strpbrk(model, "*?")) {
+        snprintf(text, size, "; no file matches this pattern");
+    } else if (strpbrk(model, "./")) {
+        return;
+    } else if (find_command(model)) {
+        snprintf(text, size, "; a command comes first: lambent %s", model);
+    } else if (option_find(model)) {
+        snprintf(text, size, "; an option begins with dashes: --%s", model);
+    } else {
+        struct suggestion nearest = suggest_start(model);
+        for (int i = 0; i < lam_shape_count(); i++)
+            suggest_try(&nearest, lam_shape_name(i));
+        for (const struct command *c = command_table; c->name; c++)
+            suggest_try(&nearest, c->name);
+        if (nearest.best)
+            snprintf(text, size, "; did you mean '%s'?", nearest.best);
+        else
+            snprintf(text, size, "; no built-in shape has this name either: `lambent shapes` lists them");
+    }
+}
+
 static void add_guess(const struct job *job, lam_error *error)
 {
-    if (error->code != LAM_CANNOT_READ || strpbrk(job->model, "./") || access(job->model, F_OK) == 0)
-        return;
+    char text[200];
     size_t length = strlen(error->text);
-    if (find_command(job->model)) {
-        snprintf(error->text + length, sizeof error->text - length, "; a command comes first: lambent %s", job->model);
-        return;
-    }
-    if (option_find(job->model)) {
-        snprintf(error->text + length, sizeof error->text - length, "; an option begins with dashes: --%s", job->model);
-        return;
-    }
-    struct suggestion nearest = suggest_start(job->model);
-    for (int i = 0; i < lam_shape_count(); i++)
-        suggest_try(&nearest, lam_shape_name(i));
-    for (const struct command *c = command_table; c->name; c++)
-        suggest_try(&nearest, c->name);
-    if (nearest.best)
-        snprintf(error->text + length, sizeof error->text - length, "; did you mean '%s'?", nearest.best);
-    else
-        snprintf(error->text + length, sizeof error->text - length,
-                 "; no built-in shape has this name either: `lambent shapes` lists them");
+    guess(job, error, text, sizeof text);
+    snprintf(error->text + length, sizeof error->text - length, "%s", text);
 }
 
 // True if only one frame is drawn, so that normals of its visible triangles suffice.

@@ -24,9 +24,10 @@ struct reader {
     // The current material and which of its statements were read.
     lam_material material;
     bool open, ka, kd, d;
+    const uint8_t *opacity, *exponent; // the statements that gave d or Tr, and Ns; NULL: none
     // Warned of once per file: unknown statements, and statements before the first newmtl. The first of each.
-    const uint8_t *unknown, *stray;
-    size_t unknown_count, stray_count;
+    const uint8_t *unknown, *stray, *wide; // wide: of highlights with the exponent 0
+    size_t unknown_count, stray_count, wide_count;
 };
 
 // The line number of `at`, for warnings. Counts on from the previous call: many warnings take one pass over the file.
@@ -116,6 +117,24 @@ static void replace_black(struct reader *reader, lam_material *m)
                shown_name(m->name, shown));
 }
 
+static void note_clear(struct reader *reader)
+{
+    char shown[SHOWN_NAME_SIZE];
+    size_t line = reader->scene->clear_materials ? 0 : text_line(reader->begin, reader->opacity); // of the first one
+    scene_note_clear(reader->scene, "%s:%zu: material '%s' is fully transparent (%s)", reader->name, line,
+                     shown_name(reader->material.name, shown), reader->d ? "d 0" : "Tr 1");
+}
+
+// With the exponent 0 a highlight covers all that is lit. MeshLab writes Ks 1 1 1 and Ns 0 for materials without one.
+static void remove_wide_highlight(struct reader *reader, lam_material *m)
+{
+    if (!reader->exponent || m->shininess > 0 || is_black(m->specular))
+        return;
+    m->specular = (lam_rgb){0, 0, 0};
+    if (reader->wide_count++ == 0)
+        reader->wide = reader->exponent;
+}
+
 // Completes the current material and adds it to the scene.
 static bool close_material(struct reader *reader, lam_error *error)
 {
@@ -136,9 +155,9 @@ static bool close_material(struct reader *reader, lam_error *error)
     }
     if (m->illum == 0 || m->illum == 1)
         m->specular = (lam_rgb){0, 0, 0};
+    remove_wide_highlight(reader, m);
     if (m->diffuse.a == 0)
-        scene_warn(reader->scene, "%s: material '%s' is fully transparent (d 0 or Tr 1)", reader->name,
-                   shown_name(m->name, (char[SHOWN_NAME_SIZE]){0}));
+        note_clear(reader);
     int index = scene_adopt_material(reader->scene, m, error);
     if (index < 0)
         return false;
@@ -160,6 +179,7 @@ static bool start_material(struct reader *reader, const uint8_t *at, const uint8
     reader->material.specular = (lam_rgb){0, 0, 0}; // a material without Ks has no highlight
     reader->open = true;
     reader->ka = reader->kd = reader->d = false;
+    reader->opacity = reader->exponent = NULL;
     return true;
 }
 
@@ -321,13 +341,20 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
     lam_material *m = &reader->material;
     float number;
     if (statement >= FIELD) {
-        read_material_field(reader, lam_material_field(statement - FIELD), at, end);
+        const lam_field *field = lam_material_field(statement - FIELD);
+        read_material_field(reader, field, at, end);
+        if (field->offset == offsetof(lam_material, diffuse.a))
+            reader->opacity = word;
+        if (field->offset == offsetof(lam_material, shininess))
+            reader->exponent = word;
         return true;
     }
     switch (statement) {
     case TR: // d decides where both are there, in whatever order
-        if (!reader->d && read_numbers(reader, at, end, &number, 1, 1) == 1)
+        if (!reader->d && read_numbers(reader, at, end, &number, 1, 1) == 1) {
             m->diffuse.a = 1 - within(reader, at, number, 0, 1, "Tr");
+            reader->opacity = word;
+        }
         break;
     case ILLUM: {
         int64_t model;
@@ -386,5 +413,10 @@ bool mtl_read(struct mtl_set *set, const struct import_source *source, struct la
     if (reader.stray_count)
         scene_warn(scene, "%s:%zu: %s before the first newmtl is ignored", name, text_line(reader.begin, reader.stray),
                    text_found(reader.stray, reader.end, found));
-    return close_material(&reader, error);
+    if (!close_material(&reader, error))
+        return false;
+    if (reader.wide_count)
+        scene_warn(scene, "%s:%zu: with Ns 0 the highlight would cover all that is lit; there is none%s", name,
+                   text_line(reader.begin, reader.wide), reader.wide_count > 1 ? ", here and in other materials" : "");
+    return true;
 }

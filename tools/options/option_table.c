@@ -1,5 +1,5 @@
 // option_table.c: every option, once. The help, the man page, the completions and docs/command-line.md are generated
-// from these rows (help.c, manual.c, completions.c).
+// from these rows (tools/help).
 #include "options.h"
 
 #include <lambent/check.h>

@@ -72,7 +72,20 @@ def explained(program, before):
     yield ""
 
 
-SECTIONS = {"rigs": rigs, "explained": explained}
+def roles(program, _):
+    """What a contract of `lambent check` can say of a name, from its schema."""
+    kinds = json.loads(output(program, "generate", "contract-schema"))["$defs"]
+    found = {}
+    for kind, word in (("attribute", "attribute"), ("uniform", "uniform"), ("constant", "number")):
+        for role in kinds[kind + "_role"]["oneOf"]:
+            found.setdefault(role["const"], (role["description"], []))[1].append(word)
+    yield "| role | of | |"
+    yield "|---|---|---|"
+    for name, (meaning, words) in found.items():
+        yield "| `%s` | %s | %s |" % (name, ", ".join(words), meaning)
+
+
+SECTIONS = {"rigs": rigs, "explained": explained, "roles": roles}
 
 
 def pages_with_sections(program):
@@ -98,6 +111,7 @@ def main():
             file.write(text)
     if "--text" in sys.argv:
         return
+    subprocess.run([sys.executable, os.path.join(ROOT, "scripts", "contracts.py"), program], check=True)
     os.makedirs(os.path.join(ROOT, "docs", "pictures", "lighting"), exist_ok=True)
     for command in commands():
         print(" ".join(command))

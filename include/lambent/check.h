@@ -34,8 +34,8 @@ LAM_API const char *lam_check_contract_title(const lam_check_contract *contract)
 typedef struct lam_check_name {
     const char *name; // "lights[].lightPosition" for members of a list
     const char *type; // "vec4"
-    const char *role; // "light_position": one of lam_check_role
-    // The space of positions and directions: "eye", "world" or "object"; NULL: none.
+    const char *role; // "light_position": the name of a lam_check_role
+    // Of positions and directions: "eye", "world" or "object"; NULL: none.
     const char *space;
     const char *meaning; // one line
     // Other accepted names, separated by blanks. NULL: none.
@@ -47,9 +47,18 @@ typedef struct lam_check_name {
 // Row `row` of a contract, counted from 0. False past the last one.
 LAM_API bool lam_check_contract_row(const lam_check_contract *contract, int row, lam_check_name *name);
 
-// The roles that a contract can give to a name, and what each is. NULL past the last.
-LAM_API const char *lam_check_role(int index);
-LAM_API const char *lam_check_role_meaning(int index);
+// A role that a contract can give to a name. Strings are static.
+typedef struct lam_check_role {
+    const char *name;    // as in contract files: "light_position"
+    const char *meaning; // one line
+    // That an attribute, a uniform, or a number in a shader's text can have it.
+    bool attribute, uniform, constant;
+    bool in_space; // it has a space
+    LAM_RESERVED(4);
+} lam_check_role;
+
+// Row `row` of the roles, counted from 0. False past the last one.
+LAM_API bool lam_check_role_row(int row, lam_check_role *role);
 
 // The known mistakes: their ids ("no-gate") and a sentence about each. NULL past the last.
 LAM_API const char *lam_check_mistake(int index);

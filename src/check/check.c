@@ -2,8 +2,10 @@
 #include "check_run.h"
 #include "compiler_hints.h"
 #include "default_vertex_shader.h"
+#include "recognise.h"
 #include "shader_diagnostics.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +15,20 @@
 
 // --- preparation
 
+// Whether the shaders can express no difference between a scene and one of `scenes`: shaders without a name for a strength
+// draw every term in every scene.
+static bool is_repeated(const struct run *r, int index, unsigned scenes)
+{
+    const size_t from = offsetof(struct reference_scene, mesh);
+    struct reference_scene mine = shader_interface_scene(&r->interface, &reference_scenes[index]);
+    for (int i = 0; i < index; i++) {
+        struct reference_scene other = shader_interface_scene(&r->interface, &reference_scenes[i]);
+        if (scenes >> i & 1 && memcmp((char *)&mine + from, (char *)&other + from, sizeof mine - from) == 0)
+            return true;
+    }
+    return false;
+}
+
 static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -21,9 +37,10 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
         bool asked = p->scenes == NULL;
         for (int k = 0; p->scenes && k < p->scene_count; k++)
             asked |= strcmp(p->scenes[k], reference_scenes[i].name) == 0;
-        if (asked && (reference_scenes[i].needs & ~r->interface.supports) == 0)
-            *scenes |= 1u << i;
-        else if (asked && p->scenes)
+        if (asked && (reference_scenes[i].needs & ~r->interface.supports) == 0) {
+            if (p->scenes || !is_repeated(r, i, *scenes))
+                *scenes |= 1u << i;
+        } else if (asked && p->scenes)
             return fail(error, LAM_BAD_ARGUMENT,
                         "scene '%s': the shader lacks names of the contract %s that the scene needs",
                         reference_scenes[i].name, r->interface.contract->name);
@@ -54,26 +71,35 @@ static void list_uniforms(const struct declarations *d, char *out, size_t capaci
 static const struct contract *choose_contract(struct run *r, lam_error *error)
 {
     const lam_check_params *p = r->params;
-    struct declarations vertex = {0}, fragment = {0};
     if (p->contract)
         return &p->contract->contract;
     const struct contract *found = NULL;
-    if (contracts_read(r->shipped, &r->shipped_count, error) &&
-        declarations_read(&vertex, p->vertex ? p->vertex : "", true, error) &&
-        declarations_read(&fragment, p->fragment, false, error)) {
-        found = contract_recognise(r->shipped, r->shipped_count, &vertex, &fragment);
+    if (!contracts_read(r->shipped, &r->shipped_count, error) ||
+        !contract_recognise(r->shipped, r->shipped_count, p->vertex, p->fragment, &found, error))
+        return NULL;
+    if (!found) {
+        struct declarations d = {0};
         char uniforms[200] = "";
-        list_uniforms(&vertex, uniforms, sizeof uniforms);
-        list_uniforms(&fragment, uniforms, sizeof uniforms);
-        if (!found)
-            fail(error, LAM_BAD_ARGUMENT,
-                 "no uniform or attribute of the shader has a name of a known contract (found %s); `lambent check "
-                 "--list` prints them, and --contract names another or a file",
-                 uniforms[0] ? uniforms : "none");
+        if (p->vertex && declarations_read(&d, p->vertex, true, NULL))
+            list_uniforms(&d, uniforms, sizeof uniforms);
+        declarations_free(&d);
+        if (declarations_read(&d, p->fragment, false, NULL))
+            list_uniforms(&d, uniforms, sizeof uniforms);
+        declarations_free(&d);
+        fail(error, LAM_BAD_ARGUMENT,
+             "no uniform or attribute of the shader has a name of a known contract (found %s); `lambent check --list` "
+             "prints them, and --contract names another or a file",
+             uniforms[0] ? uniforms : "none");
     }
-    declarations_free(&vertex);
-    declarations_free(&fragment);
     return found;
+}
+
+// Completes the shaders as the contract's engine does, and reads them.
+static bool read_shaders(struct run *r, lam_error *error)
+{
+    const struct contract *contract = choose_contract(r, error);
+    return contract && prefix_complete(contract, r->params->vertex, r->params->fragment, &r->texts, error) &&
+           shader_interface_make(&r->interface, &r->texts, contract, error);
 }
 
 static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
@@ -85,10 +111,9 @@ static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
     if (r->size < 32 || r->size > 1024)
         return fail(error, LAM_BAD_ARGUMENT, "check: pictures of %d pixels, expected 32 to 1024", r->size);
     r->tolerance = p->tolerance > 0 ? p->tolerance : 2.0 / 255;
-    const struct contract *contract = choose_contract(r, error);
-    if (!contract || !shader_interface_make(&r->interface, p->vertex, p->fragment, contract, error))
+    if (!read_shaders(r, error))
         return false;
-    r->frame = p->light_frame == LAM_FRAME_WORLD ? r->interface.contract->light_frame : p->light_frame;
+    r->frame = p->light_frame == LAM_FRAME_WORLD ? r->interface.light_frame : p->light_frame;
     r->reflection = p->reflection != LAM_REFLECTION_AUTO ? p->reflection
                     : r->interface.phong                 ? LAM_REFLECTION_PHONG
                                                          : r->interface.contract->reflection;
@@ -101,10 +126,10 @@ static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
             return false;
         r->report->made_vertex = true;
         if (unknown[0])
-            diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, p->fragment_name, 0,
-                            "no vertex shader is given, and the names do not say which values %s should have; zero is "
-                            "used; give the vertex shader with --vertex",
-                            unknown);
+            return fail(error, LAM_BAD_ARGUMENT,
+                        "no vertex shader is given, and the contract %s does not say which values %s should have; give "
+                        "the vertex shader with --vertex",
+                        r->interface.contract->name, unknown);
     }
     return choose_scenes(r, scenes, error);
 }
@@ -124,8 +149,8 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
                                    .light_frame = p->light_frame,
                                    .size = r->size,
                                    .scenes = scenes,
-                                   .vertex = p->vertex ? p->vertex : r->vertex,
-                                   .fragment = p->fragment};
+                                   .vertex = r->texts.vertex ? r->texts.vertex : r->vertex,
+                                   .fragment = r->texts.fragment};
     lam_bytes bytes = {0};
     if (!draw_request_write(&request, &bytes, error))
         return false;
@@ -166,6 +191,34 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
     return true;
 }
 
+// Whether the shaders' names are those of the contract: no verdict is honest where an input has no value. A contract that
+// was asked for is kept, and so is a recognised one whose names are only misspelt: these are mistakes, which the report
+// names.
+static bool knows_inputs(struct run *r, lam_error *error)
+{
+    const struct shader_interface *interface = &r->interface;
+    const struct draw_result *drawn = &r->drawn;
+    const char *unknown[MAX_UNKNOWN_NAMES];
+    int count = 0, misspelt = 0;
+    if (r->params->contract || drawn->state != DRAWN_PICTURES)
+        return true;
+    for (int i = 0; i < drawn->unknown_count; i++) {
+        unknown[count++] = drawn->unknown[i];
+        misspelt += contract_is_misspelt(interface->contract, &interface->vertex, &interface->fragment, unknown[i]);
+    }
+    if (misspelt == count && !drawn->types_count)
+        return true;
+    char names[300] = "", types[160] = "";
+    contract_describe_unknown(interface->contract, &interface->vertex, &interface->fragment, unknown, count, names,
+                              sizeof names);
+    if (drawn->types_count)
+        snprintf(types, sizeof types, "%s%.120s", count ? "; " : "", drawn->types[0]);
+    return fail(error, LAM_BAD_ARGUMENT,
+                "the names are of no known contract; the nearest is %s, which has no %s%s; --contract %s checks by it, "
+                "--contract FILE by your own",
+                interface->contract->name, names, types, interface->contract->name);
+}
+
 bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error)
 {
     *report = (lam_check_report){0};
@@ -178,14 +231,15 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     arena_start(r.arena, NULL);
     r.diagnostics.arena = r.arena;
     unsigned scenes = 0;
-    bool ok = prepare(&r, &scenes, error) && draw(&r, scenes, error);
+    bool ok = prepare(&r, &scenes, error) && draw(&r, scenes, error) && knows_inputs(&r, error);
     if (ok) {
         report->contract = arena_string(r.arena, r.interface.contract->name);
         report->vertex_lit = r.interface.vertex_lit;
         diagnostics_add_names(&r.diagnostics, &r.drawn, &r.interface, params);
     }
     if (ok && report->verdict == LAM_CHECK_PASSES) {
-        bool writes = compiler_hints_for_output(&r.diagnostics, &r.interface.fragment, params->fragment_name);
+        bool writes = compiler_hints_for_output(&r.diagnostics, &r.interface.fragment, params->fragment_name,
+                                                r.interface.contract->outputs);
         ok = check_compare(&r, scenes, writes, error);
     }
     if (ok && r.diagnostics.failed)
@@ -193,6 +247,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     report->diagnostics = r.diagnostics.items;
     report->diagnostic_count = r.diagnostics.count;
     shader_interface_free(&r.interface);
+    prefix_free(&r.texts);
     for (int i = 0; i < r.shipped_count; i++)
         lam_check_contract_free(r.shipped[i]);
     free(r.vertex);

@@ -81,13 +81,12 @@ static bool make_scenes(struct run *r, unsigned scenes, lam_error *error)
 static bool try_expectation(struct run *r, lam_device *device, unsigned expectation, double *mean, bool *fits,
                             lam_error *error)
 {
-    int lights = r->drawn.has_list ? r->drawn.light_count : 1;
     r->expectation = expectation;
     *mean = 0;
     *fits = true;
     for (int i = 0; i < r->scene_count; i++) {
         struct scene_comparison *scene = &r->scenes[i];
-        scene->reference_scene = shader_interface_scene(&r->interface, scene->row, lights);
+        scene->reference_scene = shader_interface_scene(&r->interface, scene->row);
         expectation_apply(expectation, &scene->reference_scene);
         if (!draw_reference(r, device, scene, error))
             return false;
@@ -291,7 +290,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
                              .scenes = r->scenes,
                              .scene_count = r->scene_count,
                              .size = r->size,
-                             .light_capacity = r->drawn.has_list ? r->drawn.light_count : 1,
+                             .light_capacity = shader_interface_light_count(&r->interface),
                              .expectation = r->expectation,
                              .tolerance = r->tolerance,
                              .before = r->report->mean,
@@ -322,6 +321,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
 
 bool check_compare(struct run *r, unsigned scenes, bool writes, lam_error *error)
 {
+    shader_interface_set_counts(&r->interface, r->drawn.group_counts);
     if (!make_scenes(r, scenes, error))
         return false;
     if (is_encoded(r) && !decode_all(r))

@@ -14,6 +14,7 @@ struct run {
     struct diagnostics diagnostics;
     lam_check_contract *shipped[MAX_CONTRACTS]; // read where none is given
     int shipped_count;
+    struct complete_texts texts;
     struct shader_interface interface;
     int size;
     double tolerance;

@@ -4,6 +4,8 @@
 """
 
 P, Q, O, N, D, M = "pittsburgh", "pittsburgh-vertex", "oregon", "nyu", "nyu-direction", "lambent"
+L, LM, LS, LL = "learnopengl", "learnopengl-materials", "learnopengl-spot", "learnopengl-lights"
+A, AV, W, T, TR = "angel", "angel-vertex", "mdn", "threejs", "threejs-raw"
 
 
 def frag(old, new):
@@ -183,4 +185,44 @@ MISTAKES = [
                                    frag("vec3 color = material", "vec3 color = 1.0 * material")]),
     (M, "no-attenuation", [frag("color += attenuation * spot", "color += spot")]),
     (M, "alpha-one", [frag("color, material.diffuse.a", "color, 1.0")]),
+    # --- LearnOpenGL's names, lit in world space
+    (L, "no-gate", [frag("diffuse > 0.0 ? pow(max(dot(v, r), 0.0), 32.0) : 0.0", "pow(max(dot(v, r), 0.0), 32.0)")]),
+    (L, "normal-unit-late", [vert("normalize(mat3(transpose(inverse(model))) * aNormal)", "mat3(transpose(inverse(model))) * aNormal")]),
+    (L, "normal-by-model-view", [vert("mat3(transpose(inverse(model)))", "mat3(model)")]),
+    (L, "normal-object-space", [vert("mat3(transpose(inverse(model))) * aNormal", "aNormal")]),
+    (L, "normal-eye-space", [vert("mat3(transpose(inverse(model)))", "mat3(transpose(inverse(view * model)))")]),
+    (L, "point-in-object-space", [vert("FragPos = vec3(model * vec4(aPos, 1.0));", "FragPos = aPos;"),
+                                  vert("view * vec4(FragPos, 1.0)", "view * model * vec4(aPos, 1.0)")]),
+    (L, "eye-at-origin", [frag("normalize(viewPos - FragPos)", "normalize(-FragPos)")]),
+    (L, "light-backwards", [frag("lightPos - FragPos", "FragPos - lightPos")]),
+    (L, "blinn-phong-lobe", [frag("dot(v, r)", "dot(n, normalize(l + v))")]),
+    (L, "no-clamp", [frag("max(dot(n, l), 0.0)", "dot(n, l)")]),
+    (LM, "ambient-attenuated", [frag("ambient + attenuation * (diffuse + specular)", "attenuation * (ambient + diffuse + specular)")]),
+    (LM, "no-attenuation", [frag("attenuation * (diffuse", "1.0 * (diffuse")]),
+    (LM, "no-ambient", [frag("ambient + attenuation", "attenuation")]),
+    (LM, "specular-tinted", [frag("s * material.specular", "s * material.specular * material.diffuse")]),
+    (LM, "light-moved-twice", [vert("uniform mat4 view;", "uniform mat4 view;\nuniform mat4 unused;"),
+                               frag("uniform vec3 viewPos;", "uniform vec3 viewPos;\nuniform mat4 model;"),
+                               frag("light.position - FragPos", "vec3(model * vec4(light.position, 1.0)) - FragPos")]),
+    (LS, "no-cone", [frag("attenuation * intensity * lit", "attenuation * lit")]),
+    (LL, "one-light-too-few", [frag("for (int i = 0; i < NR_POINT_LIGHTS", "for (int i = 0; i < 2")]),
+    # --- Angel's names
+    (A, "normal-by-model-view", [vert("transpose(inverse(mat3(ModelView)))", "mat3(ModelView)")]),
+    (A, "direction-as-point", [vert("LightPosition.w * point.xyz", "point.xyz")]),
+    (A, "half-of-raw-eye", [frag("normalize(L + normalize(fE))", "normalize(L + fE)")]),
+    (A, "light-from-object-space", [vert("LightPosition.w * point.xyz", "LightPosition.w * vPosition.xyz")]),
+    (AV, "eye-backwards", [vert("L - normalize(pos)", "L + normalize(pos)")]),
+    (AV, "no-gate", [vert("d > 0.0 ? pow(max(dot(N, H), 0.0), uShininess) : 0.0", "pow(max(dot(N, H), 0.0), uShininess)")]),
+    # --- MDN's names: one light, a constant, and no highlight
+    (W, "normal-never-unit", [vert("normalize((uNormalMatrix * vec4(aVertexNormal, 0.0)).xyz)", "(uNormalMatrix * vec4(aVertexNormal, 0.0)).xyz")]),
+    (W, "normal-by-model-view", [vert("uNormalMatrix * vec4", "uModelViewMatrix * vec4")]),
+    (W, "normal-inward", [vert("dot(normal, directionalVector)", "dot(normal, -directionalVector)")]),
+    (W, "no-clamp", [vert("max(dot(normal, directionalVector), 0.0)", "dot(normal, directionalVector)")]),
+    # --- three.js' names
+    (T, "normal-eye-space", [vert("transpose(inverse(mat3(modelMatrix))) * normal", "normalMatrix * normal")]),
+    (T, "eye-at-origin", [frag("cameraPosition - vWorldPosition", "-vWorldPosition")]),
+    (T, "no-gate", [frag("d > 0.0 ? pow(max(dot(n, h), 0.0), shininess) : 0.0", "pow(max(dot(n, h), 0.0), shininess)")]),
+    (T, "phong-lobe", [frag("max(dot(n, h), 0.0)", "max(dot(reflect(-l, n), v), 0.0)")]),
+    (TR, "normal-object-space", [vert("normalMatrix * normal", "normal")]),
+    (TR, "first-light-only", [frag("for (int i = 0; i < 2", "for (int i = 0; i < 1")]),
 ]

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "contract.h"
+#include "prefix.h"
 
 #define GOOD                                                                                                           \
     "{\"contract\": 1, \"name\": \"mine\", \"space\": \"world\", \"attributes\": {\"pos\": {\"role\": \"position\", "  \
@@ -74,6 +74,40 @@ static void test_read(void **state)
     lam_check_contract_free(mine);
 }
 
+// An engine's prefix completes texts that declare none of its names, and lines are those of the texts.
+static void test_prefix(void **state)
+{
+    (void)state;
+    lam_error error = {0};
+    lam_check_contract *mine = read_text(
+        GOOD LIGHT "}, \"prefix\": {\"vertex\": [\"#version 300 es\", \"in vec3 pos;\"], \"fragment\": [\"#version 300 "
+                   "es\", \"out vec4 o;\"]}}",
+        &error);
+    if (!mine)
+        fail_msg("%s", error.text);
+    static const struct {
+        const char *vertex, *fragment;
+        bool completed;
+    } cases[] = {{"void main() {}", "uniform float a;", true},
+                 {NULL, "uniform float a;", true},
+                 {"#version 120\nvoid main() {}", "uniform float a;", false},
+                 {"attribute vec3 pos;\nvoid main() {}", "uniform float a;", false},
+                 {"void main() {}", "out vec4 o;", false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct complete_texts texts;
+        struct declarations d;
+        assert_true(prefix_complete(&mine->contract, cases[i].vertex, cases[i].fragment, &texts, &error));
+        assert_int_equal(texts.fragment != cases[i].fragment, cases[i].completed);
+        assert_true(prefix_read(&texts, false, &d, &error));
+        assert_int_equal(d.version, cases[i].completed ? 300 : 0);
+        const struct declaration *a = declarations_find(&d, DECLARED_UNIFORM, "a");
+        assert_int_equal(a ? a->line : 1, 1);
+        declarations_free(&d);
+        prefix_free(&texts);
+    }
+    lam_check_contract_free(mine);
+}
+
 static void bad(const char *text, const char *expected)
 {
     lam_error error = {0};
@@ -136,6 +170,15 @@ static void test_errors(void **state)
         "my.json: undeclared.attenuation: found 0, 0, 0");
     bad(GOOD LIGHT "}, \"undeclared\": {\"light_direction\": [0, 0, 0]}}",
         "my.json: undeclared.light_direction: found 0, 0, 0");
+    bad(GOOD LIGHT "}, \"constants\": {\"k\": \"model\"}}",
+        "my.json: constants.k: found \"model\", expected ambient_strength, diffuse_strength, specular_strength");
+    bad(GOOD LIGHT "}, \"constants\": {\"a b\": \"shininess\"}}",
+        "my.json: constants.a b: found \"a b\", expected a name");
+    bad(GOOD LIGHT "}, \"prefix\": {\"vertex\": []}}", "my.json: prefix: the key 'fragment' is missing");
+    bad(GOOD LIGHT "}, \"prefix\": {\"vertex\": [], \"fragment\": [1]}}",
+        "my.json: prefix.fragment[0]: found 1, expected");
+    bad(GOOD LIGHT "}, \"outputs\": [\"a.b\"]}", "my.json: outputs[0]: found \"a.b\", expected a name of GLSL");
+    bad(GOOD LIGHT "}, \"varyings\": {\"object_to_eye\": [\"e\"]}}", "my.json: varyings.object_to_eye: unknown key");
     bad(GOOD LIGHT "}, \"built_ins\": \"gl_Vertex\"}",
         "my.json: built_ins: found \"gl_Vertex\", expected a list of texts");
 }
@@ -165,6 +208,7 @@ static void test_damage(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_shipped), cmocka_unit_test(test_read),
-                                       cmocka_unit_test(test_errors), cmocka_unit_test(test_damage)};
+                                       cmocka_unit_test(test_prefix), cmocka_unit_test(test_errors),
+                                       cmocka_unit_test(test_damage)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -15,6 +16,7 @@ from harness import ROOT, Case, PROGRAM, check_value, read_png
 
 sys.path.insert(0, str(ROOT / "tests" / "check"))
 from correct import SHADERS as CORRECT  # noqa: E402
+from lectures import LECTURES  # noqa: E402
 from mistakes import MISTAKES  # noqa: E402
 
 SHADERS = ROOT / "tests" / "check"
@@ -75,11 +77,16 @@ class Right(CheckTest):
         for name, contract, lit in (("pittsburgh", "pittsburgh", "fragment"), ("pittsburgh-vertex", "pittsburgh", "vertex"),
                                     ("oregon", "oregon", "fragment"), ("nyu", "nyu", "fragment"),
                                     ("nyu-direction", "nyu", "fragment"), ("lambent", "lambent", "fragment"),
-                                    ("pittsburgh-blocks", "pittsburgh", "fragment"), ("pittsburgh-helpers", "pittsburgh", "fragment")):
+                                    ("pittsburgh-blocks", "pittsburgh", "fragment"), ("pittsburgh-helpers", "pittsburgh", "fragment"),
+                                    ("learnopengl", "learnopengl", "fragment"), ("learnopengl-materials", "learnopengl", "fragment"),
+                                    ("learnopengl-spot", "learnopengl", "fragment"), ("learnopengl-lights", "learnopengl", "fragment"),
+                                    ("angel", "angel", "fragment"), ("angel-vertex", "angel", "vertex"), ("mdn", "mdn", "vertex"),
+                                    ("threejs", "threejs", "fragment"), ("threejs-raw", "threejs", "fragment")):
             with self.subTest(name):
                 report = self.report_of(*self.shader(name), size=128)
                 self.assertEqual((report["verdict"], report["contract"], report["lit_in"]), ("passes", contract, lit))
-                self.assertEqual((report["mistakes"], report["notes"]), ([], []))
+                # Only the raw material of three.js has no name of a highlight.
+                self.assertEqual((report["mistakes"], len(report["notes"])), ([], int(name == "threejs-raw")))
                 # The reference comes from the CPU device: the pictures agree far within the tolerance.
                 self.assertLess(max(scene["maximum"] for scene in report["scenes"]), 1e-3)
                 self.assertGreater(min(scene["pixels"] for scene in report["scenes"]), 1000)
@@ -131,7 +138,7 @@ class Right(CheckTest):
 
     def test_alone(self):
         """A fragment shader alone gets a correct vertex shader, in its own version of GLSL."""
-        for name in ("pittsburgh", "oregon", "nyu", "lambent"):
+        for name in ("pittsburgh", "oregon", "nyu", "lambent", "learnopengl", "learnopengl-lights", "angel", "threejs", "threejs-raw"):
             with self.subTest(name):
                 self.shader(name)
                 self.assertEqual(self.report_of("s.frag")["verdict"], "passes")
@@ -457,7 +464,8 @@ class Unruly(CheckTest):
         self.assertEqual(self.report_of(*self.shader("pittsburgh", [unused]), "--scenes", "all")["notes"], [])
         words = self.shader("pittsburgh", [("vert", "uniform mat3 normal_matrix;", "uniform mat3 turn;"),
                                            ("vert", "normal_matrix * vNormal", "turn * vNormal")])
-        report = self.report_of(*words, code=6)
+        self.bad(1, "check", *words, says=("no known contract", "pittsburgh, which has no 'turn' (mat3"), leaves=("s.frag", "s.vert"))
+        report = self.report_of(*words, "--contract", "pittsburgh", code=6)
         self.assertEqual(report["mistakes"], [])
         self.assertIn("'turn' is not in the contract", " ".join(self.notes(report, "unknown")))
         self.assertIn("correct the names first", " ".join(self.notes(report, "hint")))
@@ -527,6 +535,91 @@ class Contracts(CheckTest):
         words = self.shader("nyu")
         self.assertEqual(self.report_of(*words, "--contract", "nyu")["contract"], "nyu")
         self.bad(1, "check", *words, "--contract", "oregan", says=("'oregan'", "auto, lambent", "did you mean 'oregon'"), leaves=("s.frag", "s.vert"))
+
+    def test_schema(self):
+        """The schema has the keys and roles that the reader knows, and a built-in contract can be printed and read again."""
+        schema = json.loads(self.good("generate", "contract-schema").stdout)
+        wrong = {"contract": 1, "name": "x", "zzzzzzzzzzzzzz": 1}
+        for keys, nest in ((schema["properties"], lambda file: file),
+                           (schema["properties"]["undeclared"]["properties"], lambda file: {
+                               "contract": 1, "name": "x", "attributes": {"p": {"role": "position", "type": "vec3"}},
+                               "undeclared": {"zzzzzzzzzzzzzz": 1}})):
+            (self.folder / "my.json").write_text(json.dumps(nest(wrong)))
+            text = self.run_program("check", "s.frag", "--contract", "my.json").stderr.decode()
+            self.assertEqual(set(re.search(r"unknown key; expected ([a-z_, ]*)", text)[1].split(", ")), set(keys), text)
+        (self.folder / "my.json").write_bytes(self.good("generate", "contract-threejs").stdout)
+        words = self.shader("threejs")
+        self.assertEqual(self.report_of(*words, "--contract", "my.json", "--scenes", "all")["verdict"], "passes")
+        self.bad(1, "generate", "contract-nobodys", says="contract-NAME", leaves=("my.json", "s.frag", "s.vert"))
+
+    def write(self, vert, frag):
+        (self.folder / "s.vert").write_text(vert)
+        (self.folder / "s.frag").write_text(frag)
+        return ["s.frag", "--vertex", "s.vert"]
+
+    def test_unknown(self):
+        """Names of no contract get no verdict, but the nearest contract and what it does not have."""
+        vert, frag = ((SHADERS / f"learnopengl.{ending}").read_text() for ending in ("vert", "frag"))
+        for old, new in (("aPos", "inVertex"), ("aNormal", "inNormal"), ("uniform mat4 model;", "uniform mat4 M;"), ("(model", "(M")):
+            vert = vert.replace(old, new)
+        words = self.write(vert, frag.replace("lightPos", "sunPos"))
+        self.bad(1, "check", *words, leaves=("s.frag", "s.vert"),
+                 says=("no known contract", "the nearest is learnopengl", "'M' (mat4", "'sunPos' (vec3", "'inVertex' (vec3", "--contract FILE"))
+        done = self.run_program("check", *words, "-s", 32, "--json", "--contract", "learnopengl", "--scenes", "all")
+        self.assertEqual(json.loads(done.stdout)["verdict"], "differs")
+        # A slip of the pen is a mistake of the shader.
+        text = (SHADERS / "learnopengl.frag").read_text().replace("viewPos", "viewPosn")
+        report = self.report_of(*self.write((SHADERS / "learnopengl.vert").read_text(), text), code=6)
+        self.assertIn("'viewPosn' is not in the contract learnopengl; did you mean 'viewPos'", " ".join(self.notes(report, "unknown")))
+
+    def test_varyings_of_no_contract(self):
+        (self.folder / "s.frag").write_text((SHADERS / "mdn.frag").read_text())
+        self.bad(1, "check", "s.frag", says=("vLighting", "--vertex"), leaves=("s.frag",))
+
+    def test_numbers_for_names(self):
+        """What an exercise writes as numbers may be other numbers, and a highlight has the surface's colour or the light's."""
+        words = self.shader("learnopengl", [("frag", "ambientStrength = 0.1", "ambientStrength = 0.3"), ("frag", "specularStrength = 0.5", "specularStrength = 0.8"),
+                                            ("frag", ", 32.0)", ", 64.0)")])
+        self.assertEqual(self.report_of(*words)["verdict"], "passes")
+        words = self.shader("learnopengl", [("frag", "(ambientStrength + diffuse + specularStrength * specular) * lightColor * objectColor",
+                                             "(ambientStrength + diffuse) * lightColor * objectColor + specularStrength * specular * lightColor")])
+        self.assertEqual(self.report_of(*words)["verdict"], "passes")
+        words = self.shader("mdn", [("vert", "vec3(0.3, 0.3, 0.3)", "vec3(0.1, 0.2, 0.3)"), ("vert", "vec3(0.85, 0.8, 0.75)", "vec3(-0.5, 1.0, 0.2)"),
+                                    ("vert", "vec3(1.0, 1.0, 1.0)", "vec3(0.5)")])
+        self.assertEqual(self.report_of(*words)["verdict"], "passes")
+
+    def test_scenes_once(self):
+        """Scenes that a shader cannot tell apart are drawn once."""
+        names = [scene["name"] for scene in self.report_of(*self.shader("learnopengl"))["scenes"]]
+        self.assertIn("all", names)
+        self.assertNotIn("diffuse", names)
+        self.assertIn("diffuse", [scene["name"] for scene in self.report_of(*self.shader("learnopengl-materials"))["scenes"]])
+
+    def test_engine(self):
+        """three.js declares names for a ShaderMaterial: messages have the lines of the text itself, and nothing is declared twice."""
+        report = self.report_of(*self.shader("threejs", [("vert", "* normal)", "* nromal)"), ("frag", "vec3 h = normalize(l + v);", "vec3 h = normalize(l + w);")]), code=6)
+        self.assertEqual(report["verdict"], "refused")
+        lines = {note["file"]: note["line"] for note in report["notes"] if note["kind"] == "compiler"}
+        for ending, part in (("vert", "* normal)"), ("frag", "vec3 h =")):
+            text = (SHADERS / f"threejs.{ending}").read_text().splitlines()
+            self.assertEqual(lines[f"s.{ending}"], next(i for i, line in enumerate(text, 1) if part in line))
+        self.assertIn("'nromal' is not declared, but 'normal' is", " ".join(self.notes(report, "hint")))
+        words = self.shader("threejs-raw", [("vert", "uniform mat3 normalMatrix;", "")])
+        self.assertEqual(self.report_of(*words, code=6)["verdict"], "refused")
+
+    def test_lectures(self):
+        """What is found in the courses' own programs (docs/check/contracts.md)."""
+        for name, contract, _, verdict, expected in LECTURES:
+            with self.subTest(name):
+                for ending in ("vert", "frag"):
+                    shutil.copy(SHADERS / "lectures" / f"{name}.{ending}", self.folder / f"s.{ending}")
+                report = self.report_of("s.frag", "--vertex", "s.vert", code=6)
+                self.assertEqual((report["verdict"], report["contract"]), (verdict, contract))
+                hints = " | ".join(self.notes(report, "hint"))
+                for part in expected if verdict == "refused" else ():
+                    self.assertIn(part, hints)
+                if verdict != "refused":
+                    self.assertEqual(sorted(m["id"] for m in report["mistakes"]), sorted(expected))
 
     def test_wrong_file(self):
         words = self.shader("nyu")

@@ -5,6 +5,7 @@ import re
 import shlex
 import shutil
 import subprocess
+import sys
 import unittest
 
 from harness import PROGRAM, ROOT, Case, pixel, read_png
@@ -29,6 +30,16 @@ class Docs(Case):
             self.assertIn(f"--{option}", text)
         for code in ("0", "1", "2", "3", "4", "5", "6", "130"):
             self.assertRegex(text, rf"(?m)^  {code} ")
+
+    def test_contracts(self):
+        """docs/check/contracts.md has the names and programs of today; the reports on it are test_check's."""
+        done = subprocess.run([sys.executable, ROOT / "scripts" / "contracts.py", PROGRAM, "--check"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.assertEqual(done.returncode, 0, done.stdout.decode())
+        page = (ROOT / "docs" / "check" / "contracts.md").read_text()
+        for link in re.findall(r"\]\(([^)]*)\)", page):
+            self.assertTrue((ROOT / "docs" / "check" / link).exists(), link)
+        for lecture in (ROOT / "tests" / "check" / "lectures").iterdir():
+            self.assertIn(f"lectures/{lecture.stem}.", page)
 
     def test_brief_help(self):
         """-h is for the many: 25 lines of 80 columns, the examples first, every command named."""

@@ -67,10 +67,11 @@ const struct command command_table[] = {
     [COMMAND_complete] = {"complete", "-- WORD...",
                           "Print the words that may take the last one's place, for the completion of a shell.", ABOUT,
                           0, -1, NULL, true},
-    [COMMAND_generate] =
-        {"generate", "man|markdown|bash|zsh|fish|scene-schema",
-         "Print the man page, its Markdown form, a shell's completions, or the JSON Schema of scene files.", ABOUT, 1,
-         1},
+    [COMMAND_generate] = {"generate", "man|markdown|bash|zsh|fish|scene-schema|contract-schema|contract-NAME",
+                          "Print the man page, its Markdown form, a shell's completions, the JSON Schema of scene "
+                          "files or of contracts of "
+                          "shaders, or the file of a contract that is built in.",
+                          ABOUT, 1, 1},
     [COMMAND_COUNT] = {.name = NULL},
 };
 

@@ -16,10 +16,9 @@
 static const struct {
     const char *name, *text;
 } shipped[] = {
-    {"lambent", text_lambent_json},
-    {"pittsburgh", text_pittsburgh_json},
-    {"oregon", text_oregon_json},
-    {"nyu", text_nyu_json},
+    {"lambent", text_lambent_json}, {"pittsburgh", text_pittsburgh_json},   {"oregon", text_oregon_json},
+    {"nyu", text_nyu_json},         {"learnopengl", text_learnopengl_json}, {"angel", text_angel_json},
+    {"mdn", text_mdn_json},         {"threejs", text_threejs_json},
 };
 enum { SHIPPED = sizeof shipped / sizeof *shipped };
 
@@ -73,9 +72,19 @@ bool lam_check_contract_row(const lam_check_contract *contract, int row, lam_che
     return false;
 }
 
-const char *lam_check_role(int index) { return index >= 0 && index < role_count ? roles[index].name : NULL; }
-
-const char *lam_check_role_meaning(int index) { return index >= 0 && index < role_count ? roles[index].meaning : NULL; }
+bool lam_check_role_row(int row, lam_check_role *out)
+{
+    if (row < 0 || row >= role_count)
+        return false;
+    const struct role *role = &roles[row];
+    *out = (lam_check_role){.name = role->name,
+                            .meaning = role->meaning,
+                            .attribute = role->uses & ROLE_ATTRIBUTE,
+                            .uniform = role->uses & ROLE_UNIFORM,
+                            .constant = role->uses & ROLE_CONSTANT,
+                            .in_space = role->uses & ROLE_IN_SPACE};
+    return true;
+}
 
 // Names of generated vertex shaders (default_vertex_shader.c), known in every contract.
 static const struct contract_name default_vertex_names[] = {
@@ -85,6 +94,10 @@ static const struct contract_name default_vertex_names[] = {
     {"lambent_projection", SEMANTIC_PROJECTION, false, "mat4", "", NULL, LAM_FRAME_CAMERA, -1},
     {"lambent_normal_matrix", SEMANTIC_NORMAL_MATRIX, false, "mat3", "", NULL, LAM_FRAME_CAMERA, -1},
     {"lambent_light", SEMANTIC_LIGHT_POSITION, false, "vec4", "", NULL, LAM_FRAME_CAMERA, -1},
+    {"lambent_model", SEMANTIC_MODEL, false, "mat4", "", NULL, LAM_FRAME_CAMERA, -1},
+    {"lambent_world_normal_matrix", SEMANTIC_NORMAL_MATRIX, false, "mat3", "", NULL, LAM_FRAME_WORLD, -1},
+    {"lambent_world_light", SEMANTIC_LIGHT_POSITION, false, "vec4", "", NULL, LAM_FRAME_WORLD, -1},
+    {"lambent_world_eye", SEMANTIC_EYE_POSITION, false, "vec3", "", NULL, LAM_FRAME_WORLD, -1},
     {.name = NULL},
 };
 
@@ -163,37 +176,6 @@ const char *contract_nearest(const struct contract *contract, const char *name)
     for (const struct contract_name *n = contract->names; n->name && count < 64; n++)
         words[count++] = n->name;
     return name_nearest(plain, words, count);
-}
-
-static int score(const struct contract *contract, const struct declarations *d)
-{
-    int points = 0;
-    for (int i = 0; i < d->count; i++) {
-        bool uniform = d->items[i].kind == DECLARED_UNIFORM;
-        if (uniform || d->items[i].kind == DECLARED_INPUT)
-            points += 4 * (contract_find(contract, d->items[i].name, !uniform, NULL) != NULL);
-        if (d->items[i].kind == DECLARED_INPUT)
-            for (const struct contract_varying *v = contract->varyings; v->names; v++)
-                points += (strlen(d->items[i].name) > 1 ? 4 : 1) * in_word_list(v->names, d->items[i].name);
-    }
-    for (const char *const *word = contract->built_ins; *word; word++)
-        points += 4 * declarations_uses(d, *word);
-    return points;
-}
-
-const struct contract *contract_recognise(lam_check_contract *const *contracts, int count,
-                                          const struct declarations *vertex, const struct declarations *fragment)
-{
-    int best = 0;
-    const struct contract *found = NULL;
-    for (int i = 0; i < count; i++) {
-        int points = score(&contracts[i]->contract, vertex) + score(&contracts[i]->contract, fragment);
-        if (points > best) {
-            best = points;
-            found = &contracts[i]->contract;
-        }
-    }
-    return found;
 }
 
 static const char *name_used(const struct contract *contract, enum uniform_semantic semantic,

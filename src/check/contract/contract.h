@@ -56,6 +56,13 @@ struct contract_defaults {
     lam_vec3 direction; // to the light, in the contract's space
 };
 
+// A variable that a shader gives a number: `float ambientStrength = 0.1;`. The name "pow" stands for a number that is
+// the second argument of pow().
+struct contract_constant {
+    const char *name;
+    enum uniform_semantic semantic;
+};
+
 enum contract_term { TERM_AMBIENT = 1, TERM_DIFFUSE = 2, TERM_SPECULAR = 4 };
 enum { MAX_LIGHT_GROUPS = 8 };
 
@@ -77,6 +84,11 @@ struct contract {
     lam_light_frame light_frame;
     lam_reflection reflection;
     struct contract_defaults defaults;
+    const struct contract_constant *constants; // ends with NULL
+    // What an engine writes before the texts of a program, which then have no version line and declare none of its names.
+    // NULL: nothing.
+    const char *prefix_vertex, *prefix_fragment;
+    const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL: not said
     bool has_attenuation;    // names or constants
     bool material_strengths; // colours and their strengths are apart
     bool printed;            // shaders of `lambent shader`, whose loops name the kinds of lights
@@ -91,10 +103,6 @@ struct lam_check_contract {
 enum { MAX_CONTRACTS = 16 };
 // The shipped contracts, read. The caller frees them with lam_check_contract_free.
 bool contracts_read(lam_check_contract *out[MAX_CONTRACTS], int *count, lam_error *error);
-
-// The contract that most of the shaders' names belong to. NULL: none has any of them.
-const struct contract *contract_recognise(lam_check_contract *const *contracts, int count,
-                                          const struct declarations *vertex, const struct declarations *fragment);
 
 // The row of a name. "lights[0].lightColor" is looked up as "lights[].lightColor", and its index is stored in `index`
 // (may be NULL), 0 outside of lists. NULL: unknown.

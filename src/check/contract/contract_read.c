@@ -278,6 +278,8 @@ static bool read_varyings(struct reader *r, const json_t *root)
                 word = key + length + 1;
             }
         }
+        if (space == LAM_FRAME_OBJECT && strncmp(word, "to_", 3) == 0)
+            return json_fail(&r->json, KEY_OF(place, key), "unknown key; %s in object space is not known", word);
         size_t i = 0;
         while (i < sizeof words / sizeof *words &&
                (strcmp(words[i].name, word) != 0 || (word != key && !words[i].in_space)))
@@ -382,6 +384,64 @@ static bool read_defaults(struct reader *r, const json_t *root)
     return true;
 }
 
+// --- constants and the prefix
+
+static bool read_constants(struct reader *r, const json_t *root)
+{
+    const json_t *object = json_object_get(root, "constants");
+    const struct place *place = KEY_OF(NULL, "constants");
+    if (object && !json_is_object(object))
+        return json_unexpected(&r->json, place, object, "an object, { … }");
+    struct contract_constant *rows = arena_alloc_zeroed(r->arena, (json_object_size(object) + 1) * sizeof *rows);
+    if (!rows)
+        return no_memory(r);
+    r->contract->constants = rows;
+    const char *name;
+    json_t *value;
+    json_object_foreach((json_t *)(uintptr_t)object, name, value)
+    {
+        char known[300] = "";
+        const char *found = json_is_string(value) ? json_string_value(value) : "";
+        for (int i = 0; i < role_count && !rows->name; i++)
+            if (roles[i].uses & ROLE_CONSTANT) {
+                size_t used = strlen(known);
+                snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", roles[i].name);
+                if (strcmp(roles[i].name, found) == 0) {
+                    rows->semantic = roles[i].semantic;
+                    rows->name = arena_string(r->arena, name);
+                }
+            }
+        if (!rows->semantic)
+            return json_unexpected(&r->json, KEY_OF(place, name), value, known);
+        if (!check_name(r, KEY_OF(place, name), name, true))
+            return false;
+        if (!rows->name)
+            return no_memory(r);
+        rows++;
+    }
+    return true;
+}
+
+static bool read_prefix(struct reader *r, const json_t *root)
+{
+    static const char *const keys[] = {"vertex", "fragment", NULL};
+    const json_t *object = json_object_get(root, "prefix");
+    const struct place *place = KEY_OF(NULL, "prefix");
+    const char **texts[] = {&r->contract->prefix_vertex, &r->contract->prefix_fragment};
+    if (!object)
+        return true;
+    if (!json_check_keys(&r->json, place, object, keys))
+        return false;
+    for (int i = 0; i < 2; i++) {
+        const json_t *list = json_object_get(object, keys[i]);
+        if (!list)
+            return json_fail(&r->json, place, "the key '%s' is missing, expected a list of lines", keys[i]);
+        if (!read_list(r, KEY_OF(place, keys[i]), list, "\n", false, false, texts[i]))
+            return false;
+    }
+    return true;
+}
+
 // --- the whole
 
 static bool read_terms(struct reader *r, const json_t *root)
@@ -457,9 +517,10 @@ static bool complete(struct reader *r, bool alpha, bool two_sided)
 
 static bool read_root(struct reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"contract",  "name",     "title",      "glsl",    "space",      "terms",
-                                       "highlight", "alpha",    "two_sided",  "printed", "attributes", "uniforms",
-                                       "built_ins", "varyings", "undeclared", NULL};
+    static const char *const keys[] = {"contract",   "name",       "title",     "glsl",      "space",
+                                       "terms",      "highlight",  "alpha",     "two_sided", "printed",
+                                       "attributes", "uniforms",   "built_ins", "varyings",  "outputs",
+                                       "constants",  "undeclared", "prefix",    NULL};
     static const struct json_choice highlights[] = {
         {"phong", LAM_REFLECTION_PHONG}, {"blinn-phong", LAM_REFLECTION_BLINN_PHONG}, {NULL, 0}};
     static const struct json_choice spaces[] = {{"eye", LAM_FRAME_CAMERA}, {"world", LAM_FRAME_WORLD}, {NULL, 0}};
@@ -493,8 +554,11 @@ static bool read_root(struct reader *r, const json_t *root)
     if (versions && !read_list(r, KEY_OF(NULL, "glsl"), versions, ", ", false, false, &c->versions))
         return false;
     c->versions = c->versions ? c->versions : "";
+    const json_t *outputs = json_object_get(root, "outputs");
+    if (outputs && !read_list(r, KEY_OF(NULL, "outputs"), outputs, " ", true, true, &c->outputs))
+        return false;
     return read_terms(r, root) && read_names(r, root) && read_built_ins(r, root) && read_varyings(r, root) &&
-           read_defaults(r, root) && complete(r, alpha, two_sided);
+           read_defaults(r, root) && read_constants(r, root) && read_prefix(r, root) && complete(r, alpha, two_sided);
 }
 
 lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error)

@@ -28,16 +28,23 @@ static bool lacks(const struct shader_interface *r, enum uniform_semantic semant
 // The contract fixes the colour of what is not declared.
 static bool is_fixed(const struct default_color *color) { return color->source != COLOR_OF_SCENE; }
 
+static bool has_number(const struct shader_interface *r, enum uniform_semantic semantic)
+{
+    return r->constants >> semantic & 1;
+}
+
 // --- the possible expectations of each term, most complete first
 
-enum { MAX_CHOICES = 3 };
+enum { MAX_CHOICES = 4 };
 
 static int ambient_choices(const struct shader_interface *r, unsigned terms, unsigned out[MAX_CHOICES])
 {
-    const struct contract_defaults *d = &r->contract->defaults;
+    const struct contract_defaults *d = &r->defaults;
     bool product = declares(r, SEMANTIC_AMBIENT_PRODUCT);
     bool declared = names(r, SEMANTIC_KA) ? declares(r, SEMANTIC_KA) : declares(r, SEMANTIC_AMBIENT) || product;
     bool light = declares(r, SEMANTIC_AMBIENT_LIGHT) || declares(r, SEMANTIC_LIGHT_AMBIENT) || product;
+    declared = declared || has_number(r, SEMANTIC_KA) || has_number(r, SEMANTIC_LIGHT_AMBIENT) ||
+               (light && is_fixed(&d->ambient_color));
     unsigned complete =
         light || is_fixed(&d->light_ambient) || !names(r, SEMANTIC_AMBIENT_LIGHT) ? 0 : EXPECT_WHITE_AMBIENT_LIGHT;
     bool constant = d->ambient_strength.given && !declared; // the exercise has it as a number
@@ -51,7 +58,7 @@ static int ambient_choices(const struct shader_interface *r, unsigned terms, uns
 
 static int diffuse_choices(const struct shader_interface *r, unsigned terms, unsigned out[MAX_CHOICES])
 {
-    const struct contract_defaults *d = &r->contract->defaults;
+    const struct contract_defaults *d = &r->defaults;
     bool product = declares(r, SEMANTIC_DIFFUSE_PRODUCT);
     bool surface = declares(r, SEMANTIC_DIFFUSE) || declares(r, SEMANTIC_COLOR) || product;
     bool light = declares(r, SEMANTIC_LIGHT_COLOR);
@@ -72,13 +79,14 @@ static int diffuse_choices(const struct shader_interface *r, unsigned terms, uns
 
 static int specular_choices(const struct shader_interface *r, unsigned terms, unsigned out[MAX_CHOICES])
 {
-    const struct contract_defaults *d = &r->contract->defaults;
+    const struct contract_defaults *d = &r->defaults;
     bool product = declares(r, SEMANTIC_SPECULAR_PRODUCT);
     bool surface = declares(r, SEMANTIC_SPECULAR) || declares(r, SEMANTIC_SPECULAR_COLOR) || product;
     bool light = declares(r, SEMANTIC_LIGHT_SPECULAR);
     bool declared = names(r, SEMANTIC_KS) ? declares(r, SEMANTIC_KS) : surface || light;
     bool has_surface_color =
         names(r, SEMANTIC_SPECULAR) || names(r, SEMANTIC_SPECULAR_PRODUCT) || names(r, SEMANTIC_SPECULAR_COLOR);
+    declared = declared || has_number(r, SEMANTIC_KS) || has_number(r, SEMANTIC_SHININESS);
     unsigned white = surface || !has_surface_color || is_fixed(&d->specular_color) ? 0 : EXPECT_WHITE_SPECULAR;
     if (white && !declares(r, SEMANTIC_KS))
         white |= EXPECT_FULL_SPECULAR;
@@ -88,6 +96,10 @@ static int specular_choices(const struct shader_interface *r, unsigned terms, un
         if (light_open && declares(r, SEMANTIC_LIGHT_COLOR))
             out[count++] = white | EXPECT_SPECULAR_LIGHT_AS_DIFFUSE;
         out[count++] = white | (light_open ? EXPECT_WHITE_SPECULAR_LIGHT : 0);
+        if (!surface && d->specular_color.source == COLOR_OF_DIFFUSE) { // tinted or not, both are right
+            out[count] = out[count - 1] | EXPECT_WHITE_SPECULAR;
+            count++;
+        }
     }
     if (terms || r->supports & RULE_NO_SPECULAR ? !count : !declared)
         out[count++] = EXPECT_NO_SPECULAR;

@@ -23,7 +23,7 @@ enum expectation {
     EXPECT_FULL_SPECULAR = 1024, // ks is 1
 };
 
-enum { MAX_EXPECTATIONS = 12 };
+enum { MAX_EXPECTATIONS = 16 };
 
 // Stores the possible expectations, bits of enum expectation, those with most terms first. `terms`: bits of
 // lam_check_term that are asked for; 0: those that the declarations tell. Returns their count, at least 1.

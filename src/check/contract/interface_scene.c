@@ -60,7 +60,7 @@ static void fix_strength(struct reference_scene *s, const struct default_number 
 
 static void adapt_material(const struct shader_interface *r, struct reference_scene *s)
 {
-    const struct contract_defaults *d = &r->contract->defaults;
+    const struct contract_defaults *d = &r->defaults;
     bool ambient = has_product(r, SEMANTIC_AMBIENT), diffuse = has_product(r, SEMANTIC_DIFFUSE),
          specular = has_product(r, SEMANTIC_SPECULAR);
     bool own_specular = specular || declares(r, SEMANTIC_SPECULAR_COLOR);
@@ -73,16 +73,23 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
             s->lights[i].specular = times(s->lights[i].specular, s->specular);
     if (!own_diffuse)
         s->diffuse = color_of(&d->diffuse_color, s->diffuse, s->diffuse, s->diffuse);
+    // A name for the product of the diffuse colour and its strength serves the other terms with both.
+    lam_rgb own_color =
+        diffuse ? (lam_rgb){s->diffuse.r * s->kd, s->diffuse.g * s->kd, s->diffuse.b * s->kd} : s->diffuse;
     if (!ambient)
-        s->ambient = color_of(&d->ambient_color, s->ambient, s->diffuse, s->diffuse);
+        s->ambient = color_of(&d->ambient_color, s->ambient, own_color, own_color);
     if (!own_specular)
-        s->specular = color_of(&d->specular_color, s->specular, s->diffuse, s->diffuse);
+        s->specular = color_of(&d->specular_color, s->specular, own_color, own_color);
     // Black cannot stand for a missing strength where another term has the same colour.
     bool shared = (!ambient && d->ambient_color.source == COLOR_OF_DIFFUSE) ||
                   (!own_specular && d->specular_color.source == COLOR_OF_DIFFUSE);
     bool lit_diffuse = declares(r, SEMANTIC_LIGHT_COLOR) && lit_specular;
+    // Where the light has an ambient colour, that says how strong it is.
+    struct default_number ambient_strength = d->ambient_strength;
+    if (lit_ambient && !(r->constants >> SEMANTIC_KA & 1))
+        ambient_strength.value = 1;
     if (!ambient && !declares(r, SEMANTIC_KA))
-        fix_strength(s, &d->ambient_strength, &s->ka, NULL, lit_ambient, LIGHT_AMBIENT);
+        fix_strength(s, &ambient_strength, &s->ka, NULL, lit_ambient, LIGHT_AMBIENT);
     if (!diffuse && !declares(r, SEMANTIC_KD))
         fix_strength(s, &d->diffuse_strength, &s->kd, own_diffuse && !shared ? &s->diffuse : NULL, lit_diffuse,
                      LIGHT_DIFFUSE);
@@ -103,7 +110,7 @@ static void set_axis(struct reference_light *light, lam_vec3 target)
 static void adapt_light(const struct shader_interface *r, int index, const struct reference_scene *s,
                         struct reference_light *light)
 {
-    const struct contract_defaults *d = &r->contract->defaults;
+    const struct contract_defaults *d = &r->defaults;
     unsigned rule = r->supports >> (RULE_FIRST + RULE_BITS * index), kind = rule & RULE_KIND;
     bool directional = kind ? kind == RULE_DIRECTIONAL : !(r->supports & NEED_POINT);
     if (rule & RULE_UNATTENUATED)
@@ -117,7 +124,7 @@ static void adapt_light(const struct shader_interface *r, int index, const struc
         struct reference_matrices m;
         lam_mat4 to_world = lam_mat4_identity();
         reference_matrices(s, &m);
-        if (r->contract->space == LAM_FRAME_CAMERA)
+        if (r->space == LAM_FRAME_CAMERA)
             mat4_inverse_affine(&m.view, &to_world);
         light->type = LAM_LIGHT_DIRECTIONAL;
         light->to_light = mat4_vector(&to_world, d->direction);
@@ -141,28 +148,83 @@ static void adapt_light(const struct shader_interface *r, int index, const struc
     set_axis(light, s->target);
 }
 
+// --- which light stands where
+
+int shader_interface_light_count(const struct shader_interface *r)
+{
+    int count = 0;
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
+        count += r->groups[g].count;
+    return count > 0 ? count : 1;
+}
+
+static unsigned kind_bit(lam_light_type type)
+{
+    return type == LAM_LIGHT_DIRECTIONAL ? NEED_DIRECTIONAL : type == LAM_LIGHT_SPOT ? NEED_SPOT : NEED_POINT;
+}
+
+// A group that can hold a light and has room for it. `taken`: the elements in use. −1: none.
+static int find_group(const struct shader_interface *r, lam_light_type type, const int taken[MAX_LIGHT_GROUPS])
+{
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
+        if (taken[g] < r->groups[g].count && r->groups[g].kinds & kind_bit(type))
+            return g;
+    return -1;
+}
+
+int shader_interface_light(const struct shader_interface *r, const struct reference_scene *s, int group, int element)
+{
+    int taken[MAX_LIGHT_GROUPS] = {0};
+    for (int i = 0; i < s->light_count; i++) {
+        int g = find_group(r, s->lights[i].type, taken);
+        if (g >= 0 && g == group && taken[g] == element)
+            return i;
+        if (g >= 0)
+            taken[g]++;
+    }
+    return -1;
+}
+
+// Leaves out the lights that have no place, and adds a black one where a place stays free: a shader that reads only the
+// last light then draws black.
+static void place_lights(const struct shader_interface *r, struct reference_scene *s)
+{
+    int taken[MAX_LIGHT_GROUPS] = {0}, kept = 0;
+    for (int i = 0; i < s->light_count; i++) {
+        int g = find_group(r, s->lights[i].type, taken);
+        if (g < 0)
+            continue;
+        taken[g]++;
+        s->lights[kept++] = s->lights[i];
+    }
+    s->light_count = kept;
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
+        for (; r->groups[g].count > taken[g] && s->light_count < MAX_SCENE_LIGHTS; taken[g]++)
+            s->lights[s->light_count++] = (struct reference_light){
+                .type = r->groups[g].kinds & NEED_POINT         ? LAM_LIGHT_POINT
+                        : r->groups[g].kinds & NEED_DIRECTIONAL ? LAM_LIGHT_DIRECTIONAL
+                                                                : LAM_LIGHT_SPOT,
+                .position = {1, 2, 3},
+                .to_light = {1, 2, 3},
+                .attenuation = {1, 0, 0},
+            };
+}
+
 struct reference_scene shader_interface_scene(const struct shader_interface *r,
-                                              const struct reference_scene *reference_scene, int light_count)
+                                              const struct reference_scene *reference_scene)
 {
     struct reference_scene s = *reference_scene;
     unsigned terms = r->contract->terms;
-    if (s.light_count > light_count)
-        s.light_count = light_count;
     for (int i = 0; i < s.light_count; i++)
         adapt_light(r, i, &s, &s.lights[i]);
+    place_lights(r, &s);
     adapt_material(r, &s);
-    // Unused entries of the list are black.
-    while (s.light_count < light_count && s.light_count < MAX_SCENE_LIGHTS) {
-        struct reference_light black = {
-            .type = s.lights[0].type, .position = {1, 2, 3}, .to_light = {1, 2, 3}, .attenuation = {1, 0, 0}};
-        s.lights[s.light_count++] = black;
-    }
     s.ka = terms & TERM_AMBIENT ? s.ka : 0;
     s.kd = terms & TERM_DIFFUSE ? s.kd : 0;
     s.ks = terms & TERM_SPECULAR && !(r->supports & RULE_NO_SPECULAR) ? s.ks : 0;
     s.flat |= (r->supports & RULE_FLAT) != 0;
-    if (!declares(r, SEMANTIC_SHININESS) && r->contract->defaults.shininess.given)
-        s.shininess = r->contract->defaults.shininess.value;
+    if (!declares(r, SEMANTIC_SHININESS) && r->defaults.shininess.given)
+        s.shininess = r->defaults.shininess.value;
     if (!(r->contract->supports & NEED_ALPHA))
         s.alpha = 1;
     return s;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "fail.h"
+#include "shader_constants.h"
 
 // Whether a declared uniform is read: a member of a struct after a dot, another name anywhere.
 static bool is_used(const struct declarations *d, const char *name)
@@ -50,29 +51,21 @@ static bool is_material(enum uniform_semantic semantic)
     return semantic >= SEMANTIC_AMBIENT && semantic <= SEMANTIC_SHININESS;
 }
 
-// Whether a shader declares a uniform of a material or light.
-static bool has_lighting(const struct contract *contract, const struct declarations *d)
+// Whether a shader computes lighting: it declares a uniform of a material or light. The colour of the surface alone may
+// be multiplied with a light that comes from the vertex shader.
+static bool is_lit(const struct shader_interface *r, const struct declarations *d)
 {
+    bool colored = false;
     for (int i = 0; i < d->count; i++) {
         const struct contract_name *n =
-            d->items[i].kind == DECLARED_UNIFORM ? contract_find(contract, d->items[i].name, false, NULL) : NULL;
-        if (n && (is_material(n->semantic) || is_light(n->semantic)))
+            d->items[i].kind == DECLARED_UNIFORM ? contract_find(r->contract, d->items[i].name, false, NULL) : NULL;
+        if (n && n->semantic == SEMANTIC_COLOR)
+            colored = true;
+        else if (n && (is_material(n->semantic) || is_light(n->semantic)))
             return true;
     }
-    return false;
-}
-
-static void count_lights(struct shader_interface *r)
-{
-    const struct declarations *sides[] = {&r->vertex, &r->fragment};
-    for (int s = 0; s < 2; s++)
-        for (int i = 0; i < sides[s]->count; i++) {
-            const struct declaration *d = &sides[s]->items[i];
-            const struct contract_name *n =
-                d->kind == DECLARED_UNIFORM ? contract_find(r->contract, d->name, false, NULL) : NULL;
-            if (n && is_light(n->semantic) && d->count > r->light_count)
-                r->light_count = d->count;
-        }
+    return colored &&
+           (declarations_uses(d, "dot") || declarations_uses(d, "normalize") || declarations_uses(d, "reflect"));
 }
 
 // Whether the words at `at` match `text`, a list separated by blanks in which "?" matches any word.
@@ -155,40 +148,126 @@ static void apply_lambent_rules(struct shader_interface *r)
     r->supports |= rules;
     r->supports |= declarations_uses(lit, "blinn_phong_lobe") || r->phong ? 0 : RULE_NO_SPECULAR;
     r->supports |= is_flat(&r->fragment) ? RULE_FLAT : 0;
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // the rules tell the kind of each
+        r->groups[g].kinds |= NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT;
 }
 
-// The kinds of light that the shader can have, by the members that it reads.
-static unsigned light_kinds(const struct shader_interface *r)
+// The kinds of light that a shader with Lambent's names can have, by the members that it reads: lights[i].cone.
+static unsigned lambent_light_kinds(const struct shader_interface *r)
 {
-    if (r->contract->printed) {
-        const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
-        int cone = 0, attenuation = 0, position = 0;
-        for (int i = 0; i < lit->word_count; i++) // read, not only declared: lights[i].cone
-            if (lit->words[i].is_member) {
-                cone += strcmp(lit->words[i].text, "cone") == 0;
-                attenuation += strcmp(lit->words[i].text, "attenuation") == 0;
-                position += strcmp(lit->words[i].text, "position") == 0;
-            }
-        return cone ? NEED_SPOT | NEED_POINT : attenuation || position ? NEED_POINT : NEED_DIRECTIONAL;
-    }
-    bool position = shader_interface_uses(r, SEMANTIC_LIGHT_POSITION) || shader_interface_uses(r, SEMANTIC_LIGHT_X),
-         direction =
-             shader_interface_uses(r, SEMANTIC_LIGHT_DIRECTION) || shader_interface_uses(r, SEMANTIC_LIGHT_TRAVEL);
-    if (direction && !position)
-        return NEED_DIRECTIONAL;
-    // A light_position of four numbers is a direction where its w is 0.
-    for (const struct contract_name *n = r->contract->names; n->name; n++)
-        if (n->semantic == SEMANTIC_LIGHT_POSITION && strcmp(n->type, "vec4") == 0)
-            return NEED_POINT | NEED_DIRECTIONAL;
-    return NEED_POINT;
+    const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
+    int cone = 0, attenuation = 0, position = 0;
+    for (int i = 0; i < lit->word_count; i++)
+        if (lit->words[i].is_member) {
+            cone += strcmp(lit->words[i].text, "cone") == 0;
+            attenuation += strcmp(lit->words[i].text, "attenuation") == 0;
+            position += strcmp(lit->words[i].text, "position") == 0;
+        }
+    return cone ? NEED_SPOT | NEED_POINT : attenuation || position ? NEED_POINT : NEED_DIRECTIONAL;
 }
 
-bool shader_interface_make(struct shader_interface *r, const char *vertex, const char *fragment,
+// The kind of light that a name belongs to; 0: it does not tell.
+static unsigned kind_of(enum uniform_semantic semantic, const char *type)
+{
+    switch (semantic) {
+    case SEMANTIC_LIGHT_POSITION: // of four numbers: a direction where w is 0
+        return strcmp(type, "vec4") == 0 ? NEED_POINT | NEED_DIRECTIONAL : NEED_POINT;
+    case SEMANTIC_LIGHT_X:
+        return NEED_POINT;
+    case SEMANTIC_CONE:
+    case SEMANTIC_CUTOFF:
+        return NEED_SPOT;
+    default:
+        return 0;
+    }
+}
+
+static void add_light_name(struct shader_interface *r, const struct declarations *d, const struct declaration *item)
+{
+    const struct contract_name *n =
+        item->kind == DECLARED_UNIFORM ? contract_find(r->contract, item->name, false, NULL) : NULL;
+    if (!n || n->group < 0)
+        return;
+    struct light_group *group = &r->groups[n->group];
+    int count = item->count > 0 ? item->count : 1;
+    group->list = group->list || item->count != 0;
+    group->count = count > group->count ? count : group->count;
+    if (is_used(d, item->name))
+        group->kinds |= kind_of(n->semantic, item->type);
+    // A direction alone makes the light directional; beside a position it is the axis of a spot.
+    bool direction = n->semantic == SEMANTIC_LIGHT_DIRECTION || n->semantic == SEMANTIC_LIGHT_TRAVEL;
+    if (direction && is_used(d, item->name))
+        group->has_direction = true;
+}
+
+static void find_lights(struct shader_interface *r)
+{
+    const struct declarations *sides[] = {&r->vertex, &r->fragment};
+    unsigned all = 0;
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; i < sides[s]->count; i++)
+            add_light_name(r, sides[s], &sides[s]->items[i]);
+    for (int g = 0; g < r->contract->group_count; g++) {
+        struct light_group *group = &r->groups[g];
+        if (r->contract->printed && group->count)
+            group->kinds = lambent_light_kinds(r);
+        else if (!group->kinds && group->has_direction)
+            group->kinds = NEED_DIRECTIONAL;
+        if (!group->kinds) // colours without a place
+            group->count = 0;
+        all |= group->count ? group->kinds : 0;
+    }
+    if (!all) // the light is in a generated vertex shader, or a constant of the exercise
+        r->groups[0] = (struct light_group){
+            .count = 1, .kinds = r->contract->supports & (NEED_POINT | NEED_DIRECTIONAL), .list = false};
+}
+
+// The space in which the shaders light. Where the course lights in world space, shaders may use eye space as well: they
+// have the model-view matrix, and neither the model's own nor the eye's position.
+static lam_light_frame find_space(const struct shader_interface *r)
+{
+    bool eye = r->contract->space == LAM_FRAME_WORLD && shader_interface_uses(r, SEMANTIC_MODEL_VIEW) &&
+               !shader_interface_uses(r, SEMANTIC_MODEL) && !shader_interface_uses(r, SEMANTIC_EYE_POSITION);
+    return eye ? LAM_FRAME_CAMERA : r->contract->space;
+}
+
+static lam_light_frame find_light_frame(const struct shader_interface *r)
+{
+    const struct declarations *sides[] = {&r->vertex, &r->fragment};
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; i < sides[s]->count; i++) {
+            const struct declaration *d = &sides[s]->items[i];
+            const struct contract_name *n =
+                d->kind == DECLARED_UNIFORM ? contract_find(r->contract, d->name, false, NULL) : NULL;
+            if (n && n->group >= 0 && role_of(n->semantic)->uses & ROLE_IN_SPACE)
+                return n->space;
+        }
+    return r->contract->light_frame;
+}
+
+// What follows from the kinds and counts of the lights.
+static void summarize_lights(struct shader_interface *r)
+{
+    r->supports &= ~(unsigned)(NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT | NEED_LIGHTS);
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
+        if (r->groups[g].count) {
+            r->supports |= r->groups[g].kinds;
+            r->supports |= r->groups[g].list && r->groups[g].count > 1 ? NEED_LIGHTS : 0;
+        }
+}
+
+void shader_interface_set_counts(struct shader_interface *r, const int counts[MAX_LIGHT_GROUPS])
+{
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
+        if (r->groups[g].count && r->groups[g].list && counts[g] > r->groups[g].count)
+            r->groups[g].count = counts[g];
+}
+
+bool shader_interface_make(struct shader_interface *r, const struct complete_texts *texts,
                            const struct contract *contract, lam_error *error)
 {
     *r = (struct shader_interface){.contract = contract};
-    if (!declarations_read(&r->vertex, vertex ? vertex : "", true, error) ||
-        !declarations_read(&r->fragment, fragment, false, error)) {
+    if (!prefix_read(texts, true, &r->vertex, error) || !prefix_read(texts, false, &r->fragment, error)) {
         shader_interface_free(r);
         return false;
     }
@@ -197,13 +276,13 @@ bool shader_interface_make(struct shader_interface *r, const char *vertex, const
         return false;
     }
     find_declared(r);
-    r->vertex_lit = vertex && vertex[0] && !has_lighting(r->contract, &r->fragment);
-    count_lights(r);
+    shader_constants_find(r);
+    r->space = find_space(r);
+    r->light_frame = find_light_frame(r);
+    r->vertex_lit = texts->vertex && !is_lit(r, &r->fragment);
+    find_lights(r);
     r->supports = r->contract->supports;
-    unsigned kinds = NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT;
-    r->supports = (r->supports & ~kinds) | (r->supports & kinds & light_kinds(r));
-    if (r->light_count < 2)
-        r->supports &= ~(unsigned)NEED_LIGHTS;
+    summarize_lights(r);
     r->supports |= r->vertex_lit ? NEED_VERTEX_LIT : 0;
     if (!shader_interface_declares(r, SEMANTIC_FLAT))
         r->supports &= ~(unsigned)NEED_FLAT;

@@ -3,20 +3,33 @@
 #ifndef SHADER_INTERFACE_H
 #define SHADER_INTERFACE_H
 
-#include "contract.h"
+#include "prefix.h"
+
+// The lights of one struct or list of a contract.
+struct light_group {
+    int count;      // of lights that the shaders declare; 0: none
+    unsigned kinds; // NEED_POINT, NEED_DIRECTIONAL, NEED_SPOT: what they can be
+    bool list, has_direction;
+};
 
 struct shader_interface {
     struct declarations vertex, fragment;
     const struct contract *contract;
     uint64_t declared, used; // bit i: a shader declares a uniform of semantic i, and reads it
-    unsigned supports;       // bits of reference_need, and of reference_rule
-    int light_count;         // declared size of the list of lights; 0: one light without a list
-    bool vertex_lit;         // the fragment shader has no name of a material or light
-    bool phong;              // printed by `lambent shader --reflection phong`
+    uint64_t constants;      // bit i: it has a number of semantic i
+    // The contract's, with the numbers that the shaders have instead.
+    struct contract_defaults defaults;
+    // The space in which the shaders light, CAMERA or WORLD, and that of their first light.
+    lam_light_frame space, light_frame;
+    unsigned supports; // bits of reference_need, and of reference_rule
+    // As contract->groups. Where the shaders declare no light, the first one holds the light that the contract fixes.
+    struct light_group groups[MAX_LIGHT_GROUPS];
+    bool vertex_lit; // the fragment shader has no name of a material or light
+    bool phong;      // printed by `lambent shader --reflection phong`
 };
 
-// `vertex` NULL or "": none. `contract` must outlive the interface.
-bool shader_interface_make(struct shader_interface *interface, const char *vertex, const char *fragment,
+// The interface of a program's texts. `contract` must outlive it.
+bool shader_interface_make(struct shader_interface *interface, const struct complete_texts *texts,
                            const struct contract *contract, lam_error *error);
 void shader_interface_free(struct shader_interface *interface);
 
@@ -24,9 +37,19 @@ void shader_interface_free(struct shader_interface *interface);
 bool shader_interface_declares(const struct shader_interface *interface, enum uniform_semantic semantic);
 bool shader_interface_uses(const struct shader_interface *interface, enum uniform_semantic semantic);
 
-// The reference scene as the shaders can express it: what they have no name for takes the contract's fixed values.
-// `light_count`: the shaders' light capacity.
+// Raises the sizes of lists that the text does not tell to those that the driver knows.
+void shader_interface_set_counts(struct shader_interface *interface, const int counts[MAX_LIGHT_GROUPS]);
+
+// The number of lights that the shaders have room for, at least 1.
+int shader_interface_light_count(const struct shader_interface *interface);
+
+// The reference scene as the shaders can express it: what they have no name for takes the contract's fixed values, and
+// lights of a kind that they do not have are left out.
 struct reference_scene shader_interface_scene(const struct shader_interface *interface,
-                                              const struct reference_scene *reference_scene, int light_count);
+                                              const struct reference_scene *reference_scene);
+
+// The light of such a scene that stands in element `element` of a group; −1: none, it is black.
+int shader_interface_light(const struct shader_interface *interface, const struct reference_scene *scene, int group,
+                           int element);
 
 #endif

@@ -79,7 +79,7 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
 {
     static const struct reference_light none = {
         .type = LAM_LIGHT_POINT, .position = {1, 1, 1}, .to_light = {0, 0, 1}, .attenuation = {1, 0, 0}};
-    const struct reference_light *light = index < s->light_count ? &s->lights[index] : &none;
+    const struct reference_light *light = index >= 0 && index < s->light_count ? &s->lights[index] : &none;
     const float *a = light->attenuation;
     lam_mat4 to = matrix_to(space, m);
     lam_rgb one = {1, 1, 1};
@@ -151,7 +151,7 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
     case SEMANTIC_CUTOFF:
         return number(cone(light).v[0]);
     case SEMANTIC_OUTER_CUTOFF: // nothing between the two angles, so that every form of a soft edge is the hard one
-        return number(cone(light).v[0] - (light->cutoff_deg > 0 ? 1e-4f : 0.1f));
+        return number(cone(light).v[0] - (light->cutoff_deg > 0 ? 1e-6f : 0.1f));
     case SEMANTIC_SPOT_EXPONENT:
         return number(light->exponent);
     case SEMANTIC_ONE:

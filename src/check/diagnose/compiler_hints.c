@@ -343,7 +343,8 @@ void compiler_hints_for_text(struct diagnostics *diagnostics, const struct decla
     hint_globals(diagnostics, d, file);
 }
 
-bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file)
+bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
+                               const char *output)
 {
     bool writes = declarations_uses(d, "gl_FragColor") || declarations_uses(d, "gl_FragData"), used = writes;
     for (int i = 0; i < d->count; i++) {
@@ -360,10 +361,17 @@ bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct dec
                                 : "the output '%s' is of type %s, which leaves channels undefined: declare out vec4 %s",
                             item->name, item->type, item->name);
     }
-    if (!used)
+    int length = output ? (int)strcspn(output, " ") : 5;
+    output = output ? output : "color";
+    if (!used && d->version >= 150)
+        diagnostics_add(
+            diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, 0,
+            "the shader writes no colour, so the pictures are undefined: write out vec4 %.*s; and assign %.*s "
+            "in main()",
+            length, output, length, output);
+    else if (!used)
         diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, 0,
-                        "the shader writes no colour, so the pictures are undefined: write %s",
-                        d->version >= 150 ? "out vec4 color; and assign color in main()" : "gl_FragColor = ...;");
+                        "the shader writes no colour, so the pictures are undefined: write gl_FragColor = ...;");
     return writes;
 }
 

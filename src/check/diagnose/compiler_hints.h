@@ -14,8 +14,10 @@ void compiler_hints_for_message(struct diagnostics *diagnostics, const struct de
 void compiler_hints_for_text(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                              bool vertex);
 
-// For the outputs of a fragment shader that compiles. False: it writes no colour that a picture can hold.
-bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file);
+// For the outputs of a fragment shader that compiles. `output`: the course's name of it; NULL: none. False: it writes no
+// colour that a picture can hold.
+bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
+                               const char *output);
 
 // For two shaders that compile but do not link.
 void compiler_hints_for_link(struct diagnostics *diagnostics, const struct shader_interface *interface,

@@ -27,7 +27,11 @@ bool fault_applies(const struct fault *fault, const struct shader_interface *int
     bool reflects =
         declarations_uses(&interface->vertex, "reflect") || declarations_uses(&interface->fragment, "reflect");
     unsigned here = (interface->vertex_lit ? WHERE_VERTEX : WHERE_FRAGMENT) |
-                    (frame == LAM_FRAME_OBJECT ? WHERE_OBJECT_LIGHT : WHERE_EYE_LIGHT) |
+                    (frame == LAM_FRAME_OBJECT              ? WHERE_OBJECT_LIGHT
+                     : frame == interface->space            ? WHERE_EYE_LIGHT
+                     : interface->space == LAM_FRAME_CAMERA ? WHERE_WORLD_LIGHT
+                                                            : 0u) |
+                    (interface->space == LAM_FRAME_WORLD ? WHERE_WORLD : 0) |
                     (reflection == LAM_REFLECTION_PHONG ? WHERE_PHONG : WHERE_BLINN) | (reflects ? WHERE_REFLECT : 0);
     return (fault->where & ~here) == 0 && (fault->needs & ~needs) == 0;
 }

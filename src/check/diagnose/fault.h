@@ -12,9 +12,9 @@
 #define FAULT_BITS(X) \
     X(LONG_NORMAL) X(LONG_NORMAL_VERTEX) X(LONG_EYE) X(LONG_LIGHT) X(RAW_HALF) X(HALF_LONG) \
     X(HALF_MEAN) X(NORMAL_OBJECT) X(NORMAL_BY_MODEL) X(NORMAL_BY_INVERSE) X(NORMAL_BY_TRANSPOSE) \
-    X(NORMAL_AS_POINT) X(NORMAL_WITH_W) X(NORMAL_CLIP) X(INWARD) X(UNIT_REFLECTION) X(FACE_FORWARD) \
+    X(NORMAL_AS_POINT) X(NORMAL_WITH_W) X(NORMAL_CLIP) X(NORMAL_EYE) X(INWARD) X(UNIT_REFLECTION) X(FACE_FORWARD) \
     X(LIGHT_AS_GIVEN) X(LIGHT_TWICE) X(LIGHT_CLIP) X(LIGHT_FROM_OBJECT) X(POINT_CLIP) \
-    X(EYE_FROM_OBJECT) X(EYE_CLIP) X(FOUR) X(DIRECTION_AS_POINT) X(DIRECTION_MINUS_ORIGIN) \
+    X(EYE_FROM_OBJECT) X(EYE_CLIP) X(EYE_AT_ORIGIN) X(FOUR) X(DIRECTION_AS_POINT) X(DIRECTION_MINUS_ORIGIN) \
     X(DIRECTION_REVERSED) X(LIGHT_BACKWARDS) X(EYE_BACKWARDS) X(VIEWER_INFINITE) X(EARLY_LIGHT) X(EARLY_EYE) \
     X(EARLY_MIRROR) X(MEAN_DISTANCE) X(ATTENUATION_SWAPPED) X(ATTENUATION_INVERTED) X(D_FOR_SQUARE) \
     X(SQUARE_FOR_D) X(DISTANCE_ONE) X(INVERSE_SQUARE) X(INVERSE_DISTANCE) X(BARE_DIFFUSE) X(BARE_SPECULAR) \
@@ -51,10 +51,12 @@ enum fault_where {
     WHERE_FRAGMENT = 1,     // lighting in the fragment shader
     WHERE_VERTEX = 2,       // lighting in the vertex shader
     WHERE_OBJECT_LIGHT = 4, // lights in object space
-    WHERE_EYE_LIGHT = 8,    // lights in eye space
+    WHERE_EYE_LIGHT = 8,    // lights in the space of the lighting, eye or world space
     WHERE_PHONG = 16,       // Phong's highlight is expected
     WHERE_BLINN = 32,       // Blinn–Phong's is expected
     WHERE_REFLECT = 64,     // reflect() occurs in the shaders
+    WHERE_WORLD = 128,      // lighting in world space
+    WHERE_WORLD_LIGHT = 256 // lights in world space, lighting in eye space
 };
 
 // What the search has to find out about a fault: the factor of the exponent, above or below 1, or the constant.

@@ -6,11 +6,12 @@
 #define LAMPS 3
 
 struct Lamp {
-    vec4 position; // in eye space; w 0: the direction to it
+    vec4 position; // in the space of the lighting, which is eye or world space; w 0: the direction to it
     vec4 given;    // the value that the shader under test receives
     vec3 diffuse, specular;
+    vec3 ambient;  // its part of the ambient term
     vec3 attenuation;
-    vec4 axis; // of a spot, in eye space; w 0
+    vec4 axis; // of a spot, in the space of the lighting; w 0
     vec4 cone; // cosine of the cutoff (-1: no spot), exponent; z, w: unused
 };
 
@@ -24,8 +25,12 @@ uniform vec3 tint;                   // multiplies a tinted highlight
 uniform float light_capacity;        // of the shader under test
 uniform float opacity, shininess;
 uniform float exponent_factor, exponent_constant; // of a wrong exponent; 0: none
+uniform bool ambient_by_light; // the shader under test adds the ambient term of each light with that light
 uniform bool phong_lobe;
-uniform mat4 model_view, projection;
+uniform mat4 to_lighting, to_clip; // from the model's space to that of the lighting, and from there to clip space
+uniform mat4 to_eye_space;         // from the space of the lighting
+uniform vec4 eye_position;         // in the space of the lighting, w 1
+uniform vec4 eye_axis;             // from the scene to the eye, if that were infinitely far away; w 0
 
 bool is(int bit) { return fault_on[bit] != 0; }
 
@@ -42,10 +47,10 @@ vec4 to_lamp(int i, vec4 p)
 {
     vec4 place = is(LIGHT_AS_GIVEN) ? lamps[i].given : lamps[i].position;
     if (is(LIGHT_TWICE)) {
-        place = model_view * place;
+        place = to_lighting * place;
     }
     if (is(LIGHT_CLIP)) {
-        place = projection * place;
+        place = to_clip * place;
     }
     bool far = is_far(i);
     vec4 way = far && !is(DIRECTION_AS_POINT) ? vec4(place.xyz, 0.0) : place - p;
@@ -61,9 +66,10 @@ vec4 to_lamp(int i, vec4 p)
 vec4 to_eye(vec4 p)
 {
     if (is(VIEWER_INFINITE)) {
-        return vec4(0.0, 0.0, 1.0, 0.0);
+        return eye_axis;
     }
-    vec4 way = is(FOUR) ? vec4(0.0, 0.0, 0.0, 1.0) - p : vec4(-p.xyz, 0.0);
+    vec4 eye = is(EYE_AT_ORIGIN) ? vec4(0.0, 0.0, 0.0, 1.0) : eye_position;
+    vec4 way = is(FOUR) ? eye - p : vec4(eye.xyz - p.xyz, 0.0);
     return is(EYE_BACKWARDS) ? -way : way;
 }
 
@@ -183,7 +189,7 @@ vec4 shade(Surface s)
     if (is(SPECULAR_AS_DIFFUSE)) {
         specular_color = specular_as_diffuse;
     }
-    vec3 diffuse = vec3(0.0), specular = vec3(0.0);
+    vec3 ambient = vec3(0.0), diffuse = vec3(0.0), specular = vec3(0.0);
     float diffuse_alpha = 0.0, specular_alpha = 0.0, arrived = 1.0;
     for (int i = 0; i < lamp_count; i++) {
         if (is_left_out(i)) {
@@ -198,6 +204,7 @@ vec4 shade(Surface s)
         float d = is(MEAN_DISTANCE) ? s.distance[i] : length(exact);
         float attenuation = attenuation_of(i, d), cone = cone_of(i, unit4(exact));
         arrived = attenuation * cone;
+        ambient += lamps[i].ambient * (is(AMBIENT_ATTENUATED) ? arrived : 1.0);
         float nl = dot(n, l), D = diffuse_of(nl);
         float S = specular_of(highlight_base(i, s, n, l, way, v), nl);
         float kept_d = is(BARE_DIFFUSE) ? cone : arrived, kept_s = is(BARE_SPECULAR) ? cone : arrived;
@@ -208,7 +215,8 @@ vec4 shade(Surface s)
     }
     vec3 sum = vec3(0.0);
     if (!is(NO_AMBIENT)) {
-        sum += ambient_color * (is(AMBIENT_ATTENUATED) ? arrived : 1.0) * (is(AMBIENT_EACH_LIGHT) ? light_capacity : 1.0);
+        bool by_light = ambient_by_light && !is(KA_KD_SWAPPED);
+        sum += by_light ? ambient : ambient_color * (is(AMBIENT_ATTENUATED) ? arrived : 1.0) * (is(AMBIENT_EACH_LIGHT) ? light_capacity : 1.0);
     }
     if (!is(NO_DIFFUSE)) {
         sum += diffuse;

@@ -103,7 +103,7 @@ static GLint lamp_place(const struct fault_shader *m, int i, const char *member)
     return place(m, name);
 }
 
-static void set_lamp(const struct fault_shader *m, int i, lam_light_frame frame,
+static void set_lamp(const struct fault_shader *m, int i, lam_light_frame space, lam_light_frame frame,
                      const struct reference_scene *reference_scene, const struct reference_matrices *matrices)
 {
     const struct gl *gl = &m->offscreen.context.gl;
@@ -112,9 +112,9 @@ static void set_lamp(const struct fault_shader *m, int i, lam_light_frame frame,
         const char *member;
         enum uniform_semantic semantic;
         lam_light_frame frame;
-    } members[] = {{"position", SEMANTIC_LIGHT_POSITION, LAM_FRAME_CAMERA},
+    } members[] = {{"position", SEMANTIC_LIGHT_POSITION, space},
                    {"given", SEMANTIC_LIGHT_POSITION, frame},
-                   {"axis", SEMANTIC_LIGHT_TRAVEL, LAM_FRAME_CAMERA},
+                   {"axis", SEMANTIC_LIGHT_TRAVEL, space},
                    {"cone", SEMANTIC_CONE, frame}};
     for (int k = 0; k < 4; k++)
         gl->Uniform4fv(lamp_place(m, i, members[k].member), 1,
@@ -122,6 +122,10 @@ static void set_lamp(const struct fault_shader *m, int i, lam_light_frame frame,
     gl->Uniform3fv(lamp_place(m, i, "attenuation"), 1, light->attenuation);
     gl->Uniform3f(lamp_place(m, i, "diffuse"), light->color.r, light->color.g, light->color.b);
     gl->Uniform3f(lamp_place(m, i, "specular"), light->specular.r, light->specular.g, light->specular.b);
+    lam_rgb a = reference_scene->ambient;
+    float ka = reference_scene->ka;
+    gl->Uniform3f(lamp_place(m, i, "ambient"), a.r * ka * light->ambient.r, a.g * ka * light->ambient.g,
+                  a.b * ka * light->ambient.b);
 }
 
 static void set_color(const struct fault_shader *m, const char *name, lam_rgb c, float k)
@@ -144,14 +148,33 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     for (int i = 0; i < FAULT_BIT_COUNT; i++)
         bits[i] = fault_set_has(set, (enum fault_bit)i);
     gl->Uniform1iv(place(m, "fault_on"), FAULT_BIT_COUNT, bits);
-    gl->UniformMatrix4fv(place(m, "model_view"), 1, GL_FALSE, matrix_value(&matrices.model_view).v);
-    gl->UniformMatrix4fv(place(m, "projection"), 1, GL_FALSE, matrix_value(&matrices.projection).v);
-    gl->UniformMatrix4fv(place(m, "normal_matrix4"), 1, GL_FALSE, matrix_value(&matrices.normal4).v);
+    lam_light_frame space = interface->space;
+    const struct {
+        const char *name;
+        enum uniform_semantic eye, world; // where the lighting is in eye space, and in world space
+    } values[] = {{"to_lighting", SEMANTIC_MODEL_VIEW, SEMANTIC_MODEL},
+                  {"to_clip", SEMANTIC_PROJECTION, SEMANTIC_VIEW_PROJECTION},
+                  {"to_eye_space", SEMANTIC_NONE, SEMANTIC_VIEW},
+                  {"normal_matrix4", SEMANTIC_NORMAL_MATRIX, SEMANTIC_NORMAL_MATRIX}};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        enum uniform_semantic semantic = space == LAM_FRAME_WORLD ? values[i].world : values[i].eye;
+        if (semantic != SEMANTIC_NONE)
+            gl->UniformMatrix4fv(place(m, values[i].name), 1, GL_FALSE,
+                                 uniform_semantic_value(semantic, 0, space, reference_scene, &matrices).v);
+    }
+    gl->Uniform4fv(place(m, "eye_position"), 1,
+                   uniform_semantic_value(SEMANTIC_EYE_POSITION, 0, space, reference_scene, &matrices).v);
+    // The third row of the view matrix is the eye's axis in world space.
+    const lam_mat4 *view = &matrices.view;
+    if (space == LAM_FRAME_WORLD)
+        gl->Uniform4f(place(m, "eye_axis"), (float)view->m[2][0], (float)view->m[2][1], (float)view->m[2][2], 0);
+    else
+        gl->Uniform4f(place(m, "eye_axis"), 0, 0, 1, 0);
     float small = (float)(m->stride * m->offscreen.size), scale = (float)m->size / small;
     float offset = scale + (float)(m->stride - 1) / small - 1;
     gl->Uniform4f(place(m, "window"), scale, scale, offset, offset);
     for (int i = 0; i < reference_scene->light_count; i++)
-        set_lamp(m, i, frame, reference_scene, &matrices);
+        set_lamp(m, i, space, frame, reference_scene, &matrices);
     gl->Uniform1i(place(m, "lamp_count"), reference_scene->light_count);
     gl->Uniform3fv(place(m, "ambient_product"), 1,
                    uniform_semantic_value(SEMANTIC_AMBIENT_PRODUCT, 0, frame, reference_scene, &matrices).v);
@@ -168,6 +191,7 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     gl->Uniform1f(place(m, "shininess"), reference_scene->shininess);
     gl->Uniform1f(place(m, "exponent_factor"), set->factor);
     gl->Uniform1f(place(m, "exponent_constant"), set->constant);
+    gl->Uniform1i(place(m, "ambient_by_light"), shader_interface_declares(interface, SEMANTIC_LIGHT_AMBIENT));
     gl->Uniform1i(place(m, "phong_lobe"), reflection == LAM_REFLECTION_PHONG);
     gl->Uniform1i(place(m, "flat_shading"), reference_scene->flat);
     gl->Uniform1i(place(m, "two_sided"), (interface->supports & NEED_TWO_SIDES) != 0);

@@ -13,7 +13,7 @@ static const struct {
     {"normal_matrix4", SEMANTIC_NORMAL_MATRIX, "normalMatrix"},
     {"normal", SEMANTIC_NORMAL, "gl_Normal"},
     {"position", SEMANTIC_POSITION, "gl_Vertex"},
-    {"model_view", SEMANTIC_MODEL_VIEW, "gl_ModelViewMatrix"},
+    {"view", SEMANTIC_VIEW, "view"},
     {"projection", SEMANTIC_PROJECTION, "gl_ProjectionMatrix"},
     {"light", SEMANTIC_LIGHT_POSITION, "light"},
     {"light_color", SEMANTIC_LIGHT_COLOR, "Ld"},
@@ -21,7 +21,6 @@ static const struct {
     {"ka", SEMANTIC_AMBIENT, "uKa * uColor"},
     {"kd", SEMANTIC_DIFFUSE, "uKd * uColor"},
     {"ks", SEMANTIC_SPECULAR, "uKs * uSpecularColor"},
-    {"shininess", SEMANTIC_SHININESS, "64.0"},
     {"a", SEMANTIC_ATTENUATION_CONSTANT, "a"},
     {"b", SEMANTIC_ATTENUATION_LINEAR, "b"},
     {"c", SEMANTIC_ATTENUATION_QUADRATIC, "c"},
@@ -66,47 +65,121 @@ static bool is_wide(const struct line *line, enum uniform_semantic semantic) // 
     return false;
 }
 
-// The light in eye space as a vec3: its position, or the unit direction to it.
+static bool is_world(const struct line *line) { return line->interface->space == LAM_FRAME_WORLD; }
+
+// The matrix from the model's space to that of the lighting.
+static const char *to_lighting(const struct line *line)
+{
+    const char *name = own_name(line, is_world(line) ? SEMANTIC_MODEL : SEMANTIC_MODEL_VIEW);
+    return name ? name : is_world(line) ? "model" : "gl_ModelViewMatrix";
+}
+
+// The matrices from there to clip space.
+static void put_to_clip(struct line *line)
+{
+    const char *projection = own_name(line, SEMANTIC_PROJECTION), *view = own_name(line, SEMANTIC_VIEW);
+    put(line, "%s", projection ? projection : "gl_ProjectionMatrix");
+    if (is_world(line))
+        put(line, " * %s", view ? view : "view");
+}
+
+// The light in the space of the lighting as a vec3: its position, or the unit direction to it.
 static void put_light(struct line *line, bool direction)
 {
-    const char *name = own_name(line, SEMANTIC_LIGHT_POSITION), *unit = own_name(line, SEMANTIC_LIGHT_DIRECTION);
-    const char *model_view = own_name(line, SEMANTIC_MODEL_VIEW);
+    const char *name = own_name(line, SEMANTIC_LIGHT_POSITION), *unit = own_name(line, SEMANTIC_LIGHT_DIRECTION),
+               *travel = own_name(line, SEMANTIC_LIGHT_TRAVEL), *x = own_name(line, SEMANTIC_LIGHT_X),
+               *y = own_name(line, SEMANTIC_LIGHT_Y), *z = own_name(line, SEMANTIC_LIGHT_Z);
     const char *open = direction ? "normalize(" : "", *close = direction ? ")" : "";
-    if (direction && unit && !(line->interface->supports & NEED_POINT))
+    bool directional = direction && !(line->interface->supports & NEED_POINT);
+    if (directional && unit)
         put(line, "normalize(%s)", unit);
-    else if (line->interface->contract->names[0].semantic == SEMANTIC_KA) // Oregon: three floats
-        put(line, "vec3(uLightX, uLightY, uLightZ)");
+    else if (directional && travel)
+        put(line, "normalize(-%s)", travel);
+    else if (!name && x)
+        put(line, "vec3(%s, %s, %s)", x, y ? y : "y", z ? z : "z");
     else if (line->frame == LAM_FRAME_OBJECT)
-        put(line, "%s(%s * %s).xyz%s", open, model_view ? model_view : "gl_ModelViewMatrix", name ? name : "light",
-            close);
+        put(line, "%s(%s * %s).xyz%s", open, to_lighting(line), name ? name : "light", close);
     else
         put(line, "%s%s%s%s", open, name ? name : "light", is_wide(line, SEMANTIC_LIGHT_POSITION) ? ".xyz" : "", close);
 }
 
+// From the point P to the eye.
+static void put_to_eye(struct line *line)
+{
+    const char *eye = own_name(line, SEMANTIC_EYE_POSITION);
+    if (is_world(line))
+        put(line, "%s%s - P", eye ? eye : "eye", is_wide(line, SEMANTIC_EYE_POSITION) ? ".xyz" : "");
+    else
+        put(line, "-P");
+}
+
+// The space that a normal matrix of the contract leads to.
+static lam_light_frame normal_space(const struct line *line, const char *name)
+{
+    const struct contract_name *row = contract_find(line->interface->contract, name, false, NULL);
+    return row ? row->space : LAM_FRAME_CAMERA;
+}
+
 static void put_normal_matrix(struct line *line)
 {
-    const char *name = own_name(line, SEMANTIC_NORMAL_MATRIX), *view = own_name(line, SEMANTIC_MODEL_VIEW);
+    const char *name = own_name(line, SEMANTIC_NORMAL_MATRIX);
     if (line->interface->contract->built_ins[0])
         put(line, "gl_NormalMatrix");
-    else if (name && declarations_uses(&line->interface->vertex, name))
+    else if (name && declarations_find(&line->interface->vertex, DECLARED_UNIFORM, name) &&
+             line->interface->space == normal_space(line, name))
         put(line, is_wide(line, SEMANTIC_NORMAL_MATRIX) ? "mat3(%s)" : "%s", name);
     else
-        put(line, "transpose(inverse(mat3(%s)))", view ? view : "model_view");
+        put(line, "transpose(inverse(mat3(%s)))", to_lighting(line));
+}
+
+// The exponent: its name, or the number that the shader has in place of one.
+static void put_shininess(struct line *line)
+{
+    const struct shader_interface *r = line->interface;
+    const char *name = own_name(line, SEMANTIC_SHININESS);
+    if (name && (shader_interface_declares(r, SEMANTIC_SHININESS) || !r->defaults.shininess.given))
+        put(line, "%s", name);
+    else
+        put(line, "%.1f", r->defaults.shininess.given ? (double)r->defaults.shininess.value : 64.0);
+}
+
+// The name of a material's colour that the shaders declare: the course's for this term, else the colour of the surface.
+static const char *term_name(const struct line *line, enum uniform_semantic semantic)
+{
+    const struct shader_interface *r = line->interface;
+    const char *name = own_name(line, semantic), *color = own_name(line, SEMANTIC_COLOR);
+    bool product =
+        shader_interface_declares(r, (enum uniform_semantic)(semantic + SEMANTIC_AMBIENT_PRODUCT - SEMANTIC_AMBIENT));
+    bool declared = shader_interface_declares(r, semantic) || product;
+    bool colored = !r->contract->material_strengths && shader_interface_declares(r, SEMANTIC_COLOR);
+    return name && !declared && colored ? color : name;
 }
 
 static void put_place(struct line *line, const char *place)
 {
-    const char *shininess = own_name(line, SEMANTIC_SHININESS);
-    if (strcmp(place, "S") == 0)
-        put(line, "pow(max(dot(%s), 0.0), %s)", line->reflection == LAM_REFLECTION_PHONG ? "R, V" : "N, H",
-            shininess ? shininess : "64.0");
-    else if (strcmp(place, "light_eye") == 0 || strcmp(place, "light_direction") == 0)
+    if (strcmp(place, "S") == 0) {
+        put(line, "pow(max(dot(%s), 0.0), ", line->reflection == LAM_REFLECTION_PHONG ? "R, V" : "N, H");
+        put_shininess(line);
+        put(line, ")");
+    } else if (strcmp(place, "shininess") == 0) {
+        put_shininess(line);
+        return;
+    } else if (strcmp(place, "light_eye") == 0 || strcmp(place, "light_direction") == 0)
         put_light(line, strcmp(place, "light_direction") == 0);
     else if (strcmp(place, "normal_matrix") == 0)
         put_normal_matrix(line);
+    else if (strcmp(place, "model_view") == 0)
+        put(line, "%s", to_lighting(line));
+    else if (strcmp(place, "clip") == 0)
+        put_to_clip(line);
+    else if (strcmp(place, "space") == 0)
+        put(line, "%s", is_world(line) ? "world" : "eye");
+    else if (strcmp(place, "v") == 0)
+        put_to_eye(line);
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
         if (strcmp(places[i].place, place) == 0) {
-            const char *name = own_name(line, places[i].semantic);
+            bool term = places[i].semantic >= SEMANTIC_AMBIENT && places[i].semantic <= SEMANTIC_SPECULAR;
+            const char *name = term ? term_name(line, places[i].semantic) : own_name(line, places[i].semantic);
             bool wide = name && is_wide(line, places[i].semantic);
             bool extend = name && places[i].semantic == SEMANTIC_POSITION && !wide;
             bool cut = places[i].semantic == SEMANTIC_NORMAL && wide;

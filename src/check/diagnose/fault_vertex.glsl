@@ -3,7 +3,7 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 
-uniform mat4 normal_matrix4; // inverse transpose of model_view
+uniform mat4 normal_matrix4; // inverse transpose of to_lighting
 uniform vec4 window;         // scale and offset that put every second pixel of a picture on the pixels of a smaller one
 
 #ifdef IN_VERTEX
@@ -20,20 +20,23 @@ vec4 normal_of()
     if (is(NORMAL_OBJECT)) {
         n = vec4(normal, 0.0);
     } else if (is(NORMAL_BY_MODEL)) {
-        n = vec4(mat3(model_view) * normal, 0.0);
+        n = vec4(mat3(to_lighting) * normal, 0.0);
     } else if (is(NORMAL_BY_INVERSE)) {
         n = vec4(transpose(mat3(normal_matrix4)) * normal, 0.0);
     } else if (is(NORMAL_BY_TRANSPOSE)) {
-        n = vec4(transpose(mat3(model_view)) * normal, 0.0);
+        n = vec4(transpose(mat3(to_lighting)) * normal, 0.0);
     } else if (is(NORMAL_AS_POINT)) {
-        n = vec4((model_view * vec4(normal, 1.0)).xyz, 0.0);
+        n = vec4((to_lighting * vec4(normal, 1.0)).xyz, 0.0);
     } else if (is(NORMAL_WITH_W)) {
         n = normalize(normal_matrix4 * vec4(normal, 0.0));
         return vec4(n.xyz, 0.0);
     }
     if (is(NORMAL_CLIP)) {
-        n = projection * n;
+        n = to_clip * n;
         n.w = is(FOUR) ? n.w : 0.0;
+    }
+    if (is(NORMAL_EYE)) {
+        n = vec4(mat3(to_eye_space) * n.xyz, 0.0);
     }
     if (is(INWARD)) {
         n = -n;
@@ -43,10 +46,10 @@ vec4 normal_of()
 
 void main()
 {
-    vec4 at = vec4(position, 1.0), eye = model_view * at;
+    vec4 at = vec4(position, 1.0), eye = to_lighting * at;
     Surface s;
-    s.light = is(LIGHT_FROM_OBJECT) ? at : (is(POINT_CLIP) ? projection * eye : eye);
-    s.eye = is(EYE_FROM_OBJECT) ? at : (is(EYE_CLIP) ? projection * eye : eye);
+    s.light = is(LIGHT_FROM_OBJECT) ? at : (is(POINT_CLIP) ? to_clip * eye : eye);
+    s.eye = is(EYE_FROM_OBJECT) ? at : (is(EYE_CLIP) ? to_clip * eye : eye);
     s.normal = normal_of();
     s.early_eye = unit4(to_eye(s.eye));
     for (int i = 0; i < LAMPS; i++) {
@@ -76,7 +79,7 @@ void main()
     early_mirror = s.early_mirror;
     distances = s.distance;
 #endif
-    gl_Position = projection * eye;
+    gl_Position = to_clip * eye;
     if (is(UPSIDE_DOWN)) {
         gl_Position.y = -gl_Position.y;
     }

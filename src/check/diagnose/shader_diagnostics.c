@@ -39,7 +39,7 @@ static bool is_about_operands(const char *words)
 static bool is_noise(const char *words)
 {
     return strncmp(words, "warning", 7) == 0 || strncmp(words, "error:    ", 10) == 0 || strstr(words, "(error") ||
-           strstr(words, ", error");
+           strstr(words, ", error") || strstr(words, "of type error");
 }
 
 // The messages of one log, each with the hints that explain it. `d` NULL: the linker's.
@@ -114,8 +114,10 @@ static void report_type_mismatch(struct diagnostics *diagnostics, const struct s
                                  const struct declaration *d, const char *file)
 {
     const struct contract_name *known = contract_find(r->contract, d->name, false, NULL);
-    if (known && ((strncmp(known->type, "mat", 3) == 0) != (strncmp(d->type, "mat", 3) == 0) ||
-                  (strncmp(known->type, "vec", 3) == 0) != (strncmp(d->type, "vec", 3) == 0)))
+    bool texture = known && strcmp(d->type, "sampler2D") == 0 && role_of(known->semantic)->types & TYPE_SAMPLER;
+    if (known && !texture &&
+        ((strncmp(known->type, "mat", 3) == 0) != (strncmp(d->type, "mat", 3) == 0) ||
+         (strncmp(known->type, "vec", 3) == 0) != (strncmp(d->type, "vec", 3) == 0)))
         diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, d->line, "uniform %s %s: write uniform %s %s",
                         d->type, d->name, known->type, d->name);
 }

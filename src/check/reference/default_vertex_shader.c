@@ -7,24 +7,32 @@
 
 #include "fail.h"
 
-// The expression of each varying, a vec3, and its w.
+// The expression of each varying in each space, a vec3, and its w. Those without a space have the same in all.
 static const struct {
     enum varying_semantic semantic;
-    const char *text;
-    const char *w;
+    lam_light_frame space;
+    const char *text, *w;
 } sources[] = {
-    {VARYING_NORMAL, "n", "0.0"},
-    {VARYING_LIGHT, "l", "0.0"},
-    {VARYING_EYE, "(-p.xyz)", "0.0"},
-    {VARYING_POSITION, "p.xyz", "1.0"},
-    {VARYING_DISTANCE, "vec3(length(l))", "0.0"},
-    {VARYING_TEXCOORD, "vec3(0.0)", "0.0"},
+    {VARYING_NORMAL, LAM_FRAME_CAMERA, "n", "0.0"},
+    {VARYING_NORMAL, LAM_FRAME_WORLD, "world_n", "0.0"},
+    {VARYING_NORMAL, LAM_FRAME_OBJECT, "normalize(lambent_normal)", "0.0"},
+    {VARYING_POSITION, LAM_FRAME_CAMERA, "p.xyz", "1.0"},
+    {VARYING_POSITION, LAM_FRAME_WORLD, "world_p.xyz", "1.0"},
+    {VARYING_POSITION, LAM_FRAME_OBJECT, "lambent_position", "1.0"},
+    {VARYING_LIGHT, LAM_FRAME_CAMERA, "l", "0.0"},
+    {VARYING_LIGHT, LAM_FRAME_WORLD, "(lambent_world_light.xyz - lambent_world_light.w * world_p.xyz)", "0.0"},
+    {VARYING_EYE, LAM_FRAME_CAMERA, "(-p.xyz)", "0.0"},
+    {VARYING_EYE, LAM_FRAME_WORLD, "(lambent_world_eye - world_p.xyz)", "0.0"},
+    {VARYING_DISTANCE, LAM_FRAME_CAMERA, "vec3(length(l))", "0.0"},
+    {VARYING_DISTANCE, LAM_FRAME_WORLD, "vec3(length(l))", "0.0"},
+    {VARYING_TEXCOORD, LAM_FRAME_CAMERA, "vec3(0.0)", "0.0"},
+    {VARYING_TEXCOORD, LAM_FRAME_WORLD, "vec3(0.0)", "0.0"},
 };
 
-static const char *source_of(enum varying_semantic semantic, const char **w)
+static const char *source_of(const struct contract_varying *v, const char **w)
 {
     for (size_t i = 0; i < sizeof sources / sizeof sources[0]; i++)
-        if (sources[i].semantic == semantic) {
+        if (sources[i].semantic == v->semantic && sources[i].space == v->space) {
             *w = sources[i].w;
             return sources[i].text;
         }
@@ -56,7 +64,9 @@ char *default_vertex_shader(const struct shader_interface *r, char unknown[256],
     at += (size_t)snprintf(text + at, capacity - at,
                            "%s vec3 lambent_position;\n%s vec3 lambent_normal;\n"
                            "uniform mat4 lambent_model_view;\nuniform mat4 lambent_projection;\n"
-                           "uniform mat3 lambent_normal_matrix;\nuniform vec4 lambent_light;\n",
+                           "uniform mat3 lambent_normal_matrix;\nuniform vec4 lambent_light;\n"
+                           "uniform mat4 lambent_model;\nuniform mat3 lambent_world_normal_matrix;\n"
+                           "uniform vec4 lambent_world_light;\nuniform vec3 lambent_world_eye;\n",
                            modern ? "in" : "attribute", modern ? "in" : "attribute");
     for (int i = 0; i < d->count; i++)
         if (d->items[i].kind == DECLARED_INPUT)
@@ -66,17 +76,17 @@ char *default_vertex_shader(const struct shader_interface *r, char unknown[256],
                            "void main()\n{\n    vec4 p = lambent_model_view * vec4(lambent_position, 1.0);\n"
                            "    vec3 n = normalize(lambent_normal_matrix * lambent_normal);\n"
                            "    vec3 l = lambent_light.xyz - lambent_light.w * p.xyz;\n"
+                           "    vec4 world_p = lambent_model * vec4(lambent_position, 1.0);\n"
+                           "    vec3 world_n = normalize(lambent_world_normal_matrix * lambent_normal);\n"
                            "    gl_Position = lambent_projection * p;\n");
     for (int i = 0; i < d->count; i++) {
         const struct declaration *item = &d->items[i];
         if (item->kind != DECLARED_INPUT)
             continue;
         const struct contract_varying *v = contract_varying(r->contract, item->name);
-        if (!v && strlen(unknown) < 150)
+        if (!v && declarations_uses(d, item->name) && strlen(unknown) < 150)
             snprintf(unknown + strlen(unknown), 256 - strlen(unknown), "%s%.60s", unknown[0] ? ", " : "", item->name);
-        const char *w = "0.0", *from = v ? source_of(v->semantic, &w) : "vec3(0.0)";
-        if (v && v->semantic == VARYING_POSITION && v->space == LAM_FRAME_OBJECT)
-            from = "lambent_position";
+        const char *w = "0.0", *from = v ? source_of(v, &w) : "vec3(0.0)";
         bool four = strcmp(item->type, "vec4") == 0;
         const char *cut = strcmp(item->type, "vec2") == 0 ? ".xy" : strcmp(item->type, "float") == 0 ? ".x" : "";
         if (four)

@@ -10,7 +10,7 @@
 
 #include "fail.h"
 
-enum { MAX_BLOCKS = 8, MAX_BLOCK_BYTES = 65536 };
+enum { MAX_BLOCKS = 8, MAX_BLOCK_BYTES = 65536, MAX_TEXTURES = 16 };
 
 // The types of uniforms: matrices have several columns, vectors one of several rows.
 static const struct glsl_type {
@@ -20,7 +20,8 @@ static const struct glsl_type {
 } types[] = {
     {GL_FLOAT, "float", 1, 1},     {GL_INT, "int", 1, 1},         {GL_BOOL, "bool", 1, 1},
     {GL_FLOAT_VEC2, "vec2", 1, 2}, {GL_FLOAT_VEC3, "vec3", 1, 3}, {GL_FLOAT_VEC4, "vec4", 1, 4},
-    {GL_FLOAT_MAT3, "mat3", 3, 3}, {GL_FLOAT_MAT4, "mat4", 4, 4}, {0, "another type", 0, 0},
+    {GL_FLOAT_MAT3, "mat3", 3, 3}, {GL_FLOAT_MAT4, "mat4", 4, 4}, {GL_SAMPLER_2D, "sampler2D", 1, 4},
+    {0, "another type", 0, 0},
 };
 
 // An active uniform with a name of the contract, one element of it.
@@ -30,6 +31,7 @@ struct uniform_binding {
     const struct glsl_type *type;
     GLint location; // −1: in a block
     int block, offset, matrix_stride;
+    GLuint texture; // of a sampler; 0: not made yet
 };
 
 struct shader_run {
@@ -62,9 +64,13 @@ static const struct glsl_type *type_of(GLenum type)
     return t;
 }
 
-// Whether a uniform's type can hold the contract's: matrices fit matrices, vectors vectors, scalars scalars.
-static bool type_fits(const struct glsl_type *t, const char *contract_type)
+// Whether a uniform's type can hold the contract's: matrices fit matrices, vectors vectors, scalars scalars. A colour may
+// come as a texture.
+static bool type_fits(const struct glsl_type *t, const struct contract_name *name)
 {
+    const char *contract_type = name->type;
+    if (t->type == GL_SAMPLER_2D)
+        return (role_of(name->semantic)->types & TYPE_SAMPLER) != 0;
     if (strncmp(contract_type, "mat", 3) == 0)
         return t->columns > 1;
     if (strncmp(contract_type, "vec", 3) == 0)
@@ -91,7 +97,7 @@ static void add_binding(struct shader_run *run, GLuint number, const char *name,
         report_unknown(&run->drawn, name);
         return;
     }
-    if (!type_fits(type_of(type), known->type)) {
+    if (!type_fits(type_of(type), known)) {
         if (run->drawn.types_count < MAX_UNKNOWN_NAMES)
             snprintf(run->drawn.types[run->drawn.types_count++], sizeof run->drawn.types[0],
                      "uniform %s %.40s should be of type %s", type_of(type)->name, name, known->type);
@@ -118,8 +124,9 @@ static void add_binding(struct shader_run *run, GLuint number, const char *name,
                                      .location = block < 0 ? gl->GetUniformLocation(run->program, element) : -1,
                                      .offset = offset + i * array_stride,
                                      .matrix_stride = stride};
-        if (strchr(name, '[') && known->group >= 0 && light + i + 1 > run->drawn.light_count)
-            run->drawn.light_count = light + i + 1;
+        int *count = known->group >= 0 ? &run->drawn.group_counts[known->group] : NULL;
+        if (count && strchr(name, '[') && light + i + 1 > *count)
+            *count = light + i + 1;
     }
 }
 
@@ -188,6 +195,19 @@ static void convert_value(const struct glsl_type *type, const struct uniform_val
         memcpy(out + c * type->rows, value->v + 4 * c, (size_t)type->rows * sizeof *out);
 }
 
+// A texture of one texel.
+static void set_sampler(const struct gl *gl, struct uniform_binding *w, int unit, const float *v)
+{
+    if (!w->texture)
+        gl->GenTextures(1, &w->texture);
+    gl->ActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+    gl->BindTexture(GL_TEXTURE_2D, w->texture);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 1, 1, 0, GL_RGBA, GL_FLOAT, v);
+    gl->Uniform1i(w->location, unit);
+}
+
 static void set_uniform(const struct gl *gl, const struct uniform_binding *w, const float *v)
 {
     GLint whole = (GLint)v[0];
@@ -248,13 +268,19 @@ static bool set_values(struct shader_run *run, const struct reference_scene *ref
     unsigned char *bytes = calloc(MAX_BLOCKS, MAX_BLOCK_BYTES);
     if (!bytes)
         return fail_memory(error, MAX_BLOCKS * MAX_BLOCK_BYTES);
+    int unit = 0;
     for (int i = 0; i < run->binding_count; i++) {
-        const struct uniform_binding *w = &run->bindings[i];
+        struct uniform_binding *w = &run->bindings[i];
         lam_light_frame space = w->name->group >= 0 && frame != LAM_FRAME_WORLD ? frame : w->name->space;
-        struct uniform_value value = uniform_semantic_value(w->name->semantic, w->light, space, reference_scene, &m);
+        int light = w->name->group < 0
+                        ? w->light
+                        : shader_interface_light(&run->interface, reference_scene, w->name->group, w->light);
+        struct uniform_value value = uniform_semantic_value(w->name->semantic, light, space, reference_scene, &m);
         float shaped[16];
         convert_value(w->type, &value, shaped);
-        if (w->block < 0)
+        if (w->type->type == GL_SAMPLER_2D && unit < MAX_TEXTURES)
+            set_sampler(gl, w, unit++, shaped);
+        else if (w->block < 0)
             set_uniform(gl, w, shaped);
         else if (w->block < MAX_BLOCKS)
             store_in_block(w, shaped, bytes + (size_t)w->block * MAX_BLOCK_BYTES, run->block_bytes[w->block]);
@@ -353,16 +379,12 @@ static bool draw_scenes(struct shader_run *run, enum gl_profile profile, float *
     if (!find_uniforms(run, error))
         return false;
     find_attributes(run);
-    run->drawn.has_list = run->drawn.light_count > 0 || run->interface.light_count > 0;
-    if (run->interface.light_count > run->drawn.light_count)
-        run->drawn.light_count = run->interface.light_count;
-    int lights = run->drawn.has_list ? run->drawn.light_count : 1;
+    shader_interface_set_counts(&run->interface, run->drawn.group_counts);
     size_t at = 0, each = 4 * (size_t)run->request.size * (size_t)run->request.size;
     double limit = time_limit_s(run->request.size);
     for (int i = 0; i < reference_scene_count; i++)
         if (run->request.scenes >> i & 1) {
-            struct reference_scene reference_scene =
-                shader_interface_scene(&run->interface, &reference_scenes[i], lights);
+            struct reference_scene reference_scene = shader_interface_scene(&run->interface, &reference_scenes[i]);
             if (!set_values(run, &reference_scene, profile, error))
                 return false;
             double taken = 0;
@@ -395,8 +417,8 @@ bool lam_check_draw(const void *request, size_t size, const char *gl_device, lam
     bool ok = draw_request_read(request, size, &run->request, error);
     const char *text = run->request.contract;
     lam_check_contract *contract = ok ? lam_check_contract_read(text, strlen(text), NULL, error) : NULL;
-    ok = contract &&
-         shader_interface_make(&run->interface, run->request.vertex, run->request.fragment, &contract->contract, error);
+    struct complete_texts texts = {.vertex = run->request.vertex, .fragment = run->request.fragment};
+    ok = contract && shader_interface_make(&run->interface, &texts, &contract->contract, error);
     bool open = false;
     if (ok) {
         enum gl_profile profile = shader_dialect_profile(&run->interface);
@@ -420,6 +442,8 @@ bool lam_check_draw(const void *request, size_t size, const char *gl_device, lam
         if (run->program)
             gl->DeleteProgram(run->program);
         gl->DeleteBuffers(MAX_BLOCKS, run->blocks);
+        for (int i = 0; i < run->binding_count; i++)
+            gl->DeleteTextures(1, &run->bindings[i].texture); // ignores 0
         offscreen_close(&run->offscreen);
     }
     shader_interface_free(&run->interface);

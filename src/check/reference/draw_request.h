@@ -17,9 +17,8 @@ enum draw_state { DRAWN_PICTURES, DRAWN_REFUSED, DRAWN_REFUSED_LINK, DRAWN_SLOW 
 enum { MAX_UNKNOWN_NAMES = 16 };
 
 struct draw_result {
-    int state;       // enum draw_state
-    int light_count; // light capacity of the shaders; 0: one light without a list
-    bool has_list;
+    int state;                          // enum draw_state
+    int group_counts[MAX_LIGHT_GROUPS]; // of each list of lights: how many the driver knows
     char driver[128];
     bool refused_vertex, refused_fragment; // DRAWN_REFUSED: which do not compile
     char log[4096];                        // of the vertex shader, or the linker; DRAWN_SLOW: the scene's name

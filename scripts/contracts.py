@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+"""contracts.py LAMBENT [--check]: writes docs/check/contracts.md: for each contract that is built in, its names, a correct program
+(tests/check), and what `lambent check` says of the course's own (tests/check/lectures). Without OpenGL the page stays as it is.
+
+--check: compares the page with what would be written, the reports apart, and fails on a difference."""
+import json
+import os
+import re
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+PAGE = os.path.join(ROOT, "docs", "check", "contracts.md")
+SHADERS = os.path.join("tests", "check")
+sys.path.insert(0, os.path.join(ROOT, SHADERS))
+from lectures import LECTURES  # noqa: E402
+
+# The correct program of each contract that the page shows. Lambent's own is printed by `lambent shader`.
+CORRECT = {"pittsburgh": "pittsburgh", "oregon": "oregon", "nyu": "nyu", "learnopengl": "learnopengl", "angel": "angel", "mdn": "mdn",
+           "threejs": "threejs"}
+SPACES = {"eye": "eye space", "world": "world space", "object": "the model's space"}
+REPORT = "`lambent check %s.frag --vertex %s.vert` reports:"
+
+
+def read(*path):
+    with open(os.path.join(ROOT, *path), encoding="utf-8") as file:
+        return file.read()
+
+
+def indented(text):
+    return "".join("    " + line if line.strip() else line for line in text.rstrip().splitlines(keepends=True)) + "\n"
+
+
+def report(program, name):
+    """The report of a program of tests/check, without the driver's name."""
+    done = subprocess.run([program, "check", name + ".frag", "--vertex", name + ".vert"], cwd=os.path.join(ROOT, SHADERS),
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    if done.returncode == 3:
+        return None
+    if done.returncode not in (0, 6):
+        sys.exit("contracts.py: %s: %s" % (name, done.stderr.decode()))
+    text = re.sub(r"(?m)^(  contract .*shader); .*$", r"\1", done.stdout.decode())
+    return text.replace("lectures/", "") if done.returncode else "".join(text.splitlines(keepends=True)[:2])
+
+
+def meanings(program):
+    schema = json.loads(subprocess.run([program, "generate", "contract-schema"], stdout=subprocess.PIPE, check=True).stdout)
+    return {role["const"]: role["description"] for kind in ("attribute", "uniform", "constant")
+            for role in schema["$defs"][kind + "_role"]["oneOf"]}
+
+
+def names_table(contract, meaning):
+    """A row for each name; the members of structs of lights that repeat an earlier one's are told with it."""
+    yield "| | name | type | meaning |"
+    yield "|---|---|---|---|"
+    groups = {}
+    for kind in ("attributes", "uniforms"):
+        for name, row in contract.get(kind, {}).items():
+            if row["role"] == "zero":
+                continue
+            text = row.get("meaning", meaning[row["role"]])
+            place = row.get("space", contract["space"]) if row["role"] in IN_SPACE else None
+            text += "; in " + SPACES[place] if place and SPACES[place] not in text else ""
+            own = "`%s`" % name + "".join(", `%s`" % other for other in row.get("also", ()))
+            before, _, member = name.rpartition(".")
+            same = groups.setdefault((member, text, row["type"]), []) if before else []
+            same.append([kind[:-1], own, row["type"], text])
+            if len(same) == 1:
+                yield same[0]
+            else:
+                same[0][1] += ", `%s`" % name
+
+
+IN_SPACE = {"normal_matrix", "eye_position", "light_position", "light_x", "light_y", "light_z", "light_direction", "light_travel"}
+
+
+def facts(contract):
+    yield "GLSL " + ", ".join(contract["glsl"])
+    yield "lit in " + SPACES[contract["space"]]
+    yield "terms: " + ", ".join(contract["terms"])
+    if "specular" in contract["terms"]:
+        yield "highlight: " + {"phong": "Phong's", "blinn-phong": "Blinn–Phong's"}[contract["highlight"]]
+
+
+def value(x):
+    words = {"diffuse": "the surface's", "light": "the light's"}
+    return ", ".join("%g" % part for part in x) if isinstance(x, list) else words[x] if x in words else "%g" % x
+
+
+def files(name):
+    return ", ".join("[%s.%s](../../tests/check/%s.%s)" % (os.path.basename(name), ending, name, ending) for ending in ("vert", "frag"))
+
+
+def section(program, contract, meaning):
+    name = contract["name"]
+    yield "## `%s`" % name
+    yield ""
+    yield "%s. %s." % (contract["title"], "; ".join(facts(contract)))
+    yield ""
+    rows = list(names_table(contract, meaning))
+    yield from (row if isinstance(row, str) else "| %s | %s | %s | %s |" % tuple(row) for row in rows)
+    built_ins = contract.get("built_ins")
+    if built_ins:
+        yield ""
+        yield "Built in: " + ", ".join("`%s`" % word for word in built_ins) + "."
+    fixed = contract.get("undeclared", {})
+    if fixed:
+        yield ""
+        yield "Where a shader has no name for it: " + "; ".join("`%s` %s" % (key, value(x)) for key, x in fixed.items()) + "."
+    numbers = contract.get("constants", {})
+    if numbers:
+        yield "Numbers in the text that take their place: " + ", ".join("`%s`" % key for key in numbers) + "."
+    correct = CORRECT.get(name)
+    if correct:
+        yield ""
+        yield "A correct program (%s), its vertex shader:" % files(correct)
+        yield ""
+        yield indented(read(SHADERS, correct + ".vert"))
+        yield "Its fragment shader:"
+        yield ""
+        yield indented(read(SHADERS, correct + ".frag"))
+        yield from reported(program, correct)
+    if contract.get("printed"):
+        yield ""
+        yield "[Shaders](../shaders.md) are printed by `lambent shader`, and are correct programs of this contract.\n"
+    for lecture, course, title, _, _ in LECTURES:
+        if course == name:
+            yield "The course's own, %s (%s)." % (title, files("lectures/" + lecture))
+            yield from reported(program, "lectures/" + lecture)
+
+
+def reported(program, name):
+    text = report(program, name) if program else ""
+    if text is None:
+        sys.exit(0)  # no OpenGL
+    yield REPORT % (name, name)
+    yield ""
+    yield indented(text) if program else ""
+
+
+def page(program, runs):
+    meaning = meanings(program)
+    yield """# The contracts of `lambent check`
+
+Made by `scripts/contracts.py` (`make docs`). For each contract that is built in: the names that it expects, a correct program, and what
+the check finds in the course's own, written anew with the same mistakes. [Checking a shader](../check.md) explains the reports,
+[contract files](contract-file.md) how to write a contract of your own.
+"""
+    order = re.findall(r'\{"(\w+)", text_\w+_json\}', read("src", "check", "contract", "contract.c"))
+    for name in order:
+        yield "\n".join(section(program if runs else None, json.loads(read("src", "check", "contracts", name + ".json")), meaning)) + "\n"
+
+
+def without_reports(text):
+    """The page without the indented blocks that follow a report's mark."""
+    return re.sub(r"(?m)(^`lambent check .*` reports:\n)(?:(?:    .*)?\n)*", r"\1", text)
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    if "--check" in sys.argv:
+        expected = re.sub(r"\n{3,}", "\n\n", "\n".join(page(program, False)))
+        if without_reports(expected) != without_reports(read("docs", "check", "contracts.md")):
+            sys.exit("docs/check/contracts.md is not up to date: scripts/contracts.py %s" % sys.argv[1])
+        return
+    text = re.sub(r"\n{3,}", "\n\n", "\n".join(page(program, True)))
+    with open(PAGE, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,91 @@
+// prefix.c: adds a contract's prefix to the texts of a program.
+#include "prefix.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fail.h"
+
+static bool shares_a_name(const struct declarations *a, const struct declarations *b)
+{
+    for (int i = 0; i < a->count; i++)
+        for (int k = 0; k < b->count; k++)
+            if (strcmp(a->items[i].name, b->items[k].name) == 0)
+                return true;
+    return false;
+}
+
+// Whether a text is one that the engine completes.
+static bool lacks_prefix(const char *prefix, const char *text, bool vertex, bool *lacks, lam_error *error)
+{
+    struct declarations own = {0}, before = {0};
+    bool ok = declarations_read(&own, text, vertex, error) && declarations_read(&before, prefix, vertex, error);
+    *lacks = ok && own.version == 0 && !shares_a_name(&own, &before);
+    declarations_free(&own);
+    declarations_free(&before);
+    return ok;
+}
+
+static int count_lines(const char *text)
+{
+    int count = 1;
+    for (; *text; text++)
+        count += *text == '\n';
+    return count;
+}
+
+// The prefix, a line that restores the text's own numbering, and the text, from malloc.
+static char *join(const char *prefix, const char *text)
+{
+    size_t size = strlen(prefix) + strlen(text) + 20;
+    char *out = malloc(size);
+    if (strncmp(text, "\xef\xbb\xbf", 3) == 0) // a byte order mark may stand only at the beginning
+        text += 3;
+    // The number of the next line, which in older versions of GLSL is the one after.
+    bool modern = strncmp(prefix, "#version 3", 10) == 0;
+    if (out)
+        snprintf(out, size, "%s\n#line %d\n%s", prefix, modern ? 1 : 0, text);
+    return out;
+}
+
+bool prefix_complete(const struct contract *contract, const char *vertex, const char *fragment,
+                     struct complete_texts *out, lam_error *error)
+{
+    *out = (struct complete_texts){.vertex = vertex, .fragment = fragment};
+    bool vertex_lacks = true, fragment_lacks = true;
+    if (!contract->prefix_fragment)
+        return true;
+    if ((vertex && !lacks_prefix(contract->prefix_vertex, vertex, true, &vertex_lacks, error)) ||
+        !lacks_prefix(contract->prefix_fragment, fragment, false, &fragment_lacks, error))
+        return false;
+    if (!vertex_lacks || !fragment_lacks)
+        return true;
+    out->fragment = out->owned[1] = join(contract->prefix_fragment, fragment);
+    out->lines[1] = count_lines(contract->prefix_fragment) + 1;
+    if (vertex) {
+        out->vertex = out->owned[0] = join(contract->prefix_vertex, vertex);
+        out->lines[0] = count_lines(contract->prefix_vertex) + 1;
+    }
+    return (out->fragment && (!vertex || out->vertex)) || fail_memory(error, strlen(fragment));
+}
+
+void prefix_free(struct complete_texts *texts)
+{
+    free(texts->owned[0]);
+    free(texts->owned[1]);
+    *texts = (struct complete_texts){0};
+}
+
+bool prefix_read(const struct complete_texts *texts, bool vertex, struct declarations *out, lam_error *error)
+{
+    const char *text = vertex ? texts->vertex : texts->fragment;
+    int lines = texts->lines[vertex ? 0 : 1];
+    if (!declarations_read(out, text ? text : "", vertex, error))
+        return false;
+    for (int i = 0; i < out->word_count; i++)
+        out->words[i].line = out->words[i].line > lines ? out->words[i].line - lines : 0;
+    for (int i = 0; i < out->count; i++)
+        out->items[i].line = out->items[i].line > lines ? out->items[i].line - lines : 0;
+    return true;
+}

@@ -1,0 +1,24 @@
+// prefix.h: texts that an engine completes before it compiles them (three.js' ShaderMaterial).
+#ifndef PREFIX_H
+#define PREFIX_H
+
+#include "contract.h"
+
+// The texts of a program as the contract's engine compiles them.
+struct complete_texts {
+    const char *vertex, *fragment; // `vertex` NULL: none is given
+    char *owned[2];                // those that were written for it
+    int lines[2];                  // what stands before the texts: this many lines
+};
+
+// Completes the texts of a program for a contract: its prefix is added where the texts have no version line and declare
+// none of the names that the prefix declares; otherwise they stay as they are. `vertex` may be NULL. False: out of
+// memory. The caller frees `out`.
+bool prefix_complete(const struct contract *contract, const char *vertex, const char *fragment,
+                     struct complete_texts *out, lam_error *error);
+void prefix_free(struct complete_texts *texts);
+
+// Reads the declarations of such a text, with the lines of the text itself; what the prefix declares has line 0.
+bool prefix_read(const struct complete_texts *texts, bool vertex, struct declarations *out, lam_error *error);
+
+#endif

@@ -1,0 +1,136 @@
+// recognise.c: compares the names of a program with those of each contract.
+#include "recognise.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "name_similarity.h"
+
+// How well a declared name fits: its own name of the contract more than another accepted one, another type a little less.
+static int points_of(const struct contract *contract, const struct declaration *item, bool attribute)
+{
+    const struct contract_name *n = contract_find(contract, item->name, attribute, NULL);
+    if (!n)
+        return -1;
+    bool other = strcmp(n->name, item->name) != 0;
+    return 8 - (other ? 1 : 0) - (strcmp(n->type, item->type) != 0 ? 2 : 0);
+}
+
+static int score(const struct contract *contract, const struct declarations *d, bool vertex)
+{
+    int points = 0;
+    for (int i = 0; i < d->count; i++) {
+        const struct declaration *item = &d->items[i];
+        const char *member = strrchr(item->name, '.');
+        bool used = declarations_uses(d, member ? member + 1 : item->name) || member;
+        if (!used || (item->kind != DECLARED_UNIFORM && item->kind != DECLARED_INPUT))
+            continue;
+        if (item->kind == DECLARED_UNIFORM || vertex)
+            points += points_of(contract, item, item->kind != DECLARED_UNIFORM);
+        else if (contract_varying(contract, item->name))
+            points += strlen(item->name) > 1 ? 4 : 1;
+    }
+    for (const char *const *word = contract->built_ins; *word; word++)
+        points += 8 * declarations_uses(d, *word);
+    return points;
+}
+
+bool contract_recognise(lam_check_contract *const *contracts, int count, const char *vertex, const char *fragment,
+                        const struct contract **out, lam_error *error)
+{
+    int best = 0;
+    bool ok = true;
+    *out = NULL;
+    for (int i = 0; ok && i < count; i++) {
+        const struct contract *contract = &contracts[i]->contract;
+        struct complete_texts texts;
+        struct declarations sides[2] = {{0}};
+        ok = prefix_complete(contract, vertex, fragment, &texts, error) &&
+             prefix_read(&texts, true, &sides[0], error) && prefix_read(&texts, false, &sides[1], error);
+        int points = ok ? score(contract, &sides[0], true) + score(contract, &sides[1], false) : 0;
+        if (points > best) {
+            best = points;
+            *out = contract;
+        }
+        declarations_free(&sides[0]);
+        declarations_free(&sides[1]);
+        prefix_free(&texts);
+    }
+    return ok;
+}
+
+// --- what does not fit
+
+static const struct declaration *find_uniform_or_attribute(const struct declarations *d, const char *name, bool vertex)
+{
+    size_t length = strcspn(name, "[");
+    for (int i = 0; i < d->count; i++) {
+        bool wanted = d->items[i].kind == DECLARED_UNIFORM || (vertex && d->items[i].kind == DECLARED_INPUT);
+        if (wanted && strncmp(d->items[i].name, name, length) == 0 && strcspn(d->items[i].name, "[") == length)
+            return &d->items[i];
+    }
+    return NULL;
+}
+
+static bool is_declared(const struct contract *contract, const struct contract_name *row,
+                        const struct declarations *vertex, const struct declarations *fragment)
+{
+    const struct declarations *sides[] = {vertex, fragment};
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; i < sides[s]->count; i++)
+            if (sides[s]->items[i].kind != DECLARED_OUTPUT &&
+                contract_find(contract, sides[s]->items[i].name, row->attribute, NULL) == row)
+                return true;
+    return false;
+}
+
+static const struct declaration *find_either(const struct declarations *vertex, const struct declarations *fragment,
+                                             const char *name)
+{
+    const struct declaration *item = find_uniform_or_attribute(vertex, name, true);
+    return item ? item : find_uniform_or_attribute(fragment, name, false);
+}
+
+// The name of the contract that an unknown one probably stands for: of the same kind and a similar type, and not declared
+// under its own name. NULL: none.
+static const struct contract_name *meant_by(const struct contract *contract, const struct declarations *vertex,
+                                            const struct declarations *fragment, const struct declaration *item)
+{
+    const struct contract_name *found = NULL;
+    double best = 0;
+    for (const struct contract_name *n = contract->names; item && n->name; n++) {
+        double similarity = name_similarity(item->name, n->name);
+        if (n->attribute == (item->kind == DECLARED_INPUT) && strncmp(n->type, item->type, 3) == 0 &&
+            similarity > best && similarity >= 0.5 && !is_declared(contract, n, vertex, fragment)) {
+            best = similarity;
+            found = n;
+        }
+    }
+    return found;
+}
+
+bool contract_is_misspelt(const struct contract *contract, const struct declarations *vertex,
+                          const struct declarations *fragment, const char *name)
+{
+    const struct declaration *item = find_either(vertex, fragment, name);
+    const struct contract_name *meant = meant_by(contract, vertex, fragment, item);
+    return meant && strcmp(meant->type, item->type) == 0 && name_similarity(item->name, meant->name) > 0.6;
+}
+
+void contract_describe_unknown(const struct contract *contract, const struct declarations *vertex,
+                               const struct declarations *fragment, const char *const *unknown, int count, char *out,
+                               size_t capacity)
+{
+    size_t at = 0;
+    out[0] = 0;
+    for (int i = 0; i < count && at + 120 < capacity; i++) {
+        const struct declaration *item = find_either(vertex, fragment, unknown[i]);
+        const struct contract_name *meant = meant_by(contract, vertex, fragment, item);
+        at += (size_t)snprintf(out + at, capacity - at, "%s'%.40s'", i ? ", " : "", unknown[i]);
+        if (item)
+            at += (size_t)snprintf(out + at, capacity - at, " (%s%s%s)", item->type, meant ? "; there: " : "",
+                                   meant ? meant->name : "");
+    }
+    if (at + 120 >= capacity)
+        snprintf(out + at, capacity - at, " ...");
+}

@@ -1,0 +1,22 @@
+"""lectures.py: programs of tests/check/lectures, which make the mistakes that the courses' own programs print, and what is found in them.
+
+(name, contract, title, verdict, mistakes or parts of hints): `docs/check/contracts.md` is made of the same rows (scripts/contracts.py).
+"""
+
+LECTURES = [
+    ("pittsburgh-printed", "pittsburgh", "as printed: lit per fragment, after the projection", "refused",
+     ["'eye_position' is not declared, but 'eye_point' is", "'gl_position' should be gl_Position", "write `void main()`",
+      "'half' is a reserved word", "write uniform vec4 ambient_product"]),
+    ("pittsburgh-compiled", "pittsburgh", "the same, mended until it compiles", "differs", ["clip-space-four"]),
+    ("oregon-printed", "oregon", "as printed: flat and smooth values side by side", "refused", ["did you mean `vec3 vNs`"]),
+    ("oregon-compiled", "oregon", "the same, mended until it compiles", "differs", ["no-gate"]),
+    ("nyu-printed", "nyu", "as printed: several point lights", "refused", ["'attenuation' is not declared"]),
+    ("nyu-compiled", "nyu", "the same, mended until it compiles", "differs", ["normal-with-w"]),
+    ("nyu-normals", "nyu", "the same with the normals mended too", "differs", ["no-gate", "specular-not-attenuated"]),
+    ("learnopengl-printed", "learnopengl", "as printed in \"Basic Lighting\"", "differs", ["no-gate", "normal-unit-late"]),
+    ("learnopengl-casters", "learnopengl", "as printed in \"Light casters\": a point light", "differs",
+     ["ambient-attenuated", "no-gate", "normal-unit-late"]),
+    ("angel-printed", "angel", "as printed: lit per vertex", "differs", ["direction-as-point", "normal-by-model-view"]),
+    ("mdn-printed", "mdn", "as printed", "differs", ["normal-never-unit"]),
+    ("threejs-printed", "threejs", "as tutorials print it: a highlight by ShaderMaterial", "differs", ["no-gate", "normal-eye-space"]),
+]

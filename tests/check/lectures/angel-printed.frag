@@ -1,0 +1,3 @@
+varying vec4 color;
+
+void main() { gl_FragColor = color; }

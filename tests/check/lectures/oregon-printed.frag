@@ -1,0 +1,22 @@
+#version 330 compatibility
+// With the mistakes that the Oregon lecture prints: a blank in the wrong place, a name that is not declared, no gate.
+uniform float uKa, uKd, uKs;
+uniform vec3 uColor, uSpecularColor;
+uniform float uShininess;
+uniform bool uFlat;
+
+flat in vec3 vNf, vLf, vEf;
+in vec3v Ns;
+in vec3v Ls;
+in vec3v Es;
+
+void main()
+{
+    vec3 n = normalize(uFlat ? vNf : vNs);
+    vec3 l = normalize(uFlat ? vLf : vLs);
+    vec3 e = normalize(uFlat ? vEf : vEs);
+    diffuse = max(dot(n, l), 0.0) * uColor;
+    vec3 r = normalize(reflect(-l, n));
+    float s = pow(max(dot(e, r), 0.0), uShininess);
+    gl_FragColor = vec4(uKa * uColor + uKd * diffuse + uKs * s * uSpecularColor, 1.0);
+}

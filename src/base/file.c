@@ -190,6 +190,15 @@ static const char *kind_of(mode_t mode)
                                             : NULL;
 }
 
+bool file_check_regular(const char *path, lam_error *error)
+{
+    struct stat about;
+    if (stat(path, &about) != 0)
+        return fail_system(error, LAM_CANNOT_READ, path, "open");
+    const char *kind = kind_of(about.st_mode);
+    return !kind || fail(error, LAM_CANNOT_READ, "%s: %s", path, kind);
+}
+
 // Opens a regular file; −1: an error. What is not one is not even opened. `shown` NULL: the user's own path.
 static int open_regular(const char *path, const char *shown, struct stat *about, lam_error *error)
 {

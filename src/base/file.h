@@ -28,6 +28,9 @@ bool file_read(const char *path, struct pool *pool, struct call_control *call, s
 bool file_read_named(const char *path, const char *shown, struct pool *pool, struct call_control *call,
                      struct file_bytes *out, lam_error *error);
 
+// Whether a path that another library opens leads to a regular file; false: LAM_CANNOT_READ.
+bool file_check_regular(const char *path, lam_error *error);
+
 // The path after every link and ".." is followed, from malloc, if it lies in the folder ("": the current one) or below.
 // NULL: it does not (*outside is then true), or cannot be followed (errno).
 char *path_within(const char *path, const char *folder, bool *outside);

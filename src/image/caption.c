@@ -1,6 +1,7 @@
 // caption.c: words in pictures, by FreeType, which is opened (dlopen) with the first font and not before.
 #include "dynamic_library.h"
 #include "fail.h"
+#include "file.h"
 #include "pixels.h"
 
 #include <stdlib.h>
@@ -91,6 +92,7 @@ lam_font *lam_font_open(const char *path, lam_error *error)
         ok = fail(error, LAM_UNSUPPORTED, "text: no font is installed where fonts are looked for; " NEEDED);
     if (ok && access(path, R_OK) != 0)
         ok = fail(error, LAM_CANNOT_READ, "%s: the font is not there or cannot be read", path);
+    ok = ok && file_check_regular(path, error);
     if (ok && font->ft.init(&font->library) != 0)
         ok = fail(error, LAM_LIMIT, "text: FreeType did not start: memory is out");
     if (ok && font->ft.new_face(font->library, path, 0, &font->face) != 0)

@@ -45,6 +45,7 @@ class Models(Case):
             for words in ([name], ["sphere", "--environment", name], ["diff", name, name], ["lights", name], ["explain", name, "1,1"]):
                 with self.subTest(words):
                     self.one_sentence(self.bad(2, *words, says=says, timeout=10))
+            self.bad(2, "compare", "cube", "--sheet", "light", "-s", 16, "--font", name, "-o", "s.png", says=says.split(" (")[0], timeout=10)
         self.write("m.obj", b"mtllib pipe\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         self.assertIn(b"pipe: is a pipe, expected a regular file; its materials", self.good("m.obj", "-s", 8, "-o", "-", timeout=10).stderr)
         for scene in ({"file": "pipe"}, {"shape": "cube"}):

@@ -131,7 +131,7 @@ ROWS = [
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the lights", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the products", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("docs/formats.md", "more than {} times its own size from zero", constant("src/base/math/origin.h", "ORIGIN_RATIO")),
-    ("docs/formats.md", "| `Ns` | shininess, 0 to {}; none: {} |", code("src/import/obj/mtl.c", r"field->max : (\w+)f"), field("shininess")),
+    ("docs/formats.md", "| `Ns` | shininess, 0 to {}; none: {}. With exactly 0,", code("src/import/obj/mtl.c", r"field->max : (\w+)f"), field("shininess")),
     ("docs/check.md", "at most one pixel in {} differs by more than `--tolerance` ({} steps of 1/255)", PIXELS_OVER_CHECK, TOLERANCE),
     ("docs/check.md", "it exceeded `--stop-after` ({} seconds)", option("stop-after")),
     ("docs/lighting.md", "about {} hundred lines", counted("the hundreds of lines of lobes.h, lights.h and sum.h", lambda: round(sum(
@@ -192,7 +192,7 @@ class Sentences(Case):
 
 # Options whose default is not a value that can be given, with what stands there.
 NOT_VALUES = {"output", "color", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
-              "gl-device", "time-limit", "memory-limit", "show", "up", "reflection", "isa", "device", "repeat"}
+              "gl-device", "time-limit", "memory-limit", "show", "up", "reflection", "isa", "device", "repeat", "scene", "variant"}
 # What else to give so that the option matters, and another value of it.
 CONTEXT = {
     "size": ([], "64"), "samples": ([], "16"), "exposure": ([], "1"), "crease-angle": ([], "20"), "compress": ([], None),

@@ -225,7 +225,7 @@ def compare(folder, model, words, lights, drawn):
         if off > 2:
             far.append(((i % width, i // width), off))
     covered = sum(wanted[3::4]) // 255
-    assert covered > width * height // 5, "the picture is nearly empty"
+    assert covered > width * height // 10, "the picture is nearly empty"
     outside = []
     if far:
         mask = mask_of(folder, model, words, lights)

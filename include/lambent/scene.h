@@ -90,7 +90,12 @@ typedef struct lam_load_params {
     // glTF: true: extensions that the file requires and this version does not know are ignored, as are primitive restart
     // values among indices. false: LAM_UNSUPPORTED, LAM_CANNOT_READ.
     bool lenient;
-    LAM_RESERVED(13);
+    // glTF: the animation whose pose at `time_s` is shown, by its name or its number from 0. NULL: the pose that the file
+    // has without one.
+    const char *animation;
+    // Seconds; before the first and after the last key of a channel it has that key's values. Finite.
+    double time_s;
+    LAM_RESERVED(11);
 } lam_load_params;
 
 // Loads a model file into a new scene: its meshes, materials and lights, and an object for each mesh. Where everything is

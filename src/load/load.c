@@ -18,6 +18,8 @@ static bool check_params(const lam_load_params *params, const char *name, lam_er
     double crease = params->crease_angle_rad;
     if (!(crease >= 0 && crease <= 3.1415927))
         return fail(error, LAM_BAD_ARGUMENT, "%s: crease_angle_rad is %g, expected 0 to pi", name, crease);
+    if (!(params->time_s - params->time_s == 0))
+        return fail(error, LAM_BAD_ARGUMENT, "%s: time_s is not finite", name);
     if (params->threads < 0 || params->threads > 1024)
         return fail(error, LAM_BAD_ARGUMENT, "%s: threads is %d, expected 0 to 1024", name, params->threads);
     if ((unsigned)params->up >= LAM_UP_COUNT || (unsigned)params->color > LAM_COLOR_RAW ||
@@ -69,7 +71,10 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
         origin.path = arena_string(&scene->arena, source->path);
         origin.scene = arena_string(&scene->arena, params->scene);
         origin.variant = arena_string(&scene->arena, params->variant);
-        if (!origin.path || !origin.scene != !params->scene || !origin.variant != !params->variant)
+        origin.animation = arena_string(&scene->arena, params->animation);
+        origin.time_s = params->time_s;
+        if (!origin.path || !origin.scene != !params->scene || !origin.variant != !params->variant ||
+            !origin.animation != !params->animation)
             return call_memory_error(source->call, strlen(source->path), error);
     }
     if (!importer->is_scene_file && !scene_note_origin(scene, origin, 0, error))

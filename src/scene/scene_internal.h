@@ -35,7 +35,8 @@ struct scene_origin {
     double crease_angle_rad; // 0: the default
     bool field_tangents;     // the file's tangents were dropped
     // Of a glTF file, as in lam_load_params; NULL: the file's own choice.
-    const char *scene, *variant;
+    const char *scene, *variant, *animation;
+    double time_s;
     int first_mesh, mesh_count;
     int first_material, material_count;
     // Copies of the file's materials, objects and parts' materials, before any change by the program.

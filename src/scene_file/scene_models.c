@@ -66,6 +66,8 @@ static bool import_file(struct scene_reader *r, const struct model_wanted *wante
     params.crease_angle_rad = wanted->crease_angle_rad;
     params.scene = wanted->scene;
     params.variant = wanted->variant;
+    params.animation = wanted->animation;
+    params.time_s = wanted->time_s;
     struct import_source source = *r->source;
     source.name = file->shown;
     source.path = file->path;
@@ -123,7 +125,9 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
                                           .normals = wanted->normals,
                                           .crease_angle_rad = wanted->crease_angle_rad,
                                           .scene = wanted->scene,
-                                          .variant = wanted->variant};
+                                          .variant = wanted->variant,
+                                          .animation = wanted->animation,
+                                          .time_s = wanted->time_s};
     model->crease_angle_rad = wanted->crease_angle_rad;
     model->inner.arena = r->scene->arena;
     bool ok = (file ? import_file(r, wanted, file, model) : make_shape(r, wanted, model)) && complete(r, wanted, model);
@@ -142,8 +146,9 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
 static bool key_of(const struct model_wanted *wanted, const char *file, char key[KEY_SIZE])
 {
     const lam_shape_params *s = &wanted->segments;
-    int length = file ? snprintf(key, KEY_SIZE, "file %d %a %s\n%s\n%s", (int)wanted->normals, wanted->crease_angle_rad,
-                                 file, wanted->scene ? wanted->scene : "", wanted->variant ? wanted->variant : "")
+    int length = file ? snprintf(key, KEY_SIZE, "file %d %a %a %s\n%s\n%s\n%s", (int)wanted->normals,
+                                 wanted->crease_angle_rad, wanted->time_s, file, wanted->scene ? wanted->scene : "",
+                                 wanted->variant ? wanted->variant : "", wanted->animation ? wanted->animation : "")
                       : snprintf(key, KEY_SIZE, "shape %d %a %a %d %d %s", (int)wanted->normals,
                                  wanted->crease_angle_rad, s->radius, s->slices, s->stacks, wanted->shape);
     return length > 0 && length < KEY_SIZE;

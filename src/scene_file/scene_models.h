@@ -12,7 +12,8 @@ struct model_wanted {
     lam_normals normals;
     double crease_angle_rad; // 0: the default
     bool field_tangents;
-    const char *scene, *variant;     // of a glTF file, as in lam_load_params
+    const char *scene, *variant, *animation; // of a glTF file, as in lam_load_params
+    double time_s;
     const json_t *materials, *parts; // the object's changes of the model; NULL: none
 };
 

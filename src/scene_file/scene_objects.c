@@ -10,9 +10,10 @@
 #define EVERY_OBJECT                                                                                                   \
     "name", "transform", "material", "back_material", "two_sided", "cull", "tangents", "normals", "crease_angle"
 static const char *const shape_keys[] = {EVERY_OBJECT, "shape", "radius", "slices", "stacks", NULL};
-static const char *const file_keys[] = {EVERY_OBJECT, "file", "materials", "parts", "scene", "variant", NULL};
-static const char *const any_keys[] = {EVERY_OBJECT, "shape", "radius", "slices",  "stacks", "file",
-                                       "materials",  "parts", "scene",  "variant", NULL};
+static const char *const file_keys[] = {EVERY_OBJECT, "file",      "materials", "parts", "scene",
+                                        "variant",    "animation", "time",      NULL};
+static const char *const any_keys[] = {EVERY_OBJECT, "shape", "radius",  "slices",    "stacks", "file", "materials",
+                                       "parts",      "scene", "variant", "animation", "time",   NULL};
 
 // --- keys of all objects
 
@@ -151,7 +152,8 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
 
 static bool read_object(struct scene_reader *r, const struct place *place, const json_t *value)
 {
-    const char *shape = NULL, *file = NULL, *name = NULL, *inner = NULL, *variant = NULL;
+    const char *shape = NULL, *file = NULL, *name = NULL, *inner = NULL, *variant = NULL, *animation = NULL;
+    double time_s = 0;
     int normals = LAM_NORMALS_FILE, field = false;
     double crease_deg = -1;
     bool is_file = json_is_object(value) && json_object_get(value, "file");
@@ -164,7 +166,8 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
                                   : "has neither shape nor file, expected one of them");
     if (!take_text(r, place, value, "shape", &shape) || !take_text(r, place, value, "file", &file) ||
         !take_text(r, place, value, "name", &name) || !take_text(r, place, value, "scene", &inner) ||
-        !take_text(r, place, value, "variant", &variant) ||
+        !take_text(r, place, value, "variant", &variant) || !take_text(r, place, value, "animation", &animation) ||
+        !take_number(r, place, value, "time", -1e9, 1e9, &time_s) ||
         !take_word(r, place, value, "normals", normals_words, &normals) ||
         !take_number(r, place, value, "crease_angle", 0, 180, &crease_deg) ||
         !take_word(r, place, value, "tangents", tangent_words, &field))
@@ -181,6 +184,8 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
         .field_tangents = field,
         .scene = inner,
         .variant = variant,
+        .animation = animation,
+        .time_s = time_s,
         .materials = json_object_get(value, "materials"),
         .parts = json_object_get(value, "parts"),
     };

@@ -364,6 +364,10 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
         put(w, entry, "scene", json_string(origin->scene));
     if (origin->variant)
         put(w, entry, "variant", json_string(origin->variant));
+    if (origin->animation)
+        put(w, entry, "animation", json_string(origin->animation));
+    if (origin->time_s != 0)
+        put(w, entry, "time", number(origin->time_s));
     if (!is_identity(&change->transform))
         put(w, entry, "transform", list_of(w, &change->transform.m[0][0], 16));
     if (change->material >= 0)

@@ -68,6 +68,32 @@ class Gltf(Case):
                  says="option '--camera': found 'far', expected keys such as eye=2/1/4, or a camera of the file, which has 0 ('near'), 1")
         self.bad(1, "cube.obj", "--camera", "0", says="a camera of the file, which has none")
 
+    def test_animations(self):
+        """The square moves out of the picture's middle within two seconds; a scene file remembers the moment."""
+        keys = struct.pack("<2f", 0, 2) + struct.pack("<6f", 0, 0, 0, 20, 0, 0)
+        model = self.model(
+            accessors=[{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                       {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+                       {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR"},
+                       {"bufferView": 2, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "VEC3"}],
+            bufferViews=[{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12},
+                         {"buffer": 1, "byteLength": 32}],
+            buffers=[{"byteLength": 60, "uri": "data:;base64," + base64.b64encode(CORNERS).decode()},
+                     {"byteLength": 32, "uri": "data:;base64," + base64.b64encode(keys).decode()}],
+            animations=[{"name": "still", "channels": [], "samplers": []},
+                        {"name": "slide", "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+                         "samplers": [{"input": 2, "output": 3}]}])
+        self.assertEqual(self.middle(model, "--camera", FULL, "--time", "1"), (255, 0, 0))  # of the first animation
+        self.assertEqual(self.middle(model, "--camera", FULL, "--animation", "slide"), (255, 0, 0))
+        self.assertEqual(self.middle(model, "--camera", FULL, "--animation", "slide", "--time", "1"), (0, 0, 0))
+        self.assertEqual(self.middle(model, "--camera", FULL.replace("eye=0", "eye=10").replace("target=0", "target=10"),
+                                     "--animation", "1", "--time", "1", "--save-scene", "a.json"), (255, 0, 0))
+        first = (self.folder / "a.png").read_bytes()
+        self.given.add("a.json")
+        self.good("a.json", "-o", "a.png", "-q")
+        self.assertEqual((self.folder / "a.png").read_bytes(), first)
+        self.bad(1, model, "--animation", "fly", says="there is no animation 'fly'; expected one of 0 ('still'), 1 ('slide')")
+
     def test_required_extensions(self):
         model = self.model(extensionsRequired=["EXT_moonlight"], extensionsUsed=["EXT_moonlight"])
         self.bad(3, model, says=["extensionsRequired[0]", "EXT_moonlight"])

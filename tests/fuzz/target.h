@@ -13,9 +13,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 // Invariant for every input: a valid scene, or an error with a sentence. Memory and time are limited, so that inputs
 // with excessive cost are found.
-static inline void load_model(const uint8_t *data, size_t size, const char *name, lam_open_fn *open, void *user)
+static inline void load_model(const uint8_t *data, size_t size, const char *name, lam_open_fn *open, void *user,
+                              const char *animation)
 {
-    lam_load_params params = {.threads = 1, .open = open, .user = user};
+    lam_load_params params = {.threads = 1, .open = open, .user = user, .animation = animation};
     lam_control control = {.memory_limit_bytes = 256 << 20, .time_limit_s = 20};
     lam_error error = {0};
     lam_scene *scene = lam_scene_load_memory(data, size, name, &params, &control, &error);

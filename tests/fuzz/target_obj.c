@@ -30,6 +30,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const uint8_t *zero = size ? memchr(data, 0, size) : NULL;
     size_t model = zero ? (size_t)(zero - data) : size;
     struct input input = {.materials = data + model + (zero != NULL), .size = zero ? size - model - 1 : 0};
-    load_model(data, model, "fuzz.obj", open_materials, &input);
+    load_model(data, model, "fuzz.obj", open_materials, &input, NULL);
     return 0;
 }

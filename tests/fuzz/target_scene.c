@@ -23,6 +23,6 @@ static bool open_model(void *user, const char *name, struct lam_bytes *bytes, la
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    load_model(data, size, "fuzz.json", open_model, NULL);
+    load_model(data, size, "fuzz.json", open_model, NULL, NULL);
     return 0;
 }

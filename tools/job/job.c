@@ -146,6 +146,10 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
                                   .scene = o->model_scene,
                                   .variant = o->variant,
                                   .lenient = o->lenient,
+                                  .animation = o->animation  ? o->animation
+                                               : o->has_time ? "0"
+                                                             : NULL,
+                                  .time_s = o->time_s,
                                   .normals_when_drawn = draws_once(job)};
         job->scene = lam_scene_load(job->model, &params, &control, error);
         if (job->scene)
@@ -164,8 +168,11 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     scene_settings_apply(job);
     if (o->slices && lam_shape_find(job->model) < 0)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
-    if ((o->model_scene || o->variant || o->lenient) && strcmp(lam_scene_format(job->scene), "gltf") != 0)
-        lam_scene_add_warning(job->scene, "options '--scene', '--variant' and '--lenient' count for glTF files alone");
+    if ((o->model_scene || o->variant || o->animation || o->has_time || o->lenient) &&
+        strcmp(lam_scene_format(job->scene), "gltf") != 0)
+        lam_scene_add_warning(job->scene,
+                              "options '--scene', '--variant', '--animation', '--time' and '--lenient' count "
+                              "for glTF files alone");
     return true;
 }
 

@@ -29,8 +29,9 @@ struct options {
     const char *save_scene; // the scene file to write; NULL: none
 
     // Model files
-    const char *model_scene, *variant; // as written; NULL: the file's own choice
-    bool lenient;
+    const char *model_scene, *variant, *animation; // as written; NULL: the file's own choice
+    double time_s;                                 // valid if the flag below is set
+    bool has_time, lenient;
 
     // View
     int view;                          // lam_side

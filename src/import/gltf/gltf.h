@@ -3,7 +3,8 @@
 // The JSON text (gltf_json.c) of a .gltf, or of a .glb (gltf_container.c), describes buffers (gltf_buffers.c) and typed
 // arrays in them (gltf_accessors.c, gltf_numbers.c). Meshes are made of these (gltf_primitives.c, gltf_triangles.c),
 // and the tree of nodes places them (gltf_nodes.c, gltf_objects.c) beside lights and cameras (gltf_lights.c,
-// gltf_cameras.c).
+// gltf_cameras.c). An animation sets the nodes (gltf_animation.c) first; morph targets and skins (gltf_deform.c,
+// gltf_skins.c) give a mesh positions of its own.
 //
 // Every number of the file that says how much or which one is checked where it is read, and an error names its place:
 // "ship.gltf: meshes[3].primitives[0].attributes.POSITION: found 12, …". Section numbers are those of the specification,
@@ -48,8 +49,7 @@ struct gltf_accessor {
     int sparse_component;
     const uint8_t *sparse_indices, *sparse_values;
     // Converted when first used. NULL: not yet.
-    const float *floats;     // `width` of each element
-    bool finite;             // checked, or zeroed where they were not
+    const float *floats[2];  // `width` of each element; [0]: until the load ends, [1]: as long as the scene
     const uint32_t *indices; // one of each element
     uint32_t max_index;
     const void *colors[2]; // as a mesh has them; [1]: with an alpha of 1

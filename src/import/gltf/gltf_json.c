@@ -132,6 +132,19 @@ bool gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_
     return !value || json_numbers_of(&gltf->json, KEY_OF(place, key), value, count, count, out, NULL);
 }
 
+bool gltf_take_weights(struct gltf *gltf, const struct place *place, const json_t *object, double **out, size_t *count)
+{
+    const json_t *value = json_object_get(object, "weights");
+    *out = NULL;
+    *count = json_array_size(value);
+    if (!value || json_is_null(value))
+        return true;
+    *out = GLTF_ALLOC(gltf, *count, double);
+    if (!*out)
+        return gltf_no_memory(gltf, *count * sizeof **out);
+    return json_numbers_of(&gltf->json, KEY_OF(place, "weights"), value, 0, SIZE_MAX, *out, count);
+}
+
 const json_t *gltf_take_object(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                                bool *ok)
 {

@@ -28,6 +28,9 @@ bool gltf_index_of(struct gltf *gltf, const struct place *place, const json_t *v
 bool gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double *out);
 
+// The weights of morph targets; *out NULL: there are none.
+bool gltf_take_weights(struct gltf *gltf, const struct place *place, const json_t *object, double **out, size_t *count);
+
 // The key's value, which is an object (or a list, of objects alone); NULL where it is missing or, with *ok false, wrong.
 const json_t *gltf_take_object(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                                bool *ok);

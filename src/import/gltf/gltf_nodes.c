@@ -39,7 +39,8 @@ static bool read_node(struct gltf *gltf, const struct place *place, const json_t
         !gltf_take_numbers(gltf, place, object, "translation", 3, node->translation) ||
         !gltf_take_numbers(gltf, place, object, "rotation", 4, node->rotation) ||
         !gltf_take_numbers(gltf, place, object, "scale", 3, node->scale) ||
-        !json_take_bool(&gltf->json, here, visibility, "visible", &node->visible))
+        !json_take_bool(&gltf->json, here, visibility, "visible", &node->visible) ||
+        !gltf_take_weights(gltf, place, object, &node->weights, &node->weight_count))
         return false;
     gltf_unit_quaternion(node->rotation);
     const double *m = node->matrix;

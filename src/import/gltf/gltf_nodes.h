@@ -10,6 +10,8 @@ struct gltf_node {
     bool has_matrix;
     double matrix[16]; // column by column
     double translation[3], rotation[4], scale[3];
+    double *weights; // of morph targets; NULL: the mesh's
+    size_t weight_count;
     bool visible;   // KHR_node_visibility: of the node itself and all above it
     bool in_scene;  // of the scene that is drawn
     lam_mat4 world; // to the file's space

@@ -75,11 +75,6 @@ static void convert(const struct gltf_accessor *a, size_t first, size_t last, fl
 #undef EACH
 }
 
-void gltf_element(const struct gltf_accessor *accessor, size_t index, float *out)
-{
-    convert(accessor, index, index + 1, out);
-}
-
 // --- sparse accessors
 
 static uint32_t index_at(int component, const uint8_t *run, size_t i)
@@ -164,12 +159,10 @@ static bool check_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-static bool check_finite(struct gltf *gltf, const struct place *place, struct gltf_accessor *a, bool required)
+static bool check_finite(struct gltf *gltf, const struct place *place, const struct gltf_accessor *a, float *floats,
+                         bool required)
 {
-    struct conversion checking = {
-        .gltf = gltf, .place = place, .accessor = a, .out = (float *)(uintptr_t)a->floats, .required = required};
-    if (a->finite)
-        return true;
+    struct conversion checking = {.gltf = gltf, .place = place, .accessor = a, .out = floats, .required = required};
     if (a->component == GLTF_F32 &&
         !parallel_rows_run(gltf->source, parallel_rows_count(a->count), check_piece, &checking, gltf->json.error))
         return false;
@@ -179,7 +172,6 @@ static bool check_finite(struct gltf *gltf, const struct place *place, struct gl
         scene_warn(gltf->scene, "%s: %s: %u of its numbers are not finite and became 0", gltf->source->name, where,
                    checking.replaced);
     }
-    a->finite = true;
     return true;
 }
 
@@ -190,26 +182,40 @@ static bool in_place(const struct gltf_accessor *a, int component)
            (uintptr_t)a->data % 4 == 0;
 }
 
-const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gltf_accessor *a, bool required)
+static float *convert_all(struct gltf *gltf, const struct gltf_accessor *a, struct arena *arena)
 {
-    if (!a->floats && in_place(a, GLTF_F32)) {
-        a->floats = (const float *)(const void *)a->data;
-        gltf_buffer_keep(gltf, a->buffer);
-    } else if (!a->floats) {
-        size_t bytes = a->count * (size_t)a->width * sizeof(float);
-        struct conversion conversion = {.accessor = a, .out = arena_array(&gltf->scene->arena, bytes, 1)};
-        struct sparse_floats sparse = {a, conversion.out};
-        if (!conversion.out) {
-            gltf_no_memory(gltf, bytes);
-            return NULL;
-        }
-        if (!parallel_rows_run(gltf->source, parallel_rows_count(a->count), convert_piece, &conversion,
-                               gltf->json.error) ||
-            !each_sparse(gltf, a, put_floats, &sparse))
-            return NULL;
-        a->floats = conversion.out;
+    size_t bytes = a->count * (size_t)a->width * sizeof(float);
+    struct conversion conversion = {.accessor = a, .out = arena_array(arena, bytes, 1)};
+    struct sparse_floats sparse = {a, conversion.out};
+    if (!conversion.out) {
+        gltf_no_memory(gltf, bytes);
+        return NULL;
     }
-    return check_finite(gltf, place, a, required) ? a->floats : NULL;
+    return parallel_rows_run(gltf->source, parallel_rows_count(a->count), convert_piece, &conversion,
+                             gltf->json.error) &&
+                   each_sparse(gltf, a, put_floats, &sparse)
+               ? conversion.out
+               : NULL;
+}
+
+const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gltf_accessor *a, int flags)
+{
+    bool keep = flags & GLTF_KEEP, own_bytes = in_place(a, GLTF_F32);
+    if (a->floats[1])
+        return a->floats[1];
+    if (!a->floats[0] || (keep && !own_bytes)) {
+        // The bytes of the file are this load's own, and may be cleaned where they are.
+        float *floats =
+            own_bytes ? (float *)(uintptr_t)a->data : convert_all(gltf, a, keep ? &gltf->scene->arena : gltf->scratch);
+        if (!floats || !check_finite(gltf, place, a, floats, flags & GLTF_REQUIRED))
+            return NULL;
+        a->floats[keep] = floats;
+    }
+    if (keep && own_bytes) {
+        gltf_buffer_keep(gltf, a->buffer);
+        a->floats[1] = a->floats[0] ? a->floats[0] : a->floats[1];
+    }
+    return a->floats[keep];
 }
 
 // --- indices
@@ -346,7 +352,7 @@ bool gltf_colors(struct gltf *gltf, const struct place *place, struct gltf_acces
     if (out->items)
         return true;
     struct coloring coloring = {.accessor = a, .opaque = opaque};
-    if (!bytes && !(coloring.floats = gltf_floats(gltf, place, a, false)))
+    if (!bytes && !(coloring.floats = gltf_floats(gltf, place, a, GLTF_KEEP)))
         return false;
     if (bytes && !opaque && a->stride == 4) {
         gltf_buffer_keep(gltf, a->buffer);

@@ -25,12 +25,13 @@ static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char
         return true;
     }
     for (int i = 0; i < mesh->count; i++) {
-        if (mesh->primitives[i] < 0)
+        if (mesh->primitives[i].mesh < 0)
             continue;
         lam_object object = lam_object_default();
-        object.mesh = mesh->primitives[i];
+        object.mesh = mesh->primitives[i].mesh;
         object.name = name;
-        object.transform = *transform;
+        if (!mesh->primitives[i].skinned) // the transform of a skinned mesh's node does not count
+            object.transform = *transform;
         int32_t material = scene_mesh(gltf->scene, object.mesh)->parts->material;
         object.cull = gltf_material_is_double_sided(gltf, material) ? LAM_CULL_NONE : LAM_CULL_BACK;
         if (scene_adopt_object(gltf->scene, &object, gltf->json.error) < 0)
@@ -39,20 +40,20 @@ static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char
     return true;
 }
 
-// The transforms of a node's instances, one attribute after the other; NULL: it has none of this name.
+// The numbers of a node's instances; NULL: it has none of this name.
 struct instances {
-    struct gltf_accessor *translation, *rotation, *scale;
+    const float *translation, *rotation, *scale;
     size_t count;
 };
 
 static bool take_instances(struct gltf *gltf, const struct place *place, const json_t *attributes, const char *key,
-                           int width, struct gltf_accessor **out, size_t *count)
+                           int width, const float **out, size_t *count)
 {
     char words[64];
     const struct place *here = KEY_OF(place, key);
-    if (!gltf_take_accessor(gltf, place, attributes, key, out))
+    struct gltf_accessor *a;
+    if (!gltf_take_accessor(gltf, place, attributes, key, &a))
         return false;
-    const struct gltf_accessor *a = *out;
     if (!a)
         return true;
     if (a->width != width || a->type[0] != 'V' || (a->component != GLTF_F32 && (width == 3 || !a->normalized)))
@@ -61,21 +62,22 @@ static bool take_instances(struct gltf *gltf, const struct place *place, const j
     if (*count && a->count != *count)
         return json_fail(&gltf->json, here, "found %zu elements, but another attribute has %zu", a->count, *count);
     *count = a->count;
-    return gltf_floats(gltf, here, *out, true) != NULL;
+    *out = gltf_floats(gltf, here, a, GLTF_REQUIRED);
+    return *out;
 }
 
-static void copy_element(const struct gltf_accessor *accessor, size_t i, double *out)
+static void copy_element(const float *numbers, size_t i, size_t width, double *out)
 {
-    for (int c = 0; accessor && c < accessor->width; c++)
-        out[c] = (double)accessor->floats[i * (size_t)accessor->width + (size_t)c];
+    for (size_t c = 0; numbers && c < width; c++)
+        out[c] = (double)numbers[i * width + c];
 }
 
 static lam_mat4 instance_transform(const struct instances *instances, size_t i)
 {
     double translation[3] = {0}, rotation[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
-    copy_element(instances->translation, i, translation);
-    copy_element(instances->rotation, i, rotation);
-    copy_element(instances->scale, i, scale);
+    copy_element(instances->translation, i, 3, translation);
+    copy_element(instances->rotation, i, 4, rotation);
+    copy_element(instances->scale, i, 3, scale);
     gltf_unit_quaternion(rotation);
     return gltf_transform(translation, rotation, scale);
 }
@@ -101,6 +103,17 @@ static bool add_instances(struct gltf *gltf, const struct place *place, const js
     return true;
 }
 
+static const struct gltf_mesh *mesh_of(struct gltf *gltf, const struct place *place, const json_t *object,
+                                       const struct gltf_node *node, int mesh)
+{
+    int skin_index;
+    const struct gltf_skin *skin = NULL;
+    if (!gltf_take_index(gltf, place, object, "skin", "skins", &skin_index) ||
+        (skin_index >= 0 && !(skin = gltf_skin_at(gltf, skin_index))))
+        return NULL;
+    return skin || node->weights ? gltf_mesh_deformed(gltf, mesh, node, skin) : gltf_mesh_at(gltf, mesh);
+}
+
 static bool add_node(struct gltf *gltf, int index)
 {
     const struct gltf_node *node = &gltf->nodes[index];
@@ -112,12 +125,12 @@ static bool add_node(struct gltf *gltf, int index)
         return false;
     if (mesh_index < 0)
         return true;
-    const struct gltf_mesh *mesh = gltf_mesh_at(gltf, mesh_index);
+    const struct gltf_mesh *mesh = mesh_of(gltf, place, object, node, mesh_index);
     const char *name = mesh ? gltf_name(gltf, object, &ok) : NULL;
     if (!mesh || !ok)
         return false;
-    if (!name && mesh->count && mesh->primitives[0] >= 0)
-        name = scene_mesh(gltf->scene, mesh->primitives[0])->name;
+    if (!name && mesh->count && mesh->primitives[0].mesh >= 0)
+        name = scene_mesh(gltf->scene, mesh->primitives[0].mesh)->name;
     const json_t *instancing = gltf_extension(object, "EXT_mesh_gpu_instancing");
     const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "EXT_mesh_gpu_instancing");
     return instancing ? add_instances(gltf, here, instancing, mesh, name, &node->world)

@@ -5,6 +5,7 @@
 #include "gltf_primitives.h"
 
 #include "gltf_accessors.h"
+#include "gltf_deform.h"
 #include "gltf_json.h"
 #include "gltf_materials.h"
 #include "gltf_numbers.h"
@@ -74,7 +75,8 @@ static bool take_floats(struct gltf *gltf, const struct place *place, const json
         return false;
     if (!accessor)
         return true;
-    *out = gltf_floats(gltf, KEY_OF(place, rule->name), accessor, rule == &position_rule);
+    *out = gltf_floats(gltf, KEY_OF(place, rule->name), accessor,
+                       GLTF_KEEP | (rule == &position_rule ? GLTF_REQUIRED : 0));
     *out_count = (uint32_t)accessor->count;
     return *out != NULL;
 }
@@ -136,14 +138,13 @@ static bool skip_primitive(struct gltf *gltf, const struct place *place, const j
     return true;
 }
 
-// *index: of the new mesh in the scene; −1: the primitive has no triangles.
 static bool make_primitive(struct gltf *gltf, const struct place *place, const json_t *primitive, const char *name,
-                           int *index)
+                           const struct gltf_deformation *deformation, struct gltf_primitive *out)
 {
     lam_mesh mesh = {.name = name};
     size_t mode = GLTF_TRIANGLES;
     bool ok = true;
-    *index = -1;
+    *out = (struct gltf_primitive){.mesh = -1};
     const json_t *attributes = gltf_take_object(gltf, place, primitive, "attributes", &ok);
     const struct place *here = KEY_OF(place, "attributes");
     if (!ok || !gltf_take_whole(gltf, place, primitive, "mode", 0, 6, &mode))
@@ -159,32 +160,50 @@ static bool make_primitive(struct gltf *gltf, const struct place *place, const j
     if (!gltf_triangles(gltf, place, primitive, mode, &mesh) || !add_part(gltf, place, primitive, &mesh) ||
         !take_attributes(gltf, here, attributes, gltf_material_is_opaque(gltf, mesh.parts->material), &mesh))
         return false;
-    if (mesh.triangle_count)
-        *index = scene_adopt_mesh(gltf->scene, &mesh, gltf->json.error);
-    return !mesh.triangle_count || *index >= 0;
+    if (!mesh.triangle_count)
+        return true;
+    if (!gltf_deform(gltf, place, primitive, deformation, &mesh, &out->skinned))
+        return false;
+    out->mesh = scene_adopt_mesh(gltf->scene, &mesh, gltf->json.error);
+    return out->mesh >= 0;
+}
+
+static bool make_mesh(struct gltf *gltf, int index, struct gltf_deformation deformation, struct gltf_mesh *mesh)
+{
+    const struct place *place = ELEMENT_OF(KEY_OF(NULL, "meshes"), (size_t)index);
+    const json_t *object = gltf_list_item(gltf, "meshes", index);
+    double *weights = NULL;
+    bool ok = true;
+    if (!call_should_continue(gltf->source->call))
+        return call_error(gltf->source->call, gltf->json.error);
+    if (!deformation.weights && !gltf_take_weights(gltf, place, object, &weights, &deformation.weight_count))
+        return false;
+    deformation.weights = deformation.weights ? deformation.weights : weights;
+    const json_t *primitives = gltf_take_list(gltf, place, object, "primitives", &ok);
+    const char *name = ok ? gltf_name(gltf, object, &ok) : NULL;
+    mesh->count = (int)json_array_size(primitives);
+    mesh->primitives = ok ? GLTF_ALLOC(gltf, mesh->count, struct gltf_primitive) : NULL;
+    if (ok && !mesh->primitives)
+        ok = gltf_no_memory(gltf, json_array_size(primitives) * sizeof *mesh->primitives);
+    for (int i = 0; ok && i < mesh->count; i++)
+        ok = make_primitive(gltf, ELEMENT_OF(KEY_OF(place, "primitives"), (size_t)i),
+                            json_array_get(primitives, (size_t)i), name, &deformation, &mesh->primitives[i]);
+    mesh->ready = ok;
+    return ok;
 }
 
 const struct gltf_mesh *gltf_mesh_at(struct gltf *gltf, int index)
 {
     struct gltf_mesh *mesh = &gltf->meshes[index];
-    const struct place *place = ELEMENT_OF(KEY_OF(NULL, "meshes"), (size_t)index);
-    const json_t *object = gltf_list_item(gltf, "meshes", index);
-    bool ok = true;
-    if (mesh->ready)
-        return mesh;
-    if (!call_should_continue(gltf->source->call)) {
-        call_error(gltf->source->call, gltf->json.error);
-        return NULL;
-    }
-    const json_t *primitives = gltf_take_list(gltf, place, object, "primitives", &ok);
-    const char *name = ok ? gltf_name(gltf, object, &ok) : NULL;
-    mesh->count = (int)json_array_size(primitives);
-    mesh->primitives = ok ? GLTF_ALLOC(gltf, mesh->count, int) : NULL;
-    if (ok && !mesh->primitives)
-        ok = gltf_no_memory(gltf, json_array_size(primitives) * sizeof *mesh->primitives);
-    for (int i = 0; ok && i < mesh->count; i++)
-        ok = make_primitive(gltf, ELEMENT_OF(KEY_OF(place, "primitives"), (size_t)i),
-                            json_array_get(primitives, (size_t)i), name, &mesh->primitives[i]);
-    mesh->ready = ok;
-    return ok ? mesh : NULL;
+    return mesh->ready || make_mesh(gltf, index, (struct gltf_deformation){0}, mesh) ? mesh : NULL;
+}
+
+const struct gltf_mesh *gltf_mesh_deformed(struct gltf *gltf, int index, const struct gltf_node *node,
+                                           const struct gltf_skin *skin)
+{
+    struct gltf_deformation deformation = {node->weights, node->weight_count, skin};
+    struct gltf_mesh *mesh = GLTF_ALLOC(gltf, 1, struct gltf_mesh);
+    if (!mesh)
+        gltf_no_memory(gltf, sizeof *mesh);
+    return mesh && make_mesh(gltf, index, deformation, mesh) ? mesh : NULL;
 }

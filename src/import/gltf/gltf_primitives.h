@@ -3,17 +3,28 @@
 #define GLTF_PRIMITIVES_H
 
 #include "gltf.h"
+#include "gltf_nodes.h"
+#include "gltf_skins.h"
 
 // A mesh of the file as meshes of the scene, one for each of its primitives.
+struct gltf_primitive {
+    int mesh;     // index in the scene; −1: the primitive has no triangles
+    bool skinned; // its positions are in the file's space
+};
 struct gltf_mesh {
     bool ready;
     int count;
-    int *primitives; // indices of the scene's meshes; −1: the primitive has no triangles
+    struct gltf_primitive *primitives;
 };
 
 bool gltf_meshes_start(struct gltf *gltf);
 
 // A mesh of the file, made when first asked for: nodes that name the same mesh share it. NULL: an error.
 const struct gltf_mesh *gltf_mesh_at(struct gltf *gltf, int index);
+
+// The mesh as one node shows it, by its skin (NULL: none) or with the node's own weights of morph targets (NULL: the
+// mesh's). Nobody shares it.
+const struct gltf_mesh *gltf_mesh_deformed(struct gltf *gltf, int index, const struct gltf_node *node,
+                                           const struct gltf_skin *skin);
 
 #endif

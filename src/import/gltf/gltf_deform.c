@@ -1,0 +1,245 @@
+// gltf_deform.c: morph targets (section 3.7.2.2) and skins (section 3.7.3.3) applied to a primitive.
+#include "gltf_deform.h"
+
+#include "gltf_accessors.h"
+#include "gltf_json.h"
+#include "gltf_numbers.h"
+#include "parallel_rows.h"
+
+#include "linear.h"
+
+#include <stdio.h>
+#include <string.h>
+
+// --- morph targets
+
+struct addition {
+    const float *base, *target;
+    float *out; // may be `base`
+    int base_width, width;
+    size_t count;
+    double weight;
+};
+
+static bool add_piece(void *user, size_t index, lam_error *error)
+{
+    (void)error;
+    const struct addition *a = user;
+    size_t first, last, wide = (size_t)a->base_width, narrow = (size_t)a->width;
+    parallel_rows_range(a->count, index, &first, &last);
+    for (size_t i = first; i < last; i++)
+        for (size_t c = 0; c < wide; c++) {
+            float more = c < narrow ? (float)(a->weight * (double)a->target[narrow * i + c]) : 0.0f;
+            a->out[wide * i + c] = a->base[wide * i + c] + more;
+        }
+    return true;
+}
+
+// Adds one target's attribute to an array, which becomes the mesh's own with the first addition.
+static bool add_target(struct gltf *gltf, const struct place *place, const json_t *target, const char *name,
+                       double weight, int width, int base_width, size_t count, const float **values, bool *own)
+{
+    struct gltf_accessor *accessor;
+    char words[64];
+    const struct place *here = KEY_OF(place, name);
+    if (!gltf_take_accessor(gltf, place, target, name, &accessor))
+        return false;
+    if (!accessor || !*values)
+        return true;
+    if (accessor->width != width || accessor->type[0] == 'M' || accessor->component == GLTF_U32 ||
+        accessor->count != count)
+        return json_fail(&gltf->json, here, "found %zu elements of %s, expected %zu of VEC%d of FLOAT", accessor->count,
+                         gltf_accessor_words(accessor, words), count, width);
+    struct addition addition = {.base = *values,
+                                .target = gltf_floats(gltf, here, accessor, GLTF_REQUIRED),
+                                .out = (float *)(uintptr_t)*values,
+                                .base_width = base_width,
+                                .width = width,
+                                .count = count,
+                                .weight = weight};
+    if (!addition.target)
+        return false;
+    if (!*own && !(addition.out = arena_array(&gltf->scene->arena, count * (size_t)base_width, sizeof(float))))
+        return gltf_no_memory(gltf, count * (size_t)base_width * sizeof(float));
+    *own = true;
+    *values = addition.out;
+    return parallel_rows_run(gltf->source, parallel_rows_count(count), add_piece, &addition, gltf->json.error);
+}
+
+// Whether each attribute is an array of this mesh alone, which may be changed in place.
+struct owned {
+    bool positions, normals, tangents, texcoords;
+};
+
+static bool morph(struct gltf *gltf, const struct place *place, const json_t *primitive,
+                  const struct gltf_deformation *deformation, lam_mesh *mesh, struct owned *own)
+{
+    bool ok = true;
+    const json_t *targets = gltf_take_list(gltf, place, primitive, "targets", &ok);
+    size_t count = mesh->vertex_count;
+    for (size_t i = 0; ok && i < json_array_size(targets) && i < deformation->weight_count; i++) {
+        double weight = deformation->weights[i];
+        const json_t *target = json_array_get(targets, i);
+        const struct place *here = ELEMENT_OF(KEY_OF(place, "targets"), i);
+        ok = weight == 0 ||
+             (add_target(gltf, here, target, "POSITION", weight, 3, 3, count, &mesh->positions, &own->positions) &&
+              add_target(gltf, here, target, "NORMAL", weight, 3, 3, count, &mesh->normals, &own->normals) &&
+              add_target(gltf, here, target, "TANGENT", weight, 3, 4, count, &mesh->tangents, &own->tangents) &&
+              add_target(gltf, here, target, "TEXCOORD_0", weight, 2, 2, count, &mesh->texcoords, &own->texcoords));
+    }
+    return ok;
+}
+
+// --- skins
+
+enum { SETS_MAX = 16 }; // of four joints
+
+struct skinning {
+    struct gltf *gltf;
+    const struct place *place; // of the attributes
+    const struct gltf_skin *skin;
+    const float *joints[SETS_MAX], *weights[SETS_MAX]; // four for each vertex
+    int sets;
+    const lam_mesh *mesh;
+    float *positions, *normals, *tangents;
+};
+
+static bool fail_joint(const struct skinning *s, int set, size_t vertex, size_t joint)
+{
+    char name[20];
+    snprintf(name, sizeof name, "JOINTS_%d", set);
+    return json_fail(&s->gltf->json, KEY_OF(s->place, name), "element %zu: found joint %zu, expected one below %zu",
+                     vertex, joint, s->skin->count);
+}
+
+// The joints' matrices, weighted. Weights are made to add up to 1; where all are 0 the first joint has all.
+static bool blend(const struct skinning *s, size_t vertex, lam_mat4 *out, lam_error *error)
+{
+    double sum = 0;
+    memset(out, 0, sizeof *out);
+    size_t first = 0;
+    for (int set = 0; set < s->sets; set++) {
+        const float *joints = s->joints[set] + 4 * vertex, *weights = s->weights[set] + 4 * vertex;
+        for (int k = 0; k < 4; k++) {
+            size_t joint = (size_t)joints[k];
+            double weight = weights[k] > 0 ? (double)weights[k] : 0;
+            if (set == 0 && k == 0)
+                first = joint;
+            if (weight == 0 && !(set == 0 && k == 0))
+                continue;
+            if (joint >= s->skin->count)
+                return error && fail_joint(s, set, vertex, joint);
+            for (int i = 0; i < 12; i++)
+                out->m[i / 4][i % 4] += weight * s->skin->joints[joint].m[i / 4][i % 4];
+            sum += weight;
+        }
+    }
+    for (int i = 0; i < 12; i++)
+        out->m[i / 4][i % 4] = sum > 0 ? out->m[i / 4][i % 4] / sum : s->skin->joints[first].m[i / 4][i % 4];
+    out->m[3][3] = 1;
+    return true;
+}
+
+static lam_vec3 vector_at(const float *values, size_t i, size_t width)
+{
+    const float *at = values + width * i;
+    return v3((double)at[0], (double)at[1], (double)at[2]);
+}
+
+static void store(float *out, lam_vec3 v)
+{
+    out[0] = (float)v.x;
+    out[1] = (float)v.y;
+    out[2] = (float)v.z;
+}
+
+static bool skin_piece(void *user, size_t index, lam_error *error)
+{
+    const struct skinning *s = user;
+    size_t first, last;
+    parallel_rows_range(s->mesh->vertex_count, index, &first, &last);
+    for (size_t i = first; i < last; i++) {
+        lam_mat4 m;
+        if (!blend(s, i, &m, error))
+            return false;
+        store(s->positions + 3 * i, mat4_point(&m, vector_at(s->mesh->positions, i, 3)));
+        if (s->normals) { // by the inverse transpose
+            double cofactors[3][3], sign = mat4_determinant3(&m) < 0 ? -1 : 1;
+            mat4_normal_matrix(&m, cofactors);
+            lam_vec3 n = vector_at(s->mesh->normals, i, 3);
+            const double *c = &cofactors[0][0];
+            store(s->normals + 3 * i, v3_unit(v3(sign * (c[0] * n.x + c[1] * n.y + c[2] * n.z),
+                                                 sign * (c[3] * n.x + c[4] * n.y + c[5] * n.z),
+                                                 sign * (c[6] * n.x + c[7] * n.y + c[8] * n.z))));
+        }
+        if (s->tangents) {
+            store(s->tangents + 4 * i, v3_unit(mat4_vector(&m, vector_at(s->mesh->tangents, i, 4))));
+            s->tangents[4 * i + 3] = s->mesh->tangents[4 * i + 3];
+        }
+    }
+    return true;
+}
+
+static bool take_set(struct gltf *gltf, const struct place *place, const json_t *attributes, int set, size_t count,
+                     struct skinning *s)
+{
+    char joints[20], weights[20], words[64];
+    struct gltf_accessor *j, *w;
+    snprintf(joints, sizeof joints, "JOINTS_%d", set);
+    snprintf(weights, sizeof weights, "WEIGHTS_%d", set);
+    if (!gltf_take_accessor(gltf, place, attributes, joints, &j) ||
+        !gltf_take_accessor(gltf, place, attributes, weights, &w))
+        return false;
+    if (!j || !w)
+        return true;
+    if (j->width != 4 || j->type[0] != 'V' || j->normalized || (j->component != GLTF_U8 && j->component != GLTF_U16))
+        return json_fail(&gltf->json, KEY_OF(place, joints),
+                         "found %s, expected VEC4 of UNSIGNED_BYTE or UNSIGNED_SHORT", gltf_accessor_words(j, words));
+    bool numbers = w->normalized && (w->component == GLTF_U8 || w->component == GLTF_U16);
+    if (w->width != 4 || w->type[0] != 'V' || (w->component != GLTF_F32 && !numbers))
+        return json_fail(&gltf->json, KEY_OF(place, weights),
+                         "found %s, expected VEC4 of FLOAT, or of normalized UNSIGNED_BYTE or UNSIGNED_SHORT",
+                         gltf_accessor_words(w, words));
+    if (j->count != count || w->count != count)
+        return json_fail(&gltf->json, KEY_OF(place, j->count != count ? joints : weights),
+                         "found %zu elements, expected %zu, one for each POSITION",
+                         j->count != count ? j->count : w->count, count);
+    s->joints[s->sets] = gltf_floats(gltf, KEY_OF(place, joints), j, GLTF_REQUIRED);
+    s->weights[s->sets] = gltf_floats(gltf, KEY_OF(place, weights), w, GLTF_REQUIRED);
+    return s->joints[s->sets] && s->weights[s->sets++];
+}
+
+static bool apply_skin(struct gltf *gltf, const struct place *place, const json_t *primitive,
+                       const struct gltf_skin *skin, lam_mesh *mesh, bool *skinned)
+{
+    struct skinning s = {.gltf = gltf, .place = KEY_OF(place, "attributes"), .skin = skin, .mesh = mesh};
+    const json_t *attributes = json_object_get(primitive, "attributes");
+    struct arena *arena = &gltf->scene->arena;
+    size_t count = mesh->vertex_count;
+    for (int set = 0; set < SETS_MAX; set++)
+        if (!take_set(gltf, s.place, attributes, set, count, &s))
+            return false;
+    if (!s.sets)
+        return true;
+    s.positions = arena_array(arena, count, 3 * sizeof(float));
+    s.normals = mesh->normals ? arena_array(arena, count, 3 * sizeof(float)) : NULL;
+    s.tangents = mesh->tangents ? arena_array(arena, count, 4 * sizeof(float)) : NULL;
+    if (!s.positions || !s.normals != !mesh->normals || !s.tangents != !mesh->tangents)
+        return gltf_no_memory(gltf, count * 4 * sizeof(float));
+    if (!parallel_rows_run(gltf->source, parallel_rows_count(count), skin_piece, &s, gltf->json.error))
+        return false;
+    mesh->positions = s.positions;
+    mesh->normals = s.normals;
+    mesh->tangents = s.tangents;
+    *skinned = true;
+    return true;
+}
+
+bool gltf_deform(struct gltf *gltf, const struct place *place, const json_t *primitive,
+                 const struct gltf_deformation *deformation, lam_mesh *mesh, bool *skinned)
+{
+    struct owned own = {0};
+    *skinned = false;
+    return morph(gltf, place, primitive, deformation, mesh, &own) &&
+           (!deformation->skin || apply_skin(gltf, place, primitive, deformation->skin, mesh, skinned));
+}

@@ -150,7 +150,7 @@ bool companion_open_of_scene(const struct import_source *source, const char *nam
         return open_by_caller(source, inside, arena, out, error);
     }
     return open_beside(source, name, !source->params->models_anywhere,
-                       ", where the files of a scene must lie (--files-anywhere allows others)", arena, out, error);
+                       ", where the files of a scene must lie (--files-inside)", arena, out, error);
 }
 
 bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,

@@ -64,8 +64,8 @@ class Scene(Case):
     def again(self, *words):
         """Draws with --save-scene and draws the scene file: the bytes are the same."""
         (self.folder / "sub").mkdir(exist_ok=True)
-        self.good(*words, "-o", "a.png", "--save-scene", "sub/saved.json", "--files-anywhere")
-        self.good("sub/saved.json", "-o", "b.png", "--files-anywhere")
+        self.good(*words, "-o", "a.png", "--save-scene", "sub/saved.json")
+        self.good("sub/saved.json", "-o", "b.png")
         self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes(), words)
         saved = json.loads((self.folder / "sub" / "saved.json").read_text())
         self.assertIsNone(misfit(saved, SCHEMA))
@@ -114,7 +114,7 @@ class Scene(Case):
             self.assertEqual(saved["image"]["size"], [120, 90])
         self.assertEqual(saved["objects"][0]["file"], "../cube.obj")
         # Written again, the file is the same.
-        self.good("sub/saved.json", "-o", "b.png", "--save-scene", "sub/twice.json", "--files-anywhere")
+        self.good("sub/saved.json", "-o", "b.png", "--save-scene", "sub/twice.json")
         self.assertEqual((self.folder / "sub/saved.json").read_bytes(), (self.folder / "sub/twice.json").read_bytes())
 
     def test_saved_scenes_of_real_models(self):
@@ -165,7 +165,7 @@ class Scene(Case):
         self.assertAlmostEqual(value, ((128 / 255 + 0.055) / 1.055) ** 2.4, places=5)
 
     def test_models_elsewhere(self):
-        """What a scene file names lies in its own folder; --files-anywhere allows other folders."""
+        """What a scene file names may lie anywhere; with --files-inside only in its own folder."""
         (self.folder / "sub").mkdir()
         self.given.add("sub")
         picture = self.png("scene.json")
@@ -174,19 +174,18 @@ class Scene(Case):
             self.write(self.example, "sub/up.json")
             (self.folder / "sub/link.ply").unlink(missing_ok=True)
             (self.folder / "sub/link.ply").symlink_to("../cube.ply")
-            self.bad(2, "sub/up.json", "-o", "x.png", says=["sub/up.json: objects[1].file: ", "leads out of the folder sub/", "--files-anywhere"])
-            self.assertEqual(self.png("sub/up.json", "--files-anywhere"), picture)
+            self.bad(2, "sub/up.json", "--files-inside", "-o", "x.png", says=["sub/up.json: objects[1].file: ", "leads out of the folder sub/", "--files-inside"])
+            self.assertEqual(self.png("sub/up.json"), picture)
         for name, says in (("none.ply", "none.ply"), ("/dev/zero", "leads out of the folder"), ("scene.json", "scene file")):
             self.example["objects"][1]["file"] = name
             self.write(self.example)
-            self.bad(2, "scene.json", "-o", "x.png", says=["objects[1].file", says])
-        self.bad(2, "sub/up.json", "--save-scene", "sub/x.json", says="--files-anywhere")
+            self.bad(2, "scene.json", "--files-inside", "-o", "x.png", says=["objects[1].file", says])
         self.example["objects"][1]["file"] = "/dev/zero"
         self.write(self.example)
-        self.bad(2, "scene.json", "--files-anywhere", "-o", "x.png", says=["/dev/zero: is a device, expected a regular file"])
+        self.bad(2, "scene.json", "-o", "x.png", says=["/dev/zero: is a device, expected a regular file"])
 
     def test_saved_beside_or_not(self):
-        """--save-scene says when the file that it writes needs --files-anywhere."""
+        """A saved scene is drawn again wherever it lies; with --files-inside --save-scene says when it could not be."""
         (self.folder / "sub").mkdir()
         self.good("cube.obj", "-s", "8", "-o", "face.png")
         outside = b"warning: the saved scene file names files outside of its folder"
@@ -194,11 +193,11 @@ class Scene(Case):
                               ([self.folder / "cube.obj", "--save-scene", "./s.json"], True), (["cube.obj", "--save-scene", "sub/s.json"], False),
                               (["sphere", "--environment", "sky", "--reflectivity", "1", "--save-scene", "sub/s.json"], True),
                               (["sphere", "--environment", ",".join(["face.png"] * 6), "--reflectivity", "1", "--save-scene", "sub/s.json"], False)):
-            done = self.good(*words, "-s", "8", "-o", "a.png")
+            done = self.good(*words, "-s", "8", "-o", "a.png", "--files-inside")
             self.assertEqual(outside in done.stderr, not beside, words)
-            done = self.run_program(words[-1], "-o", "b.png")
+            done = self.run_program(words[-1], "-o", "b.png", "--files-inside")
             self.assertEqual(done.returncode, 0 if beside else 2, words)
-            self.good(words[-1], "-o", "b.png", "--files-anywhere")
+            self.good(words[-1], "-o", "b.png")
             self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
 
     def test_schema_and_program_agree(self):

@@ -122,7 +122,7 @@ static bool add_fading(struct plot *plot, const lam_light *light, const char *wo
 // Adds the lights of a model or scene file.
 static bool add_lights_of(struct plot *plot, const char *path, lam_error *error)
 {
-    lam_scene *scene = lam_scene_load(path, &(lam_load_params){.models_anywhere = plot->files_anywhere}, NULL, error);
+    lam_scene *scene = lam_scene_load(path, &(lam_load_params){.models_anywhere = !plot->files_inside}, NULL, error);
     if (!scene)
         return false;
     bool ok = true;
@@ -308,7 +308,7 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
                           .y_max = 1,
                           .level = kind->add == add_attenuation ? 1.0 / 255.0 : 0,
                           .level_label = "1/255",
-                          .files_anywhere = o->files_anywhere};
+                          .files_inside = o->files_inside};
     for (int i = 0; i < count; i++)
         if (!kind->add(plot, words[i], error))
             return false;

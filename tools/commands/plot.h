@@ -24,7 +24,7 @@ struct plot {
     double x_max, y_max; // both axes begin at 0
     double level;        // a dashed line across; 0: none
     const char *level_label;
-    bool files_anywhere; // a scene file's
+    bool files_inside; // a scene file's
     struct curve curves[CURVES_MAX];
     int count;
 };

@@ -139,7 +139,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
         lam_load_params params = {.up = (lam_up)o->up,
                                   .color = (lam_color_mode)o->color_mode,
                                   .override_color = option_given(o, "color-mode"),
-                                  .models_anywhere = o->files_anywhere,
+                                  .models_anywhere = !o->files_inside,
                                   .normals = (lam_normals)o->normals,
                                   .crease_angle_rad = crease_of(o),
                                   .threads = o->threads,
@@ -298,9 +298,8 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
         return false;
     if (job->options->save_scene && option_given(job->options, "show"))
         lam_scene_add_warning(job->scene, "the saved scene file describes the picture without --show");
-    if (job->options->save_scene && !scene_settings_are_beside(job))
-        lam_scene_add_warning(job->scene, "the saved scene file names files outside of its folder: draw it with "
-                                          "--files-anywhere");
+    if (job->options->save_scene && job->options->files_inside && !scene_settings_are_beside(job))
+        lam_scene_add_warning(job->scene, "the saved scene file names files outside of its folder");
     return place_camera_and_turn(job, &sphere, error) && job_light(job, &sphere, error) &&
            (!job->options->show_lights || light_markers_add(job, error));
 }

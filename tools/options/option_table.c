@@ -242,8 +242,7 @@ const struct option option_table[] = {
     {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that reproduces this picture.",
      "The file stores the result of the command line: the model's path relative to FILE, the camera, all lights "
      "(those of the rig written out), materials, transforms and the picture's options. `lambent FILE` then "
-     "writes the same bytes (with `--files-anywhere` if the model does not lie in FILE's folder or below it). An "
-     "existing FILE is replaced. `docs/scene-file.md` describes the format.",
+     "writes the same bytes. An existing FILE is replaced. `docs/scene-file.md` describes the format.",
      .kind = VALUE_FILE, .store = store_text, .others = "export-scene write-scene", FIELD(save_scene)},
 
     {"scene", 0, GROUP_MODEL, "NAME|N", "the file's default",
@@ -466,12 +465,11 @@ const struct option option_table[] = {
      "Reading a model and drawing it may each use this much at once. k, M, G and T are powers of 1000; Ki, Mi, "
      "Gi and Ti of 1024.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(memory_limit_bytes)},
-    {"files-anywhere", 0, GROUP_WORK, NULL, NULL, "Let a scene file name files in any folder.",
-     "The models and pictures that a scene file names must lie in its own folder or below it, wherever links and "
-     "`..` lead, so that a scene file from a stranger cannot show other files. With this option they may lie "
-     "anywhere. The files that a model names (MTL) lie in the model's folder in any case, and files named on the "
-     "command line may lie anywhere.",
-     .store = store_switch, FIELD(files_anywhere), .single = TAKES_FILES},
+    {"files-inside", 0, GROUP_WORK, NULL, NULL, "Let a scene file name only files of its own folder.",
+     "For scene files from strangers: the models and pictures that one names must lie in its own folder or below "
+     "it, wherever links and `..` lead, so that it cannot show other files. The files that a model names (MTL) "
+     "lie in the model's folder in any case, and files named on the command line may lie anywhere.",
+     .store = store_switch, FIELD(files_inside), .single = TAKES_FILES},
 
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "The report goes to standard output, or to standard error when the picture goes to standard output (then "

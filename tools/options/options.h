@@ -86,7 +86,7 @@ struct options {
     int repeat;
     double time_limit_s;         // 0: none
     uint64_t memory_limit_bytes; // 0: none
-    bool files_anywhere;         // that a scene file names
+    bool files_inside;           // that a scene file names
 
     // Comparison of pictures
     double tolerance, gain;

@@ -55,9 +55,9 @@ def jobs():
     small = ["-s", "64", "--samples", "1"]
     found = {"start": ["--version"]}
     found.update({"read " + kind: small + ["patch." + kind] for kind in ("ply", "stl", "obj")})
-    found.update({"draw phong": ["-s", "320", "teapot"], "draw phong, 1 sample": ["-s", "320", "--samples", "1", "teapot"],
-                  "draw gouraud": ["-s", "256", "--shading", "gouraud", "teapot"], "draw flat": ["-s", "256", "--shading", "flat", "teapot"],
-                  "16 lights": ["-s", "256", "--samples", "1", *lights, "sphere"], "translucent": ["-s", "200", "--opacity", "0.5", "torus-knot"],
+    found.update({"draw phong": ["-s", "320", "--samples", "4", "teapot"], "draw phong, 1 sample": ["-s", "320", "--samples", "1", "teapot"],
+                  "draw gouraud": ["-s", "256", "--samples", "4", "--shading", "gouraud", "teapot"], "draw flat": ["-s", "256", "--samples", "4", "--shading", "flat", "teapot"],
+                  "16 lights": ["-s", "256", "--samples", "1", *lights, "sphere"], "translucent": ["-s", "200", "--samples", "4", "--opacity", "0.5", "torus-knot"],
                   "encode": ["-s", "700", "--samples", "1", "--reflection", "none", "-b", "white", "cube"]})
     return found
 

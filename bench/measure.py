@@ -3,9 +3,12 @@ medians, and ratios within a round with their spread."""
 import contextlib
 import json
 import os
+import signal
 import statistics
 import subprocess
+import threading
 import time
+from typing import NamedTuple
 
 import paths
 
@@ -28,14 +31,43 @@ def output(command, **more):
     return done.stdout.decode()
 
 
-def wall_ms(command, written):
-    """A whole process, from the call that starts it to its end. The output file must not exist: replacing one takes
-    the file system longer, sometimes by milliseconds."""
+class Taken(NamedTuple):
+    """What a process took."""
+    wall_ms: float
+    cpu_ms: float  # of all its threads, in the program and in the system
+    peak_bytes: int
+
+
+def process(command, errors=os.devnull):
+    """Runs a whole process, from the call that starts it to its end. posix_spawn starts it: a fork of Python copies its page
+    tables first, a millisecond that belongs to neither contestant. Its standard error goes to the file `errors`."""
+    actions = [(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0),
+               (os.POSIX_SPAWN_OPEN, 2, errors, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)]
+    start = time.perf_counter()
+    child = os.posix_spawnp(command[0], command, os.environ, file_actions=actions)
+    hung = threading.Timer(LONGEST_S, os.kill, (child, signal.SIGKILL))
+    hung.start()
+    _, status, used = os.wait4(child, 0)
+    wall = (time.perf_counter() - start) * 1e3
+    hung.cancel()
+    if status:
+        code = os.waitstatus_to_exitcode(status)
+        try:
+            with open(errors, errors="replace") as file:
+                said = file.read().strip()[-300:]
+        except OSError:
+            said = ""
+        raise Failed("%s: %s: %s" % (" ".join(command[:3]), "did not end within %d s" % LONGEST_S if code == -signal.SIGKILL and
+                                     wall > LONGEST_S * 1e3 else "exit %d" % code, said))
+    return Taken(wall, (used.ru_utime + used.ru_stime) * 1e3, used.ru_maxrss * 1024)
+
+
+def whole_process(command, written):
+    """A process that writes the file `written`, which must not exist: replacing one takes the file system longer, sometimes by
+    milliseconds."""
     with contextlib.suppress(FileNotFoundError):
         os.remove(written)
-    start = time.perf_counter()
-    output(command)
-    return (time.perf_counter() - start) * 1e3
+    return process(command, written + ".stderr")
 
 
 def lambent(*arguments):
@@ -64,7 +96,7 @@ def in_turn(contestants, seconds, least_rounds=3, most_rounds=15):
     """Runs every contestant once to warm up, then all of them in turn until the time is used, at least `least_rounds` times; each
     second round backwards. So no contestant always follows the same one, whose gigabytes the system may still be reclaiming: after
     F3D with 10 million triangles a process spent up to half a second more in the system. `contestants` is
-    {name: function that returns a number}. Returns {name: [numbers, one for each round]}."""
+    {name: function that measures once}. Returns {name: [what it returned, in each round]}."""
     for run in reversed(contestants.values()):
         run()
     begun = time.monotonic()
@@ -87,27 +119,6 @@ def spread(numbers):
 def ratio(numerators, denominators):
     """Ratios within each round."""
     return spread([a / b for a, b in zip(numerators, denominators)])
-
-
-def peak_bytes(command):
-    """The peak memory of a process."""
-    child = os.posix_spawn(command[0], command, os.environ, file_actions=[
-        (os.POSIX_SPAWN_OPEN, 1, "/dev/null", os.O_WRONLY, 0), (os.POSIX_SPAWN_OPEN, 2, "/dev/null", os.O_WRONLY, 0)])
-    _, status, used = os.wait4(child, 0)
-    if status:
-        raise Failed("%s: status %d" % (" ".join(command[:3]), status))
-    return used.ru_maxrss * 1024
-
-
-def start_ms(command):
-    """A process that does almost nothing, started as cheaply as possible."""
-    start = time.perf_counter()
-    child = os.posix_spawn(command[0], command, os.environ, file_actions=[(os.POSIX_SPAWN_OPEN, 1, "/dev/null", os.O_WRONLY, 0)])
-    _, status = os.waitpid(child, 0)
-    taken = (time.perf_counter() - start) * 1e3
-    if status:
-        raise Failed("%s: status %d" % (" ".join(command), status))
-    return taken
 
 
 def busy_s():

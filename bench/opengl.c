@@ -1,10 +1,11 @@
 // opengl.c: a plain, competent OpenGL 3.3 program that draws the bench's scenes, to compare frames with:
-//     opengl SCENE.txt loop|written [--derivatives] [--depth-first] [--frames N] [--seconds S] [--picture
-//     FILE.ppm]
+//     opengl SCENE.txt loop|written [--derivatives] [--depth-first] [--cull] [--frames N] [--seconds S]
+//            [--picture FILE.ppm]
 //
 // It has no window but an EGL context without a surface, and a framebuffer of its own (8 bits a channel, 24 bits of
 // depth, multisampled on request and resolved in each frame). Buffers are uploaded once; a frame is a clear, one draw
-// call (two with --depth-first: the first writes depth alone, so that only visible fragments are lit) and glFinish,
+// call (two with --depth-first: the first writes depth alone, so that only visible fragments are lit; --cull: back
+// faces are not drawn) and glFinish,
 // without reading pixels back. After one frame to warm up it draws N frames, or for S seconds; the report is a line
 // of JSON. The exit code is 3 if this OpenGL is not available.
 #define GL_GLEXT_PROTOTYPES
@@ -293,10 +294,10 @@ int main(int count, char **arguments)
 {
     if (count < 3)
         give_up(1, "usage",
-                "opengl SCENE.txt loop|written [--derivatives] [--depth-first] [--frames N] [--seconds S] "
+                "opengl SCENE.txt loop|written [--derivatives] [--depth-first] [--cull] [--frames N] [--seconds S] "
                 "[--picture FILE.ppm]");
     struct form form = {.written_out = strcmp(arguments[2], "written") == 0};
-    int frames = 10, depth_first = 0;
+    int frames = 10, depth_first = 0, cull = 0;
     double seconds = 5;
     const char *picture = NULL;
     for (int i = 3; i < count; i++) {
@@ -304,6 +305,8 @@ int main(int count, char **arguments)
             form.derivatives = 1;
         else if (strcmp(arguments[i], "--depth-first") == 0)
             depth_first = 1;
+        else if (strcmp(arguments[i], "--cull") == 0)
+            cull = 1;
         else if (i + 1 < count && strcmp(arguments[i], "--frames") == 0)
             frames = atoi(arguments[++i]);
         else if (i + 1 < count && strcmp(arguments[i], "--seconds") == 0)
@@ -325,6 +328,8 @@ int main(int count, char **arguments)
     GLuint target = scene.samples > 1 ? make_target(&scene, scene.samples) : resolved;
     glViewport(0, 0, scene.width, scene.height);
     glEnable(GL_DEPTH_TEST);
+    if (cull)
+        glEnable(GL_CULL_FACE);
     glClearColor(0, 0, 0, 1);
     draw(&scene, &programs, shared, target, resolved);
     double setup_ms = now_ms() - start;

@@ -20,6 +20,12 @@ def times(value):
     return "%.0f ×" % value if value >= 20 else "%.1f ×" % value if value >= 3 else "%.2f ×" % value
 
 
+def contestant(key):
+    """The name of a contestant: avx2, culled -> AVX2, culled."""
+    isa, comma, rest = key.partition(",")
+    return ISA_NAMES.get(isa, isa) + comma + rest
+
+
 def ms(value):
     return "%.0f" % value if value >= 100 else "%.1f" % value if value >= 10 else "%.2f" % value
 
@@ -75,7 +81,10 @@ def beside(row):
             ms(row["ms"][word + ", normals"]["median"])) for word in ("1M", "10M"))
     if "over_ms" in row:
         return "lambent %s, true %s ms" % (ms(row["ms"]["lambent"]["median"]), ms(row["ms"]["true"]["median"]))
-    text = ", ".join("%s %s" % (ISA_NAMES.get(key, key), ms(t["median"])) for key, t in row.get("ms", {}).items()) + " ms"
+    text = ", ".join("%s %s" % (contestant(key), ms(t["median"])) for key, t in row.get("ms", {}).items()) + " ms"
+    if "cpu_ms" in row:
+        text += "; CPU time " + ", ".join("%s %s" % (ISA_NAMES.get(key, key), ms(t["median"])) for key, t in row["cpu_ms"].items()) + " ms (%s)" % (
+            ", ".join("%s: %s" % (ISA_NAMES.get(isa, isa), times(r["median"])) for isa, r in row["cpu_ratio"].items()))
     extra = ["%s: %s" % (key, times(r["median"])) for key, r in row.get("ratio", {}).items() if key not in ISA_NAMES]
     if "peers_tried_ms" in row:
         extra.append("tried: " + ", ".join("%s %s" % (name, ms(t)) for name, t in row["peers_tried_ms"].items()))
@@ -160,15 +169,20 @@ def readme_section(result):
     rows = {row["name"]: row for row in result["rows"] if "not_measured" not in row}
     isa, claims, numbers = result["isas"][0], [], []
     found = [(rows["whole 1M " + kind], kind.upper()) for kind in ("ply", "stl", "obj") if "whole 1M " + kind in rows]
-    if found:
-        claims.append("a file of a million triangles becomes a 1024×1024 PNG in " + ", ".join(
-            "%s ms (%s; %s the speed of F3D)" % (ms(row["ms"][isa]["median"]), kind, times(row["ratio"][isa]["median"])) for row, kind in found))
+    default = [rows["whole 1M %s, default" % kind] for kind in ("ply", "stl", "obj") if "whole 1M %s, default" % kind in rows]
+    if found and len(found) == len(default):
+        claims.append("a file of a million triangles becomes a 1024×1024 PNG in %s (%s), smooth and with %d samples; for the same work as F3D "
+                      "(facets, one sample) it takes %s, 1/%s of F3D's time and 1/%s of its CPU time" % (
+                          ", ".join("%s ms" % ms(row["ms"][isa]["median"]) for row in default), ", ".join(kind for _, kind in found),
+                          default[0]["samples"], ", ".join("%s ms" % ms(row["ms"][isa]["median"]) for row, _ in found),
+                          ", 1/".join("%.0f" % row["ratio"][isa]["median"] for row, _ in found),
+                          ", 1/".join("%.0f" % row["cpu_ratio"][isa]["median"] for row, _ in found)))
     if result["frames"].get(isa):
         claims.append("a frame alone has %s the speed of OpenGL on the same processor (Mesa's llvmpipe; geometric mean)" % times(
             result["frames"][isa]["mean"]))
     if not claims:
         return []
-    numbers = [str(row["number"]) for row, _ in found] + [str(r["number"]) for r in rows.values() if r["name"].startswith("frame ")]
+    numbers = [str(row["number"]) for row in [row for row, _ in found] + default] + [str(r["number"]) for r in rows.values() if r["name"].startswith("frame ")]
     return ["  On %d processors (%s, %s) %s:" % (result["machine"]["processors"], result["machine"]["processor"], ISA_NAMES[isa],
                                                 "; ".join(claims)),
             "  [docs/speed.md](docs/speed.md#the-rows), rows %s." % ", ".join(numbers)]

@@ -84,15 +84,15 @@ def memory_of_10m(isas):
     path = scenes.model(10000000)
     picture = os.path.join(paths.PICTURES, "memory.png")
     size = os.path.getsize(path)
-    peaks = {isa: measure.peak_bytes([paths.LAMBENT, "-q", path, "--samples", "1", "--isa", isa, "-o", picture]) for isa in isas}
-    peaks["4 samples"] = measure.peak_bytes([paths.LAMBENT, "-q", path, "-o", picture])
+    peaks = {isa: measure.process([paths.LAMBENT, "-q", path, "--samples", "1", "--isa", isa, "-o", picture]).peak_bytes for isa in isas}
+    peaks["4 samples"] = measure.process([paths.LAMBENT, "-q", path, "-o", picture]).peak_bytes
     return {"bytes": peaks, "file_bytes": size, "ratio": {key: measure.spread([p / size]) for key, p in peaks.items()}, "peer": "the file"}
 
 
 def start_up():
     """`lambent --version` (every option table read, one line written) compared with a program that does nothing."""
-    taken = measure.in_turn({"lambent": lambda: measure.start_ms([paths.LAMBENT, "--version"]),
-                             "true": lambda: measure.start_ms(["/bin/true"])}, 3, least_rounds=50, most_rounds=400)
+    taken = measure.in_turn({"lambent": lambda: measure.process([paths.LAMBENT, "--version"]).wall_ms,
+                             "true": lambda: measure.process(["/bin/true"]).wall_ms}, 3, least_rounds=50, most_rounds=400)
     over = [a - b for a, b in zip(taken["lambent"], taken["true"])]
     return {"ms": {key: measure.spread(t) for key, t in taken.items()}, "over_ms": measure.spread(over), "peer": "/bin/true",
             "opengl_or_gui_libraries": loaded_graphics()}
@@ -108,7 +108,7 @@ def limits():
     """The speed of memory (memory.c) and the cost of starting a process."""
     return {"arithmetic": json.loads(measure.output([paths.program("arithmetic")])),
             "memory_gb_s": json.loads(measure.output([paths.program("memory")])),
-            "process_ms": measure.spread([measure.start_ms(["/bin/true"]) for _ in range(100)])}
+            "process_ms": measure.spread([measure.process(["/bin/true"]).wall_ms for _ in range(100)])}
 
 
 def distance(isa, memory, process_ms):

@@ -1,7 +1,10 @@
-"""whole.py: compares a whole lambent process, model file to PNG, with F3D drawing the same file with the same camera.
+"""whole.py: compares a whole lambent process, model file to PNG, with F3D drawing the same file with the same camera. Each file is
+a row twice: the same work as F3D (the file's own normals or facets, one sample: F3D as Debian has it smooths neither faces nor
+edges unless asked), and the pictures that lambent draws by default (smooth normals, several samples).
 
-Each uses its own studio lights (F3D: VTK's light kit), both write 1024x1024 PNG. F3D runs on a running display: starting the X
-server is not counted. The pictures stay in build-bench/pictures for inspection."""
+Each uses its own studio lights (F3D: VTK's light kit), both write 1024x1024 PNG. F3D runs on a running display: neither starting
+the X server nor its CPU time is counted. The pictures stay in build-bench/pictures for inspection."""
+import functools
 import os
 import shutil
 import statistics
@@ -26,14 +29,14 @@ class Display:
         self.start()
         measure.output(["f3d", scenes.model(1000), "--dry-run", "--quiet", "--output=" + picture("try-f3d")])
 
-    def f3d_ms(self, command, written):
-        """F3D's time. If it crashes on a display used before, it runs once more on a new one."""
+    def f3d(self, command, written):
+        """What F3D took. If it crashes on a display used before, it runs once more on a new one."""
         try:
-            return measure.wall_ms(command, written)
+            return measure.whole_process(command, written)
         except measure.Failed:
             self.close()
             self.open()
-            return measure.wall_ms(command, written)
+            return measure.whole_process(command, written)
 
     def start(self):
         read, write = os.pipe()
@@ -68,28 +71,44 @@ def picture(name):
     return os.path.join(paths.PICTURES, name + ".png")
 
 
-def whole(name, path, samples, isas, display, seconds, size=SIZE):
-    """One file: lambent with each instruction set, also with the other number of samples, and F3D. `samples` decides."""
-    file_name = name.replace(" ", "-").replace(",", "")
-    other = 4 if samples == 1 else 1
+def carries_normals(path):
+    """Whether the file has normals of its own, for each vertex."""
+    with open(path, "rb") as file:
+        if path.endswith(".ply"):
+            return b"property float nx" in file.read(4096)
+        return path.endswith(".obj") and any(line.startswith(b"vn ") for line in file)
 
-    def ours(isa, count):
-        return [paths.LAMBENT, "-q", path, "-s", str(size), "--samples", str(count), "--isa", isa, "-o", picture(file_name + "-lambent")]
-    report = measure.lambent(path, "-s", size, "--samples", samples, "-o", picture(file_name + "-lambent"))
-    commands = {isa: ours(isa, samples) for isa in isas}
-    commands["%d samples" % other] = ours(isas[0], other)
-    contestants = {key: (lambda c=command: measure.wall_ms(c, picture(file_name + "-lambent"))) for key, command in commands.items()}
-    theirs = picture(file_name + "-f3d")
-    peer = f3d_command(path, report, theirs, size)
-    contestants["f3d"] = lambda: display.f3d_ms(peer, theirs)
+
+def whole(name, path, isas, display, seconds, size=SIZE):
+    """One file: lambent with each instruction set, for F3D's work and by default, and F3D. Returns the results of the two rows:
+    {same_work: result}."""
+    file_name = name.replace(" ", "-").replace(",", "")
+    ours, theirs = picture(file_name + "-lambent"), picture(file_name + "-f3d")
+    options = {True: ["--samples", "1"] + ([] if carries_normals(path) else ["--normals", "facet"]), False: []}
+
+    def command(same_work, isa):
+        return [paths.LAMBENT, "-q", path, "-s", str(size), *options[same_work], "--isa", isa, "-o", ours]
+    # Apart from the rounds, for the steps and for the time without the encoder: a report costs time.
+    reports = {same_work: [measure.lambent(path, "-s", size, *work, "-o", ours) for _ in range(3)] for same_work, work in options.items()}
+    contestants = {(same_work, isa): (lambda same_work=same_work, isa=isa: measure.whole_process(command(same_work, isa), ours))
+                   for same_work in options for isa in isas}
+    peer = f3d_command(path, reports[True][0], theirs, size)
+    contestants["f3d"] = lambda: display.f3d(peer, theirs)
     taken = measure.in_turn(contestants, seconds)
-    # The time without the encoder, from separate runs, since a report costs time.
-    besides = [r["times_ms"]["total"] - r["times_ms"]["encode"] for r in
-               (measure.lambent(path, "-s", size, "--samples", samples, "-o", picture(file_name + "-lambent")) for _ in range(3))]
-    return {"file_bytes": os.path.getsize(path), "triangles": report["model"]["triangles"], "samples": samples, "size": size,
-            "ms": {key: measure.spread(t) for key, t in taken.items()},
-            "ratio": {key: measure.ratio(taken["f3d"], t) for key, t in taken.items() if key != "f3d"},
-            "steps_ms": report["times_ms"], "besides_encoder_ms": statistics.median(besides), "peer": "F3D"}
+
+    def row(same_work):
+        of_row = {isa: taken[same_work, isa] for isa in isas}
+        wall = {key: [t.wall_ms for t in rounds] for key, rounds in dict(of_row, f3d=taken["f3d"]).items()}
+        cpu = {key: [t.cpu_ms for t in rounds] for key, rounds in dict(of_row, f3d=taken["f3d"]).items()}
+        report = reports[same_work][0]
+        return {"file_bytes": os.path.getsize(path), "triangles": report["model"]["triangles"], "samples": report["image"]["samples"],
+                "options": options[same_work], "size": size,
+                "ms": {key: measure.spread(t) for key, t in wall.items()}, "cpu_ms": {key: measure.spread(t) for key, t in cpu.items()},
+                "ratio": {isa: measure.ratio(wall["f3d"], wall[isa]) for isa in isas},
+                "cpu_ratio": {isa: measure.ratio(cpu["f3d"], cpu[isa]) for isa in isas}, "steps_ms": report["times_ms"],
+                "besides_encoder_ms": statistics.median(r["times_ms"]["total"] - r["times_ms"]["encode"] for r in reports[same_work]),
+                "peer": "F3D"}
+    return {same_work: row(same_work) for same_work in options}
 
 
 def small_model(name):
@@ -102,24 +121,29 @@ def small_model(name):
     return path
 
 
+def both(label, target, path, isas, display, seconds, size=SIZE):
+    """The two rows of a file, measured side by side when the first is asked for; `path` is a function. Targets are for equal work."""
+    measured = functools.cache(lambda: whole(label, path(), isas, display, seconds, size))
+    yield label, target, lambda: measured()[True]
+    yield label + ", default", None, lambda: measured()[False]
+
+
 def rows(isas, display, full):
     """(name, target, function that measures) of the rows of whole processes."""
     for name in ("spot", "teapot"):
-        yield "whole " + name, 30, lambda name=name: whole("whole " + name, small_model(name), 4, isas, display, 4)
-    for triangles, word, targets, seconds in ((1000000, "1M", (30, 15, 25), 5), (10000000, "10M", (15, 8, 20), 8)):
+        yield from both("whole " + name, 30, lambda name=name: small_model(name), isas, display, 3)
+    for triangles, word, targets, seconds in ((1000000, "1M", (30, 15, 25), 4), (10000000, "10M", (15, 8, 20), 6)):
         for kind, target in zip(("ply", "stl", "obj"), targets):
-            yield ("whole %s %s" % (word, kind), target, lambda triangles=triangles, kind=kind, word=word, seconds=seconds:
-                   whole("whole %s %s" % (word, kind), scenes.model(triangles, kind), 1, isas, display, seconds))
+            yield from both("whole %s %s" % (word, kind), target, lambda triangles=triangles, kind=kind: scenes.model(triangles, kind),
+                            isas, display, seconds)
     if not full:
         return
     for size in (256, 1024):
         for name in ("koala", "koala.stl", "gallery"):
-            label = "whole %s %d px" % (name, size)
-            yield label, None, lambda label=label, name=name, size=size: whole(label, small_model(name), 4, isas, display, 6, size)
+            yield from both("whole %s %d px" % (name, size), None, lambda name=name: small_model(name), isas, display, 6, size)
         for triangles in (10000, 100000, 1000000, 10000000):
             for kind in ("ply", "stl", "obj"):
                 if size == 1024 and triangles >= 1000000:
                     continue  # above
-                label = "whole %d %s %d px" % (triangles, kind, size)
-                yield label, None, lambda label=label, triangles=triangles, kind=kind, size=size: whole(
-                    label, scenes.model(triangles, kind), 1, isas, display, 6, size)
+                yield from both("whole %d %s %d px" % (triangles, kind, size), None,
+                                lambda triangles=triangles, kind=kind: scenes.model(triangles, kind), isas, display, 6, size)

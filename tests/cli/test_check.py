@@ -604,6 +604,8 @@ class Contracts(CheckTest):
             text = (SHADERS / f"threejs.{ending}").read_text().splitlines()
             self.assertEqual(lines[f"s.{ending}"], next(i for i, line in enumerate(text, 1) if part in line))
         self.assertIn("'nromal' is not declared, but 'normal' is", " ".join(self.notes(report, "hint")))
+        report = self.report_of(*self.shader("threejs", [("frag", "uniform vec3 lightPosition;", "#include <common>\nuniform vec3 lightPosition;")]), code=6)
+        self.assertIn("GLSL has no #include", " ".join(self.notes(report, "hint")))
         words = self.shader("threejs-raw", [("vert", "uniform mat3 normalMatrix;", "")])
         self.assertEqual(self.report_of(*words, code=6)["verdict"], "refused")
 

@@ -17,14 +17,31 @@ static bool shares_a_name(const struct declarations *a, const struct declaration
 }
 
 // Whether a text is one that the engine completes.
-static bool lacks_prefix(const char *prefix, const char *text, bool vertex, bool *lacks, lam_error *error)
+static bool lacks_prefix(const char *prefix, const struct declarations *own, bool vertex, bool *lacks, lam_error *error)
 {
-    struct declarations own = {0}, before = {0};
-    bool ok = declarations_read(&own, text, vertex, error) && declarations_read(&before, prefix, vertex, error);
-    *lacks = ok && own.version == 0 && !shares_a_name(&own, &before);
-    declarations_free(&own);
+    struct declarations before = {0};
+    *lacks = false;
+    if (own->version)
+        return true;
+    if (!declarations_read(&before, prefix, vertex, error))
+        return false;
+    *lacks = !shares_a_name(own, &before);
     declarations_free(&before);
-    return ok;
+    return true;
+}
+
+bool prefix_applies(const struct contract *contract, const struct declarations *vertex,
+                    const struct declarations *fragment, bool *applies, lam_error *error)
+{
+    bool vertex_lacks = true, fragment_lacks = true;
+    *applies = false;
+    if (!contract->prefix_vertex || !contract->prefix_fragment)
+        return true;
+    if ((vertex && !lacks_prefix(contract->prefix_vertex, vertex, true, &vertex_lacks, error)) ||
+        !lacks_prefix(contract->prefix_fragment, fragment, false, &fragment_lacks, error))
+        return false;
+    *applies = vertex_lacks && fragment_lacks;
+    return true;
 }
 
 static int count_lines(const char *text)
@@ -49,18 +66,10 @@ static char *join(const char *prefix, const char *text)
     return out;
 }
 
-bool prefix_complete(const struct contract *contract, const char *vertex, const char *fragment,
-                     struct complete_texts *out, lam_error *error)
+bool prefix_add(const struct contract *contract, const char *vertex, const char *fragment, struct complete_texts *out,
+                lam_error *error)
 {
     *out = (struct complete_texts){.vertex = vertex, .fragment = fragment};
-    bool vertex_lacks = true, fragment_lacks = true;
-    if (!contract->prefix_fragment)
-        return true;
-    if ((vertex && !lacks_prefix(contract->prefix_vertex, vertex, true, &vertex_lacks, error)) ||
-        !lacks_prefix(contract->prefix_fragment, fragment, false, &fragment_lacks, error))
-        return false;
-    if (!vertex_lacks || !fragment_lacks)
-        return true;
     out->fragment = out->owned[1] = join(contract->prefix_fragment, fragment);
     out->lines[1] = count_lines(contract->prefix_fragment) + 1;
     if (vertex) {
@@ -68,6 +77,21 @@ bool prefix_complete(const struct contract *contract, const char *vertex, const 
         out->lines[0] = count_lines(contract->prefix_vertex) + 1;
     }
     return (out->fragment && (!vertex || out->vertex)) || fail_memory(error, strlen(fragment));
+}
+
+bool prefix_complete(const struct contract *contract, const char *vertex, const char *fragment,
+                     struct complete_texts *out, lam_error *error)
+{
+    *out = (struct complete_texts){.vertex = vertex, .fragment = fragment};
+    struct declarations sides[2] = {{0}};
+    bool applies = false, ok = true;
+    if (contract->prefix_fragment)
+        ok = declarations_read(&sides[0], vertex ? vertex : "", true, error) &&
+             declarations_read(&sides[1], fragment, false, error) &&
+             prefix_applies(contract, vertex ? &sides[0] : NULL, &sides[1], &applies, error);
+    declarations_free(&sides[0]);
+    declarations_free(&sides[1]);
+    return ok && (!applies || prefix_add(contract, vertex, fragment, out, error));
 }
 
 void prefix_free(struct complete_texts *texts)

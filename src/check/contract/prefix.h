@@ -11,8 +11,17 @@ struct complete_texts {
     int lines[2];                  // what stands before the texts: this many lines
 };
 
-// Completes the texts of a program for a contract: its prefix is added where the texts have no version line and declare
-// none of the names that the prefix declares; otherwise they stay as they are. `vertex` may be NULL. False: out of
+// Whether a contract's engine completes texts with these declarations: they have no version line and declare none of the
+// names that its prefix declares. `vertex` may be NULL. False: out of memory.
+bool prefix_applies(const struct contract *contract, const struct declarations *vertex,
+                    const struct declarations *fragment, bool *applies, lam_error *error);
+
+// Adds the prefix. False: out of memory. The caller frees `out`.
+bool prefix_add(const struct contract *contract, const char *vertex, const char *fragment, struct complete_texts *out,
+                lam_error *error);
+
+// Completes the texts of a program for a contract: its prefix is added where it applies; otherwise they stay as
+// they are. `vertex` may be NULL. False: out of
 // memory. The caller frees `out`.
 bool prefix_complete(const struct contract *contract, const char *vertex, const char *fragment,
                      struct complete_texts *out, lam_error *error);

@@ -35,27 +35,42 @@ static int score(const struct contract *contract, const struct declarations *d, 
     return points;
 }
 
+// The score of texts that the contract's engine completes.
+static bool score_completed(const struct contract *contract, const char *vertex, const char *fragment, int *points,
+                            lam_error *error)
+{
+    struct complete_texts texts;
+    struct declarations sides[2] = {{0}};
+    bool ok = prefix_add(contract, vertex, fragment, &texts, error) && prefix_read(&texts, true, &sides[0], error) &&
+              prefix_read(&texts, false, &sides[1], error);
+    *points = ok ? score(contract, &sides[0], true) + score(contract, &sides[1], false) : 0;
+    declarations_free(&sides[0]);
+    declarations_free(&sides[1]);
+    prefix_free(&texts);
+    return ok;
+}
+
 bool contract_recognise(lam_check_contract *const *contracts, int count, const char *vertex, const char *fragment,
                         const struct contract **out, lam_error *error)
 {
+    struct declarations sides[2] = {{0}};
     int best = 0;
-    bool ok = true;
+    bool ok = declarations_read(&sides[0], vertex ? vertex : "", true, error) &&
+              declarations_read(&sides[1], fragment, false, error);
     *out = NULL;
     for (int i = 0; ok && i < count; i++) {
         const struct contract *contract = &contracts[i]->contract;
-        struct complete_texts texts;
-        struct declarations sides[2] = {{0}};
-        ok = prefix_complete(contract, vertex, fragment, &texts, error) &&
-             prefix_read(&texts, true, &sides[0], error) && prefix_read(&texts, false, &sides[1], error);
-        int points = ok ? score(contract, &sides[0], true) + score(contract, &sides[1], false) : 0;
+        int points = score(contract, &sides[0], true) + score(contract, &sides[1], false);
+        bool completed = false;
+        ok = prefix_applies(contract, vertex ? &sides[0] : NULL, &sides[1], &completed, error) &&
+             (!completed || score_completed(contract, vertex, fragment, &points, error));
         if (points > best) {
             best = points;
             *out = contract;
         }
-        declarations_free(&sides[0]);
-        declarations_free(&sides[1]);
-        prefix_free(&texts);
     }
+    declarations_free(&sides[0]);
+    declarations_free(&sides[1]);
     return ok;
 }
 

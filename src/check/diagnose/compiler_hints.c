@@ -202,6 +202,11 @@ void compiler_hints_for_message(struct diagnostics *diagnostics, const struct de
             diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
                             "'%s' is not declared: give it a type at its first use", name);
     }
+    if (strstr(message, "include") && strchr(message, '<'))
+        diagnostics_add(
+            diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
+            "GLSL has no #include: three.js replaces it by code of its own, which the check does not have; write "
+            "what the shader needs of it");
     if (strstr(message, " field ") && quoted_name(message, name))
         hint_member(diagnostics, d, file, line, name);
     if (strstr(message, "no matching function") && (strstr(message, "(int") || strstr(message, ", int")))

@@ -15,14 +15,31 @@
 
 // --- preparation
 
+// A scene as the shaders can express it, without what its terms do not show.
+static struct reference_scene visible_scene(const struct run *r, int index)
+{
+    struct reference_scene s = shader_interface_scene(&r->interface, &reference_scenes[index]);
+    for (int i = 0; i < s.light_count; i++) {
+        if (s.ks == 0)
+            s.lights[i].specular = (lam_rgb){0, 0, 0};
+        if (s.lights[i].type == LAM_LIGHT_DIRECTIONAL)
+            s.lights[i].position = (lam_vec3){0, 0, 0};
+    }
+    if (s.ks == 0) {
+        s.specular = (lam_rgb){0, 0, 0};
+        s.shininess = 0;
+    }
+    return s;
+}
+
 // Whether the shaders can express no difference between a scene and one of `scenes`: shaders without a name for a strength
 // draw every term in every scene.
 static bool is_repeated(const struct run *r, int index, unsigned scenes)
 {
     const size_t from = offsetof(struct reference_scene, mesh);
-    struct reference_scene mine = shader_interface_scene(&r->interface, &reference_scenes[index]);
+    struct reference_scene mine = visible_scene(r, index);
     for (int i = 0; i < index; i++) {
-        struct reference_scene other = shader_interface_scene(&r->interface, &reference_scenes[i]);
+        struct reference_scene other = visible_scene(r, i);
         if (scenes >> i & 1 && memcmp((char *)&mine + from, (char *)&other + from, sizeof mine - from) == 0)
             return true;
     }

@@ -1,4 +1,4 @@
-// check_compare.c: the reference pictures, their comparison with the shader's, and what explains a difference.
+// check_compare.c: compares the shader's pictures with the references, and finds what explains a difference.
 #include "check_run.h"
 
 #include <stdio.h>
@@ -6,46 +6,11 @@
 #include <string.h>
 
 #include "arena.h"
-#include "expectation.h"
 #include "fail.h"
 #include "fault_search.h"
 #include "srgb.h"
 
-// --- the reference
-
-static bool draw_reference(struct run *r, lam_device *device, struct scene_comparison *scene, lam_error *error)
-{
-    lam_camera camera;
-    struct reference_scene opaque = scene->reference_scene; // the shader under test is drawn without blending
-    opaque.alpha = 1;
-    lam_scene *world = reference_to_scene(&opaque, &camera, error);
-    lam_image image = {0};
-    bool two_sides = (r->interface.supports & NEED_TWO_SIDES) != 0;
-    lam_draw_params draw = {
-        .samples = 1,
-        .rig = LAM_RIG_NONE,
-        .reflection = r->reflection,
-        .shading = scene->reference_scene.flat ? LAM_SHADING_FLAT
-                   : r->interface.vertex_lit   ? LAM_SHADING_GOURAUD
-                                               : LAM_SHADING_PHONG,
-        .flat_normal = LAM_FLAT_NORMAL_VERTEX,
-    };
-    if (world && !two_sides) {
-        lam_object object = *lam_scene_object(world, 0);
-        object.one_sided = true;
-        lam_scene_set_object(world, 0, &object, NULL);
-    }
-    bool ok = world && lam_image_make(&image, r->size, r->size, LAM_RGBA32F, error) &&
-              lam_draw(device, world, &camera, &draw, &image, NULL, error);
-    if (ok) {
-        memcpy(scene->reference, image.pixels, 4 * (size_t)r->size * (size_t)r->size * sizeof(float));
-        for (size_t i = 0; i < (size_t)r->size * (size_t)r->size; i++)
-            scene->reference[4 * i + 3] *= scene->reference_scene.alpha;
-    }
-    lam_image_free(&image);
-    lam_scene_free(world);
-    return ok;
-}
+// --- the pictures
 
 static bool make_scenes(struct run *r, unsigned scenes, lam_error *error)
 {
@@ -73,55 +38,6 @@ static bool make_scenes(struct run *r, unsigned scenes, lam_error *error)
             memcpy(out->theirs.pixels, scene->theirs, pixels * 4 * sizeof(float));
         at += 4 * pixels;
     }
-    return ok;
-}
-
-// Draws the references of an expectation, and measures the difference. Returns the mean over all scenes; `fits`: every
-// scene is within the tolerance.
-static bool try_expectation(struct run *r, lam_device *device, unsigned expectation, double *mean, bool *fits,
-                            lam_error *error)
-{
-    r->expectation = expectation;
-    *mean = 0;
-    *fits = true;
-    for (int i = 0; i < r->scene_count; i++) {
-        struct scene_comparison *scene = &r->scenes[i];
-        scene->reference_scene = shader_interface_scene(&r->interface, scene->row);
-        expectation_apply(expectation, &scene->reference_scene);
-        if (!draw_reference(r, device, scene, error))
-            return false;
-        scene_comparison_find_inside(scene, r->size);
-        scene_comparison_sample(scene, scene->theirs, scene->samples);
-        scene_comparison_sample(scene, scene->reference, r->numbers);
-        struct difference d = scene_comparison_difference(scene, r->numbers, r->tolerance);
-        *mean += d.mean / r->scene_count;
-        *fits = *fits && d.fits;
-    }
-    return true;
-}
-
-// Of the possible expectations, the first that the pictures fulfil, else the nearest.
-static bool draw_references(struct run *r, lam_error *error)
-{
-    unsigned choices[MAX_EXPECTATIONS];
-    int count = expectations_of(&r->interface, r->params->terms, choices), best = 0;
-    lam_device *device = lam_device_cpu(NULL, error);
-    double mean = 0, best_mean = 0;
-    bool ok = device, fits = false;
-    for (int i = 0; ok && !fits && i < count; i++) {
-        ok = try_expectation(r, device, choices[i], &mean, &fits, error);
-        if (i == 0 || fits || mean < best_mean) {
-            best = i;
-            best_mean = mean;
-        }
-    }
-    if (ok && r->expectation != choices[best])
-        ok = try_expectation(r, device, choices[best], &mean, &fits, error);
-    lam_device_free(device);
-    char text[400];
-    expectation_describe(r->expectation, &r->interface, r->params->terms, text, sizeof text);
-    if (ok && text[0])
-        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", text);
     return ok;
 }
 
@@ -326,7 +242,7 @@ bool check_compare(struct run *r, unsigned scenes, bool writes, lam_error *error
         return false;
     if (is_encoded(r) && !decode_all(r))
         return fail_memory(error, 4 * (size_t)r->size * (size_t)r->size * sizeof(float));
-    if (!draw_references(r, error))
+    if (!check_draw_references(r, error))
         return false;
     measure(r, writes);
     if (r->report->verdict == LAM_CHECK_PASSES || !is_searchable(r, writes) || !has_differences(r))

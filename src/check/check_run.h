@@ -29,6 +29,9 @@ struct run {
     float *numbers;       // scratch memory for the samples of a picture
 };
 
+// Draws the references of `scenes`: of the possible expectations the first that the pictures fulfil, else the nearest.
+bool check_draw_references(struct run *run, lam_error *error);
+
 // Compares the pictures of `drawn` with the reference scenes `scenes` (bits), and fills the report: scenes, verdict,
 // findings. `writes`: the fragment shader writes a colour.
 bool check_compare(struct run *run, unsigned scenes, bool writes, lam_error *error);

@@ -588,6 +588,21 @@ class Contracts(CheckTest):
                                     ("vert", "vec3(1.0, 1.0, 1.0)", "vec3(0.5)")])
         self.assertEqual(self.report_of(*words)["verdict"], "passes")
 
+    def test_numbers_without_names(self):
+        """Where the text does not say which of its numbers is which, those that fit are taken; a mistake is still found."""
+        edits = [("frag", "    float ambientStrength = 0.1;\n", ""), ("frag", "    float specularStrength = 0.5;\n", ""),
+                 ("frag", "(ambientStrength + diffuse + specularStrength * specular)", "(0.25 + diffuse + 0.7 * specular)")]
+        report = self.report_of(*self.shader("learnopengl", edits))
+        self.assertEqual(report["verdict"], "passes")
+        self.assertIn("taken from the shader's text", " ".join(self.notes(report, "hint")))
+        report = self.report_of(*self.shader("learnopengl", edits + [("frag", "diffuse > 0.0 ?", "true ?")]), code=6)
+        self.assertEqual([m["id"] for m in report["mistakes"]], ["no-gate"])
+        report = self.report_of(*self.shader("mdn", [
+            ("vert", "vec3 ambientLight = vec3(0.3, 0.3, 0.3)", "vec3 a = vec3(0.2)"), ("vert", "vec3 directionalLightColor = vec3(1.0, 1.0, 1.0)", "vec3 b = vec3(0.8, 0.7, 0.6)"),
+            ("vert", "vec3 directionalVector = normalize(vec3(0.85, 0.8, 0.75))", "vec3 c = normalize(vec3(0.2, 1.0, 0.5))"),
+            ("vert", "ambientLight + directionalLightColor * max(dot(normal, directionalVector)", "a + b * max(dot(normal, c)")]))
+        self.assertEqual(report["verdict"], "passes")
+
     def test_scenes_once(self):
         """Scenes that a shader cannot tell apart are drawn once."""
         names = [scene["name"] for scene in self.report_of(*self.shader("learnopengl"))["scenes"]]

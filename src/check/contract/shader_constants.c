@@ -26,23 +26,30 @@ static bool read_number(const struct declarations *d, int *at, double *out)
     return true;
 }
 
+// Reads vec3(a) or vec3(a, b, c) and moves past it.
+static bool read_vector(const struct declarations *d, int *at, double out[3])
+{
+    if (!is(d, *at, "vec3") || !is(d, *at + 1, "("))
+        return false;
+    int i = *at + 2, count = 0;
+    do
+        if (!read_number(d, &i, &out[count]))
+            return false;
+    while (++count < 3 && is(d, i, ",") && i++);
+    if (count == 1)
+        out[1] = out[2] = out[0];
+    if ((count != 1 && count != 3) || !is(d, i, ")"))
+        return false;
+    *at = i + 1;
+    return true;
+}
+
 // Reads a number, vec3(a), vec3(a, b, c), or normalize() of one of these, up to `;`.
 static bool read_value(const struct declarations *d, int at, double out[3])
 {
     bool unit = is(d, at, "normalize") && is(d, at + 1, "(");
     at += unit ? 2 : 0;
-    if (is(d, at, "vec3") && is(d, at + 1, "(")) {
-        at += 2;
-        int count = 0;
-        do
-            if (!read_number(d, &at, &out[count]))
-                return false;
-        while (++count < 3 && is(d, at, ",") && at++);
-        if ((count != 1 && count != 3) || !is(d, at++, ")"))
-            return false;
-        if (count == 1)
-            out[1] = out[2] = out[0];
-    } else {
+    if (!read_vector(d, &at, out)) {
         if (!read_number(d, &at, &out[0]))
             return false;
         out[1] = out[2] = out[0];
@@ -85,8 +92,9 @@ static void set_color(struct default_color *color, const double v[3])
     *color = (struct default_color){COLOR_GIVEN, {(float)v[0], (float)v[1], (float)v[2]}};
 }
 
-static void set(struct contract_defaults *d, enum uniform_semantic semantic, const double v[3])
+void shader_constants_set(struct shader_interface *r, enum uniform_semantic semantic, const double v[3])
 {
+    struct contract_defaults *d = &r->defaults;
     struct default_number number = {true, (float)v[0]};
     switch (semantic) {
     case SEMANTIC_KA:
@@ -117,6 +125,12 @@ static void set(struct contract_defaults *d, enum uniform_semantic semantic, con
     case SEMANTIC_AMBIENT_LIGHT:
         set_color(&d->light_ambient, v);
         break;
+    case SEMANTIC_ATTENUATION_CONSTANT:
+    case SEMANTIC_ATTENUATION_LINEAR:
+    case SEMANTIC_ATTENUATION_QUADRATIC:
+        d->has_attenuation = true;
+        d->attenuation[semantic - SEMANTIC_ATTENUATION_CONSTANT] = number.value;
+        break;
     default: // SEMANTIC_LIGHT_DIRECTION
         d->direction = (lam_vec3){v[0], v[1], v[2]};
         d->has_direction = v[0] != 0 || v[1] != 0 || v[2] != 0;
@@ -130,8 +144,80 @@ void shader_constants_find(struct shader_interface *r)
     for (const struct contract_constant *c = r->contract->constants; c->name; c++) {
         double v[3];
         if (find_value(&r->fragment, c->name, v) || find_value(&r->vertex, c->name, v)) {
-            set(&r->defaults, c->semantic, v);
+            shader_constants_set(r, c->semantic, v);
             r->constants |= (uint64_t)1 << c->semantic;
         }
     }
+}
+
+// --- numbers without a name
+
+// The colours and strengths that are found by trying: those of directions and exponents have names of their own.
+static bool is_vector(enum uniform_semantic semantic)
+{
+    return semantic == SEMANTIC_LIGHT_AMBIENT || semantic == SEMANTIC_LIGHT_COLOR ||
+           semantic == SEMANTIC_LIGHT_DIRECTION;
+}
+
+int shader_constants_open(const struct shader_interface *r, enum uniform_semantic out[SEMANTIC_COUNT])
+{
+    uint64_t seen = 0;
+    int count = 0;
+    for (const struct contract_constant *c = r->contract->constants; c->name; c++) {
+        bool tried = c->semantic == SEMANTIC_KA || c->semantic == SEMANTIC_KS || is_vector(c->semantic);
+        bool known = (r->constants | r->declared | seen) >> c->semantic & 1;
+        seen |= (uint64_t)1 << c->semantic;
+        if (tried && !known)
+            out[count++] = c->semantic;
+    }
+    return count;
+}
+
+int shader_constants_values(const struct shader_interface *r, enum uniform_semantic semantic,
+                            double out[MAX_NUMBERS][3])
+{
+    const struct declarations *d = r->vertex_lit ? &r->vertex : &r->fragment;
+    int count = 0;
+    for (int i = 0; i < d->word_count && count < MAX_NUMBERS; i++) {
+        double v[3];
+        int at = i;
+        bool vector = is_vector(semantic);
+        if (vector ? !read_vector(d, &at, v) : !read_number(d, &at, &v[0]))
+            continue;
+        if (!vector && !(v[0] > 0 && v[0] < 1))
+            continue;
+        bool known = false;
+        for (int k = 0; k < count; k++)
+            known = known || (out[k][0] == v[0] && (!vector || (out[k][1] == v[1] && out[k][2] == v[2])));
+        if (!known)
+            memcpy(out[count++], v, sizeof v);
+    }
+    return count;
+}
+
+static uint64_t mix(uint64_t hash, double number) // FNV-1a, one number at a time
+{
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    return (hash ^ bits ^ bits >> 29) * 1099511628211u;
+}
+
+uint64_t shader_constants_hash(const struct shader_interface *r)
+{
+    const struct contract_defaults *d = &r->defaults;
+    const struct default_color *const colors[] = {&d->ambient_color, &d->diffuse_color,  &d->specular_color,
+                                                  &d->light_color,   &d->light_specular, &d->light_ambient};
+    const struct default_number *const numbers[] = {&d->ambient_strength, &d->diffuse_strength, &d->specular_strength,
+                                                    &d->shininess, &d->spot_exponent};
+    uint64_t hash = 14695981039346656037u;
+    for (size_t i = 0; i < sizeof colors / sizeof *colors; i++) {
+        hash = mix(hash, colors[i]->source);
+        hash = mix(mix(mix(hash, (double)colors[i]->value.r), (double)colors[i]->value.g), (double)colors[i]->value.b);
+    }
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        hash = mix(mix(hash, numbers[i]->given), (double)numbers[i]->value);
+    for (int i = 0; i < 3; i++)
+        hash = mix(hash, (double)d->attenuation[i]);
+    hash = mix(mix(hash, d->has_attenuation), d->has_direction);
+    return mix(mix(mix(hash, d->direction.x), d->direction.y), d->direction.z);
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "fail.h"
+#include "shader_constants.h"
 #include "linear.h"
 
 enum { BEAM = 6 };
@@ -64,6 +65,7 @@ static const float *render_faults(struct state *t, int index, const fault_set *s
     struct render_key key = {.scene = (int)(scene->row - reference_scenes),
                              .contract = s->interface->contract->hash,
                              .declared = s->interface->declared,
+                             .numbers = shader_constants_hash(s->interface),
                              .light_frame = s->frame,
                              .reflection = s->reflection,
                              .vertex_lit = s->interface->vertex_lit,

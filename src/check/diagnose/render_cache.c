@@ -53,6 +53,7 @@ static size_t bucket_of(const struct render_key *k)
     const uint64_t parts[] = {(uint64_t)k->scene,
                               k->contract,
                               k->declared,
+                              k->numbers,
                               (uint64_t)k->light_frame,
                               (uint64_t)k->reflection,
                               (uint64_t)k->vertex_lit,
@@ -73,9 +74,9 @@ static size_t bucket_of(const struct render_key *k)
 static bool same(const struct render_key *a, const struct render_key *b)
 {
     return a->scene == b->scene && a->contract == b->contract && a->declared == b->declared &&
-           a->light_frame == b->light_frame && a->reflection == b->reflection && a->vertex_lit == b->vertex_lit &&
-           a->size == b->size && a->light_capacity == b->light_capacity && a->supports == b->supports &&
-           a->expectation == b->expectation && fault_set_equal(&a->set, &b->set);
+           a->numbers == b->numbers && a->light_frame == b->light_frame && a->reflection == b->reflection &&
+           a->vertex_lit == b->vertex_lit && a->size == b->size && a->light_capacity == b->light_capacity &&
+           a->supports == b->supports && a->expectation == b->expectation && fault_set_equal(&a->set, &b->set);
 }
 
 const float *render_cache_find(const lam_check_cache *cache, const struct render_key *key)

@@ -6,8 +6,8 @@
 
 // Everything that a picture of the fault shader depends on.
 struct render_key {
-    int scene;                   // index in reference_scenes
-    uint64_t contract, declared; // the contract's hash; of shader_interface
+    int scene;                            // index in reference_scenes
+    uint64_t contract, declared, numbers; // the contract's hash; of shader_interface; shader_constants_hash
     int light_frame, reflection, vertex_lit;
     int size; // width and height in pixels
     int light_capacity;

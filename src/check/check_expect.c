@@ -1,0 +1,147 @@
+// check_expect.c: draws the reference pictures of what the shaders are expected to compute.
+#include "check_run.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "arena.h"
+#include "expectation.h"
+#include "fail.h"
+#include "shader_constants.h"
+
+static bool draw_reference(struct run *r, lam_device *device, struct scene_comparison *scene, lam_error *error)
+{
+    lam_camera camera;
+    struct reference_scene opaque = scene->reference_scene; // the shader under test is drawn without blending
+    opaque.alpha = 1;
+    lam_scene *world = reference_to_scene(&opaque, &camera, error);
+    lam_image image = {0};
+    bool two_sides = (r->interface.supports & NEED_TWO_SIDES) != 0;
+    lam_draw_params draw = {
+        .samples = 1,
+        .rig = LAM_RIG_NONE,
+        .reflection = r->reflection,
+        .shading = scene->reference_scene.flat ? LAM_SHADING_FLAT
+                   : r->interface.vertex_lit   ? LAM_SHADING_GOURAUD
+                                               : LAM_SHADING_PHONG,
+        .flat_normal = LAM_FLAT_NORMAL_VERTEX,
+    };
+    if (world && !two_sides) {
+        lam_object object = *lam_scene_object(world, 0);
+        object.one_sided = true;
+        lam_scene_set_object(world, 0, &object, NULL);
+    }
+    bool ok = world && lam_image_make(&image, r->size, r->size, LAM_RGBA32F, error) &&
+              lam_draw(device, world, &camera, &draw, &image, NULL, error);
+    if (ok) {
+        memcpy(scene->reference, image.pixels, 4 * (size_t)r->size * (size_t)r->size * sizeof(float));
+        for (size_t i = 0; i < (size_t)r->size * (size_t)r->size; i++)
+            scene->reference[4 * i + 3] *= scene->reference_scene.alpha;
+    }
+    lam_image_free(&image);
+    lam_scene_free(world);
+    return ok;
+}
+
+// What the shaders may be expected to compute: bits of enum expectation, and numbers.
+struct candidate {
+    unsigned expectation;
+    struct contract_defaults numbers;
+    double mean; // difference
+    bool fits;
+};
+
+// Draws the references of the first `scene_count` scenes, and measures the difference.
+static bool try_candidate(struct run *r, lam_device *device, int scene_count, struct candidate *c, lam_error *error)
+{
+    r->expectation = c->expectation;
+    r->interface.defaults = c->numbers;
+    c->mean = 0;
+    c->fits = true;
+    for (int i = 0; i < scene_count; i++) {
+        struct scene_comparison *scene = &r->scenes[i];
+        scene->reference_scene = shader_interface_scene(&r->interface, scene->row);
+        expectation_apply(c->expectation, &scene->reference_scene);
+        if (!draw_reference(r, device, scene, error))
+            return false;
+        scene_comparison_find_inside(scene, r->size);
+        scene_comparison_sample(scene, scene->theirs, scene->samples);
+        scene_comparison_sample(scene, scene->reference, r->numbers);
+        struct difference d = scene_comparison_difference(scene, r->numbers, r->tolerance);
+        c->mean += d.mean / scene_count;
+        c->fits = c->fits && d.fits;
+    }
+    return true;
+}
+
+// Where the exercise has a number in place of a name, and the text does not say which of its numbers that is, all are
+// tried on the first scene, which shows every term: those that come nearest are kept in `best`, if the other scenes agree.
+enum { MAX_OPEN = 4, MAX_TRIES = 512 };
+static bool fit_numbers(struct run *r, lam_device *device, const unsigned *choices, int choice_count,
+                        struct candidate *best, lam_error *error)
+{
+    struct shader_interface *interface = &r->interface;
+    const struct contract_defaults own = interface->defaults;
+    enum uniform_semantic open[SEMANTIC_COUNT];
+    double values[MAX_OPEN][MAX_NUMBERS][3];
+    int counts[MAX_OPEN], tries = choice_count, open_count = shader_constants_open(interface, open);
+    open_count = open_count < MAX_OPEN ? open_count : MAX_OPEN;
+    for (int i = 0; i < open_count; i++) {
+        counts[i] = shader_constants_values(interface, open[i], values[i]);
+        tries *= counts[i] + 1; // the contract's own as well
+    }
+    struct candidate first = {.mean = 1e9};
+    if (tries == choice_count || tries > MAX_TRIES)
+        return true;
+    for (int k = 0; k < tries && !first.fits; k++) {
+        interface->defaults = own;
+        int rest = k / choice_count;
+        for (int i = 0; i < open_count; rest /= counts[i++] + 1)
+            if (rest % (counts[i] + 1))
+                shader_constants_set(interface, open[i], values[i][rest % (counts[i] + 1) - 1]);
+        struct candidate c = {.expectation = choices[k % choice_count], .numbers = interface->defaults};
+        if (!try_candidate(r, device, 1, &c, error))
+            return false;
+        if (c.mean < first.mean)
+            first = c;
+    }
+    if (!try_candidate(r, device, r->scene_count, &first, error))
+        return false;
+    if (first.fits || first.mean < best->mean)
+        *best = first;
+    return true;
+}
+
+bool check_draw_references(struct run *r, lam_error *error)
+{
+    unsigned choices[MAX_EXPECTATIONS];
+    int count = expectations_of(&r->interface, r->params->terms, choices);
+    lam_device *device = lam_device_cpu(NULL, error);
+    struct candidate best = {.mean = 1e9};
+    bool ok = device, numbers = false;
+    for (int i = 0; ok && !best.fits && i < count; i++) {
+        struct candidate c = {.expectation = choices[i], .numbers = r->interface.defaults};
+        ok = try_candidate(r, device, r->scene_count, &c, error);
+        if (ok && (c.fits || c.mean < best.mean))
+            best = c;
+    }
+    if (ok && !best.fits) {
+        double before = best.mean;
+        r->interface.defaults = best.numbers;
+        ok = fit_numbers(r, device, choices, count, &best, error);
+        numbers = best.mean < before;
+    }
+    if (ok && !best.fits) // the last one tried need not be the best
+        ok = try_candidate(r, device, r->scene_count, &best, error);
+    lam_device_free(device);
+    char text[400];
+    expectation_describe(r->expectation, &r->interface, r->params->terms, text, sizeof text);
+    if (ok && text[0])
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", text);
+    if (ok && numbers)
+        diagnostics_add(
+            &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+            "the numbers of the exercise, such as the strength of the ambient light, are taken from the shader's "
+            "text as they fit best");
+    return ok;
+}

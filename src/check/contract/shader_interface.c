@@ -204,6 +204,7 @@ static void find_lights(struct shader_interface *r)
 {
     const struct declarations *sides[] = {&r->vertex, &r->fragment};
     unsigned all = 0;
+    int placeless = -1;
     for (int s = 0; s < 2; s++)
         for (int i = 0; i < sides[s]->count; i++)
             add_light_name(r, sides[s], &sides[s]->items[i]);
@@ -213,12 +214,14 @@ static void find_lights(struct shader_interface *r)
             group->kinds = lambent_light_kinds(r);
         else if (!group->kinds && group->has_direction)
             group->kinds = NEED_DIRECTIONAL;
-        if (!group->kinds) // colours without a place
+        if (!group->kinds && group->count) { // colours without a place
+            placeless = placeless < 0 ? g : placeless;
             group->count = 0;
+        }
         all |= group->count ? group->kinds : 0;
     }
-    if (!all) // the light is in a generated vertex shader, or a constant of the exercise
-        r->groups[0] = (struct light_group){
+    if (!all) // the place is in a generated vertex shader, or a number of the exercise
+        r->groups[placeless < 0 ? 0 : placeless] = (struct light_group){
             .count = 1, .kinds = r->contract->supports & (NEED_POINT | NEED_DIRECTIONAL), .list = false};
 }
 

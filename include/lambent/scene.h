@@ -238,11 +238,13 @@ LAM_API bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, 
 // LAM_RIG_AUTO decided.
 LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX]);
 
-// Makes tangents for every mesh that has texture coordinates and no tangents: ∂p/∂s of the triangles, averaged with
-// their angles as weights over the corners that share position, normal and texture coordinate, perpendicular to the
-// normal. A corner whose texture coordinates give no direction gets the tangent of meshes without them
-// (docs/lighting.md). Drawing does not call this. `control` may be NULL. On failure some meshes may have tangents and
-// others not. Errors: LAM_LIMIT, LAM_CANCELLED.
+// Makes tangents for every mesh that has texture coordinates and no tangents: MikkTSpace's, those that normal maps are
+// baked for (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). ∂p/∂s of the triangles is averaged with
+// their angles as weights over the triangles around a corner that are joined by edges, have the same orientation of the
+// mapping, and the same position, normal and texture coordinates there; it is unit and perpendicular to the normal. A
+// corner whose texture coordinates give no direction gets the tangent of meshes without them (docs/lighting/threads.md).
+// Drawing does not call this. `control` may be NULL. On failure some meshes may have tangents and others not. Errors:
+// LAM_LIMIT, LAM_CANCELLED.
 LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_error *error);
 
 // Light from everywhere, added to that of the ambient lights (La_global). Default 0.

@@ -13,8 +13,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Formats that can be written come first.
-static const struct codec *const codecs[] = {&codec_png, &codec_ppm, &codec_pfm, &codec_exr, &codec_jpeg, &codec_hdr};
+// Formats that can be written come first, those without a mark of their own last.
+static const struct codec *const codecs[] = {&codec_png,  &codec_ppm, &codec_pfm, &codec_exr, &codec_jpeg,
+                                             &codec_webp, &codec_hdr, &codec_bmp, &codec_tga};
 enum { CODECS = sizeof codecs / sizeof *codecs, WRITTEN = 4, MAX_THREADS = 1024, LIST_BYTES = 128 };
 
 static const struct codec *codec_named(const char *name)
@@ -157,10 +158,13 @@ bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error 
     return codec != NULL;
 }
 
-const struct codec *codec_of(const uint8_t *bytes, size_t size)
+const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name)
 {
     for (int i = 0; i < CODECS; i++)
         if (codecs[i]->probe(bytes, size))
+            return codecs[i];
+    for (int i = 0; name && i < CODECS; i++)
+        if (codecs[i]->unmarked && strcasecmp(path_ending(name), codecs[i]->name) == 0)
             return codecs[i];
     return NULL;
 }
@@ -182,6 +186,6 @@ bool lam_image_is_from_lambent(const char *path)
         for (ssize_t got; size < sizeof head && (got = read(file, head + size, sizeof head - size)) > 0;)
             size += (size_t)got;
     close(file);
-    const struct codec *codec = codec_of(head, size);
+    const struct codec *codec = codec_of(head, size, NULL);
     return codec && codec->ours && codec->ours(head, size);
 }

@@ -429,8 +429,9 @@ const struct option option_table[] = {
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "The surroundings that shiny surfaces mirror: an image, six faces, sky or studio.",
-     "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, PPM, PFM or "
-     "Radiance (.hdr). Six faces are files separated by commas in OpenGL's order, `px,nx,py,ny,pz,nz`, all "
+     "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, WebP, BMP, "
+     "TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are files separated by commas in OpenGL's order, "
+     "`px,nx,py,ny,pz,nz`, all "
      "square and of one size. `sky` and `studio` are built in (`./sky` is a file). Only materials with a "
      "reflectivity show the environment: see `--reflectivity`. `docs/lighting/reflection.md` describes how each "
      "kind surrounds the model.",

@@ -80,7 +80,12 @@ bool picture_decode_linear(const struct picture_file *file, lam_color_mode color
 bool picture_linearize(const struct picture_file *file, lam_image *image, bool wide, lam_color_mode color,
                        lam_error *error);
 
-// codec_png's half that writes.
+// Our own mark in a JPEG file.
+#define JPEG_REMARK "lambent"
+
+// The halves of codec_jpeg and codec_png that write.
+bool jpeg_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
+                lam_error *error);
 bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                lam_error *error);
 

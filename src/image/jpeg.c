@@ -1,9 +1,11 @@
-// jpeg.c: JPEG, read only, through libjpeg-turbo with its exact integer transform: the same bytes on every processor.
+// jpeg.c: JPEG's row in the table of formats; reading through libjpeg-turbo with its accurate integer transform: the same
+// bytes on every processor.
 #include "codec.h"
 #include "fail.h"
 
 #include <setjmp.h>
 #include <stdio.h> // jpeglib.h wants it
+#include <string.h>
 
 #include <jerror.h>
 #include <jpeglib.h>
@@ -162,5 +164,21 @@ static bool jpeg_read(const struct picture_file *file, lam_image *image, lam_err
     return ok;
 }
 
+// A remark after the marks of a file's begin and of JFIF.
+static bool jpeg_ours(const uint8_t *bytes, size_t size)
+{
+    static const char remark[] = "\xff\xfe\0\x09" JPEG_REMARK;
+    enum { AT = 20, BYTES = sizeof remark - 1 };
+    return size >= AT + BYTES && memcmp(bytes + AT, remark, BYTES) == 0;
+}
+
 const struct codec codec_jpeg = {
-    .name = "jpg", .title = "JPEG", .pixels = LAM_RGBA8, .probe = jpeg_probe, .read = jpeg_read};
+    .name = "jpg",
+    .alias = "jpeg",
+    .title = "JPEG",
+    .pixels = LAM_RGBA8,
+    .write = jpeg_write,
+    .probe = jpeg_probe,
+    .read = jpeg_read,
+    .ours = jpeg_ours,
+};

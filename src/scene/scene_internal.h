@@ -83,6 +83,7 @@ struct lam_scene {
     double environment_rotation_rad; // about the up axis
     lam_color_mode color;            // the interpretation of the file's colours
     const char *format;
+    lam_file_info file; // of a glTF file
     double read_ms, prepare_ms;
     // The crease angle of meshes whose normals are left to the device; 0: all meshes have normals.
     double deferred_crease_rad;

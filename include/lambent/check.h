@@ -81,14 +81,15 @@ typedef enum lam_check_draw_status {
     LAM_CHECK_DRAW_FAILED,   // `error` says why
     LAM_CHECK_DRAW_TIMEOUT,  // it was stopped at its deadline
     LAM_CHECK_DRAW_CRASHED,  // the process crashed
+    LAM_CHECK_DRAW_MEMORY,   // it was ended because it used too much memory
 } lam_check_draw_status;
 // Runs lam_check_draw on `request`, usually in another process.
 typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *request, lam_bytes *result,
                                                 lam_error *error);
 
 // A cache of the pictures of known mistakes, shared by several checks: most of a check's time goes into drawing them.
-// It holds up to `max_bytes`; further pictures are drawn each time. For one thread at a time and one OpenGL device.
-// NULL: out of memory.
+// It holds up to `max_bytes`; further pictures are drawn each time. For one OpenGL device; any number of threads may
+// check with one cache at once. NULL: out of memory.
 typedef struct lam_check_cache lam_check_cache;
 
 // Makes an empty cache.
@@ -142,6 +143,7 @@ typedef enum lam_check_verdict {
     LAM_CHECK_ENDLESS,    // exceeded its time
     LAM_CHECK_CRASHES,    // crashed the driver
     LAM_CHECK_NOT_NUMBER, // NaN or infinity in a picture
+    LAM_CHECK_MEMORY,     // needed more memory than it may use
 } lam_check_verdict;
 
 // The result of one scene. Pixels are compared where they and their eight neighbours are inside the model; colours are
@@ -156,7 +158,9 @@ typedef struct lam_check_scene {
     bool passes;                    // within the tolerance
     // The mistake that explains this scene alone, by id. NULL: none, or the scene passes.
     const char *looks_like;
-    LAM_RESERVED(8);
+    // The terms that the scene shows, bits of lam_check_term; 0: it is black, since none of its terms is asked for.
+    unsigned terms;
+    LAM_RESERVED(7);
 } lam_check_scene;
 
 // A mistake that explains the pictures.
@@ -170,7 +174,9 @@ typedef struct lam_check_finding {
     double mean_before, mean_after;
     // The share of the difference that this mistake and those before it explain: 1 where they explain all of it.
     double share;
-    LAM_RESERVED(7);
+    // The ids of mistakes with the same pictures, separated by blanks; NULL: there are none.
+    const char *also;
+    LAM_RESERVED(6);
 } lam_check_finding;
 
 // The origin of a message.
@@ -205,7 +211,8 @@ typedef struct lam_check_report {
     lam_check_diagnostic *diagnostics; // messages, in no order of importance
     int diagnostic_count;              // of `diagnostics`
     void *memory;                      // owns the strings above
-    LAM_RESERVED(8);
+    int scenes_wanted;                 // that the shaders were to draw
+    LAM_RESERVED(7);
 } lam_check_report;
 
 // Checks. False only without a verdict: LAM_BAD_ARGUMENT (no contract fits, an unknown scene), LAM_UNSUPPORTED (no

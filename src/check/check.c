@@ -182,6 +182,9 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
         case LAM_CHECK_DRAW_CRASHED:
             r->report->verdict = LAM_CHECK_CRASHES;
             break;
+        case LAM_CHECK_DRAW_MEMORY:
+            r->report->verdict = LAM_CHECK_MEMORY;
+            break;
         default:
             ok = false;
             break;
@@ -248,7 +251,10 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     arena_start(r.arena, NULL);
     r.diagnostics.arena = r.arena;
     unsigned scenes = 0;
-    bool ok = prepare(&r, &scenes, error) && draw(&r, scenes, error) && knows_inputs(&r, error);
+    bool ok = prepare(&r, &scenes, error);
+    for (unsigned left = scenes; ok && left; left &= left - 1)
+        report->scenes_wanted++;
+    ok = ok && draw(&r, scenes, error) && knows_inputs(&r, error);
     if (ok) {
         report->contract = arena_string(r.arena, r.interface.contract->name);
         report->vertex_lit = r.interface.vertex_lit;
@@ -288,8 +294,9 @@ void lam_check_report_free(lam_check_report *report)
 
 const char *lam_check_verdict_name(lam_check_verdict verdict)
 {
-    static const char *const names[] = {"passes", "differs", "refused", "endless", "crashes", "not a number"};
-    return verdict >= LAM_CHECK_PASSES && verdict <= LAM_CHECK_NOT_NUMBER ? names[verdict] : NULL;
+    static const char *const names[] = {"passes",  "differs",      "refused",        "endless",
+                                        "crashes", "not a number", "too much memory"};
+    return verdict >= LAM_CHECK_PASSES && verdict <= LAM_CHECK_MEMORY ? names[verdict] : NULL;
 }
 
 const char *lam_check_scene_name(int index)

@@ -81,6 +81,21 @@ static bool decode_all(struct run *r)
     return true;
 }
 
+static bool is_black(lam_rgb c, float strength) { return strength == 0 || (c.r == 0 && c.g == 0 && c.b == 0); }
+
+static unsigned terms_of(const struct reference_scene *s)
+{
+    bool ambient = false, diffuse = false, specular = false;
+    for (int i = 0; i < s->light_count; i++) {
+        ambient = ambient || !is_black(s->lights[i].ambient, 1);
+        diffuse = diffuse || !is_black(s->lights[i].color, 1);
+        specular = specular || !is_black(s->lights[i].specular, 1);
+    }
+    return (ambient && !is_black(s->ambient, s->ka) ? LAM_CHECK_TERM_AMBIENT : 0u) |
+           (diffuse && !is_black(s->diffuse, s->kd) ? LAM_CHECK_TERM_DIFFUSE : 0u) |
+           (specular && !is_black(s->specular, s->ks) ? LAM_CHECK_TERM_SPECULAR : 0u);
+}
+
 // Compares every scene with its reference, and sets the verdict.
 static void measure(struct run *r, bool writes)
 {
@@ -100,6 +115,7 @@ static void measure(struct run *r, bool writes)
         out->pixels = d.pixels;
         out->not_numbers = count_not_numbers(r->scenes[i].theirs, (size_t)r->size * (size_t)r->size);
         out->passes = d.fits && out->not_numbers == 0;
+        out->terms = terms_of(&r->scenes[i].reference_scene);
         report->mean += d.mean / r->scene_count;
         if (!out->passes && report->verdict == LAM_CHECK_PASSES)
             report->verdict = LAM_CHECK_DIFFERS;
@@ -126,31 +142,22 @@ static double missing_share(const struct scene_comparison *scene, bool not_numbe
     return scene->inside_count ? (double)missing / (double)scene->inside_count : 0;
 }
 
-// Whether a search for faults makes sense: not for pictures that are nearly empty.
+// Whether a search for faults makes sense: not for pictures that are nearly empty. Scenes with much NaN are left out: it
+// counts as black, and would resemble faults that darken.
 static bool is_searchable(struct run *r, bool writes)
 {
-    double clear = 0, no_number = 0;
-    bool spoilt = false; // NaN counts as black, so such a scene resembles faults that darken
+    double clear = 0;
+    int usable = 0;
     for (int i = 0; i < r->scene_count; i++) {
-        double here = missing_share(&r->scenes[i], true);
         clear += missing_share(&r->scenes[i], false) / r->scene_count;
-        no_number += here / r->scene_count;
-        spoilt = spoilt || here > 0.25;
+        r->scenes[i].spoilt = missing_share(&r->scenes[i], true) > 0.25;
+        usable += !r->scenes[i].spoilt && !r->scenes[i].passes;
     }
     if (writes && clear > 0.02)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
                         "%.0f %% of the model is not drawn: the shader discards it, or gl_Position puts it elsewhere",
                         clear * 100);
-    return writes && clear < 0.9 && no_number < 0.5 && !spoilt;
-}
-
-// Whether the pictures differ by more than NaN and infinity, which count as 0 and 1.
-static bool has_differences(const struct run *r)
-{
-    bool fits = true;
-    for (int i = 0; i < r->scene_count; i++)
-        fits = fits && r->scenes[i].passes;
-    return !fits;
+    return writes && clear < 0.9 && usable > 0;
 }
 
 // Reports a style of the shader that is as right as the reference, and compares with pictures that have it too.
@@ -164,6 +171,15 @@ static bool accept_style(struct run *r, struct fault_search *s, bool writes, lam
     if (s->count == 0)
         measure(r, writes);
     return true;
+}
+
+// The ids of the faults with the same pictures, separated by blanks. NULL: none.
+static const char *also_text(struct run *r, const struct found_fault *found)
+{
+    char text[200] = "";
+    for (int i = 0; i < found->also_count; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", i ? " " : "", found->also[i]->id);
+    return text[0] ? arena_string(r->arena, text) : NULL;
 }
 
 static void report_findings(struct run *r, const struct fault_search *s)
@@ -184,6 +200,7 @@ static void report_findings(struct run *r, const struct fault_search *s)
             (lam_check_finding){.mistake = found->row->id,
                                 .explanation = arena_string(r->arena, explanation),
                                 .correction = arena_string(r->arena, correction),
+                                .also = also_text(r, found),
                                 .certain = s->certain,
                                 .mean_before = before,
                                 .mean_after = found->after,
@@ -209,10 +226,14 @@ static bool explain(struct run *r, bool writes, lam_error *error)
                              .light_capacity = shader_interface_light_count(&r->interface),
                              .expectation = r->expectation,
                              .tolerance = r->tolerance,
-                             .before = r->report->mean,
                              .has_unset_names = r->drawn.unknown_count > 0 || r->drawn.types_count > 0};
-    for (int i = 0; i < r->scene_count; i++)
+    int usable = 0;
+    for (int i = 0; i < r->scene_count; i++) {
         s.needs |= r->scenes[i].row->needs;
+        s.before += r->scenes[i].spoilt ? 0 : r->scenes[i].mean_difference;
+        usable += !r->scenes[i].spoilt;
+    }
+    s.before /= usable;
     for (int i = 0; i < r->scene_count; i++) // some scenes show more than they need
         s.needs |=
             (r->scenes[i].reference_scene.ka > 0 ? NEED_AMBIENT : 0) |
@@ -245,7 +266,7 @@ bool check_compare(struct run *r, unsigned scenes, bool writes, lam_error *error
     if (!check_draw_references(r, error))
         return false;
     measure(r, writes);
-    if (r->report->verdict == LAM_CHECK_PASSES || !is_searchable(r, writes) || !has_differences(r))
+    if (r->report->verdict == LAM_CHECK_PASSES || !is_searchable(r, writes))
         return true;
     return explain(r, writes, error);
 }

@@ -27,6 +27,20 @@ struct fault_shader *fault_shader_open(const char *gl_device, int size, int stri
 
 void fault_shader_close(struct fault_shader *shader) { (void)shader; }
 
+bool fault_shader_draws(const struct fault_shader *shader, int size, int stride)
+{
+    (void)shader, (void)size, (void)stride;
+    return false;
+}
+
+void fault_shader_rest(struct fault_shader *shader) { (void)shader; }
+
+bool fault_shader_wake(struct fault_shader *shader, lam_error *error)
+{
+    (void)shader;
+    return left_out(error);
+}
+
 bool fault_shader_draw(struct fault_shader *shader, const struct reference_scene *reference_scene,
                        const struct shader_interface *interface, int capacity, lam_light_frame frame,
                        lam_reflection reflection, const fault_set *set, float *pixels, lam_error *error)

@@ -11,12 +11,12 @@ DESKTOP_OLD = ("", "110", "120")
 ALL = ("", "110", "120", "130", "140", "150", "330 core", "400", "450", "330 compatibility", "100", "web", "300 es", "310 es")
 
 
-def translate(text, ending, dialect, output="frag_color"):
-    """A shader of GLSL 120 (`ending`: vert or frag) in a dialect."""
+def translate(text, ending, dialect, output="frag_color", precision=None):
+    """A shader of GLSL 120 (`ending`: vert or frag) in a dialect. `precision`: of ES; None: mediump in version 100, else highp."""
     text = re.sub(r"^#version .*\n", "", text)
     first = "#version %s\n" % dialect if dialect not in ("", "web") else ""
     if dialect in ES and ending == "frag":
-        first += "precision %s float;\n" % ("mediump" if dialect in ("web", "100") else "highp")
+        first += "precision %s float;\n" % (precision or ("mediump" if dialect in ("web", "100") else "highp"))
     if dialect in OLD:
         return first + text
     text = re.sub(r"\bvarying\b", "out" if ending == "vert" else "in", text)

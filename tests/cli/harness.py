@@ -178,7 +178,7 @@ def check_value(case, value, schema, place):
         case.assertLessEqual(len(value), schema.get("maxItems", len(value)), place)
         for i, inner in enumerate(value):
             check_value(case, inner, schema["items"], f"{place}[{i}]")
-    if "minimum" in schema:
+    if "minimum" in schema and value is not None:
         case.assertGreaterEqual(value, schema["minimum"], place)
 
 

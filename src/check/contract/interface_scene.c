@@ -199,8 +199,9 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
     }
     s->light_count = kept;
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
-        for (; r->groups[g].count > taken[g] && s->light_count < MAX_SCENE_LIGHTS; taken[g]++)
-            s->lights[s->light_count++] = (struct reference_light){
+        for (; r->groups[g].count > taken[g] && s->light_count < MAX_SCENE_LIGHTS; taken[g]++) {
+            struct reference_light *black = &s->lights[s->light_count++];
+            *black = (struct reference_light){
                 .type = r->groups[g].kinds & NEED_POINT         ? LAM_LIGHT_POINT
                         : r->groups[g].kinds & NEED_DIRECTIONAL ? LAM_LIGHT_DIRECTIONAL
                                                                 : LAM_LIGHT_SPOT,
@@ -208,6 +209,9 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
                 .to_light = {1, 2, 3},
                 .attenuation = {1, 0, 0},
             };
+            if (kept && black->type != LAM_LIGHT_DIRECTIONAL && s->lights[0].type != LAM_LIGHT_DIRECTIONAL)
+                memcpy(black->attenuation, s->lights[0].attenuation, sizeof black->attenuation);
+        }
 }
 
 struct reference_scene shader_interface_scene(const struct shader_interface *r,

@@ -57,7 +57,7 @@ static struct uniform_value cone(const struct reference_light *light)
     if (light->cutoff_deg <= 0)
         return (struct uniform_value){{-1, light->exponent, -2, 1}};
     float cosine = (float)math_cos(math_radians((double)light->cutoff_deg));
-    return (struct uniform_value){{cosine, light->exponent, cosine, 1000}};
+    return (struct uniform_value){{cosine, light->exponent, cosine, 1e5f}};
 }
 
 // The inverse transpose of the matrix from the model's space.

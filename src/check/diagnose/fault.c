@@ -21,6 +21,14 @@ fault_set fault_set_add(const fault_set *set, const struct fault *fault)
     return out;
 }
 
+static bool hands_on_four(const struct declarations *fragment)
+{
+    for (int i = 0; i < fragment->count; i++)
+        if (fragment->items[i].kind == DECLARED_INPUT && strcmp(fragment->items[i].type, "vec4") == 0)
+            return true;
+    return false;
+}
+
 bool fault_applies(const struct fault *fault, const struct shader_interface *interface, lam_light_frame frame,
                    lam_reflection reflection, unsigned needs)
 {
@@ -32,7 +40,8 @@ bool fault_applies(const struct fault *fault, const struct shader_interface *int
                      : interface->space == LAM_FRAME_CAMERA ? WHERE_WORLD_LIGHT
                                                             : 0u) |
                     (interface->space == LAM_FRAME_WORLD ? WHERE_WORLD : 0) |
-                    (reflection == LAM_REFLECTION_PHONG ? WHERE_PHONG : WHERE_BLINN) | (reflects ? WHERE_REFLECT : 0);
+                    (reflection == LAM_REFLECTION_PHONG ? WHERE_PHONG : WHERE_BLINN) | (reflects ? WHERE_REFLECT : 0) |
+                    (interface->vertex_lit || hands_on_four(&interface->fragment) ? WHERE_FOUR : 0);
     return (fault->where & ~here) == 0 && (fault->needs & ~needs) == 0;
 }
 

@@ -23,7 +23,7 @@
     X(REFLECT_SIGN) X(SPECULAR_TIMES_D) X(KD_KS_SWAPPED) X(KA_KD_SWAPPED) X(SPECULAR_TINTED) \
     X(SPECULAR_AS_DIFFUSE) X(WHITE_LIGHT) X(SPECULAR_LIGHT_AS_DIFFUSE) X(ENCODED) X(ALPHA_ONE) X(ALPHA_SUM) \
     X(FIRST_LIGHT_ONLY) X(LAST_LIGHT_ONLY) X(LAST_LIGHT_MISSING) X(FIRST_LIGHT_MISSING) X(NO_CONE) X(NO_CUTOFF) \
-    X(NO_EXPONENT) X(CONE_IN_DEGREES) X(CONE_BY_ACOS) X(CONE_INSIDE_OUT) X(CONE_REVERSED) X(EVERY_LIGHT_A_SPOT) X(NO_FLIP) X(FLIP) \
+    X(NO_EXPONENT) X(CONE_IN_DEGREES) X(CONE_BY_ACOS) X(CONE_INSIDE_OUT) X(CONE_REVERSED) X(EVERY_LIGHT_A_SPOT) X(CONE_OF_L) X(NO_FLIP) X(FLIP) \
     X(SMOOTH_FOR_FLAT) X(VERTEX_CLAMPED) X(UPSIDE_DOWN)
 // clang-format on
 
@@ -48,15 +48,16 @@ bool fault_set_equal(const fault_set *a, const fault_set *b);
 
 // The conditions under which a fault can occur; 0: always.
 enum fault_where {
-    WHERE_FRAGMENT = 1,     // lighting in the fragment shader
-    WHERE_VERTEX = 2,       // lighting in the vertex shader
-    WHERE_OBJECT_LIGHT = 4, // lights in object space
-    WHERE_EYE_LIGHT = 8,    // lights in the space of the lighting, eye or world space
-    WHERE_PHONG = 16,       // Phong's highlight is expected
-    WHERE_BLINN = 32,       // Blinn–Phong's is expected
-    WHERE_REFLECT = 64,     // reflect() occurs in the shaders
-    WHERE_WORLD = 128,      // lighting in world space
-    WHERE_WORLD_LIGHT = 256 // lights in world space, lighting in eye space
+    WHERE_FRAGMENT = 1,      // lighting in the fragment shader
+    WHERE_VERTEX = 2,        // lighting in the vertex shader
+    WHERE_OBJECT_LIGHT = 4,  // lights in object space
+    WHERE_EYE_LIGHT = 8,     // lights in the space of the lighting, eye or world space
+    WHERE_PHONG = 16,        // Phong's highlight is expected
+    WHERE_BLINN = 32,        // Blinn–Phong's is expected
+    WHERE_REFLECT = 64,      // reflect() occurs in the shaders
+    WHERE_WORLD = 128,       // lighting in world space
+    WHERE_WORLD_LIGHT = 256, // lights in world space, lighting in eye space
+    WHERE_FOUR = 512,        // vectors of four components may be lit: some varying is a vec4, or the vertices are lit
 };
 
 // What the search has to find out about a fault: the factor of the exponent, above or below 1, or the constant.
@@ -73,7 +74,9 @@ struct fault {
     const char *correction;       // one line; {place} is replaced by the shader's own name (fault_text)
     float factor;                 // of the exponent; 0: none
     enum fault_fit fit;
-    bool style; // not a mistake: a form that is as right as the reference
+    bool rare;       // not mentioned beside another with the same pictures
+    bool style;      // not a mistake: a form that is as right as the reference
+    bool whole_term; // a term, or several, are missing altogether
 };
 
 extern const struct fault faults[];

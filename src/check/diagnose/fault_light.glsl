@@ -18,7 +18,8 @@ struct Lamp {
 uniform int fault_on[FAULT_BITS];
 uniform Lamp lamps[LAMPS];
 uniform int lamp_count;
-uniform vec3 ambient_product, kd, ks;
+uniform vec3 ambient_light, ka, kd, ks;
+uniform bool products; // the shader receives the colours multiplied by those of the light
 uniform vec3 kd_with_ks, ks_with_kd; // the colours with each other's strength
 uniform vec3 specular_as_diffuse;
 uniform vec3 tint;                   // multiplies a tinted highlight
@@ -163,6 +164,20 @@ float specular_of(float base, float nl)
     return is(SPECULAR_TIMES_D) ? S * max(nl, 0.0) : S;
 }
 
+vec3 diffuse_light(int i)
+{
+    if (is(WHITE_LIGHT)) {
+        return vec3(1.0);
+    }
+    return products && is(KD_KS_SWAPPED) ? lamps[i].specular : (products && is(KA_KD_SWAPPED) ? ambient_light : lamps[i].diffuse);
+}
+
+vec3 specular_light(int i)
+{
+    bool other = is(SPECULAR_LIGHT_AS_DIFFUSE) || (products && (is(KD_KS_SWAPPED) || is(SPECULAR_AS_DIFFUSE)));
+    return other ? lamps[i].diffuse : lamps[i].specular;
+}
+
 bool is_left_out(int i)
 {
     return (is(FIRST_LIGHT_ONLY) && i > 0) || (is(LAST_LIGHT_ONLY) && i < lamp_count - 1) ||
@@ -177,17 +192,11 @@ vec4 shade(Surface s)
     if (is(FACE_FORWARD) && dot(n, v) < 0.0) {
         n = -n;
     }
-    vec3 diffuse_color = is(KD_KS_SWAPPED) ? kd_with_ks : kd, specular_color = is(KD_KS_SWAPPED) ? ks_with_kd : ks;
-    vec3 ambient_color = ambient_product;
-    if (is(KA_KD_SWAPPED)) {
-        ambient_color = kd;
-        diffuse_color = ambient_product;
-    }
+    vec3 diffuse_color = is(KD_KS_SWAPPED) ? kd_with_ks : (is(KA_KD_SWAPPED) ? ka : kd);
+    vec3 specular_color = is(KD_KS_SWAPPED) ? ks_with_kd : (is(SPECULAR_AS_DIFFUSE) ? specular_as_diffuse : ks);
+    vec3 ambient_color = is(KA_KD_SWAPPED) ? kd * (products ? lamps[0].diffuse : ambient_light) : ka * ambient_light;
     if (is(SPECULAR_TINTED)) {
-        specular_color *= tint;
-    }
-    if (is(SPECULAR_AS_DIFFUSE)) {
-        specular_color = specular_as_diffuse;
+        specular_color *= tint * (products ? lamps[0].diffuse : vec3(1.0));
     }
     vec3 ambient = vec3(0.0), diffuse = vec3(0.0), specular = vec3(0.0);
     float diffuse_alpha = 0.0, specular_alpha = 0.0, arrived = 1.0;
@@ -202,14 +211,14 @@ vec4 shade(Surface s)
             l = vec4(way.xyz * inversesqrt(dot(way.xyz, way.xyz) + 1.0), 0.0);
         }
         float d = is(MEAN_DISTANCE) ? s.distance[i] : length(exact);
-        float attenuation = attenuation_of(i, d), cone = cone_of(i, unit4(exact));
+        float attenuation = attenuation_of(i, d), cone = cone_of(i, is(CONE_OF_L) ? l : unit4(exact));
         arrived = attenuation * cone;
         ambient += lamps[i].ambient * (is(AMBIENT_ATTENUATED) ? arrived : 1.0);
         float nl = dot(n, l), D = diffuse_of(nl);
         float S = specular_of(highlight_base(i, s, n, l, way, v), nl);
         float kept_d = is(BARE_DIFFUSE) ? cone : arrived, kept_s = is(BARE_SPECULAR) ? cone : arrived;
-        diffuse += (is(WHITE_LIGHT) ? vec3(1.0) : lamps[i].diffuse) * diffuse_color * (kept_d * D);
-        specular += (is(SPECULAR_LIGHT_AS_DIFFUSE) ? lamps[i].diffuse : lamps[i].specular) * specular_color * (kept_s * S);
+        diffuse += diffuse_light(i) * diffuse_color * (kept_d * D);
+        specular += specular_light(i) * specular_color * (kept_s * S);
         diffuse_alpha += kept_d * opacity * D;
         specular_alpha += kept_s * S;
     }

@@ -6,13 +6,15 @@
 #include "render_cache.h"
 #include "scene_comparison.h"
 
-enum { MAX_FOUND_FAULTS = 4, MAX_SCENES = 32 };
+enum { MAX_FOUND_FAULTS = 4, MAX_SCENES = 32, MAX_ALSO = 3 };
 
 // A fault of the table, with what the search found out about it.
 struct found_fault {
     const struct fault *row;
-    float exponent; // fitted: the factor of the exponent, or the constant; 0: nothing is fitted
-    double after;   // mean difference over all scenes with this fault and those before it
+    float exponent;                     // fitted: the factor of the exponent, or the constant; 0: nothing is fitted
+    double after;                       // mean difference over all scenes with this fault and those before it
+    const struct fault *also[MAX_ALSO]; // faults that draw the same pictures
+    int also_count;
 };
 
 struct fault_search {
@@ -29,7 +31,7 @@ struct fault_search {
     unsigned needs; // of all scenes together
     // Some names have no value: only a single fault that explains everything counts.
     bool has_unset_names;
-    double before; // mean difference without faults
+    double before; // mean difference without faults, over the scenes that are not spoilt
     // Results: the faults, that which explains most first, and whether they explain everything.
     struct found_fault found[MAX_FOUND_FAULTS];
     int count;

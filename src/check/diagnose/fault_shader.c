@@ -15,6 +15,7 @@ struct fault_shader {
     GLuint programs[2]; // lighting in the fragment shader, in the vertex shader; 0: not built yet
     GLuint program;     // the one in use
     int size, stride;
+    bool rests; // its context is not current
 };
 
 static const char *const bit_names[FAULT_BIT_COUNT] = {"NONE",
@@ -80,14 +81,34 @@ static bool build(struct fault_shader *m, bool in_vertex, lam_error *error)
     return m->program != 0;
 }
 
+bool fault_shader_draws(const struct fault_shader *m, int size, int stride)
+{
+    return m->size == size && m->stride == stride;
+}
+
+void fault_shader_rest(struct fault_shader *m)
+{
+    offscreen_rest(&m->offscreen);
+    m->rests = true;
+}
+
+bool fault_shader_wake(struct fault_shader *m, lam_error *error)
+{
+    bool ok = offscreen_wake(&m->offscreen, error);
+    m->rests = m->rests && !ok;
+    return ok;
+}
+
 void fault_shader_close(struct fault_shader *m)
 {
     if (!m)
         return;
-    for (int i = 0; i < 2; i++)
-        if (m->programs[i])
-            m->offscreen.context.gl.DeleteProgram(m->programs[i]);
-    offscreen_close(&m->offscreen);
+    if (!m->rests || fault_shader_wake(m, NULL)) {
+        for (int i = 0; i < 2; i++)
+            if (m->programs[i])
+                m->offscreen.context.gl.DeleteProgram(m->programs[i]);
+        offscreen_close(&m->offscreen);
+    }
     free(m);
 }
 
@@ -103,17 +124,23 @@ static GLint lamp_place(const struct fault_shader *m, int i, const char *member)
     return place(m, name);
 }
 
-static void set_lamp(const struct fault_shader *m, int i, lam_light_frame space, lam_light_frame frame,
-                     const struct reference_scene *reference_scene, const struct reference_matrices *matrices)
+static void set_lamp(const struct fault_shader *m, int i, const struct shader_interface *interface,
+                     lam_light_frame frame, const struct reference_scene *reference_scene,
+                     const struct reference_matrices *matrices)
 {
     const struct gl *gl = &m->offscreen.context.gl;
     const struct reference_light *light = &reference_scene->lights[i];
+    lam_light_frame space = interface->space;
+    // A direction comes with unit length, a position whose w is 0 does not.
+    bool unit = light->type == LAM_LIGHT_DIRECTIONAL && !shader_interface_uses(interface, SEMANTIC_LIGHT_POSITION) &&
+                !shader_interface_uses(interface, SEMANTIC_LIGHT_X);
+    enum uniform_semantic position = unit ? SEMANTIC_LIGHT_DIRECTION : SEMANTIC_LIGHT_POSITION;
     const struct {
         const char *member;
         enum uniform_semantic semantic;
         lam_light_frame frame;
-    } members[] = {{"position", SEMANTIC_LIGHT_POSITION, space},
-                   {"given", SEMANTIC_LIGHT_POSITION, frame},
+    } members[] = {{"position", position, space},
+                   {"given", position, frame},
                    {"axis", SEMANTIC_LIGHT_TRAVEL, space},
                    {"cone", SEMANTIC_CONE, frame}};
     for (int k = 0; k < 4; k++)
@@ -174,10 +201,12 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     float offset = scale + (float)(m->stride - 1) / small - 1;
     gl->Uniform4f(place(m, "window"), scale, scale, offset, offset);
     for (int i = 0; i < reference_scene->light_count; i++)
-        set_lamp(m, i, space, frame, reference_scene, &matrices);
+        set_lamp(m, i, interface, frame, reference_scene, &matrices);
     gl->Uniform1i(place(m, "lamp_count"), reference_scene->light_count);
-    gl->Uniform3fv(place(m, "ambient_product"), 1,
-                   uniform_semantic_value(SEMANTIC_AMBIENT_PRODUCT, 0, frame, reference_scene, &matrices).v);
+    gl->Uniform3fv(place(m, "ambient_light"), 1,
+                   uniform_semantic_value(SEMANTIC_AMBIENT_LIGHT, 0, frame, reference_scene, &matrices).v);
+    gl->Uniform1i(place(m, "products"), shader_interface_declares(interface, SEMANTIC_DIFFUSE_PRODUCT));
+    set_color(m, "ka", reference_scene->ambient, reference_scene->ka);
     set_color(m, "kd", reference_scene->diffuse, reference_scene->kd);
     set_color(m, "ks", reference_scene->specular, reference_scene->ks);
     // In contracts with separate strengths and colours, shaders confuse one of them; in the others, the products.

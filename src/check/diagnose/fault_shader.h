@@ -9,7 +9,14 @@ struct fault_shader;
 // Draws every `stride`-th pixel of every `stride`-th row of pictures of size² pixels, from the lower left one, thus
 // pictures of fault_shader_size(size, stride)² pixels.
 struct fault_shader *fault_shader_open(const char *gl_device, int size, int stride, lam_error *error);
-void fault_shader_close(struct fault_shader *shader); // NULL is fine
+void fault_shader_close(struct fault_shader *shader); // NULL is fine; it may be at rest
+
+// Whether it draws such pictures.
+bool fault_shader_draws(const struct fault_shader *shader, int size, int stride);
+
+// An open shader is current on the thread that opened it. One at rest may be woken on another.
+void fault_shader_rest(struct fault_shader *shader);
+bool fault_shader_wake(struct fault_shader *shader, lam_error *error);
 
 static inline int fault_shader_size(int size, int stride) { return (size + stride - 1) / stride; }
 

@@ -1,14 +1,14 @@
-// render_cache.c: a hash table of samples in an arena of bounded size.
+// render_cache.c: a hash table of samples in an arena of bounded size, and a list of fault shaders.
 #include "render_cache.h"
 
+#include <pthread.h>
 #include <stdlib.h>
-#include <string.h>
 #include <string.h>
 
 #include "arena.h"
 #include "fail.h"
 
-enum { BUCKETS = 4096 };
+enum { BUCKETS = 4096, MAX_SHADERS = 64 };
 
 struct cached_render {
     struct cached_render *next;
@@ -17,6 +17,9 @@ struct cached_render {
 };
 
 struct lam_check_cache {
+    pthread_mutex_t lock;
+    struct fault_shader *shaders[MAX_SHADERS]; // not in use
+    int shader_count;
     struct arena arena;
     size_t max_bytes;
     struct cached_render *buckets[BUCKETS];
@@ -29,6 +32,7 @@ lam_check_cache *lam_check_cache_make(size_t max_bytes, lam_error *error)
         fail_memory(error, sizeof *p);
         return NULL;
     }
+    pthread_mutex_init(&p->lock, NULL);
     arena_start(&p->arena, NULL);
     p->max_bytes = max_bytes;
     return p;
@@ -36,8 +40,12 @@ lam_check_cache *lam_check_cache_make(size_t max_bytes, lam_error *error)
 
 void lam_check_cache_free(lam_check_cache *cache)
 {
-    if (cache)
-        arena_free(&cache->arena);
+    if (!cache)
+        return;
+    for (int i = 0; i < cache->shader_count; i++)
+        fault_shader_close(cache->shaders[i]);
+    arena_free(&cache->arena);
+    pthread_mutex_destroy(&cache->lock);
     free(cache);
 }
 
@@ -79,27 +87,74 @@ static bool same(const struct render_key *a, const struct render_key *b)
            a->supports == b->supports && a->expectation == b->expectation && fault_set_equal(&a->set, &b->set);
 }
 
-const float *render_cache_find(const lam_check_cache *cache, const struct render_key *key)
+static const struct cached_render *find(const lam_check_cache *cache, const struct render_key *key)
+{
+    const struct cached_render *p = cache->buckets[bucket_of(key)];
+    while (p && !same(&p->key, key))
+        p = p->next;
+    return p;
+}
+
+// Entries never change and never go away, so their samples can be read without the lock.
+const float *render_cache_find(lam_check_cache *cache, const struct render_key *key)
 {
     if (!cache)
         return NULL;
-    for (const struct cached_render *p = cache->buckets[bucket_of(key)]; p; p = p->next)
-        if (same(&p->key, key))
-            return p->numbers;
+    pthread_mutex_lock(&cache->lock);
+    const struct cached_render *found = find(cache, key);
+    pthread_mutex_unlock(&cache->lock);
+    return found ? found->numbers : NULL;
+}
+
+void render_cache_add(lam_check_cache *cache, const struct render_key *key, const float *samples, size_t count)
+{
+    if (!cache || count > (SIZE_MAX - sizeof(struct cached_render)) / sizeof(float))
+        return;
+    pthread_mutex_lock(&cache->lock);
+    bool fits = cache->arena.total + count * sizeof(float) + sizeof(struct cached_render) <= cache->max_bytes;
+    struct cached_render *p = fits && !find(cache, key) ? arena_alloc(&cache->arena, sizeof *p) : NULL;
+    float *numbers = p ? arena_array(&cache->arena, count, sizeof *numbers) : NULL;
+    if (numbers) {
+        memcpy(numbers, samples, count * sizeof *numbers);
+        struct cached_render **bucket = &cache->buckets[bucket_of(key)];
+        *p = (struct cached_render){*bucket, *key, numbers};
+        *bucket = p;
+    }
+    pthread_mutex_unlock(&cache->lock);
+}
+
+struct fault_shader *render_cache_take_shader(lam_check_cache *cache, const char *gl_device, int size, int stride,
+                                              lam_error *error)
+{
+    struct fault_shader *shader = NULL;
+    if (cache) {
+        pthread_mutex_lock(&cache->lock);
+        for (int i = 0; i < cache->shader_count && !shader; i++)
+            if (fault_shader_draws(cache->shaders[i], size, stride)) {
+                shader = cache->shaders[i];
+                cache->shaders[i] = cache->shaders[--cache->shader_count];
+            }
+        pthread_mutex_unlock(&cache->lock);
+    }
+    if (!shader)
+        return fault_shader_open(gl_device, size, stride, error);
+    if (fault_shader_wake(shader, error))
+        return shader;
+    fault_shader_close(shader);
     return NULL;
 }
 
-float *render_cache_add(lam_check_cache *cache, const struct render_key *key, size_t count)
+void render_cache_keep_shader(lam_check_cache *cache, struct fault_shader *shader)
 {
-    if (!cache || count > (SIZE_MAX - sizeof(struct cached_render)) / sizeof(float) ||
-        cache->arena.total + count * sizeof(float) + sizeof(struct cached_render) > cache->max_bytes)
-        return NULL;
-    struct cached_render *p = arena_alloc(&cache->arena, sizeof *p);
-    float *numbers = p ? arena_array(&cache->arena, count, sizeof *numbers) : NULL;
-    if (!numbers)
-        return NULL;
-    struct cached_render **bucket = &cache->buckets[bucket_of(key)];
-    *p = (struct cached_render){*bucket, *key, numbers};
-    *bucket = p;
-    return numbers;
+    bool kept = false;
+    if (cache && shader) {
+        fault_shader_rest(shader);
+        pthread_mutex_lock(&cache->lock);
+        kept = cache->shader_count < MAX_SHADERS;
+        if (kept)
+            cache->shaders[cache->shader_count++] = shader;
+        pthread_mutex_unlock(&cache->lock);
+    }
+    if (!kept)
+        fault_shader_close(shader);
 }

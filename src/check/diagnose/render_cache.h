@@ -1,8 +1,9 @@
-// render_cache.h: pictures drawn with faults, kept from one check to the next.
+// render_cache.h: pictures drawn with faults, and the fault shaders, kept from one check to the next. For any number of
+// threads at once.
 #ifndef RENDER_CACHE_H
 #define RENDER_CACHE_H
 
-#include "fault.h"
+#include "fault_shader.h"
 
 // Everything that a picture of the fault shader depends on.
 struct render_key {
@@ -17,9 +18,16 @@ struct render_key {
 };
 
 // The samples stored for a key. NULL: none.
-const float *render_cache_find(const lam_check_cache *cache, const struct render_key *key);
+const float *render_cache_find(lam_check_cache *cache, const struct render_key *key);
 
-// Adds an entry of `count` samples, which the caller fills. NULL: the cache is full.
-float *render_cache_add(lam_check_cache *cache, const struct render_key *key, size_t count);
+// Stores a copy of `count` samples. Does nothing if the cache is full.
+void render_cache_add(lam_check_cache *cache, const struct render_key *key, const float *samples, size_t count);
+
+// A fault shader for such pictures that is not in use, made current; else a new one. NULL: see `error`. `cache` may be
+// NULL in both.
+struct fault_shader *render_cache_take_shader(lam_check_cache *cache, const char *gl_device, int size, int stride,
+                                              lam_error *error);
+// Gives a shader back; NULL is fine.
+void render_cache_keep_shader(lam_check_cache *cache, struct fault_shader *shader);
 
 #endif

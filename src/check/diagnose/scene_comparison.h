@@ -16,6 +16,7 @@ struct scene_comparison {
     bool alpha;     // alpha is compared too
     double mean_difference;
     bool passes;
+    bool spoilt; // by NaN: of no use for a search
 };
 
 struct difference {

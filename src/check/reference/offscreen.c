@@ -62,6 +62,13 @@ void offscreen_close(struct offscreen *t)
     memset(t, 0, sizeof *t);
 }
 
+void offscreen_rest(struct offscreen *t) { gl_context_leave(&t->context, &t->previous); }
+
+bool offscreen_wake(struct offscreen *t, lam_error *error)
+{
+    return gl_context_enter(&t->context, &t->previous, error);
+}
+
 static bool upload_mesh(struct offscreen *t, enum reference_mesh mesh, lam_error *error)
 {
     if (t->counts[mesh])

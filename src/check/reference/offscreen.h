@@ -20,6 +20,10 @@ struct offscreen {
 bool offscreen_open(struct offscreen *t, enum gl_profile profile, const char *gl_device, int size, lam_error *error);
 void offscreen_close(struct offscreen *t);
 
+// Makes its context no longer current on this thread, and current again, perhaps on another.
+void offscreen_rest(struct offscreen *t);
+bool offscreen_wake(struct offscreen *t, lam_error *error);
+
 // Clears, draws the mesh with the current program, and reads the picture, rows top-down. `position` and `normal`:
 // attribute locations; −1: the built-in attributes of compatibility contexts.
 bool offscreen_draw(struct offscreen *t, enum reference_mesh mesh, int position, int normal, float *pixels,

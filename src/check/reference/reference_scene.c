@@ -18,12 +18,14 @@
 #define BALL                                                                                                           \
     .scale = {0.9, 0.9, 0.9}, .turn_axis = {1, 1, 0}, .turn_deg = 20, .move = {0.3, 0.2, 0.1},                         \
     .eye = {-0.8, 0.9, 3.2}, .target = {0.2, 0.1, 0}
-#define WHITE .color = {1, 1, 1}, .specular = {1, 1, 1}, .ambient = {1, 1, 1}
-#define LAMP  {.type = LAM_LIGHT_POINT, .position = {1.6, 2.2, 2.4}, WHITE, .attenuation = {0.6f, 0.1f, 0.04f}}
+#define WHITE  .color = {1, 1, 1}, .specular = {1, 1, 1}, .ambient = {1, 1, 1}
+#define TINTED .color = {1, 0.9f, 0.7f}, .specular = {0.75f, 0.9f, 1}, .ambient = {0.9f, 0.8f, 1}
+#define LAMP   {.type = LAM_LIGHT_POINT, .position = {1.6, 2.2, 2.4}, WHITE, .attenuation = {0.6f, 0.1f, 0.04f}}
 
 const struct reference_scene reference_scenes[] = {
     {"all", "every term together, a stretched model, a light near by", 0, STRETCHED, MATTER, .ka = 0.25f, .kd = 0.8f,
-     .ks = 0.6f, .shininess = 20, .light_count = 1, .lights = {LAMP}},
+     .ks = 0.6f, .shininess = 20, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_POINT, .position = {1.6, 2.2, 2.4}, TINTED, .attenuation = {0.6f, 0.1f, 0.04f}}}},
     {"ambient", "the ambient term alone", NEED_AMBIENT, STRETCHED, MATTER, .ka = 0.8f, .shininess = 20,
      .light_count = 1, .lights = {LAMP}},
     {"diffuse", "the diffuse term alone", 0, STRETCHED, MATTER, .kd = 0.9f, .shininess = 20, .light_count = 1,
@@ -53,7 +55,11 @@ const struct reference_scene reference_scenes[] = {
                  .attenuation = {0.4f, 0.3f, 0.6f}}}},
     {"directional", "a light infinitely far away", NEED_DIRECTIONAL, STRETCHED, MATTER, .ka = 0.1f, .kd = 0.7f,
      .ks = 0.6f, .shininess = 14, .light_count = 1,
-     .lights = {{.type = LAM_LIGHT_DIRECTIONAL, .to_light = {0.9, 1.3, 1.1}, WHITE, .attenuation = {1, 0, 0}}}},
+     .lights = {{.type = LAM_LIGHT_DIRECTIONAL, .to_light = {0.9, 1.3, 1.1}, TINTED, .attenuation = {1, 0, 0}}}},
+    {"close", "two large triangles near the eye, a light infinitely far away", NEED_DIRECTIONAL, .mesh = MESH_PLANE,
+     .scale = {1.6, 1, 1.6}, .turn_axis = {0, 1, 0}, .turn_deg = 20, .eye = {0.3, 0.7, 1.3}, .target = {0, 0, 0},
+     MATTER, .kd = 0.3f, .ks = 0.7f, .shininess = 12, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_DIRECTIONAL, .to_light = {-0.2, 0.7, -1.2}, WHITE, .attenuation = {1, 0, 0}}}},
     {"lights", "three lights of different colours", NEED_LIGHTS, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.15f,
      .kd = 0.8f, .ks = 0.5f, .shininess = 20, .light_count = 3,
      .lights = {{.type = LAM_LIGHT_POINT,
@@ -74,15 +80,25 @@ const struct reference_scene reference_scenes[] = {
                  .specular = {0.5f, 0.5f, 0.5f},
                  .ambient = {0.1f, 0.2f, 0.5f},
                  .attenuation = {0.9f, 0, 0.05f}}}},
-    {"spot", "a cone of light", NEED_SPOT, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.1f, .kd = 0.8f, .ks = 0.5f,
-     .shininess = 10, .light_count = 1,
+    {"spot", "a narrow cone of light from far away", NEED_SPOT, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.1f,
+     .kd = 0.8f, .ks = 0.5f, .shininess = 10, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_SPOT,
-                 .position = {0.8, 1.2, 2.8},
+                 .position = {2.05, 2.65, 6.4},
                  .to_light = {0.25, 0.35, 0.9},
                  WHITE,
-                 .attenuation = {0.6f, 0.1f, 0.02f},
-                 .cutoff_deg = 16,
-                 .exponent = 12}}},
+                 .attenuation = {0.6f, 0.02f, 0.004f},
+                 .cutoff_deg = 7,
+                 .exponent = 60}}},
+    {"wide spot", "a wide cone of light, close to a plane", NEED_SPOT, .mesh = MESH_PLANE, .scale = {1.6, 1, 1.6},
+     .turn_axis = {1, 0, 0}, .turn_deg = 25, .eye = {0.4, 1.9, 3}, .target = {0, 0, 0}, MATTER, .kd = 0.9f, .ks = 0.3f,
+     .shininess = 10, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_SPOT,
+                 .position = {0.35, 0.75, 0.3},
+                 .to_light = {0, 0.906, 0.423},
+                 WHITE,
+                 .attenuation = {0.6f, 0.1f, 0.1f},
+                 .cutoff_deg = 35,
+                 .exponent = 2}}},
     {"two sides", "the inside of a bowl: a back face is lit with -n", NEED_TWO_SIDES, .mesh = MESH_BOWL,
      .scale = {1, 1, 1}, .turn_axis = {1, 0, 0}, .turn_deg = 50, .eye = {0.3, 0.9, 3.3}, .target = {0, -0.1, 0}, MATTER,
      .ka = 0.1f, .kd = 0.8f, .ks = 0.5f, .shininess = 10, .light_count = 1, .lights = {LAMP}},

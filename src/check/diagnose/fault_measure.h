@@ -1,0 +1,36 @@
+// fault_measure.h: draws the scenes of a search with faults switched on, and measures what difference they leave.
+#ifndef FAULT_MEASURE_H
+#define FAULT_MEASURE_H
+
+#include "fault_search.h"
+
+struct fault_measure {
+    struct fault_search *s;
+    struct scene_comparison *scenes; // of s, reduced to the pixels that are drawn
+    int stride, size;                // of the fault shader's pictures
+    struct fault_shader *shader;     // opened when it is first needed
+    float *pixels, *samples, *memory;
+    int order[MAX_SCENES]; // the scenes to use: those that differ first, by descending difference
+    int scene_count, differ_count;
+};
+
+bool fault_measure_open(struct fault_measure *measure, struct fault_search *search, lam_error *error);
+void fault_measure_close(struct fault_measure *measure);
+
+// Draws a scene: every `stride`-th pixel of every `stride`-th row.
+bool fault_measure_draw(struct fault_measure *measure, int scene, const fault_set *set, float *pixels,
+                        lam_error *error);
+
+// The difference between the shader's picture of a scene and the one with these faults.
+bool fault_measure_scene(struct fault_measure *measure, int scene, const fault_set *set, struct difference *difference,
+                         lam_error *error);
+
+// The set with a fault as well, as it was fitted.
+fault_set fault_measure_with(const fault_set *set, const struct found_fault *fault);
+
+// Finds the factor of the exponent, or the constant, of a fault in addition to `base`, by the scene whose highlight
+// depends on it most. 0: there is none.
+bool fault_measure_fit(struct fault_measure *measure, const fault_set *base, const struct fault *row, float *exponent,
+                       lam_error *error);
+
+#endif

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""matrix.py PROGRAM [--every-version] [--only TEXT] [--jobs N]: checks correct shaders and every known mistake, in every contract, and prints
+tables: how many correct shaders pass, how many mistakes get their right names, none, or a wrong one, by contract and by version of
+GLSL. Exit code 1 if a correct shader fails or a mistake gets a wrong name.
+
+Without --every-version each mistake is made in one version of GLSL, in turn (some minutes); with it, in all of them (an hour)."""
+import argparse
+import collections
+import concurrent.futures
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import correct
+import mutants
+
+BATCH = 200  # shaders of one call: the pictures of mistakes are drawn once in each
+
+
+def run(program, folder, names, options):
+    words = [program, "check", *[f"{n}.{e}" for n in names for e in ("vert", "frag") if (folder / f"{n}.{e}").exists()], "--json", "-s", "64", *options]
+    done = subprocess.run(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    found = {r["fragment"].rsplit(".", 1)[0]: r for r in map(json.loads, done.stdout.splitlines())}
+    return {n: found.get(n, {"error": done.stderr.decode()[-300:]}) for n in names}
+
+
+def check(program, folder, rows, jobs):
+    """rows: (key, options, texts). Returns the reports by key. Batches are of one contract and stage, as a class is."""
+    batches = collections.defaultdict(list)
+    for number, (key, group, options, texts) in enumerate(rows):
+        for ending, text in texts.items():
+            (folder / f"{number:05}.{ending}").write_text(text, newline="")
+        batches[group, tuple(options)].append((f"{number:05}", key))
+    calls = [(group[1], some[i:i + BATCH]) for group, some in batches.items() for i in range(0, len(some), BATCH)]
+    reports = {}
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for call, found in zip(calls, pool.map(lambda c: run(program, folder, [n for n, _ in c[1]], c[0]), calls)):
+            reports.update({key: found[name] for name, key in call[1]})
+    return reports
+
+
+def table(title, columns, rows):
+    print("\n| %s | %s |\n|---|%s" % (title, " | ".join(columns), "--:|" * len(columns)))
+    for name, numbers in rows:
+        print("| %s | %s |" % (name, " | ".join(map(str, numbers))))
+
+
+def judge_correct(program, folder, jobs, only):
+    rows = [((name, None), "style", options, texts) for name, options, texts in correct.SHADERS]
+    rows += [((f"{contract} {stage} {dialect}", dialect), (contract, stage), [], texts) for contract, stage, dialect, texts in mutants.correct()]
+    rows = [r for r in rows if only in r[0][0]]
+    reports = check(program, folder, rows, jobs)
+    bad = [key for key, r in reports.items() if r.get("verdict") != "passes"]
+    styles = [key for key in reports if key[1] is None]
+    table("correct shaders", ("pass", "of"), [("in unusual styles", (len([k for k in styles if k not in bad]), len(styles))),
+                                              ("plain, in every version", (len(reports) - len(styles) - len([k for k in bad if k not in styles]), len(reports) - len(styles)))])
+    for key in bad:
+        r = reports[key]
+        print("  fails:", key[0], "|", r.get("verdict"), r.get("error", ""), [m["id"] for m in r.get("mistakes", [])],
+              [n["text"] for n in r.get("notes", [])][:2])
+    return not bad
+
+
+# Several mistakes that together are one with a name of its own.
+SAME = {("clip-space-vectors", "normal-clip-space"): ["clip-space"], ("light-from-object-space", "eye-from-object-space"): ["point-in-object-space"]}
+
+
+def matches(choices, right):
+    """Whether each of the names told is one of the right ones, in some order. A name told may stand for others with the same pictures."""
+    if not choices or not right:
+        return not choices and not right
+    return any(one in choices[0] and matches(choices[1:], right[:i] + right[i + 1:]) for i, one in enumerate(right)) or any(
+        set(pair) <= set(right) and matches(choices, [x for x in right if x not in pair] + whole) for pair, whole in SAME.items())
+
+
+def judge_mistakes(program, folder, jobs, every, only):
+    rows = [((number, name, contract, stage, dialect, tuple(map(tuple, right))), (contract, stage), [], texts)
+            for number, (name, contract, stage, dialect, right, texts) in enumerate(mutants.mutants(every))]
+    rows = [r for r in rows if only in " ".join(r[0][1:5])]
+    reports = check(program, folder, rows, jobs)
+    by = {"contract": collections.defaultdict(collections.Counter), "version": collections.defaultdict(collections.Counter),
+          "mistakes": collections.defaultdict(collections.Counter)}
+    failures = collections.defaultdict(list)
+    for key, r in reports.items():
+        _, name, contract, stage, dialect, right = key
+        told = sorted(m["id"] for m in r.get("mistakes", []))
+        choices = [{m["id"], *(m["also"] or "").split()} for m in r.get("mistakes", [])]
+        certain = all(m["certain"] for m in r.get("mistakes", []))
+        known = set(sum(right, ()))
+        dark = told == ["no-light"] and len(right[0]) > 1
+        verdict = "error" if "error" in r or r.get("verdict") in ("refused", "endless", "crashes") else "right" if any(matches(choices, list(x)) for x in right) else \
+            "not seen" if r.get("verdict") == "passes" else "hidden" if dark or (told and certain and all(known & c for c in choices)) else "part" if told and set(told) <= known else "none" if not told else "wrong"
+        by["contract"][f"{contract}, lit per {'fragment' if stage == 'f' else 'vertex'}"][verdict] += 1
+        by["version"][dialect or "none"][verdict] += 1
+        by["mistakes"]["one" if len(right[0]) == 1 else "two" if len(right[0]) == 2 else "three"][verdict] += 1
+        if verdict != "right":
+            failures[verdict, name, contract, stage, " ".join(told), certain, r.get("error", "")[:200] or " ".join(
+                n["text"] for n in r.get("notes", []) if n["kind"] == "compiler")[:200]].append(dialect)
+    # hidden: the names explain every picture, the other mistakes cannot be seen in them
+    columns = ("right", "hidden", "part", "none", "not seen", "wrong", "error")
+    for title, counts in by.items():
+        table(title, columns, [(name, [c[x] for x in columns]) for name, c in counts.items()])
+    total = sum((c for c in by["mistakes"].values()), collections.Counter())
+    table("all", columns, [("shaders with mistakes", [total[x] for x in columns])])
+    for (verdict, name, contract, stage, told, certain, note), where in sorted(failures.items()):
+        print(f"  {verdict}: {contract} {stage}: {name}: told [{told}]{'' if certain else ' in part'} in {len(where)} versions {note}")
+    return total["wrong"] == 0 and total["error"] == 0
+
+
+def main():
+    words = argparse.ArgumentParser(description=__doc__)
+    words.add_argument("program")
+    words.add_argument("--every-version", action="store_true")
+    words.add_argument("--only", default="")
+    words.add_argument("--jobs", type=int, default=2)
+    words.add_argument("--no-correct", action="store_true")
+    words = words.parse_args()
+    program = str(pathlib.Path(words.program).resolve())
+    ok = True
+    if not words.no_correct:
+        with tempfile.TemporaryDirectory(prefix="lambent-matrix-") as folder:
+            ok = judge_correct(program, pathlib.Path(folder), words.jobs, words.only)
+    with tempfile.TemporaryDirectory(prefix="lambent-matrix-") as folder:
+        ok = judge_mistakes(program, pathlib.Path(folder), words.jobs, words.every_version, words.only) and ok
+    return 0 if ok else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,333 @@
+"""mutants.py: every known mistake, made on purpose in a correct shader of every contract, in every version of GLSL.
+
+A shader is a template whose parts ($normal, $attenuation …) a contract fills in, and a mistake replaces. `mutants()` lists them all;
+`python3 tests/check/mutants.py FOLDER` writes them as files. tests/check/matrix.py checks them and prints a table."""
+import random
+import re
+import string
+import sys
+import pathlib
+
+import dialects
+
+VERTEX = """$attributes
+$vertex_uniforms
+$varyings
+$extra
+void main() {
+    vec4 at = $at, eye = $mv * at;
+    vec3 point = $point, eye_point = $eye_point;
+    $local_varyings
+    N = $normal;
+    V = $view;
+    for (int i = 0; i < $count; i++) {
+        vec4 seen = $seen, light = $light;
+        L[i] = $way;
+        $each
+    }
+    $light_here
+    gl_Position = $position;
+    $end
+}
+"""
+FRAGMENT = """$fragment_uniforms
+$varyings
+$extra
+void main() {
+    $light_in_fragment
+    gl_FragColor = $out;
+}
+"""
+LIGHTING = """vec3 n = $unit_normal;
+    vec3 v = $unit_view;
+    $flip
+    vec3 diffuse = vec3(0.0), specular = vec3(0.0);
+    for (int i = $first; i < $last; i++) {
+        vec3 way = L[i], l = $unit_light;
+        float d = $distance, attenuation = $attenuation, spot = $spot;
+        float nl = dot(n, l), D = $D;
+        $mirror
+        float base = $base, S = $S;
+        diffuse $add $kept_d * D * $light_color;
+        specular $add $kept_s * S * $light_specular;
+    }
+    vec3 color = $sum;"""
+
+COMMON = {
+    "extra": "", "each": "", "end": "", "flip": "", "point": "eye.xyz", "eye_point": "eye.xyz", "view": "-eye_point", "light": "seen",
+    "way": "seen.w == 0.0 ? light.xyz : light.xyz - point", "position": "$pr * eye", "normal": "normalize($nm_n)", "unit_normal": "normalize(N)",
+    "unit_view": "normalize(V)", "unit_light": "normalize(way)", "distance": "length(way)", "attenuation": "1.0 / ($a + $b * d + $c * d * d)",
+    "spot": "1.0", "D": "max(nl, 0.0)", "mirror": "vec3 h = normalize(l + v);", "base": "dot(n, h)", "S": "nl > 0.0 ? pow(max(base, 0.0), $shininess) : 0.0",
+    "add": "+=", "kept_d": "attenuation * spot", "kept_s": "attenuation * spot", "first": "0", "last": "$count", "sum": "$ambient + $kd * diffuse + $ks * specular",
+    "light_color": "1.0", "light_specular": "1.0", "alpha": "1.0", "ambient": "vec3(0.0)", "out_color": "vec4(color, $alpha)", "mv_n": "($mv * vec4($n, 0.0)).xyz",
+}
+PHONG = {"mirror": "vec3 r = reflect(-l, n);", "base": "dot(r, v)"}
+NYU = {
+    "attributes": "attribute vec4 position, normal;", "at": "position", "n": "normal.xyz", "mv": "modelViewMatrix", "pr": "projectionMatrix",
+    "nm_n": "(normalMatrix * vec4($n, 0.0)).xyz", "n_nm": "(vec4($n, 0.0) * normalMatrix).xyz", "shininess": "64.0", "kd": "uColor", "ks": "vec3(1.0)",
+    "a": "1.0", "b": "0.54", "c": "0.2", "vertex_uniforms": "uniform mat4 modelViewMatrix, projectionMatrix, normalMatrix;\n$lights",
+    "fragment_uniforms": "uniform vec3 uColor;\n$lights",
+}
+NYU_LIST = "struct Light { vec3 lightPosition, lightColor, specularLightColor; };\nuniform Light lights[$count];"
+LAMBENT_LIST = """struct Light { vec4 position, direction, attenuation, cone, diffuse, specular; };
+uniform Light lights[$count];"""
+
+CONTRACTS = {
+    "pittsburgh": {
+        "attributes": "attribute vec4 vPosition, vNormal;", "at": "vPosition", "n": "vNormal.xyz", "mv": "model_view", "pr": "projection",
+        "vertex_uniforms": "uniform mat4 model_view, projection; uniform mat3 normal_matrix; uniform vec4 light_position;",
+        "fragment_uniforms": "uniform vec4 ambient_product, diffuse_product, specular_product;\n"
+                             "uniform float shininess, attenuation_constant, attenuation_linear, attenuation_quadratic;",
+        "nm_n": "normal_matrix * $n", "n_nm": "$n * normal_matrix", "seen": "model_view * light_position", "given": "light_position", "count": "1",
+        "a": "attenuation_constant", "b": "attenuation_linear", "c": "attenuation_quadratic", "shininess": "shininess", "ambient": "ambient_product.rgb",
+        "kd": "diffuse_product.rgb", "ks": "specular_product.rgb", "alpha": "diffuse_product.a"},
+    "oregon": {
+        "attributes": "", "at": "gl_Vertex", "n": "gl_Normal", "mv": "gl_ModelViewMatrix", "pr": "gl_ProjectionMatrix",
+        "vertex_uniforms": "uniform float uLightX, uLightY, uLightZ;",
+        "fragment_uniforms": "uniform float uKa, uKd, uKs, uShininess; uniform vec3 uColor, uSpecularColor;",
+        "nm_n": "gl_NormalMatrix * $n", "n_nm": "$n * gl_NormalMatrix", "seen": "vec4(uLightX, uLightY, uLightZ, 1.0)", "count": "1", "attenuation": "1.0",
+        "shininess": "uShininess", "ambient": "uKa * uColor", "kd": "uKd * uColor", "ks": "uKs * uSpecularColor", **PHONG},
+    "nyu": {**NYU, "lights": NYU_LIST, "count": "2", "seen": "vec4(lights[i].lightPosition, 1.0)", "light_color": "lights[i].lightColor",
+            "light_specular": "lights[i].specularLightColor"},
+    "nyu-point": {**NYU, "lights": "uniform vec3 lightPosition, lightColor, specularLightColor;", "count": "1", "seen": "vec4(lightPosition, 1.0)",
+                  "light_color": "lightColor", "light_specular": "specularLightColor"},
+    "nyu-direction": {**NYU, "lights": "uniform vec3 lightDirection, lightColor, specularLightColor;", "count": "1", "seen": "vec4(lightDirection, 0.0)",
+                      "light_color": "lightColor", "light_specular": "specularLightColor", "attenuation": "1.0"},
+    "lambent": {
+        "attributes": "attribute vec3 position, normal;", "at": "vec4(position, 1.0)", "n": "normal", "mv": "model_view", "pr": "projection",
+        "vertex_uniforms": "uniform mat4 model_view, projection; uniform mat3 normal_matrix;\n" + LAMBENT_LIST,
+        "fragment_uniforms": "struct Material { vec4 ambient, diffuse, specular; float shininess; };\nuniform Material material; uniform vec4 ambient_light;\n" +
+                             LAMBENT_LIST,
+        "nm_n": "normal_matrix * $n", "n_nm": "$n * normal_matrix", "seen": "lights[i].position", "count": "3", "a": "lights[i].attenuation.x",
+        "b": "lights[i].attenuation.y", "c": "lights[i].attenuation.z", "shininess": "material.shininess", "ambient": "material.ambient.rgb * ambient_light.rgb",
+        "kd": "material.diffuse.rgb", "ks": "material.specular.rgb", "alpha": "material.diffuse.a", "light_color": "lights[i].diffuse.rgb",
+        "light_specular": "lights[i].specular.rgb", "flip": "n = gl_FrontFacing ? n : -n;", "cos": "dot(-l, lights[i].direction.xyz)",
+        "spot": "lights[i].cone.x > -1.0 ? ($inside ? pow(max($cos, 0.0), $spot_exponent) : 0.0) : 1.0", "inside": "$cos >= lights[i].cone.x",
+        "spot_exponent": "lights[i].cone.y"},
+}
+DIALECTS = {"oregon": ("", "110", "120") + dialects.COMPATIBILITY}
+LIST_EXTRA = "varying vec3 X[$count];"
+
+P_ONLY, O_ONLY, M_ONLY = ("pittsburgh",), ("oregon",), ("lambent",)
+NYUS = ("nyu", "nyu-point", "nyu-direction")
+EYE_LIGHT = ("oregon", "nyu", "nyu-point", "lambent")
+ATTENUATED = ("pittsburgh", "nyu", "nyu-point", "lambent")
+LISTS = ("nyu", "lambent")
+MATERIAL = ("pittsburgh", "oregon", "lambent")
+BLINN = ("pittsburgh", "lambent") + NYUS
+ALL = tuple(CONTRACTS)
+CLIP_LIGHT, CLIP_POINT, CLIP_EYE = {"light": "$pr * seen"}, {"point": "($pr * eye).xyz"}, {"eye_point": "($pr * eye).xyz"}
+CLIP_NORMAL = {"normal": "normalize(($pr * $mv * vec4($n, 0.0)).xyz)"}
+NO_GATE = {"S": "pow(max(base, 0.0), $shininess)"}
+
+
+def exponent(text):
+    return {"S": f"nl > 0.0 ? pow(max(base, 0.0), {text}) : 0.0"}
+
+
+# (id, contracts, where: f(ragment), v(ertex) or both, parts). Parts may be a list: forms of one mistake. Ids after a blank are as right:
+# in these shaders they draw the same picture.
+MISTAKES = [
+    ("normal-not-unit", ALL, "f", {"unit_normal": "N"}),
+    ("normal-not-unit", O_ONLY, "f", {"unit_normal": "N", "mirror": "vec3 r = normalize(reflect(-l, n));"}),
+    ("normal-unit-late", ALL, "f", {"normal": "$nm_n"}),
+    ("normal-never-unit", ALL, "fv", {"normal": "$nm_n", "unit_normal": "N"}),
+    ("normal-never-unit", O_ONLY, "fv", {"normal": "$nm_n", "unit_normal": "N", "mirror": "vec3 r = normalize(reflect(-l, n));"}),
+    ("normal-by-model-view", ALL, "fv", {"normal": "normalize($mv_n)"}),
+    ("normal-by-inverse", ALL, "fv", {"normal": "normalize($n_nm)"}),
+    ("normal-by-transpose", ALL, "fv", {"normal": "normalize((vec4($n, 0.0) * $mv).xyz)"}),
+    ("normal-as-point", ALL, "fv", {"normal": "normalize(($mv * vec4($n, 1.0)).xyz)"}),
+    ("normal-object-space", ALL, "fv", {"normal": "normalize($n)"}),
+    ("normal-clip-space", ALL, "fv", CLIP_NORMAL),
+    ("normal-with-w", NYUS, "fv", {"normal": "normalize(normalMatrix * vec4($n, 0.0)).xyz", "unit_normal": "N"}),
+    ("normal-with-w-vertex", NYUS, "f", {"normal": "normalize(normalMatrix * vec4($n, 0.0)).xyz"}),
+    ("normal-inward", ALL, "fv", {"normal": "-normalize($nm_n)"}),
+    ("clip-space", ALL, "fv", {**CLIP_NORMAL, **CLIP_LIGHT, **CLIP_POINT, **CLIP_EYE}),
+    ("clip-space-vectors", ALL, "fv", {**CLIP_LIGHT, **CLIP_POINT, **CLIP_EYE}),
+    ("clip-space-vertex", ("pittsburgh",) + EYE_LIGHT, "fv", {**CLIP_POINT, **CLIP_EYE}),
+    ("clip-space-light", ("pittsburgh",) + EYE_LIGHT, "fv", {**CLIP_LIGHT, **CLIP_POINT}),
+    ("light-not-moved", P_ONLY, "fv", {"light": "$given"}),
+    ("light-in-object-space", P_ONLY, "fv", {"light": "$given", "point": "at.xyz"}),
+    ("light-moved-twice", EYE_LIGHT + ("nyu-direction",), "fv", {"light": "$mv * seen"}),
+    ("point-in-object-space", EYE_LIGHT, "fv", {"point": "at.xyz", "eye_point": "at.xyz"}),
+    ("light-from-object-space", EYE_LIGHT, "fv", {"point": "at.xyz"}),
+    ("eye-from-object-space", ALL, "fv", {"eye_point": "at.xyz"}),
+    ("all-in-object-space", P_ONLY, "fv", {"normal": "normalize($n)", "light": "$given", "point": "at.xyz", "eye_point": "at.xyz"}),
+    ("direction-as-point", ("pittsburgh", "nyu-direction"), "fv", {"way": "light.xyz - point"}),
+    ("direction-reversed light-backwards", ("nyu-direction",), "fv", {"way": "-light.xyz"}),
+    ("direction-reversed", P_ONLY, "fv", {"way": "seen.w == 0.0 ? -light.xyz : light.xyz - point"}),
+    ("light-backwards", ("pittsburgh",) + EYE_LIGHT, "fv", {"way": "seen.w == 0.0 ? -light.xyz : point - light.xyz"}),
+    ("eye-backwards", BLINN, "fv", {"view": "eye_point"}),
+    ("reflect-sign", O_ONLY, "fv", {"view": "eye_point"}),
+    ("viewer-infinite", ALL, "fv", {"view": "vec3(0.0, 0.0, 1.0)"}),
+    ("light-not-unit", ("pittsburgh",) + EYE_LIGHT, "fv", {"unit_light": "way"}),
+    ("light-not-unit", O_ONLY, "fv", {"unit_light": "way", "mirror": "vec3 r = normalize(reflect(-l, n));"}),
+    ("half-of-raw-light", ("pittsburgh", "nyu", "nyu-point", "lambent"), "fv", {"mirror": "vec3 h = normalize(way + v);"}),
+    ("half-of-raw-eye", ALL, "fv", {"unit_view": "V"}),
+    ("half-of-raw-both", ("pittsburgh", "nyu", "nyu-point", "lambent"), "fv", {"mirror": "vec3 h = normalize(way + V);"}),
+    ("half-not-unit", BLINN, "fv", {"mirror": "vec3 h = l + v;"}),
+    ("half-is-mean", BLINN, "fv", {"mirror": "vec3 h = (l + v) / 2.0;"}),
+    ("unit-too-early", ("pittsburgh",) + EYE_LIGHT, "f", {"extra": LIST_EXTRA, "each": "X[i] = L[i]; L[i] = normalize(L[i]);", "distance": "length(X[i])",
+                                                          "view": "normalize(-eye_point)"}),
+    ("light-unit-too-early", ("pittsburgh",) + EYE_LIGHT, "f", {"extra": LIST_EXTRA, "each": "X[i] = L[i]; L[i] = normalize(L[i]);", "distance": "length(X[i])"}),
+    ("eye-unit-too-early", ALL, "f", {"view": "normalize(-eye_point)"}),
+    ("half-in-vertex-shader", BLINN, "f", {"extra": LIST_EXTRA, "each": "X[i] = normalize(normalize(L[i]) + normalize(V));", "mirror": "vec3 h = normalize(X[i]);"}),
+    ("reflection-in-vertex-shader", O_ONLY, "f", {"extra": LIST_EXTRA, "each": "X[i] = reflect(-normalize(L[i]), N);", "mirror": "vec3 r = normalize(X[i]);"}),
+    ("distance-interpolated", ATTENUATED, "f", {"extra": "varying float X[$count];", "each": "X[i] = length(L[i]);", "distance": "X[i]"}),
+    ("no-attenuation", ATTENUATED, "fv", {"attenuation": "1.0"}),
+    ("specular-not-attenuated", ATTENUATED, "fv", {"kept_s": "spot"}),
+    ("diffuse-not-attenuated", ATTENUATED, "fv", {"kept_d": "spot"}),
+    ("ambient-attenuated", P_ONLY, "fv", {"extra": "float kept;", "kept_d": "(kept = attenuation)", "sum": "kept * $ambient + $kd * diffuse + $ks * specular"}),
+    ("attenuation-swapped", ATTENUATED, "fv", {"attenuation": "1.0 / ($a + $c * d + $b * d * d)"}),
+    ("attenuation-inverted", ATTENUATED, "fv", {"attenuation": "($a + $b * d + $c * d * d)"}),
+    ("distance-for-its-square", ATTENUATED, "fv", {"attenuation": "1.0 / ($a + $b * d + $c * d)"}),
+    ("distance-squared", ATTENUATED, "fv", {"distance": "dot(way, way)"}),
+    ("distance-of-unit-vector", ATTENUATED, "fv", {"distance": "length(l)"}),
+    ("inverse-square", ATTENUATED, "fv", {"attenuation": "1.0 / (d * d)"}),
+    ("inverse-distance", ATTENUATED, "fv", {"attenuation": "1.0 / d"}),
+    ("no-gate", ALL, "f", NO_GATE),
+    ("no-gate", ("pittsburgh", "oregon", "nyu-direction"), "v", NO_GATE),
+    ("no-clamp", ("pittsburgh", "oregon", "nyu", "lambent"), "fv", {"D": "nl"}),
+    ("lit-from-behind", ALL, "fv", {"D": "abs(nl)", "S": "pow(abs(base), $shininess)"}),
+    ("abs-of-n.l", ALL, "fv", {"D": "abs(nl)"}),
+    ("half-lambert", ALL, "fv", {"D": "0.5 * nl + 0.5"}),
+    ("half-lambert-squared", ALL, "fv", {"D": "pow(0.5 * nl + 0.5, 2.0)"}),
+    ("n.l-squared", ALL, "fv", {"D": "max(nl, 0.0) * max(nl, 0.0)"}),
+    ("phong-lobe", BLINN, "fv", PHONG),
+    ("blinn-phong-lobe", O_ONLY, "fv", {"mirror": COMMON["mirror"], "base": COMMON["base"]}),
+    ("shininess-times-4", ALL, "fv", exponent("$shininess * 4.0")),
+    ("shininess-quarter", ALL, "fv", exponent("$shininess / 4.0")),
+    ("shininess-multiplied", ALL, "fv", [exponent("$shininess * 2.0"), exponent("$shininess * 3.0"), exponent("$shininess * 10.0")]),
+    ("shininess-divided", ALL, "fv", [exponent("$shininess / 2.0"), exponent("0.3 * $shininess"), exponent("$shininess / 8.0")]),
+    ("shininess-constant", MATERIAL, "fv", [exponent("32.0"), exponent("16.0"), {"S": "nl > 0.0 ? max(base, 0.0) : 0.0"}]),
+    ("blinn-phong-times-4", O_ONLY, "fv", {"mirror": COMMON["mirror"], "base": COMMON["base"], **exponent("4.0 * $shininess")}),
+    ("phong-quarter", BLINN, "fv", {**PHONG, **exponent("$shininess / 4.0")}),
+    ("reflect-sign", O_ONLY, "fv", {"mirror": "vec3 r = reflect(l, n);"}),
+    ("specular-times-n.l", ALL, "fv", {"kept_s": "attenuation * spot * max(nl, 0.0)"}),
+    ("kd-ks-swapped", P_ONLY + M_ONLY, "fv", {"sum": "$ambient + $ks * diffuse + $kd * specular"}),
+    ("kd-ks-swapped", O_ONLY, "fv", {"kd": "uKs * uColor", "ks": "uKd * uSpecularColor"}),
+    ("ka-kd-swapped", P_ONLY, "fv", {"ambient": "diffuse_product.rgb", "kd": "ambient_product.rgb"}),
+    ("ka-kd-swapped", O_ONLY, "fv", {"ambient": "uKd * uColor", "kd": "uKa * uColor"}),
+    ("specular-tinted", P_ONLY + M_ONLY + NYUS, "fv", {"sum": "$ambient + $kd * diffuse + $ks * $kd * specular"}),
+    ("specular-tinted", O_ONLY, "fv", {"ks": "uKs * uSpecularColor * uColor"}),
+    ("specular-in-diffuse-colour", P_ONLY + M_ONLY, "fv", {"sum": "$ambient + $kd * diffuse + $kd * specular"}),
+    ("specular-in-diffuse-colour", O_ONLY, "fv", {"ks": "uKs * uColor"}),
+    ("light-colour-missing", NYUS + M_ONLY, "fv", {"light_color": "1.0"}),
+    ("specular-light-as-diffuse", NYUS + M_ONLY, "fv", {"light_specular": "$light_color"}),
+    ("no-ambient", MATERIAL, "fv", {"sum": "$kd * diffuse + $ks * specular"}),
+    ("no-diffuse", ALL, "fv", {"sum": "$ambient + $ks * specular"}),
+    ("no-specular", ALL, "fv", {"sum": "$ambient + $kd * diffuse"}),
+    ("ambient-for-each-light", M_ONLY, "fv", {"sum": "3.0 * $ambient + $kd * diffuse + $ks * specular"}),
+    ("first-light-only one-light-too-few", ("nyu",), "fv", {"last": "1"}),
+    ("last-light-only first-light-missing", ("nyu",), "fv", [{"add": "="}, {"first": "1"}]),
+    ("first-light-only", M_ONLY, "fv", {"last": "1"}),
+    ("last-light-only", M_ONLY, "fv", {"add": "="}),
+    ("one-light-too-few", M_ONLY, "fv", {"last": "2"}),
+    ("first-light-missing", M_ONLY, "fv", {"first": "1"}),
+    ("no-cone", M_ONLY, "f", {"spot": "lights[i].cone.x > 1.0 ? 0.0 : 1.0"}),
+    ("no-cutoff", M_ONLY, "f", {"inside": "true"}),
+    ("no-spot-exponent", M_ONLY, "f", {"spot_exponent": "0.0001"}),
+    ("cone-in-degrees", M_ONLY, "f", [{"inside": "degrees(acos($cos)) <= lights[i].cone.x"}, {"spot": "degrees(acos($cos)) <= lights[i].cone.x ? "
+                                      "pow(max($cos, 0.0), $spot_exponent) : 0.0"}, {"inside": "$cos >= cos(radians(lights[i].cone.x))"}]),
+    ("cone-by-acos", M_ONLY, "f", [{"inside": "acos($cos) <= lights[i].cone.x"}, {"inside": "$cos >= cos(lights[i].cone.x)"},
+                                   {"spot": "acos($cos) < lights[i].cone.x ? pow(max($cos, 0.0), $spot_exponent) : 0.0"}]),
+    ("cone-inside-out", M_ONLY, "f", [{"inside": "$cos < lights[i].cone.x"}, {"spot": "$cos < lights[i].cone.x ? pow(max($cos, 0.0), $spot_exponent) : 0.0"}]),
+    ("cone-reversed", M_ONLY, "f", {"cos": "dot(l, lights[i].direction.xyz)"}),
+    ("no-flip", M_ONLY, "f", {"flip": ""}),
+    ("alpha-one", P_ONLY + M_ONLY, "fv", {"alpha": "1.0"}),
+    ("vertex-colour-clamped", P_ONLY, "v", {"sum": "clamp($ambient + $kd * diffuse + $ks * specular, 0.0, 1.0)"}),
+    ("encoded", ALL, "fv", {"out_color": "vec4(pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2)), $alpha)"}),
+    ("upside-down", ALL, "fv", {"end": "gl_Position.y = -gl_Position.y;"}),
+]
+
+
+def fill(text, parts):
+    while "$" in text:
+        text = string.Template(text).substitute(parts)
+    return text
+
+
+def shader(contract, stage, dialect, parts):
+    """The texts of a shader. `stage`: f or v, which computes the lighting."""
+    all_parts = {**COMMON, **CONTRACTS[contract]}
+    all_parts.update({"varyings": "varying vec3 N, V, L[$count];", "local_varyings": "", "light_here": "", "light_in_fragment": LIGHTING, "out": "$out_color"})
+    if stage == "v":
+        all_parts.update({"varyings": "varying vec4 lit;", "local_varyings": "vec3 N, V, L[$count];", "light_here": LIGHTING + " lit = $out_color;",
+                          "light_in_fragment": "", "out": "lit", "vertex_uniforms": all_parts["vertex_uniforms"] + "\n" + all_parts["fragment_uniforms"],
+                          "fragment_uniforms": "", "flip": "", "spot": "1.0", "unit_normal": "N"})
+        for twice in (all_parts.get("lights"), LAMBENT_LIST):
+            if twice:
+                all_parts["vertex_uniforms"] = all_parts["vertex_uniforms"].replace("\n$lights", "").replace("\n" + twice, "") + "\n" + (
+                    "$lights" if contract.startswith("nyu") else LAMBENT_LIST if contract == "lambent" else "")
+                break
+    all_parts.update(parts)
+    texts = {"vert": fill(VERTEX, all_parts), "frag": fill(FRAGMENT, all_parts)}
+    return {ending: dialects.translate(text, ending, dialect, precision="highp") for ending, text in texts.items()}
+
+
+def stages(contract):
+    return "f" if contract == "lambent" else "fv"  # the back of a surface lit per vertex needs OpenGL's own two colours
+
+
+def dialects_of(contract):
+    return DIALECTS.get(contract, dialects.ALL)
+
+
+def clashes(a, b):
+    """Whether two mistakes cannot be made in one shader, or hide one another."""
+    groups = ("normal", "unit_normal"), ("light", "point", "eye_point", "way", "view", "unit_view", "unit_light", "mirror", "base", "each"), \
+        ("attenuation", "distance", "kept_d", "kept_s", "extra"), ("S", "mirror", "base"), ("sum", "kd", "ks", "ambient", "alpha", "out_color"), ("D", "S", "kept_s"), \
+        ("first", "last", "add", "light_color", "light_specular"), ("spot", "inside", "cos", "spot_exponent"), ("end", "flip")
+    return any(set(group) & set(a) and set(group) & set(b) for group in groups)
+
+
+# These hide others. A few mistakes are missing where nobody can see them: an unclamped n.l that only darkens black, a highlight of exponent
+# 64 between vertices, a light's direction where the shader has only points.
+ALONE = {"normal-as-point", "no-diffuse", "no-specular", "encoded", "upside-down", "lit-from-behind", "normal-inward", "cone-reversed", "vertex-colour-clamped"}
+
+
+def mutants(every_dialect=True, several=4):
+    """Yields (name, contract, stage, dialect, lists of ids that are right, texts): each mistake in each contract, and `several` shaders
+    of two and as many of three mistakes in each contract and stage. Not `every_dialect`: each in one version of GLSL, in turn."""
+    turn = 0
+    for contract in CONTRACTS:
+        for stage in stages(contract):
+            rows = [(ids.split(), form) for ids, contracts, where, forms in MISTAKES if contract in contracts and stage in where
+                    for form in (forms if isinstance(forms, list) else [forms])]
+            sets = [(ids[0], [[one] for one in ids], form) for ids, form in rows]
+            choose = random.Random(contract + stage)
+            for count in (2, 3):
+                made = 0
+                while made < several:
+                    some = choose.sample(rows, count)
+                    if any(clashes(a[1], b[1]) for i, a in enumerate(some) for b in some[i + 1:]) or any(ids[0] in ALONE for ids, _ in some):
+                        continue
+                    parts = {}
+                    for _, form in some:
+                        parts.update(form)
+                    right = [[]]
+                    for ids, _ in some:
+                        right = [known + [one] for known in right for one in ids]
+                    sets.append((" ".join(ids[0] for ids, _ in some), right, parts))
+                    made += 1
+            for name, right, parts in sets:
+                turn += 1
+                known = dialects_of(contract)
+                for dialect in known if every_dialect else known[turn % len(known):][:1]:
+                    yield name, contract, stage, dialect, right, shader(contract, stage, dialect, parts)
+
+
+def correct():
+    """The templates without a mistake, likewise."""
+    for contract in CONTRACTS:
+        for stage in stages(contract):
+            for dialect in dialects_of(contract):
+                yield contract, stage, dialect, shader(contract, stage, dialect, {})
+
+
+if __name__ == "__main__":
+    target = pathlib.Path(sys.argv[1])
+    target.mkdir(parents=True, exist_ok=True)
+    for number, (name, contract, stage, dialect, _, texts) in enumerate(mutants()):
+        for ending, text in texts.items():
+            (target / re.sub(r"[^\w.-]+", "-", f"{number:05}-{contract}-{stage}-{dialect}-{name}.{ending}")).write_text(text)

@@ -89,8 +89,8 @@ static int run(int count, char **words)
 
 int main(int count, char **words)
 {
-    if (count == 2 && strcmp(words[1], CHECK_WORKER) == 0)
-        check_worker();
+    if (count == 3 && strcmp(words[1], CHECK_WORKER) == 0)
+        check_worker(words[2]);
     signal(SIGXFSZ, SIG_IGN); // a file over the limit is an error of writing it
     console_start();
     option_table_fill();

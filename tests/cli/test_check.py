@@ -88,7 +88,9 @@ class Right(CheckTest):
                 # Only the raw material of three.js has no name of a highlight.
                 self.assertEqual((report["mistakes"], len(report["notes"])), ([], int(name == "threejs-raw")))
                 # The reference comes from the CPU device: the pictures agree far within the tolerance.
-                self.assertLess(max(scene["maximum"] for scene in report["scenes"]), 1e-3)
+                # Only at the edge of a cone may single pixels be on its other side.
+                self.assertLess(max(scene["maximum"] for scene in report["scenes"] if "spot" not in scene["name"]), 1e-3)
+                self.assertLess(max(scene["share_over"] for scene in report["scenes"]), 1e-3)
                 self.assertGreater(min(scene["pixels"] for scene in report["scenes"]), 1000)
 
     def test_every_correct_style(self):

@@ -1,8 +1,16 @@
 // target_hdr.c: fuzz target for reading Radiance files.
-#include "target_codec.h"
+#include "target.h"
+
+#include "codec.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    read_picture(&codec_hdr, data, size, "fuzz.hdr");
+    lam_image image = {0};
+    lam_error error = {0};
+    if (codec_hdr.read(&(struct picture_file){data, size, "fuzz.hdr", NULL}, &image, &error)
+            ? !image.pixels
+            : image.pixels || !error.text[0])
+        abort();
+    lam_image_free(&image);
     return 0;
 }

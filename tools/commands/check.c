@@ -13,39 +13,8 @@
 #include "report.h"
 #include "suggest.h"
 
-enum { MAX_TEXT_BYTES = 1 << 20, MAX_SCENES = 32 };
+enum { MAX_SCENES = 32 };
 static const size_t max_cache_bytes = (size_t)384 << 20; // of pictures cached for several shaders
-
-// Reads a text file into memory from malloc.
-static char *read_text(const char *path, lam_error *error)
-{
-    bool standard = strcmp(path, "-") == 0;
-    FILE *file = standard ? stdin : fopen(path, "rb");
-    if (!file) {
-        complain(error, LAM_CANNOT_READ, "%s: %s", path, strerror(errno));
-        return NULL;
-    }
-    char *text = malloc(MAX_TEXT_BYTES + 1);
-    size_t size = text ? fread(text, 1, MAX_TEXT_BYTES + 1, file) : 0;
-    bool bad = ferror(file);
-    int reason = errno;
-    if (!standard)
-        fclose(file);
-    if (!text)
-        complain(error, LAM_LIMIT, "out of memory");
-    else if (bad)
-        complain(error, LAM_CANNOT_READ, "%s: %s", path, strerror(reason));
-    else if (size > MAX_TEXT_BYTES)
-        complain(error, LAM_LIMIT, "%s: the file is larger than %d bytes", path, MAX_TEXT_BYTES);
-    else if (memchr(text, 0, size))
-        complain(error, LAM_CANNOT_READ, "%s: expected text, found a zero byte", path);
-    else {
-        text[size] = 0;
-        return text;
-    }
-    free(text);
-    return NULL;
-}
 
 // The contract of a command line, by its name or from its file. *contract stays NULL for one that is to be recognised.
 static bool read_contract(const char *name, lam_check_contract **contract, lam_error *error)
@@ -67,137 +36,142 @@ static bool read_contract(const char *name, lam_check_contract **contract, lam_e
                         name, known, nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
                         nearest.best ? "'?" : "");
     }
-    char *file = read_text(name, error);
+    char *file = check_read_text(name, error);
     *contract = file ? lam_check_contract_read(file, strlen(file), name, error) : NULL;
     free(file);
     return *contract != NULL;
 }
 
-// State shared by all shaders of a command line.
-struct batch {
+struct check_command {
     const struct options *options;
+    struct check_batch batch;
+    struct check_submission *submissions;
+    lam_check_contract *contract;
+    int code; // of an output that cannot be written; 0: none
+    char *scene_list;
     const char *scenes[MAX_SCENES];
-    int scene_count;
-    bool several;
-    double tolerance;
-    lam_check_contract *contract; // NULL: recognised
-    lam_check_cache *cache;       // NULL for a single shader
-    int passed;
 };
 
-static bool check_output(const struct batch *c, const char *path, const char *shader, lam_error *error)
+// Splits "all,gate" into its names.
+static bool split_scenes(struct check_command *c, lam_error *error)
 {
-    lam_pixel_format format;
-    if (output_is_stream(path))
+    if (!c->options->scenes)
         return true;
-    return output_format(path, &format, error) &&
-           (format == LAM_RGBA8 || complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", path)) &&
-           output_check(path, shader, output_is_named(c->options->output), error);
+    c->scene_list = strdup(c->options->scenes);
+    if (!c->scene_list)
+        return complain(error, LAM_LIMIT, "out of memory");
+    for (char *word = strtok(c->scene_list, ","); word && c->batch.scene_count < MAX_SCENES; word = strtok(NULL, ","))
+        c->scenes[c->batch.scene_count++] = word;
+    c->batch.scenes = c->batch.scene_count ? c->scenes : NULL;
+    return true;
 }
 
-static void print_report(const struct batch *c, const lam_check_report *report, const struct check_pair *pair,
-                         const char *sheet)
+// Finds the submissions: of a folder, or the operands.
+static bool find_submissions(struct check_command *c, int operand_count, char **operands, lam_error *error)
 {
     const struct options *o = c->options;
-    FILE *file = sheet && strcmp(sheet, "-") == 0 ? stderr : stdout;
-    if (o->json)
-        check_report_json(file, report, pair->fragment, pair->vertex, c->tolerance, report->scene_count ? sheet : NULL);
-    else if (!o->quiet)
-        check_report_text(file, report, pair->fragment, c->tolerance);
-    fflush(file); // each shader's report appears as soon as it is done
-}
-
-// Checks one shader and prints its report; returns the exit code. A failure is in `error`.
-static int check_one(struct batch *c, const struct check_pair *pair, lam_error *error)
-{
-    const struct options *o = c->options;
-    struct check_process process = {.time_limit_s = o->stop_after_s};
-    char *fragment = NULL, *vertex = NULL, *sheet = NULL;
-    bool ok = !o->output || (sheet = check_sheet_path(o->output, pair->fragment)) ||
-              complain(error, LAM_LIMIT, "out of memory");
-    ok = ok && (!sheet || check_output(c, sheet, pair->fragment, error)) &&
-         (fragment = read_text(pair->fragment, error)) && (!pair->vertex || (vertex = read_text(pair->vertex, error)));
-    lam_check_report report = {0};
-    if (ok) {
-        lam_check_params params = {
-            .fragment = fragment,
-            .fragment_name = pair->fragment,
-            .vertex = vertex,
-            .vertex_name = pair->vertex,
-            .contract = c->contract,
-            .size = o->has_size ? o->width : 0,
-            .tolerance = c->tolerance / 255,
-            .light_frame = (lam_light_frame)o->light_frame,
-            .reflection = (lam_reflection)o->highlight,
-            .terms = (unsigned)o->terms,
-            .scenes = c->scene_count ? c->scenes : NULL,
-            .scene_count = c->scene_count,
-            .cache = c->cache,
-            .draw = check_process,
-            .user = &process,
-        };
-        ok = lam_check_run(&params, &report, error);
-        if (!ok && error->code == LAM_BAD_ARGUMENT && !strstr(error->text, pair->fragment)) {
-            char text[sizeof error->text];
-            snprintf(text, sizeof text, "%s", error->text);
-            complain(error, error->code, "%s: %s", pair->fragment, text);
-        }
-    }
-    if (ok && sheet && report.scene_count)
-        ok = check_sheet(&report, pair->fragment, o, sheet, error);
-    if (ok)
-        print_report(c, &report, pair, sheet);
-    int code = !ok ? exit_code_of(error->code)->code : report.verdict == LAM_CHECK_PASSES ? 0 : EXIT_DIFFERS;
-    c->passed += code == 0;
-    lam_check_report_free(&report);
-    free(fragment);
-    free(vertex);
-    free(sheet);
-    return code;
-}
-
-static bool prepare(struct batch *c, int pair_count, const struct check_pair *pairs, lam_error *error)
-{
-    const struct options *o = c->options;
-    if (!pair_count)
+    if (o->class_folder && operand_count)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "check: no shader given, expected the file of a fragment shader, or --list");
-    for (int i = 0; c->several && i < pair_count; i++)
-        if (strcmp(pairs[i].fragment, "-") == 0)
+                        "option '--class' names a folder, and '%.100s' is a shader besides; expected one of them",
+                        operands[0]);
+    c->batch.in_class = o->class_folder != NULL;
+    c->batch.count = o->class_folder ? check_find(o->class_folder, &c->submissions, error)
+                                     : check_pair(operand_count, operands, o->vertex, &c->submissions, error);
+    c->batch.submissions = c->submissions;
+    if (c->batch.count < 0)
+        return false;
+    if (c->batch.count == 0)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "check: no shader given, expected the file of a fragment shader, --class FOLDER, or --list");
+    for (int i = 0; o->class_folder && o->vertex && i < c->batch.count; i++)
+        if (!c->submissions[i].vertex && !(c->submissions[i].vertex = strdup(o->vertex)))
+            return complain(error, LAM_LIMIT, "out of memory");
+    for (int i = 0; c->batch.count > 1 && !c->batch.in_class && i < c->batch.count; i++)
+        if (strcmp(c->submissions[i].fragment, "-") == 0)
             return complain(error, LAM_BAD_ARGUMENT, "'-' (standard input) is possible only for a single shader");
+    return true;
+}
+
+// The formats of what is written are checked before the work; whether it can be written is seen later.
+static bool check_outputs(const struct check_command *c, lam_error *error)
+{
+    const struct options *o = c->options;
+    lam_pixel_format format;
     if (o->has_size && o->width != o->height)
         return complain(error, LAM_BAD_ARGUMENT, "check: pictures are square, found %dx%d", o->width, o->height);
-    if (o->output && c->several && output_is_named(o->output))
+    if (c->batch.in_class) // -o always names a folder
+        return true;
+    if (o->output && output_is_named(o->output) && c->batch.count > 1)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--output' names one sheet for %d shaders; name a folder: -o sheets/", pair_count);
-    if (!read_contract(o->contract, &c->contract, error))
+                        "option '--output' names one sheet for %d shaders; name a folder: -o sheets/", c->batch.count);
+    if (!o->output || !output_is_named(o->output) || output_is_stream(o->output))
+        return true;
+    return output_format(o->output, &format, error) &&
+           (format == LAM_RGBA8 ||
+            complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", o->output));
+}
+
+static bool open_csv(struct check_command *c, lam_error *error)
+{
+    const char *path = c->options->csv;
+    if (!path)
+        return true;
+    if (!output_make_folder(path, error))
         return false;
-    return !c->several || (c->cache = lam_check_cache_make(max_cache_bytes, error));
+    c->batch.csv = fopen(path, "w");
+    if (!c->batch.csv)
+        return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
+    c->batch.csv_error = check_csv_head(c->batch.csv);
+    return true;
 }
 
-// Splits "all,gate" into its names, inside `list`.
-static void split(struct batch *c, char *list)
+// The folder of the page and the sheets. Without it the verdicts are printed all the same.
+static bool prepare_page(struct check_command *c, lam_error *error)
 {
-    for (char *word = list ? strtok(list, ",") : NULL; word && c->scene_count < MAX_SCENES; word = strtok(NULL, ","))
-        c->scenes[c->scene_count++] = word;
-}
-
-// An error in one shader is printed and the others are still checked. Returns the highest exit code.
-static int check_all(struct batch *c, int count, const struct check_pair *pairs)
-{
-    int code = 0;
-    for (int i = 0; i < count && !interrupted(); i++) {
-        lam_error error = {0};
-        int mine = check_one(c, &pairs[i], &error);
-        if (error.code && !interrupted()) {
-            say_error(error.text);
-            if (c->options->json)
-                check_report_error_json(stdout, pairs[i].fragment, pairs[i].vertex, &error);
-        }
-        code = mine > code ? mine : code;
+    char *page = check_page_path(c->options->output, error);
+    lam_error reason = {0};
+    if (!page)
+        return false;
+    if (output_make_folder(page, &reason) && output_check(page, "", true, &reason)) {
+        c->batch.page = check_page_make(error);
+    } else {
+        say_error(reason.text);
+        c->code = exit_code_of(reason.code)->code;
+        c->batch.without_sheets = true;
     }
-    if (!c->options->json && !c->options->quiet && !interrupted())
-        printf("%d of %d pass\n", c->passed, count);
+    free(page);
+    return c->batch.page || c->batch.without_sheets;
+}
+
+static bool prepare(struct check_command *c, int operand_count, char **operands, lam_error *error)
+{
+    const struct options *o = c->options;
+    if (!split_scenes(c, error) || !find_submissions(c, operand_count, operands, error) || !check_outputs(c, error) ||
+        !read_contract(o->contract, &c->contract, error) || !open_csv(c, error))
+        return false;
+    c->batch.contract = c->contract;
+    if (c->batch.in_class && o->output && !prepare_page(c, error))
+        return false;
+    return c->batch.count == 1 || (c->batch.cache = lam_check_cache_make(max_cache_bytes, error));
+}
+
+// Writes what is complete only at the end. A failure is reported; the verdicts are out already.
+static int finish(struct check_command *c)
+{
+    const struct options *o = c->options;
+    lam_error error = {0};
+    int code = c->code;
+    if (c->batch.page && !check_page_write(c->batch.page, o->output, o->class_folder, &error)) {
+        say_error(error.text);
+        code = exit_code_of(error.code)->code;
+    }
+    if (c->batch.csv && fclose(c->batch.csv) != 0 && !c->batch.csv_error)
+        c->batch.csv_error = errno;
+    if (c->batch.csv_error) {
+        complain(&error, LAM_CANNOT_WRITE, "%s: cannot write: %s", o->csv, strerror(c->batch.csv_error));
+        say_error(error.text);
+        code = exit_code_of(error.code)->code;
+    }
     return code;
 }
 
@@ -207,20 +181,21 @@ int run_check(int operand_count, char **operands, const struct options *o)
     if (o->list)
         return check_print_lists(stdout, &error) ? 0 : report_failure(&error, o);
     interrupt_start();
-    struct batch c = {.options = o, .tolerance = option_given(o, "tolerance") ? o->tolerance : 2};
-    struct check_pair *pairs = calloc((size_t)operand_count + 1, sizeof *pairs);
-    char *scenes = o->scenes ? strdup(o->scenes) : NULL;
-    split(&c, scenes);
-    int count = pairs ? check_pair(operand_count, operands, o->vertex, pairs, &error) : -1, code = 0;
-    c.several = count > 1;
-    if (!pairs)
-        complain(&error, LAM_LIMIT, "out of memory");
-    else if (count >= 0 && prepare(&c, count, pairs, &error))
-        code = c.several ? check_all(&c, count, pairs) : check_one(&c, pairs, &error);
-    lam_check_cache_free(c.cache);
+    struct check_command c = {.options = o, .batch = {.options = o}};
+    c.batch.tolerance = option_given(o, "tolerance") ? o->tolerance : 2;
+    int code = 0;
+    if (prepare(&c, operand_count, operands, &error)) {
+        code = check_batch_run(&c.batch, &error);
+        int finished = finish(&c);
+        code = finished > code ? finished : code;
+    } else if (c.batch.csv) {
+        fclose(c.batch.csv);
+    }
+    check_page_free(c.batch.page);
+    lam_check_cache_free(c.batch.cache);
     lam_check_contract_free(c.contract);
-    free(pairs);
-    free(scenes);
+    check_free_submissions(c.submissions, c.batch.count);
+    free(c.scene_list);
     if (interrupted())
         interrupt_finish();
     return error.code ? report_failure(&error, o) : code;

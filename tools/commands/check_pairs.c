@@ -1,4 +1,4 @@
-// check_pairs.c: pairs vertex shaders with fragment shaders, and names their sheets.
+// check_pairs.c: the endings of shaders' files; pairs the files of a command line, and names their sheets.
 #include "check.h"
 
 #include <stdlib.h>
@@ -7,8 +7,7 @@
 #include "console.h"
 #include "output.h"
 
-// The length of a path without its ending: for "a/phong.frag" and "a/phong.frag.glsl" that of "a/phong".
-static size_t stem_length(const char *path)
+size_t check_stem_length(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
@@ -19,61 +18,113 @@ static size_t stem_length(const char *path)
     return dot > name ? (size_t)(dot - path) : strlen(path);
 }
 
-static bool is_vertex(const char *path)
+static bool has_ending(const char *path, const char *const endings[4])
 {
-    static const char *const endings[] = {"vert", "vs", "vsh", "vertex"};
-    const char *ending = path + stem_length(path);
+    const char *ending = path + check_stem_length(path);
     size_t length = *ending ? strcspn(ending + 1, ".") : 0;
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+    for (size_t i = 0; i < 4; i++)
         if (length == strlen(endings[i]) && strncmp(ending + 1, endings[i], length) == 0)
             return true;
     return false;
 }
 
-static bool same_stem(const char *a, const char *b)
+bool check_is_vertex(const char *path)
 {
-    size_t length = stem_length(a);
-    return length == stem_length(b) && strncmp(a, b, length) == 0;
+    return has_ending(path, (const char *const[]){"vert", "vs", "vsh", "vertex"});
 }
 
-int check_pair(int count, char **files, const char *vertex, struct check_pair *pairs, lam_error *error)
+bool check_is_fragment(const char *path)
+{
+    return has_ending(path, (const char *const[]){"frag", "fs", "fsh", "fragment"});
+}
+
+bool check_same_stem(const char *a, const char *b)
+{
+    size_t length = check_stem_length(a);
+    return length == check_stem_length(b) && strncmp(a, b, length) == 0;
+}
+
+void check_free_submissions(struct check_submission *submissions, int count)
+{
+    for (int i = 0; submissions && i < count; i++) {
+        free(submissions[i].name);
+        free(submissions[i].fragment);
+        free(submissions[i].vertex);
+    }
+    free(submissions);
+}
+
+static bool fill(struct check_submission *s, const char *fragment, const char *vertex)
+{
+    *s = (struct check_submission){strdup(fragment), strdup(fragment), vertex ? strdup(vertex) : NULL, NULL};
+    return s->name && s->fragment && (s->vertex || !vertex);
+}
+
+int check_pair(int count, char **files, const char *vertex, struct check_submission **submissions, lam_error *error)
 {
     int made = 0;
-    for (int i = 0; i < count; i++)
-        if (!is_vertex(files[i]) || count == 1)
-            pairs[made++] = (struct check_pair){files[i], vertex};
-    for (int i = 0; i < count; i++) {
-        struct check_pair *mine = NULL;
-        for (int k = 0; k < made && is_vertex(files[i]) && count > 1; k++)
-            if (same_stem(files[i], pairs[k].fragment))
-                mine = &pairs[k];
-        if (mine)
-            mine->vertex = files[i];
-        else if (is_vertex(files[i]) && count > 1) {
+    struct check_submission *out = calloc((size_t)count + 1, sizeof *out);
+    bool ok = out != NULL;
+    for (int i = 0; ok && i < count; i++)
+        if (!check_is_vertex(files[i]) || count == 1)
+            ok = fill(&out[made++], files[i], vertex);
+    for (int i = 0; ok && i < count; i++) {
+        struct check_submission *mine = NULL;
+        for (int k = 0; k < made && check_is_vertex(files[i]) && count > 1; k++)
+            if (check_same_stem(files[i], out[k].fragment))
+                mine = &out[k];
+        if (mine) {
+            free(mine->vertex);
+            ok = (mine->vertex = strdup(files[i])) != NULL;
+        } else if (check_is_vertex(files[i]) && count > 1) {
             complain(error, LAM_BAD_ARGUMENT,
                      "check: '%s' is a vertex shader without a fragment shader of the same name; use --vertex to name "
                      "one of another name",
                      files[i]);
+            check_free_submissions(out, made);
             return -1;
         }
     }
+    if (!ok) {
+        check_free_submissions(out, made);
+        complain(error, LAM_LIMIT, "out of memory");
+        return -1;
+    }
+    *submissions = out;
     return made;
 }
 
-char *check_sheet_path(const char *output, const char *fragment)
+// "ann/phong.frag" as "ann-phong".
+static char *flat_name(const struct check_submission *s, bool in_class)
 {
-    if (output_is_named(output))
-        return strdup(output);
-    while (strncmp(fragment, "../", 3) == 0 || strncmp(fragment, "./", 2) == 0)
-        fragment += fragment[1] == '/' ? 2 : 3;
-    while (*fragment == '/')
-        fragment++;
-    size_t stem = stem_length(fragment), folder = strlen(output);
-    char *path = malloc(folder + stem + sizeof "/.png");
-    if (!path)
-        return NULL;
-    sprintf(path, "%s%s%.*s.png", output, folder && output[folder - 1] == '/' ? "" : "/", (int)stem, fragment);
-    for (char *c = path + folder + (output[folder - 1] != '/'); *c; c++)
+    const char *name = s->name;
+    while (strncmp(name, "../", 3) == 0 || strncmp(name, "./", 2) == 0)
+        name += name[1] == '/' ? 2 : 3;
+    while (*name == '/')
+        name++;
+    char *out = strndup(name, in_class ? strlen(name) : check_stem_length(name));
+    for (char *c = out; c && *c; c++)
         *c = *c == '/' ? '-' : *c;
+    return out;
+}
+
+char *check_sheet_path(const char *output, const struct check_submission *submissions, int index, bool in_class)
+{
+    if (!in_class && output_is_named(output))
+        return strdup(output);
+    char *path = NULL, *name = flat_name(&submissions[index], in_class);
+    int same = 1; // of "a-b" and "a/b" the second is "a-b-2"
+    for (int i = 0; name && i < index; i++) {
+        char *other = flat_name(&submissions[i], in_class);
+        same += other && strcmp(other, name) == 0;
+        free(other);
+    }
+    bool slash = *output && output[strlen(output) - 1] != '/';
+    char number[16] = "";
+    if (same > 1)
+        snprintf(number, sizeof number, "-%d", same);
+    if (!name || asprintf(&path, "%s%s%s%s.png", output, slash ? "/" : "", name, number) < 0)
+        path = NULL;
+    free(name);
     return path;
 }

@@ -1,5 +1,5 @@
 // check_process.c: runs the shaders under test in a process of their own, a second instance of this program. It is
-// stopped at its time limit; if it crashes, that is a verdict.
+// stopped at its limits of time and memory; if it crashes, that is a verdict.
 //
 // The limit is processor time over all threads, so that other load on the machine makes no shader endless. While a
 // graphics card works, the processor may be idle: therefore elapsed time is limited too, to WALL_TIMES as much.
@@ -8,9 +8,12 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/auxv.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -21,6 +24,8 @@
 #include "interrupt.h"
 
 enum { MAX_BYTES = 1 << 30, WALL_TIMES = 20 };
+// Exit codes of the drawing process besides those of lam_code: it used up its memory; the driver called exit().
+enum { EXIT_MEMORY = 200, EXIT_DRIVER = 201 };
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SANITIZED 1
@@ -65,14 +70,72 @@ static bool write_all(int to, const void *data, size_t size)
     return true;
 }
 
-void check_worker(void)
+// Whether the process has used up its memory: not even half of the limit can be had. Called where the driver gives up.
+static rlim_t memory_limit;
+static bool is_out_of_memory(void)
+{
+    if (!memory_limit)
+        return false;
+    size_t size = (size_t)memory_limit / 2;
+    void *more = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (more == MAP_FAILED)
+        return true;
+    munmap(more, size);
+    return false;
+}
+
+static void on_crash(int number)
+{
+    if (is_out_of_memory())
+        _exit(EXIT_MEMORY);
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+// The worker itself ends by _exit(), so it is the driver that calls exit().
+static void on_exit_of_driver(void) { _exit(is_out_of_memory() ? EXIT_MEMORY : EXIT_DRIVER); }
+
+static uint64_t max_resident_bytes(void)
+{
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
+}
+
+// Ends the process as soon as it holds more than its limit. The system's maximum counts from before exec(), when the
+// process still was a copy of its parent: a parent that is larger than the limit raises it.
+static void *watch_memory(void *unused)
+{
+    const struct timespec pause = {.tv_nsec = 2000000};
+    const uint64_t inherited = max_resident_bytes(), limit = inherited > memory_limit ? inherited : memory_limit;
+    while (max_resident_bytes() <= limit)
+        nanosleep(&pause, NULL);
+    _exit(EXIT_MEMORY);
+    return unused;
+}
+
+// Two limits: what the process holds is watched, and what it asks for is bounded, with a margin for the stacks of the
+// driver's threads, which ask for more than they use.
+static void bound_memory(const char *bytes)
+{
+    memory_limit = (rlim_t)strtoull(bytes, NULL, 10);
+#ifndef SANITIZED // sanitizers ask for more than any limit
+    const rlim_t margin = (rlim_t)512 << 20;
+    setrlimit(RLIMIT_DATA, &(struct rlimit){memory_limit + margin, memory_limit + margin});
+    static const int crashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGILL, SIGTRAP};
+    for (size_t i = 0; i < sizeof crashes / sizeof *crashes; i++)
+        signal(crashes[i], on_crash);
+#endif
+    atexit(on_exit_of_driver);
+    pthread_t watch;
+    if (pthread_create(&watch, NULL, watch_memory, NULL) == 0)
+        pthread_detach(watch);
+}
+
+void check_worker(const char *memory)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL); // dies with its parent
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
-#ifndef SANITIZED                         // sanitizers reserve more address space than any limit
-    const rlim_t most = (rlim_t)16 << 30; // a shader may allocate without bound
-    setrlimit(RLIMIT_AS, &(struct rlimit){most, most});
-#endif
+    bound_memory(memory);
     int answer = dup(STDOUT_FILENO), nowhere = open("/dev/null", O_WRONLY);
     if (answer < 0 || nowhere < 0 || dup2(nowhere, STDOUT_FILENO) < 0 || dup2(nowhere, STDERR_FILENO) < 0)
         _exit(LAM_LIMIT); // drivers print to both
@@ -118,16 +181,26 @@ static double processor_time_s(pid_t pid)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-static bool start(struct child *child, double limit_s, lam_error *error)
+// Starts this program anew. Where /proc is missing, by the path that started it.
+static void become_worker(const char *memory, const char *path)
 {
+    execl("/proc/self/exe", "lambent", CHECK_WORKER, memory, (char *)NULL);
+    execl(path, "lambent", CHECK_WORKER, memory, (char *)NULL);
+}
+
+static bool start(struct child *child, const struct check_process *how, lam_error *error)
+{
+    const char *path = (const char *)getauxval(AT_EXECFN);
+    char memory[32]; // written before the fork: other threads may hold any lock
+    snprintf(memory, sizeof memory, "%llu", (unsigned long long)how->memory_limit_bytes);
     int in[2] = {-1, -1}, out[2] = {-1, -1};
     *child = (struct child){-1, -1, -1};
     bool piped = pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0;
     child->pid = piped ? fork() : -1;
     if (child->pid == 0) {
-        bound_time(limit_s);
+        bound_time(how->time_limit_s);
         if (dup2(in[0], STDIN_FILENO) >= 0 && dup2(out[1], STDOUT_FILENO) >= 0)
-            execl("/proc/self/exe", "lambent", CHECK_WORKER, (char *)NULL);
+            become_worker(memory, path ? path : "lambent");
         _exit(127);
     }
     close(in[0]);
@@ -179,7 +252,7 @@ lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_by
     const struct check_process *how = user;
     struct child child;
     signal(SIGPIPE, SIG_IGN);
-    if (!start(&child, how->time_limit_s, error))
+    if (!start(&child, how, error))
         return LAM_CHECK_DRAW_FAILED;
     double end = now_s() + WALL_TIMES * how->time_limit_s;
     size_t sent = 0, capacity = 0;
@@ -213,7 +286,14 @@ lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_by
         return LAM_CHECK_DRAW_CRASHED;
     if (WEXITSTATUS(status) == 0)
         return LAM_CHECK_DRAW_DONE;
-    if (WEXITSTATUS(status) > LAM_CANCELLED) // the driver called exit(), or the program did not start
+    if (WEXITSTATUS(status) == EXIT_MEMORY)
+        return LAM_CHECK_DRAW_MEMORY;
+    if (WEXITSTATUS(status) == 127) {
+        complain(error, LAM_LIMIT,
+                 "cannot start the drawing process: neither /proc/self/exe nor the program's own path");
+        return LAM_CHECK_DRAW_FAILED;
+    }
+    if (WEXITSTATUS(status) > LAM_CANCELLED) // the driver called exit()
         return LAM_CHECK_DRAW_CRASHED;
     complain(error, (lam_code)WEXITSTATUS(status), "%.*s", (int)(drawn->size < 480 ? drawn->size : 480),
              drawn->data ? (const char *)drawn->data : "the drawing process failed");

@@ -13,7 +13,7 @@ static const struct own_default compare_defaults[] = {
     {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
 static const struct own_default explain_defaults[] = {{"output", NULL}, {NULL, NULL}};
 static const struct own_default check_defaults[] = {
-    {"output", "no sheet"}, {"size", "128"}, {"tolerance", "2"}, {NULL, NULL}};
+    {"output", "no sheet"}, {"size", "128"}, {"tolerance", "2"}, {"memory-limit", "1Gi"}, {NULL, NULL}};
 static const struct own_default shader_defaults[] = {{"output", "standard output"}, {NULL, NULL}};
 static const struct own_default diff_defaults[] = {{"output", "no picture"}, {NULL, NULL}};
 static const struct own_default plot_defaults[] = {{"output", "KIND.png"}, {"size", "1600x1000"}, {NULL, NULL}};
@@ -36,7 +36,7 @@ const struct command command_table[] = {
         {"check", "SHADER.frag...",
          "Compare GLSL shaders with reference scenes, and name the known mistakes that explain the differences.",
          ABOUT | 1u << GROUP_CHECK | 1u << GROUP_DIFF | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
-             TAKES_QUIET,
+             TAKES_QUIET | TAKES_THREADS | TAKES_MEMORY,
          0, -1, check_defaults},
     [COMMAND_shader] = {"shader", "[MODEL]",
                         "Print the shaders that light a model, for use in another program, and their inputs.",

@@ -23,7 +23,6 @@ struct options {
     const char *background; // as written; NULL: clear
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress
-    int quality;            // 0: the format's own
     double exposure;        // stops
     const char *show;       // as written (show_option.h); NULL: the picture
 
@@ -107,6 +106,7 @@ struct options {
     int highlight;        // lam_reflection; AUTO: the contract's
     int terms;            // bits of lam_check_term; 0: as the shaders declare
     double stop_after_s;
+    const char *class_folder, *csv; // NULL: none
     bool list;
 
     // Shaders
@@ -131,6 +131,8 @@ enum {
     TAKES_QUIET = 1u << 26,
     TAKES_SIZE = 1u << 27,
     TAKES_FILES = 1u << 28,
+    TAKES_THREADS = 1u << 29,
+    TAKES_MEMORY = 1u << 30,
 };
 
 // The background of the sheets of `compare` and `materials`, unless the command line names another.

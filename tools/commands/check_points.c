@@ -1,0 +1,46 @@
+// check_points.c: what a report is worth, and its verdict in words.
+#include "check.h"
+
+const char *check_verdict_text(lam_check_verdict verdict)
+{
+    switch (verdict) {
+    case LAM_CHECK_PASSES:
+        return "passes: its pictures match the reference";
+    case LAM_CHECK_DIFFERS:
+        return "differs from the reference";
+    case LAM_CHECK_REFUSED:
+        return "is refused: it does not compile or link";
+    case LAM_CHECK_ENDLESS:
+        return "does not end: it exceeded its time";
+    case LAM_CHECK_CRASHES:
+        return "crashes the graphics driver";
+    case LAM_CHECK_NOT_NUMBER:
+        return "writes NaN or infinity";
+    case LAM_CHECK_MEMORY:
+        return "needs more memory than it may use (--memory-limit)";
+    }
+    return "";
+}
+
+int check_scene_points(const lam_check_scene *scene) { return scene->terms ? scene->passes : -1; }
+
+struct check_points check_points_of(const lam_check_report *r)
+{
+    static const unsigned terms[] = {LAM_CHECK_TERM_AMBIENT, LAM_CHECK_TERM_DIFFUSE, LAM_CHECK_TERM_SPECULAR};
+    struct check_points points = {.possible = r->scene_count ? 0 : r->scenes_wanted, .terms = {-1, -1, -1}};
+    int alone[3] = {0}, passed[3] = {0};
+    for (int i = 0; i < r->scene_count; i++) {
+        int earned = check_scene_points(&r->scenes[i]);
+        points.possible += earned >= 0;
+        points.earned += earned > 0;
+        for (int t = 0; t < 3; t++)
+            if (r->scenes[i].terms == terms[t]) {
+                alone[t]++;
+                passed[t] += earned > 0;
+            }
+    }
+    for (int t = 0; t < 3; t++)
+        if (alone[t])
+            points.terms[t] = (double)passed[t] / alone[t];
+    return points;
+}

@@ -169,10 +169,12 @@ typedef struct lam_draw_params {
     // together would change an encoded channel by less than this fraction of its range; at most 1. 0: ½/255, so that no
     // byte differs by more than 1. Below 0: every light is evaluated everywhere, as the OpenGL device always does.
     float light_cutoff;
+    // Where a texture is seen at a slant: the most probes along the longer axis of a pixel's footprint, 1..16. 0: 1.
+    int anisotropy;
     lam_output output; // the content of the frame
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the light's number in lam_draw_lights.
     int output_light;
-    LAM_RESERVED(32);
+    LAM_RESERVED(28);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.

@@ -35,6 +35,7 @@
 #include "scene.h"
 #include "scene_file.h"
 #include "shader.h"
+#include "texture.h"
 #include "words.h"
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef LAMBENT_MATERIAL_H
 #define LAMBENT_MATERIAL_H
 
-#include "base.h"
+#include "texture.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -44,20 +44,35 @@ typedef struct lam_reflection_info {
 // NULL: no such model.
 LAM_API const lam_reflection_info *lam_reflection_describe(lam_reflection model);
 
-// The texture maps that material files name. They are kept as written; drawing does not use them yet.
+// The maps of a material: what a texture changes from point to point (docs/textures.md). MTL's name and glTF's stand
+// beside each.
 typedef enum lam_map {
-    LAM_MAP_AMBIENT,      // map_Ka
-    LAM_MAP_DIFFUSE,      // map_Kd
-    LAM_MAP_SPECULAR,     // map_Ks
-    LAM_MAP_EMISSION,     // map_Ke
-    LAM_MAP_SHININESS,    // map_Ns
-    LAM_MAP_OPACITY,      // map_d
-    LAM_MAP_BUMP,         // map_bump, bump
-    LAM_MAP_NORMAL,       // norm
-    LAM_MAP_DISPLACEMENT, // disp
-    LAM_MAP_REFLECTION,   // refl
+    LAM_MAP_AMBIENT,      // map_Ka: multiplies ka; where there is none, the diffuse map does
+    LAM_MAP_DIFFUSE,      // map_Kd, baseColorTexture: multiplies kd or the base colour; its alpha multiplies the opacity
+    LAM_MAP_SPECULAR,     // map_Ks: multiplies ks
+    LAM_MAP_EMISSION,     // map_Ke, emissiveTexture: multiplies the emission
+    LAM_MAP_SHININESS,    // map_Ns: multiplies α
+    LAM_MAP_OPACITY,      // map_d: multiplies the opacity
+    LAM_MAP_BUMP,         // map_bump, bump: heights that tilt the normal
+    LAM_MAP_NORMAL,       // norm, normalTexture: the normal beside tangent, bitangent and the mesh's normal
+    LAM_MAP_DISPLACEMENT, // disp: kept as written, not drawn
+    LAM_MAP_REFLECTION,   // refl: kept as written, not drawn
+    LAM_MAP_METALLIC,     // map_Pm, metallicRoughnessTexture's blue: multiplies `metallic`
+    LAM_MAP_ROUGHNESS,    // map_Pr, metallicRoughnessTexture's green: multiplies `roughness`
+    LAM_MAP_OCCLUSION,    // occlusionTexture's red: multiplies ambient, hemisphere and environment light
     LAM_MAP_COUNT
 } lam_map;
+
+// The word of a map in reports and messages: "diffuse", "normal". NULL: no such map.
+LAM_API const char *lam_map_name(lam_map map);
+
+// What becomes of a point whose opacity (diffuse alpha × map × vertex colour) is below 1.
+typedef enum lam_alpha_mode {
+    LAM_ALPHA_BLEND = 0, // it covers what is behind it by that share
+    LAM_ALPHA_MASK,      // it is left out where the opacity is below lam_material.alpha_cutoff, and opaque elsewhere
+    LAM_ALPHA_OPAQUE,    // it is opaque all the same
+    LAM_ALPHA_COUNT
+} lam_alpha_mode;
 
 // A material of the classic models. Colours are linear reflectances, 0..1 for a surface that returns no more light than
 // arrives; more is allowed. The light that leaves a point is
@@ -94,7 +109,13 @@ typedef struct lam_material {
     bool unlit;
     float metallic;  // 0: a dielectric, 1: a metal
     float roughness; // 0 a mirror … 1; the lobe takes at least 0.045
-    LAM_RESERVED(53);
+
+    // How the material reads its textures; NULL: it has no such map. Adding a material to a scene copies them; the scene
+    // shares the textures.
+    const lam_texture_map *maps[LAM_MAP_COUNT];
+    lam_alpha_mode alpha_mode;
+    float alpha_cutoff; // of LAM_ALPHA_MASK, 0..1
+    LAM_RESERVED(64);
 } lam_material;
 
 // The material of parts that name none: neutral light grey with a soft highlight.

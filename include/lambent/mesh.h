@@ -58,6 +58,11 @@ typedef struct lam_mesh {
     uint32_t texcoord_count;          // elements of `texcoords`
     const uint32_t *texcoord_indices; // 3 per triangle; NULL: `indices`
 
+    // A second set of them, for maps whose lam_texture_map.texcoords is 1.
+    const float *second_texcoords;           // 2 per element; NULL: none
+    uint32_t second_texcoord_count;          // elements of `second_texcoords`
+    const uint32_t *second_texcoord_indices; // 3 per triangle; NULL: `indices`
+
     // 4 per element: the unit tangent ∂p/∂s and the sign of the bitangent. NULL: none.
     const float *tangents;
     uint32_t tangent_count;          // elements of `tangents`

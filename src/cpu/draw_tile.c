@@ -39,6 +39,9 @@ static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread
         draw_layers(cpu, thread, tile, &other);
         return;
     }
+    thread->layers.masked = false;
+    if (cpu->shade.frame->masked)
+        cpu->kernels->mask_fragments(&cpu->shade, &thread->fragments, &thread->layers, &thread->shading, tile);
     sort_layers(pattern, &thread->fragments, &thread->layers, &thread->blend);
     group_fragments(cpu->raster.frame, &thread->fragments);
     uint64_t covered = now_ns();

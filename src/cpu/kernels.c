@@ -10,6 +10,7 @@
 #include "shade_frame.h"
 #include "shading_batch.h"
 #include "translucent_fragments.h"
+#include "blend.h"
 
 #include "arena.h"
 #include "triples.h"
@@ -42,6 +43,7 @@ const struct kernels NAME(ISA) = {
     .bin_triangles = bin_triangles,
     .cover_tile = cover_tile,
     .translucent_fragments = translucent_fragments,
+    .mask_fragments = mask_fragments,
     .visibility_resolve = visibility_resolve,
     .save_fragments = save_fragments,
     .load_fragments = load_fragments,

@@ -49,6 +49,11 @@ struct kernels {
                                   struct fragments *fragments, struct layer_rows *rows, const struct tile *tile,
                                   const struct rectangle *area);
 
+    // Takes the samples of masked surfaces whose opacity is below the cutoff out of the rows of listed fragments, and sets
+    // rows->masked where there are such surfaces.
+    void (*mask_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct layer_rows *rows,
+                           struct shading *shading, const struct tile *tile);
+
     // Lists the opaque fragments of the tile's pixels inside the picture: id, pixel, weight, sample. The fragments of a
     // pixel are consecutive, in the order of the nearest sample that shows them. Returns how many pixels have any.
     uint64_t (*visibility_resolve)(const struct sample_pattern *pattern, const struct tile_samples *samples,

@@ -65,6 +65,8 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
     if ((unsigned)params->stage > LAM_STAGE_FRAGMENT || (unsigned)params->viewer > LAM_VIEWER_INFINITE ||
         (unsigned)params->flat_normal > LAM_FLAT_NORMAL_VERTEX)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
+    if (params->anisotropy < 0 || params->anisotropy > 16)
+        return fail(error, LAM_BAD_ARGUMENT, "anisotropy is %d, expected 0 to 16", params->anisotropy);
     if (!(params->light_cutoff >= -3e38f && params->light_cutoff <= 1))
         return fail(error, LAM_BAD_ARGUMENT, "light_cutoff is %g, expected at most 1", (double)params->light_cutoff);
     if ((unsigned)params->output >= LAM_OUTPUT_COUNT || params->output_light < 0)
@@ -304,6 +306,13 @@ static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig ri
     return true;
 }
 
+// Whether some point of a material lets through what is behind it, or is left out. `varies`: by the mesh's colours.
+static bool sees_through(const lam_material *material, bool varies)
+{
+    varies |= material->maps[LAM_MAP_OPACITY] || texture_map_translucent(material->maps[LAM_MAP_DIFFUSE]);
+    return material->alpha_mode != LAM_ALPHA_OPAQUE && (varies || material->diffuse.a < 1);
+}
+
 static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_index)
 {
     const struct frame_draw *draw = &frame->draws[draw_index];
@@ -323,9 +332,12 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
             last->count += part->triangle_count;
             continue;
         }
-        bool translucent = scene_extent(scene, object->mesh)->translucent || frame->materials[front]->diffuse.a < 1 ||
-                           (!draw->one_sided && frame->materials[back]->diffuse.a < 1);
+        bool varies = scene_extent(scene, object->mesh)->translucent;
+        bool translucent = sees_through(frame->materials[front], varies) ||
+                           (!draw->one_sided && sees_through(frame->materials[back], varies));
         frame->translucent |= translucent;
+        frame->masked |= translucent && (frame->materials[front]->alpha_mode == LAM_ALPHA_MASK ||
+                                         frame->materials[back]->alpha_mode == LAM_ALPHA_MASK);
         frame->ranges[frame->range_count++] = (struct frame_draw_range){
             draw->first_id + part->first_triangle,           part->triangle_count, draw_index, front, back, translucent,
             frame_reflection(frame, frame->materials[front])};
@@ -389,6 +401,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->token = scene->token;
     frame->width = width;
     frame->height = height;
+    frame->anisotropy = params->anisotropy ? params->anisotropy : 1;
     frame->samples = params->samples ? params->samples : lam_default_samples(width, height);
     frame->background = params->background;
     frame->color = params->color;
@@ -409,7 +422,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
                                                       : 0;
     frame->draw_count = frame->range_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
-    frame->translucent = frame->makes_normals = false;
+    frame->translucent = frame->masked = frame->makes_normals = false;
 
     frame_materials_build(frame, scene);
 
@@ -451,7 +464,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         frame->makes_normals = false;
     // Values are those of the nearest surface, whatever its alpha.
     if (!lam_output_is_light(frame->output) && frame->output != LAM_OUTPUT_CLIPPED)
-        frame->translucent = false;
+        frame->translucent = frame->masked = false;
     return build_lights(frame, scene, params->rig, output_is_one_light(frame->output) ? params->output_light : -1,
                         &view, error);
 }

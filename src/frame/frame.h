@@ -33,7 +33,7 @@ struct frame_draw_range {
     uint32_t first_id, count;
     int draw;
     int front, back;           // indices into materials
-    bool translucent;          // the alpha of a material or a vertex colour is below 1: the triangles are blended
+    bool translucent;          // some opacity may be below 1: the triangles are blended or masked
     lam_reflection reflection; // of both sides; never AUTO
 };
 
@@ -66,6 +66,7 @@ struct frame {
     struct scene_token *token; // the scene's; not retained
     int width, height;
     int samples;
+    int anisotropy; // the most probes of a texture for a point, 1…16
     lam_rgba background;
     lam_color_mode color;
     float exposure; // 2^stops
@@ -80,6 +81,7 @@ struct frame {
     bool distant_viewer; // v = +z at every point: the camera is orthographic, or the viewer LAM_VIEWER_INFINITE
     bool orthographic;
     bool translucent;   // any range is
+    bool masked;         // and one has a material of LAM_ALPHA_MASK
     bool makes_normals; // a draw has a crease_rad, and the output needs its normals
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;
@@ -123,6 +125,9 @@ int frame_back_material(struct frame *frame, int front, int back);
 // The colours that lights are multiplied by: kd and ks; of a physical material base (1 − metallic), and 1, since Fresnel's
 // factor comes later (fresnel_of).
 void frame_material_colors(const lam_material *material, float kd[3], float ks[3]);
+
+// Whether a classic material of the frame was made from a metallic-roughness one.
+bool frame_material_is_converted(const struct frame *frame, const lam_material *material);
 
 // The greatest S of a material's lobe, with Fresnel's factor.
 float frame_lobe_max(const lam_material *material);

@@ -88,10 +88,17 @@ void frame_material_colors(const lam_material *material, float kd[3], float ks[3
     }
 }
 
+bool frame_material_is_converted(const struct frame *frame, const lam_material *material)
+{
+    return !material->physical && material >= frame->turned && material < frame->turned + frame->turned_count;
+}
+
 float frame_lobe_max(const lam_material *material)
 {
     if (!material->physical)
         return 1;
+    if (material->maps[LAM_MAP_ROUGHNESS])
+        return 1.25f / (ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN);
     // S of microfacets is at most 1 / (2 α³), and the light that they send to one another multiplies it by less than 2.5.
     float roughness = material->roughness > ROUGHNESS_MIN ? material->roughness : ROUGHNESS_MIN;
     float alpha = roughness * roughness;

@@ -68,6 +68,8 @@ static inline bool picture_continues(const struct picture_file *file, int64_t y,
 // Decodes a picture of any format; with `linear` to LAM_RGBA32F, linear and premultiplied. Its bytes stay charged to the
 // file's call (picture_free).
 bool picture_decode(const struct picture_file *file, lam_image *image, lam_error *error);
+// With all bits of the file, as read_wide gives them.
+bool picture_decode_wide(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error);
 bool picture_decode_linear(const struct picture_file *file, lam_color_mode color, lam_image *image, lam_error *error);
 
 // Converts a picture from a codec to LAM_RGBA32F, linear and premultiplied. `wide`: as read_wide set it. On failure the

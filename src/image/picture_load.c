@@ -25,6 +25,12 @@ static bool decode(const struct picture_file *file, bool *wide, lam_image *image
     return ok;
 }
 
+bool picture_decode_wide(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error)
+{
+    *wide = false;
+    return decode(file, wide, image, error);
+}
+
 bool picture_decode(const struct picture_file *file, lam_image *image, lam_error *error)
 {
     return decode(file, NULL, image, error);

@@ -39,6 +39,8 @@ void lam_scene_free(lam_scene *scene)
 {
     if (!scene)
         return;
+    for (int i = 0; i < scene->textures.count; i++)
+        lam_texture_free(((lam_texture **)scene->textures.items)[i]);
     arena_free(&scene->arena);
     lam_environment_free(scene->environment);
     __atomic_store_n(&scene->token->gone, 1, __ATOMIC_RELEASE);
@@ -84,6 +86,23 @@ int scene_adopt_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *e
 int scene_adopt_material(struct lam_scene *scene, const lam_material *material, lam_error *error)
 {
     return scene_append(scene, &scene->materials, material, sizeof *material, error);
+}
+
+bool scene_adopt_texture(struct lam_scene *scene, lam_texture *texture, lam_error *error)
+{
+    if (scene_append(scene, &scene->textures, &texture, sizeof texture, error) >= 0)
+        return true;
+    lam_texture_free(texture);
+    return false;
+}
+
+bool scene_share_texture(struct lam_scene *scene, const lam_texture *texture, lam_error *error)
+{
+    lam_texture *const *have = scene->textures.items;
+    for (int i = 0; i < scene->textures.count; i++)
+        if (have[i] == texture)
+            return true;
+    return scene_adopt_texture(scene, texture_share(texture), error);
 }
 
 int scene_adopt_object(struct lam_scene *scene, const lam_object *object, lam_error *error)

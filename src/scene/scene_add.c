@@ -7,6 +7,7 @@
 #include "linear.h"
 #include "normals.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static bool finite_floats(const float *numbers, size_t count)
@@ -59,6 +60,8 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
         return fail(error, LAM_BAD_ARGUMENT, "mesh: positions contain a number that is not finite");
     if (!check_attribute("normals", mesh->normals, mesh->normal_count, 3, mesh->normal_indices, mesh, error) ||
         !check_attribute("texcoords", mesh->texcoords, mesh->texcoord_count, 2, mesh->texcoord_indices, mesh, error) ||
+        !check_attribute("second_texcoords", mesh->second_texcoords, mesh->second_texcoord_count, 2,
+                         mesh->second_texcoord_indices, mesh, error) ||
         !check_attribute("tangents", mesh->tangents, mesh->tangent_count, 4, mesh->tangent_indices, mesh, error))
         return false;
     if (mesh->colors) {
@@ -131,6 +134,8 @@ static bool copy_mesh(struct lam_scene *scene, lam_mesh *mesh)
               copy_array(scene, &mesh->normal_indices, corners, 4) &&
               copy_array(scene, &mesh->texcoords, mesh->texcoord_count, 8) &&
               copy_array(scene, &mesh->texcoord_indices, corners, 4) &&
+              copy_array(scene, &mesh->second_texcoords, mesh->second_texcoord_count, 8) &&
+              copy_array(scene, &mesh->second_texcoord_indices, corners, 4) &&
               copy_array(scene, &mesh->tangents, mesh->tangent_count, 16) &&
               copy_array(scene, &mesh->tangent_indices, corners, 4) &&
               copy_array(scene, &mesh->colors, mesh->color_count, color_size) &&
@@ -165,7 +170,24 @@ int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error)
     return index;
 }
 
-// Checks a material and copies it with its strings. False: error.
+static bool copy_maps(lam_scene *scene, lam_material *material, lam_error *error)
+{
+    for (int i = 0; i < LAM_MAP_COUNT; i++) {
+        char name[64];
+        if (!material->maps[i])
+            continue;
+        snprintf(name, sizeof name, "material: %s map", lam_map_name((lam_map)i));
+        if (!texture_map_check(material->maps[i], name, error))
+            return false;
+        if (!copy_array(scene, &material->maps[i], 1, sizeof **material->maps))
+            return call_memory_error(scene->arena.call, sizeof **material->maps, error);
+        if (!scene_share_texture(scene, material->maps[i]->texture, error))
+            return false;
+    }
+    return true;
+}
+
+// Checks a material and copies it with its strings and maps. False: error.
 static bool copy_material(lam_scene *scene, const lam_material *material, lam_material *out, lam_error *error)
 {
     if (!scene || !material)
@@ -177,11 +199,16 @@ static bool copy_material(lam_scene *scene, const lam_material *material, lam_ma
         if (!field_fits(lam_material_field(i), material, &fault))
             return fail(error, LAM_BAD_ARGUMENT, "material: %s is %g, expected %s", fault.name, fault.found,
                         fault.expected);
+    if ((unsigned)material->alpha_mode >= LAM_ALPHA_COUNT)
+        return fail(error, LAM_BAD_ARGUMENT, "material: alpha_mode is %d, expected 0 to %d", (int)material->alpha_mode,
+                    LAM_ALPHA_COUNT - 1);
     *out = *material;
     bool ok = copy_text(scene, &out->name);
     for (int i = 0; ok && i < LAM_MAP_COUNT; i++)
         ok = copy_text(scene, &out->map_names[i]) && copy_text(scene, &out->map_options[i]);
-    return ok || call_memory_error(scene->arena.call, 0, error);
+    if (!ok)
+        return call_memory_error(scene->arena.call, 0, error);
+    return copy_maps(scene, out, error);
 }
 
 int lam_scene_add_material(lam_scene *scene, const lam_material *material, lam_error *error)

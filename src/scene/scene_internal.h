@@ -5,6 +5,7 @@
 #include "arena.h"
 #include "aabb_tree.h"
 #include "pool.h"
+#include "texture_map.h"
 #include "call_control.h"
 
 #include <lambent/scene_file.h>
@@ -69,6 +70,7 @@ struct lam_scene {
     struct scene_list objects;   // lam_object
     struct scene_list lights;    // lam_light
     struct scene_list cameras;   // struct scene_camera
+    struct scene_list textures;  // lam_texture *: one reference each
     struct scene_list warnings;  // const char *
     struct scene_list origins;   // struct scene_origin, in the order of their meshes
     // Materials of MTL files that are fully transparent, and a sentence about the first one, with its place; NULL: none.
@@ -102,6 +104,11 @@ int scene_adopt_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *e
 int scene_adopt_material(struct lam_scene *scene, const lam_material *material, lam_error *error);
 int scene_adopt_object(struct lam_scene *scene, const lam_object *object, lam_error *error);
 int scene_adopt_light(struct lam_scene *scene, const lam_light *light, lam_error *error);
+
+// Makes the scene share a texture that a material of it names: it is freed with the scene. False: out of memory.
+bool scene_share_texture(struct lam_scene *scene, const lam_texture *texture, lam_error *error);
+// The same for a reference that the caller has and gives away, also on failure.
+bool scene_adopt_texture(struct lam_scene *scene, lam_texture *texture, lam_error *error);
 
 // Appends an item to a list. Returns its index; −1: out of memory.
 int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error);

@@ -10,6 +10,7 @@ struct layer_rows {
     float *keys;       // of each fragment: a depth key for each sample
     // Some fragments belong to pieces of clipped triangles; two pieces of one triangle may share a pixel.
     bool clipped;
+    bool masked; // some samples were left out by the opacity of a surface
 };
 
 #endif

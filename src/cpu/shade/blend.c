@@ -119,8 +119,8 @@ static void join_pieces(const struct fragments *fragments, struct layer_rows *ro
     }
 }
 
-// Removes the fragments that were joined to others, and updates the nearest samples of the rest.
-static void drop_joined(const struct sample_pattern *pattern, struct fragments *fragments, struct layer_rows *rows)
+// Removes the fragments without samples, which were joined to others or masked, and updates the nearest samples of the rest.
+static void drop_empty(const struct sample_pattern *pattern, struct fragments *fragments, struct layer_rows *rows)
 {
     size_t samples = (size_t)pattern->count, kept = 0;
     for (size_t i = 0; i < (size_t)fragments->count; i++) {
@@ -187,10 +187,11 @@ void sort_layers(const struct sample_pattern *pattern, struct fragments *fragmen
                  struct blend_scratch *scratch)
 {
     sort_by_pixel(fragments, scratch);
-    if (!rows->clipped)
+    if (!rows->clipped && !rows->masked)
         return;
-    join_pieces(fragments, rows, scratch, pattern->count);
-    drop_joined(pattern, fragments, rows);
+    if (rows->clipped)
+        join_pieces(fragments, rows, scratch, pattern->count);
+    drop_empty(pattern, fragments, rows);
     sort_by_pixel(fragments, scratch);
 }
 

@@ -11,12 +11,23 @@ static void product(float out[3], const float *a, const float *b)
         out[i] = a[i] * b[i];
 }
 
+// The maps that shading reads. Colours of vertices and triangles are computed without them.
+static unsigned maps_of(const lam_material *material, const struct frame *frame)
+{
+    unsigned maps = 0;
+    for (int i = 0; i < LAM_MAP_COUNT && frame->shading == LAM_SHADING_PHONG; i++)
+        maps |= (material->maps[i] ? 1u : 0u) << i;
+    return maps & ~(1u << LAM_MAP_DISPLACEMENT | 1u << LAM_MAP_REFLECTION);
+}
+
 static void multiply_material(struct material_products *out, const lam_material *material, const struct frame *frame)
 {
     product(out->ambient, &material->ambient.r, frame->ambient);
     memcpy(out->emission, &material->emission, sizeof out->emission);
     memcpy(out->diffuse, &material->diffuse, sizeof out->diffuse);
     out->given = material;
+    out->maps = maps_of(material, frame);
+    out->converted = out->maps && frame_material_is_converted(frame, material);
     out->shininess = frame_shininess(frame, material);
     memcpy(out->reflectivity, &material->reflectivity, sizeof out->reflectivity);
     out->mirrors =
@@ -46,6 +57,10 @@ struct material_products *products_make(struct buffer *storage, const struct fra
         at += lights * sizeof *list;
         float kd[3], ks[3];
         frame_material_colors(material, kd, ks);
+        if (out->converted || (out->maps >> LAM_MAP_METALLIC & 1)) { // what varies is multiplied at each point
+            memcpy(kd, out->converted ? &material->ambient.r : &material->diffuse.r, sizeof kd);
+            ks[0] = ks[1] = ks[2] = 1;
+        }
         for (size_t i = 0; i < lights; i++) {
             product(list[i].diffuse, kd, frame->lights[i].diffuse);
             product(list[i].specular, ks, frame->lights[i].specular);

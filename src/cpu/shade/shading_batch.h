@@ -27,6 +27,15 @@ struct shading_batch {
     float x[BATCH_ROW], y[BATCH_ROW];               // the pixel's centre, in pixels of the window
     float sample_x[BATCH_ROW], sample_y[BATCH_ROW]; // the sample nearest to it, where a pixel has several
     float b1[BATCH_ROW], b2[BATCH_ROW];             // barycentric weights of corners 1 and 2
+    // Of materials with maps only (textures.inc).
+    struct {
+        float s[BATCH_ROW], t[BATCH_ROW], ds_dx[BATCH_ROW], dt_dx[BATCH_ROW], ds_dy[BATCH_ROW], dt_dy[BATCH_ROW];
+    } texcoord;
+    float texel[4][BATCH_ROW], level[BATCH_ROW];                  // of the map that was read last
+    float vertex_color[3][BATCH_ROW], ambient_color[3][BATCH_ROW]; // what multiplies ka; `color` multiplies kd
+    float specular[3][BATCH_ROW], emission[3][BATCH_ROW];         // what multiplies the highlights; the emission
+    float power[BATCH_ROW], roughness[BATCH_ROW], metallic[BATCH_ROW], occlusion[BATCH_ROW];
+    float sign[BATCH_ROW]; // of the bitangent
     struct triangle_runs runs;
 };
 

@@ -3,8 +3,9 @@
 // The JSON text (gltf_json.c) of a .gltf, or of a .glb (gltf_container.c), describes buffers (gltf_buffers.c) and typed
 // arrays in them (gltf_accessors.c, gltf_numbers.c). Meshes are made of these (gltf_primitives.c, gltf_triangles.c),
 // and the tree of nodes places them (gltf_nodes.c, gltf_objects.c) beside lights and cameras (gltf_lights.c,
-// gltf_cameras.c). An animation sets the nodes (gltf_animation.c) first; morph targets and skins (gltf_deform.c,
-// gltf_skins.c) give a mesh positions of its own.
+// gltf_cameras.c). Materials (gltf_materials.c) read textures, whose pictures are decoded together (gltf_textures.c). An
+// animation sets the nodes (gltf_animation.c) first; morph targets and skins (gltf_deform.c, gltf_skins.c) give a mesh
+// positions of its own.
 //
 // Every number of the file that says how much or which one is checked where it is read, and an error names its place:
 // "ship.gltf: meshes[3].primitives[0].attributes.POSITION: found 12, …". Section numbers are those of the specification,
@@ -72,6 +73,10 @@ struct gltf {
     int first_material;   // of the file's own in the scene
     int default_material; // of primitives that name none; −1: not made yet
     int variant;          // that the caller wants; −1: none
+
+    struct gltf_picture *pictures; // gltf_textures.h: two for each of the file's images
+    struct gltf_map *maps;         // the maps of materials, the last one first
+    int (*texcoord_sets)[2];       // of each material: the file's sets that serve as its first and second; −1: none
 
     struct gltf_node *nodes; // gltf_nodes.h
     int node_count;

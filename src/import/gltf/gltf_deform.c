@@ -1,6 +1,8 @@
 // gltf_deform.c: morph targets (section 3.7.2.2) and skins (section 3.7.3.3) applied to a primitive.
 #include "gltf_deform.h"
 
+#include "gltf_textures.h"
+
 #include "gltf_accessors.h"
 #include "gltf_json.h"
 #include "gltf_numbers.h"
@@ -68,8 +70,23 @@ static bool add_target(struct gltf *gltf, const struct place *place, const json_
 
 // Whether each attribute is an array of this mesh alone, which may be changed in place.
 struct owned {
-    bool positions, normals, tangents, texcoords;
+    bool positions, normals, tangents, texcoords[2];
 };
+
+// The sets that the mesh has.
+static bool morph_texcoords(struct gltf *gltf, const struct place *place, const json_t *target, double weight,
+                            lam_mesh *mesh, struct owned *own)
+{
+    bool ok = true;
+    for (int which = 0; ok && which < 2; which++) {
+        char name[32];
+        int set = gltf_texcoord_set(gltf, mesh->parts->material, which);
+        snprintf(name, sizeof name, "TEXCOORD_%d", set);
+        ok = set < 0 || add_target(gltf, place, target, name, weight, 2, 2, mesh->vertex_count,
+                                   which ? &mesh->second_texcoords : &mesh->texcoords, &own->texcoords[which]);
+    }
+    return ok;
+}
 
 static bool morph(struct gltf *gltf, const struct place *place, const json_t *primitive,
                   const struct gltf_deformation *deformation, lam_mesh *mesh, struct owned *own)
@@ -85,7 +102,7 @@ static bool morph(struct gltf *gltf, const struct place *place, const json_t *pr
              (add_target(gltf, here, target, "POSITION", weight, 3, 3, count, &mesh->positions, &own->positions) &&
               add_target(gltf, here, target, "NORMAL", weight, 3, 3, count, &mesh->normals, &own->normals) &&
               add_target(gltf, here, target, "TANGENT", weight, 3, 4, count, &mesh->tangents, &own->tangents) &&
-              add_target(gltf, here, target, "TEXCOORD_0", weight, 2, 2, count, &mesh->texcoords, &own->texcoords));
+              morph_texcoords(gltf, here, target, weight, mesh, own));
     }
     return ok;
 }

@@ -20,6 +20,7 @@ static const struct {
     enum support support;
 } known[] = {
     {"EXT_mesh_gpu_instancing", READ},
+    {"EXT_texture_webp", READ},
     {"KHR_lights_punctual", READ},
     {"KHR_materials_emissive_strength", READ},
     {"KHR_materials_pbrSpecularGlossiness", READ},
@@ -35,7 +36,8 @@ static const struct {
     {"KHR_materials_specular", IGNORED},
     {"KHR_materials_transmission", IGNORED},
     {"KHR_materials_volume", IGNORED},
-    {"KHR_texture_transform", IGNORED},
+    {"KHR_texture_basisu", SILENT}, // its textures have another picture, or the load ends
+    {"KHR_texture_transform", READ},
     {"KHR_xmp", SILENT},
     {"KHR_xmp_json_ld", SILENT},
 };

@@ -2,6 +2,7 @@
 #include "gltf_materials.h"
 
 #include "gltf_json.h"
+#include "gltf_textures.h"
 
 #include "fail.h"
 
@@ -15,13 +16,12 @@ struct factors {
     bool has_specular;            // specular-glossiness, not metallic-roughness
     double emission[3], strength; // emissiveFactor; KHR_materials_emissive_strength
     double cutoff;
-    int alpha; // ALPHA_…
+    int alpha; // lam_alpha_mode
     bool unlit;
 };
-enum { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND };
 
 static const struct json_choice alpha_words[] = {
-    {"OPAQUE", ALPHA_OPAQUE}, {"MASK", ALPHA_MASK}, {"BLEND", ALPHA_BLEND}, {NULL, 0}};
+    {"OPAQUE", LAM_ALPHA_OPAQUE}, {"MASK", LAM_ALPHA_MASK}, {"BLEND", LAM_ALPHA_BLEND}, {NULL, 0}};
 
 // A share, cut to 0…1: numbers a little outside are written by rounding.
 static bool take_share(struct gltf *gltf, const struct place *place, const json_t *object, const char *key, double *out)
@@ -68,12 +68,9 @@ static bool take_factors(struct gltf *gltf, const struct place *place, const jso
     const json_t *strength = gltf_extension(object, "KHR_materials_emissive_strength");
     const struct place *in_strength = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_emissive_strength");
     f->unlit = gltf_extension(object, "KHR_materials_unlit") != NULL;
-    if (json_object_get(object, "emissiveTexture")) // it alone says where the surface glows, and is not drawn
-        f->strength = 0;
     return take_metallic_roughness(gltf, place, object, f) && take_specular_glossiness(gltf, place, object, f) &&
            gltf_take_numbers(gltf, place, object, "emissiveFactor", 3, f->emission) &&
-           (f->strength == 0 ||
-            json_take_number(&gltf->json, in_strength, strength, "emissiveStrength", 0, 1e30, &f->strength)) &&
+           json_take_number(&gltf->json, in_strength, strength, "emissiveStrength", 0, 1e30, &f->strength) &&
            json_take_number(&gltf->json, place, object, "alphaCutoff", 0, 1e30, &f->cutoff) &&
            json_take_word(&gltf->json, place, object, "alphaMode", alpha_words, &f->alpha);
 }
@@ -92,9 +89,9 @@ static lam_material material_of(const struct factors *f, const char *name)
     lam_rgb base = rgb_of(f->base, 1);
     material.name = name;
     material.ambient = base;
-    material.diffuse = (lam_rgba){base.r, base.g, base.b, 1};
-    if (f->alpha != ALPHA_OPAQUE)
-        material.diffuse.a = f->alpha == ALPHA_BLEND ? (float)alpha : alpha >= f->cutoff ? 1 : 0;
+    material.diffuse = (lam_rgba){base.r, base.g, base.b, f->alpha == LAM_ALPHA_OPAQUE ? 1 : (float)alpha};
+    material.alpha_mode = (lam_alpha_mode)f->alpha;
+    material.alpha_cutoff = (float)f->cutoff;
     material.emission = rgb_of(f->emission, f->strength);
     material.unlit = f->unlit;
     if (f->has_specular) { // the metalness that gives both colours
@@ -109,7 +106,40 @@ static lam_material material_of(const struct factors *f, const char *name)
 }
 
 static const struct factors default_factors = {
-    .base = {1, 1, 1, 1}, .metallic = 1, .roughness = 1, .specular = {1, 1, 1}, .strength = 1, .cutoff = 0.5};
+    .base = {1, 1, 1, 1}, .metallic = 1, .roughness = 1, .specular = {1, 1, 1}, .strength = 1, .cutoff = 0.5, .alpha = LAM_ALPHA_OPAQUE};
+
+// Asks for the maps of material `index`.
+static bool take_maps(struct gltf *gltf, const struct place *place, const json_t *object, int index)
+{
+    bool ok = true;
+    const json_t *pbr = gltf_take_object(gltf, place, object, "pbrMetallicRoughness", &ok);
+    const json_t *normal = gltf_take_object(gltf, place, object, "normalTexture", &ok);
+    const json_t *occlusion = gltf_take_object(gltf, place, object, "occlusionTexture", &ok);
+    const json_t *glossy = gltf_extension(object, "KHR_materials_pbrSpecularGlossiness");
+    const struct place *in_pbr = KEY_OF(place, "pbrMetallicRoughness");
+    const struct place *in_glossy = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_pbrSpecularGlossiness");
+    double scale = 1, strength = 1;
+    if (!ok ||
+        !json_take_number(&gltf->json, KEY_OF(place, "normalTexture"), normal, "scale", -1e6, 1e6, &scale) ||
+        !json_take_number(&gltf->json, KEY_OF(place, "occlusionTexture"), occlusion, "strength", 0, 1, &strength))
+        return false;
+    const struct gltf_map_request color = {index, LAM_MAP_DIFFUSE, LAM_TEXTURE_COLOR, 0, 1, 0},
+                                  metallic = {index, LAM_MAP_METALLIC, LAM_TEXTURE_NUMBERS, 2, 1, 0},
+                                  roughness = {index, LAM_MAP_ROUGHNESS, LAM_TEXTURE_NUMBERS, 1, 1, 0},
+                                  bent = {index, LAM_MAP_NORMAL, LAM_TEXTURE_NUMBERS, 0, (float)scale, 0},
+                                  glow = {index, LAM_MAP_EMISSION, LAM_TEXTURE_COLOR, 0, 1, 0},
+                                  hidden = {index,           LAM_MAP_OCCLUSION,
+                                            LAM_TEXTURE_NUMBERS, 0,
+                                            (float)strength, (float)(1 - strength)};
+    // A scale or strength of 0 leaves nothing of the map.
+    return (scale == 0 || gltf_take_map(gltf, place, object, "normalTexture", bent, NULL)) &&
+           (strength == 0 || gltf_take_map(gltf, place, object, "occlusionTexture", hidden, NULL)) &&
+           gltf_take_map(gltf, place, object, "emissiveTexture", glow, NULL) &&
+           (glossy ? gltf_take_map(gltf, in_glossy, glossy, "diffuseTexture", color, NULL)
+                   : gltf_take_map(gltf, in_pbr, pbr, "baseColorTexture", color, NULL) &&
+                         gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", metallic, NULL) &&
+                         gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", roughness, NULL));
+}
 
 // The number of the wanted variant; −1: none is wanted. False: the file has no such one.
 static bool find_variant(struct gltf *gltf)
@@ -135,7 +165,7 @@ bool gltf_materials_read(struct gltf *gltf)
         const struct place *place = ELEMENT_OF(KEY_OF(NULL, "materials"), i);
         const json_t *object = gltf_list_item(gltf, "materials", (int)i);
         struct factors factors = default_factors;
-        bool ok = take_factors(gltf, place, object, &factors);
+        bool ok = take_factors(gltf, place, object, &factors) && take_maps(gltf, place, object, (int)i);
         lam_material material = material_of(&factors, ok ? gltf_name(gltf, object, &ok) : NULL);
         if (!ok || scene_adopt_material(gltf->scene, &material, gltf->json.error) < 0)
             return false;

@@ -9,9 +9,12 @@
 #include "gltf_json.h"
 #include "gltf_materials.h"
 #include "gltf_numbers.h"
+#include "gltf_textures.h"
 #include "gltf_triangles.h"
 
 #include "fail.h"
+
+#include <stdio.h>
 
 bool gltf_meshes_start(struct gltf *gltf)
 {
@@ -35,8 +38,6 @@ static const struct attribute_rule position_rule = {"POSITION", 3, 3, FLOATS | B
                                                   "VEC3 of FLOAT, or of normalized BYTE or SHORT"},
                                    tangent_rule = {"TANGENT", 4, 4, FLOATS | NORMALIZED,
                                                    "VEC4 of FLOAT, or of normalized BYTE or SHORT"},
-                                   texcoord_rule = {"TEXCOORD_0", 2, 2, FLOATS | BYTES | NORMALIZED,
-                                                    "VEC2 of FLOAT, or of BYTE to UNSIGNED_SHORT"},
                                    color_rule = {"COLOR_0", 3, 4, FLOATS | UNSIGNED_NORMALIZED,
                                                  "VEC3 or VEC4 of FLOAT, or of normalized UNSIGNED_BYTE or "
                                                  "UNSIGNED_SHORT"};
@@ -98,12 +99,28 @@ static bool take_colors(struct gltf *gltf, const struct place *place, const json
     return true;
 }
 
+// A set of texture coordinates that the material reads; the first set where it reads none.
+static bool take_texcoords(struct gltf *gltf, const struct place *place, const json_t *attributes, int which,
+                           lam_mesh *mesh)
+{
+    int set = gltf_texcoord_set(gltf, mesh->parts->material, which);
+    char name[32];
+    snprintf(name, sizeof name, "TEXCOORD_%d", set >= 0 ? set : 0);
+    const struct attribute_rule rule = {name, 2, 2, FLOATS | BYTES | NORMALIZED,
+                                        "VEC2 of FLOAT, or of BYTE to UNSIGNED_SHORT"};
+    if (set < 0 && which == 1)
+        return true;
+    return take_floats(gltf, place, attributes, &rule, mesh->vertex_count,
+                       which ? &mesh->second_texcoords : &mesh->texcoords,
+                       which ? &mesh->second_texcoord_count : &mesh->texcoord_count);
+}
+
 static bool take_attributes(struct gltf *gltf, const struct place *place, const json_t *attributes, bool opaque,
                             lam_mesh *mesh)
 {
     size_t count = mesh->vertex_count;
     if (!take_floats(gltf, place, attributes, &normal_rule, count, &mesh->normals, &mesh->normal_count) ||
-        !take_floats(gltf, place, attributes, &texcoord_rule, count, &mesh->texcoords, &mesh->texcoord_count) ||
+        !take_texcoords(gltf, place, attributes, 0, mesh) || !take_texcoords(gltf, place, attributes, 1, mesh) ||
         !take_colors(gltf, place, attributes, opaque, mesh))
         return false;
     // Tangents that come without normals are not used (section 3.7.2.1).

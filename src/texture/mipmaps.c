@@ -1,0 +1,66 @@
+// mipmaps.c: the levels of a texture: each texel is the average of what it covers of the level above.
+//
+// A side of n texels becomes n/2, rounded down. Where n is even, a texel covers two; where it is odd, n/(n/2), more than
+// two, and those at its ends count by their covered share. Rows and columns are averaged together, in a fixed order.
+#include "texture_levels.h"
+
+#include <stddef.h>
+
+// The texels of a side that a texel of the next level covers, and their weights, which sum to 1.
+struct cover {
+    int first, count;
+    float weight[4];
+};
+
+static struct cover cover_of(int from, int to, int i)
+{
+    double step = (double)from / to, begin = i * step, end = (i + 1) * step;
+    struct cover cover = {.first = (int)begin};
+    for (int k = cover.first; k < from && k < end - 1e-9 && cover.count < 4; k++) {
+        double low = k > begin ? k : begin, high = k + 1 < end ? k + 1 : end;
+        cover.weight[cover.count++] = (float)((high - low) / step);
+    }
+    return cover;
+}
+
+static void halve_even(const struct lam_texture *texture, int level)
+{
+    const struct texture_level *to = &texture->levels[level];
+    float *out = (float *)(uintptr_t)to->floats;
+    for (int y = 0; y < to->height; y++)
+        for (int x = 0; x < to->width; x++, out += 4) {
+            texel upper = texel_at(texture, level - 1, 2 * x, 2 * y) + texel_at(texture, level - 1, 2 * x + 1, 2 * y);
+            texel lower =
+                texel_at(texture, level - 1, 2 * x, 2 * y + 1) + texel_at(texture, level - 1, 2 * x + 1, 2 * y + 1);
+            *(texel_memory *)out = (upper + lower) * 0.25f;
+        }
+}
+
+static void halve_any(const struct lam_texture *texture, int level)
+{
+    const struct texture_level *from = &texture->levels[level - 1], *to = &texture->levels[level];
+    float *out = (float *)(uintptr_t)to->floats;
+    for (int y = 0; y < to->height; y++) {
+        struct cover rows = cover_of(from->height, to->height, y);
+        for (int x = 0; x < to->width; x++, out += 4) {
+            struct cover columns = cover_of(from->width, to->width, x);
+            texel sum = {0, 0, 0, 0};
+            for (int j = 0; j < rows.count; j++)
+                for (int i = 0; i < columns.count; i++)
+                    sum += texel_at(texture, level - 1, columns.first + i, rows.first + j) *
+                           (columns.weight[i] * rows.weight[j]);
+            *(texel_memory *)out = sum;
+        }
+    }
+}
+
+void mipmaps_make(struct lam_texture *texture)
+{
+    for (int level = 1; level < texture->level_count; level++) {
+        const struct texture_level *from = &texture->levels[level - 1];
+        if (from->width % 2 == 0 && from->height % 2 == 0)
+            halve_even(texture, level);
+        else
+            halve_any(texture, level);
+    }
+}

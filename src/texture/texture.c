@@ -1,0 +1,242 @@
+// texture.c: textures from pictures: decoded numbers, levels, references.
+#include "codec.h"
+#include "fail.h"
+#include "file.h"
+#include "float_state.h"
+#include "pixels.h"
+#include "srgb.h"
+#include "texture_levels.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// --- memory
+
+static int levels_of(int width, int height)
+{
+    int count = 1;
+    for (int side = width > height ? width : height; side > 1; side /= 2)
+        count++;
+    return count;
+}
+
+static int side_of(int side, int level) { return side >> level ? side >> level : 1; }
+
+// Allocates a texture of this size, with its levels except for level 0 of bytes. NULL: LAM_LIMIT.
+static struct lam_texture *allocate(const lam_image *image, const char *name, struct call_control *call,
+                                    lam_error *error)
+{
+    bool floats = image->format == LAM_RGBA32F;
+    int levels = levels_of(image->width, image->height);
+    size_t name_bytes = name ? strlen(name) + 1 : 0, table = 512 * sizeof(float), texels = 0;
+    for (int level = floats ? 0 : 1; level < levels; level++)
+        texels += (size_t)side_of(image->width, level) * (size_t)side_of(image->height, level);
+    size_t bytes = sizeof(struct lam_texture) + table + texels * 4 * sizeof(float) + name_bytes;
+    if (call && !call_charge(call, bytes)) {
+        call_memory_error(call, bytes, error);
+        return NULL;
+    }
+    struct lam_texture *texture = calloc(1, bytes);
+    if (!texture) {
+        if (call)
+            call_refund(call, bytes);
+        fail_memory(error, bytes);
+        return NULL;
+    }
+    float *decode = (float *)(texture + 1), *next = decode + 512;
+    *texture = (struct lam_texture){.references = 1, .level_count = levels, .decode = decode};
+    for (int level = 0; level < levels; level++) {
+        struct texture_level *l = &texture->levels[level];
+        *l = (struct texture_level){side_of(image->width, level), side_of(image->height, level), NULL};
+        if (level == 0 && !floats)
+            continue;
+        l->floats = next;
+        next += (size_t)l->width * (size_t)l->height * 4;
+    }
+    if (name)
+        texture->name = memcpy(next, name, name_bytes);
+    return texture;
+}
+
+struct lam_texture *texture_share(const struct lam_texture *texture)
+{
+    struct lam_texture *shared = (struct lam_texture *)(uintptr_t)texture;
+    if (shared)
+        __atomic_add_fetch(&shared->references, 1, __ATOMIC_RELAXED);
+    return shared;
+}
+
+void lam_texture_free(lam_texture *texture)
+{
+    if (!texture || __atomic_sub_fetch(&texture->references, 1, __ATOMIC_ACQ_REL))
+        return;
+    free(texture->storage);
+    free(texture);
+}
+
+// --- level 0
+
+static void take_bytes(struct lam_texture *texture, lam_image *image)
+{
+    float *decode = (float *)(uintptr_t)texture->decode;
+    for (int i = 0; i < 256; i++) {
+        decode[i] = (float)(texture->values == LAM_TEXTURE_COLOR ? srgb_linear(i / 255.0) : i / 255.0);
+        decode[256 + i] = (float)(i / 255.0);
+    }
+    texture->bytes = image->pixels;
+    texture->storage = image->pixels;
+    *image = (lam_image){0};
+    size_t count = (size_t)texture->levels[0].width * (size_t)texture->levels[0].height;
+    unsigned all = 255;
+    for (size_t i = 0; i < count; i++)
+        all &= texture->bytes[4 * i + 3];
+    texture->opaque = all == 255;
+}
+
+// False: a number that is not finite.
+static bool take_floats(struct lam_texture *texture, const lam_image *image, const char *name, lam_error *error)
+{
+    float *to = (float *)(uintptr_t)texture->levels[0].floats;
+    size_t count = (size_t)image->width * (size_t)image->height;
+    memcpy(to, image->pixels, count * 4 * sizeof *to);
+    texture->opaque = true;
+    for (size_t i = 0; i < count * 4; i++) {
+        if (!(to[i] - to[i] == 0))
+            return fail(error, LAM_BAD_ARGUMENT, "%s: pixel %zu, %zu holds a number that is not finite",
+                        name ? name : "texture", i / 4 % (size_t)image->width, i / 4 / (size_t)image->width);
+        if (i % 4 == 3)
+            texture->opaque &= to[i] >= 1;
+    }
+    return true;
+}
+
+struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values, const char *name,
+                                     struct call_control *call, lam_error *error)
+{
+    struct lam_texture *texture = NULL;
+    if (image->width > TEXTURE_SIDE_MAX || image->height > TEXTURE_SIDE_MAX)
+        fail(error, LAM_LIMIT, "%s: %d×%d pixels, expected at most %d on a side", name ? name : "texture", image->width,
+             image->height, TEXTURE_SIDE_MAX);
+    else
+        texture = allocate(image, name, call, error);
+    bool ok = texture != NULL;
+    if (ok) {
+        texture->values = values;
+        if (image->format == LAM_RGBA8)
+            take_bytes(texture, image);
+        else
+            ok = take_floats(texture, image, name, error);
+    }
+    if (image->pixels)
+        picture_free(call, image);
+    if (!ok) {
+        lam_texture_free(texture);
+        return NULL;
+    }
+    mipmaps_make(texture);
+    return texture;
+}
+
+// --- pictures of files
+
+// The sRGB-encoded 16-bit numbers of a picture, to linear ones.
+static bool decode_wide(lam_image *image, lam_error *error)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    float *table = malloc(65536 * sizeof *table), *pixel = image->pixels;
+    if (!table)
+        return fail_memory(error, 65536 * sizeof *table);
+    for (int i = 0; i < 65536; i++)
+        table[i] = (float)srgb_linear(i / 65535.0);
+    for (size_t i = 0; i < count; i++, pixel += 4)
+        for (int channel = 0; channel < 3; channel++)
+            pixel[channel] = table[(int)(pixel[channel] * 65535.0f + 0.5f)];
+    free(table);
+    return true;
+}
+
+static void unpremultiply(lam_image *image)
+{
+    float *pixel = image->pixels;
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++, pixel += 4)
+        for (int channel = 0; channel < 3 && pixel[3] > 0 && pixel[3] < 1; channel++)
+            pixel[channel] /= pixel[3];
+}
+
+struct lam_texture *texture_decode(const void *bytes, size_t size, const char *name, lam_texture_values values,
+                                   struct call_control *call, lam_error *error)
+{
+    struct picture_file file = {bytes, size, name, call};
+    lam_image image;
+    bool wide = false;
+    uint64_t state = float_state_enter();
+    bool ok = picture_decode_wide(&file, &wide, &image, error);
+    if (ok && wide && values == LAM_TEXTURE_COLOR)
+        ok = decode_wide(&image, error);
+    else if (ok && !wide && image.format == LAM_RGBA32F)
+        unpremultiply(&image);
+    struct lam_texture *texture = ok ? texture_of_image(&image, values, name, call, error) : NULL;
+    float_state_leave(state);
+    return texture;
+}
+
+// --- the public calls
+
+static bool check_values(lam_texture_values values, lam_error *error)
+{
+    return (unsigned)values <= LAM_TEXTURE_NUMBERS ||
+           fail(error, LAM_BAD_ARGUMENT, "texture: values %d is not one of lam_texture_values", (int)values);
+}
+
+lam_texture *lam_texture_make(const lam_image *image, lam_texture_values values, const char *name, lam_error *error)
+{
+    lam_image copy;
+    if (!check_values(values, error) || !image_check(image, "texture", error) || !image_copy(image, &copy, error))
+        return NULL;
+    uint64_t state = float_state_enter();
+    if (copy.format == LAM_RGBA32F)
+        unpremultiply(&copy);
+    struct lam_texture *texture = texture_of_image(&copy, values, name, NULL, error);
+    float_state_leave(state);
+    return texture;
+}
+
+lam_texture *lam_texture_load(const char *path, lam_texture_values values, const lam_control *control, lam_error *error)
+{
+    struct call_control call;
+    struct file_bytes file;
+    if (!path) {
+        fail(error, LAM_BAD_ARGUMENT, "texture: the path is NULL");
+        return NULL;
+    }
+    call_start(&call, control);
+    if (!check_values(values, error) || !file_read(path, NULL, &call, &file, error))
+        return NULL;
+    struct lam_texture *texture = texture_decode(file.data, file.size, path, values, &call, error);
+    file_release(&file);
+    return texture;
+}
+
+static const struct texture_level *level_of(const lam_texture *texture, int level)
+{
+    return texture && level >= 0 && level < texture->level_count ? &texture->levels[level] : NULL;
+}
+
+int lam_texture_width(const lam_texture *texture, int level)
+{
+    return level_of(texture, level) ? texture->levels[level].width : 0;
+}
+
+int lam_texture_height(const lam_texture *texture, int level)
+{
+    return level_of(texture, level) ? texture->levels[level].height : 0;
+}
+
+int lam_texture_levels(const lam_texture *texture) { return texture ? texture->level_count : 0; }
+
+lam_texture_values lam_texture_values_of(const lam_texture *texture)
+{
+    return texture ? texture->values : LAM_TEXTURE_COLOR;
+}
+
+const char *lam_texture_name(const lam_texture *texture) { return texture ? texture->name : NULL; }

@@ -1,6 +1,8 @@
 // scenes.c: demonstration scenes: shapes, materials, lights, cameras, and the corners of the pipeline.
 #include "scenes.h"
 
+#include "textured.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -512,6 +514,11 @@ const struct demo_row demos[] = {
     {"mirror-sky", "a ball that mirrors a sky: the sun to the right in front, the horizon bent downwards", mirror_sky},
     {"mirror-studio", "a gold teapot among turned soft boxes", mirror_studio},
     {"mirror-gouraud", "a mirror lit at its vertices, Z up, without perspective", mirror_gouraud},
+    {"textured", "bricks with every map of a metallic-roughness material, turned, mirrored at the seams",
+     textured_physical},
+    {"textured-classic", "the same maps on a classic material", textured_classic},
+    {"textured-as-phong", "metallic-roughness maps under Phong's model", textured_converted},
+    {"masked", "leaves: left out below half opacity to the left, blended to the right", textured_masked},
     {"samples-1", "no antialiasing", samples_1},
     {"samples-2", "2 samples a pixel", samples_2},
     {"samples-8", "8 samples a pixel", samples_8},

@@ -47,19 +47,30 @@ LAM_API const lam_reflection_info *lam_reflection_describe(lam_reflection model)
 // The maps of a material: what a texture changes from point to point (docs/textures.md). MTL's name and glTF's stand
 // beside each.
 typedef enum lam_map {
-    LAM_MAP_AMBIENT,      // map_Ka: multiplies ka; where there is none, the diffuse map does
-    LAM_MAP_DIFFUSE,      // map_Kd, baseColorTexture: multiplies kd or the base colour; its alpha multiplies the opacity
-    LAM_MAP_SPECULAR,     // map_Ks: multiplies ks
-    LAM_MAP_EMISSION,     // map_Ke, emissiveTexture: multiplies the emission
-    LAM_MAP_SHININESS,    // map_Ns: multiplies α
-    LAM_MAP_OPACITY,      // map_d: multiplies the opacity
-    LAM_MAP_BUMP,         // map_bump, bump: heights that tilt the normal
-    LAM_MAP_NORMAL,       // norm, normalTexture: the normal beside tangent, bitangent and the mesh's normal
-    LAM_MAP_DISPLACEMENT, // disp: kept as written, not drawn
-    LAM_MAP_REFLECTION,   // refl: kept as written, not drawn
-    LAM_MAP_METALLIC,     // map_Pm, metallicRoughnessTexture's blue: multiplies `metallic`
-    LAM_MAP_ROUGHNESS,    // map_Pr, metallicRoughnessTexture's green: multiplies `roughness`
-    LAM_MAP_OCCLUSION,    // occlusionTexture's red: multiplies ambient, hemisphere and environment light
+    // Multiplies ka. Where there is none, the diffuse map does.
+    LAM_MAP_AMBIENT, // map_Ka
+    // Multiplies kd, or the base colour; its alpha multiplies the opacity.
+    LAM_MAP_DIFFUSE, // map_Kd, baseColorTexture
+    // Multiplies ks.
+    LAM_MAP_SPECULAR, // map_Ks
+    // Multiplies the emission.
+    LAM_MAP_EMISSION, // map_Ke, emissiveTexture
+    // Multiplies α.
+    LAM_MAP_SHININESS, // map_Ns
+    // Multiplies the opacity.
+    LAM_MAP_OPACITY, // map_d
+    // Heights that tilt the normal.
+    LAM_MAP_BUMP, // map_bump, bump
+    // The normal, by its shares of tangent, bitangent and the mesh's normal.
+    LAM_MAP_NORMAL, // norm, normalTexture
+    // Not drawn: the maps' names are kept as written.
+    LAM_MAP_DISPLACEMENT, // disp
+    LAM_MAP_REFLECTION,   // refl
+    // Multiply `metallic` and `roughness`.
+    LAM_MAP_METALLIC,  // map_Pm, metallicRoughnessTexture's blue
+    LAM_MAP_ROUGHNESS, // map_Pr, metallicRoughnessTexture's green
+    // Multiplies ambient, hemisphere and environment light.
+    LAM_MAP_OCCLUSION, // occlusionTexture's red
     LAM_MAP_COUNT
 } lam_map;
 
@@ -69,8 +80,9 @@ LAM_API const char *lam_map_name(lam_map map);
 // What becomes of a point whose opacity (diffuse alpha × map × vertex colour) is below 1.
 typedef enum lam_alpha_mode {
     LAM_ALPHA_BLEND = 0, // it covers what is behind it by that share
-    LAM_ALPHA_MASK,      // it is left out where the opacity is below lam_material.alpha_cutoff, and opaque elsewhere
-    LAM_ALPHA_OPAQUE,    // it is opaque all the same
+    // It is left out where the opacity is below lam_material.alpha_cutoff, and opaque elsewhere.
+    LAM_ALPHA_MASK,
+    LAM_ALPHA_OPAQUE, // it is opaque all the same
     LAM_ALPHA_COUNT
 } lam_alpha_mode;
 
@@ -113,8 +125,8 @@ typedef struct lam_material {
     // How the material reads its textures; NULL: it has no such map. Adding a material to a scene copies them; the scene
     // shares the textures.
     const lam_texture_map *maps[LAM_MAP_COUNT];
-    lam_alpha_mode alpha_mode;
-    float alpha_cutoff; // of LAM_ALPHA_MASK, 0..1
+    lam_alpha_mode alpha_mode; // what an opacity below 1 does
+    float alpha_cutoff;        // of LAM_ALPHA_MASK, 0..1
     LAM_RESERVED(64);
 } lam_material;
 

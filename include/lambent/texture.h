@@ -17,8 +17,9 @@ typedef struct lam_texture lam_texture;
 
 // What the numbers of a picture are. Pictures of floats are linear in any case.
 typedef enum lam_texture_values {
-    LAM_TEXTURE_COLOR = 0, // red, green and blue are sRGB-encoded colours, decoded before anything is averaged
-    LAM_TEXTURE_NUMBERS,   // taken as they are: normals, roughness, masks
+    // Red, green and blue are sRGB-encoded colours, decoded before anything is averaged.
+    LAM_TEXTURE_COLOR = 0,
+    LAM_TEXTURE_NUMBERS, // taken as they are: normals, roughness
 } lam_texture_values;
 
 // Makes a texture of a picture, which is copied: up to 16384 pixels on a side. `name` stands for it in reports; NULL:
@@ -71,18 +72,17 @@ typedef enum lam_mip {
 typedef struct lam_texture_map {
     const lam_texture *texture; // required
     int texcoords;              // set of the mesh's texture coordinates, 0 or 1
-    lam_wrap wrap_s, wrap_t;
-    lam_filter magnify, minify;
-    lam_mip mip;
+    lam_wrap wrap_s, wrap_t;    // beyond the picture's edges, each way
+    lam_filter magnify, minify; // where the picture is made larger, smaller
+    lam_mip mip;                // where it is made smaller
     // The channel of a map of single numbers (shininess, opacity, metallic, roughness, occlusion, bump): 0 red … 3 alpha.
     int channel;
     // From the mesh's texture coordinates to the picture's, whose (0, 0) is the upper left corner and (1, 1) the lower
     // right one. All zero: taken as they are.
     float transform[2][3];
-    // Multiplies the texel. 0: 1. Of a normal map: its x and y. Of a bump map: the height of its 1 in model units per unit
-    // of s.
+    // Multiplies the texel. 0: 1. Of a normal map: its x and y. Of a bump map: the height of its 1, in texels of level 0.
     float scale;
-    float offset;
+    float offset; // added to the scaled texel
     LAM_RESERVED(16);
 } lam_texture_map;
 

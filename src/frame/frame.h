@@ -81,7 +81,7 @@ struct frame {
     bool distant_viewer; // v = +z at every point: the camera is orthographic, or the viewer LAM_VIEWER_INFINITE
     bool orthographic;
     bool translucent;   // any range is
-    bool masked;         // and one has a material of LAM_ALPHA_MASK
+    bool masked;        // and one has a material of LAM_ALPHA_MASK
     bool makes_normals; // a draw has a crease_rad, and the output needs its normals
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;

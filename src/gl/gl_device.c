@@ -215,13 +215,27 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
     return draw_parts(f, error) && check_errors(f, error);
 }
 
+// The maps of materials are not drawn here yet.
+static bool check_maps(const struct frame *frame, lam_error *error)
+{
+    for (int i = 0; i < frame->range_count; i++)
+        for (int map = 0; map < LAM_MAP_COUNT; map++)
+            if (frame->materials[frame->ranges[i].front]->maps[map] ||
+                frame->materials[frame->ranges[i].back]->maps[map])
+                return fail(error, LAM_UNSUPPORTED,
+                            "OpenGL: a material has a %s map, and this device does not draw textures yet; the CPU "
+                            "device does",
+                            lam_map_name((lam_map)map));
+    return true;
+}
+
 static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct call_control *call,
                     lam_error *error)
 {
     struct gl_device *device = (struct gl_device *)base;
     struct gl_previous_context previous;
     struct gl_saved_state state;
-    if (!gl_context_enter(&device->context, &previous, error))
+    if (!check_maps(frame, error) || !gl_context_enter(&device->context, &previous, error))
         return false;
     struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .call = call, .image = image};
     f.stage = frame->stage;

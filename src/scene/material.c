@@ -161,13 +161,18 @@ lam_material_id lam_material_find(const char *name)
 
 const char *lam_map_name(lam_map map)
 {
-    static const char *const names[LAM_MAP_COUNT] = {
-        [LAM_MAP_AMBIENT] = "ambient",           [LAM_MAP_DIFFUSE] = "diffuse",
-        [LAM_MAP_SPECULAR] = "specular",         [LAM_MAP_EMISSION] = "emission",
-        [LAM_MAP_SHININESS] = "shininess",       [LAM_MAP_OPACITY] = "opacity",
-        [LAM_MAP_BUMP] = "bump",                 [LAM_MAP_NORMAL] = "normal",
-        [LAM_MAP_DISPLACEMENT] = "displacement", [LAM_MAP_REFLECTION] = "reflection",
-        [LAM_MAP_METALLIC] = "metallic",         [LAM_MAP_ROUGHNESS] = "roughness",
-        [LAM_MAP_OCCLUSION] = "occlusion"};
+    static const char *const names[LAM_MAP_COUNT] = {[LAM_MAP_AMBIENT] = "ambient",
+                                                     [LAM_MAP_DIFFUSE] = "diffuse",
+                                                     [LAM_MAP_SPECULAR] = "specular",
+                                                     [LAM_MAP_EMISSION] = "emission",
+                                                     [LAM_MAP_SHININESS] = "shininess",
+                                                     [LAM_MAP_OPACITY] = "opacity",
+                                                     [LAM_MAP_BUMP] = "bump",
+                                                     [LAM_MAP_NORMAL] = "normal",
+                                                     [LAM_MAP_DISPLACEMENT] = "displacement",
+                                                     [LAM_MAP_REFLECTION] = "reflection",
+                                                     [LAM_MAP_METALLIC] = "metallic",
+                                                     [LAM_MAP_ROUGHNESS] = "roughness",
+                                                     [LAM_MAP_OCCLUSION] = "occlusion"};
     return (unsigned)map < LAM_MAP_COUNT ? names[map] : NULL;
 }

@@ -555,7 +555,7 @@ static void test_materials(void **state)
     assert_string_equal(m->name, "plastic");
     assert_true(m->physical && !m->unlit && m->metallic == 0 && m->roughness == 0.5f);
     assert_true(m->diffuse.r == 0.5f && m->diffuse.g == 0.25f && m->ambient.b == 1);
-    assert_true(m->diffuse.a == 1); // OPAQUE
+    assert_true(m->diffuse.a == 1 && m->alpha_mode == LAM_ALPHA_OPAQUE);
     assert_true(m->emission.r == 0 && m->emission.g == 4 && m->emission.b == 2);
     m = lam_scene_material(scene, 1);
     assert_true(m->diffuse.a == 0.5f && m->diffuse.g == 0.5f && m->metallic == 1 && m->roughness == 0);
@@ -563,7 +563,8 @@ static void test_materials(void **state)
     assert_true(m->unlit && m->diffuse.g == 0.2f);
     // Specular-glossiness: the metalness that gives both colours, as the brightest channel has it
     m = lam_scene_material(scene, 3);
-    assert_true(m->physical && m->roughness == 1 && m->diffuse.a == 1);
+    assert_true(m->physical && m->roughness == 1 && m->diffuse.a == 0.4f);
+    assert_true(m->alpha_mode == LAM_ALPHA_MASK && m->alpha_cutoff == 0.3f);
     double base = (double)m->diffuse.b, metallic = (double)m->metallic;
     assert_near(base * (1 - metallic), 0.3, 1e-5);
     assert_near(0.04 * (1 - metallic) + base * metallic, 0.7, 1e-5);

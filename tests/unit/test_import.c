@@ -273,7 +273,7 @@ static void test_links(void **unused)
         lam_scene_free(scene);
     }
     // The model's own folder may be named through a link, and from within.
-    load_inner("mtllib sub/a.mtl\n");
+    lam_scene_free(load_inner("mtllib sub/a.mtl\n"));
     lam_error error;
     lam_scene *scene = lam_scene_load(in_folder("also-inner/m.obj"), NULL, NULL, &error);
     assert_int_equal(lam_scene_material_count(scene), 1);

@@ -18,8 +18,8 @@ struct material_products {
     float reflectivity[3]; // kr
     bool mirrors;          // there is an environment, and kr is not 0
     const lam_material *given;
-    unsigned maps;         // those that shading reads: a bit 1 << LAM_MAP_… for each
-    bool converted;        // with maps: a metallic-roughness material under a classic model
+    unsigned maps;                       // those that shading reads: a bit 1 << LAM_MAP_… for each
+    bool converted;                      // with maps: a metallic-roughness material under a classic model
     float shininess;                     // in use
     const struct light_products *lights; // one for each light
     float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere

@@ -31,9 +31,9 @@ struct shading_batch {
     struct {
         float s[BATCH_ROW], t[BATCH_ROW], ds_dx[BATCH_ROW], dt_dx[BATCH_ROW], ds_dy[BATCH_ROW], dt_dy[BATCH_ROW];
     } texcoord;
-    float texel[4][BATCH_ROW], level[BATCH_ROW];                  // of the map that was read last
+    float texel[4][BATCH_ROW], level[BATCH_ROW];                   // of the map that was read last
     float vertex_color[3][BATCH_ROW], ambient_color[3][BATCH_ROW]; // what multiplies ka; `color` multiplies kd
-    float specular[3][BATCH_ROW], emission[3][BATCH_ROW];         // what multiplies the highlights; the emission
+    float specular[3][BATCH_ROW], emission[3][BATCH_ROW];          // what multiplies the highlights; the emission
     float power[BATCH_ROW], roughness[BATCH_ROW], metallic[BATCH_ROW], occlusion[BATCH_ROW];
     float sign[BATCH_ROW]; // of the bitangent
     struct triangle_runs runs;

@@ -105,8 +105,13 @@ static lam_material material_of(const struct factors *f, const char *name)
     return material;
 }
 
-static const struct factors default_factors = {
-    .base = {1, 1, 1, 1}, .metallic = 1, .roughness = 1, .specular = {1, 1, 1}, .strength = 1, .cutoff = 0.5, .alpha = LAM_ALPHA_OPAQUE};
+static const struct factors default_factors = {.base = {1, 1, 1, 1},
+                                               .metallic = 1,
+                                               .roughness = 1,
+                                               .specular = {1, 1, 1},
+                                               .strength = 1,
+                                               .cutoff = 0.5,
+                                               .alpha = LAM_ALPHA_OPAQUE};
 
 // Asks for the maps of material `index`.
 static bool take_maps(struct gltf *gltf, const struct place *place, const json_t *object, int index)
@@ -119,8 +124,7 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
     const struct place *in_pbr = KEY_OF(place, "pbrMetallicRoughness");
     const struct place *in_glossy = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_pbrSpecularGlossiness");
     double scale = 1, strength = 1;
-    if (!ok ||
-        !json_take_number(&gltf->json, KEY_OF(place, "normalTexture"), normal, "scale", -1e6, 1e6, &scale) ||
+    if (!ok || !json_take_number(&gltf->json, KEY_OF(place, "normalTexture"), normal, "scale", -1e6, 1e6, &scale) ||
         !json_take_number(&gltf->json, KEY_OF(place, "occlusionTexture"), occlusion, "strength", 0, 1, &strength))
         return false;
     const struct gltf_map_request color = {index, LAM_MAP_DIFFUSE, LAM_TEXTURE_COLOR, 0, 1, 0},
@@ -128,9 +132,8 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
                                   roughness = {index, LAM_MAP_ROUGHNESS, LAM_TEXTURE_NUMBERS, 1, 1, 0},
                                   bent = {index, LAM_MAP_NORMAL, LAM_TEXTURE_NUMBERS, 0, (float)scale, 0},
                                   glow = {index, LAM_MAP_EMISSION, LAM_TEXTURE_COLOR, 0, 1, 0},
-                                  hidden = {index,           LAM_MAP_OCCLUSION,
-                                            LAM_TEXTURE_NUMBERS, 0,
-                                            (float)strength, (float)(1 - strength)};
+                                  hidden = {index, LAM_MAP_OCCLUSION, LAM_TEXTURE_NUMBERS,
+                                            0,     (float)strength,   (float)(1 - strength)};
     // A scale or strength of 0 leaves nothing of the map.
     return (scale == 0 || gltf_take_map(gltf, place, object, "normalTexture", bent, NULL)) &&
            (strength == 0 || gltf_take_map(gltf, place, object, "occlusionTexture", hidden, NULL)) &&

@@ -74,13 +74,8 @@ static lam_wrap wrap_of(int code)
 static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
 {
     static const int magnify[] = {NEAREST, LINEAR, 0}, wraps[] = {REPEAT, CLAMP_TO_EDGE, MIRRORED_REPEAT, 0};
-    static const int minify[] = {NEAREST,
-                                 LINEAR,
-                                 NEAREST_MIPMAP_NEAREST,
-                                 LINEAR_MIPMAP_NEAREST,
-                                 NEAREST_MIPMAP_LINEAR,
-                                 LINEAR_MIPMAP_LINEAR,
-                                 0};
+    static const int minify[] = {
+        NEAREST, LINEAR, NEAREST_MIPMAP_NEAREST, LINEAR_MIPMAP_NEAREST, NEAREST_MIPMAP_LINEAR, LINEAR_MIPMAP_LINEAR, 0};
     if (index < 0)
         return true; // repeated, trilinear
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "samplers"), (size_t)index);
@@ -96,9 +91,9 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
     map->magnify = large == NEAREST ? LAM_FILTER_NEAREST : LAM_FILTER_LINEAR;
     bool nearest = small == NEAREST || small == NEAREST_MIPMAP_NEAREST || small == NEAREST_MIPMAP_LINEAR;
     map->minify = nearest ? LAM_FILTER_NEAREST : LAM_FILTER_LINEAR;
-    map->mip = small == NEAREST || small == LINEAR                                   ? LAM_MIP_NONE
+    map->mip = small == NEAREST || small == LINEAR                                 ? LAM_MIP_NONE
                : small == NEAREST_MIPMAP_NEAREST || small == LINEAR_MIPMAP_NEAREST ? LAM_MIP_NEAREST
-                                                                                      : LAM_MIP_LINEAR;
+                                                                                   : LAM_MIP_LINEAR;
     return true;
 }
 
@@ -237,7 +232,8 @@ bool gltf_take_map(struct gltf *gltf, const struct place *place, const json_t *o
         return false;
     map.texcoords = place_set(gltf, request.material, set);
     if (map.texcoords < 0) {
-        scene_warn(gltf->scene, "%s: materials[%d]: its %s map is not drawn: it uses a third set of texture coordinates",
+        scene_warn(gltf->scene,
+                   "%s: materials[%d]: its %s map is not drawn: it uses a third set of texture coordinates",
                    gltf->source->name, request.material, lam_map_name(request.slot));
         return true;
     }
@@ -268,8 +264,8 @@ static void decode_picture(void *user, size_t index, int thread)
     const struct decoding *decoding = user;
     struct gltf_picture *picture = decoding->pictures[index];
     (void)thread;
-    picture->texture = texture_decode(picture->data, picture->size, picture->name, picture->values, decoding->call,
-                                      &picture->error);
+    picture->texture =
+        texture_decode(picture->data, picture->size, picture->name, picture->values, decoding->call, &picture->error);
 }
 
 // Whether a load goes on without a picture that could not be read.

@@ -1,0 +1,337 @@
+// test_textures.c: texels against a second evaluator in double, written from OpenGL's rules; mipmaps; maps of materials.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <lambent/lambent.h>
+
+static uint32_t seed = 1;
+static double random_unit(void)
+{
+    seed = seed * 1664525u + 1013904223u;
+    return (seed >> 8) / 16777216.0;
+}
+
+// --- a second evaluator
+
+struct pyramid {
+    int levels, width[16], height[16];
+    double *texels[16]; // RGBA
+};
+
+static double linear_of(int byte)
+{
+    double c = byte / 255.0;
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+// Each texel the average of the area that it covers.
+static void halve(struct pyramid *p, int to)
+{
+    int w = p->width[to - 1], h = p->height[to - 1], nw = w / 2 ? w / 2 : 1, nh = h / 2 ? h / 2 : 1;
+    p->width[to] = nw, p->height[to] = nh;
+    p->texels[to] = calloc((size_t)nw * (size_t)nh * 4, sizeof(double));
+    for (int y = 0; y < nh; y++)
+        for (int x = 0; x < nw; x++)
+            for (int j = 0; j < h; j++)
+                for (int i = 0; i < w; i++) {
+                    double left = fmax(i, (double)x * w / nw), right = fmin(i + 1, (double)(x + 1) * w / nw);
+                    double top = fmax(j, (double)y * h / nh), bottom = fmin(j + 1, (double)(y + 1) * h / nh);
+                    double share = right > left && bottom > top ? (right - left) * (bottom - top) : 0;
+                    for (int c = 0; c < 4; c++)
+                        p->texels[to][(y * nw + x) * 4 + c] +=
+                            p->texels[to - 1][(j * w + i) * 4 + c] * share * nw / w * nh / h;
+                }
+}
+
+static struct pyramid pyramid_of(const uint8_t *bytes, int w, int h, bool color)
+{
+    struct pyramid p = {.levels = 1, .width = {w}, .height = {h}};
+    p.texels[0] = malloc((size_t)w * (size_t)h * 4 * sizeof(double));
+    for (int i = 0; i < w * h * 4; i++)
+        p.texels[0][i] = color && i % 4 < 3 ? linear_of(bytes[i]) : bytes[i] / 255.0;
+    for (int side = w > h ? w : h; side > 1; side /= 2)
+        halve(&p, p.levels++);
+    return p;
+}
+
+static void pyramid_free(struct pyramid *p)
+{
+    for (int i = 0; i < p->levels; i++)
+        free(p->texels[i]);
+}
+
+// The texel that a coordinate in texels falls on, after wrapping.
+static int wrap_texel(int i, int size, lam_wrap wrap)
+{
+    if (wrap == LAM_WRAP_CLAMP)
+        return i < 0 ? 0 : i >= size ? size - 1 : i;
+    int period = wrap == LAM_WRAP_MIRROR ? 2 * size : size;
+    i = (i % period + period) % period;
+    return i < size ? i : 2 * size - 1 - i;
+}
+
+static double fetch(const struct pyramid *p, const lam_texture_map *m, int level, int x, int y, int c)
+{
+    x = wrap_texel(x, p->width[level], m->wrap_s);
+    y = wrap_texel(y, p->height[level], m->wrap_t);
+    return p->texels[level][(y * p->width[level] + x) * 4 + c];
+}
+
+static double in_level(const struct pyramid *p, const lam_texture_map *m, lam_filter filter, int level, double s,
+                       double t, int c)
+{
+    double x = s * p->width[level], y = t * p->height[level];
+    if (filter == LAM_FILTER_NEAREST)
+        return fetch(p, m, level, (int)floor(x), (int)floor(y), c);
+    x -= 0.5, y -= 0.5;
+    int i = (int)floor(x), j = (int)floor(y);
+    double a = x - i, b = y - j;
+    return (fetch(p, m, level, i, j, c) * (1 - a) + fetch(p, m, level, i + 1, j, c) * a) * (1 - b) +
+           (fetch(p, m, level, i, j + 1, c) * (1 - a) + fetch(p, m, level, i + 1, j + 1, c) * a) * b;
+}
+
+static double expected(const struct pyramid *p, const lam_texture_map *m, double s, double t, double detail, int c)
+{
+    int last = p->levels - 1;
+    if (detail <= 0)
+        return in_level(p, m, m->magnify, 0, s, t, c);
+    if (m->mip == LAM_MIP_NONE)
+        return in_level(p, m, m->minify, 0, s, t, c);
+    if (m->mip == LAM_MIP_NEAREST)
+        return in_level(p, m, m->minify, (int)fmin(last, ceil(detail + 0.5) - 1), s, t, c);
+    if (detail >= last)
+        return in_level(p, m, m->minify, last, s, t, c);
+    int level = (int)floor(detail);
+    double share = detail - level;
+    return in_level(p, m, m->minify, level, s, t, c) * (1 - share) +
+           in_level(p, m, m->minify, level + 1, s, t, c) * share;
+}
+
+// Every wrap, filter and mip, sizes that are not powers of two, places far outside: no texel is off. Near the border
+// between two texels the nearest one may be either.
+static void test_texels(void **state)
+{
+    static const int sizes[][2] = {{16, 16}, {13, 7}, {1, 9}, {32, 5}, {1, 1}};
+    (void)state;
+    for (int n = 0; n < 5 * 2; n++) {
+        int w = sizes[n / 2][0], h = sizes[n / 2][1];
+        uint8_t bytes[32 * 16 * 4];
+        for (int i = 0; i < w * h * 4; i++)
+            bytes[i] = (uint8_t)(random_unit() * 256);
+        lam_image image = {.width = w, .height = h, .format = LAM_RGBA8, .pixels = bytes};
+        lam_error error;
+        lam_texture *texture = lam_texture_make(&image, n % 2 ? LAM_TEXTURE_NUMBERS : LAM_TEXTURE_COLOR, NULL, &error);
+        assert_non_null(texture);
+        struct pyramid p = pyramid_of(bytes, w, h, n % 2 == 0);
+        assert_int_equal(lam_texture_levels(texture), p.levels);
+        for (int level = 0; level < p.levels; level++)
+            assert_true(lam_texture_width(texture, level) == p.width[level] &&
+                        lam_texture_height(texture, level) == p.height[level]);
+        for (int i = 0; i < 3000; i++) {
+            lam_texture_map map = {.texture = texture,
+                                   .wrap_s = (lam_wrap)(i % 3),
+                                   .wrap_t = (lam_wrap)(i / 3 % 3),
+                                   .magnify = (lam_filter)(i / 9 % 2),
+                                   .minify = (lam_filter)(i / 18 % 2),
+                                   .mip = (lam_mip)(i / 36 % 3)};
+            double s = random_unit() * 5 - 2, t = random_unit() * 5 - 2, detail = random_unit() * 8 - 2;
+            s = (float)s, t = (float)t, detail = (float)detail;
+            if (fabs(detail + 0.5 - round(detail + 0.5)) < 1e-3)
+                continue; // between two levels of LAM_MIP_NEAREST
+            lam_rgba found = lam_texture_sample(&map, s, t, detail);
+            const float *f = &found.r;
+            bool same = true, beside = false;
+            for (int c = 0; c < 4; c++)
+                same &= fabs((double)f[c] - expected(&p, &map, s, t, detail, c)) < 2e-5;
+            for (int k = 0; !same && k < 4; k++) { // one step to each side
+                bool all = true;
+                for (int c = 0; c < 4; c++)
+                    all &= fabs((double)f[c] - expected(&p, &map, s + (k & 1 ? 1e-6 : -1e-6),
+                                                        t + (k & 2 ? 1e-6 : -1e-6), detail, c)) < 2e-4;
+                beside |= all;
+            }
+            if (!same && !beside)
+                fail_msg("%d×%d, wraps %d %d, filters %d %d, mip %d at %g, %g, level %g: found %g, expected %g", w, h,
+                         (int)map.wrap_s, (int)map.wrap_t, (int)map.magnify, (int)map.minify, (int)map.mip, s, t,
+                         detail, (double)found.r, expected(&p, &map, s, t, detail, 0));
+        }
+        pyramid_free(&p);
+        lam_texture_free(texture);
+    }
+}
+
+static lam_texture *constant(float r, float g, float b, float a)
+{
+    float pixel[4] = {r * a, g * a, b * a, a}; // pictures of floats are premultiplied
+    lam_image image = {.width = 1, .height = 1, .format = LAM_RGBA32F, .pixels = pixel};
+    lam_texture *texture = lam_texture_make(&image, LAM_TEXTURE_NUMBERS, "constant", NULL);
+    assert_non_null(texture);
+    return texture;
+}
+
+enum { SIZE = 64 };
+
+static lam_scene *lit_sphere(const lam_material *material)
+{
+    lam_error error;
+    lam_scene *scene = lam_scene_make(&error);
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_shape(scene, "sphere", NULL, &error);
+    object.material = lam_scene_add_material(scene, material, &error);
+    if (object.material < 0)
+        fail_msg("%s", error.text);
+    assert_true(lam_scene_add_object(scene, &object, &error) >= 0);
+    lam_light light = lam_light_default(LAM_LIGHT_POINT);
+    light.position = (lam_vec3){2, 3, 4};
+    assert_true(lam_scene_add_light(scene, &light, &error) >= 0);
+    lam_scene_set_ambient(scene, (lam_rgb){0.1f, 0.2f, 0.3f});
+    return scene;
+}
+
+static void draw(const lam_material *material, lam_reflection reflection, float *pixels)
+{
+    lam_error error;
+    lam_scene *scene = lit_sphere(material);
+    lam_device *device = lam_device_cpu(NULL, &error);
+    lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
+    lam_draw_params params = {.samples = 4, .rig = LAM_RIG_NONE, .reflection = reflection};
+    lam_image image = {.width = SIZE, .height = SIZE, .format = LAM_RGBA32F, .pixels = pixels};
+    if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
+        fail_msg("%s", error.text);
+    lam_device_free(device);
+    lam_scene_free(scene);
+}
+
+static double largest_difference(const float *a, const float *b)
+{
+    double most = 0;
+    for (int i = 0; i < SIZE * SIZE * 4; i++)
+        most = fmax(most, fabs((double)a[i] - (double)b[i]));
+    return most;
+}
+
+// Maps of one colour give what the numbers themselves give, for physical materials, classic ones, and each as the other.
+static void test_constant_maps(void **state)
+{
+    static float with[SIZE * SIZE * 4], without[SIZE * SIZE * 4];
+    static const lam_reflection models[] = {LAM_REFLECTION_AUTO, LAM_REFLECTION_PHONG, LAM_REFLECTION_BLINN_PHONG};
+    (void)state;
+    lam_texture *color = constant(0.5f, 0.75f, 0.25f, 1), *numbers = constant(0.5f, 0.75f, 0.25f, 1);
+    lam_texture *flat = constant(0.5f, 0.5f, 1, 1);
+    lam_texture_map color_map = {.texture = color}, flat_map = {.texture = flat}, roughness = {numbers, .channel = 1};
+    lam_texture_map metallic = {.texture = numbers, .channel = 2}, half = {.texture = numbers, .scale = 0.5f};
+    for (int physical = 0; physical < 2; physical++)
+        for (int model = 0; model < (physical ? 3 : 1); model++) {
+            lam_material m = lam_material_default(), plain;
+            m.diffuse = (lam_rgba){0.8f, 0.6f, 1, 1};
+            m.ambient = (lam_rgb){0.8f, 0.6f, 1};
+            m.emission = (lam_rgb){0.2f, 0.1f, 0};
+            m.specular = (lam_rgb){0.5f, 0.5f, 0.5f};
+            m.metallic = 1, m.roughness = 0.5f, m.shininess = 40;
+            m.physical = physical;
+            plain = m;
+            plain.diffuse = (lam_rgba){0.4f, 0.45f, 0.25f, 1};
+            plain.ambient = (lam_rgb){0.4f, 0.45f, 0.25f};
+            plain.emission = (lam_rgb){0.1f, 0.075f, 0};
+            m.maps[LAM_MAP_DIFFUSE] = m.maps[LAM_MAP_EMISSION] = &color_map;
+            m.maps[LAM_MAP_NORMAL] = &flat_map;
+            if (physical) {
+                plain.metallic = 0.25f, plain.roughness = 0.375f;
+                m.maps[LAM_MAP_METALLIC] = &metallic;
+                m.maps[LAM_MAP_ROUGHNESS] = &roughness;
+            } else {
+                plain.specular = (lam_rgb){0.25f, 0.375f, 0.125f};
+                plain.shininess = 10;
+                m.maps[LAM_MAP_SPECULAR] = &color_map;
+                m.maps[LAM_MAP_SHININESS] = &half;
+            }
+            draw(&m, models[model], with);
+            draw(&plain, models[model], without);
+            double most = largest_difference(with, without);
+            if (!(most < 2e-5))
+                fail_msg("physical %d, model %d: a channel differs by %g", physical, model, most);
+        }
+    lam_texture_free(color);
+    lam_texture_free(numbers);
+    lam_texture_free(flat);
+}
+
+// The alpha modes at an opacity of 0.3.
+static void test_alpha_modes(void **state)
+{
+    static float pixels[SIZE * SIZE * 4];
+    static const struct {
+        lam_alpha_mode mode;
+        float cutoff;
+        double alpha;
+    } rows[] = {{LAM_ALPHA_BLEND, 0, 1 - 0.7 * 0.7},
+                {LAM_ALPHA_OPAQUE, 0, 1},
+                {LAM_ALPHA_MASK, 0.25f, 1},
+                {LAM_ALPHA_MASK, 0.35f, 0}};
+    (void)state;
+    lam_texture *half = constant(1, 1, 1, 0.5f);
+    lam_texture_map map = {.texture = half};
+    for (int i = 0; i < 4; i++) {
+        lam_material m = lam_material_default();
+        m.diffuse.a = 0.6f;
+        m.maps[LAM_MAP_DIFFUSE] = &map;
+        m.alpha_mode = rows[i].mode;
+        m.alpha_cutoff = rows[i].cutoff;
+        draw(&m, LAM_REFLECTION_AUTO, pixels);
+        double alpha = (double)pixels[(SIZE / 2 * SIZE + SIZE / 2) * 4 + 3];
+        if (!(fabs(alpha - rows[i].alpha) < 1e-5))
+            fail_msg("mode %d, cutoff %g: alpha %g, expected %g", (int)rows[i].mode, (double)rows[i].cutoff, alpha,
+                     rows[i].alpha);
+    }
+    lam_texture_free(half);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    lam_error error;
+    lam_scene *scene = lam_scene_make(&error);
+    lam_texture *texture = constant(1, 1, 1, 1);
+    lam_texture_map maps[] = {{.texture = NULL},
+                              {.texture = texture, .texcoords = 2},
+                              {.texture = texture, .wrap_t = LAM_WRAP_COUNT},
+                              {.texture = texture, .channel = 4},
+                              {.texture = texture, .scale = INFINITY}};
+    for (int i = 0; i < 5; i++) {
+        lam_material m = lam_material_default();
+        m.maps[LAM_MAP_OCCLUSION] = &maps[i];
+        assert_int_equal(lam_scene_add_material(scene, &m, &error), -1);
+        assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+        assert_non_null(strstr(error.text, "occlusion map"));
+    }
+    float nan[4] = {NAN, 0, 0, 1};
+    lam_image image = {.width = 1, .height = 1, .format = LAM_RGBA32F, .pixels = nan};
+    assert_null(lam_texture_make(&image, LAM_TEXTURE_NUMBERS, NULL, &error));
+    assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+    // A scene keeps the texture.
+    lam_material m = lam_material_default();
+    m.maps[LAM_MAP_DIFFUSE] = &(lam_texture_map){.texture = texture};
+    assert_int_equal(lam_scene_add_material(scene, &m, &error), 0);
+    lam_texture_free(texture);
+    assert_string_equal(lam_texture_name(lam_scene_material(scene, 0)->maps[LAM_MAP_DIFFUSE]->texture), "constant");
+    lam_scene_free(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_texels),
+        cmocka_unit_test(test_constant_maps),
+        cmocka_unit_test(test_alpha_modes),
+        cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests_name("textures", tests, NULL, NULL);
+}

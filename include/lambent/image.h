@@ -57,14 +57,18 @@ typedef enum lam_compress {
 typedef struct lam_save_params {
     // Cancel flag and time limit, checked while encoding. NULL: none.
     const lam_control *control;
-    // Formats without alpha (PPM) hold the picture over this colour, linear. Default black.
+    // Formats without alpha (PPM, JPEG) hold the picture over this colour, linear. Default black.
     lam_rgb background;
     // Threads to encode with; 0: one for each processor. The bytes do not depend on it.
     int threads;
-    // The numbers are not sRGB-encoded: PNG gets no sRGB chunk, PPM is composed without conversion.
+    // The numbers are not sRGB-encoded: PNG gets no sRGB chunk, PPM and JPEG are composed without
+    // conversion.
     bool raw;
     lam_compress compress; // of PNG; ignored for other formats
-    LAM_RESERVED(8);
+    // 1 to 100: how close a lossy picture is to its original; ignored for other formats. JPEG: 0 is 90, and below 90 colours
+    // have half the resolution (4:2:0). WebP: 0 and 100 are lossless.
+    int64_t quality;
+    LAM_RESERVED(7);
 } lam_save_params;
 
 // A block of bytes that the caller frees with lam_bytes_free.
@@ -79,9 +83,10 @@ LAM_API void lam_bytes_free(lam_bytes *bytes);
 // Writes a file whole or not at all, as lam_image_save does. Errors: LAM_BAD_ARGUMENT, LAM_CANNOT_WRITE.
 LAM_API bool lam_bytes_save(const lam_bytes *bytes, const char *path, lam_error *error);
 
-// Encodes a picture. `format` is "png" or "ppm" (from formats of 8 bits), "pfm" (from floats; RGB, linear, bottom row
-// first) or "exr" (from floats of 32 bits; LAM_UNSUPPORTED without OpenEXR). The same picture always gives the same
-// bytes. `params` may be NULL. Errors: LAM_BAD_ARGUMENT (bytes where the file holds floats, or floats where it holds
+// Encodes a picture. `format` is "png", "ppm", "jpg" ("jpeg") or "webp" (from formats of 8 bits), "pfm" (from floats; RGB,
+// linear, bottom row first) or "exr" (from floats of 32 bits). "webp" and "exr" are LAM_UNSUPPORTED without libwebp and
+// OpenEXR. The same picture always gives the same bytes; those of "jpg", "webp" and "exr" depend on the version of the
+// library that makes them. WebP has at most 16383 pixels on a side (LAM_LIMIT). `params` may be NULL. Errors: LAM_BAD_ARGUMENT (bytes where the file holds floats, or floats where it holds
 // bytes), LAM_UNSUPPORTED (no such format), LAM_LIMIT.
 LAM_API bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params, lam_bytes *out,
                               lam_error *error);
@@ -108,27 +113,28 @@ typedef struct lam_layer {
 LAM_API bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error);
 LAM_API bool lam_image_save_layers(const lam_layer *layers, int count, const char *path, lam_error *error);
 
-// The pixel format that a file name asks for: LAM_RGBA32F for .pfm and .exr, LAM_RGBA8 for .png and .ppm.
+// The pixel format that a file name asks for: LAM_RGBA32F for .pfm and .exr, LAM_RGBA8 for .png, .ppm, .jpg,
+// .jpeg and .webp.
 // LAM_UNSUPPORTED for another ending, naming those that can be written.
 LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
 
-// Reads a picture: PNG, JPEG (not CMYK) and binary PPM into LAM_RGBA8 (16 bits are cut to 8, grey and palettes become
-// RGB), PFM, EXR (scanlines; the first part) and Radiance (.hdr) into LAM_RGBA32F, with alpha 1 where the file has
-// none. Content decides the format. `path` is a regular file, or "-": standard input. `image` may hold anything before
-// the call, which does not free it; on failure it is zeroed. `control` may be NULL; its memory limit counts the file and
-// the pixels. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, more than 400 million pixels,
+// Reads a picture: PNG, JPEG (CMYK without its profile), WebP (LAM_UNSUPPORTED without libwebp), BMP, TGA and binary PPM into
+// LAM_RGBA8 (16 bits are cut to 8, grey and palettes become RGB), PFM, EXR (scanlines; the first part) and Radiance (.hdr)
+// into LAM_RGBA32F, with alpha 1 where the file has none. Content decides the format; of a TGA with a wrong header the ending
+// of its name. `path` is a regular file, or "-": standard input. `image` may hold anything before the call, which does not
+// free it; on failure it is zeroed. `control` may be NULL; its memory limit counts the file and the pixels. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, more than 400 million pixels,
 // memory, time), LAM_CANCELLED.
 LAM_API bool lam_image_load(lam_image *image, const char *path, const lam_control *control, lam_error *error);
 
 // Reads a picture of any of these formats into LAM_RGBA32F, linear and premultiplied. The numbers of PNG (all 16 bits
-// where it has them), JPEG and PPM are decoded from sRGB, or taken as they are, 0…1, with LAM_COLOR_RAW; PFM and
-// Radiance are linear already. Otherwise as lam_image_load.
+// where it has them), JPEG, WebP, BMP, TGA and PPM are decoded from sRGB, or taken as they are, 0…1, with LAM_COLOR_RAW;
+// PFM, EXR and Radiance are linear already. Otherwise as lam_image_load.
 LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, const lam_control *control,
                                    lam_error *error);
 
 // Whether the file at `path` says that Lambent wrote it: PNG by its text "Software: lambent", PPM by the comment
-// "# lambent" in its second line. False for PFM, which has no room for a remark, and for a file that does not exist, is
-// not regular or is not readable. Reads the beginning of the file only.
+// "# lambent" in its second line, JPEG by the comment "lambent". False for PFM and WebP, which have no room for a remark,
+// and for a file that does not exist, is not regular or is not readable. Reads the beginning of the file only.
 LAM_API bool lam_image_is_from_lambent(const char *path);
 
 // The difference of two pictures of the same size and format, over red, green, blue and alpha (1 in formats without it);

@@ -198,6 +198,65 @@ LAM_API uint64_t lam_scene_vertex_count(const lam_scene *scene);
 // The name of the format that the scene was loaded from; "" for a scene made by hand.
 LAM_API const char *lam_scene_format(const lam_scene *scene);
 
+// What a load does about an extension that a glTF file names.
+typedef enum lam_extension_support {
+    LAM_EXTENSION_READ = 0,  // all of it counts
+    LAM_EXTENSION_NO_EFFECT, // known, and it says nothing about the picture
+    LAM_EXTENSION_IGNORED,   // known; the file is drawn without it
+    LAM_EXTENSION_UNKNOWN,   // not known; the file is drawn without it unless it requires it
+} lam_extension_support;
+
+// An extension that a model's file names.
+typedef struct lam_file_extension {
+    const char *name; // "KHR_materials_unlit"
+    bool required;    // the file says that it cannot be understood without it
+    lam_extension_support support;
+    LAM_RESERVED(4);
+} lam_file_extension;
+
+// An animation of a model's file.
+typedef struct lam_file_animation {
+    const char *name; // NULL: unnamed
+    double length_s;  // seconds from 0 to the last key, as the file states them; 0: it does not
+    int channel_count;
+    LAM_RESERVED(4);
+} lam_file_animation;
+
+// A picture that a model's file names.
+typedef struct lam_file_image {
+    const char *name;   // NULL: unnamed
+    const char *file;   // as written; NULL: its bytes are in the model
+    const char *format; // "png", "jpeg": as the model or the file's ending says; NULL: neither does
+    LAM_RESERVED(4);
+} lam_file_image;
+
+// What a glTF file says beside the scene that was made of it. Other formats leave all of it zero. Names that the file does
+// not give are NULL.
+typedef struct lam_file_info {
+    const char *version;   // of the format: "2.0"
+    const char *generator; // the program that wrote the file
+    const char *copyright;
+    const char *const *scenes; // their names
+    int scene_count;
+    int scene;                   // the one that was read; −1: the file has none, and is read whole
+    const char *const *variants; // of the materials (KHR_materials_variants)
+    int variant_count;
+    const lam_file_animation *animations;
+    int animation_count;
+    const lam_file_image *images;
+    int image_count;
+    const lam_file_extension *extensions; // in the order of "extensionsUsed", then those that are only required
+    int extension_count;
+    LAM_RESERVED(16);
+} lam_file_info;
+
+// What the file of a loaded scene says. It is valid until the scene is freed; all zero for scenes made by hand and for scene
+// files. NULL for a scene that is NULL.
+LAM_API const lam_file_info *lam_scene_file_info(const lam_scene *scene);
+
+// The bytes of memory that a scene holds: its arrays, names and lists, without its environment. Drawing takes more.
+LAM_API uint64_t lam_scene_memory(const lam_scene *scene);
+
 // The warnings of a scene from 0, in order: one sentence for each problem that did not stop the load. NULL out
 // of range.
 LAM_API const char *lam_scene_warning(const lam_scene *scene, int index);
@@ -238,11 +297,13 @@ LAM_API bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, 
 // LAM_RIG_AUTO decided.
 LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX]);
 
-// Makes tangents for every mesh that has texture coordinates and no tangents: ∂p/∂s of the triangles, averaged with
-// their angles as weights over the corners that share position, normal and texture coordinate, perpendicular to the
-// normal. A corner whose texture coordinates give no direction gets the tangent of meshes without them
-// (docs/lighting.md). Drawing does not call this. `control` may be NULL. On failure some meshes may have tangents and
-// others not. Errors: LAM_LIMIT, LAM_CANCELLED.
+// Makes tangents for every mesh that has texture coordinates and no tangents: MikkTSpace's, those that normal maps are
+// baked for (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). ∂p/∂s of the triangles is averaged with
+// their angles as weights over the triangles around a corner that are joined by edges, have the same orientation of the
+// mapping, and the same position, normal and texture coordinates there; it is unit and perpendicular to the normal. A
+// corner whose texture coordinates give no direction gets the tangent of meshes without them (docs/lighting/threads.md).
+// Drawing does not call this. `control` may be NULL. On failure some meshes may have tangents and others not. Errors:
+// LAM_LIMIT, LAM_CANCELLED.
 LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_error *error);
 
 // Light from everywhere, added to that of the ambient lights (La_global). Default 0.

@@ -18,7 +18,10 @@ struct picture_file {
 struct codec {
     const char *name;  // "png"; also the file-name ending, without its dot
     const char *title; // for messages: "PNG"
+    const char *alias; // another file-name ending; NULL: none
     lam_pixel_format pixels;
+    // Its files begin with no mark of their own: it is asked after all others, and the ending of a file's name counts.
+    bool unmarked;
 
     // NULL: this format is only read. Encodes a picture of valid size and pixel format into memory from malloc.
     // `params` is never NULL; `pool` may be, and does not change the bytes.
@@ -43,10 +46,12 @@ struct codec {
 
 enum { CODEC_HEAD = 512 };
 
-extern const struct codec codec_png, codec_ppm, codec_pfm, codec_exr, codec_jpeg, codec_hdr;
+extern const struct codec codec_png, codec_ppm, codec_pfm, codec_exr, codec_jpeg, codec_webp, codec_hdr, codec_bmp,
+    codec_tga;
 
-// The codec of a file that starts with these bytes; NULL: none.
-const struct codec *codec_of(const uint8_t *bytes, size_t size);
+// The codec of a file that starts with these bytes; NULL: none. `name` (may be NULL): where the bytes do not tell, the ending
+// of this file name does.
+const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name);
 
 // Whether a header's size can be read; no memory is taken for others. LAM_LIMIT.
 enum { PICTURE_PIXELS_MAX = 400000000 };
@@ -77,7 +82,12 @@ bool picture_decode_linear(const struct picture_file *file, lam_color_mode color
 bool picture_linearize(const struct picture_file *file, lam_image *image, bool wide, lam_color_mode color,
                        lam_error *error);
 
-// codec_png's half that writes.
+// Our own mark in a JPEG file.
+#define JPEG_REMARK "lambent"
+
+// The halves of codec_jpeg and codec_png that write.
+bool jpeg_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
+                lam_error *error);
 bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                lam_error *error);
 

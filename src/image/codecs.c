@@ -13,19 +13,20 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Formats that can be written come first.
-static const struct codec *const codecs[] = {&codec_png, &codec_ppm, &codec_pfm, &codec_exr, &codec_jpeg, &codec_hdr};
-enum { CODECS = sizeof codecs / sizeof *codecs, WRITTEN = 4, MAX_THREADS = 1024, LIST_BYTES = 128 };
+// Formats that can be written come first, those without a mark of their own last.
+static const struct codec *const codecs[] = {&codec_png,  &codec_ppm, &codec_pfm, &codec_exr, &codec_jpeg,
+                                             &codec_webp, &codec_hdr, &codec_bmp, &codec_tga};
+enum { CODECS = sizeof codecs / sizeof *codecs, WRITTEN = 6, MAX_THREADS = 1024, LIST_BYTES = 128 };
 
 static const struct codec *codec_named(const char *name)
 {
     for (int i = 0; i < WRITTEN; i++)
-        if (strcasecmp(codecs[i]->name, name) == 0)
+        if (strcasecmp(codecs[i]->name, name) == 0 || (codecs[i]->alias && strcasecmp(codecs[i]->alias, name) == 0))
             return codecs[i];
     return NULL;
 }
 
-// "png, ppm, pfm or exr", each with `before` in front.
+// "png, ppm, … or webp", each with `before` in front.
 static const char *list_names(const char *before, char list[LIST_BYTES])
 {
     list[0] = 0;
@@ -82,6 +83,9 @@ static bool encode(const struct codec *codec, const lam_image *image, const lam_
                     format_is_float(image->format) ? "floats" : "bytes");
     if (params->threads < 0 || params->threads > MAX_THREADS)
         return fail(error, LAM_BAD_ARGUMENT, "threads: %d, expected 0 to %d", params->threads, MAX_THREADS);
+    if (params->quality < 0 || params->quality > 100)
+        return fail(error, LAM_BAD_ARGUMENT, "quality: %lld, expected 1 to 100, or 0 for the format's own",
+                    (long long)params->quality);
     lam_image working;
     if (!image_working(image, &working, error))
         return false;
@@ -157,10 +161,13 @@ bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error 
     return codec != NULL;
 }
 
-const struct codec *codec_of(const uint8_t *bytes, size_t size)
+const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name)
 {
     for (int i = 0; i < CODECS; i++)
         if (codecs[i]->probe(bytes, size))
+            return codecs[i];
+    for (int i = 0; name && i < CODECS; i++)
+        if (codecs[i]->unmarked && strcasecmp(path_ending(name), codecs[i]->name) == 0)
             return codecs[i];
     return NULL;
 }
@@ -182,6 +189,6 @@ bool lam_image_is_from_lambent(const char *path)
         for (ssize_t got; size < sizeof head && (got = read(file, head + size, sizeof head - size)) > 0;)
             size += (size_t)got;
     close(file);
-    const struct codec *codec = codec_of(head, size);
+    const struct codec *codec = codec_of(head, size, NULL);
     return codec && codec->ours && codec->ours(head, size);
 }

@@ -1,9 +1,11 @@
-// jpeg.c: JPEG, read only, through libjpeg-turbo with its exact integer transform: the same bytes on every processor.
+// jpeg.c: JPEG's row in the table of formats; reading through libjpeg-turbo with its accurate integer transform: the same
+// bytes on every processor.
 #include "codec.h"
 #include "fail.h"
 
 #include <setjmp.h>
 #include <stdio.h> // jpeglib.h wants it
+#include <string.h>
 
 #include <jerror.h>
 #include <jpeglib.h>
@@ -79,6 +81,19 @@ static bool charge_coefficients(struct reader *reader, lam_error *error)
     return reader->charged || call_memory_error(call, bytes, error);
 }
 
+// Cyan, magenta, yellow and black inks of one row to RGBA, without a colour profile: what an ink and black let through,
+// multiplied. 255 is no ink in files with Adobe's marker, which Photoshop began and every program follows, else 0.
+static void mix_inks(uint8_t *row, size_t width, bool inverted)
+{
+    const unsigned flip = inverted ? 0 : 255;
+    for (size_t x = 0; x < width; x++, row += 4) {
+        unsigned black = row[3] ^ flip;
+        for (int i = 0; i < 3; i++)
+            row[i] = (uint8_t)(((row[i] ^ flip) * black * 2 + 255) / 510);
+        row[3] = 255;
+    }
+}
+
 // The part that libjpeg may jump out of (longjmp): it changes nothing but what its pointers lead to.
 static bool decode(struct reader *reader, lam_image *image, lam_error *error)
 {
@@ -88,15 +103,17 @@ static bool decode(struct reader *reader, lam_image *image, lam_error *error)
     jpeg->progress = &reader->progress;
     jpeg_mem_src(jpeg, file->bytes, file->size);
     jpeg_read_header(jpeg, TRUE);
-    if (jpeg->jpeg_color_space == JCS_CMYK || jpeg->jpeg_color_space == JCS_YCCK)
-        return fail(error, LAM_UNSUPPORTED, "%s: JPEG in CMYK colours, expected RGB or grey", file->name);
+    const bool inks = jpeg->jpeg_color_space == JCS_CMYK || jpeg->jpeg_color_space == JCS_YCCK;
     if (!picture_size_check(file, jpeg->image_width, jpeg->image_height, error))
         return false;
     if (!jpeg_fits(jpeg, file->size))
         return fail(error, LAM_CANNOT_READ, "%s: JPEG of %u×%u pixels, which cannot be in a file of %zu bytes",
                     file->name, jpeg->image_width, jpeg->image_height, file->size);
-    jpeg->out_color_space = JCS_EXT_RGBA; // alpha 255
+    jpeg->out_color_space = inks ? JCS_CMYK : JCS_EXT_RGBA; // alpha 255
     jpeg->dct_method = JDCT_ISLOW;
+    jpeg->do_fancy_upsampling =
+        TRUE; // colours at half the size are interpolated linearly: integers, the same everywhere
+    jpeg->do_block_smoothing = FALSE; // only matters to files that lack scans, which are refused
     // The picture first: where there is no memory for it, the coefficients need none.
     if (!picture_make(file, jpeg->image_width, jpeg->image_height, LAM_RGBA8, image, error) ||
         !charge_coefficients(reader, error))
@@ -105,6 +122,8 @@ static bool decode(struct reader *reader, lam_image *image, lam_error *error)
     while (jpeg->output_scanline < jpeg->output_height) {
         JSAMPROW row = (JSAMPROW)image->pixels + (size_t)jpeg->output_scanline * jpeg->output_width * 4;
         jpeg_read_scanlines(jpeg, &row, 1);
+        if (inks)
+            mix_inks(row, jpeg->output_width, jpeg->saw_Adobe_marker);
     }
     jpeg_finish_decompress(jpeg);
     return true;
@@ -145,5 +164,21 @@ static bool jpeg_read(const struct picture_file *file, lam_image *image, lam_err
     return ok;
 }
 
+// A remark after the marks of a file's begin and of JFIF.
+static bool jpeg_ours(const uint8_t *bytes, size_t size)
+{
+    static const char remark[] = "\xff\xfe\0\x09" JPEG_REMARK;
+    enum { AT = 20, BYTES = sizeof remark - 1 };
+    return size >= AT + BYTES && memcmp(bytes + AT, remark, BYTES) == 0;
+}
+
 const struct codec codec_jpeg = {
-    .name = "jpg", .title = "JPEG", .pixels = LAM_RGBA8, .probe = jpeg_probe, .read = jpeg_read};
+    .name = "jpg",
+    .alias = "jpeg",
+    .title = "JPEG",
+    .pixels = LAM_RGBA8,
+    .write = jpeg_write,
+    .probe = jpeg_probe,
+    .read = jpeg_read,
+    .ours = jpeg_ours,
+};

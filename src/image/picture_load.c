@@ -6,19 +6,19 @@
 
 #include <string.h>
 
+#define KNOWN "PNG, JPEG, WebP, BMP, TGA, PPM (P6), PFM, EXR or Radiance"
+
 // With all of the file's bits where `wide` is not NULL (read_wide).
 static bool decode(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error)
 {
-    const struct codec *codec = codec_of(file->bytes, file->size);
+    const struct codec *codec = codec_of(file->bytes, file->size, file->name);
     *image = (lam_image){0};
     if (!call_should_continue(file->call))
         return call_error(file->call, error);
     if (file->size == 0)
-        return fail(error, LAM_CANNOT_READ, "%s: is empty, expected a PNG, JPEG, PPM, PFM, EXR or Radiance picture",
-                    file->name);
+        return fail(error, LAM_CANNOT_READ, "%s: is empty, expected a " KNOWN " picture", file->name);
     if (!codec)
-        return fail(error, LAM_CANNOT_READ,
-                    "%s: byte 0: not the start of a PNG, JPEG, PPM (P6), PFM, EXR or Radiance picture", file->name);
+        return fail(error, LAM_CANNOT_READ, "%s: byte 0: not the start of a " KNOWN " picture", file->name);
     uint64_t state = float_state_enter();
     bool ok = wide && codec->read_wide ? codec->read_wide(file, image, wide, error) : codec->read(file, image, error);
     float_state_leave(state);

@@ -1,44 +1,14 @@
 // ppm.c: binary PPM (P6), three bytes a pixel, the picture over a background.
 #include "codec.h"
+#include "compose.h"
 #include "fail.h"
 #include "netpbm.h"
-#include "srgb.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const char remark[] = "P6\n# lambent\n";
-
-// Composes channels over a background: in linear light, unless the numbers are raw.
-struct over {
-    double linear[256]; // of a byte
-    double from[256];   // for i > 0 the smallest linear number that is rounded to byte i: that of (i − ½)/255
-};
-
-static void make_over(struct over *over, bool raw)
-{
-    for (int i = 0; i < 256; i++) {
-        over->linear[i] = raw ? i / 255.0 : srgb_linear(i / 255.0);
-        over->from[i] = raw ? (i - 0.5) / 255.0 : srgb_linear((i - 0.5) / 255.0);
-    }
-}
-
-// The nearest byte, by bisection; numbers outside 0…1 are clamped, NaN gives 0.
-static uint8_t byte_of(const struct over *over, double linear)
-{
-    int byte = 0;
-    for (int step = 128; step > 0; step /= 2)
-        if (linear >= over->from[byte + step])
-            byte += step;
-    return (uint8_t)byte;
-}
-
-static uint8_t lay(const struct over *over, uint8_t color, uint8_t alpha, double background)
-{
-    double share = alpha / 255.0;
-    return byte_of(over, over->linear[color] * share + background * (1.0 - share));
-}
 
 static bool ppm_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                       lam_error *error)
@@ -52,20 +22,9 @@ static bool ppm_write(const lam_image *image, const lam_save_params *params, str
         return fail_memory(error, (size_t)wanted);
     memcpy(bytes, header, head);
 
-    const double background[3] = {(double)params->background.r, (double)params->background.g,
-                                  (double)params->background.b};
-    struct over over;
-    make_over(&over, params->raw);
-    uint8_t clear[3];
-    for (int channel = 0; channel < 3; channel++)
-        clear[channel] = byte_of(&over, background[channel]);
-    const uint8_t *pixel = image->pixels;
-    uint8_t *at = bytes + head;
-    for (uint64_t i = 0; i < pixels; i++, pixel += 4, at += 3)
-        for (int channel = 0; channel < 3; channel++)
-            at[channel] = pixel[3] == 255 ? pixel[channel] // unchanged
-                          : pixel[3] == 0 ? clear[channel]
-                                          : lay(&over, pixel[channel], pixel[3], background[channel]);
+    struct compose compose;
+    compose_start(&compose, params);
+    compose_row(&compose, image->pixels, (size_t)pixels, bytes + head);
     *out = (lam_bytes){bytes, (size_t)wanted};
     return true;
 }

@@ -257,6 +257,10 @@ uint64_t lam_scene_vertex_count(const lam_scene *scene)
     return count;
 }
 
+const lam_file_info *lam_scene_file_info(const lam_scene *scene) { return scene ? &scene->file : NULL; }
+
+uint64_t lam_scene_memory(const lam_scene *scene) { return scene ? scene->arena.total : 0; }
+
 const char *lam_scene_format(const lam_scene *scene) { return scene ? scene->format : ""; }
 
 const char *lam_scene_warning(const lam_scene *scene, int index)

@@ -85,6 +85,7 @@ struct lam_scene {
     double environment_rotation_rad; // about the up axis
     lam_color_mode color;            // the interpretation of the file's colours
     const char *format;
+    lam_file_info file; // of a glTF file
     double read_ms, prepare_ms;
     // The crease angle of meshes whose normals are left to the device; 0: all meshes have normals.
     double deferred_crease_rad;
@@ -132,6 +133,12 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
                    struct call_control *call, lam_error *error);
 // The same, but leaves smooth normals to the device.
 void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad);
+
+// Gives a mesh with normals, texture coordinates and triangles tangents of its own (mikktspace.h, `t_down` too), charged to
+// `call`. For the tangents of another set of texture coordinates pass a copy of the mesh that has this set. False: out
+// of memory, or the call must end; the mesh is unchanged.
+bool scene_mesh_tangents(struct lam_scene *scene, lam_mesh *mesh, bool t_down, struct call_control *call,
+                         lam_error *error);
 
 // Computes the extents of new meshes, and gives those that lie far from zero an origin (origin.h), which changes their
 // positions in place. Every public function that adds meshes ends with it, so that read access never writes. False: out

@@ -191,7 +191,7 @@ class Sentences(Case):
 
 
 # Options whose default is not a value that can be given, with what stands there.
-NOT_VALUES = {"output", "color", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
+NOT_VALUES = {"output", "quality", "color", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
               "gl-device", "time-limit", "memory-limit", "show", "up", "reflection", "isa", "device", "repeat", "scene", "variant", "animation", "time"}
 # What else to give so that the option matters, and another value of it.
 CONTEXT = {

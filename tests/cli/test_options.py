@@ -76,6 +76,29 @@ class Picture(Case):
             self.good("compare", "cube.obj", "--across", "shading=flat,phong", "-s", "40", "--compress", how, "-o", how + "-sheet.png")
         self.assertLess(*((self.folder / (how + "-sheet.png")).stat().st_size for how in ("best", "fast")))
 
+    def test_quality(self):
+        for wrong in ("0", "101", "1.5", "best"):
+            self.bad(1, "cube.obj", "--quality", wrong, says=("--quality", "1 to 100"))
+        words = ("cube.obj", "-s", "90x70", "-b", "#204060")
+        size = {}
+        for name, more in (("a.jpg", ()), ("b.jpeg", ("--quality", 90)), ("c.jpg", ("--quality", 30)), ("a.webp", ()),
+                           ("b.webp", ("--quality", 30)), ("a.png", ()), ("b.png", ("--quality", 30))):
+            self.good(*words, *more, "-o", name)
+            size[name] = (self.folder / name).stat().st_size
+        self.assertEqual((self.folder / "a.jpg").read_bytes(), (self.folder / "b.jpeg").read_bytes())
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+        self.assertLess(size["c.jpg"], size["a.jpg"])
+        self.assertLess(size["b.webp"], size["a.webp"])
+        self.assertIn(b"equal", self.good("diff", "a.png", "a.webp").stdout)
+        # 90 is near, over the background.
+        self.assertIn(b"within", self.good("diff", "a.png", "a.jpg", "--tolerance", 40).stdout)
+        for name in ("s.jpg", "s.webp"):
+            self.good("compare", "cube.obj", "--across", "shading=flat,phong", "-s", "40", "-o", name)
+            self.good("compare", "cube.obj", "--across", "shading=flat,phong", "-s", "40", "--quality", 20, "-o", "low-" + name)
+            self.assertLess((self.folder / ("low-" + name)).stat().st_size, (self.folder / name).stat().st_size)
+        report = json.loads(self.good(*words, "--json", "-o", "a.webp").stdout)
+        self.assertEqual(report["image"]["format"], "webp")
+
     def test_color_types(self):
         for type, words in ((4, ()), (0, ("-b", "white")), (2, ("-b", "#102030")), (6, ("--material", "gold"))):
             self.good("cone", "-s", "40x30", *words, "-o", "a.png")

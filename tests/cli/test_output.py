@@ -232,7 +232,7 @@ class Report(Case):
         self.assertEqual(self.good("--version").stdout.decode().split()[1], report["lambent"])
 
     def test_errors_are_reported(self):
-        for words, code, name in ((("missing.obj",), 2, "cannot-read"), (("cube.obj", "-o", "x.jpg"), 3, "unsupported"),
+        for words, code, name in ((("missing.obj",), 2, "cannot-read"), (("cube.obj", "-o", "x.gif"), 3, "unsupported"),
                                   (("cube.obj", "--memory-limit", "1k"), 4, "limit"),
                                   (("cube.obj", "-o", "no/x.png"), 5, "cannot-write"), (("--size", "x"), 1, "usage")):
             done = self.run_program(*words, "--json")

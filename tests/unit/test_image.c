@@ -140,7 +140,8 @@ static void names_pick_formats(void **state)
     assert_int_equal(format, LAM_RGBA8);
     assert_true(lam_image_format_for("x.y.pfm", &format, NULL));
     assert_int_equal(format, LAM_RGBA32F);
-    expect_error(lam_image_format_for("a.jpg", &format, &error), &error, LAM_UNSUPPORTED, ".png, .ppm, .pfm or .exr");
+    expect_error(lam_image_format_for("a.gif", &format, &error), &error, LAM_UNSUPPORTED,
+                 ".png, .ppm, .pfm, .exr, .jpg or .webp");
     expect_error(lam_image_format_for("a.pngg", &format, &error), &error, LAM_UNSUPPORTED, "did you mean .png");
     expect_error(lam_image_format_for("dir.png/a", &format, &error), &error, LAM_UNSUPPORTED, "no ending");
     expect_error(lam_image_format_for(NULL, &format, &error), &error, LAM_BAD_ARGUMENT, "path");
@@ -152,7 +153,8 @@ static void encode_checks_its_arguments(void **state)
     lam_image bytes = bytes_picture(3, 2), floats = floats_picture(3, 2), none = {0};
     lam_bytes out = {&out, 5};
     lam_error error;
-    expect_error(lam_image_encode(&bytes, "gif", NULL, &out, &error), &error, LAM_UNSUPPORTED, "png, ppm, pfm or exr");
+    expect_error(lam_image_encode(&bytes, "gif", NULL, &out, &error), &error, LAM_UNSUPPORTED,
+                 "png, ppm, pfm, exr, jpg or webp");
     assert_null(out.data);
     expect_error(lam_image_encode(&bytes, "pfm", NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "LAM_RGBA32F");
     expect_error(lam_image_encode(&floats, "png", NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "LAM_RGBA8");

@@ -62,6 +62,16 @@ static struct file make_hdr(void)
     return file;
 }
 
+// 24 bits a pixel after a header.
+static struct file make_plain(const uint8_t *header, size_t size)
+{
+    struct file file = {malloc(size + 3 * PIXELS), size + 3 * PIXELS};
+    assert_non_null(file.bytes);
+    memcpy(file.bytes, header, size);
+    memset(file.bytes + size, 129, 3 * PIXELS);
+    return file;
+}
+
 static struct file encode(const char *format, lam_pixel_format pixels)
 {
     lam_image image;
@@ -76,20 +86,24 @@ static struct file encode(const char *format, lam_pixel_format pixels)
     return (struct file){bytes.data, bytes.size};
 }
 
-enum { FORMATS = 7 };
-static const char *const names[FORMATS] = {"a.png", "a.ppm", "a.pfm", "a.exr", "a.hdr", "a.jpg", "progressive.jpg"};
+enum { PNG, PPM, PFM, EXR, HDR, JPEG, PROGRESSIVE, BMP, TGA, FORMATS };
+static const char *const names[FORMATS] = {"a.png", "a.ppm",           "a.pfm", "a.exr", "a.hdr",
+                                           "a.jpg", "progressive.jpg", "a.bmp", "a.tga"};
 static struct file files[FORMATS];
 
 static int make_files(void **state)
 {
     (void)state;
-    files[0] = encode("png", LAM_RGBA8);
-    files[1] = encode("ppm", LAM_RGBA8);
-    files[2] = encode("pfm", LAM_RGBA32F);
-    files[3] = encode("exr", LAM_RGBA32F);
-    files[4] = make_hdr();
-    files[5] = make_jpeg(false);
-    files[6] = make_jpeg(true);
+    files[PNG] = encode("png", LAM_RGBA8);
+    files[PPM] = encode("ppm", LAM_RGBA8);
+    files[PFM] = encode("pfm", LAM_RGBA32F);
+    files[EXR] = encode("exr", LAM_RGBA32F);
+    files[HDR] = make_hdr();
+    files[JPEG] = make_jpeg(false);
+    files[PROGRESSIVE] = make_jpeg(true);
+    files[BMP] = make_plain(
+        (const uint8_t[54]){'B', 'M', [10] = 54, [14] = 40, [18] = SIDE, [22] = SIDE, [26] = 1, [28] = 24}, 54);
+    files[TGA] = make_plain((const uint8_t[18]){[2] = 2, [12] = SIDE, [14] = SIDE, [16] = 24}, 18);
     return 0;
 }
 
@@ -124,7 +138,7 @@ static void test_cancelled(void **state)
         lam_image image = {0};
         lam_error error = {0};
         struct picture_file file = {files[i].bytes, files[i].size, names[i], &call};
-        assert_false(codec_of(file.bytes, file.size)->read(&file, &image, &error));
+        assert_false(codec_of(file.bytes, file.size, NULL)->read(&file, &image, &error));
         assert_int_equal(error.code, LAM_CANCELLED);
         assert_null(image.pixels);
         assert_int_equal(call.memory_used, 0);
@@ -153,7 +167,7 @@ static void test_time(void **state)
         lam_image image = {0};
         lam_error error = {0};
         struct picture_file file = {files[i].bytes, files[i].size, names[i], &call};
-        assert_false(file.bytes && codec_of(file.bytes, file.size)->read(&file, &image, &error));
+        assert_false(file.bytes && codec_of(file.bytes, file.size, NULL)->read(&file, &image, &error));
         assert_true(!file.bytes || error.code == LAM_LIMIT);
         assert_null(image.pixels);
     }
@@ -173,7 +187,7 @@ static void test_memory(void **state)
             call_start(&call, NULL);
             assert_true(decode(i, &call, linear, &image, &error));
             size_t held = PIXELS * (image.format == LAM_RGBA8 ? 4 : 16);
-            assert_int_equal(image.format == LAM_RGBA8, !linear && (i < 2 || i > 4));
+            assert_int_equal(image.format == LAM_RGBA8, !linear && (i < PFM || i > HDR));
             assert_int_equal(call.memory_used, held);
             picture_free(&call, &image);
             assert_int_equal(call.memory_used, 0);
@@ -191,12 +205,12 @@ static void test_memory(void **state)
     lam_image image;
     lam_error error;
     call_start(&call, &(lam_control){.memory_limit_bytes = 9 * PIXELS});
-    assert_true(decode(5, &call, false, &image, &error));
+    assert_true(decode(JPEG, &call, false, &image, &error));
     picture_free(&call, &image);
-    assert_false(decode(6, &call, false, &image, &error));
+    assert_false(decode(PROGRESSIVE, &call, false, &image, &error));
     assert_int_equal(error.code, LAM_LIMIT);
     call_start(&call, &(lam_control){.memory_limit_bytes = 10 * PIXELS});
-    assert_true(decode(6, &call, false, &image, &error));
+    assert_true(decode(PROGRESSIVE, &call, false, &image, &error));
     assert_int_equal(call.memory_used, 4 * PIXELS);
     picture_free(&call, &image);
 }
@@ -227,22 +241,28 @@ static struct file claim(int i, uint32_t width, uint32_t height)
     assert_non_null(file.bytes);
     memcpy(file.bytes, files[i].bytes, files[i].size);
     char *text = (char *)file.bytes, *at;
-    if (i == 0) {
+    if (i == PNG) {
         put_big(file.bytes + 16, width, 4);
         put_big(file.bytes + 20, height, 4);
         put_big(file.bytes + 29, crc_of(file.bytes + 12, 17), 4);
-    } else if (i == 1 || i == 2) {
-        file.size = (size_t)sprintf(text, i == 1 ? "P6\n%u %u\n255\n" : "PF\n%u %u\n-1.0\n", width, height);
-    } else if (i == 3) {
+    } else if (i == PPM || i == PFM) {
+        file.size = (size_t)sprintf(text, i == PPM ? "P6\n%u %u\n255\n" : "PF\n%u %u\n-1.0\n", width, height);
+    } else if (i == EXR) {
         at = memmem(text, file.size, "dataWindow\0box2i", 17);
         assert_non_null(at);
         const uint32_t most[2] = {width - 1, height - 1};
         memcpy(at + 17 + 4 + 8, most, sizeof most);
-    } else if (i == 4) {
+    } else if (i == HDR) {
         file.size = (size_t)sprintf(text, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %u +X %u\n", height, width);
+    } else if (i == BMP || i == TGA) {
+        const size_t at_width = i == BMP ? 18 : 12, at_height = i == BMP ? 22 : 14;
+        for (int k = 0; k < 2; k++) {
+            file.bytes[at_width + (size_t)k] = (uint8_t)(width >> 8 * k);
+            file.bytes[at_height + (size_t)k] = (uint8_t)(height >> 8 * k);
+        }
     } else {
         for (size_t k = 0; k + 9 < file.size; k++) {
-            if (file.bytes[k] != 0xff || file.bytes[k + 1] != (i == 5 ? 0xc0 : 0xc2))
+            if (file.bytes[k] != 0xff || file.bytes[k + 1] != (i == JPEG ? 0xc0 : 0xc2))
                 continue;
             put_big(file.bytes + k + 5, height, 2);
             put_big(file.bytes + k + 7, width, 2);

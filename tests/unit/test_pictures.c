@@ -169,7 +169,7 @@ static struct jpeg_file make_jpeg(int components, bool progressive)
     jpeg_mem_dest(&jpeg, &file.bytes, &file.size);
     jpeg.image_width = jpeg.image_height = SIDE;
     jpeg.input_components = components;
-    jpeg.in_color_space = components == 3 ? JCS_RGB : components == 4 ? JCS_CMYK : JCS_GRAYSCALE;
+    jpeg.in_color_space = components == 3 ? JCS_RGB : JCS_GRAYSCALE;
     jpeg_set_defaults(&jpeg);
     jpeg_set_quality(&jpeg, 95, TRUE);
     if (progressive)
@@ -227,11 +227,7 @@ static void test_jpeg_refusals(void **state)
     (void)state;
     lam_image image = {0};
     lam_error error = {0};
-    struct jpeg_file file = make_jpeg(4, false);
-    assert_false(codec_jpeg.read(&(struct picture_file){file.bytes, file.size, "test.jpg", NULL}, &image, &error));
-    assert_true(error.code == LAM_UNSUPPORTED && strstr(error.text, "CMYK"));
-    free(file.bytes);
-    file = make_jpeg(3, false);
+    struct jpeg_file file = make_jpeg(3, false);
     for (size_t i = 0; i + 9 < file.size; i++) {
         if (file.bytes[i] == 0xff && file.bytes[i + 1] == 0xc0) // the frame's header: precision, height, width
             memset(file.bytes + i + 5, 0xff, 4);
@@ -272,7 +268,7 @@ static void test_linear(void **state)
     lam_pixel_format format;
     assert_false(lam_image_format_for("x.hdr", &format, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
-    assert_false(lam_image_format_for("x.jpg", &format, &error));
+    assert_false(lam_image_format_for("x.bmp", &format, &error));
 }
 
 int main(void)

@@ -21,6 +21,8 @@ int run_formats(int operand_count, char **operands, const struct options *option
            "  png    .png  8 bits, sRGB, with alpha\n"
            "  ppm    .ppm  8 bits, sRGB, over the background\n"
            "  pfm    .pfm  floats, linear, premultiplied by alpha\n"
-           "  exr    .exr  floats, linear, premultiplied by alpha, with alpha\n");
+           "  exr    .exr  floats, linear, premultiplied by alpha, with alpha\n"
+           "  jpg    .jpg .jpeg  8 bits, sRGB, over the background, lossy (--quality)\n"
+           "  webp   .webp  8 bits, sRGB, with alpha, lossless unless --quality is below 100\n");
     return 0;
 }

@@ -266,6 +266,7 @@ static bool write_output(struct job *job, lam_error *error)
                               .threads = o->threads,
                               .control = &control,
                               .compress = (lam_compress)o->compress,
+                              .quality = o->quality,
                               .raw = o->color_mode == LAM_COLOR_RAW || !lam_output_is_light(show_option_what(o->show))};
     bool ok;
     if (show_is_all(o)) {

@@ -186,15 +186,16 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that 
 
 const struct option option_table[] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png",
-     "Write to FILE (.png, .ppm, .pfm or .exr), to the folder FILE/, or to standard output (-).",
+     "Write to FILE (.png, .ppm, .pfm, .exr, .jpg or .webp), to the folder FILE/, or to standard output (-).",
      "The extension selects the format: `.png` (8 bits, sRGB, with alpha), `.ppm` (8 bits over the background), "
+     "`.jpg` (8 bits over the background, lossy: `--quality`), `.webp` (8 bits with alpha, lossless; needs libwebp), "
      "`.pfm` and `.exr` (linear floats, premultiplied by alpha; `.exr` needs OpenEXR's library). `-` writes a "
      "PNG to standard output; a pipe or device whose name has no such extension also gets a PNG. Without this "
      "option the picture is written to the current folder under the model's name with the extension `.png` "
      "(`model.png` if the model comes from standard input); a file of that name that lambent did not write is "
      "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder, and makes it if it "
      "is missing; every command that writes files takes it.",
-     .kind = VALUE_FILE, .brief = "FILE.png, .ppm, .pfm or .exr; or a FOLDER/", .store = store_text,
+     .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .store = store_text,
      .others = "out outfile file format export save write", FIELD(output), .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
      .brief = "pixels: 800, or 1920x1080", .store = store_size, .others = "resolution width height dimensions pixels",
@@ -223,6 +224,11 @@ const struct option option_table[] = {
      "libdeflate, and the bytes of the file depend on its version; with `fast` they depend on the picture "
      "alone.",
      compress_words, .store = store_word, .others = "compression level png-compression", FIELD(compress)},
+    {"quality", 0, GROUP_PICTURE, "N", "90 of JPEG; WebP without loss", "The quality of JPEG and WebP files, 1 to 100.",
+     "A lower number makes a smaller file that is further from the picture. JPEG keeps the colours of every pixel from "
+     "90 on, and those of every four below. WebP is lossless without the option and with 100. Other formats ignore "
+     "it. The bytes depend on the version of the library that makes them, libjpeg-turbo or libwebp.",
+     .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(quality), .min = 1, .max = 100},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0",
      "Make the picture brighter or darker: 1 doubles its light, -1 halves it.",
      "The light of the model is multiplied by 2 to the power of STOPS before clamping and encoding, also with "
@@ -429,8 +435,9 @@ const struct option option_table[] = {
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "The surroundings that shiny surfaces mirror: an image, six faces, sky or studio.",
-     "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, PPM, PFM or "
-     "Radiance (.hdr). Six faces are files separated by commas in OpenGL's order, `px,nx,py,ny,pz,nz`, all "
+     "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, WebP, BMP, "
+     "TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are files separated by commas in OpenGL's order, "
+     "`px,nx,py,ny,pz,nz`, all "
      "square and of one size. `sky` and `studio` are built in (`./sky` is a file). Only materials with a "
      "reflectivity show the environment: see `--reflectivity`. `docs/lighting/reflection.md` describes how each "
      "kind surrounds the model.",

@@ -23,6 +23,7 @@ struct options {
     const char *background; // as written; NULL: clear
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress
+    int quality;            // 0: the format's own
     double exposure;        // stops
     const char *show;       // as written (show_option.h); NULL: the picture
 

@@ -16,6 +16,7 @@ struct drawing {
     size_t svg_size;
     bool words;            // false: no text is drawn
     lam_compress compress; // of a PNG
+    int quality;           // of a JPEG or WebP; 0: the format's own
 };
 
 struct point {

@@ -7,6 +7,7 @@
 #include "gltf_cameras.h"
 #include "gltf_container.h"
 #include "gltf_extensions.h"
+#include "gltf_file_info.h"
 #include "gltf_json.h"
 #include "gltf_lights.h"
 #include "gltf_materials.h"
@@ -63,11 +64,11 @@ static bool build(struct gltf *gltf)
     const uint8_t *text;
     size_t size;
     return gltf_container_read(gltf, &text, &size) && gltf_json_parse(gltf, text, size) && gltf_check_asset(gltf) &&
-           gltf_check_extensions(gltf) && gltf_buffers_start(gltf) && gltf_accessors_start(gltf) &&
-           gltf_meshes_start(gltf) && gltf_textures_start(gltf) && gltf_materials_read(gltf) &&
-           gltf_textures_finish(gltf) && gltf_nodes_read(gltf) && gltf_animation_apply(gltf) &&
-           gltf_nodes_place(gltf) && gltf_objects_add(gltf) && gltf_lights_add(gltf) && gltf_cameras_add(gltf) &&
-           report_skipped(gltf);
+           gltf_check_extensions(gltf) && gltf_file_info_note(gltf) && gltf_buffers_start(gltf) &&
+           gltf_accessors_start(gltf) && gltf_meshes_start(gltf) && gltf_textures_start(gltf) &&
+           gltf_materials_read(gltf) && gltf_textures_finish(gltf) && gltf_nodes_read(gltf) &&
+           gltf_animation_apply(gltf) && gltf_nodes_place(gltf) && gltf_objects_add(gltf) && gltf_lights_add(gltf) &&
+           gltf_cameras_add(gltf) && report_skipped(gltf);
 }
 
 static bool gltf_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)

@@ -8,16 +8,13 @@
 #include <stdio.h>
 #include <string.h>
 
-// What becomes of an extension that a file uses.
-enum support {
-    READ,    // all of it counts
-    IGNORED, // a warning names it; the file is drawn without it
-    SILENT,  // it says nothing about the picture
-};
+#define READ    LAM_EXTENSION_READ
+#define SILENT  LAM_EXTENSION_NO_EFFECT
+#define IGNORED LAM_EXTENSION_IGNORED
 
 static const struct {
     const char *name;
-    enum support support;
+    lam_extension_support support;
 } known[] = {
     {"EXT_mesh_gpu_instancing", READ},
     {"EXT_texture_webp", READ},
@@ -42,20 +39,12 @@ static const struct {
     {"KHR_xmp_json_ld", SILENT},
 };
 
-static enum support support_of(const char *name)
+lam_extension_support gltf_extension_support(const char *name)
 {
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(known[i].name, name) == 0)
             return known[i].support;
-    return IGNORED;
-}
-
-static bool is_known(const char *name)
-{
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (strcmp(known[i].name, name) == 0)
-            return true;
-    return false;
+    return LAM_EXTENSION_UNKNOWN;
 }
 
 // "2.0" as 2 and 0.
@@ -114,7 +103,7 @@ bool gltf_check_extensions(struct gltf *gltf)
     for (size_t i = 0; ok && i < json_array_size(required); i++) {
         char shown[SHOWN_NAME_SIZE];
         const char *name = json_string_value(json_array_get(required, i));
-        if (!is_known(name) && !gltf->source->params->lenient)
+        if (gltf_extension_support(name) == LAM_EXTENSION_UNKNOWN && !gltf->source->params->lenient)
             ok = fail(gltf->json.error, LAM_UNSUPPORTED,
                       "%s: extensionsRequired[%zu]: the file needs the extension '%s', which this version does not "
                       "know (a lenient load ignores it)",
@@ -123,7 +112,7 @@ bool gltf_check_extensions(struct gltf *gltf)
     for (size_t i = 0, length = 0; ok && i < json_array_size(used); i++) {
         char shown[SHOWN_NAME_SIZE];
         const char *name = json_string_value(json_array_get(used, i));
-        if (support_of(name) == IGNORED && length < sizeof ignored - SHOWN_NAME_SIZE - 2)
+        if (gltf_extension_support(name) >= LAM_EXTENSION_IGNORED && length < sizeof ignored - SHOWN_NAME_SIZE - 2)
             length += (size_t)snprintf(ignored + length, sizeof ignored - length, "%s%s", length ? ", " : "",
                                        shown_name(name, shown));
     }

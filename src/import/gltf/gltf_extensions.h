@@ -9,4 +9,6 @@
 bool gltf_check_asset(struct gltf *gltf);
 bool gltf_check_extensions(struct gltf *gltf);
 
+lam_extension_support gltf_extension_support(const char *name);
+
 #endif

@@ -112,12 +112,14 @@ static bool mark_roots(struct gltf *gltf)
         return false;
     if (wanted && (scene = gltf_find_named(gltf, json_object_get(gltf->root, "scenes"), wanted, "scene")) < 0)
         return false;
+    gltf->scene->file.scene = -1;
     if (scene < 0 && !gltf_list_size(gltf, "scenes")) {
         for (int i = 0; i < gltf->node_count; i++)
             gltf->nodes[i].in_scene = gltf->nodes[i].parent < 0;
         return true;
     }
     scene = scene < 0 ? 0 : scene;
+    gltf->scene->file.scene = scene;
     const json_t *list = json_object_get(gltf_list_item(gltf, "scenes", scene), "nodes");
     const struct place *place = KEY_OF(ELEMENT_OF(KEY_OF(NULL, "scenes"), (size_t)scene), "nodes");
     if (list && !json_is_array(list))

@@ -1,0 +1,144 @@
+// corner_weld.c: equal items have equal hashes. The items are sorted by their hash; where different ones share a hash,
+// that run is sorted by the numbers themselves.
+#include "corner_weld.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    NUMBERS = 8, // of an item: position, normal, texture coordinates
+    DIGIT_BITS = 11,
+    DIGITS = 3, // of 32 bits
+    BUCKETS = 1 << DIGIT_BITS,
+    CHECK_INTERVAL = 1 << 16, // items between two checks of the call
+};
+
+struct hashed_item {
+    uint32_t hash, item;
+};
+
+// The numbers of an item as bits.
+struct item_bits {
+    uint32_t numbers[NUMBERS], item;
+};
+
+static void copy_bits(uint32_t *to, const float *from, int count)
+{
+    float canonical[3];
+    for (int i = 0; i < count; i++)
+        canonical[i] = from[i] + 0.0f; // −0 becomes 0
+    memcpy(to, canonical, (size_t)count * sizeof *to);
+}
+
+static void bits_of(const lam_mesh *mesh, bool by_vertex, uint32_t item, struct item_bits *out)
+{
+    uint32_t p = by_vertex ? item : mesh_element(NULL, mesh->indices, item);
+    uint32_t n = by_vertex ? item : mesh_element(mesh->normal_indices, mesh->indices, item);
+    uint32_t t = by_vertex ? item : mesh_element(mesh->texcoord_indices, mesh->indices, item);
+    copy_bits(out->numbers, mesh->positions + 3 * (size_t)p, 3);
+    copy_bits(out->numbers + 3, mesh->normals + 3 * (size_t)n, 3);
+    copy_bits(out->numbers + 6, mesh->texcoords + 2 * (size_t)t, 2);
+    out->item = item;
+}
+
+static uint32_t hash_of(const uint32_t numbers[NUMBERS])
+{
+    uint64_t hash = 0;
+    for (int i = 0; i < NUMBERS; i++) {
+        hash = (hash ^ numbers[i]) * 0x9e3779b97f4a7c15u; // 2⁶⁴ ÷ the golden ratio
+        hash ^= hash >> 32;
+    }
+    return (uint32_t)hash;
+}
+
+// Sorts by hash, digit by digit; items of one hash stay in order. DIGITS is odd: the result is in `other`.
+static void sort_by_hash(struct hashed_item *items, struct hashed_item *other, uint32_t count)
+{
+    for (int digit = 0; digit < DIGITS; digit++) {
+        uint32_t starts[BUCKETS] = {0}, total = 0;
+        int shift = digit * DIGIT_BITS;
+        for (uint32_t i = 0; i < count; i++)
+            starts[items[i].hash >> shift & (BUCKETS - 1)]++;
+        for (int b = 0; b < BUCKETS; b++) {
+            uint32_t here = starts[b];
+            starts[b] = total;
+            total += here;
+        }
+        for (uint32_t i = 0; i < count; i++)
+            other[starts[items[i].hash >> shift & (BUCKETS - 1)]++] = items[i];
+        struct hashed_item *sorted = other;
+        other = items;
+        items = sorted;
+    }
+}
+
+static int by_numbers(const void *a, const void *b)
+{
+    const struct item_bits *x = a, *y = b;
+    int order = memcmp(x->numbers, y->numbers, sizeof x->numbers);
+    return order ? order : (x->item > y->item) - (x->item < y->item);
+}
+
+// Welds the items of one hash. Most runs hold equal items; the others are sorted in an array of their own.
+static bool weld_run(struct corner_weld *weld, const lam_mesh *mesh, const struct hashed_item *run, uint32_t count,
+                     struct call_control *call, lam_error *error)
+{
+    struct item_bits first, other;
+    bool equal = true;
+    bits_of(mesh, weld->vertices != NULL, run[0].item, &first);
+    for (uint32_t i = 0; i < count; i++) {
+        weld->first[run[i].item] = run[0].item;
+        if (i && equal) {
+            bits_of(mesh, weld->vertices != NULL, run[i].item, &other);
+            equal = memcmp(first.numbers, other.numbers, sizeof first.numbers) == 0;
+        }
+    }
+    if (equal)
+        return true;
+    struct arena memory;
+    arena_start(&memory, call);
+    struct item_bits *all = arena_array(&memory, count, sizeof *all);
+    if (!all) {
+        arena_free(&memory);
+        return call_memory_error(call, count * sizeof *all, error);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        bits_of(mesh, weld->vertices != NULL, run[i].item, &all[i]);
+    qsort(all, count, sizeof *all, by_numbers); // the order is total: any sorting gives the same
+    for (uint32_t i = 0, from = 0; i < count; i++) {
+        from = memcmp(all[i].numbers, all[from].numbers, sizeof all[i].numbers) == 0 ? from : i;
+        weld->first[all[i].item] = all[from].item;
+    }
+    arena_free(&memory);
+    return true;
+}
+
+bool corner_weld(struct corner_weld *weld, const lam_mesh *mesh, struct arena *memory, struct call_control *call,
+                 lam_error *error)
+{
+    bool by_vertex = mesh->indices && !mesh->normal_indices && !mesh->texcoord_indices;
+    weld->vertices = by_vertex ? mesh->indices : NULL;
+    weld->items = by_vertex ? mesh->vertex_count : 3 * mesh->triangle_count;
+    weld->first = arena_array(memory, weld->items, sizeof *weld->first);
+    struct hashed_item *items = arena_array(memory, weld->items, sizeof *items);
+    struct hashed_item *sorted = arena_array(memory, weld->items, sizeof *sorted);
+    if (!weld->first || !items || !sorted)
+        return call_memory_error(call, weld->items * (sizeof *weld->first + 2 * sizeof *items), error);
+    for (uint32_t i = 0; i < weld->items; i++) {
+        if (i % CHECK_INTERVAL == 0 && !call_should_continue(call))
+            return call_error(call, error);
+        struct item_bits bits;
+        bits_of(mesh, by_vertex, i, &bits);
+        items[i] = (struct hashed_item){hash_of(bits.numbers), i};
+    }
+    sort_by_hash(items, sorted, weld->items);
+    for (uint32_t from = 0, to; from < weld->items; from = to) {
+        for (to = from + 1; to < weld->items && sorted[to].hash == sorted[from].hash; to++)
+            ;
+        if (from / CHECK_INTERVAL != to / CHECK_INTERVAL && !call_should_continue(call))
+            return call_error(call, error);
+        if (!weld_run(weld, mesh, sorted + from, to - from, call, error))
+            return false;
+    }
+    return true;
+}

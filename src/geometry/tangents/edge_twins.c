@@ -1,0 +1,102 @@
+// edge_twins.c: each edge is looked at from the lower one of its two welded numbers: all edges of this number that
+// lead to higher ones, in both directions, sorted by the other end.
+#include "edge_twins.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { CHECK_INTERVAL = 1 << 13 }; // welded numbers between two checks of the call
+
+// An edge of the number at hand: the other end in the upper half, the edge in the lower.
+static uint64_t edge_key(uint32_t other_end, uint32_t edge) { return (uint64_t)other_end << 32 | edge; }
+
+static int by_value(const void *a, const void *b)
+{
+    uint64_t x, y;
+    memcpy(&x, a, sizeof x);
+    memcpy(&y, b, sizeof y);
+    return (x > y) - (x < y);
+}
+
+static void sort_keys(uint64_t *keys, uint32_t count)
+{
+    if (count > 16) {
+        qsort(keys, count, sizeof *keys, by_value);
+        return;
+    }
+    for (uint32_t i = 1; i < count; i++) {
+        uint64_t key = keys[i];
+        uint32_t at = i;
+        for (; at > 0 && keys[at - 1] > key; at--)
+            keys[at] = keys[at - 1];
+        keys[at] = key;
+    }
+}
+
+// Joins the edges of both directions that have the same other end, in order.
+static void join(uint32_t *twin, const uint64_t *out, uint32_t out_count, const uint64_t *in, uint32_t in_count)
+{
+    for (uint32_t i = 0, k = 0; i < out_count && k < in_count;) {
+        uint32_t out_end = (uint32_t)(out[i] >> 32), in_end = (uint32_t)(in[k] >> 32);
+        if (out_end == in_end) {
+            twin[(uint32_t)out[i]] = (uint32_t)in[k];
+            twin[(uint32_t)in[k]] = (uint32_t)out[i];
+        }
+        i += out_end <= in_end;
+        k += in_end <= out_end;
+    }
+}
+
+// Lists the corners by welded number. Returns the largest number of corners of one.
+static uint32_t list_corners(struct edge_twins *edges, const struct corner_weld *weld, size_t corners,
+                             const bool *left_out)
+{
+    uint32_t max = 0;
+    for (size_t c = 0; c < corners; c++)
+        edges->first[corner_weld_of(weld, c) + (size_t)1] += !left_out[c / 3];
+    for (size_t v = 0; v < weld->items; v++) {
+        max = edges->first[v + 1] > max ? edges->first[v + 1] : max;
+        edges->first[v + 1] += edges->first[v];
+    }
+    // Filling advances each start to its end; the loop after it restores them.
+    for (size_t c = 0; c < corners; c++)
+        if (!left_out[c / 3])
+            edges->list[edges->first[corner_weld_of(weld, c)]++] = (uint32_t)c;
+    for (size_t v = weld->items; v > 0; v--)
+        edges->first[v] = edges->first[v - 1];
+    edges->first[0] = 0;
+    return max;
+}
+
+bool edge_twins(struct edge_twins *edges, const struct corner_weld *weld, uint32_t triangle_count, const bool *left_out,
+                struct arena *memory, struct call_control *call, lam_error *error)
+{
+    size_t corners = (size_t)triangle_count * 3, starts = (size_t)weld->items + 1;
+    edges->twin = arena_array(memory, corners, sizeof *edges->twin);
+    edges->first = arena_alloc_zeroed(memory, starts * sizeof *edges->first);
+    edges->list = arena_array(memory, corners, sizeof *edges->list);
+    if (!edges->twin || !edges->first || !edges->list)
+        return call_memory_error(call, (2 * corners + starts) * sizeof *edges->list, error);
+    memset(edges->twin, 0xff, corners * sizeof *edges->twin);
+    uint32_t max = list_corners(edges, weld, corners, left_out);
+    uint64_t *out = arena_array(memory, max, sizeof *out), *in = arena_array(memory, max, sizeof *in);
+    if (!out || !in)
+        return call_memory_error(call, max * 2 * sizeof *out, error);
+    for (uint32_t v = 0; v < weld->items; v++) {
+        uint32_t out_count = 0, in_count = 0;
+        if (v % CHECK_INTERVAL == 0 && !call_should_continue(call))
+            return call_error(call, error);
+        for (uint32_t i = edges->first[v]; i < edges->first[v + 1]; i++) {
+            uint32_t corner = edges->list[i], prev = prev_corner(corner);
+            uint32_t to = corner_weld_of(weld, next_corner(corner)), from = corner_weld_of(weld, prev);
+            if (to > v)
+                out[out_count++] = edge_key(to, corner);
+            if (from > v)
+                in[in_count++] = edge_key(from, prev);
+        }
+        sort_keys(out, out_count);
+        sort_keys(in, in_count);
+        join(edges->twin, out, out_count, in, in_count);
+    }
+    return true;
+}

@@ -1,0 +1,25 @@
+// edge_twins.h: which triangle lies across each edge.
+#ifndef EDGE_TWINS_H
+#define EDGE_TWINS_H
+
+#include "corner_weld.h"
+
+enum { NO_CORNER = UINT32_MAX };
+
+static inline uint32_t next_corner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+static inline uint32_t prev_corner(uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
+
+// Edge c leads from corner c to the next corner of its triangle. Its twin leads the opposite way between the same welded
+// corners. Where more than two triangles share an edge, the first of one direction goes with the first of the other,
+// the second with the second, and so on.
+struct edge_twins {
+    uint32_t *twin; // of each edge; NO_CORNER: none
+    // The corners of each welded number v, in order: list[first[v]] … list[first[v + 1] − 1].
+    uint32_t *first, *list;
+};
+
+// `left_out[t]`: triangle t has no twins and its corners are not in the list. `memory` as in corner_weld.
+bool edge_twins(struct edge_twins *edges, const struct corner_weld *weld, uint32_t triangle_count, const bool *left_out,
+                struct arena *memory, struct call_control *call, lam_error *error);
+
+#endif

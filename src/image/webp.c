@@ -1,0 +1,252 @@
+// webp.c: WebP, lossy and lossless with alpha, through libwebp, which is opened (dlopen) when a file is at hand and not
+// before. Read piece by piece, so that a long decoding can be stopped. Animations are not read. The bytes that are written
+// depend on the library's version.
+// https://developers.google.com/speed/webp/docs/riff_container
+#include "codec.h"
+#include "dynamic_library.h"
+#include "fail.h"
+#include "little_endian.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { RIFF_HEADER = 12, PIECE_BYTES = 1 << 14 };
+
+static bool webp_probe(const uint8_t *bytes, size_t size)
+{
+    return size >= RIFF_HEADER && memcmp(bytes, "RIFF", 4) == 0 && memcmp(bytes + 8, "WEBP", 4) == 0;
+}
+
+#ifdef HAVE_WEBP
+
+#include <webp/decode.h>
+#include <webp/encode.h>
+
+#define LIBRARY "libwebp.so.7"
+#define NEEDED  "the Debian package libwebp7 has it"
+
+// The functions that are used here: each is a member of struct library with the type of its own declaration.
+#define FUNCTIONS(each)                                                                                                \
+    each(WebPGetFeaturesInternal) each(WebPINewRGB) each(WebPIUpdate) each(WebPIDelete) each(WebPConfigInitInternal)   \
+        each(WebPPictureInitInternal) each(WebPPictureImportRGBA) each(WebPEncode) each(WebPPictureFree)
+
+struct library {
+    void *handle;
+#define MEMBER(name) __typeof__(&name) name;
+    FUNCTIONS(MEMBER)
+};
+
+static bool open_library(struct library *webp, const char *subject, lam_error *error)
+{
+    *webp = (struct library){.handle = library_open(LIBRARY, false, NULL)};
+    if (!webp->handle)
+        return fail(error, LAM_UNSUPPORTED, "%s: WebP needs " LIBRARY ", which is not installed; " NEEDED, subject);
+    bool all = true;
+#define LOOK_UP(name) all = all && library_find(webp->handle, #name, &webp->name);
+    FUNCTIONS(LOOK_UP)
+    if (all)
+        return true;
+    library_close(webp->handle);
+    return fail(error, LAM_UNSUPPORTED, "%s: " LIBRARY " lacks functions that libwebp 1.0 has; " NEEDED, subject);
+}
+
+// --- reading
+
+static bool fail_status(const struct picture_file *file, int status, lam_error *error)
+{
+    switch (status) {
+    case VP8_STATUS_OUT_OF_MEMORY:
+        return fail_memory(error, file->size);
+    case VP8_STATUS_SUSPENDED:
+    case VP8_STATUS_NOT_ENOUGH_DATA:
+        return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, within the WebP picture", file->name, file->size);
+    case VP8_STATUS_UNSUPPORTED_FEATURE:
+        return fail(error, LAM_UNSUPPORTED, "%s: WebP with a feature that libwebp does not know", file->name);
+    default:
+        return fail(error, LAM_CANNOT_READ, "%s: WebP: the picture is damaged", file->name);
+    }
+}
+
+// The file piece by piece; after each, all rows that it completes are there.
+static bool decode(const struct library *webp, const struct picture_file *file, lam_image *image, lam_error *error)
+{
+    size_t stride = 4 * (size_t)image->width;
+    WebPIDecoder *decoder = webp->WebPINewRGB(MODE_RGBA, image->pixels, stride * (size_t)image->height, (int)stride);
+    if (!decoder)
+        return fail_memory(error, file->size);
+    int status = VP8_STATUS_SUSPENDED;
+    bool runs = true;
+    for (size_t size = 0; runs && status == VP8_STATUS_SUSPENDED && size < file->size;) {
+        size += file->size - size < PIECE_BYTES ? file->size - size : PIECE_BYTES;
+        runs = call_should_continue(file->call) || call_error(file->call, error);
+        if (runs)
+            status = webp->WebPIUpdate(decoder, file->bytes, size);
+    }
+    webp->WebPIDelete(decoder);
+    return runs && (status == VP8_STATUS_OK || fail_status(file, status, error));
+}
+
+static bool read_with(const struct library *webp, const struct picture_file *file, lam_image *image, lam_error *error)
+{
+    WebPBitstreamFeatures features;
+    int status = webp->WebPGetFeaturesInternal(file->bytes, file->size, &features, WEBP_DECODER_ABI_VERSION);
+    if (status != VP8_STATUS_OK)
+        return fail_status(file, status, error);
+    if (features.has_animation)
+        return fail(error, LAM_UNSUPPORTED, "%s: WebP animation, expected one picture", file->name);
+    uint64_t end = 8 + (uint64_t)u32_at(file->bytes + 4);
+    if (end > file->size)
+        return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its WebP header says byte %llu", file->name,
+                    file->size, (unsigned long long)end);
+    if (!picture_make(file, (uint32_t)features.width, (uint32_t)features.height, LAM_RGBA8, image, error))
+        return false;
+    // What libwebp takes itself: all pixels of a lossless picture, and of lossy ones the alpha.
+    enum { LOSSLESS = 2 };
+    size_t pixels = (size_t)features.width * (size_t)features.height;
+    size_t own = features.format == LOSSLESS ? 4 * pixels : features.has_alpha ? 2 * pixels : 0;
+    bool ok = !file->call || call_charge(file->call, own) || call_memory_error(file->call, own, error);
+    if (ok) {
+        ok = decode(webp, file, image, error);
+        if (file->call)
+            call_refund(file->call, own);
+    }
+    if (!ok)
+        picture_free(file->call, image);
+    return ok;
+}
+
+static bool webp_read(const struct picture_file *file, lam_image *image, lam_error *error)
+{
+    struct library webp;
+    if (!open_library(&webp, file->name, error))
+        return false;
+    bool ok = read_with(&webp, file, image, error);
+    library_close(webp.handle);
+    return ok;
+}
+
+// --- writing
+
+struct sink {
+    uint8_t *bytes; // from malloc
+    size_t size, capacity;
+    bool full; // memory is out
+};
+
+static int write_sink(const uint8_t *bytes, size_t size, const WebPPicture *picture)
+{
+    struct sink *sink = picture->custom_ptr;
+    if (size > sink->capacity - sink->size) {
+        size_t capacity = 2 * sink->capacity > sink->size + size ? 2 * sink->capacity : sink->size + size;
+        uint8_t *larger = realloc(sink->bytes, capacity);
+        sink->full = !larger;
+        if (!larger)
+            return 0;
+        sink->bytes = larger;
+        sink->capacity = capacity;
+    }
+    memcpy(sink->bytes + sink->size, bytes, size);
+    sink->size += size;
+    return 1;
+}
+
+static int report_progress(int percent, const WebPPicture *picture)
+{
+    (void)percent;
+    return call_should_continue(picture->user_data);
+}
+
+static bool fail_encoding(const WebPPicture *picture, const struct sink *sink, lam_error *error)
+{
+    struct call_control *call = picture->user_data;
+    if (!call_should_continue(call))
+        return call_error(call, error);
+    if (sink->full || picture->error_code == VP8_ENC_ERROR_OUT_OF_MEMORY ||
+        picture->error_code == VP8_ENC_ERROR_BITSTREAM_OUT_OF_MEMORY)
+        return fail_memory(error, 4 * (size_t)picture->width * (size_t)picture->height);
+    return fail(error, LAM_LIMIT, "WebP: libwebp cannot encode %d×%d pixels (its error %d)", picture->width,
+                picture->height, (int)picture->error_code);
+}
+
+// Lossless with the colours of fully transparent pixels as they are, or at a quality.
+static bool set_quality(const struct library *webp, int quality, WebPConfig *config)
+{
+    if (!webp->WebPConfigInitInternal(config, WEBP_PRESET_DEFAULT, (float)quality, WEBP_ENCODER_ABI_VERSION))
+        return false;
+    config->lossless = quality == 0 || quality == 100;
+    if (config->lossless)
+        config->quality = 75; // the effort
+    config->exact = config->lossless;
+    return true;
+}
+
+static bool encode(const struct library *webp, const lam_image *image, const lam_save_params *params, struct sink *sink,
+                   lam_error *error)
+{
+    WebPConfig config;
+    WebPPicture picture;
+    if (!set_quality(webp, (int)params->quality, &config) ||
+        !webp->WebPPictureInitInternal(&picture, WEBP_ENCODER_ABI_VERSION))
+        return fail(error, LAM_UNSUPPORTED, "WebP: " LIBRARY " is not of the version that this build was made for");
+    struct call_control call;
+    call_start(&call, params->control);
+    picture.width = image->width;
+    picture.height = image->height;
+    picture.use_argb = config.lossless;
+    picture.writer = write_sink;
+    picture.custom_ptr = sink;
+    picture.progress_hook = report_progress;
+    picture.user_data = &call;
+    bool ok = (call_should_continue(&call) && webp->WebPPictureImportRGBA(&picture, image->pixels, 4 * image->width) &&
+               webp->WebPEncode(&config, &picture)) ||
+              fail_encoding(&picture, sink, error);
+    webp->WebPPictureFree(&picture);
+    return ok;
+}
+
+static bool webp_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
+                       lam_error *error)
+{
+    (void)pool;
+    if (image->width > WEBP_MAX_DIMENSION || image->height > WEBP_MAX_DIMENSION)
+        return fail(error, LAM_LIMIT, "WebP: a picture of %d×%d pixels, expected at most %d on a side", image->width,
+                    image->height, WEBP_MAX_DIMENSION);
+    struct library webp;
+    struct sink sink = {0};
+    if (!open_library(&webp, "picture", error))
+        return false;
+    bool ok = encode(&webp, image, params, &sink, error);
+    library_close(webp.handle);
+    if (ok)
+        *out = (lam_bytes){sink.bytes, sink.size};
+    else
+        free(sink.bytes);
+    return ok;
+}
+
+#else
+
+static bool webp_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
+                       lam_error *error)
+{
+    (void)image, (void)params, (void)pool, (void)out;
+    return fail(error, LAM_UNSUPPORTED, "WebP is not in this build; the Debian package libwebp-dev was missing");
+}
+
+static bool webp_read(const struct picture_file *file, lam_image *image, lam_error *error)
+{
+    (void)image;
+    return fail(error, LAM_UNSUPPORTED, "%s: WebP is not in this build; the Debian package libwebp-dev was missing",
+                file->name);
+}
+
+#endif
+
+const struct codec codec_webp = {
+    .name = "webp",
+    .title = "WebP",
+    .pixels = LAM_RGBA8,
+    .write = webp_write,
+    .probe = webp_probe,
+    .read = webp_read,
+};

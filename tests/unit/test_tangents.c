@@ -1,0 +1,300 @@
+// test_tangents.c: MikkTSpace: small meshes whose tangents follow from the definition, and four primitives of models against
+// the tangents that Mikkelsen's own code gives them (../shared/reference-pictures/mikktspace, where it is there).
+#include "edge_twins.h"
+#include "mikktspace.h"
+
+#include <lambent/lambent.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+// The tangents of a mesh; its arena stays until the next call.
+static struct mesh_tangents tangents_of(const lam_mesh *mesh, bool t_down)
+{
+    static struct arena arena;
+    struct mesh_tangents out = {0};
+    arena_free(&arena);
+    arena_start(&arena, NULL);
+    assert_true(mikktspace(&out, mesh, t_down, &arena, NULL, NULL));
+    for (uint32_t c = 0; c < 3 * mesh->triangle_count; c++)
+        assert_true(out.indices[c] < out.count);
+    return out;
+}
+
+static void expect(const struct mesh_tangents *made, uint32_t corner, float x, float y, float z, float w)
+{
+    const float expected[4] = {x, y, z, w}, *found = made->tangents + 4 * (size_t)made->indices[corner];
+    for (int i = 0; i < 4; i++)
+        if (!(fabsf(found[i] - expected[i]) <= 1e-6f))
+            fail_msg("corner %u: found %g %g %g %g, expected %g %g %g %g", corner, (double)found[0], (double)found[1],
+                     (double)found[2], (double)found[3], (double)x, (double)y, (double)z, (double)w);
+}
+
+// Triangles without indices in the plane z = 0, facing +z: x, y, s, t of each corner.
+enum { CORNERS_MAX = 12 };
+struct flat_mesh {
+    float positions[3 * CORNERS_MAX], normals[3 * CORNERS_MAX], texcoords[2 * CORNERS_MAX];
+    lam_mesh mesh;
+};
+
+static const lam_mesh *flat_mesh(struct flat_mesh *flat, const float (*corners)[4], uint32_t count)
+{
+    assert_true(count <= CORNERS_MAX);
+    memset(flat, 0, sizeof *flat);
+    for (uint32_t i = 0; i < count; i++) {
+        memcpy(flat->positions + 3 * (size_t)i, corners[i], 2 * sizeof(float));
+        memcpy(flat->texcoords + 2 * (size_t)i, corners[i] + 2, 2 * sizeof(float));
+        flat->normals[3 * i + 2] = 1;
+    }
+    flat->mesh = (lam_mesh){.positions = flat->positions, .vertex_count = count, .triangle_count = count / 3};
+    flat->mesh.normals = flat->normals;
+    flat->mesh.normal_count = count;
+    flat->mesh.texcoords = flat->texcoords;
+    flat->mesh.texcoord_count = count;
+    return &flat->mesh;
+}
+
+// A square whose corners share no indices: one tangent for each of its four welded corners.
+static void plane(void **state)
+{
+    (void)state;
+    static const float corners[][4] = {{0, 0, 0, 0},         {1, 0, 1, 0}, {1, 1, 1, 1},
+                                       {-0.0f, 0, 0, -0.0f}, {1, 1, 1, 1}, {0, 1, 0, 1}};
+    struct flat_mesh flat;
+    for (int t_down = 0; t_down < 2; t_down++) {
+        struct mesh_tangents made = tangents_of(flat_mesh(&flat, corners, 6), t_down);
+        assert_int_equal(made.count, 4);
+        assert_int_equal(made.indices[0], made.indices[3]); // −0 equals 0
+        for (uint32_t c = 0; c < 6; c++)
+            expect(&made, c, 1, 0, 0, t_down ? -1 : 1);
+    }
+}
+
+// Directions are weighted by the angle at the corner, not by the area: below the common edge, from (0, 0) to (100, 0), a long
+// triangle with an angle of 45° where s grows along (1, 1); above it a short one with 90° where s grows along (0, 1).
+static void angles_are_weights(void **state)
+{
+    (void)state;
+    static const float corners[][4] = {{0, 0, 0, 0}, {100, -100, 0, -20}, {100, 0, 10, -10}, //
+                                       {0, 0, 0, 0}, {100, 0, 10, -10},   {0, 1, 1, 0}};
+    struct flat_mesh flat;
+    struct mesh_tangents made = tangents_of(flat_mesh(&flat, corners, 6), false);
+    double x = 45 * sqrt(0.5), y = 45 * sqrt(0.5) + 90, length = sqrt(x * x + y * y), half = sqrt(0.5);
+    assert_int_equal(made.indices[0], made.indices[3]);
+    expect(&made, 0, (float)(x / length), (float)(y / length), 0, 1);
+    expect(&made, 1, (float)half, (float)half, 0, 1);
+    expect(&made, 5, 0, 1, 0, 1);
+}
+
+// Two squares with a common edge, the right one mirrored in the texture: the edge's corners are welded and have the same
+// normals and texture coordinates, and still two tangents.
+static void mirrored_halves(void **state)
+{
+    (void)state;
+    static const float corners[][4] = {{-1, 0, 0, 0}, {0, 0, 1, 0},  {0, 1, 1, 1}, {-1, 0, 0, 0},
+                                       {0, 1, 1, 1},  {-1, 1, 0, 1}, {0, 0, 1, 0}, {1, 0, 0, 0},
+                                       {1, 1, 0, 1},  {0, 0, 1, 0},  {1, 1, 0, 1}, {0, 1, 1, 1}};
+    struct flat_mesh flat;
+    struct mesh_tangents made = tangents_of(flat_mesh(&flat, corners, 12), false);
+    for (uint32_t c = 0; c < 12; c++)
+        expect(&made, c, c < 6 ? 1 : -1, 0, 0, c < 6 ? 1 : -1);
+    assert_int_equal(made.count, 8);
+}
+
+// A triangle whose texture coordinates span no area takes the tangents, and the orientation, of its neighbours, and gives
+// them nothing; alone it has the direction around the y axis.
+static void degenerate_texcoords(void **state)
+{
+    (void)state;
+    static const float corners[][4] = {{0, 0, 1, 0}, {1, 0, 0, 0}, {1, 1, 0, 1},
+                                       {0, 0, 1, 0}, {1, 1, 0, 1}, {-5, 1, 1, 0}};
+    struct flat_mesh flat;
+    struct mesh_tangents made = tangents_of(flat_mesh(&flat, corners, 6), false);
+    for (uint32_t c = 0; c < 5; c++)
+        expect(&made, c, -1, 0, 0, -1);
+    expect(&made, 5, 1, 0, 0, 1); // no group reaches this corner
+    made = tangents_of(flat_mesh(&flat, corners + 3, 3), true);
+    for (uint32_t c = 0; c < 3; c++)
+        expect(&made, c, 1, 0, 0, 1);
+}
+
+// A triangle with two equal positions separates nothing: its corners have the tangents of their equals.
+static void degenerate_triangle(void **state)
+{
+    (void)state;
+    static const float corners[][4] = {{0, 0, 0, 0}, {0, 0, 0, 0}, {1, 1, 0, 1}, {0, 0, 0, 0}, {0, 1, 1, 0},
+                                       {1, 1, 0, 1}, {0, 0, 0, 0}, {1, 1, 0, 1}, {1, 0, -1, 0}};
+    struct flat_mesh flat;
+    struct mesh_tangents made = tangents_of(flat_mesh(&flat, corners, 9), false);
+    assert_int_equal(made.indices[0], made.indices[3]);
+    assert_int_equal(made.indices[1], made.indices[6]);
+    assert_int_equal(made.indices[2], made.indices[5]);
+    made = tangents_of(flat_mesh(&flat, corners, 3), false); // with nobody to copy from
+    expect(&made, 0, 1, 0, 0, 1);
+}
+
+// Four triangles on one edge, in the order out, in, in, out: the first goes with the first, the second with the second.
+static void twins_of_a_fan(void **state)
+{
+    (void)state;
+    static const float corners[][4] = {{0, 0, 0, 0},   {1, 0, 1, 0},   {0, 1, 0, 1}, {1, 0, 1, 0},
+                                       {0, 0, 0, 0},   {0, -1, 0, -1}, {1, 0, 1, 0}, {0, 0, 0, 0},
+                                       {0, -2, 0, -2}, {0, 0, 0, 0},   {1, 0, 1, 0}, {0, 2, 0, 2}};
+    struct flat_mesh flat;
+    const lam_mesh *mesh = flat_mesh(&flat, corners, 12);
+    const bool left_out[4] = {false, false, false, false};
+    struct arena memory;
+    struct corner_weld weld;
+    struct edge_twins edges;
+    arena_start(&memory, NULL);
+    assert_true(corner_weld(&weld, mesh, &memory, NULL, NULL));
+    assert_true(edge_twins(&edges, &weld, 4, left_out, &memory, NULL, NULL));
+    assert_int_equal(edges.twin[0], 3);
+    assert_int_equal(edges.twin[3], 0);
+    assert_int_equal(edges.twin[9], 6);
+    assert_int_equal(edges.twin[6], 9);
+    for (uint32_t c = 0; c < 12; c++)
+        if (c % 3)
+            assert_int_equal(edges.twin[c], NO_CORNER);
+    arena_free(&memory);
+}
+
+// So many vertices that some of different numbers have the same hash of 32 bits; the second half repeats the first.
+static void equal_hashes_are_told_apart(void **state)
+{
+    (void)state;
+    enum { VERTICES = 300000, ALL = 2 * VERTICES };
+    float *numbers = calloc((size_t)ALL * 8, sizeof *numbers);
+    uint32_t *indices = malloc((size_t)ALL * sizeof *indices);
+    assert_non_null(numbers);
+    assert_non_null(indices);
+    for (uint32_t i = 0; i < ALL; i++) {
+        uint32_t x = i % VERTICES * 2654435761u;
+        numbers[3 * (size_t)i] = (float)(x >> 12);
+        numbers[3 * (size_t)i + 1] = (float)(i % VERTICES);
+        indices[i] = i;
+    }
+    lam_mesh mesh = {.positions = numbers,
+                     .vertex_count = ALL,
+                     .indices = indices,
+                     .triangle_count = ALL / 3,
+                     .normals = numbers + (size_t)ALL * 3,
+                     .normal_count = ALL,
+                     .texcoords = numbers + (size_t)ALL * 6,
+                     .texcoord_count = ALL};
+    struct arena memory;
+    struct corner_weld weld;
+    arena_start(&memory, NULL);
+    assert_true(corner_weld(&weld, &mesh, &memory, NULL, NULL));
+    assert_int_equal(weld.items, ALL);
+    for (uint32_t i = 0; i < ALL; i++)
+        assert_int_equal(weld.first[i], i % VERTICES);
+    arena_free(&memory);
+    free(numbers);
+    free(indices);
+}
+
+// --- the tangents of Mikkelsen's code
+
+static const struct {
+    const char *model, *mesh; // below ../shared/models; name of the mesh, which has one primitive
+    uint32_t corners;
+    size_t first_float; // in the file of tangents
+} references[] = {
+    {"glb/playcanvas/NormalTangentTest.glb", "NormalTangentTest_low", 23322, 0},
+    {"gltf-tests/khronos/ClearCoatTest/glTF-Binary/ClearCoatTest.glb", "ClearCoatSampleMesh", 6180, 93288},
+    {"gltf-tests/khronos/ClearCoatTest/glTF-Binary/ClearCoatTest.glb", "Labels_Mesh", 12, 118008},
+    {"glb/bevy/GolfBall.glb", "polyhedronisme-tdtI.001", 1068, 118056},
+};
+enum { REFERENCE_FLOATS = 118056 + 4 * 1068 };
+
+static float *read_references(const char *models)
+{
+    char path[600], command[700];
+    snprintf(path, sizeof path, "%s/../reference-pictures/mikktspace/tangents.f32.xz", models);
+    FILE *there = fopen(path, "rb");
+    if (!there)
+        return NULL;
+    fclose(there);
+    snprintf(command, sizeof command, "xz -dc '%s' 2>/dev/null", path);
+    FILE *pipe = popen(command, "r");
+    float *floats = malloc(REFERENCE_FLOATS * sizeof *floats);
+    assert_non_null(pipe);
+    assert_non_null(floats);
+    size_t count = fread(floats, sizeof *floats, REFERENCE_FLOATS, pipe);
+    if (pclose(pipe) != 0 || count != REFERENCE_FLOATS) {
+        free(floats);
+        return NULL;
+    }
+    return floats;
+}
+
+static void compare_reference(const char *models, int row, const float *expected)
+{
+    char path[600];
+    lam_error error = {0};
+    snprintf(path, sizeof path, "%s/%s", models, references[row].model);
+    lam_scene *scene = lam_scene_load(path, NULL, NULL, &error);
+    if (!scene)
+        fail_msg("%s", error.text);
+    const lam_mesh *mesh = NULL;
+    for (int i = 0; i < lam_scene_mesh_count(scene); i++)
+        if (strcmp(lam_scene_mesh(scene, i)->name, references[row].mesh) == 0)
+            mesh = lam_scene_mesh(scene, i);
+    assert_non_null(mesh);
+    assert_int_equal(3 * mesh->triangle_count, references[row].corners);
+    struct mesh_tangents made = tangents_of(mesh, true);
+    uint32_t signs = 0, directions = 0;
+    double worst = 0;
+    for (uint32_t c = 0; c < references[row].corners; c++) {
+        const float *found = made.tangents + 4 * (size_t)made.indices[c], *from = expected + 4 * (size_t)c;
+        double distance = sqrt(pow((double)found[0] - (double)from[0], 2) + pow((double)found[1] - (double)from[1], 2) +
+                               pow((double)found[2] - (double)from[2], 2));
+        signs += found[3] != from[3];
+        directions += !(distance <= 1e-4);
+        worst = distance > worst ? distance : worst;
+    }
+    print_message("%s: %u corners, %u tangents; %u signs differ, %u directions by more than 1e-4, at most %.2g\n",
+                  references[row].mesh, references[row].corners, made.count, signs, directions, worst);
+    assert_int_equal(signs, 0);
+    assert_int_equal(directions, 0);
+    lam_scene_free(scene);
+}
+
+static void tangents_of_mikkelsens_code(void **state)
+{
+    (void)state;
+    const char *models = getenv("LAMBENT_MODELS");
+    models = models ? models : "../shared/models";
+    float *expected = read_references(models);
+    if (!expected) {
+        print_message("%s/../reference-pictures/mikktspace or xz is not there: not compared with Mikkelsen's code\n",
+                      models);
+        skip();
+    }
+    for (size_t i = 0; i < sizeof references / sizeof *references; i++)
+        compare_reference(models, (int)i, expected + references[i].first_float);
+    free(expected);
+}
+
+int main(void)
+{
+    const struct CMUnitTest all[] = {
+        cmocka_unit_test(plane),
+        cmocka_unit_test(angles_are_weights),
+        cmocka_unit_test(mirrored_halves),
+        cmocka_unit_test(degenerate_texcoords),
+        cmocka_unit_test(degenerate_triangle),
+        cmocka_unit_test(twins_of_a_fan),
+        cmocka_unit_test(equal_hashes_are_told_apart),
+        cmocka_unit_test(tangents_of_mikkelsens_code),
+    };
+    return cmocka_run_group_tests(all, NULL, NULL);
+}

@@ -154,13 +154,13 @@ def check_report(case, report):
             case.assertIn(key, report)
 
 
-def check_value(case, value, schema, place):
-    """The part of JSON Schema that docs/report.schema.json uses; a word it does not know fails."""
+def check_value(case, value, schema, place, root=SCHEMA):
+    """The part of JSON Schema that the schemas of docs/ use (`root`: the whole one); a word it does not know fails."""
     known = {"type", "enum", "required", "dependentRequired", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
              "$ref", "$defs", "$schema", "title", "description"}
     case.assertLessEqual(set(schema), known, place)
     if "$ref" in schema:
-        schema = SCHEMA["$defs"][schema["$ref"].rsplit("/", 1)[1]]
+        schema = root["$defs"][schema["$ref"].rsplit("/", 1)[1]]
     if "enum" in schema:
         case.assertIn(value, schema["enum"], place)
     if "type" in schema:
@@ -172,12 +172,12 @@ def check_value(case, value, schema, place):
             case.assertIn(key, value, place)
         for key, inner in value.items():
             case.assertIn(key, schema["properties"], place)
-            check_value(case, inner, schema["properties"][key], f"{place}.{key}")
+            check_value(case, inner, schema["properties"][key], f"{place}.{key}", root)
     if isinstance(value, list):
         case.assertGreaterEqual(len(value), schema.get("minItems", 0), place)
         case.assertLessEqual(len(value), schema.get("maxItems", len(value)), place)
         for i, inner in enumerate(value):
-            check_value(case, inner, schema["items"], f"{place}[{i}]")
+            check_value(case, inner, schema["items"], f"{place}[{i}]", root)
     if "minimum" in schema and value is not None:
         case.assertGreaterEqual(value, schema["minimum"], place)
 

@@ -6,7 +6,7 @@
 
 // In the order of the help. The first one runs when the command line names none.
 #define COMMANDS(row)                                                                                                  \
-    row(render) row(compare) row(explain) row(check) row(shader) row(diff) row(plot) row(lights) row(shapes)           \
+    row(render) row(compare) row(explain) row(info) row(check) row(shader) row(diff) row(plot) row(lights) row(shapes) \
         row(formats) row(materials) row(devices) row(help) row(complete) row(generate)
 
 #define COMMAND_INDEX(name) COMMAND_##name,

@@ -32,6 +32,10 @@ const struct command command_table[] = {
          "Print the calculation of one pixel: vectors, angles and terms of each light, the sum, the byte. Writes no "
          "picture or scene file; --output and --save-scene have no effect.",
          ALL, 2, 2, explain_defaults},
+    [COMMAND_info] = {"info", "MODEL...",
+                      "Print what is in models: size, triangles, materials, pictures, lights, cameras, animations, "
+                      "extensions.",
+                      ABOUT | 1u << GROUP_MODEL | 1u << GROUP_WORK | TAKES_JSON | TAKES_QUIET, 1, -1},
     [COMMAND_check] =
         {"check", "SHADER.frag...",
          "Compare GLSL shaders with reference scenes, and name the known mistakes that explain the differences.",
@@ -105,6 +109,7 @@ const struct example examples[] = {
     {"lambent -q *.stl -o pictures/", "a picture of each model, in a folder", true},
     {"lambent - -o - < part.stl > part.png", "from standard input to standard output", false},
     {"lambent koala.obj --json", "what was read, the camera, and the time of each step", false},
+    {"lambent info ship.glb", "what is in it: size, triangles, materials, animations", false},
     {"lambent compare koala.obj --sheet terms", "the terms of the sum side by side, with captions", false},
     {"lambent compare bunny.ply --across 'light=point;directional:direction=-1/-2/-1'",
      "a custom row: one picture for each value of an option", false},

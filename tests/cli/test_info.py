@@ -1,0 +1,108 @@
+# test_info.py: the command `info`: what it says of a model, and that its JSON is as docs/info.schema.json says.
+import json
+
+from harness import ROOT, check_value
+from test_gltf import GltfCase
+
+SCHEMA = json.loads((ROOT / "docs" / "info.schema.json").read_text())
+
+
+class Info(GltfCase):
+    def info(self, *words):
+        rows = [json.loads(line) for line in self.good("info", "--json", *words).stdout.splitlines()]
+        for row in rows:
+            check_value(self, row, SCHEMA, "info", SCHEMA)
+        return rows
+
+    def test_gltf_file(self):
+        model = self.model(asset={"version": "2.0", "generator": "by\x1bhand", "copyright": "nobody"},
+                           extensionsUsed=["KHR_materials_unlit", "KHR_materials_sheen", "NO_such"],
+                           images=[{"uri": "skin.png"}])
+        row = self.info(model)[0]
+        self.assertEqual((row["format"], row["version"], row["generator"], row["copyright"]), ("gltf", "2.0", "by\x1bhand", "nobody"))
+        self.assertEqual((row["unit"], row["up"], row["size"]), ("metre", "y", [2, 2, 0]))
+        self.assertEqual(row["counts"], {"triangles": 2, "vertices": 4, "objects": 1, "meshes": 1, "parts": 1,
+                                         "stored_triangles": 2, "stored_vertices": 4})
+        self.assertEqual(row["scenes"], [{"name": "day", "read": True}, {"name": "night", "read": False}])
+        self.assertEqual(row["variants"], ["plain", "mint"])
+        self.assertEqual([(m["kind"], m["base"]) for m in row["materials"]][:3],
+                         [("unlit", [1, 0, 0]), ("unlit", [0, 1, 0]), ("unlit", [0, 0, 1])])
+        self.assertEqual([c["name"] for c in row["cameras"]], ["near", None])
+        self.assertAlmostEqual(row["cameras"][0]["fovy_deg"], 5.729578, 5)
+        self.assertEqual((row["cameras"][0]["eye"], row["cameras"][1]["ortho_half_height"]), ([0, 0, 9], 4))
+        self.assertEqual([(e["name"], e["required"], e["support"]) for e in row["extensions"]],
+                         [("KHR_materials_unlit", False, "supported"), ("KHR_materials_sheen", False, "ignored"), ("NO_such", False, "unknown")])
+        self.assertEqual(row["images"], [{"name": None, "file": "skin.png", "format": "png"}])
+        self.assertEqual(self.info(model, "--scene", "night")[0]["scenes"][1]["read"], True)
+        text = self.good("info", model).stdout.decode()
+        for words in ("gltf 2.0, written by by?hand", "copyright   nobody", "2 × 2 × 0 m, y up", "2 triangles, 4 vertices", "0 'day', the one that is read",
+                      "1 'night'", "0 unlit: base 1/0/0", "1 'mint'", "0 'near', perspective, 5.73 degrees high, at 0 0 9", "KHR_materials_sheen: ignored",
+                      "NO_such: unknown", "0 'skin.png', png"):
+            self.assertIn(words, text)
+
+    def test_required_extensions(self):
+        """What drawing refuses is still looked into."""
+        model = self.model(extensionsUsed=["NO_such"], extensionsRequired=["NO_such"])
+        self.bad(3, model, "-o", "a.png", says="NO_such")
+        row = self.info(model)[0]
+        self.assertTrue(row["needs_lenient"])
+        self.assertEqual(row["extensions"], [{"name": "NO_such", "required": True, "support": "unknown"}])
+        self.assertIn(b"NO_such: required, unknown", self.good("info", model).stdout)
+        self.assertIn(b"--lenient", self.good("info", model).stdout)
+        self.assertFalse(self.info(model, "--lenient")[0]["needs_lenient"])
+        # Another reason stays an error.
+        done = self.run_program("info", "--json", self.model(asset={"version": "1.0"}))
+        self.assertEqual(done.returncode, 3)
+        row = json.loads(done.stdout)
+        check_value(self, row, SCHEMA, "info", SCHEMA)
+        self.assertEqual((row["error"]["exit"], row["error"]["code"]), (3, "unsupported"))
+
+    def test_animations_and_lights(self):
+        model = self.model(
+            animations=[{"name": "spin", "channels": [], "samplers": [{"input": 2, "output": 2}]}] * 12,
+            accessors=[{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                       {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+                       {"componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [2.5]}],
+            nodes=[{"mesh": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}, {"mesh": 1}, {}, {}],
+            extensionsUsed=["KHR_lights_punctual"],
+            extensions={"KHR_lights_punctual": {"lights": [{"type": "point", "name": "lamp", "color": [0.5, 1, 0], "intensity": 3.14159265,
+                                                            "range": 7}]}})
+        row = self.info(model)[0]
+        self.assertEqual(row["animations"][11], {"name": "spin", "seconds": 2.5, "channels": 0})
+        self.assertEqual((row["lights"][0]["name"], row["lights"][0]["kind"], row["lights"][0]["color"], row["lights"][0]["range"]),
+                         ("lamp", "point", [0.5, 1, 0], 7))
+        self.assertAlmostEqual(row["lights"][0]["intensity"], 1, 5)
+        text = self.good("info", model).stdout.decode()
+        self.assertIn("0 'lamp', point, color 0.5/1/0, intensity 1, range 7", text)
+        self.assertIn("7 'spin', 2.5 s, 0 channels", text)
+        self.assertIn("4 more (--json lists all)", text)
+        self.assertNotIn("8 'spin'", text)
+
+    def test_other_formats(self):
+        (self.folder / "two.mtl").write_text("newmtl shiny\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 40\nmap_Kd wood.jpg\n")
+        (self.folder / "two.obj").write_text("mtllib two.mtl\nv 0 0 0\nv 2 0 0\nv 0 3 0\ng a\nusemtl shiny\nf 1 2 3\ng b\nf 1 3 2\n")
+        self.given |= {"two.mtl", "two.obj"}
+        row, teapot = self.info("two.obj", "teapot")
+        self.assertEqual((row["format"], row["unit"], row["generator"], row["size"]), ("obj", None, None, [2, 3, 0]))
+        self.assertEqual((row["counts"]["parts"], row["counts"]["triangles"]), (2, 2))
+        material = row["materials"][0]
+        self.assertEqual((material["name"], material["kind"], material["specular"], material["shininess"]), ("shiny", "classic", [1, 1, 1], 40))
+        self.assertEqual(material["maps"], [{"slot": "diffuse", "file": "wood.jpg"}])
+        self.assertEqual((teapot["format"], teapot["images"], teapot["extensions"]), ("shape", [], []))
+        text = self.good("info", "two.obj", "teapot").stdout.decode()
+        self.assertIn("0 'shiny', classic: diffuse 0.214, specular 1, shininess 40; maps diffuse", text)
+        self.assertIn("unit unknown", text)
+        self.assertIn("\n\nteapot\n", text)
+
+    def test_failures(self):
+        done = self.run_program("info", "missing.obj", "teapot", "--json")
+        self.assertEqual(done.returncode, 2)
+        rows = [json.loads(line) for line in done.stdout.splitlines()]
+        for row in rows:
+            check_value(self, row, SCHEMA, "info", SCHEMA)
+        self.assertEqual([row["error"] is None for row in rows], [False, True])
+        self.assertIn(rows[0]["error"]["text"], done.stderr.decode())
+        self.bad(1, "info", says="info")
+        self.bad(1, "info", "teapot", "-", says="standard input")
+        self.bad(1, "info", "teapot", "--size", "9", says="does not apply")
+        self.bad(4, "info", "teapot", "--memory-limit", "1k", says="memory")

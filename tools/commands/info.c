@@ -1,0 +1,77 @@
+// info.c: the command `info`: prints what is in a model, without drawing it.
+#include "info.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#include "command.h"
+#include "console.h"
+#include "exit_codes.h"
+#include "interrupt.h"
+#include "report.h"
+
+// A file that requires what this version does not know is read without it.
+static bool load(struct info *info, struct job *job, struct options *options, lam_error *error)
+{
+    struct progress progress;
+    progress_start(&progress, job->model, console_is_terminal() && !options->quiet);
+    bool ok = job_load(job, &progress, error);
+    if (!ok && error->code == LAM_UNSUPPORTED && !options->lenient && strcmp(job->model, "-") != 0) {
+        lam_error second = {0};
+        lam_scene_free(job->scene);
+        *job = (struct job){.options = options, .model = job->model, .times.start = job->times.start};
+        options->lenient = true;
+        ok = info->needs_lenient = job_load(job, &progress, &second);
+    }
+    progress_end(&progress);
+    return ok;
+}
+
+static int print_one(const char *model, const struct options *given, bool first)
+{
+    struct options options = *given;
+    struct job job = {.options = &options, .model = model};
+    lam_error error = {0};
+    struct info info = {.job = &job, .error = &error};
+    job.times.start = clock_ms();
+    bool ok = load(&info, &job, &options, &error);
+    if (ok)
+        error = (lam_error){0}; // of the first attempt
+    else
+        say_error(error.text);
+    if (given->json) {
+        info_json(&info);
+    } else if (ok) {
+        if (!first)
+            printf("\n");
+        info_text(&info);
+    }
+    lam_scene_free(job.scene);
+    return exit_code_of(error.code)->code;
+}
+
+int run_info(int operand_count, char **operands, const struct options *options)
+{
+    lam_error error = {0};
+    for (int i = 0; i < operand_count && !error.code; i++) {
+        if (!*operands[i])
+            complain(&error, LAM_BAD_ARGUMENT, "a model's name is empty");
+        else if (strcmp(operands[i], "-") == 0 && operand_count > 1)
+            complain(&error, LAM_BAD_ARGUMENT, "'-' (standard input) goes only with a single model");
+        else if (strcmp(operands[i], "-") == 0 && isatty(STDIN_FILENO))
+            complain(&error, LAM_BAD_ARGUMENT, "standard input is a terminal, expected a model: lambent info - < FILE");
+    }
+    if (error.code)
+        return report_failure(&error, options);
+    interrupt_start();
+    int worst = 0;
+    for (int i = 0; i < operand_count && !interrupted(); i++) {
+        int code = print_one(operands[i], options, i == 0);
+        worst = code > worst ? code : worst;
+    }
+    if (interrupted()) {
+        fflush(stdout);
+        interrupt_finish();
+    }
+    return worst;
+}

@@ -1,0 +1,222 @@
+// info_json.c: a model in the form of docs/info.schema.json, on one line.
+#include "info.h"
+
+#include "exit_codes.h"
+#include "json.h"
+
+static void json_vector(struct json *json, const char *key, lam_vec3 v)
+{
+    json_open(json, key, '[');
+    json_number(json, NULL, v.x);
+    json_number(json, NULL, v.y);
+    json_number(json, NULL, v.z);
+    json_close(json, ']');
+}
+
+// The shortest number that reads back as the same float.
+static void json_float(struct json *json, const char *key, float value)
+{
+    char text[32];
+    double number = (double)value;
+    for (int digits = 6; digits <= 9; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, (double)value);
+        if (sscanf(text, "%lf", &number) == 1 && (float)number == value)
+            break;
+    }
+    json_number(json, key, number);
+}
+
+static void json_color(struct json *json, const char *key, lam_rgb c)
+{
+    json_open(json, key, '[');
+    json_float(json, NULL, c.r);
+    json_float(json, NULL, c.g);
+    json_float(json, NULL, c.b);
+    json_close(json, ']');
+}
+
+static void write_geometry(struct json *json, const struct job *job)
+{
+    const lam_scene *scene = job->scene;
+    struct info_counts stored = info_count(scene);
+    lam_vec3 low, high;
+    lam_scene_bounds(scene, &low, &high);
+    json_open(json, "counts", '{');
+    json_count(json, "triangles", lam_scene_triangle_count(scene));
+    json_count(json, "vertices", lam_scene_vertex_count(scene));
+    json_count(json, "objects", (uint64_t)lam_scene_object_count(scene));
+    json_count(json, "meshes", (uint64_t)lam_scene_mesh_count(scene));
+    json_count(json, "parts", stored.parts);
+    json_count(json, "stored_triangles", stored.triangles);
+    json_count(json, "stored_vertices", stored.vertices);
+    json_close(json, '}');
+    json_text(json, "up", lam_up_name(lam_scene_up(scene)));
+    json_text(json, "unit", info_unit(scene));
+    json_open(json, "bounds", '{');
+    json_vector(json, "min", low);
+    json_vector(json, "max", high);
+    json_close(json, '}');
+    json_vector(json, "size", (lam_vec3){high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
+static void write_material(struct json *json, const lam_material *m)
+{
+    json_open(json, NULL, '{');
+    json_text(json, "name", m->name);
+    json_text(json, "kind", info_material_kind(m));
+    json_color(json, m->physical ? "base" : "diffuse", (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b});
+    json_float(json, "opacity", m->diffuse.a);
+    json_color(json, "emission", m->emission);
+    if (m->physical) {
+        json_float(json, "metallic", m->metallic);
+        json_float(json, "roughness", m->roughness);
+    } else {
+        json_color(json, "ambient", m->ambient);
+        json_color(json, "specular", m->specular);
+        json_float(json, "shininess", m->shininess);
+    }
+    json_open(json, "maps", '[');
+    for (int map = 0; map < LAM_MAP_COUNT; map++) {
+        if (!m->map_names[map])
+            continue;
+        json_open(json, NULL, '{');
+        json_text(json, "slot", info_map_name(map));
+        json_text(json, "file", m->map_names[map]);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    json_close(json, '}');
+}
+
+static void write_light(struct json *json, const lam_light *light)
+{
+    double intensity;
+    lam_rgb color = info_light_color(light, &intensity);
+    json_open(json, NULL, '{');
+    json_text(json, "name", light->name);
+    json_text(json, "kind", lam_light_type_describe(light->type)->word);
+    json_color(json, "color", color);
+    json_float(json, "intensity", (float)intensity);
+    if (light->type == LAM_LIGHT_POINT || light->type == LAM_LIGHT_SPOT)
+        json_vector(json, "position", light->position);
+    if (light->type == LAM_LIGHT_DIRECTIONAL || light->type == LAM_LIGHT_SPOT)
+        json_vector(json, "direction", light->direction);
+    if (light->range > 0)
+        json_float(json, "range", light->range);
+    json_close(json, '}');
+}
+
+static void write_camera(struct json *json, const lam_scene *scene, int index)
+{
+    lam_camera camera;
+    lam_scene_camera(scene, index, &camera);
+    json_open(json, NULL, '{');
+    json_text(json, "name", lam_scene_camera_name(scene, index));
+    json_vector(json, "eye", camera.eye);
+    json_vector(json, "target", camera.target);
+    if (camera.ortho_half_height > 0)
+        json_number(json, "ortho_half_height", camera.ortho_half_height);
+    else
+        json_number(json, "fovy_deg", camera.fovy_rad * (180 / 3.14159265358979323846));
+    json_close(json, '}');
+}
+
+static void write_file(struct json *json, const lam_file_info *info)
+{
+    json_open(json, "scenes", '[');
+    for (int i = 0; i < info->scene_count; i++) {
+        json_open(json, NULL, '{');
+        json_text(json, "name", info->scenes[i]);
+        json_flag(json, "read", i == info->scene);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    json_open(json, "animations", '[');
+    for (int i = 0; i < info->animation_count; i++) {
+        json_open(json, NULL, '{');
+        json_text(json, "name", info->animations[i].name);
+        json_number(json, "seconds", info->animations[i].length_s);
+        json_count(json, "channels", (uint64_t)info->animations[i].channel_count);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    json_open(json, "variants", '[');
+    for (int i = 0; i < info->variant_count; i++)
+        json_text(json, NULL, info->variants[i]);
+    json_close(json, ']');
+    json_open(json, "images", '[');
+    for (int i = 0; i < info->image_count; i++) {
+        json_open(json, NULL, '{');
+        json_text(json, "name", info->images[i].name);
+        json_text(json, "file", info->images[i].file);
+        json_text(json, "format", info->images[i].format);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    json_open(json, "extensions", '[');
+    for (int i = 0; i < info->extension_count; i++) {
+        json_open(json, NULL, '{');
+        json_text(json, "name", info->extensions[i].name);
+        json_flag(json, "required", info->extensions[i].required);
+        json_text(json, "support", info_support(info->extensions[i].support));
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+}
+
+static void write_model(struct json *json, const struct info *info)
+{
+    const struct job *job = info->job;
+    const lam_scene *scene = job->scene;
+    const lam_file_info *file = lam_scene_file_info(scene);
+    json_text(json, "format", info_format(scene));
+    json_text(json, "version", file->version);
+    json_text(json, "generator", file->generator);
+    json_text(json, "copyright", file->copyright);
+    write_geometry(json, job);
+    json_open(json, "materials", '[');
+    for (int i = 0; i < lam_scene_material_count(scene); i++)
+        write_material(json, lam_scene_material(scene, i));
+    json_close(json, ']');
+    json_open(json, "lights", '[');
+    for (int i = 0; i < lam_scene_light_count(scene); i++)
+        write_light(json, lam_scene_light(scene, i));
+    json_close(json, ']');
+    json_open(json, "cameras", '[');
+    for (int i = 0; i < lam_scene_camera_count(scene); i++)
+        write_camera(json, scene, i);
+    json_close(json, ']');
+    write_file(json, file);
+    json_flag(json, "needs_lenient", info->needs_lenient);
+    json_count(json, "memory_bytes", lam_scene_memory(scene));
+    json_open(json, "times_ms", '{');
+    json_number(json, "read", (double)(int64_t)(job->times.read * 1e3 + 0.5) / 1e3);
+    json_number(json, "prepare", (double)(int64_t)(job->times.prepare * 1e3 + 0.5) / 1e3);
+    json_close(json, '}');
+}
+
+void info_json(const struct info *info)
+{
+    struct json json = {.file = stdout};
+    const struct job *job = info->job;
+    json_open(&json, NULL, '{');
+    json_text(&json, "lambent", lam_version());
+    json_text(&json, "path", job->model);
+    if (!info->error->code)
+        write_model(&json, info);
+    json_open(&json, "warnings", '[');
+    for (int i = 0; job->scene && lam_scene_warning(job->scene, i); i++)
+        json_text(&json, NULL, lam_scene_warning(job->scene, i));
+    json_close(&json, ']');
+    if (info->error->code) {
+        json_open(&json, "error", '{');
+        json_text(&json, "code", exit_code_of(info->error->code)->name);
+        json_count(&json, "exit", (uint64_t)exit_code_of(info->error->code)->code);
+        json_text(&json, "text", info->error->text);
+        json_close(&json, '}');
+    } else {
+        json_none(&json, "error");
+    }
+    json_close(&json, '}');
+    putchar('\n');
+}

@@ -1,0 +1,227 @@
+// info_text.c: a model for people: one screen. Lists end after ROWS rows and say how many more there are.
+#include "info.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+enum { ROWS = 8, NAME_BYTES = 40, LINE_BYTES = 120 };
+
+// A text from a file: control characters shown as '?', cut after `bytes`. NULL: "".
+static char *plain(const char *name, size_t bytes, char *out)
+{
+    char *to = out;
+    const char *end = name ? name + strlen(name) : name;
+    while (name < end && (size_t)(to - out) < bytes) {
+        int length = lam_utf8_length(name, (size_t)(end - name));
+        if (length <= 1) {
+            *to++ = (char)(length == 0 || (unsigned char)*name < 32 || *name == 127 ? '?' : *name);
+            name++;
+        } else {
+            for (int i = 0; i < length; i++)
+                *to++ = *name++;
+        }
+    }
+    memcpy(to, name < end ? "…" : "", name < end ? 4 : 1);
+    return out;
+}
+
+// A name from a file, in quotes. "": unnamed.
+static const char *shown(const char *name, char out[NAME_BYTES + 12])
+{
+    if (!name)
+        return "";
+    out[0] = '\'';
+    plain(name, NAME_BYTES, out + 1);
+    return strcat(out, "'");
+}
+
+static const char *label(const char *text, int index) { return index == 0 ? text : ""; }
+
+// Prints the rest of a list; true: the row is not printed.
+static bool omitted(int index, int count)
+{
+    if (index == ROWS && count > ROWS + 1) {
+        printf("%-12s… %d more (--json lists all)\n", "", count - ROWS);
+        return true;
+    }
+    return index > ROWS && count > ROWS + 1;
+}
+
+static const char *plural(uint64_t count) { return count == 1 ? "" : "s"; }
+
+static void print_color(lam_rgb c)
+{
+    if (c.r == c.g && c.g == c.b)
+        printf("%.3g", (double)c.r);
+    else
+        printf("%.3g/%.3g/%.3g", (double)c.r, (double)c.g, (double)c.b);
+}
+
+static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+
+// --- the sections
+
+static void print_geometry(const struct job *job)
+{
+    const lam_scene *scene = job->scene;
+    struct info_counts stored = info_count(scene);
+    lam_vec3 low, high;
+    lam_scene_bounds(scene, &low, &high);
+    const char *unit = info_unit(scene);
+    printf("%-12s%.4g × %.4g × %.4g%s%s, %s up\n", "size", high.x - low.x, high.y - low.y, high.z - low.z,
+           unit ? " " : " (unit unknown)", unit ? "m" : "", lam_up_name(lam_scene_up(scene)));
+    printf("%-12sfrom %.6g %.6g %.6g to %.6g %.6g %.6g\n", "", low.x, low.y, low.z, high.x, high.y, high.z);
+    uint64_t triangles = lam_scene_triangle_count(scene), vertices = lam_scene_vertex_count(scene);
+    printf("%-12s%" PRIu64 " triangle%s, %" PRIu64 " vertices\n", "geometry", triangles, plural(triangles), vertices);
+    uint64_t meshes = (uint64_t)lam_scene_mesh_count(scene), objects = (uint64_t)lam_scene_object_count(scene);
+    printf("%-12s%" PRIu64 " mesh%s, %" PRIu64 " part%s, %" PRIu64 " object%s", "", meshes, meshes == 1 ? "" : "es",
+           stored.parts, plural(stored.parts), objects, plural(objects));
+    if (stored.triangles != triangles)
+        printf("; stored: %" PRIu64 " triangles, %" PRIu64 " vertices", stored.triangles, stored.vertices);
+    printf("\n%-12s%.1f MB; loaded in %.*f ms\n", "memory", (double)lam_scene_memory(scene) / 1e6,
+           job->times.read + job->times.prepare < 10 ? 1 : 0, job->times.read + job->times.prepare);
+}
+
+static void print_factors(const lam_material *m)
+{
+    lam_rgb color = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
+    printf(m->physical ? "base " : "diffuse ");
+    print_color(color);
+    if (m->diffuse.a != 1)
+        printf(", opacity %.3g", (double)m->diffuse.a);
+    if (m->physical && !m->unlit)
+        printf(", metallic %.3g, roughness %.3g", (double)m->metallic, (double)m->roughness);
+    if (!m->physical && !is_black(m->specular)) {
+        printf(", specular ");
+        print_color(m->specular);
+        printf(", shininess %.4g", (double)m->shininess);
+    }
+    if (!is_black(m->emission)) {
+        printf(", emission ");
+        print_color(m->emission);
+    }
+}
+
+static void print_materials(const lam_scene *scene)
+{
+    char name[NAME_BYTES + 12];
+    int count = lam_scene_material_count(scene);
+    for (int i = 0; i < count && !omitted(i, count); i++) {
+        const lam_material *m = lam_scene_material(scene, i);
+        const char *text = shown(m->name, name);
+        printf("%-12s%d %s%s%s: ", label("materials", i), i, text, *text ? ", " : "", info_material_kind(m));
+        print_factors(m);
+        const char *before = "; maps ";
+        for (int map = 0; map < LAM_MAP_COUNT; map++)
+            if (m->map_names[map]) {
+                printf("%s%s", before, info_map_name(map));
+                before = ", ";
+            }
+        printf("\n");
+    }
+}
+
+static void print_images(const lam_scene *scene)
+{
+    char name[NAME_BYTES + 12], file[NAME_BYTES + 12];
+    const lam_file_info *info = lam_scene_file_info(scene);
+    for (int i = 0; i < info->image_count && !omitted(i, info->image_count); i++) {
+        const lam_file_image *image = &info->images[i];
+        const char *text = shown(image->name, name);
+        printf("%-12s%d %s%s%s, %s\n", label("images", i), i, text, *text ? ", " : "",
+               image->file ? shown(image->file, file) : "in the model",
+               image->format ? image->format : "format unknown");
+    }
+}
+
+static void print_lights(const lam_scene *scene)
+{
+    char name[NAME_BYTES + 12];
+    int count = lam_scene_light_count(scene);
+    for (int i = 0; i < count && !omitted(i, count); i++) {
+        const lam_light *light = lam_scene_light(scene, i);
+        const char *text = shown(light->name, name);
+        double intensity;
+        lam_rgb color = info_light_color(light, &intensity);
+        printf("%-12s%d %s%s%s, color ", label("lights", i), i, text, *text ? ", " : "",
+               lam_light_type_describe(light->type)->word);
+        print_color(color);
+        printf(", intensity %.4g", intensity);
+        if (light->range > 0)
+            printf(", range %.4g", (double)light->range);
+        printf("\n");
+    }
+}
+
+static void print_cameras(const lam_scene *scene)
+{
+    char name[NAME_BYTES + 12];
+    int count = lam_scene_camera_count(scene);
+    for (int i = 0; i < count && !omitted(i, count); i++) {
+        lam_camera camera;
+        lam_scene_camera(scene, i, &camera);
+        const char *text = shown(lam_scene_camera_name(scene, i), name);
+        printf("%-12s%d %s%s", label("cameras", i), i, text, *text ? ", " : "");
+        if (camera.ortho_half_height > 0)
+            printf("orthographic, %.4g high", 2 * camera.ortho_half_height);
+        else
+            printf("perspective, %.4g degrees high", camera.fovy_rad * (180 / 3.14159265358979323846));
+        printf(", at %.4g %.4g %.4g\n", camera.eye.x, camera.eye.y, camera.eye.z);
+    }
+}
+
+static void print_names(const char *title, const char *const *names, int count, int marked, const char *mark)
+{
+    char name[NAME_BYTES + 12];
+    for (int i = 0; i < count && !omitted(i, count); i++)
+        printf("%-12s%d %s%s\n", label(title, i), i, names[i] ? shown(names[i], name) : "unnamed",
+               i == marked ? mark : "");
+}
+
+static void print_file(const lam_file_info *info)
+{
+    char name[NAME_BYTES + 12];
+    if (info->scene_count > 1)
+        print_names("scenes", info->scenes, info->scene_count, info->scene, ", the one that is read");
+    for (int i = 0; i < info->animation_count && !omitted(i, info->animation_count); i++) {
+        const lam_file_animation *animation = &info->animations[i];
+        const char *text = shown(animation->name, name);
+        printf("%-12s%d %s%s%.4g s, %d channel%s\n", label("animations", i), i, text, *text ? ", " : "",
+               animation->length_s, animation->channel_count, plural((uint64_t)animation->channel_count));
+    }
+    print_names("variants", info->variants, info->variant_count, -1, "");
+    for (int i = 0; i < info->extension_count && !omitted(i, info->extension_count); i++) {
+        const lam_file_extension *extension = &info->extensions[i];
+        printf("%-12s%s: %s%s\n", label("extensions", i), plain(extension->name, NAME_BYTES, name),
+               extension->required ? "required, " : "", info_support(extension->support));
+    }
+}
+
+void info_text(const struct info *info)
+{
+    const struct job *job = info->job;
+    const lam_scene *scene = job->scene;
+    const lam_file_info *file = lam_scene_file_info(scene);
+    char text[LINE_BYTES + 8];
+    printf("%s\n%-12s%s", strcmp(job->model, "-") == 0 ? "standard input" : job->model, "format", info_format(scene));
+    if (file->version)
+        printf(" %s", plain(file->version, LINE_BYTES, text));
+    if (file->generator)
+        printf(", written by %s", plain(file->generator, LINE_BYTES, text));
+    printf("\n");
+    if (file->copyright)
+        printf("%-12s%s\n", "copyright", plain(file->copyright, LINE_BYTES, text));
+    print_geometry(job);
+    print_materials(scene);
+    print_images(scene);
+    print_lights(scene);
+    print_cameras(scene);
+    print_file(file);
+    if (info->needs_lenient)
+        printf("%-12sdrawing it needs --lenient: it requires an extension that is not known\n", "note");
+    int count = 0;
+    while (lam_scene_warning(scene, count))
+        count++;
+    for (int i = 0; i < count && !omitted(i, count); i++)
+        printf("%-12s%s\n", label("warnings", i), lam_scene_warning(scene, i));
+}

@@ -100,7 +100,7 @@ typedef enum lam_output {
     LAM_OUTPUT_DIFFUSE,
     LAM_OUTPUT_SPECULAR,
     LAM_OUTPUT_EMISSION,
-    LAM_OUTPUT_REFLECTION, // of the environment
+    LAM_OUTPUT_REFLECTION, // of the environment, and its light on physical materials
     // The ambient, diffuse and specular terms of one light. Those of all lights, the scene's ambient light, emission
     // and reflection add up to the picture. Black where the frame is not lit.
     LAM_OUTPUT_LIGHT,
@@ -131,6 +131,27 @@ typedef enum lam_output {
     LAM_OUTPUT_CLIPPED,
     LAM_OUTPUT_COUNT,
 } lam_output;
+
+// Tone curves: how light of any strength becomes a colour of the screen. Each takes linear light after exposure, with the
+// primaries of sRGB, and returns linear light from 0 to 1, which is then encoded (docs/lighting/tone.md has formulas, sources
+// and plots). They apply to pictures of 8 bits; pictures of floats hold the light itself.
+typedef enum lam_tone {
+    LAM_TONE_AUTO = 0, // KHRONOS_NEUTRAL where the frame shows a physical material, else NONE
+    LAM_TONE_NONE,     // each channel is cut off at 1
+    LAM_TONE_REINHARD, // x / (1 + x) for each channel (Reinhard et al., 2002)
+    LAM_TONE_ACES,     // Hill's fit of the ACES reference and output transform for sRGB screens
+    LAM_TONE_AGX,      // Sobotka's AgX, its default contrast by Wrensch's polynomial
+    // Colours up to 0.8 stay as they are but for a slight offset; brighter ones are compressed and lose saturation
+    // (Khronos PBR Neutral).
+    LAM_TONE_KHRONOS_NEUTRAL,
+    LAM_TONE_COUNT
+} lam_tone;
+
+// The name of a tone curve: "auto", "khronos-neutral". A static string; NULL out of range.
+LAM_API const char *lam_tone_name(lam_tone tone);
+
+// Applies a tone curve to a colour, each channel at least 0. AUTO and NONE: each channel is cut off at 1.
+LAM_API lam_rgb lam_tone_apply(lam_tone tone, lam_rgb color);
 
 // The name of an output: "picture", "ambient", "n.l". A static string; NULL out of range.
 LAM_API const char *lam_output_name(lam_output output);
@@ -174,7 +195,12 @@ typedef struct lam_draw_params {
     lam_output output; // the content of the frame
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the light's number in lam_draw_lights.
     int output_light;
-    LAM_RESERVED(28);
+    lam_tone tone; // the curve between exposure and encoding, of pictures of 8 bits
+    // Physical materials under an environment: the number of directions per point over which the light is summed, in
+    // place of the split sum's tables; 0: the split sum. At most 65536. CPU device only: others fail with
+    // LAM_UNSUPPORTED.
+    int reference;
+    LAM_RESERVED(27);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.
@@ -211,6 +237,13 @@ typedef struct lam_frame_report {
 // LAM_CANCELLED, LAM_UNSUPPORTED (OpenGL).
 LAM_API bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                       const lam_draw_params *params, lam_image *image, const lam_control *control, lam_error *error);
+
+// Finds the exposure, in stops, at which 95 % of the covered pixels of a frame are at most as bright as 0.8 (Rec. 709
+// luminance), rounded to thirds of a stop; 0 where there is no light. It draws the frame, with params->exposure taken as
+// 0, at most 512 pixels wide and high. Errors as lam_draw.
+LAM_API bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_camera *camera,
+                              const lam_draw_params *params, int width, int height, const lam_control *control,
+                              double *stops, lam_error *error);
 
 // The lights of a frame: the scene's, then the rig's. Returns their number and copies the first `capacity` of them to
 // `lights`, which may be NULL. Names live as long as the scene is unchanged.

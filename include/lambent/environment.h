@@ -67,7 +67,8 @@ LAM_API void lam_environment_free(lam_environment *environment);
 LAM_API int lam_environment_size(const lam_environment *environment);
 
 // The linear light from a direction in the environment's own axes, of any length; (0, 0, 0) gives black. Bilinear, and
-// without a seam where faces meet. Drawing adds this times the material's reflectivity.
+// without a seam where faces meet. Drawing adds this times the reflectivity of a classic material; a physical one is lit by
+// means of it, which the first frame that needs them makes and the environment keeps (docs/lighting/environment.md).
 LAM_API lam_rgb lam_environment_sample(const lam_environment *environment, lam_vec3 direction);
 
 #ifdef __cplusplus

@@ -89,7 +89,14 @@ typedef struct lam_explained_point {
     lam_rgb emission, ambient, diffuse, specular, reflection;
     lam_rgb sum;    // emission + ambient + diffuse + specular + reflection
     lam_rgb result; // the sum; clamped to 0…1 with gl1, flat and Gouraud
-    LAM_RESERVED(8);
+    // The split sum of a physical material under an environment; all zero elsewhere. The reflection term is
+    //     kd ⊙ irradiance (1 − (0.04 scale + bias)) + prefiltered ⊙ (f0 scale + bias)
+    // with the mix of dielectric and metal, and the light between microfacets, of the lights' Fresnel factor.
+    float environment_roughness;
+    float environment_level; // of the prefiltered environment, 0 (a mirror) to 11 (roughness 1)
+    float environment_scale, environment_bias;
+    lam_rgb irradiance, prefiltered;
+    LAM_RESERVED(3);
 } lam_explained_point;
 
 // A triangle that the pixel shows.
@@ -148,7 +155,9 @@ typedef struct lam_explanation {
     lam_rgb straight; // result / alpha
     lam_rgb encoded;  // `straight` sRGB-encoded, or clamped with LAM_COLOR_RAW
     uint8_t bytes[4]; // what LAM_RGBA8 holds: floor(255·encoded + ½), and alpha
-    LAM_RESERVED(8);
+    lam_tone tone;    // in use, never AUTO
+    lam_rgb toned;    // `straight` after the tone curve, which is then encoded
+    LAM_RESERVED(6);
 } lam_explanation;
 
 // Draws the part of the picture around pixel (x, y), counted from the upper left corner, and records every number of

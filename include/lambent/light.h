@@ -92,8 +92,10 @@ LAM_API bool lam_light_check(const lam_light *light, lam_error *error);
 
 // Ready-made sets of lights.
 typedef enum lam_rig {
-    LAM_RIG_AUTO = 0, // the scene's own lights; the studio where it has none
-    LAM_RIG_NONE,     // the scene's own lights only, even if it has none
+    // The scene's own lights. Where it has none: the studio, or if its materials are physical ones no light but its
+    // environment, and if it has none of those either the built-in environment "studio".
+    LAM_RIG_AUTO = 0,
+    LAM_RIG_NONE, // the scene's own lights only, even if it has none
     // The default look: key, fill and rim light fixed to the camera, and a hemisphere light.
     LAM_RIG_STUDIO,
     LAM_RIG_HEADLIGHT, // one directional light from the eye

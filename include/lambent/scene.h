@@ -310,7 +310,8 @@ LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *contro
 LAM_API void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient);
 LAM_API lam_rgb lam_scene_ambient(const lam_scene *scene);
 
-// Sets the environment that materials with a reflectivity mirror; NULL, the default: none. `rotation_rad` turns it
+// Sets the environment, which classic materials with a reflectivity mirror and which lights physical ones; NULL, the
+// default: none (LAM_RIG_AUTO adds one). `rotation_rad` turns it
 // about the up axis, counter-clockwise seen from above. With y up and no rotation its axes are the world's; with
 // another up axis it is turned as the fitted camera is, its top up. The scene keeps the environment: the caller may
 // free its own reference. False: LAM_BAD_ARGUMENT (no scene, a rotation that is not finite).

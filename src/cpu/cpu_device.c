@@ -2,6 +2,7 @@
 #include "device_type.h"
 
 #include "cpu_frame.h"
+#include "environment_light.h"
 #include "fail.h"
 #include "isa.h"
 #include "output.h"
@@ -155,6 +156,9 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         .threads = device->threads,
     };
     if (!cpu_frame_set_up(&cpu, &device->memory, error))
+        return false;
+    if (frame->environment_lights &&
+        !(cpu.shade.environment_light = environment_light(frame->environment, device->pool, call, error)))
         return false;
     cpu.kernels->resolve_empty(&cpu.target);
     if (!lam_output_is_light(frame->output))

@@ -96,6 +96,7 @@ static void take_frame(lam_explanation *out, const struct frame *frame)
     out->has_environment = frame->environment != NULL;
     out->background = frame->background;
     out->exposure = frame->exposure;
+    out->tone = frame->tone;
 }
 
 static bool check_place(const lam_device *device, const lam_draw_params *params, int width, int height,

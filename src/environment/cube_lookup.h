@@ -16,9 +16,8 @@ struct cube_place {
     num s, t;
 };
 
-// OpenGL's table (4.6, 8.13): the axis with the largest magnitude selects the face. Of equal magnitudes either serves,
-// since the filter is continuous.
-LANE_FN struct cube_place cube_place(num x, num y, num z, int size)
+// The same on a face from −1 to 1; NaN for the zero vector.
+LANE_FN struct cube_place cube_point(num x, num y, num z)
 {
     num ax = absolute(x), ay = absolute(y), az = absolute(z);
     mask on_x = both(ax >= ay, ax >= az), on_y = both(negate(on_x), ay >= az);
@@ -27,13 +26,23 @@ LANE_FN struct cube_place cube_place(num x, num y, num z, int size)
     num across = pick(on_x, pick(minus, z, -z), pick(on_y, x, pick(minus, -x, x)));
     num down = pick(on_y, pick(minus, -z, z), -y);
     inum axis = ipick(on_x, inum_of(LAM_FACE_PX), ipick(on_y, inum_of(LAM_FACE_PY), inum_of(LAM_FACE_PZ)));
-    float half = 0.5f * (float)size, middle = half + 0.5f;
-    num min = num_of(0.5f), max = num_of((float)size + 0.5f);
     struct cube_place place;
     place.face = wrap_add(axis, ipick(minus, inum_of(1), inum_of(0)));
+    place.s = across / major;
+    place.t = down / major;
+    return place;
+}
+
+// OpenGL's table (4.6, 8.13): the axis with the largest magnitude selects the face. Of equal magnitudes either serves,
+// since the filter is continuous.
+LANE_FN struct cube_place cube_place(num x, num y, num z, int size)
+{
+    float half = 0.5f * (float)size, middle = half + 0.5f;
+    num min = num_of(0.5f), max = num_of((float)size + 0.5f);
+    struct cube_place place = cube_point(x, y, z);
     // Clamped with NaN, 0/0, to the middle of the border.
-    place.s = min_of(max_of(across / major * half + middle, min), max);
-    place.t = min_of(max_of(down / major * half + middle, min), max);
+    place.s = min_of(max_of(place.s * half + middle, min), max);
+    place.t = min_of(max_of(place.t * half + middle, min), max);
     return place;
 }
 

@@ -1,4 +1,5 @@
 // cube_map.c: a cube map in memory: borders, reference counting, lookup.
+#include "environment_light.h"
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
@@ -12,7 +13,7 @@
 struct lam_environment *cube_make(int size, lam_error *error)
 {
     struct lam_environment *cube = malloc(sizeof *cube);
-    size_t bytes = cube_bytes(size);
+    size_t bytes = cube_bytes(size) + CUBE_TEXELS_AFTER;
     float *texels = cube ? malloc(bytes) : NULL;
     if (!texels) {
         free(cube);
@@ -35,6 +36,7 @@ void lam_environment_free(lam_environment *cube)
 {
     if (!cube || __atomic_sub_fetch(&cube->references, 1, __ATOMIC_ACQ_REL) > 0)
         return;
+    environment_light_free(cube->light);
     free(cube->texels);
     free(cube);
 }

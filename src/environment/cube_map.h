@@ -12,9 +12,10 @@
 enum { CUBE_SIDE_MOST = 8192 };
 
 struct lam_environment {
-    int references; // accessed atomically
-    int size;       // texels on a face's side, border not counted
-    float *texels;  // 6 faces of (size + 2)² times r, g, b; row t = −1 first
+    int references;                  // accessed atomically
+    int size;                        // texels on a face's side, border not counted
+    float *texels;                   // 6 faces of (size + 2)² times r, g, b; row t = −1 first
+    struct environment_light *light; // for physical materials, made when first asked for (environment_light.h)
 };
 
 static inline size_t cube_row(const struct lam_environment *cube) { return (size_t)(cube->size + 2) * 3; }
@@ -27,6 +28,9 @@ static inline float *cube_texel(const struct lam_environment *cube, int face, in
 
 // A cube of that size, texels undefined. NULL: out of memory.
 struct lam_environment *cube_make(int size, lam_error *error);
+
+// Memory after the texels, so that the last one too can be read as four numbers.
+enum { CUBE_TEXELS_AFTER = 16 };
 
 static inline size_t cube_bytes(int size)
 {
@@ -52,6 +56,12 @@ void cube_close(struct lam_environment *cube);
 
 // The direction of a point of a face: major · axis + across · s + down · t (OpenGL's table, read backwards).
 void cube_direction(int face, double major, double across, double down, double out[3]);
+
+// The built-in studio, made when it is first asked for, by any number of threads. NULL: out of memory.
+struct lazy_environment;
+struct lazy_environment *lazy_environment_make(void);
+const struct lam_environment *lazy_environment_studio(struct lazy_environment *lazy, lam_error *error);
+void lazy_environment_free(struct lazy_environment *lazy); // NULL is fine
 
 // Adds a reference.
 struct lam_environment *cube_share(const struct lam_environment *cube);

@@ -4,6 +4,8 @@
 #include "float_state.h"
 #include "linear.h"
 
+#include <pthread.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { SIDE = 256 }; // texels on a face's side
@@ -92,11 +94,8 @@ enum { COUNT = sizeof table / sizeof *table };
 
 const char *lam_environment_built_in_name(int index) { return index >= 0 && index < COUNT ? table[index].name : NULL; }
 
-static struct lam_environment *fill(struct rgb (*light)(lam_vec3 direction), lam_error *error)
+static void fill(struct lam_environment *cube, struct rgb (*light)(lam_vec3 direction))
 {
-    struct lam_environment *cube = cube_make(SIDE, error);
-    if (!cube)
-        return NULL;
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
         for (int t = 0; t < SIDE; t++) {
             for (int s = 0; s < SIDE; s++) {
@@ -110,7 +109,6 @@ static struct lam_environment *fill(struct rgb (*light)(lam_vec3 direction), lam
         }
     }
     cube_close(cube);
-    return cube;
 }
 
 lam_environment *lam_environment_built_in(const char *name, lam_error *error)
@@ -118,11 +116,47 @@ lam_environment *lam_environment_built_in(const char *name, lam_error *error)
     for (int i = 0; name && i < COUNT; i++) {
         if (strcmp(name, table[i].name) == 0) {
             uint64_t state = float_state_enter();
-            struct lam_environment *cube = fill(table[i].light, error);
+            struct lam_environment *cube = cube_make(SIDE, error);
+            if (cube)
+                fill(cube, table[i].light);
             float_state_leave(state);
             return cube;
         }
     }
     fail(error, LAM_BAD_ARGUMENT, "environment: '%s' is not built in, expected sky or studio", name ? name : "");
     return NULL;
+}
+
+// --- the studio of scenes without lights
+
+struct lazy_environment {
+    pthread_mutex_t one_maker;
+    struct lam_environment *made;
+};
+
+struct lazy_environment *lazy_environment_make(void)
+{
+    struct lazy_environment *lazy = calloc(1, sizeof *lazy);
+    if (lazy)
+        pthread_mutex_init(&lazy->one_maker, NULL);
+    return lazy;
+}
+
+const struct lam_environment *lazy_environment_studio(struct lazy_environment *lazy, lam_error *error)
+{
+    pthread_mutex_lock(&lazy->one_maker);
+    if (!lazy->made)
+        lazy->made = lam_environment_built_in("studio", error);
+    const struct lam_environment *made = lazy->made;
+    pthread_mutex_unlock(&lazy->one_maker);
+    return made;
+}
+
+void lazy_environment_free(struct lazy_environment *lazy)
+{
+    if (!lazy)
+        return;
+    lam_environment_free(lazy->made);
+    pthread_mutex_destroy(&lazy->one_maker);
+    free(lazy);
 }

@@ -1,6 +1,7 @@
 // frame.c: builds a frame from a scene, a camera and the draw parameters.
 #include "frame.h"
 
+#include "cube_map.h"
 #include "fail.h"
 #include "linear.h"
 #include "view_extents.h"
@@ -67,6 +68,11 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
     if (params->anisotropy < 0 || params->anisotropy > 16)
         return fail(error, LAM_BAD_ARGUMENT, "anisotropy is %d, expected 0 to 16", params->anisotropy);
+    if ((unsigned)params->tone >= LAM_TONE_COUNT)
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: tone %d is not one of lam_tone", (int)params->tone);
+    if (params->reference < 0 || params->reference > 65536)
+        return fail(error, LAM_BAD_ARGUMENT, "reference is %d, expected directions per point, 1 to 65536, or 0",
+                    params->reference);
     if (!(params->light_cutoff >= -3e38f && params->light_cutoff <= 1))
         return fail(error, LAM_BAD_ARGUMENT, "light_cutoff is %g, expected at most 1", (double)params->light_cutoff);
     if ((unsigned)params->output >= LAM_OUTPUT_COUNT || params->output_light < 0)
@@ -375,11 +381,24 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     return true;
 }
 
-// Sets the matrix from directions in eye space to the environment's axes: eye space to world space, the scene's up axis
+// Whether an output holds the light of the environment.
+static bool shows_reflection(lam_output output) { return output_is_picture(output) || output == LAM_OUTPUT_REFLECTION; }
+
+// Whether physical materials are lit as such.
+static bool uses_physical(const struct frame *frame)
+{
+    return frame->reflection == LAM_REFLECTION_AUTO || frame_is_physical(frame->reflection);
+}
+
+// Sets the environment and the matrix from directions in eye space to the environment's axes: eye space to world space, the scene's up axis
 // to +Y (as the fitted camera), then the inverse of the environment's rotation.
-static void build_environment(struct frame *frame, const lam_scene *scene, const lam_mat4 *view)
+static bool build_environment(struct frame *frame, const lam_scene *scene, lam_rig rig, const lam_mat4 *view,
+                              lam_error *error)
 {
     frame->environment = scene->environment;
+    if (!frame->environment && rig == LAM_RIG_AUTO && scene_lit_by_environment(scene) && uses_physical(frame) &&
+        shows_reflection(frame->output) && !(frame->environment = lazy_environment_studio(scene->studio, error)))
+        return false;
     double s = math_sin(scene->environment_rotation_rad), c = math_cos(scene->environment_rotation_rad);
     for (int j = 0; j < 3; j++) {
         lam_vec3 axis = v3(view->m[j][0], view->m[j][1], view->m[j][2]); // eye axis j in world space
@@ -388,6 +407,7 @@ static void build_environment(struct frame *frame, const lam_scene *scene, const
         for (int i = 0; i < 3; i++)
             frame->to_environment[i][j] = rounded(turned[i]);
     }
+    return true;
 }
 
 bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
@@ -441,7 +461,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     lam_mat4 projection = frame->orthographic
                               ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
                               : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
-    build_environment(frame, scene, &view);
+    if (!build_environment(frame, scene, params->rig, &view, error))
+        return false;
     lam_mat4 pixel = to_pixels(&projection, width, height);
 
     uint64_t next = 0;
@@ -457,6 +478,15 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         next += triangles;
     }
     frame->triangle_count = (uint32_t)next;
+    bool physical = false;
+    for (int i = 0; i < frame->range_count; i++)
+        physical |= frame_is_physical(frame->ranges[i].reflection);
+    frame->tone = params->tone                                 ? params->tone
+                  : physical && params->color != LAM_COLOR_RAW ? LAM_TONE_KHRONOS_NEUTRAL
+                                                               : LAM_TONE_NONE;
+    if (!lam_output_is_light(frame->output))
+        frame->tone = LAM_TONE_NONE;
+    frame->environment_lights = physical && frame->environment && shows_reflection(frame->output);
     // Flat shading has the normals of the faces; coverage and overdraw need no normals.
     if (lam_output_is_light(frame->output)
             ? frame->shading == LAM_SHADING_FLAT && frame->flat_normal == LAM_FLAT_NORMAL_FACE
@@ -465,8 +495,10 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     // Values are those of the nearest surface, whatever its alpha.
     if (!lam_output_is_light(frame->output) && frame->output != LAM_OUTPUT_CLIPPED)
         frame->translucent = frame->masked = false;
-    return build_lights(frame, scene, params->rig, output_is_one_light(frame->output) ? params->output_light : -1,
-                        &view, error);
+    // Lit by a classic model, materials that the environment would have lit have the studio's rig.
+    bool by_rig = params->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
+    return build_lights(frame, scene, by_rig ? LAM_RIG_STUDIO : params->rig,
+                        output_is_one_light(frame->output) ? params->output_light : -1, &view, error);
 }
 
 void frame_free(struct frame *frame) { buffer_free(&frame->storage); }

@@ -70,6 +70,7 @@ struct frame {
     lam_rgba background;
     lam_color_mode color;
     float exposure; // 2^stops
+    lam_tone tone;  // never AUTO
     lam_shading shading;
     lam_stage stage;           // never AUTO
     lam_reflection reflection; // AUTO: the material's own; see frame_draw_range.reflection
@@ -106,6 +107,7 @@ struct frame {
     float ambient[3]; // La_global + Σ La of all lights (gl1: of lights without a position only)
 
     const lam_environment *environment; // NULL: none
+    bool environment_lights;            // it lights a range of a physical model (environment_light.h)
     float to_environment[3][3];         // directions in eye space to the environment's axes
 
     lam_light rig[LAM_RIG_LIGHTS_MAX];
@@ -115,6 +117,9 @@ struct frame {
 
 // The reflection model that lights a material; never AUTO.
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material);
+
+// Whether a model lights physical materials.
+bool frame_is_physical(lam_reflection model);
 
 // The greatest number of materials that frame_materials_build and frame_back_material turn into the other kind.
 size_t frame_materials_turned(const struct frame *frame, const lam_scene *scene);

@@ -4,7 +4,7 @@
 
 #include "frame.h"
 
-static bool is_microfacet(lam_reflection model) { return lobe_properties((int)model) & LOBE_MICROFACET; }
+bool frame_is_physical(lam_reflection model) { return lobe_properties((int)model) & LOBE_MICROFACET; }
 
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material)
 {
@@ -18,12 +18,12 @@ lam_reflection frame_reflection(const struct frame *frame, const lam_material *m
 // Whether a model lights a material as it is. LAM_REFLECTION_NONE shows the diffuse colour of either kind.
 static bool fits(const lam_material *material, lam_reflection model)
 {
-    return model == LAM_REFLECTION_NONE || material->physical == is_microfacet(model);
+    return model == LAM_REFLECTION_NONE || material->physical == frame_is_physical(model);
 }
 
 static lam_material turned(const lam_material *material, lam_reflection model)
 {
-    if (is_microfacet(model))
+    if (frame_is_physical(model))
         return lam_material_as_physical(material);
     lam_material classic = lam_material_as_classic(material);
     if (model == LAM_REFLECTION_PHONG) // Phong's highlight at α/4 looks like Blinn and Phong's at α

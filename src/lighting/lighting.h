@@ -6,11 +6,13 @@
 
 #include "prelude_c.h"
 
+#include <lambent/device.h>
 #include <lambent/material.h>
 
 #include "lobes.h"
 #include "light_kinds.h"
 #include "lights.h"
 #include "sum.h"
+#include "tone.h"
 
 #endif

@@ -240,23 +240,62 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
     return b;
 }
 
-// The share of light that mirrors of f0 = 1 return at once, the rest being light that other mirrors take up: the
-// integral of S over all l, divided by pi. From a table of 32 roughnesses, ROUGHNESS_MIN to 1, times 32 roots of n.v.
-FN num single_scattering(num n_dot_v, num roughness)
+// A place in the tables of what GGX's mirrors return of light from everywhere: 32 roughnesses, ROUGHNESS_MIN to 1, times 32
+// roots of n.v (scripts/albedo_tables.py).
+STRUCT(albedo_place)
 {
+    num first;  // the entry above and to the left
+    num across; // fractions towards the next
+    num down;
+};
+
+FN albedo_place albedo_place_of(num n_dot_v, num roughness)
+{
+    albedo_place p;
     num along = 31.0f * square_root(saturate(n_dot_v));
     num down = (31.0f / (1.0f - ROUGHNESS_MIN)) * positive(min_of(roughness, num_of(1.0f)) - ROUGHNESS_MIN);
     num column = min_of(whole(along), num_of(30.0f));
     num row = min_of(whole(down), num_of(30.0f));
-    num a = along - column;
-    num first = 32.0f * row + column;
-    num upper = albedo_texel(first) * (1.0f - a) + albedo_texel(first + 1.0f) * a;
-    num lower = albedo_texel(first + 32.0f) * (1.0f - a) + albedo_texel(first + 33.0f) * a;
-    return upper + (lower - upper) * (down - row);
+    p.across = along - column;
+    p.down = down - row;
+    p.first = 32.0f * row + column;
+    return p;
+}
+
+// The share of light that mirrors of f0 = 1 return at once, the rest being light that other mirrors take up: the
+// integral of S over all l, divided by pi.
+FN num single_scattering(num n_dot_v, num roughness)
+{
+    albedo_place p = albedo_place_of(n_dot_v, roughness);
+    num a = p.across;
+    num upper = albedo_texel(p.first) * (1.0f - a) + albedo_texel(p.first + 1.0f) * a;
+    num lower = albedo_texel(p.first + 32.0f) * (1.0f - a) + albedo_texel(p.first + 33.0f) * a;
+    return upper + (lower - upper) * p.down;
+}
+
+// The same integral with Schlick's weight (1 - v.h)^5.
+FN num schlick_scattering(num n_dot_v, num roughness)
+{
+    albedo_place p = albedo_place_of(n_dot_v, roughness);
+    num a = p.across;
+    num upper = bias_texel(p.first) * (1.0f - a) + bias_texel(p.first + 1.0f) * a;
+    num lower = bias_texel(p.first + 32.0f) * (1.0f - a) + bias_texel(p.first + 33.0f) * a;
+    return upper + (lower - upper) * p.down;
 }
 
 // What light between the mirrors adds to what they return at once, for f0 = 1.
 FN num scattering_gain(surface s, num roughness) { return 1.0f / single_scattering(dot3(s.n, s.v), roughness) - 1.0f; }
+
+// The level of a prefiltered environment for a roughness: 0 at ROUGHNESS_MIN, PREFILTERED_LAST at 1, even in its fourth
+// root.
+#define PREFILTERED_LAST 11.0f
+#define ROUGHNESS_MIN_ROOT 0.46057798f
+
+FN num prefilter_level(num roughness)
+{
+    num root = square_root(square_root(max_of(min_of(roughness, num_of(1.0f)), num_of(ROUGHNESS_MIN))));
+    return saturate((root - ROUGHNESS_MIN_ROOT) / (1.0f - ROUGHNESS_MIN_ROOT)) * PREFILTERED_LAST;
+}
 
 // A microfacet lobe's base is its S.
 FN lobe_value microfacet_of(lobe_sample b)

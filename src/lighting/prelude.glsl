@@ -44,6 +44,13 @@ float albedo_texel(float index)
     );
     return table[int(index)];
 }
+float bias_texel(float index)
+{
+    const float table[1024] = float[1024](
+#include "bias.table"
+    );
+    return table[int(index)];
+}
 
 float square_root(float x) { return sqrt(x); }
 float rsqrt(float x) { return inversesqrt(max_of(x, 1.0e-37)); }

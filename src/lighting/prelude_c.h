@@ -30,11 +30,18 @@ FN vec3 cross3(vec3 a, vec3 b) { return (vec3){a.y * b.z - a.z * b.y, a.z * b.x 
 FN vec3 mix3(vec3 a, vec3 b, num t) { return add3(a, scale3(sub3(b, a), t)); } // a at 0, b at 1
 FN vec3 pick3(mask m, vec3 a, vec3 b) { return (vec3){pick(m, a.x, b.x), pick(m, a.y, b.y), pick(m, a.z, b.z)}; }
 
-// A number of the table that single_scattering reads.
+// Numbers of the tables that single_scattering and schlick_scattering read.
 FN num albedo_texel(num index)
 {
     static const float table[] = {
 #include "albedo.table"
+    };
+    return num_of_bits(igather((const int32_t *)table, int_of(index)));
+}
+FN num bias_texel(num index)
+{
+    static const float table[] = {
+#include "bias.table"
     };
     return num_of_bits(igather((const int32_t *)table, int_of(index)));
 }

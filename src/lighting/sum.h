@@ -4,7 +4,7 @@
 //
 //     I = emission + ka * (La global + sum of La_i + sum of hemisphere_i)
 //         + sum over lights of  spot_i attenuation_i (kd * Ld_i D_i + ks * Ls_i S_i)
-//         + kr * environment
+//         + kr * environment, or the split sum of metallic-roughness materials
 //
 // where * multiplies colours channel by channel. The products ka * La, kd * Ld, ks * Ls are formed once for each draw
 // and are parameters here. Ambient light is neither attenuated nor limited by a cone, so all of it is one colour.
@@ -119,6 +119,26 @@ FN terms add_environment(terms sum, vec3 kr, vec3 colour)
 {
     sum.reflection = add3(sum.reflection, mul3(kr, colour));
     return sum;
+}
+
+// Light from all around on a metallic-roughness material.
+STRUCT(surroundings)
+{
+    vec3 irradiance;  // divided by pi: the mean of the light above the surface, weighted by the cosine
+    vec3 prefiltered; // the light around the mirrored direction, weighted by the lobe (prefilter_level)
+    num albedo;       // single_scattering: scale + bias
+    num bias;         // schlick_scattering
+};
+
+// The split sum (Karis 2013): the integral of light times lobe is taken as the light's mean times the lobe's integral,
+//     kd irradiance (1 - (0.04 scale + bias)) + prefiltered (f0 scale + bias)
+// with the mix of dielectric and metal, and the light that mirrors send to one another, as fresnel_of has them:
+// f0 scale + bias = f0 (scale + bias) + (1 - f0) bias.
+FN vec3 surroundings_light(fresnel f, vec3 kd, surroundings e)
+{
+    num dielectric = DIELECTRIC_F0 * e.albedo + (1.0f - DIELECTRIC_F0) * e.bias;
+    vec3 mirrored = add3(scale3(f.f0, e.albedo), scale3(f.rest, e.bias));
+    return add3(mul3(scale3(kd, 1.0f - dielectric), e.irradiance), mul3(mirrored, e.prefiltered));
 }
 
 // Multiplies the ambient and diffuse terms by a colour that varies over the surface (vertex colours, a texture).

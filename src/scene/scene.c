@@ -22,6 +22,13 @@ struct lam_scene *scene_make(struct call_control *call, lam_error *error)
         free(scene);
         return NULL;
     }
+    scene->studio = lazy_environment_make();
+    if (!scene->studio) {
+        fail_memory(error, sizeof *scene);
+        free(scene->token);
+        free(scene);
+        return NULL;
+    }
     *scene->token = (struct scene_token){.references = 1};
     arena_start(&scene->arena, call);
     scene->up = LAM_UP_Y;
@@ -43,6 +50,7 @@ void lam_scene_free(lam_scene *scene)
         lam_texture_free(((lam_texture **)scene->textures.items)[i]);
     arena_free(&scene->arena);
     lam_environment_free(scene->environment);
+    lazy_environment_free(scene->studio);
     __atomic_store_n(&scene->token->gone, 1, __ATOMIC_RELEASE);
     scene_token_release(scene->token);
     free(scene);

@@ -83,6 +83,7 @@ struct lam_scene {
     lam_material default_material;   // of parts without a material
     lam_environment *environment;    // shared with others; NULL: none
     double environment_rotation_rad; // about the up axis
+    struct lazy_environment *studio; // the light where there is none (scene_lit_by_environment)
     lam_color_mode color;            // the interpretation of the file's colours
     const char *format;
     lam_file_info file; // of a glTF file
@@ -95,6 +96,10 @@ struct lam_scene {
 // As lam_scene_make, but allocations are charged to `call` (may be NULL) until scene_built.
 struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
+
+// Whether a scene has no lights, and a physical material of its own that is lit: the environment is then its light, or
+// where it has none the built-in studio, in place of a rig.
+bool scene_lit_by_environment(const struct lam_scene *scene);
 
 struct scene_token *scene_token_hold(struct scene_token *token);
 void scene_token_release(struct scene_token *token); // `token` may be NULL

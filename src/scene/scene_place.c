@@ -123,10 +123,23 @@ bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, double a
     return ok;
 }
 
+bool scene_lit_by_environment(const struct lam_scene *scene)
+{
+    if (scene->lights.count)
+        return false;
+    int physical = 0, classic = 0;
+    for (int i = scene->materials.count ? 0 : -1; i < scene->materials.count; i++) {
+        const lam_material *material = i < 0 ? &scene->default_material : lam_scene_material(scene, i);
+        physical += material->physical && !material->unlit;
+        classic += !material->physical && !material->unlit;
+    }
+    return physical && !classic;
+}
+
 int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     if (rig == LAM_RIG_AUTO)
-        rig = lam_scene_light_count(scene) ? LAM_RIG_NONE : LAM_RIG_STUDIO;
+        rig = lam_scene_light_count(scene) || scene_lit_by_environment(scene) ? LAM_RIG_NONE : LAM_RIG_STUDIO;
     int count = lam_rig_lights(rig, lights);
     if (rig != LAM_RIG_LECTURE)
         return count;

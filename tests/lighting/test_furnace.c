@@ -16,14 +16,16 @@
 #define PI 3.14159265358979323846
 
 // The integral of S over all directions of light, divided by pi, in double: over halves h of a grid in which mirrors that face
-// h are evenly dense, so that a sharp lobe needs no finer one.
+// h are evenly dense, so that a sharp lobe needs no finer one, but finer where h lies far from the normal: there a grazing v
+// sees most of them.
 static double albedo(double n_dot_v, double roughness)
 {
     enum { RINGS = 400, SECTORS = 100 };
     double alpha = roughness * roughness, square = alpha * alpha, sum = 0;
     double v_x = sqrt(1 - n_dot_v * n_dot_v);
     for (int i = 0; i < RINGS; i++) {
-        double u = (i + 0.5) / RINGS, h_z = sqrt((1 - u) / (1 + (square - 1) * u)), h_r = sqrt(1 - h_z * h_z);
+        double rest = 1 - (i + 0.5) / RINGS, u = 1 - rest * rest * rest, h_z = sqrt((1 - u) / (1 + (square - 1) * u)),
+               h_r = sqrt(1 - h_z * h_z);
         for (int k = 0; k < SECTORS; k++) {
             double h_x = h_r * cos((k + 0.5) / SECTORS * PI), v_h = v_x * h_x + n_dot_v * h_z;
             double l_z = 2 * v_h * h_z - n_dot_v;
@@ -31,7 +33,7 @@ static double albedo(double n_dot_v, double roughness)
                 continue;
             double masked = l_z * sqrt(n_dot_v * n_dot_v * (1 - square) + square);
             double shadowed = n_dot_v * sqrt(l_z * l_z * (1 - square) + square);
-            sum += 4 * (0.5 / (masked + shadowed)) * l_z * v_h / h_z;
+            sum += 3 * rest * rest * 4 * (0.5 / (masked + shadowed)) * l_z * v_h / h_z;
         }
     }
     return sum / (RINGS * SECTORS);

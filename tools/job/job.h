@@ -27,6 +27,7 @@ struct job {
     lam_scene *scene;   // NULL until the model is loaded
     struct model_counts model_counts;
     lam_rig rig; // the rig that drawing adds to the scene's own lights
+    bool studio; // the built-in environment "studio" lights it, where no other is set
     lam_camera camera;
     lam_image image;
     lam_rgba background; // behind the model

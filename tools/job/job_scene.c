@@ -98,6 +98,24 @@ static bool add_rig(lam_scene *scene, lam_rig rig, lam_error *error)
     return true;
 }
 
+static bool lit_by_environment(const struct job *job)
+{
+    lam_light lights[LAM_RIG_LIGHTS_MAX];
+    return job->rig == LAM_RIG_AUTO && lam_scene_light_count(job->scene) == 0 &&
+           lam_scene_rig_lights(job->scene, LAM_RIG_AUTO, lights) == 0;
+}
+
+// The environment that drawing would take for a scene without lights: options are about to add some.
+static bool set_studio(lam_scene *scene, lam_error *error)
+{
+    if (lam_scene_environment(scene))
+        return true;
+    lam_environment *studio = lam_environment_built_in("studio", error);
+    bool ok = studio && lam_scene_set_environment(scene, studio, 0, error);
+    lam_environment_free(studio);
+    return ok;
+}
+
 // Chooses between the model's lights and the rig's. Drawing adds the rig if no option changes it; otherwise its lights
 // are added to the scene here, placed around the model in its current position.
 static bool apply_rig(struct job *job, lam_error *error)
@@ -115,10 +133,15 @@ static bool apply_rig(struct job *job, lam_error *error)
         lam_scene_clear_lights(job->scene);
     if (dark)
         job->rig = LAM_RIG_NONE;
+    bool classic =
+        o->reflection != LAM_REFLECTION_AUTO && !lam_reflection_describe((lam_reflection)o->reflection)->microfacet;
+    if (job->rig == LAM_RIG_AUTO && classic && lam_scene_light_count(job->scene) == 0)
+        job->rig = LAM_RIG_STUDIO; // where the environment lights physical models
+    job->studio = lit_by_environment(job);
     bool as_it_is = !o->lights.count && !o->has_light_scale && !o->rotations.count;
     if (job->rig == LAM_RIG_NONE || as_it_is)
         return true;
-    bool ok = add_rig(job->scene, job->rig, error);
+    bool ok = (!job->studio || set_studio(job->scene, error)) && add_rig(job->scene, job->rig, error);
     job->rig = LAM_RIG_NONE;
     return ok;
 }

@@ -87,7 +87,8 @@ static bool set_reflectivity(lam_scene *scene, lam_rgb reflectivity, lam_error *
 
 static bool mirrors(const lam_material *material)
 {
-    return material->reflectivity.r > 0 || material->reflectivity.g > 0 || material->reflectivity.b > 0;
+    return material->physical || material->reflectivity.r > 0 || material->reflectivity.g > 0 ||
+           material->reflectivity.b > 0;
 }
 
 static bool material_mirrors(const lam_scene *scene, int index)

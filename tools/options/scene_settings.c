@@ -133,6 +133,10 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     s.camera = job->camera;
     s.draw = *draw;
     char *names = NULL;
+    if (job->studio && !(s.present & LAM_SETTING_ENVIRONMENT)) {
+        s.environment_built_in = "studio";
+        s.present |= LAM_SETTING_ENVIRONMENT;
+    }
     bool ok = take_environment(job->options, &s, &names, error) &&
               lam_scene_save(job->scene, &s, job->options->save_scene, error);
     free(names);

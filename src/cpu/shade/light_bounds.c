@@ -241,7 +241,9 @@ bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const
             fill_group(&w, g, count);
     }
     fill_materials(&w, count, capacity, frame, materials);
-    float slope = (frame->color == LAM_COLOR_RAW ? 1.0f : SRGB_SLOPE) * frame->exposure;
+    // Tone curves are nowhere steeper than the light itself, but for those with a sigmoid.
+    float steep = frame->tone == LAM_TONE_ACES || frame->tone == LAM_TONE_AGX ? 4.0f : 1.0f;
+    float slope = steep * (frame->color == LAM_COLOR_RAW ? 1.0f : SRGB_SLOPE) * frame->exposure;
     *table =
         (struct light_bounds){.count = count,
                               .capacity = capacity,

@@ -30,8 +30,8 @@ static void multiply_material(struct material_products *out, const lam_material 
     out->converted = out->maps && frame_material_is_converted(frame, material);
     out->shininess = frame_shininess(frame, material);
     memcpy(out->reflectivity, &material->reflectivity, sizeof out->reflectivity);
-    out->mirrors =
-        frame->environment && (out->reflectivity[0] != 0 || out->reflectivity[1] != 0 || out->reflectivity[2] != 0);
+    out->mirrors = frame->environment && !material->physical &&
+                   (out->reflectivity[0] != 0 || out->reflectivity[1] != 0 || out->reflectivity[2] != 0);
 }
 
 struct material_products *products_make(struct buffer *storage, const struct frame *frame, struct call_control *call,

@@ -16,7 +16,7 @@ struct material_products {
     float emission[3];
     float diffuse[4];      // kd and opacity, for unlit painting
     float reflectivity[3]; // kr
-    bool mirrors;          // there is an environment, and kr is not 0
+    bool mirrors;          // there is an environment, kr is not 0, and the material is a classic one
     const lam_material *given;
     unsigned maps;                       // those that shading reads: a bit 1 << LAM_MAP_… for each
     bool converted;                      // with maps: a metallic-roughness material under a classic model
@@ -32,8 +32,9 @@ struct material_products *products_make(struct buffer *storage, const struct fra
 struct shade_frame {
     const struct frame *frame;
     const struct material_products *materials;
-    const struct light_bounds *light_bounds;  // NULL: every light is evaluated everywhere
-    const float *decode_srgb, *decode_linear; // 256 entries each: the value of a colour byte
+    const struct environment_light *environment_light; // of physical materials; NULL: none
+    const struct light_bounds *light_bounds;           // NULL: every light is evaluated everywhere
+    const float *decode_srgb, *decode_linear;          // 256 entries each: the value of a colour byte
     struct visible_normals
         visible;               // of draws whose meshes have no normals; its set holds triangle numbers of the frame
     struct recorder *recorder; // of the pixel that is explained (recorder.h), in the recording kernels; else NULL

@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""albedo_tables.py [--check]: computes the tables of GGX's lobe that src/lighting/lobes.h reads.
+
+For 32 roughnesses (rows, ROUGHNESS_MIN ... 1, evenly) and 32 cosines n.v (columns, their roots evenly from 0 to 1):
+    albedo.table   E = the integral over all l of D V n.l: what mirrors of f0 = 1 return at once
+    bias.table     B = the same with Schlick's weight (1 - v.h)^5
+so that the integral with Schlick's Fresnel factor is f0 (E - B) + B: the scale and bias of the split sum (Karis 2013).
+The integral is taken over half vectors h that are drawn as Heitz (2018) draws those that v sees, on a grid: what is left to
+average is G2 / G1, at most 1 and smooth for every roughness. n.v = 0 stands for 1e-4.
+
+--check writes nothing and reports how far the files are off. Needs python3-numpy.
+"""
+import os
+import sys
+
+import numpy as np
+
+SIZE, RINGS, SECTORS = 32, 400, 400
+ROUGHNESS_MIN = 0.045
+FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "src", "lighting")
+
+
+def integrals(n_dot_v, roughness):
+    alpha = roughness * roughness
+    v = np.array([np.sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v])
+    # Heitz: the hemisphere that v sees, stretched by alpha, as a disc of which the part below is moved up
+    s = np.array([alpha * v[0], 0, v[2]])
+    s /= np.linalg.norm(s)
+    u = (np.arange(RINGS) + 0.5) / RINGS
+    p = np.pi * (np.arange(SECTORS) + 0.5) / SECTORS  # half of the circle: the other is its mirror image
+    r, phi = np.meshgrid(np.sqrt(u), p)
+    # `across` lies in the plane of v and the normal, `along` is perpendicular to it
+    across, along = r * np.cos(phi), r * np.sin(phi)
+    lift = 0.5 * (1 + s[2])
+    across = (1 - lift) * np.sqrt(np.maximum(1 - along * along, 0)) + lift * across
+    up = np.sqrt(np.maximum(1 - across * across - along * along, 0))
+    x, y, z = across * -s[2] + up * s[0], along, across * s[0] + up * s[2]
+    x, y, z = alpha * x, alpha * y, np.maximum(z, 1e-9)
+    length = np.sqrt(x * x + y * y + z * z)
+    x, z = x / length, z / length
+    v_h = np.maximum(x * v[0] + z * v[2], 0)
+    l_z = 2 * v_h * z - v[2]
+    square = alpha * alpha
+    g = lambda c: np.sqrt(c * c * (1 - square) + square)
+    lit = np.maximum(l_z, 1e-12)
+    share = np.where(l_z > 0, lit * (v[2] + g(v[2])) / (lit * g(v[2]) + v[2] * g(lit)), 0)  # G2 / G1
+    return share.mean(), (share * (1 - v_h) ** 5).mean()
+
+
+def main():
+    tables = np.zeros((2, SIZE, SIZE))
+    for i in range(SIZE):
+        for k in range(SIZE):
+            root = max(k / (SIZE - 1), 0.01)
+            roughness = ROUGHNESS_MIN + (1 - ROUGHNESS_MIN) * i / (SIZE - 1)
+            tables[:, i, k] = integrals(root * root, roughness)
+    for name, table in zip(("albedo.table", "bias.table"), tables):
+        path = os.path.join(FOLDER, name)
+        if "--check" in sys.argv:
+            with open(path) as f:
+                kept = np.array([float(x) for x in f.read().replace("\n", " ").split(",") if x.strip()])
+            off = np.abs(kept.reshape(SIZE, SIZE) - table)
+            print("%s: at most %.2g off, %.2g in the mean" % (name, off.max(), off.mean()))
+            continue
+        with open(path, "w") as f:
+            f.write(",\n".join(", ".join("%.5f" % x for x in row) for row in table) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,335 @@
+// environment_light.c: the environment prefiltered for each roughness, and what holds it and the irradiance.
+//
+// A texel is a sum over samples: GGX's lobe around the texel's direction is cut into rings and these into cells about as
+// broad as high; each cell takes the light from that copy of the chain whose texels are about as large as the cell. The
+// cells of a level are the same for all texels.
+#include "environment_light.h"
+
+#include "call_control.h"
+#include "fail.h"
+#include "linear.h"
+#include "pool.h"
+
+#define LANES 4
+#include "cube_lookup.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+
+// --- the cells of a lobe
+
+struct cell {
+    float x, y, z; // unit, z along the lobe's axis
+    float weight;  // all of them sum to 1
+    const struct lam_environment *cube;
+};
+enum { CELLS_MAX = 1024 };
+struct lobe_cells {
+    int near, count; // the far ones follow the near ones
+    struct cell cell[CELLS_MAX];
+};
+
+double prefiltered_roughness(int level)
+{
+    double start = math_sqrt(math_sqrt(0.045)), root = start + (1 - start) * level / (ENVIRONMENT_LEVELS - 1);
+    return root * root * (root * root);
+}
+
+// The levels: texels on a side of a face, and the rings of mirrors h around the axis, by the tangent of their angle: the
+// innermost `core` alpha wide, each of the others `growth` times as wide as those within. Lobes without rings are so wide
+// that they sum a small copy of the cube.
+static const struct {
+    int size;
+    double core, growth;
+} levels[ENVIRONMENT_LEVELS] = {
+    {0},          {112, 0.8, 3.0}, {112, 0.7, 2.0}, {80, 0.5, 1.7}, {64, 0.4, 1.5}, {48, 0.35, 1.4},
+    {.size = 32}, {.size = 24},    {.size = 16},    {.size = 16},   {.size = 16},   {.size = 16}};
+
+// What the far part of a lobe adds changes slowly: it is summed for a cube of a quarter of the size. Far is more than
+// FAR_TEXELS of that cube's texels away.
+enum { FAR_SHRINK = 4, FAR_TEXELS = 2 };
+static int far_size(int level) { return levels[level].growth > 0 ? levels[level].size / FAR_SHRINK : 0; }
+
+int prefiltered_size(int level) { return levels[level].size; }
+
+// The share of GGX's mirrors, D(h) (h.n), whose angle's tangent is below `tangent`.
+static double ggx_share(double tangent, double alpha)
+{
+    double square = tangent * tangent;
+    return square / (square + alpha * alpha);
+}
+
+static void add_ring(struct lobe_cells *cells, double alpha, double inner, double outer, int number,
+                     const struct cube_chain *chain, double *total)
+{
+    // l is twice as far from the axis as h: cos = (1 − t²) / (1 + t²), sin = 2 t / (1 + t²).
+    double share = ggx_share(outer, alpha) - ggx_share(inner, alpha);
+    double middle = ggx_share(inner, alpha) + share / 2, t = alpha * math_sqrt(middle / (1 - middle));
+    double z = (1 - t * t) / (1 + t * t), r = 2 * t / (1 + t * t);
+    double cos_inner = (1 - inner * inner) / (1 + inner * inner), cos_outer = (1 - outer * outer) / (1 + outer * outer);
+    double width = math_acos(cos_outer) - math_acos(cos_inner);
+    int count = (int)(2 * PI * r / width + 0.5);
+    count = count < 5 ? 5 : count > 64 ? 64 : count;
+    double solid_angle = 2 * PI * (cos_inner - cos_outer) / count;
+    const struct lam_environment *cube = cube_chain_near(chain, 1.5 * math_sqrt(4 * PI / LAM_FACE_COUNT / solid_angle));
+    for (int i = 0; i < count && cells->count < CELLS_MAX; i++) {
+        double angle = 2 * PI * (i + (number % 2 ? 0.5 : 0.0)) / count;
+        cells->cell[cells->count++] = (struct cell){(float)(r * math_cos(angle)), (float)(r * math_sin(angle)),
+                                                    (float)z, (float)(share * z / count), cube};
+        *total += share * z / count;
+    }
+}
+
+static void cut_lobe(struct lobe_cells *cells, int level, const struct cube_chain *chain)
+{
+    double roughness = prefiltered_roughness(level), alpha = roughness * roughness, total = 0;
+    double growth = levels[level].growth, inner = 0, outer = levels[level].core * alpha;
+    double far_l = FAR_TEXELS * PI / 2 / far_size(level); // radians
+    cells->near = cells->count = 0;
+    for (int ring = 0; inner < 1; ring++) {
+        if (outer * growth > 1) // mirrors at 45° or more show what is below the axis' horizon
+            outer = 1;
+        add_ring(cells, alpha, inner, outer, ring, chain, &total);
+        if (2 * inner < far_l)
+            cells->near = cells->count;
+        inner = outer;
+        outer = inner * growth;
+    }
+    for (int i = 0; i < cells->count; i++)
+        cells->cell[i].weight = (float)((double)cells->cell[i].weight / total);
+}
+
+// --- texels
+
+// Red, green, blue and one number more: the compiler's vectors round each of them as plain C does.
+typedef float channels __attribute__((vector_size(16)));
+typedef float channels_memory __attribute__((vector_size(16), aligned(4), may_alias));
+
+static inline channels channels_at(const float *texel) { return (channels) * (const channels_memory *)texel; }
+
+// Adds the light of LANES places times a weight, as cube_look has it, all channels of a place side by side.
+LANE_FN void add_light(channels sum[LANES], const struct lam_environment *cube, const struct cube_place *place,
+                       float weight)
+{
+    int side = cube->size + 2;
+    inum column = int_of(place->s), row = int_of(place->t);
+    num s = place->s - num_of_int(column), t = place->t - num_of_int(row);
+    inum first = wrap_add(wrap_mul(wrap_add(wrap_mul(place->face, inum_of(side)), row), inum_of(side)), column);
+    for (int i = 0; i < LANES; i++) {
+        const float *from = cube->texels + 3 * (ptrdiff_t)ilane(first, i), *below = from + 3 * side;
+        channels a = channels_at(from), b = channels_at(from + 3), c = channels_at(below), e = channels_at(below + 3);
+        channels across = (channels){0} + lane(s, i);
+        channels upper = a + (b - a) * across, lower = c + (e - c) * across;
+        sum[i] += (upper + (lower - upper) * lane(t, i)) * weight;
+    }
+}
+
+// Two directions that make a frame with the unit vector n.
+static void frame_around(lam_vec3 n, lam_vec3 *x, lam_vec3 *y)
+{
+    double a = n.x * n.x, b = n.y * n.y, c = n.z * n.z;
+    lam_vec3 far = a <= b && a <= c ? v3(1, 0, 0) : b <= c ? v3(0, 1, 0) : v3(0, 0, 1);
+    *x = v3_unit(v3_cross(far, n));
+    *y = v3_cross(n, *x);
+}
+
+// A row of sums of the cells from `first` to `end`, and of a cube that holds the sums of others; NULL: none.
+static void prefilter_row(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
+                          struct lam_environment *out, int face, int t)
+{
+    for (int s = 0; s < out->size; s += LANES) {
+        float frame[9][LANES];
+        for (int i = 0; i < LANES; i++) {
+            double d[3];
+            cube_direction(face, out->size, 2 * (s + i) + 1 - out->size, 2 * t + 1 - out->size, d);
+            lam_vec3 axis[3];
+            axis[2] = v3_unit(v3(d[0], d[1], d[2]));
+            frame_around(axis[2], &axis[0], &axis[1]);
+            for (int k = 0; k < 3; k++) {
+                frame[k][i] = (float)axis[k].x;
+                frame[3 + k][i] = (float)axis[k].y;
+                frame[6 + k][i] = (float)axis[k].z;
+            }
+        }
+        num m[9];
+        for (int k = 0; k < 9; k++)
+            m[k] = num_load(frame[k]);
+        channels sum[LANES] = {{0}};
+        if (others) {
+            struct cube_place place = cube_place(m[2], m[5], m[8], others->size);
+            add_light(sum, others, &place, 1);
+        }
+        for (int c = first; c < end; c++) {
+            const struct cell *cell = &cells->cell[c];
+            struct cube_place place = cube_place(m[0] * cell->x + m[1] * cell->y + m[2] * cell->z,
+                                                 m[3] * cell->x + m[4] * cell->y + m[5] * cell->z,
+                                                 m[6] * cell->x + m[7] * cell->y + m[8] * cell->z, cell->cube->size);
+            add_light(sum, cell->cube, &place, cell->weight);
+        }
+        for (int i = 0; i < LANES; i++)
+            for (int c = 0; c < 3; c++)
+                cube_texel(out, face, s + i, t)[c] = sum[i][c];
+    }
+}
+
+// --- all of it
+
+struct making {
+    struct environment_light *light;
+    struct lobe_cells cells[ENVIRONMENT_LEVELS];
+    struct lam_environment far[ENVIRONMENT_LEVELS];
+    float *far_texels;
+    struct cube_sums *sums;
+    struct call_control *call;
+};
+
+// Finds the level and the row of its faces that a piece of work is; `size` returns a level's texels on a side.
+static int level_of(size_t *index, int (*size)(int level))
+{
+    int level = 1;
+    for (; level < ENVIRONMENT_LEVELS; level++) {
+        size_t rows = (size_t)size(level) * LAM_FACE_COUNT;
+        if (*index < rows)
+            break;
+        *index -= rows;
+    }
+    return level;
+}
+
+static void make_far_row(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct making *work = user;
+    if (work->call && !call_should_continue(work->call))
+        return;
+    int level = level_of(&index, far_size);
+    struct lam_environment *cube = &work->far[level];
+    const struct lobe_cells *cells = &work->cells[level];
+    prefilter_row(cells, cells->near, cells->count, NULL, cube, (int)index / cube->size, (int)index % cube->size);
+}
+
+static void make_row(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct making *work = user;
+    if (work->call && !call_should_continue(work->call))
+        return;
+    int level = level_of(&index, prefiltered_size);
+    struct lam_environment *cube = level < ENVIRONMENT_LEVELS ? &work->light->level[level] : &work->light->irradiance;
+    int face = (int)index / cube->size, t = (int)index % cube->size;
+    double roughness = level < ENVIRONMENT_LEVELS ? prefiltered_roughness(level) : 0;
+    if (level == ENVIRONMENT_LEVELS)
+        cube_sums_row(work->sums, -1, cube, face, t);
+    else if (far_size(level))
+        prefilter_row(&work->cells[level], 0, work->cells[level].near, &work->far[level], cube, face, t);
+    else
+        cube_sums_row(work->sums, roughness * roughness, cube, face, t);
+}
+
+// Makes the cells of the levels with rings, and the cubes of what is far.
+static bool set_up(struct making *work, const struct cube_chain *chain, lam_error *error)
+{
+    size_t bytes = CUBE_TEXELS_AFTER;
+    for (int i = 1; i < ENVIRONMENT_LEVELS; i++)
+        bytes += far_size(i) ? cube_bytes(far_size(i)) : 0;
+    if (!(work->far_texels = malloc(bytes)))
+        return fail_memory(error, bytes);
+    float *at = work->far_texels;
+    for (int i = 1; i < ENVIRONMENT_LEVELS; i++) {
+        if (!far_size(i))
+            continue;
+        cut_lobe(&work->cells[i], i, chain);
+        work->far[i] = (struct lam_environment){.size = far_size(i), .texels = at};
+        at += cube_bytes(far_size(i)) / sizeof *at;
+    }
+    work->sums = cube_sums_make(chain, error);
+    return work->sums != NULL;
+}
+
+static bool run(struct making *work, struct pool *pool, int (*size)(int level), size_t more, pool_task *task,
+                lam_error *error)
+{
+    size_t rows = more;
+    for (int i = 1; i < ENVIRONMENT_LEVELS; i++)
+        rows += (size_t)size(i) * LAM_FACE_COUNT;
+    pool_run(pool, rows, task, work);
+    return !work->call || call_should_continue(work->call) || call_error(work->call, error);
+}
+
+static bool fill(struct environment_light *light, struct pool *pool, struct call_control *call, lam_error *error)
+{
+    struct cube_chain chain;
+    struct making *work = calloc(1, sizeof *work);
+    if (!work)
+        return fail_memory(error, sizeof *work);
+    work->light = light;
+    work->call = call;
+    bool ok = cube_chain_make(&chain, &light->level[0], pool, call, error) && set_up(work, &chain, error) &&
+              run(work, pool, far_size, 0, make_far_row, error);
+    for (int i = 1; ok && i < ENVIRONMENT_LEVELS; i++)
+        if (far_size(i))
+            cube_close(&work->far[i]);
+    ok = ok && run(work, pool, prefiltered_size, IRRADIANCE_SIZE * LAM_FACE_COUNT, make_row, error);
+    for (int i = 1; ok && i < ENVIRONMENT_LEVELS; i++)
+        cube_close(&light->level[i]);
+    if (ok)
+        cube_close(&light->irradiance);
+    free(work->far_texels);
+    free(work->sums);
+    free(work);
+    cube_chain_free(&chain);
+    return ok;
+}
+
+void environment_light_free(struct environment_light *light)
+{
+    if (light)
+        free(light->texels);
+    free(light);
+}
+
+static struct environment_light *make(const struct lam_environment *cube, struct pool *pool, struct call_control *call,
+                                      lam_error *error)
+{
+    struct environment_light *light = calloc(1, sizeof *light);
+    size_t bytes = cube_bytes(IRRADIANCE_SIZE) + CUBE_TEXELS_AFTER;
+    for (int i = 1; i < ENVIRONMENT_LEVELS; i++)
+        bytes += cube_bytes(prefiltered_size(i));
+    float *at = light ? malloc(bytes) : NULL;
+    if (!at) {
+        free(light);
+        fail_memory(error, bytes);
+        return NULL;
+    }
+    light->texels = at;
+    light->level[0] = *cube;
+    for (int i = 1; i < ENVIRONMENT_LEVELS; i++) {
+        light->level[i] = (struct lam_environment){.size = prefiltered_size(i), .texels = at};
+        at += cube_bytes(prefiltered_size(i)) / sizeof *at;
+    }
+    light->irradiance = (struct lam_environment){.size = IRRADIANCE_SIZE, .texels = at};
+    if (fill(light, pool, call, error))
+        return light;
+    environment_light_free(light);
+    return NULL;
+}
+
+const struct environment_light *environment_light(const struct lam_environment *cube, struct pool *pool,
+                                                  struct call_control *call, lam_error *error)
+{
+    static pthread_mutex_t one_maker = PTHREAD_MUTEX_INITIALIZER;
+    struct environment_light **kept = (struct environment_light **)(uintptr_t)&cube->light;
+    struct environment_light *light = __atomic_load_n(kept, __ATOMIC_ACQUIRE);
+    if (light)
+        return light;
+    pthread_mutex_lock(&one_maker);
+    light = __atomic_load_n(kept, __ATOMIC_ACQUIRE);
+    if (!light) {
+        struct pool *own = pool ? NULL : pool_make(0);
+        light = make(cube, pool ? pool : own, call, error);
+        pool_free(own);
+        __atomic_store_n(kept, light, __ATOMIC_RELEASE);
+    }
+    pthread_mutex_unlock(&one_maker);
+    return light;
+}

@@ -1,0 +1,60 @@
+// environment_light.h: an environment as a light of metallic-roughness materials: the two parts of the split sum (Karis,
+// "Real Shading in Unreal Engine 4", 2013) that depend on the surroundings alone.
+//
+//   prefiltered  the environment as mirrors of GGX's distribution around the mirrored direction r show it, seen along
+//                their normal (n = v = r), for ENVIRONMENT_LEVELS roughnesses:
+//                    P(r) = sum over l of L(l) D(h) max(r.l, 0) / sum of D(h) max(r.l, 0),   h = unit(r + l)
+//   irradiance   the mean of the light from the half space above a surface, weighted by the cosine: irradiance / pi
+//
+// Both are sums over fixed directions in a fixed order, computed with + − × ÷ √ alone: the same texels on every machine
+// and with any number of threads.
+#ifndef ENVIRONMENT_LIGHT_H
+#define ENVIRONMENT_LIGHT_H
+
+#include "cube_map.h"
+
+// Level 0, of ROUGHNESS_MIN, is the environment itself. Level i is of the roughness at which prefilter_level
+// (src/lighting/lobes.h) is i.
+enum { ENVIRONMENT_LEVELS = 12, IRRADIANCE_SIZE = 32 };
+
+struct environment_light {
+    struct lam_environment level[ENVIRONMENT_LEVELS]; // [0] shares the texels of the environment
+    struct lam_environment irradiance;
+    float *texels; // of all but level[0]
+};
+
+int prefiltered_size(int level); // texels on a side of levels 1 and up
+double prefiltered_roughness(int level);
+
+// The light of an environment, made by the first call and kept with the environment; any number of threads may ask. `pool`
+// NULL: threads of its own; `call` may be NULL. NULL: LAM_LIMIT, LAM_CANCELLED; nothing is kept then.
+struct pool;
+const struct environment_light *environment_light(const struct lam_environment *cube, struct pool *pool,
+                                                  struct call_control *call, lam_error *error);
+void environment_light_free(struct environment_light *light); // NULL is fine
+
+// --- the steps
+
+// Smaller and smaller copies of a cube, each texel the mean of the light through it; [0] is the cube itself.
+enum { CUBE_CHAIN_MAX = 15 };
+struct cube_chain {
+    struct lam_environment cube[CUBE_CHAIN_MAX];
+    int count;
+    float *texels; // of all but cube[0]
+};
+bool cube_chain_make(struct cube_chain *chain, const struct lam_environment *cube, struct pool *pool,
+                     struct call_control *call, lam_error *error);
+void cube_chain_free(struct cube_chain *chain);
+// The copy whose size is nearest to `size`, by ratio.
+const struct lam_environment *cube_chain_near(const struct cube_chain *chain, double size);
+
+// The solid angle of a texel up to a factor, and its direction, not of length 1.
+float texel_weight(int size, int s, int t);
+
+// Sums over every texel of a small copy of a cube: the irradiance, or the environment prefiltered for a wide lobe.
+struct cube_sums;
+struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *error);
+// Row t of a face of `out`. `alpha` < 0: the irradiance; else GGX's lobe of that alpha = roughness².
+void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam_environment *out, int face, int t);
+
+#endif

@@ -1,0 +1,340 @@
+// test_split_sum.c: the environment's light on metallic-roughness materials, against a split sum in double precision, written
+// from docs/lighting/environment.md with libm and on its own: every part of it by quadrature of an environment that is a
+// formula, a sky over a ground and three discs with soft edges.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <lambent/lambent.h>
+
+#include "environment_light.h"
+
+#define PI 3.14159265358979323846
+
+// --- the environment
+
+static void radiance(const double d[3], double out[3])
+{
+    static const double a[3] = {0.45, 0.48, 0.55}, b[3] = {0.15, 0.20, 0.35}, c[3] = {-0.05, 0.00, 0.10};
+    static const struct {
+        double axis[3], sharpness, color[3];
+    } discs[3] = {{{0.5, 0.7, 0.5}, 300, {40, 36, 30}},
+                  {{-0.8, 0.3, 0.4}, 80, {4, 6, 10}},
+                  {{0.1, 0.2, -1.0}, 1000, {60, 20, 10}}};
+    for (int i = 0; i < 3; i++)
+        out[i] = a[i] + b[i] * d[1] + c[i] * d[1] * d[1];
+    for (int k = 0; k < 3; k++) {
+        const double *axis = discs[k].axis;
+        double length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+        double cosine = (d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2]) / length;
+        double power = discs[k].sharpness * (cosine - 1);
+        for (int i = 0; i < 3 && power > -40; i++)
+            out[i] += discs[k].color[i] * exp(power);
+    }
+}
+
+static lam_environment *make_environment(void)
+{
+    lam_error error;
+    lam_image image = {0};
+    assert_true(lam_image_make(&image, 1024, 512, LAM_RGBA32F, &error));
+    for (int y = 0; y < image.height; y++)
+        for (int x = 0; x < image.width; x++) {
+            double along = ((x + 0.5) / image.width - 0.5) * 2 * PI, down = (y + 0.5) / image.height * PI;
+            double light[3], d[3] = {sin(down) * sin(along), cos(down), -sin(down) * cos(along)};
+            radiance(d, light);
+            float *pixel = (float *)image.pixels + 4 * ((size_t)y * 1024 + (size_t)x);
+            for (int c = 0; c < 3; c++)
+                pixel[c] = (float)light[c];
+            pixel[3] = 1;
+        }
+    lam_environment *environment = lam_environment_from_image(&image, LAM_COLOR_SRGB, &error);
+    assert_non_null(environment);
+    lam_image_free(&image);
+    return environment;
+}
+
+// --- the split sum in double
+
+static void frame_around(const double n[3], double x[3], double y[3])
+{
+    double up[3] = {fabs(n[0]) < 0.6, fabs(n[0]) >= 0.6, 0};
+    x[0] = up[1] * n[2] - up[2] * n[1];
+    x[1] = up[2] * n[0] - up[0] * n[2];
+    x[2] = up[0] * n[1] - up[1] * n[0];
+    double length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    for (int i = 0; i < 3; i++)
+        x[i] /= length;
+    y[0] = n[1] * x[2] - n[2] * x[1];
+    y[1] = n[2] * x[0] - n[0] * x[2];
+    y[2] = n[0] * x[1] - n[1] * x[0];
+}
+
+// The mean of the light around an axis over rings: cosines and weights of the rings.
+static void mean_around(const double axis[3], int rings, const double *cosine, const double *weight, double out[3])
+{
+    double x[3], y[3], total = 0;
+    frame_around(axis, x, y);
+    out[0] = out[1] = out[2] = 0;
+    for (int i = 0; i < rings; i++) {
+        double z = cosine[i], r = sqrt(fmax(0, 1 - z * z));
+        for (int k = 0; k < rings; k++) {
+            double angle = 2 * PI * (k + (i % 2) * 0.5) / rings, d[3], light[3];
+            for (int j = 0; j < 3; j++)
+                d[j] = x[j] * r * cos(angle) + y[j] * r * sin(angle) + axis[j] * z;
+            radiance(d, light);
+            for (int j = 0; j < 3; j++)
+                out[j] += weight[i] * light[j];
+            total += weight[i];
+        }
+    }
+    for (int j = 0; j < 3; j++)
+        out[j] /= total;
+}
+
+enum { RINGS = 100 };
+
+// D(h) max(r.l, 0), from halves h in which D(h) (h.n) is evenly dense up to where l meets the horizon.
+static void prefiltered(const double r[3], double roughness, double out[3])
+{
+    double alpha = roughness * roughness, square = alpha * alpha, cosine[RINGS], weight[RINGS];
+    for (int i = 0; i < RINGS; i++) {
+        double low = 1 - pow(1 - (double)i / RINGS, 2), high = 1 - pow(1 - (i + 1.0) / RINGS, 2);
+        double u = (low + high) / 2 / (1 + square), h = (1 - u) / (1 + (square - 1) * u);
+        cosine[i] = 2 * h - 1;
+        weight[i] = (high - low) * cosine[i];
+    }
+    mean_around(r, RINGS, cosine, weight, out);
+}
+
+static void irradiance(const double n[3], double out[3])
+{
+    double cosine[RINGS], weight[RINGS];
+    for (int i = 0; i < RINGS; i++) {
+        cosine[i] = sqrt((i + 0.5) / RINGS);
+        weight[i] = 1;
+    }
+    mean_around(n, RINGS, cosine, weight, out);
+}
+
+// The integrals of D V n.l and of the same times (1 - v.h)^5, over halves h that v sees (Heitz 2018): G2 / G1 is left.
+static void scale_and_bias(double n_dot_v, double roughness, double *scale, double *bias)
+{
+    enum { N = 64 };
+    double alpha = roughness * roughness, square = alpha * alpha, v_x = sqrt(1 - n_dot_v * n_dot_v), sum[2] = {0};
+    double s_x = alpha * v_x, length = sqrt(s_x * s_x + n_dot_v * n_dot_v), s_z = n_dot_v / length;
+    s_x /= length;
+    for (int i = 0; i < N; i++)
+        for (int k = 0; k < N; k++) {
+            double r = sqrt((i + 0.5) / N), angle = PI * (k + 0.5) / N, side = r * sin(angle), lift = 0.5 * (1 + s_z);
+            double a = (1 - lift) * sqrt(fmax(0, 1 - side * side)) + lift * r * cos(angle);
+            double up = sqrt(fmax(0, 1 - a * a - side * side));
+            double x = alpha * (up * s_x - a * s_z), y = alpha * side, z = fmax(a * s_x + up * s_z, 1e-9);
+            double of_h = sqrt(x * x + y * y + z * z), v_h = fmax((x * v_x + z * n_dot_v) / of_h, 0);
+            double l = 2 * v_h * z / of_h - n_dot_v;
+            if (l <= 0)
+                continue;
+            double g_v = sqrt(n_dot_v * n_dot_v * (1 - square) + square), g_l = sqrt(l * l * (1 - square) + square);
+            double share = l * (n_dot_v + g_v) / (l * g_v + n_dot_v * g_l);
+            sum[0] += share;
+            sum[1] += share * pow(1 - v_h, 5);
+        }
+    *bias = sum[1] / (N * N);
+    *scale = sum[0] / (N * N) - *bias;
+}
+
+static void split_sum(const double n[3], const double v[3], const double base[3], double roughness, double metallic,
+                      bool single, double out[3])
+{
+    double n_dot_v = n[0] * v[0] + n[1] * v[1] + n[2] * v[2], r[3], around[3], above[3], scale, bias;
+    for (int i = 0; i < 3; i++)
+        r[i] = 2 * n_dot_v * n[i] - v[i];
+    prefiltered(r, roughness, around);
+    irradiance(n, above);
+    scale_and_bias(fmax(n_dot_v, 1e-4), roughness, &scale, &bias);
+    double gain = single ? 0 : 1 / (scale + bias) - 1;
+    for (int i = 0; i < 3; i++) {
+        double glass = (0.04 * scale + bias) * (1 + 0.04 * gain),
+               metal = (base[i] * scale + bias) * (1 + base[i] * gain);
+        double diffuse = base[i] * above[i] * (1 - (0.04 * scale + bias));
+        out[i] = (1 - metallic) * (diffuse + glass * around[i]) + metallic * metal * around[i];
+    }
+}
+
+// --- pictures
+
+static const float roughnesses[] = {0.1f, 0.2f, 0.3f, 0.45f, 0.6f, 0.8f, 1.0f};
+enum { ACROSS = 7, DOWN = 5, CELL = 44 };
+static const double base[3] = {0.9, 0.55, 0.2};
+
+// Spheres of all roughnesses, from left to right, and metalnesses, from dielectric to metal.
+static lam_scene *make_spheres(const lam_environment *environment, lam_rgb color)
+{
+    lam_error error;
+    lam_scene *scene = lam_scene_make(&error);
+    assert_non_null(scene);
+    int mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 128, .stacks = 128}, &error);
+    for (int row = 0; row < DOWN; row++)
+        for (int i = 0; i < ACROSS; i++) {
+            lam_material material = lam_material_default();
+            material.physical = true;
+            material.diffuse = (lam_rgba){color.r, color.g, color.b, 1};
+            material.roughness = roughnesses[i];
+            material.metallic = (float)row / (DOWN - 1);
+            lam_object object = lam_object_default();
+            object.mesh = mesh;
+            object.material = lam_scene_add_material(scene, &material, &error);
+            object.transform.m[0][3] = 2.2 * (i - (ACROSS - 1) / 2.0);
+            object.transform.m[1][3] = 2.2 * ((DOWN - 1) / 2.0 - row);
+            assert_true(lam_scene_add_object(scene, &object, &error) >= 0);
+        }
+    assert_true(lam_scene_set_environment(scene, environment, 0, &error));
+    return scene;
+}
+
+static lam_image draw(const lam_scene *scene, lam_draw_params params, int threads, lam_isa isa)
+{
+    lam_error error;
+    lam_camera camera = {.eye = {0, 0, 24}, .up = {0, 1, 0}, .ortho_half_height = 1.1 * DOWN};
+    lam_image image = {0};
+    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = threads, .isa = isa}, &error);
+    assert_true(lam_image_make(&image, ACROSS * CELL, DOWN * CELL, LAM_RGBA32F, &error));
+    params.samples = 1;
+    params.rig = LAM_RIG_NONE;
+    if (!device || !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
+        fail_msg("%s", error.text);
+    lam_device_free(device);
+    return image;
+}
+
+static double mean_difference(bool single)
+{
+    lam_environment *environment = make_environment();
+    lam_scene *scene = make_spheres(environment, (lam_rgb){(float)base[0], (float)base[1], (float)base[2]});
+    lam_image picture = draw(scene, (lam_draw_params){.single_scattering = single}, 0, LAM_ISA_AUTO);
+    lam_image normals = draw(scene, (lam_draw_params){.output = LAM_OUTPUT_NORMALS}, 0, LAM_ISA_AUTO);
+    double sum = 0, v[3] = {0, 0, 1};
+    int count = 0;
+    for (int at = 0; at < picture.width * picture.height; at += 17) {
+        const float *pixel = (const float *)picture.pixels + 4 * (size_t)at,
+                    *from = (const float *)normals.pixels + 4 * (size_t)at;
+        if (from[3] == 0 || from[2] < 0.02f)
+            continue;
+        int column = at % picture.width / CELL, row = at / picture.width / CELL;
+        double n[3] = {(double)from[0], (double)from[1], (double)from[2]}, expected[3];
+        split_sum(n, v, base, (double)roughnesses[column], (double)row / (DOWN - 1), single, expected);
+        for (int c = 0; c < 3; c++)
+            sum += fabs((double)pixel[c] - expected[c]) / 3;
+        count++;
+    }
+    lam_image_free(&picture);
+    lam_image_free(&normals);
+    lam_scene_free(scene);
+    lam_environment_free(environment);
+    assert_true(count > 1000);
+    return sum / count;
+}
+
+static void test_split_sum(void **state)
+{
+    (void)state;
+    for (int single = 0; single < 2; single++) {
+        double mean = mean_difference(single);
+        print_message("%s scattering: %.2g off in the mean\n", single ? "single" : "multiple", mean);
+        assert_true(mean < 1e-3);
+    }
+}
+
+// A white metal in a uniform environment of 1 returns all of its light, whatever its roughness.
+static void test_white_furnace(void **state)
+{
+    (void)state;
+    lam_error error;
+    lam_image white = {0};
+    assert_true(lam_image_make(&white, 64, 32, LAM_RGBA32F, &error));
+    for (int i = 0; i < 64 * 32 * 4; i++)
+        ((float *)white.pixels)[i] = 1;
+    lam_environment *environment = lam_environment_from_image(&white, LAM_COLOR_SRGB, &error);
+    lam_scene *scene = make_spheres(environment, (lam_rgb){1, 1, 1});
+    lam_image picture = draw(scene, (lam_draw_params){0}, 0, LAM_ISA_AUTO);
+    int count = 0;
+    for (int y = (DOWN - 1) * CELL; y < picture.height; y++)
+        for (int x = 0; x < picture.width; x++) {
+            const float *pixel = (const float *)picture.pixels + 4 * ((size_t)y * (size_t)picture.width + (size_t)x);
+            if (pixel[3] == 0)
+                continue;
+            count++;
+            for (int c = 0; c < 3; c++)
+                if (fabsf(pixel[c] - 1) > 0.01f)
+                    fail_msg("pixel %d, %d: %g, expected 1", x, y, (double)pixel[c]);
+        }
+    assert_true(count > 5000);
+    lam_image_free(&picture);
+    lam_image_free(&white);
+    lam_scene_free(scene);
+    lam_environment_free(environment);
+}
+
+// The same bytes with every instruction set, and for prefiltered texels with every number of threads.
+static void test_same_bytes(void **state)
+{
+    (void)state;
+    static const int threads[] = {1, 2, 5};
+    lam_image first = {0};
+    for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++) {
+        if (!lam_isa_usable((lam_isa)isa))
+            continue;
+        lam_environment *environment = make_environment(); // prefiltered anew
+        lam_scene *scene = make_spheres(environment, (lam_rgb){0.9f, 0.55f, 0.2f});
+        lam_image picture = draw(scene, (lam_draw_params){0}, threads[isa % 3], (lam_isa)isa);
+        if (!first.pixels)
+            first = picture;
+        else
+            assert_memory_equal(first.pixels, picture.pixels, (size_t)picture.width * (size_t)picture.height * 16);
+        if (picture.pixels != first.pixels)
+            lam_image_free(&picture);
+        lam_scene_free(scene);
+        lam_environment_free(environment);
+    }
+    lam_image_free(&first);
+}
+
+// Cubes of any size are prefiltered, the smallest too, and light too strong for floats' sums stays finite.
+static void test_any_size(void **state)
+{
+    (void)state;
+    lam_error error;
+    for (int width = 2; width <= 46; width += 11) {
+        lam_image image = {0};
+        assert_true(lam_image_make(&image, 2 * (width / 2 * 2), width / 2 * 2, LAM_RGBA32F, &error));
+        for (int i = 0; i < image.width * image.height * 4; i++)
+            ((float *)image.pixels)[i] = i % 4 == 3 ? 1 : 2e38f;
+        lam_environment *environment = lam_environment_from_image(&image, LAM_COLOR_SRGB, &error);
+        assert_non_null(environment);
+        const struct environment_light *light = environment_light(environment, NULL, NULL, &error);
+        assert_non_null(light);
+        assert_ptr_equal(light, environment_light(environment, NULL, NULL, &error));
+        for (int i = 0; i <= ENVIRONMENT_LEVELS; i++) {
+            const struct lam_environment *cube = i < ENVIRONMENT_LEVELS ? &light->level[i] : &light->irradiance;
+            for (size_t k = 0; k < cube_bytes(cube->size) / sizeof(float); k++)
+                if (!(fabsf(cube->texels[k] / 2e38f - 1) < 1e-4f))
+                    fail_msg("level %d, number %zu: %g, expected 2e38", i, k, (double)cube->texels[k]);
+        }
+        lam_environment_free(environment);
+        lam_image_free(&image);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_split_sum), cmocka_unit_test(test_white_furnace),
+                                       cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_any_size)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -288,7 +288,7 @@ FN num scattering_gain(surface s, num roughness) { return 1.0f / single_scatteri
 
 // The level of a prefiltered environment for a roughness: 0 at ROUGHNESS_MIN, PREFILTERED_LAST at 1, even in its fourth
 // root.
-#define PREFILTERED_LAST 11.0f
+#define PREFILTERED_LAST   11.0f
 #define ROUGHNESS_MIN_ROOT 0.46057798f
 
 FN num prefilter_level(num roughness)

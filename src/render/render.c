@@ -60,6 +60,14 @@ static void fill_report(const lam_scene *scene, const lam_camera *camera, const 
     }
 }
 
+// Whether the lights of a glTF file, in candela and lux, light the scene.
+static bool has_file_lights(const lam_scene *scene, const lam_picture_settings *settings)
+{
+    const char *format = lam_scene_format(scene);
+    return lam_scene_light_count(scene) > 0 &&
+           (strcmp(format, "gltf") == 0 || (strcmp(format, "scene") == 0 && !(settings->present & LAM_SETTING_LIGHTS)));
+}
+
 // Draws the loaded scene; the settings are its own where the caller gives none.
 static bool draw(lam_scene *scene, const lam_render_params *params, lam_image *image, lam_render_report *report,
                  lam_error *error)
@@ -84,8 +92,13 @@ static bool draw(lam_scene *scene, const lam_render_params *params, lam_image *i
         camera = lam_camera_fit(scene, image->width, image->height, params->view);
     lam_device *device =
         params->device ? params->device : lam_device_cpu(&(lam_cpu_params){.threads = params->threads}, error);
-    bool ok = device && (!reads_tangents(&drawn) || lam_scene_make_tangents(scene, params->control, error)) &&
-              lam_draw(device, scene, &camera, &drawn, image, params->control, error);
+    bool fitted = !params->draw && !(settings.present & LAM_SETTING_EXPOSURE) && has_file_lights(scene, &settings);
+    if (fitted)
+        drawn.light_cutoff = -1;
+    bool ok = device && (!fitted || lam_exposure_fit(device, scene, &camera, &drawn, image->width, image->height,
+                                                     params->control, &drawn.exposure, error));
+    ok = ok && (!reads_tangents(&drawn) || lam_scene_make_tangents(scene, params->control, error)) &&
+         lam_draw(device, scene, &camera, &drawn, image, params->control, error);
     if (ok && report)
         fill_report(scene, &camera, device, report);
     if (!params->device)

@@ -25,7 +25,8 @@ static int scene_probe(const uint8_t *bytes, size_t size)
 
 static bool read_image(struct scene_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"size", "samples", "background", "color_mode", "color", "exposure", NULL};
+    static const char *const keys[] = {"size",  "samples",  "background", "color_mode",
+                                       "color", "exposure", "tone",       NULL};
     const json_t *image = json_object_get(root, "image");
     const struct place *place = KEY_OF(NULL, "image");
     lam_picture_settings *s = r->settings;
@@ -74,6 +75,13 @@ static bool read_image(struct scene_reader *r, const json_t *root)
         return false;
     s->present |= json_object_get(image, "background") ? LAM_SETTING_BACKGROUND : 0;
     s->present |= json_object_get(image, "exposure") ? LAM_SETTING_EXPOSURE : 0;
+    struct json_choice tones[LAM_TONE_COUNT + 1];
+    int tone = LAM_TONE_AUTO;
+    tone_words(tones);
+    if (!take_word(r, place, image, "tone", tones, &tone))
+        return false;
+    s->draw.tone = (lam_tone)tone;
+    s->present |= json_object_get(image, "tone") ? LAM_SETTING_TONE : 0;
     return true;
 }
 

@@ -151,6 +151,13 @@ void light_type_words(struct json_choice words[LAM_LIGHT_TYPE_COUNT + 1])
     words[LAM_LIGHT_TYPE_COUNT] = (struct json_choice){NULL, 0};
 }
 
+void tone_words(struct json_choice words[LAM_TONE_COUNT + 1])
+{
+    for (int i = 0; i < LAM_TONE_COUNT; i++)
+        words[i] = (struct json_choice){lam_tone_name((lam_tone)i), i};
+    words[LAM_TONE_COUNT] = (struct json_choice){NULL, 0};
+}
+
 void reflection_words(struct json_choice words[LAM_REFLECTION_COUNT + 1])
 {
     for (int i = 0; i < LAM_REFLECTION_COUNT; i++)

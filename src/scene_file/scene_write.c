@@ -490,6 +490,8 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_picture_se
         put(w, out, "color_mode", word(color_words, (int)s->draw.color));
     if (s->present & LAM_SETTING_EXPOSURE)
         put(w, out, "exposure", number(s->draw.exposure));
+    if (s->present & LAM_SETTING_TONE)
+        put(w, out, "tone", json_string(lam_tone_name(s->draw.tone)));
     if (json_object_size(out))
         put(w, root, "image", out);
     else

@@ -35,7 +35,9 @@ struct compare {
     struct sheet sheet;
     struct page page;
     struct drawing drawing;
-    int done;                                     // pictures drawn so far
+    int done;             // pictures drawn so far
+    bool exposure_fitted; // for the first picture; the others have the same
+    double exposure;
     const char *defaults[2 * SHEET_DEFAULTS_MAX]; // words of every picture that the command line does not have
     int default_count;
     bool default_material; // one of them is a material
@@ -96,12 +98,24 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
     options.has_size = true;
     if (!options.background)
         options.background = SHEET_BACKGROUND;
+    if (c->exposure_fitted) {
+        options.exposure_kind = EXPOSURE_LITERAL;
+        options.exposure = c->exposure;
+        options.light_cutoff = options.has_light_cutoff ? options.light_cutoff : 0;
+        options.has_light_cutoff = true;
+    }
     struct job job = {.options = &options, .model = c->model, .device = c->device};
     job.times.start = clock_ms();
     bool ok = options_parse(count, words, find_groups("render"), &options, error) >= 0 &&
               job_draw(&job, LAM_RGBA8, &c->progress, error);
     for (int i = 0; ok && c->done == 0 && !options.quiet && lam_scene_warning(job.scene, i); i++)
         say_warning(lam_scene_warning(job.scene, i));
+    if (ok && job.exposure_fitted && !c->exposure_fitted && !options.quiet)
+        say_plain("exposure %.4g stops (auto)\n", job.draw.exposure);
+    if (ok && job.exposure_fitted) {
+        c->exposure_fitted = true;
+        c->exposure = job.draw.exposure;
+    }
     c->done++;
     lam_scene_free(job.scene);
     if (ok)

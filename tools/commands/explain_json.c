@@ -143,6 +143,13 @@ static void write_point(struct json *json, const lam_explained_point *p)
         vector(json, "R", p->reflected);
         vector(json, "direction", p->environment_direction);
         color(json, "light", p->environment_light);
+        if (p->environment_scale + p->environment_bias > 0) {
+            real(json, "level", p->environment_level);
+            color(json, "prefiltered", p->prefiltered);
+            color(json, "irradiance", p->irradiance);
+            real(json, "scale", p->environment_scale);
+            real(json, "bias", p->environment_bias);
+        }
         json_close(json, '}');
     }
     json_open(json, "terms", '{');
@@ -244,6 +251,8 @@ void explain_json(const lam_explanation *e, const char *model)
     json_number(&json, "exposure_stops", e->stops);
     real(&json, "exposure", e->exposure);
     json_text(&json, "encoding", e->color == LAM_COLOR_RAW ? "raw" : "srgb");
+    json_text(&json, "tone", lam_tone_name(e->tone));
+    color(&json, "toned", e->toned);
     color(&json, "encoded", e->encoded);
     json_open(&json, "bytes", '[');
     for (int i = 0; i < 4; i++)

@@ -220,6 +220,13 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
         vector(4, "R", p->reflected, "2 (n·v) n − v, the reflected eye vector");
         vector(4, "direction", p->environment_direction, "R in the environment's own axes");
         color(4, "light from there", p->environment_light, "");
+        if (p->environment_scale + p->environment_bias > 0) {
+            number(4, "level", (double)p->environment_level, "of the prefiltered environment, for the roughness");
+            color(4, "prefiltered", p->prefiltered, "around R, at that level");
+            color(4, "irradiance ÷ π", p->irradiance, "above the surface");
+            number(4, "scale", (double)p->environment_scale, "");
+            number(4, "bias", (double)p->environment_bias, "the lobe's integral is f0 scale + bias");
+        }
     }
 
     printf("\n  terms\n");
@@ -241,6 +248,8 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
                  (double)f->surface.reflectivity.r, (double)f->surface.reflectivity.g,
                  (double)f->surface.reflectivity.b, (double)p->environment_light.r, (double)p->environment_light.g,
                  (double)p->environment_light.b);
+        if (p->environment_scale + p->environment_bias > 0)
+            snprintf(text, sizeof text, "kd ⊙ irradiance (1 − (0.04 scale + bias)) + prefiltered (f0 scale + bias)");
         color(4, "reflection", p->reflection, e->has_environment ? text : "");
     }
     color(4, "sum", p->sum, "emission + ambient + diffuse + specular + reflection");
@@ -365,6 +374,8 @@ static void print_pixel(const lam_explanation *e)
     printf("%13.7g %13.7g %13.7g %13.7g   %ssum + (1 − alpha) · background; .pfm holds this\n", (double)e->result.r,
            (double)e->result.g, (double)e->result.b, (double)e->result.a, e->exposure == 1 ? "" : "exposure · ");
     color(2, "colour ÷ alpha", e->straight, "");
+    if (e->tone != LAM_TONE_NONE)
+        color(2, "toned", e->toned, lam_tone_name(e->tone));
     color(2, "encoded", e->encoded,
           e->color == LAM_COLOR_RAW ? "clamped to 0…1 (--color-mode raw)" : "by the sRGB curve");
     label(2, "bytes");

@@ -218,6 +218,21 @@ static bool place_camera_and_turn(struct job *job, const struct model_sphere *sp
     return true;
 }
 
+// Finds the exposure where it is automatic. All lights count then: what a light changes depends on the exposure.
+static bool fit_exposure(struct job *job, lam_draw_params *draw, int width, int height, lam_error *error)
+{
+    const struct options *o = job->options;
+    lam_control control;
+    bool wanted = o->exposure_kind == EXPOSURE_AUTO || (o->exposure_kind == EXPOSURE_BY_FILE && job->file_lights);
+    if (!wanted || !lam_output_is_light(draw->output))
+        return true;
+    if (!o->has_light_cutoff)
+        draw->light_cutoff = -1;
+    job->exposure_fitted = true;
+    return control_of(job, NULL, &control, error) && lam_exposure_fit(job->device, job->scene, &job->camera, draw,
+                                                                      width, height, &control, &draw->exposure, error);
+}
+
 static int by_total(const void *a, const void *b)
 {
     double x = ((const lam_frame_report *)a)->total_ms, y = ((const lam_frame_report *)b)->total_ms;
@@ -230,7 +245,8 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
     const struct options *o = job->options;
     job->draw = draw_params_of(o, job->rig);
     job->draw.background = job->background;
-    if (!show_option_apply(o->show, job->scene, &job->draw, error))
+    if (!show_option_apply(o->show, job->scene, &job->draw, error) ||
+        !fit_exposure(job, &job->draw, o->width, o->height, error))
         return false;
     lam_frame_report *reports = calloc((size_t)o->repeat, sizeof *reports);
     if (!reports)
@@ -345,6 +361,8 @@ lam_explanation *job_explain(struct job *job, int x, int y, struct progress *pro
     const struct options *o = job->options; // now includes the scene file's settings
     lam_draw_params params = draw_params_of(o, job->rig);
     params.background = job->background;
+    if (!fit_exposure(job, &params, o->width, o->height, error))
+        return NULL;
     return lam_explain(job->device, job->scene, &job->camera, &params, o->width, o->height, LAM_RGBA8, x, y, &control,
                        error);
 }
@@ -357,7 +375,8 @@ lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *er
     lam_draw_params draw = draw_params_of(o, job->rig);
     lam_shader_params params = {
         .glsl = (lam_glsl)o->glsl, .lights = (lam_shader_lights)o->lights_in, .products = o->products};
-    if (!show_option_apply(o->show, job->scene, &draw, error))
+    if (!show_option_apply(o->show, job->scene, &draw, error) ||
+        (job->device && !fit_exposure(job, &draw, o->width, o->height, error)))
         return NULL;
     return lam_shader_make(job->scene, &job->camera, &draw, o->width, o->height, o->has_object ? o->object : -1,
                            &params, error);

@@ -26,8 +26,10 @@ struct job {
     const char *format; // of the picture: "png"
     lam_scene *scene;   // NULL until the model is loaded
     struct model_counts model_counts;
-    lam_rig rig; // the rig that drawing adds to the scene's own lights
-    bool studio; // the built-in environment "studio" lights it, where no other is set
+    lam_rig rig;          // the rig that drawing adds to the scene's own lights
+    bool file_lights;     // the lights of a glTF file, in candela and lux, light it
+    bool exposure_fitted; // draw.exposure was found for this picture
+    bool studio;          // the built-in environment "studio" lights it, where no other is set
     lam_camera camera;
     lam_image image;
     lam_rgba background; // behind the model

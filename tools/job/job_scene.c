@@ -137,6 +137,10 @@ static bool apply_rig(struct job *job, lam_error *error)
         o->reflection != LAM_REFLECTION_AUTO && !lam_reflection_describe((lam_reflection)o->reflection)->microfacet;
     if (job->rig == LAM_RIG_AUTO && classic && lam_scene_light_count(job->scene) == 0)
         job->rig = LAM_RIG_STUDIO; // where the environment lights physical models
+    const char *format = lam_scene_format(job->scene);
+    job->file_lights = lam_scene_light_count(job->scene) > 0 &&
+                       (strcmp(format, "gltf") == 0 ||
+                        (strcmp(format, "scene") == 0 && !(job->settings.present & LAM_SETTING_LIGHTS)));
     job->studio = lit_by_environment(job);
     bool as_it_is = !o->lights.count && !o->has_light_scale && !o->rotations.count;
     if (job->rig == LAM_RIG_NONE || as_it_is)
@@ -244,7 +248,9 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
     return (lam_draw_params){
         .samples = o->samples,
         .color = (lam_color_mode)o->color_mode,
-        .exposure = o->exposure,
+        .exposure = o->exposure_kind == EXPOSURE_LITERAL ? o->exposure : 0,
+        .tone = (lam_tone)o->tone,
+        .reference = o->reference,
         .rig = rig,
         .shading = o->has_shading ? (lam_shading)o->shading
                    : by_vertex    ? LAM_SHADING_GOURAUD

@@ -124,8 +124,17 @@ static const struct word shading_words[] = {
 static struct word reflection_words[LAM_REFLECTION_COUNT + 1];
 static char reflection_summary[400];
 
+static const struct word tone_words[] = {
+    {"auto", LAM_TONE_AUTO, "khronos-neutral for physical materials, else none"},
+    {"none", LAM_TONE_NONE, "each channel is cut off at 1"},
+    {"reinhard", LAM_TONE_REINHARD, "x / (1 + x), each channel by itself"},
+    {"aces", LAM_TONE_ACES, "film-like contrast: Hill's fit of ACES"},
+    {"agx", LAM_TONE_AGX, "soft contrast; bright colours fade to white"},
+    {"khronos-neutral", LAM_TONE_KHRONOS_NEUTRAL, "colours as they are, highlights compressed"},
+    {NULL, 0, NULL}};
+
 static const struct word rig_words[] = {
-    {"auto", LAM_RIG_AUTO, "the model's own lights; the studio if it has none"},
+    {"auto", LAM_RIG_AUTO, "the model's own lights; if it has none the studio, for glTF the studio environment"},
     {"none", RIG_DARK, "no light but the ambient"},
     {"file", LAM_RIG_NONE, "only the model's own lights"},
     {"studio", LAM_RIG_STUDIO, "key, fill and rim light fixed to the camera, sky and ground"},
@@ -229,11 +238,21 @@ const struct option option_table[] = {
      "90 on, and those of every four below. WebP is lossless without the option and with 100. Other formats ignore "
      "it. The bytes depend on the version of the library that makes them, libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(quality), .min = 1, .max = 100},
-    {"exposure", 0, GROUP_PICTURE, "STOPS", "0",
-     "Make the picture brighter or darker: 1 doubles its light, -1 halves it.",
-     "The light of the model is multiplied by 2 to the power of STOPS before clamping and encoding, also with "
-     "`--color-mode raw`, in float pictures and in the light terms of `--show`. The background keeps its colour.",
-     .store = store_number, .others = "brightness ev tone", FIELD(exposure), .min = -100, .max = 100},
+    {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
+     "Make the picture brighter or darker: 1 doubles its light, -1 halves it; or auto.",
+     "The light of the model is multiplied by 2 to the power of STOPS before the tone curve and encoding, also with "
+     "`--color-mode raw`, in float pictures and in the light terms of `--show`. The background keeps its colour. "
+     "`auto`, the "
+     "default where the lights of a glTF file (candela, lux) light it, takes the thirds of a stop at which 95 % of the "
+     "covered pixels are at most as bright as 0.8, and reports them; `--exposure 0` takes the light as it is.",
+     .store = store_exposure, .others = "brightness ev", FIELD(exposure), .min = -100, .max = 100},
+    {"tone", 0, GROUP_PICTURE, "CURVE", "auto", "The tone curve: none, reinhard, aces, agx or khronos-neutral.",
+     "It follows exposure and precedes encoding. `auto` is `khronos-neutral` for pictures with physical materials, and "
+     "`none`, which cuts light off at 1, for all others and with `--color-mode raw`. Float pictures hold the light "
+     "itself. "
+     "`docs/lighting/tone.md` has the formulas.",
+     tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
+     FIELD(tone)},
     {"show", 0, GROUP_PICTURE, "WHAT", "the picture",
      "Show a term of the light, one light, or a surface quantity instead of the picture.",
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. "

@@ -144,6 +144,19 @@ bool store_number(const struct option *option, const char *value, struct options
     return true;
 }
 
+// "auto" or stops.
+bool store_exposure(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    bool fitted = strcmp(value, "auto") == 0;
+    double stops;
+    if (!fitted && !read_number(value, &stops))
+        return wrong(error, value, "auto, or stops from -100 to 100");
+    if (!fitted && !number_between(option, value, false, &options->exposure, error))
+        return false;
+    options->exposure_kind = fitted ? EXPOSURE_AUTO : EXPOSURE_LITERAL;
+    return true;
+}
+
 // "800" or "1920x1080".
 bool store_size(const struct option *option, const char *value, struct options *options, lam_error *error)
 {

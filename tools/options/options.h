@@ -24,7 +24,10 @@ struct options {
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress
     int quality;            // 0: the format's own
-    double exposure;        // stops
+    double exposure;        // stops, where the next is literal
+    int exposure_kind;      // enum exposure_kind
+    int tone;               // lam_tone
+    int reference;          // directions per point; 0: the split sum
     const char *show;       // as written (show_option.h); NULL: the picture
 
     const char *save_scene; // the scene file to write; NULL: none
@@ -139,6 +142,9 @@ enum {
 // The background of the sheets of `compare` and `materials`, unless the command line names another.
 #define SHEET_BACKGROUND "white"
 
+// Whether the exposure is found for the picture: where the light is that of a file in candela and lux, always, never.
+enum exposure_kind { EXPOSURE_BY_FILE, EXPOSURE_AUTO, EXPOSURE_LITERAL };
+
 // --rig none: only the ambient light. A value besides those of lam_rig.
 enum { RIG_DARK = 100 };
 
@@ -248,6 +254,7 @@ bool store_glsl(const struct option *, const char *, struct options *, lam_error
 bool store_up(const struct option *, const char *, struct options *, lam_error *);           // likewise
 bool store_integer(const struct option *, const char *, struct options *, lam_error *);      // int
 bool store_number(const struct option *, const char *, struct options *, lam_error *);       // double
+bool store_exposure(const struct option *, const char *, struct options *, lam_error *);     // double, or auto
 bool store_size(const struct option *, const char *, struct options *, lam_error *);         // width, height
 bool store_segments(const struct option *, const char *, struct options *, lam_error *);     // slices, stacks
 bool store_bytes(const struct option *, const char *, struct options *, lam_error *);        // uint64_t

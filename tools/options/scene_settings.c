@@ -29,8 +29,12 @@ void scene_settings_apply(struct job *job)
         own->samples = s->draw.samples;
     if (takes_setting(job, LAM_SETTING_COLOR, "color-mode"))
         own->color_mode = (int)s->draw.color;
-    if (takes_setting(job, LAM_SETTING_EXPOSURE, "exposure"))
+    if (takes_setting(job, LAM_SETTING_EXPOSURE, "exposure") && own->exposure_kind == EXPOSURE_BY_FILE) {
         own->exposure = s->draw.exposure;
+        own->exposure_kind = EXPOSURE_LITERAL;
+    }
+    if (takes_setting(job, LAM_SETTING_TONE, "tone"))
+        own->tone = (int)s->draw.tone;
     if (takes_setting(job, LAM_SETTING_SHADING, "shading")) {
         own->shading = (int)s->draw.shading;
         own->has_shading = !option_given(own, "stage");
@@ -120,7 +124,8 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     const lam_draw_params *draw = &job->draw;
     lam_picture_settings s = job->settings;
     s.present &= LAM_SETTING_ENVIRONMENT;
-    s.present |= draw->exposure != 0 ? LAM_SETTING_EXPOSURE : 0;
+    s.present |= draw->exposure != 0 || job->file_lights ? LAM_SETTING_EXPOSURE : 0;
+    s.present |= draw->tone != LAM_TONE_AUTO ? LAM_SETTING_TONE : 0;
     s.present |= LAM_SETTING_SIZE | LAM_SETTING_SAMPLES | LAM_SETTING_BACKGROUND | LAM_SETTING_COLOR |
                  LAM_SETTING_CAMERA | LAM_SETTING_SHADING | LAM_SETTING_REFLECTION | LAM_SETTING_MATCH_HIGHLIGHTS |
                  LAM_SETTING_GL1;

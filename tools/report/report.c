@@ -28,9 +28,12 @@ static double degrees(double angle_rad)
 void report_line(const struct job *job)
 {
     uint64_t triangles = job->model_counts.triangles;
-    say_plain("%s  %dx%d  %" PRIu64 " triangle%s  %.*f ms\n",
+    char exposure[60] = "";
+    if (job->exposure_fitted)
+        snprintf(exposure, sizeof exposure, "  exposure %.4g stops (auto)", job->draw.exposure);
+    say_plain("%s  %dx%d  %" PRIu64 " triangle%s  %.*f ms%s\n",
               strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width, job->image.height,
-              triangles, triangles == 1 ? "" : "s", job->times.total < 10 ? 1 : 0, job->times.total);
+              triangles, triangles == 1 ? "" : "s", job->times.total < 10 ? 1 : 0, job->times.total, exposure);
 }
 
 static void time_row(const char *name, double ms) { say_plain("  %-12s %10.2f ms\n", name, ms); }
@@ -67,6 +70,8 @@ void report_table(const struct job *job)
                   " points lit, %.1f MB\n",
                   frame->triangles_binned, frame->triangles, frame->pixels_covered, frame->points_lit,
                   (double)frame->memory_bytes / 1e6);
+    if (job->exposure_fitted)
+        say_plain("exposure %.10g stops, found for this picture\n", job->draw.exposure);
     if (job->draw.output == LAM_OUTPUT_DEPTH)
         say_plain("depth    %.7g to %.7g\n", frame->depth_near, frame->depth_far);
     time_row("read", job->times.read);
@@ -139,6 +144,8 @@ static void json_image(struct json *json, const struct job *job)
     int samples = job->draw.samples ? job->draw.samples : lam_default_samples(job->image.width, job->image.height);
     json_count(json, "samples", (uint64_t)samples);
     json_count(json, "bytes", job->bytes);
+    json_number(json, "exposure_stops", job->draw.exposure);
+    json_text(json, "exposure", job->exposure_fitted ? "auto" : "literal");
     if (job->draw.output == LAM_OUTPUT_DEPTH) {
         json_number(json, "depth_near", job->times.frame.depth_near);
         json_number(json, "depth_far", job->times.frame.depth_far);

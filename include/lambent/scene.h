@@ -203,50 +203,57 @@ typedef enum lam_extension_support {
     LAM_EXTENSION_READ = 0,  // all of it counts
     LAM_EXTENSION_NO_EFFECT, // known, and it says nothing about the picture
     LAM_EXTENSION_IGNORED,   // known; the file is drawn without it
-    LAM_EXTENSION_UNKNOWN,   // not known; the file is drawn without it unless it requires it
+    // Not known; the file is drawn without it, unless it requires it and the load is not lenient.
+    LAM_EXTENSION_UNKNOWN,
 } lam_extension_support;
 
 // An extension that a model's file names.
 typedef struct lam_file_extension {
-    const char *name; // "KHR_materials_unlit"
-    bool required;    // the file says that it cannot be understood without it
-    lam_extension_support support;
+    const char *name;              // "KHR_materials_unlit"
+    bool required;                 // the file cannot be understood without it
+    lam_extension_support support; // what the load did about it
     LAM_RESERVED(4);
 } lam_file_extension;
 
 // An animation of a model's file.
 typedef struct lam_file_animation {
     const char *name; // NULL: unnamed
-    double length_s;  // seconds from 0 to the last key, as the file states them; 0: it does not
-    int channel_count;
+    // Seconds from 0 to the last key, as the file states them; 0: it does not.
+    double length_s;
+    int channel_count; // channels: what is moved
     LAM_RESERVED(4);
 } lam_file_animation;
 
 // A picture that a model's file names.
 typedef struct lam_file_image {
-    const char *name;   // NULL: unnamed
-    const char *file;   // as written; NULL: its bytes are in the model
-    const char *format; // "png", "jpeg": as the model or the file's ending says; NULL: neither does
+    const char *name; // NULL: unnamed
+    const char *file; // as written; NULL: its bytes are in the model
+    // "png", "jpeg": as the model or the file's ending says; NULL: neither does.
+    const char *format;
+    // What materials made of it, as colours and as numbers (lam_texture_values); NULL: no material reads it so, or it could
+    // not be read.
+    const lam_texture *textures[2];
     LAM_RESERVED(4);
 } lam_file_image;
 
 // What a glTF file says beside the scene that was made of it. Other formats leave all of it zero. Names that the file does
 // not give are NULL.
 typedef struct lam_file_info {
-    const char *version;   // of the format: "2.0"
-    const char *generator; // the program that wrote the file
-    const char *copyright;
-    const char *const *scenes; // their names
-    int scene_count;
-    int scene;                   // the one that was read; −1: the file has none, and is read whole
-    const char *const *variants; // of the materials (KHR_materials_variants)
-    int variant_count;
-    const lam_file_animation *animations;
-    int animation_count;
-    const lam_file_image *images;
-    int image_count;
-    const lam_file_extension *extensions; // in the order of "extensionsUsed", then those that are only required
-    int extension_count;
+    const char *version;                  // of the format: "2.0"
+    const char *generator;                // the program that wrote the file
+    const char *copyright;                // as the file states it
+    const char *const *scenes;            // the names of its scenes
+    int scene_count;                      // elements of `scenes`
+    int scene;                            // the one that was read; −1: there is none
+    const char *const *variants;          // of KHR_materials_variants
+    int variant_count;                    // elements of `variants`
+    const lam_file_animation *animations; // in the file's order
+    int animation_count;                  // elements of `animations`
+    const lam_file_image *images;         // in the file's order
+    int image_count;                      // elements of `images`
+    // In the order of "extensionsUsed", then those that are only in "extensionsRequired".
+    const lam_file_extension *extensions;
+    int extension_count; // elements of `extensions`
     LAM_RESERVED(16);
 } lam_file_info;
 
@@ -254,7 +261,8 @@ typedef struct lam_file_info {
 // files. NULL for a scene that is NULL.
 LAM_API const lam_file_info *lam_scene_file_info(const lam_scene *scene);
 
-// The bytes of memory that a scene holds: its arrays, names and lists, without its environment. Drawing takes more.
+// The bytes of memory that a scene holds: its arrays, names, lists and textures, also those that it shares, without its
+// environment. Drawing takes more.
 LAM_API uint64_t lam_scene_memory(const lam_scene *scene);
 
 // The warnings of a scene from 0, in order: one sentence for each problem that did not stop the load. NULL out

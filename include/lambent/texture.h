@@ -42,6 +42,8 @@ LAM_API int lam_texture_height(const lam_texture *texture, int level);
 LAM_API int lam_texture_levels(const lam_texture *texture);
 LAM_API lam_texture_values lam_texture_values_of(const lam_texture *texture);
 LAM_API const char *lam_texture_name(const lam_texture *texture); // NULL: none
+// Bytes of memory of all levels.
+LAM_API uint64_t lam_texture_memory(const lam_texture *texture);
 
 // What lies beyond the picture's edges.
 typedef enum lam_wrap {

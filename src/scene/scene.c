@@ -267,7 +267,13 @@ uint64_t lam_scene_vertex_count(const lam_scene *scene)
 
 const lam_file_info *lam_scene_file_info(const lam_scene *scene) { return scene ? &scene->file : NULL; }
 
-uint64_t lam_scene_memory(const lam_scene *scene) { return scene ? scene->arena.total : 0; }
+uint64_t lam_scene_memory(const lam_scene *scene)
+{
+    uint64_t bytes = scene ? scene->arena.total : 0;
+    for (int i = 0; scene && i < scene->textures.count; i++)
+        bytes += lam_texture_memory(((lam_texture *const *)scene->textures.items)[i]);
+    return bytes;
+}
 
 const char *lam_scene_format(const lam_scene *scene) { return scene ? scene->format : ""; }
 

@@ -239,4 +239,13 @@ lam_texture_values lam_texture_values_of(const lam_texture *texture)
     return texture ? texture->values : LAM_TEXTURE_COLOR;
 }
 
+uint64_t lam_texture_memory(const lam_texture *texture)
+{
+    uint64_t bytes = 0;
+    for (int i = 0; texture && i < texture->level_count; i++)
+        bytes += (uint64_t)texture->levels[i].width * (uint64_t)texture->levels[i].height *
+                 (texture->levels[i].floats ? 4 * sizeof(float) : 4);
+    return bytes;
+}
+
 const char *lam_texture_name(const lam_texture *texture) { return texture ? texture->name : NULL; }

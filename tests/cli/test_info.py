@@ -1,7 +1,8 @@
 # test_info.py: the command `info`: what it says of a model, and that its JSON is as docs/info.schema.json says.
+import base64
 import json
 
-from harness import ROOT, check_value
+from harness import ROOT, check_value, write_png
 from test_gltf import GltfCase
 
 SCHEMA = json.loads((ROOT / "docs" / "info.schema.json").read_text())
@@ -32,12 +33,13 @@ class Info(GltfCase):
         self.assertEqual((row["cameras"][0]["eye"], row["cameras"][1]["ortho_half_height"]), ([0, 0, 9], 4))
         self.assertEqual([(e["name"], e["required"], e["support"]) for e in row["extensions"]],
                          [("KHR_materials_unlit", False, "supported"), ("KHR_materials_sheen", False, "ignored"), ("NO_such", False, "unknown")])
-        self.assertEqual(row["images"], [{"name": None, "file": "skin.png", "format": "png"}])
+        self.assertEqual(row["textures"], [{"name": None, "file": "skin.png", "format": "png", "color_space": None, "width": 0, "height": 0,
+                                            "memory_bytes": 0, "slots": []}])
         self.assertEqual(self.info(model, "--scene", "night")[0]["scenes"][1]["read"], True)
         text = self.good("info", model).stdout.decode()
         for words in ("gltf 2.0, written by by?hand", "copyright   nobody", "2 × 2 × 0 m, y up", "2 triangles, 4 vertices", "0 'day', the one that is read",
                       "1 'night'", "0 unlit: base 1/0/0", "1 'mint'", "0 'near', perspective, 5.73 degrees high, at 0 0 9", "KHR_materials_sheen: ignored",
-                      "NO_such: unknown", "0 'skin.png', png"):
+                      "NO_such: unknown", "0 'skin.png', png; not read"):
             self.assertIn(words, text)
 
     def test_required_extensions(self):
@@ -87,12 +89,44 @@ class Info(GltfCase):
         self.assertEqual((row["counts"]["parts"], row["counts"]["triangles"]), (2, 2))
         material = row["materials"][0]
         self.assertEqual((material["name"], material["kind"], material["specular"], material["shininess"]), ("shiny", "classic", [1, 1, 1], 40))
-        self.assertEqual(material["maps"], [{"slot": "diffuse", "file": "wood.jpg"}])
-        self.assertEqual((teapot["format"], teapot["images"], teapot["extensions"]), ("shape", [], []))
+        self.assertEqual(material["maps"], [{"slot": "diffuse", "file": "wood.jpg", "texture": None}])  # there is no such file
+        self.assertEqual((teapot["format"], teapot["textures"], teapot["extensions"]), ("shape", [], []))
         text = self.good("info", "two.obj", "teapot").stdout.decode()
         self.assertIn("0 'shiny', classic: diffuse 0.214, specular 1, shininess 40; maps diffuse", text)
         self.assertIn("unit unknown", text)
         self.assertIn("\n\nteapot\n", text)
+
+    def test_textures(self):
+        picture = write_png(4, 2, bytes([255, 128, 0, 255]) * 8)
+        (self.folder / "map.png").write_bytes(picture)
+        inside = "data:image/png;base64," + base64.b64encode(picture).decode()
+        material = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0}},
+                    "occlusionTexture": {"index": 0}, "emissiveTexture": {"index": 1}}
+        model = self.model(materials=[material] * 3, textures=[{"source": 0}, {"source": 1}],
+                           images=[{"uri": "map.png", "name": "skin"}, {"uri": inside}, {"uri": "gone.jpg"}])
+        self.given.add("map.png")
+        row = self.info(model)[0]
+        color, numbers, glow, unread = row["textures"]
+        self.assertEqual([t["color_space"] for t in row["textures"]], ["srgb", "linear", "srgb", None])
+        self.assertEqual((color["name"], color["file"], color["format"], color["width"], color["height"]), ("skin", "map.png", "png", 4, 2))
+        self.assertEqual((color["slots"], numbers["slots"], glow["slots"]), (["diffuse"], ["metallic", "roughness", "occlusion"], ["emission"]))
+        self.assertEqual((glow["file"], glow["format"], unread["file"]), (None, "png", "gone.jpg"))
+        # 8 bits at full size, floats below: 2x1 and 1x1.
+        self.assertEqual(color["memory_bytes"], 4 * 2 * 4 + (2 + 1) * 16)
+        self.assertEqual([m["texture"] for m in row["materials"][0]["maps"]], [0, 2, 1, 1, 1])
+        text = self.good("info", model).stdout.decode()
+        for words in ("0 'skin', 'map.png', png, 4x2, srgb: diffuse", "1 'skin', 'map.png', png, 4x2, linear: metallic, roughness, occlusion",
+                      "2 in the model, png, 4x2, srgb: emission", "3 'gone.jpg', jpg; not read", "maps diffuse, emission, metallic, roughness, occlusion"):
+            self.assertIn(words, text)
+        (self.folder / "two.mtl").write_text("newmtl a\nmap_Kd map.png\nnewmtl b\nmap_Kd map.png\nmap_Bump map.png\n")
+        (self.folder / "two.obj").write_text("mtllib two.mtl\nv 0 0 0\nv 2 0 0\nv 0 3 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n"
+                                             "usemtl b\nf 1/1 3/3 2/2\n")
+        self.given |= {"two.mtl", "two.obj"}
+        textures = self.info("two.obj")[0]["textures"]
+        self.assertEqual([(t["file"], t["color_space"], t["slots"], t["format"]) for t in textures],
+                         [("map.png", "srgb", ["diffuse"], "png"), ("map.png", "linear", ["bump"], "png")])
+        text = self.good("info", self.folder / "two.obj").stdout.decode()
+        self.assertIn("0 'map.png', png, 4x2, srgb: diffuse", text)
 
     def test_failures(self):
         done = self.run_program("info", "missing.obj", "teapot", "--json")

@@ -1,6 +1,7 @@
 // info.c: the command `info`: prints what is in a model, without drawing it.
 #include "info.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -34,7 +35,9 @@ static int print_one(const char *model, const struct options *given, bool first)
     lam_error error = {0};
     struct info info = {.job = &job, .error = &error};
     job.times.start = clock_ms();
-    bool ok = load(&info, &job, &options, &error);
+    struct info_textures textures = {0};
+    info.textures = &textures;
+    bool ok = load(&info, &job, &options, &error) && info_textures_list(job.scene, &textures, &error);
     if (ok)
         error = (lam_error){0}; // of the first attempt
     else
@@ -46,6 +49,7 @@ static int print_one(const char *model, const struct options *given, bool first)
             printf("\n");
         info_text(&info);
     }
+    free(textures.items);
     lam_scene_free(job.scene);
     return exit_code_of(error.code)->code;
 }

@@ -6,11 +6,29 @@
 
 #include "job.h"
 
+// A texture as materials read it, or a picture of the file that none reads.
+struct info_texture {
+    const lam_texture *texture;  // NULL: no material reads the picture, or it could not be read
+    const lam_file_image *image; // NULL: the file does not list its pictures
+    unsigned slots;              // bit m: some material reads it as map m (lam_map)
+};
+struct info_textures {
+    struct info_texture *items; // from malloc
+    int count;
+};
+bool info_textures_list(const lam_scene *scene, struct info_textures *textures, lam_error *error);
+int info_texture_find(const struct info_textures *textures, const lam_texture *texture); // its index; −1: none
+// As the model names it, or relative to the model's folder. NULL: it is in the model.
+const char *info_texture_file(const struct info_texture *texture, const char *model);
+const char *info_texture_format(const struct info_texture *texture); // "png"; NULL: unknown
+const char *info_color_space(const struct info_texture *texture);    // "srgb", "linear"; NULL: it is not read
+
 // A loaded model, or the error of one that could not be loaded.
 struct info {
     const struct job *job;
     const lam_error *error; // code LAM_OK: none
     bool needs_lenient;     // drawing it needs --lenient
+    const struct info_textures *textures;
 };
 
 // The numbers of what is stored; a mesh that several objects show counts once.
@@ -22,7 +40,6 @@ struct info_counts info_count(const lam_scene *scene);
 const char *info_format(const lam_scene *scene);              // "shape" for a built-in shape
 const char *info_unit(const lam_scene *scene);                // of lengths: "metre"; NULL: the format does not say
 const char *info_material_kind(const lam_material *material); // "metallic-roughness", "classic" or "unlit"
-const char *info_map_name(int map);                           // of lam_map, in words
 const char *info_support(lam_extension_support support);      // in words
 
 // A light's colour, its largest channel 1, and that channel: the intensity.

@@ -28,21 +28,6 @@ const char *info_material_kind(const lam_material *material)
     return material->unlit ? "unlit" : material->physical ? "metallic-roughness" : "classic";
 }
 
-const char *info_map_name(int map)
-{
-    static const char *const names[LAM_MAP_COUNT] = {[LAM_MAP_AMBIENT] = "ambient",
-                                                     [LAM_MAP_DIFFUSE] = "diffuse",
-                                                     [LAM_MAP_SPECULAR] = "specular",
-                                                     [LAM_MAP_EMISSION] = "emission",
-                                                     [LAM_MAP_SHININESS] = "shininess",
-                                                     [LAM_MAP_OPACITY] = "opacity",
-                                                     [LAM_MAP_BUMP] = "bump",
-                                                     [LAM_MAP_NORMAL] = "normal",
-                                                     [LAM_MAP_DISPLACEMENT] = "displacement",
-                                                     [LAM_MAP_REFLECTION] = "reflection"};
-    return names[map];
-}
-
 const char *info_support(lam_extension_support support)
 {
     switch (support) {

@@ -59,7 +59,8 @@ static void write_geometry(struct json *json, const struct job *job)
     json_vector(json, "size", (lam_vec3){high.x - low.x, high.y - low.y, high.z - low.z});
 }
 
-static void write_material(struct json *json, const lam_material *m)
+static void write_material(struct json *json, const lam_material *m, const struct info_textures *textures,
+                           const char *model)
 {
     json_open(json, NULL, '{');
     json_text(json, "name", m->name);
@@ -77,13 +78,37 @@ static void write_material(struct json *json, const lam_material *m)
     }
     json_open(json, "maps", '[');
     for (int map = 0; map < LAM_MAP_COUNT; map++) {
-        if (!m->map_names[map])
+        int texture = info_texture_find(textures, m->maps[map] ? m->maps[map]->texture : NULL);
+        if (!m->map_names[map] && texture < 0)
             continue;
         json_open(json, NULL, '{');
-        json_text(json, "slot", info_map_name(map));
-        json_text(json, "file", m->map_names[map]);
+        json_text(json, "slot", lam_map_name((lam_map)map));
+        json_text(json, "file",
+                  m->map_names[map] ? m->map_names[map] : info_texture_file(&textures->items[texture], model));
+        if (texture >= 0)
+            json_count(json, "texture", (uint64_t)texture);
+        else
+            json_none(json, "texture");
         json_close(json, '}');
     }
+    json_close(json, ']');
+    json_close(json, '}');
+}
+
+static void write_texture(struct json *json, const struct info_texture *texture, const char *model)
+{
+    json_open(json, NULL, '{');
+    json_text(json, "name", texture->image ? texture->image->name : NULL);
+    json_text(json, "file", info_texture_file(texture, model));
+    json_text(json, "format", info_texture_format(texture));
+    json_text(json, "color_space", info_color_space(texture));
+    json_count(json, "width", (uint64_t)lam_texture_width(texture->texture, 0));
+    json_count(json, "height", (uint64_t)lam_texture_height(texture->texture, 0));
+    json_count(json, "memory_bytes", lam_texture_memory(texture->texture));
+    json_open(json, "slots", '[');
+    for (int map = 0; map < LAM_MAP_COUNT; map++)
+        if (texture->slots >> map & 1)
+            json_text(json, NULL, lam_map_name((lam_map)map));
     json_close(json, ']');
     json_close(json, '}');
 }
@@ -144,15 +169,6 @@ static void write_file(struct json *json, const lam_file_info *info)
     for (int i = 0; i < info->variant_count; i++)
         json_text(json, NULL, info->variants[i]);
     json_close(json, ']');
-    json_open(json, "images", '[');
-    for (int i = 0; i < info->image_count; i++) {
-        json_open(json, NULL, '{');
-        json_text(json, "name", info->images[i].name);
-        json_text(json, "file", info->images[i].file);
-        json_text(json, "format", info->images[i].format);
-        json_close(json, '}');
-    }
-    json_close(json, ']');
     json_open(json, "extensions", '[');
     for (int i = 0; i < info->extension_count; i++) {
         json_open(json, NULL, '{');
@@ -176,7 +192,11 @@ static void write_model(struct json *json, const struct info *info)
     write_geometry(json, job);
     json_open(json, "materials", '[');
     for (int i = 0; i < lam_scene_material_count(scene); i++)
-        write_material(json, lam_scene_material(scene, i));
+        write_material(json, lam_scene_material(scene, i), info->textures, job->model);
+    json_close(json, ']');
+    json_open(json, "textures", '[');
+    for (int i = 0; i < info->textures->count; i++)
+        write_texture(json, &info->textures->items[i], job->model);
     json_close(json, ']');
     json_open(json, "lights", '[');
     for (int i = 0; i < lam_scene_light_count(scene); i++)

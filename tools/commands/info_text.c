@@ -113,24 +113,38 @@ static void print_materials(const lam_scene *scene)
         print_factors(m);
         const char *before = "; maps ";
         for (int map = 0; map < LAM_MAP_COUNT; map++)
-            if (m->map_names[map]) {
-                printf("%s%s", before, info_map_name(map));
+            if (m->maps[map] || m->map_names[map]) {
+                printf("%s%s", before, lam_map_name((lam_map)map));
                 before = ", ";
             }
         printf("\n");
     }
 }
 
-static void print_images(const lam_scene *scene)
+static void print_textures(const struct info_textures *textures, const char *model)
 {
     char name[NAME_BYTES + 12], file[NAME_BYTES + 12];
-    const lam_file_info *info = lam_scene_file_info(scene);
-    for (int i = 0; i < info->image_count && !omitted(i, info->image_count); i++) {
-        const lam_file_image *image = &info->images[i];
-        const char *text = shown(image->name, name);
-        printf("%-12s%d %s%s%s, %s\n", label("images", i), i, text, *text ? ", " : "",
-               image->file ? shown(image->file, file) : "in the model",
-               image->format ? image->format : "format unknown");
+    for (int i = 0; i < textures->count && !omitted(i, textures->count); i++) {
+        const struct info_texture *texture = &textures->items[i];
+        const char *path = info_texture_file(texture, model), *format = info_texture_format(texture);
+        const char *text = shown(texture->image ? texture->image->name : NULL, name);
+        printf("%-12s%d %s%s%s", label("textures", i), i, text, *text ? ", " : "",
+               path ? shown(path, file) : "in the model");
+        if (format)
+            printf(", %s", plain(format, NAME_BYTES, file));
+        if (!texture->texture) {
+            printf("; not read\n");
+            continue;
+        }
+        printf(", %dx%d, %s", lam_texture_width(texture->texture, 0), lam_texture_height(texture->texture, 0),
+               info_color_space(texture));
+        const char *before = ": ";
+        for (int map = 0; map < LAM_MAP_COUNT; map++)
+            if (texture->slots >> map & 1) {
+                printf("%s%s", before, lam_map_name((lam_map)map));
+                before = ", ";
+            }
+        printf("\n");
     }
 }
 
@@ -213,7 +227,7 @@ void info_text(const struct info *info)
         printf("%-12s%s\n", "copyright", plain(file->copyright, LINE_BYTES, text));
     print_geometry(job);
     print_materials(scene);
-    print_images(scene);
+    print_textures(info->textures, job->model);
     print_lights(scene);
     print_cameras(scene);
     print_file(file);

@@ -53,7 +53,8 @@ const struct topic topics[] = {
     {"info", "What is in a model", 0, TOPIC_NO_TABLE,
      "`lambent info MODEL...` prints what is in models, one after the other, and draws nothing: format, the program "
      "that wrote the file, size with the up axis, triangles, meshes, parts and objects, materials with their numbers "
-     "and maps, pictures, lights, cameras, scenes, animations with their lengths, variants, extensions of glTF and "
+     "and maps, textures with their sizes, lights, cameras, scenes, animations with their lengths, variants, "
+     "extensions of glTF and "
      "what becomes of each (supported, ignored, or unknown), memory, the time that loading took, and warnings. Lists "
      "end after 8 rows; `--json` prints everything, one line for each model (`docs/info.schema.json`). Lengths of "
      "glTF are metres; other formats do not say. A file that requires an unknown extension is read as with "

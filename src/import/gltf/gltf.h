@@ -74,6 +74,7 @@ struct gltf {
     int default_material; // of primitives that name none; −1: not made yet
     int variant;          // that the caller wants; −1: none
 
+    lam_file_image *file_images;   // one for each image (gltf_file_info.h)
     struct gltf_picture *pictures; // gltf_textures.h: two for each of the file's images
     struct gltf_map *maps;         // the maps of materials, the last one first
     int (*texcoord_sets)[2];       // of each material: the file's sets that serve as its first and second; −1: none

@@ -81,7 +81,7 @@ static bool take_images(struct gltf *gltf, lam_file_info *info)
     const json_t *list = json_object_get(gltf->root, "images");
     size_t count = json_array_size(list);
     lam_file_image *images = NEW(gltf, count, lam_file_image);
-    info->images = images;
+    info->images = gltf->file_images = images;
     info->image_count = (int)count;
     for (size_t i = 0; images && i < count; i++) {
         const json_t *object = json_array_get(list, i);

@@ -308,6 +308,7 @@ static bool add_map(struct gltf *gltf, const struct gltf_map *item)
         return gltf_no_memory(gltf, sizeof *map);
     *map = item->map;
     map->texture = picture->texture;
+    gltf->file_images[item->picture / VALUES].textures[item->picture % VALUES] = picture->texture;
     lam_material *materials = gltf->scene->materials.items;
     materials[gltf->first_material + item->request.material].maps[item->request.slot] = map;
     return scene_share_texture(gltf->scene, picture->texture, gltf->json.error);

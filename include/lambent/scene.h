@@ -310,8 +310,10 @@ LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light 
 // their angles as weights over the triangles around a corner that are joined by edges, have the same orientation of the
 // mapping, and the same position, normal and texture coordinates there; it is unit and perpendicular to the normal. A
 // corner whose texture coordinates give no direction gets the tangent of meshes without them (docs/lighting/threads.md).
-// Drawing does not call this. `control` may be NULL. On failure some meshes may have tangents and others not. Errors:
-// LAM_LIMIT, LAM_CANCELLED.
+// The texture coordinates are those of the normal map of the mesh's first part that has one, else the first set, and the
+// bitangent points up in the normal map's picture, else to where t grows. Loading a model does this for meshes with normal
+// maps; drawing does not. `control` may be NULL. On failure some meshes may have tangents and others not. Errors: LAM_LIMIT,
+// LAM_CANCELLED.
 LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_error *error);
 
 // Light from everywhere, added to that of the ambient lights (La_global). Default 0.

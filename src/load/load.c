@@ -57,7 +57,7 @@ static struct lam_scene *start_scene(const struct import_source *source, const s
     return scene;
 }
 
-// The steps after reading: origin, normals, bounds.
+// The steps after reading: origin, normals, tangents, bounds.
 static bool finish(struct lam_scene *scene, const struct import_source *source, const struct importer *importer,
                    uint64_t start_ns, lam_error *error)
 {
@@ -83,9 +83,12 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     scene->read_ms = (double)(read_ns - start_ns) * 1e-6;
     call_progress(source->call, 0.8, "normals");
     double crease_angle_rad = importer_crease(importer, params->normals, params->crease_angle_rad);
-    if (params->normals_when_drawn && params->normals != LAM_NORMALS_FACET && !importer->is_scene_file)
+    bool tangents = scene_needs_tangents(scene); // which need normals first
+    if (params->normals_when_drawn && params->normals != LAM_NORMALS_FACET && !importer->is_scene_file && !tangents)
         scene_defer_normals(scene, params->normals, crease_angle_rad);
     else if (!scene_prepare(scene, params->normals, crease_angle_rad, source->pool, source->call, error))
+        return false;
+    if (tangents && !scene_make_tangents(scene, false, source->call, error))
         return false;
     if (!scene_measure(scene, source->pool, error))
         return false;

@@ -139,11 +139,11 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
 // The same, but leaves smooth normals to the device.
 void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad);
 
-// Gives a mesh with normals, texture coordinates and triangles tangents of its own (mikktspace.h, `t_down` too), charged to
-// `call`. For the tangents of another set of texture coordinates pass a copy of the mesh that has this set. False: out
-// of memory, or the call must end; the mesh is unchanged.
-bool scene_mesh_tangents(struct lam_scene *scene, lam_mesh *mesh, bool t_down, struct call_control *call,
-                         lam_error *error);
+// Whether some mesh has a material with a normal map and no tangents.
+bool scene_needs_tangents(const struct lam_scene *scene);
+// Gives each such mesh, or with `all` every mesh, that has normals, texture coordinates and no tangents those of MikkTSpace,
+// for the texture coordinates of the normal map. Charged to `call`.
+bool scene_make_tangents(struct lam_scene *scene, bool all, struct call_control *call, lam_error *error);
 
 // Computes the extents of new meshes, and gives those that lie far from zero an origin (origin.h), which changes their
 // positions in place. Every public function that adds meshes ends with it, so that read access never writes. False: out

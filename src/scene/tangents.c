@@ -5,16 +5,74 @@
 #include "fail.h"
 #include "float_state.h"
 
-bool scene_mesh_tangents(struct lam_scene *scene, lam_mesh *mesh, bool t_down, struct call_control *call,
-                         lam_error *error)
+static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int material)
 {
+    bool there = material >= 0 && material < scene->materials.count;
+    return there ? ((const lam_material *)scene->materials.items + material)->maps[LAM_MAP_NORMAL] : NULL;
+}
+
+// The normal map of a mesh: that of its first part which has one, else of the first object that gives it a material with one.
+// NULL: none.
+static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int mesh)
+{
+    const lam_mesh *m = scene_mesh(scene, mesh);
+    const lam_texture_map *map = NULL;
+    for (uint32_t i = 0; !map && i < m->part_count; i++)
+        map = normal_map_at(scene, m->parts[i].material);
+    for (int i = 0; !map && i < scene->objects.count; i++)
+        if (scene_object(scene, i)->mesh == mesh)
+            map = normal_map_at(scene, scene_object(scene, i)->material);
+    return map;
+}
+
+// Whether the second texture coordinate grows downwards in the picture of a map.
+static bool t_is_down(const lam_texture_map *map)
+{
+    const float(*m)[3] = map->transform;
+    bool given = false;
+    for (int i = 0; i < 6; i++)
+        given |= m[i / 3][i % 3] != 0;
+    return !given || m[0][0] * m[1][1] - m[0][1] * m[1][0] > 0;
+}
+
+// Gives a mesh tangents of its own, for the texture coordinates of its normal map; the first ones where there is none.
+static bool make_tangents(struct lam_scene *scene, lam_mesh *mesh, const lam_texture_map *map,
+                          struct call_control *call, lam_error *error)
+{
+    lam_mesh seen = *mesh;
     struct mesh_tangents made;
-    if (!mikktspace(&made, mesh, t_down, &scene->arena, call, error))
+    if (map && map->texcoords == 1) {
+        seen.texcoords = mesh->second_texcoords;
+        seen.texcoord_count = mesh->second_texcoord_count;
+        seen.texcoord_indices = mesh->second_texcoord_indices;
+    }
+    if (mesh->tangents || !seen.texcoords || !mesh->normals || !mesh->triangle_count)
+        return true;
+    if (!mikktspace(&made, &seen, map && t_is_down(map), &scene->arena, call, error))
         return false;
     mesh->tangents = made.tangents;
     mesh->tangent_count = made.count;
     mesh->tangent_indices = made.indices;
     return true;
+}
+
+bool scene_needs_tangents(const struct lam_scene *scene)
+{
+    bool needed = false;
+    for (int i = 0; !needed && i < scene->meshes.count; i++)
+        needed = !scene_mesh(scene, i)->tangents && normal_map_of(scene, i);
+    return needed;
+}
+
+bool scene_make_tangents(struct lam_scene *scene, bool all, struct call_control *call, lam_error *error)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < scene->meshes.count; i++) {
+        lam_mesh *mesh = (lam_mesh *)scene->meshes.items + i;
+        const lam_texture_map *map = normal_map_of(scene, i);
+        ok = (!all && !map) || make_tangents(scene, mesh, map, call, error);
+    }
+    return ok;
 }
 
 bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_error *error)
@@ -25,12 +83,8 @@ bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_e
     call_start(&call, control);
     uint64_t state = float_state_enter();
     scene->arena.call = &call;
-    bool ok = scene->deferred_crease_rad <= 0 || scene_prepare(scene, LAM_NORMALS_FILE, 0, NULL, &call, error);
-    for (int i = 0; ok && i < scene->meshes.count; i++) {
-        lam_mesh *mesh = (lam_mesh *)scene->meshes.items + i;
-        if (!mesh->tangents && mesh->texcoords && mesh->normals && mesh->triangle_count)
-            ok = scene_mesh_tangents(scene, mesh, false, &call, error);
-    }
+    bool ok = (scene->deferred_crease_rad <= 0 || scene_prepare(scene, LAM_NORMALS_FILE, 0, NULL, &call, error)) &&
+              scene_make_tangents(scene, true, &call, error);
     scene_built(scene);
     float_state_leave(state);
     return ok;

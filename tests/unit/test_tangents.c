@@ -201,6 +201,68 @@ static void equal_hashes_are_told_apart(void **state)
     free(indices);
 }
 
+// --- a scene's meshes
+
+// A square whose first texture coordinates are mirrored and whose second ones are not, with a material of a normal map.
+static lam_scene *normal_mapped_square(int set, const float transform[2][3])
+{
+    static const float positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0},
+                       normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    static const float mirrored[] = {1, 0, 0, 0, 0, 1, 1, 1}, straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+    static const uint8_t flat[] = {128, 128, 255, 255};
+    lam_error error = {0};
+    lam_image image = {.width = 1, .height = 1, .format = LAM_RGBA8, .pixels = (void *)(uintptr_t)flat};
+    lam_scene *scene = lam_scene_make(&error);
+    lam_texture *texture = lam_texture_make(&image, LAM_TEXTURE_NUMBERS, NULL, &error);
+    assert_non_null(texture);
+    lam_texture_map map = {.texture = texture, .texcoords = set};
+    memcpy(map.transform, transform, sizeof map.transform);
+    lam_material material = lam_material_default();
+    if (set >= 0)
+        material.maps[LAM_MAP_NORMAL] = &map;
+    const lam_part part = {.triangle_count = 2, .material = lam_scene_add_material(scene, &material, &error)};
+    assert_int_equal(part.material, 0);
+    const lam_mesh mesh = {.positions = positions,
+                           .vertex_count = 4,
+                           .indices = indices,
+                           .triangle_count = 2,
+                           .normals = normals,
+                           .normal_count = 4,
+                           .texcoords = mirrored,
+                           .texcoord_count = 4,
+                           .second_texcoords = straight,
+                           .second_texcoord_count = 4,
+                           .parts = &part,
+                           .part_count = 1};
+    assert_int_equal(lam_scene_add_mesh(scene, &mesh, &error), 0);
+    lam_texture_free(texture);
+    return scene;
+}
+
+// The tangents are those of the normal map's texture coordinates, and the bitangent points up in its picture.
+static void tangents_of_a_normal_map(void **state)
+{
+    (void)state;
+    static const float same[2][3] = {{0}}, upside_down[2][3] = {{1, 0, 0}, {0, -1, 1}};
+    static const struct {
+        int set;
+        const float (*transform)[3];
+        float x, w;
+    } rows[] = {
+        {-1, same, -1, -1}, {0, same, -1, 1}, {1, same, 1, -1}, {0, upside_down, -1, -1}, {1, upside_down, 1, 1}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lam_scene *scene = normal_mapped_square(rows[i].set, rows[i].transform);
+        assert_true(lam_scene_make_tangents(scene, NULL, NULL));
+        const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+        const struct mesh_tangents made = {(float *)(uintptr_t)mesh->tangents, mesh->tangent_count,
+                                           (uint32_t *)(uintptr_t)mesh->tangent_indices};
+        for (uint32_t c = 0; c < 6; c++)
+            expect(&made, c, rows[i].x, 0, 0, rows[i].w);
+        lam_scene_free(scene);
+    }
+}
+
 // --- the tangents of Mikkelsen's code
 
 static const struct {
@@ -250,6 +312,8 @@ static void compare_reference(const char *models, int row, const float *expected
             mesh = lam_scene_mesh(scene, i);
     assert_non_null(mesh);
     assert_int_equal(3 * mesh->triangle_count, references[row].corners);
+    const lam_material *material = lam_scene_material(scene, mesh->parts->material);
+    assert_true(!mesh->tangents == !material->maps[LAM_MAP_NORMAL]);
     struct mesh_tangents made = tangents_of(mesh, true);
     uint32_t signs = 0, directions = 0;
     double worst = 0;
@@ -258,6 +322,8 @@ static void compare_reference(const char *models, int row, const float *expected
         double distance = sqrt(pow((double)found[0] - (double)from[0], 2) + pow((double)found[1] - (double)from[1], 2) +
                                pow((double)found[2] - (double)from[2], 2));
         signs += found[3] != from[3];
+        if (mesh->tangents) // made by the load
+            assert_memory_equal(mesh->tangents + 4 * (size_t)mesh->tangent_indices[c], found, 4 * sizeof *found);
         directions += !(distance <= 1e-4);
         worst = distance > worst ? distance : worst;
     }
@@ -294,6 +360,7 @@ int main(void)
         cmocka_unit_test(degenerate_triangle),
         cmocka_unit_test(twins_of_a_fan),
         cmocka_unit_test(equal_hashes_are_told_apart),
+        cmocka_unit_test(tangents_of_a_normal_map),
         cmocka_unit_test(tangents_of_mikkelsens_code),
     };
     return cmocka_run_group_tests(all, NULL, NULL);

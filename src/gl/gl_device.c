@@ -20,13 +20,14 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->version = f->device->context.es ? GLSL_300_ES : GLSL_330;
     c->storage = f->storage;
     c->encoding = GLSL_PREMULTIPLIED;
-    c->layer = !f->layered ? GLSL_NO_LAYERS : range->translucent ? GLSL_PEELS : GLSL_WRITES_DEPTH_IDS;
+    c->layer = !f->layered ? GLSL_NO_LAYERS : range_blends(f->frame, range) ? GLSL_PEELS : GLSL_WRITES_DEPTH_IDS;
     c->products = true;
     c->two_sided = wanted.two_sided;
     c->output = wanted.output;
     c->stage = wanted.stage;
     c->shading = wanted.shading;
     c->reflection = LAM_REFLECTION_LAMBERT;
+    c->alpha[0] = c->alpha[1] = LAM_ALPHA_BLEND;
     if (glsl_output_is_geometry(c->output)) {
         c->shading = LAM_SHADING_PHONG;
         c->stage = LAM_STAGE_FRAGMENT;
@@ -34,6 +35,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     }
     if (c->stage == LAM_STAGE_APPLICATION) {
         c->output = LAM_OUTPUT_PICTURE;
+        memcpy(c->alpha, wanted.alpha, sizeof c->alpha);
         return;
     }
     c->reflection = wanted.reflection;
@@ -44,13 +46,37 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->back_material = wanted.back_material;
     c->colors = wanted.colors;
     c->tangents = wanted.tangents;
+    memcpy(c->converted, wanted.converted, sizeof c->converted);
+    memcpy(c->alpha, wanted.alpha, sizeof c->alpha);
+    memcpy(c->maps, wanted.maps, sizeof c->maps);
+    c->anisotropy = wanted.anisotropy;
     memcpy(c->groups, wanted.groups, sizeof c->groups);
     c->group_count = wanted.group_count;
     c->light_count = wanted.light_count;
     c->hemisphere_count = wanted.hemisphere_count;
 }
 
-static enum vertex_form form_of(const struct gl_frame *f, const struct frame_draw *draw, int draw_all)
+// The mesh of a draw, without the texture coordinates that no map reads.
+static lam_mesh mesh_as_drawn(const struct gl_frame *f, const struct frame_draw_range *list, int count)
+{
+    lam_mesh mesh = *f->frame->draws[list->draw].mesh;
+    bool read[2] = {false, false};
+    for (int i = 0; i < count; i++)
+        for (int side = 0; side < 2; side++) {
+            const lam_material *material = f->frame->materials[side ? list[i].back : list[i].front];
+            for (int k = 0; k < LAM_MAP_COUNT && glsl_reads_maps(f->frame, material); k++)
+                if (material->maps[k])
+                    read[material->maps[k]->texcoords] = true;
+        }
+    if (!read[0])
+        mesh.texcoords = NULL;
+    if (!read[1])
+        mesh.second_texcoords = NULL;
+    return mesh;
+}
+
+static enum vertex_form form_of(const struct gl_frame *f, const struct frame_draw *draw, const lam_mesh *mesh,
+                                int draw_all)
 {
     const struct frame *frame = f->frame;
     if (frame->shading == LAM_SHADING_FLAT && !glsl_output_is_geometry(frame->output))
@@ -58,7 +84,7 @@ static enum vertex_form form_of(const struct gl_frame *f, const struct frame_dra
     // Shaders number triangles by gl_VertexID / 3. A vertex lit for two materials has two colours.
     bool counts = f->layered || frame->output == LAM_OUTPUT_IDS;
     bool two = f->stage == LAM_STAGE_APPLICATION && draw_all > 1;
-    return counts || two || !mesh_can_share(draw->mesh) ? FORM_CORNERS : FORM_SHARED;
+    return counts || two || !mesh_can_share(mesh) ? FORM_CORNERS : FORM_SHARED;
 }
 
 static bool reads_light_buffers(const struct glsl_choices *c)
@@ -104,8 +130,9 @@ static bool set_up_draw(struct gl_frame *f, const struct frame_draw_range *list,
     if (runs < 0)
         return false;
     const struct frame_draw *draw = &frame->draws[list->draw];
+    lam_mesh drawn = mesh_as_drawn(f, list, count);
     struct gl_mesh *mesh =
-        mesh_upload(f, draw->mesh, form_of(f, draw, f->draw_call_count - first), f->device->runs.data, runs, error);
+        mesh_upload(f, &drawn, form_of(f, draw, &drawn, f->draw_call_count - first), f->device->runs.data, runs, error);
     if (!mesh)
         return false;
     bool colors = f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->output);
@@ -120,7 +147,8 @@ static bool set_up_draw(struct gl_frame *f, const struct frame_draw_range *list,
         call->array = array;
         call->by_elements = mesh->elements != 0;
         call->program = program_for(f, &c, error); // compiled by set_up
-        if (!call->program || (c.environment != GLSL_NO_ENVIRONMENT && !environment_send(f, error)))
+        if (!call->program || !textures_upload(f, call->program, call->range, error) ||
+            (c.environment != GLSL_NO_ENVIRONMENT && !environment_send(f, error)))
             return false;
     }
     return true;
@@ -209,24 +237,11 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
         return false;
     f->draw_calls = device->draw_calls.data;
     meshes_evict(f);
+    textures_evict(f);
     if (!set_up(f, error))
         return false;
     device->base.report.upload_ms = since(&clock) - device->base.report.lighting_ms;
     return draw_parts(f, error) && check_errors(f, error);
-}
-
-// The maps of materials are not drawn here yet.
-static bool check_maps(const struct frame *frame, lam_error *error)
-{
-    for (int i = 0; i < frame->range_count; i++)
-        for (int map = 0; map < LAM_MAP_COUNT; map++)
-            if (frame->materials[frame->ranges[i].front]->maps[map] ||
-                frame->materials[frame->ranges[i].back]->maps[map])
-                return fail(error, LAM_UNSUPPORTED,
-                            "OpenGL: a material has a %s map, and this device does not draw textures yet; the CPU "
-                            "device does",
-                            lam_map_name((lam_map)map));
-    return true;
 }
 
 static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct call_control *call,
@@ -235,11 +250,12 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
     struct gl_device *device = (struct gl_device *)base;
     struct gl_previous_context previous;
     struct gl_saved_state state;
-    if (!check_maps(frame, error) || !gl_context_enter(&device->context, &previous, error))
+    if (!gl_context_enter(&device->context, &previous, error))
         return false;
     struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .call = call, .image = image};
     f.stage = frame->stage;
-    f.layered = frame->translucent && frame->output != LAM_OUTPUT_COVERAGE;
+    for (int i = 0; i < frame->range_count && frame->translucent && frame->output != LAM_OUTPUT_COVERAGE; i++)
+        f.layered |= range_blends(frame, &frame->ranges[i]);
     gl_state_save(device, &state);
     device->frame_number++;
     bool ok = draw_frame(&f, error);
@@ -258,6 +274,8 @@ static uint64_t gl_memory(const struct lam_device *base)
         bytes += lists[i]->shadow.capacity + lists[i]->next.capacity + lists[i]->size;
     for (int i = 0; i < device->mesh_count; i++)
         bytes += device->meshes[i].bytes;
+    for (int i = 0; i < device->texture_count; i++)
+        bytes += device->textures[i].bytes;
     for (int i = 0; i < device->vertex_lighting_capacity; i++)
         bytes += device->vertex_lighting[i].bytes + device->vertex_lighting[i].sent_key.capacity +
                  device->vertex_lighting[i].frame_key.capacity;
@@ -270,6 +288,7 @@ static void gl_free(struct lam_device *base)
     struct gl_previous_context previous;
     if (gl_context_enter(&device->context, &previous, NULL)) {
         meshes_free(device);
+        textures_free(device);
         vertex_lighting_free(device);
         programs_free(device);
         light_buffers_free(device);
@@ -305,6 +324,7 @@ static bool find_limits(struct gl_device *device, lam_error *error)
         device->texture_size_max = view[i] < device->texture_size_max ? view[i] : device->texture_size_max;
     if (device->block_alignment < 16)
         device->block_alignment = 16;
+    device->has_norm16 = !c->es || gl_has_extension(gl, "GL_EXT_texture_norm16");
     gl->GenQueries(1, &device->query);
     return targets_find_format(device, error) && program_copy_make(device, error) &&
            (!c->debug || gl_messages_clean(c, "starting", error));

@@ -2,6 +2,7 @@
 //
 //   meshes           arrays of a mesh -> vertex buffers, once                    gl_meshes.c
 //   programs         choices -> compiled shaders, once (glsl.h makes the text)   gl_programs.c
+//   textures         a material's textures -> textures, once                     gl_textures.c
 //   light buffers    lights and products -> uniform blocks or textures           gl_light_buffers.c
 //   vertex lighting  vertex colours from the CPU's equations                     gl_vertex_lighting.c
 //   targets          framebuffers of one part of the picture                     gl_targets.c
@@ -28,7 +29,8 @@ enum texture_unit {
     UNIT_NEARER_DEPTH_IDS, // of the previous layer
     UNIT_OPAQUE_DEPTH_IDS, // of the opaque surfaces
     UNIT_COPY,
-    UNIT_COUNT
+    UNIT_FIRST_MAP, // the maps of materials
+    UNIT_COUNT = 16 // every driver has as many (OpenGL 3.3 and ES 3.0, GL_MAX_TEXTURE_IMAGE_UNITS)
 };
 enum block_point { POINT_LIGHTS, POINT_PRODUCTS, POINT_BACK_PRODUCTS, POINT_COUNT };
 
@@ -44,7 +46,7 @@ enum vertex_form {
 
 // One vertex before it is packed.
 struct mesh_vertex {
-    float position[3], normal[3], color[4], tangent[3];
+    float position[3], normal[3], color[4], tangent[4], texcoord[2], second_texcoord[2];
 };
 
 // Consecutive triangles of a mesh that belong to one draw call.
@@ -64,6 +66,16 @@ struct gl_mesh {
     GLuint vertices, elements, array; // buffers, vertex array
     uint64_t bytes;
     uint64_t last_frame; // number of the last frame that drew the mesh
+};
+
+// --- textures
+
+struct gl_texture {
+    struct lam_texture *texture; // shared; NULL: the entry is free
+    struct scene_token *token;   // retained: of the scene that was drawn when it was uploaded
+    GLuint name;
+    uint64_t bytes;
+    uint64_t last_frame; // number of the last frame that read it
 };
 
 // Lit vertex colours of one draw, for LAM_STAGE_APPLICATION.
@@ -88,7 +100,10 @@ enum uniform {
     UNIFORM_OBJECT,
     UNIFORM_HEAD, // one for each field of glsl_material_layout(true)
     UNIFORM_BACK_HEAD = UNIFORM_HEAD + LAM_FIELDS_MAX,
-    UNIFORM_FLOATS = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX, // number of the uniforms above, all of floats
+    UNIFORM_ALPHA_CUTOFF = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX,
+    UNIFORM_BACK_ALPHA_CUTOFF,
+    UNIFORM_MAPS, // two rows for each map of the front, then of the back (glsl_map_values)
+    UNIFORM_FLOATS = UNIFORM_MAPS + 4 * LAM_MAP_COUNT, // number of the uniforms above, all of floats
     UNIFORM_FIRST_PRODUCT = UNIFORM_FLOATS,
     UNIFORM_BACK_FIRST_PRODUCT,
     UNIFORM_FIRST_TRIANGLE,
@@ -98,7 +113,8 @@ enum uniform {
 struct gl_program {
     struct glsl_choices choices;
     GLuint name;
-    GLint locations[UNIFORM_COUNT]; // −1: the program has no such uniform
+    GLint locations[UNIFORM_COUNT];      // −1: the program has no such uniform
+    uint8_t map_units[2][LAM_MAP_COUNT]; // texture units of the maps of the front and the back; 0: none
     // The values last set, and whether any has been set.
     float values[UNIFORM_FLOATS][16];
     int ints[UNIFORM_COUNT - UNIFORM_FLOATS];
@@ -163,10 +179,13 @@ struct gl_device {
     struct gl_context context;
     bool external_context; // the context is the caller's
     GLint block_size_max, block_alignment, texture_size_max;
+    bool has_norm16;     // textures of 16 bits for 0…1
     GLenum float_format; // of the targets: GL_RGBA32F, or GL_RGBA16F where the driver has no more
 
     struct gl_mesh *meshes;
     int mesh_count, mesh_capacity;
+    struct gl_texture *textures;
+    int texture_count, texture_capacity;
     struct gl_vertex_lighting *vertex_lighting; // one for each draw
     int vertex_lighting_capacity;
     struct gl_program *programs;
@@ -211,13 +230,21 @@ struct gl_frame {
     struct gl_draw_call *draw_calls;
     int draw_call_count;
     enum glsl_storage storage;
-    bool layered; // translucent surfaces are peeled
+    bool layered; // blended surfaces are peeled
     lam_stage stage;
     size_t material_stride; // distance between the products of consecutive materials, in bytes or texels
     // The part of the picture that is being drawn, and the sample's offset from the pixel's centre (pixels, y down).
     int left, top, width, height;
     float sample_x, sample_y;
 };
+
+// Whether a range is composited over what is behind it. Masked surfaces are opaque where they are not left out.
+static inline bool range_blends(const struct frame *frame, const struct frame_draw_range *range)
+{
+    return range->translucent &&
+           (frame->materials[range->front]->alpha_mode == LAM_ALPHA_BLEND ||
+            (!frame->draws[range->draw].one_sided && frame->materials[range->back]->alpha_mode == LAM_ALPHA_BLEND));
+}
 
 // --- gl_state.c
 
@@ -252,6 +279,19 @@ struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum verte
 // Frees the meshes of scenes that no longer exist, and meshes that the frame's scene no longer draws.
 void meshes_evict(struct gl_frame *f);
 void meshes_free(struct gl_device *device);
+
+// Number of floats of a vertex in the buffer.
+size_t mesh_vertex_floats(const lam_mesh *mesh);
+
+// --- gl_textures.c
+// Uploads what a program reads for a range. Until the frame ends, textures_use finds it there.
+bool textures_upload(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range,
+                     lam_error *error);
+// Sets the uniforms of the maps and of the alpha cutoff, and binds the textures.
+void textures_use(struct gl_frame *f, struct gl_program *program, const struct frame_draw_range *range);
+// As meshes_evict.
+void textures_evict(struct gl_frame *f);
+void textures_free(struct gl_device *device);
 
 // --- gl_vertex_lighting.c
 // Returns the vertex array of a draw, with vertex colours from the CPU's equations. 0 on failure.

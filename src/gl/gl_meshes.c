@@ -8,13 +8,16 @@
 
 enum { CHUNK = 4096 }; // vertices packed in one go
 
-// Whether one index serves positions, normals, colours and tangents, so that the mesh's own vertices can be uploaded.
+// Whether one index serves all attributes, so that the mesh's own vertices can be uploaded.
 bool mesh_can_share(const lam_mesh *mesh)
 {
     return mesh->indices && mesh->normals && !mesh->normal_indices && mesh->normal_count >= mesh->vertex_count &&
            (!mesh->colors ||
             (mesh->colors_rate == LAM_PER_VERTEX && !mesh->color_indices && mesh->color_count >= mesh->vertex_count)) &&
-           (!mesh->tangents || (!mesh->tangent_indices && mesh->tangent_count >= mesh->vertex_count));
+           (!mesh->tangents || (!mesh->tangent_indices && mesh->tangent_count >= mesh->vertex_count)) &&
+           (!mesh->texcoords || (!mesh->texcoord_indices && mesh->texcoord_count >= mesh->vertex_count)) &&
+           (!mesh->second_texcoords ||
+            (!mesh->second_texcoord_indices && mesh->second_texcoord_count >= mesh->vertex_count));
 }
 
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form)
@@ -91,18 +94,37 @@ void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum ve
             memcpy(out->tangent,
                    mesh->tangents + 4 * (size_t)(shared ? p : element(mesh->tangent_indices, mesh->indices, attribute)),
                    sizeof out->tangent);
+        if (mesh->texcoords)
+            memcpy(out->texcoord,
+                   mesh->texcoords + 2 * (size_t)(shared ? p : element(mesh->texcoord_indices, mesh->indices, corner)),
+                   sizeof out->texcoord);
+        if (mesh->second_texcoords)
+            memcpy(out->second_texcoord,
+                   mesh->second_texcoords +
+                       2 * (size_t)(shared ? p : element(mesh->second_texcoord_indices, mesh->indices, corner)),
+                   sizeof out->second_texcoord);
     }
 }
 
 // --- on the device
 
-static size_t floats_of(const lam_mesh *mesh) { return 6 + (mesh->colors ? 4 : 0) + (mesh->tangents ? 3 : 0); }
+size_t mesh_vertex_floats(const lam_mesh *mesh)
+{
+    return 6u + (mesh->colors ? 4 : 0) + (mesh->tangents ? 4 : 0) + (mesh->texcoords ? 2 : 0) +
+           (mesh->second_texcoords ? 2 : 0);
+}
+
+static float *append(float *to, const float *from, size_t count)
+{
+    memcpy(to, from, count * sizeof *to);
+    return to + count;
+}
 
 static bool send_vertices(struct gl_frame *f, const struct gl_mesh *row, lam_error *error)
 {
     struct gl_device *device = f->device;
     const lam_mesh *mesh = &row->mesh;
-    size_t floats = floats_of(mesh), each = floats * sizeof(float);
+    size_t each = mesh_vertex_floats(mesh) * sizeof(float);
     uint32_t count = mesh_vertex_count(mesh, row->form);
     if (!count)
         return true;
@@ -117,34 +139,47 @@ static bool send_vertices(struct gl_frame *f, const struct gl_mesh *row, lam_err
         uint32_t chunk = count - first < CHUNK ? count - first : CHUNK;
         on = call_should_continue(f->call);
         mesh_vertices(device, mesh, row->form, first, chunk, from);
-        for (uint32_t i = 0; i < chunk; i++, to += floats) {
-            memcpy(to, from[i].position, sizeof from[i].position);
-            memcpy(to + 3, from[i].normal, sizeof from[i].normal);
+        for (uint32_t i = 0; i < chunk; i++) {
+            to = append(to, from[i].position, 3);
+            to = append(to, from[i].normal, 3);
             if (mesh->colors)
-                memcpy(to + 6, from[i].color, sizeof from[i].color);
+                to = append(to, from[i].color, 4);
             if (mesh->tangents)
-                memcpy(to + floats - 3, from[i].tangent, sizeof from[i].tangent);
+                to = append(to, from[i].tangent, 4);
+            if (mesh->texcoords)
+                to = append(to, from[i].texcoord, 2);
+            if (mesh->second_texcoords)
+                to = append(to, from[i].second_texcoord, 2);
         }
     }
     f->gl->UnmapBuffer(GL_ARRAY_BUFFER);
     return on || call_error(f->call, error);
 }
 
-// Sets the vertex attributes by the locations of glsl.h: 0 position, 1 normal, 2 color, 3 tangent.
+// Sets the vertex attributes by the locations of glsl.h.
 static void describe(struct gl_frame *f, const struct gl_mesh *row)
 {
     const struct gl *gl = f->gl;
-    GLsizei stride = (GLsizei)(floats_of(&row->mesh) * sizeof(float));
+    GLsizei stride = (GLsizei)(mesh_vertex_floats(&row->mesh) * sizeof(float));
     gl_use_array(f->device, row->array);
     gl->BindBuffer(GL_ARRAY_BUFFER, row->vertices);
-    static const GLint sizes[4] = {3, 3, 4, 3};
-    const bool has[4] = {true, true, row->mesh.colors != NULL, row->mesh.tangents != NULL};
+    const struct {
+        bool there;
+        GLuint location;
+        GLint size;
+    } attributes[] = {{true, 0, 3},
+                      {true, 1, 3},
+                      {row->mesh.colors != NULL, 2, 4},
+                      {row->mesh.tangents != NULL, 3, 4},
+                      {row->mesh.texcoords != NULL, 7, 2},
+                      {row->mesh.second_texcoords != NULL, 8, 2}};
     size_t at = 0;
-    for (GLuint i = 0; i < 4; i++)
-        if (has[i]) {
-            gl->EnableVertexAttribArray(i);
-            gl->VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, stride, (const void *)(at * sizeof(float)));
-            at += (size_t)sizes[i];
+    for (size_t i = 0; i < sizeof attributes / sizeof *attributes; i++)
+        if (attributes[i].there) {
+            gl->EnableVertexAttribArray(attributes[i].location);
+            gl->VertexAttribPointer(attributes[i].location, attributes[i].size, GL_FLOAT, GL_FALSE, stride,
+                                    (const void *)(at * sizeof(float)));
+            at += (size_t)attributes[i].size;
         }
 }
 
@@ -153,8 +188,10 @@ static bool same_arrays(const lam_mesh *a, const lam_mesh *b)
 {
     return a->positions == b->positions && a->indices == b->indices && a->normals == b->normals &&
            a->normal_indices == b->normal_indices && a->colors == b->colors && a->color_indices == b->color_indices &&
-           a->tangents == b->tangents && a->tangent_indices == b->tangent_indices &&
-           a->triangle_count == b->triangle_count && a->vertex_count == b->vertex_count;
+           a->tangents == b->tangents && a->tangent_indices == b->tangent_indices && a->texcoords == b->texcoords &&
+           a->texcoord_indices == b->texcoord_indices && a->second_texcoords == b->second_texcoords &&
+           a->second_texcoord_indices == b->second_texcoord_indices && a->triangle_count == b->triangle_count &&
+           a->vertex_count == b->vertex_count;
 }
 
 static void drop(struct gl_device *device, struct gl_mesh *row)
@@ -258,7 +295,7 @@ struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum verte
         return NULL;
     }
     bool elements = form == FORM_SHARED || run_count;
-    uint64_t bytes = vertices * floats_of(mesh) * sizeof(float) +
+    uint64_t bytes = vertices * mesh_vertex_floats(mesh) * sizeof(float) +
                      (elements ? 3 * (uint64_t)mesh->triangle_count * sizeof(uint32_t) : 0);
     struct gl_mesh *row = free_row(device, error);
     if (!row || !gl_charge(f, &row->bytes, bytes, error))

@@ -116,6 +116,7 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
         set_light_buffers(f, call);
     if (call->program->choices.environment != GLSL_NO_ENVIRONMENT)
         gl_use_texture(f->device, UNIT_ENVIRONMENT, GL_TEXTURE_2D_ARRAY, f->device->environment_texture);
+    textures_use(f, call->program, call->range);
     float object = (float)draw->object;
     program_set(f, call->program, UNIFORM_OBJECT, &object, 1);
     program_set_int(f, call->program, UNIFORM_FIRST_TRIANGLE, (int)draw->first_id);
@@ -131,7 +132,7 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
 
 static bool is_layer(const struct gl_frame *f, const struct gl_draw_call *call)
 {
-    return f->layered && call->range->translucent;
+    return f->layered && range_blends(f->frame, call->range);
 }
 
 // Issues the draw calls of the translucent layers, or of everything else. BLENDING_ADD counts every triangle over a

@@ -16,6 +16,8 @@ static const char *const uniform_names[UNIFORM_COUNT] = {
     [UNIFORM_FIRST_PRODUCT] = "first_product",
     [UNIFORM_BACK_FIRST_PRODUCT] = "back_first_product",
     [UNIFORM_FIRST_TRIANGLE] = "first_triangle",
+    [UNIFORM_ALPHA_CUTOFF] = "alpha_cutoff",
+    [UNIFORM_BACK_ALPHA_CUTOFF] = "back_alpha_cutoff",
 };
 
 static GLuint compile(const struct gl *gl, GLenum kind, const char *text, lam_error *error)
@@ -61,7 +63,33 @@ static GLuint link_program(const struct gl *gl, const char *vertex, const char *
     return program;
 }
 
-static void find_uniforms(struct gl_frame *f, struct gl_program *program)
+// Finds the uniforms of maps, and gives each sampler a unit.
+static bool find_maps(struct gl_frame *f, struct gl_program *program, lam_error *error)
+{
+    const struct gl *gl = f->gl;
+    int unit = UNIT_FIRST_MAP;
+    for (int side = 0; side < 2; side++)
+        for (int i = 0; i < LAM_MAP_COUNT; i++) {
+            char name[64];
+            int length = snprintf(name, sizeof name, "%s%s_map", side ? "back_" : "", lam_map_name((lam_map)i));
+            GLint at = gl->GetUniformLocation(program->name, name);
+            if (at >= 0 && unit == UNIT_COUNT)
+                return fail(error, LAM_UNSUPPORTED, "OpenGL: a material reads more than %d different textures",
+                            UNIT_COUNT - UNIT_FIRST_MAP);
+            if (at >= 0) {
+                gl->Uniform1i(at, unit);
+                program->map_units[side][i] = (uint8_t)unit++;
+            }
+            for (int row = 0; row < 2; row++) {
+                snprintf(name + length, sizeof name - (size_t)length, "_%c", row ? 't' : 's');
+                program->locations[UNIFORM_MAPS + 2 * (side * LAM_MAP_COUNT + i) + row] =
+                    gl->GetUniformLocation(program->name, name);
+            }
+        }
+    return true;
+}
+
+static bool find_uniforms(struct gl_frame *f, struct gl_program *program, lam_error *error)
 {
     const struct gl *gl = f->gl;
     gl_use_program(f->device, program->name);
@@ -87,6 +115,7 @@ static void find_uniforms(struct gl_frame *f, struct gl_program *program)
         if (block != GL_INVALID_INDEX)
             gl->UniformBlockBinding(program->name, block, point);
     }
+    return find_maps(f, program, error);
 }
 
 struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error)
@@ -116,8 +145,12 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
     struct gl_program *program = &device->programs[device->program_count++];
     *program = (struct gl_program){.name = name};
     memcpy(&program->choices, choices, sizeof *choices); // with the padding, for memcmp
-    find_uniforms(f, program);
-    return program;
+    if (find_uniforms(f, program, error))
+        return program;
+    f->gl->DeleteProgram(name);
+    device->program_count--;
+    device->current.program = UINT32_MAX;
+    return NULL;
 }
 
 // --- uniforms, set only if the value has changed

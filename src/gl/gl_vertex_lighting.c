@@ -372,7 +372,7 @@ GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh
         row->environment = cube_share(f->frame->environment);
     }
     if (row->of_vertices != mesh->vertices) {
-        size_t stride = (6 + (mesh->mesh.colors ? 4 : 0) + (mesh->mesh.tangents ? 3 : 0)) * sizeof(float);
+        size_t stride = mesh_vertex_floats(&mesh->mesh) * sizeof(float);
         gl_use_array(device, row->array);
         gl->BindBuffer(GL_ARRAY_BUFFER, mesh->vertices);
         gl->EnableVertexAttribArray(0);

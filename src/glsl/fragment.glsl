@@ -49,8 +49,28 @@ void main()
     @pixel@ = vec4(1.0);
 //@end
 //@elif per_fragment
+//@if mapped
+//@if first_texcoords
+    footprint first = footprint_of(surface_texcoord);
+//@end
+//@if second_texcoords
+    footprint second = footprint_of(surface_second_texcoord);
+//@end
+    surface_maps maps = front_maps(@map_arguments@);
+//@if back_material
+    if (!gl_FrontFacing) {
+        maps = back_maps(@map_arguments@);
+    }
+//@end
+//@end
 //@if passes_normal
+//@if bends
+    // None of the three is made unit after interpolation (MikkTSpace).
+    vec3 bitangent = bitangent_sign * cross3(eye_normal, eye_tangent);
+    vec3 n = eye_tangent * maps.bend.x + bitangent * maps.bend.y + eye_normal * maps.bend.z;
+//@else
     vec3 n = eye_normal;
+//@end
 //@if two_sided
     if (!gl_FrontFacing) {
         n = negate3(n);
@@ -68,6 +88,9 @@ void main()
 //@end
 //@if !output_geometry
     light.a = saturate(light.a);
+//@if alpha_ruled
+@alpha_rule@
+//@end
 //@if exposed
     light.rgb = light.rgb * exposure;
 //@end

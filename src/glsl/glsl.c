@@ -112,17 +112,43 @@ static const char *list_parameter(const struct glsl_facts *f)
     return !f->choices->products ? ", Material m" : f->back_material ? ", bool front" : "";
 }
 
+// What becomes of the opacity `light.a` of the fragment.
+static void add_alpha_rule(struct text *text, const struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    for (int side = 0; side <= f->back_material && !f->output_geometry && !f->output_vector; side++) {
+        static const char *const conditions[] = {"!gl_FrontFacing && ", "gl_FrontFacing && "};
+        bool both = !f->back_material || c->alpha[0] == c->alpha[1];
+        const char *p = side ? "back_" : "";
+        if (c->alpha[side] == LAM_ALPHA_MASK)
+            text_print(text, "    if (%s!(light.a >= %salpha_cutoff)) {\n        discard;\n    }\n",
+                       f->back_material ? conditions[!side] : "", p);
+        if (c->alpha[side] == LAM_ALPHA_BLEND || (both && side))
+            continue;
+        if (both)
+            text_add(text, "    light.a = 1.0;\n");
+        else
+            text_print(text, "    if (%sgl_FrontFacing) {\n        light.a = 1.0;\n    }\n", side ? "!" : "");
+    }
+    if (text->bytes) // the line has an end of its own
+        text->bytes[--text->length] = 0;
+}
+
 static void add_stage(struct text *text, const struct glsl_facts *f, bool fragment)
 {
     const struct glsl_choices *c = f->choices;
     bool glsl_120 = c->version == GLSL_120, lights_here = f->lit && fragment == f->per_fragment;
     bool flat = f->shading == LAM_SHADING_FLAT, surface = !f->unlit && f->lit;
-    bool passes_tangent = f->tangent && c->tangents, field = f->tangent && !c->tangents;
+    bool passes_tangent = (f->tangent && c->tangents) || f->bends, field = f->tangent && !c->tangents;
     bool clamped = c->gl1 && f->shading != LAM_SHADING_PHONG && output_is_picture(c->output);
     bool tints = c->colors && f->lit && !f->output_vector;
     bool eye = surface || c->output == LAM_OUTPUT_DEPTH;
     bool triangle_ids = c->output == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS;
-    struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0}, metallic = {0}, roughness = {0};
+    struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0}, metallic = {0}, roughness = {0},
+                alpha = {0};
+    bool samples = fragment && f->mapped, reads_maps = f->mapped && !f->output_vector;
+    if (fragment)
+        add_alpha_rule(&alpha, f);
     glsl_declare_attributes(&attributes, f);
     add_groups(&groups, f);
     glsl_add_parameters(&chosen, f);
@@ -147,6 +173,19 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"needs_surface", surface && (f->lights || f->hemispheres || f->environment || f->output_vector)},
         {"fragment", fragment},
         {"tangent", f->tangent},
+        {"bends", f->bends},
+        {"alpha_ruled", alpha.bytes != NULL},
+        {"mapped", f->mapped},
+        {"first_texcoords", f->texcoords[0]},
+        {"second_texcoords", f->texcoords[1]},
+        {"anisotropic", c->anisotropy > 1},
+        {"map_color", reads_maps && glsl_maps_have(f, "color")},
+        {"map_ambient", reads_maps && glsl_maps_have(f, "ambient")},
+        {"map_specular", reads_maps && glsl_maps_have(f, "specular")},
+        {"map_emission", reads_maps && glsl_maps_have(f, "emission")},
+        {"map_occlusion", reads_maps && glsl_maps_have(f, "occlusion")},
+        {"map_dielectric", reads_maps && glsl_maps_have(f, "dielectric")},
+        {"map_opacity", reads_maps && glsl_maps_have(f, "opacity")},
         {"passes_tangent", passes_tangent},
         {"passes_normal", surface},
         {"passes_position", eye},
@@ -187,11 +226,13 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
                            GLSL_LIST_WIDTH};
     for (int i = 0; i < 8; i++)
         snprintf(numbers[i], sizeof numbers[i], "%d", counts[i]);
-    char varying[32], arguments[8][64];
+    char varying[32], arguments[8][96], anisotropy[8];
+    snprintf(anisotropy, sizeof anisotropy, "%d", c->anisotropy);
     snprintf(varying, sizeof varying, "%s%s", flat && !glsl_120 ? "flat " : "",
              glsl_120   ? "varying "
              : fragment ? "in "
                         : "out ");
+    bool tinted = c->colors && f->converts;
     const char *const position = f->unlit ? NULL : "p", *const sides[4] = {NULL, "true", "false", "gl_FrontFacing"};
     for (int i = 0; i < 4; i++) {
         const char *p = i == 0 ? "vec3 p, vec3 normal" : i == 3 ? "eye_position, n" : "p, n";
@@ -204,11 +245,14 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
             p = t = "";
             color += tints ? 2 : 0;
         }
-        snprintf(arguments[i], sizeof arguments[i], "%s%s%s%s%s", p, t, color,
-                 f->back_material && (*p || *color) ? ", " : "",
-                 !f->back_material ? ""
-                 : i == 0          ? "bool front"
-                                   : sides[i]);
+        int length = snprintf(arguments[i], sizeof arguments[i], "%s%s%s%s%s", p, t, color,
+                              f->back_material && (*p || *color) ? ", " : "",
+                              !f->back_material ? ""
+                              : i == 0          ? "bool front"
+                                                : sides[i]);
+        if (reads_maps)
+            snprintf(arguments[i] + length, sizeof arguments[i] - (size_t)length, "%s%smaps", length ? ", " : "",
+                     i == 0 ? "surface_maps " : "");
     }
     if (f->output_vector)
         add_output_vector(&vector, f);
@@ -227,6 +271,14 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"front_arguments", arguments[1]},
         {"back_arguments", arguments[2]},
         {"fragment_arguments", arguments[3]},
+        {"map_arguments", f->texcoords[0] && f->texcoords[1] ? tinted ? "first, second, tint" : "first, second"
+                          : f->texcoords[1]                  ? tinted ? "second, tint" : "second"
+                          : tinted                           ? "first, tint"
+                                                             : "first"},
+        {"anisotropy", anisotropy},
+        {"alpha_rule", alpha.bytes ? alpha.bytes : ""},
+        {"tangent", f->bends ? "tangent.xyz" : "tangent"},
+        {"lambert", glsl_maps_have(f, "dielectric") ? "m.diffuse.rgb" : "scale3(m.diffuse.rgb, 1.0 - m.metallic)"},
         {"lit_position", flat && glsl_120 ? "provoking_position" : "position"},
         {"viewer", c->distant_viewer ? "VIEWER_INFINITE" : "VIEWER_LOCAL"},
         {"groups", groups.bytes ? groups.bytes : ""},
@@ -243,12 +295,16 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {NULL, NULL},
     };
     const struct preprocess_words words = {flags, values};
-    const struct text *parts[] = {&groups, &vector, &attributes, &chosen, &metallic, &roughness};
-    for (int i = 0; i < 6; i++)
+    const struct text *parts[] = {&groups, &vector, &attributes, &chosen, &metallic, &roughness, &alpha};
+    for (int i = 0; i < 7; i++)
         if (parts[i]->failed) {
             text->failed = true;
             text->error = parts[i]->error;
         }
+    if (samples) {
+        preprocess_add(text, text_texture_glsl, &words);
+        glsl_add_maps(text, f);
+    }
     if (lights_here)
         preprocess_add(text, text_lighting_glsl, &words);
     preprocess_add(text, text_interface_glsl, &words);
@@ -259,6 +315,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     free(chosen.bytes);
     free(metallic.bytes);
     free(roughness.bytes);
+    free(alpha.bytes);
 }
 
 // --- the shader
@@ -313,7 +370,8 @@ static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *er
     text_add(&text, version_lines[c->version]);
     if (c->version == GLSL_300_ES && fragment && c->layer == GLSL_PEELS)
         text_add(&text, "precision highp usampler2D;\n");
-    if (c->version == GLSL_300_ES && fragment == f->per_fragment && c->storage == GLSL_TEXTURE)
+    if (c->version == GLSL_300_ES &&
+        ((fragment == f->per_fragment && c->storage == GLSL_TEXTURE) || (fragment && f->mapped)))
         text_add(&text, "precision highp sampler2D;\n");
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && f->environment)
         text_print(&text, "precision highp %s;\n", c->environment == GLSL_CUBE ? "samplerCube" : "sampler2DArray");

@@ -4,7 +4,8 @@
 // this folder, whose lines are selected by flags that follow from the choices (shader_preprocess.h).
 //
 // Names in the text. Attributes, with their locations (GLSL 120: bound by name):
-//     0 position, 1 normal, 2 color, 3 tangent, 4 front_color, 5 back_color, 6 provoking_position.
+//     0 position, 1 normal, 2 color, 3 tangent, 4 front_color, 5 back_color, 6 provoking_position, 7 texcoord,
+//     8 second_texcoord.
 // Uniforms: the table of glsl_rows.c. All colours are vec4, so that arrays of them have the same layout in std140 blocks,
 // in texels and for glUniform4fv.
 #ifndef GLSL_H
@@ -51,6 +52,13 @@ struct glsl_group {
 };
 enum { GLSL_KINDS = 5, GLSL_FALLOFFS = 3, GLSL_GROUPS_MAX = GLSL_KINDS * GLSL_FALLOFFS };
 
+// A map of one side's material. Only Phong shading reads maps.
+struct glsl_map {
+    uint8_t used;
+    uint8_t texels; // maps of a range with the same number have the same texels everywhere
+    uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // as in lam_texture_map
+};
+
 // The choices that determine a shader's text. Zero the struct before the assignments if memcmp is to compare it.
 struct glsl_choices {
     enum glsl_version version;
@@ -71,6 +79,10 @@ struct glsl_choices {
     bool back_material; // the back has a material of its own
     bool colors;        // attribute color
     bool tangents;      // attribute tangent; otherwise the direction field, if the model needs a tangent
+    bool converted[2];  // front, back: a metallic-roughness material with maps under a classic model
+    uint8_t alpha[2];   // front, back: lam_alpha_mode
+    uint8_t anisotropy; // most probes of a texture
+    struct glsl_map maps[2][LAM_MAP_COUNT]; // front, back
     struct glsl_group groups[GLSL_GROUPS_MAX];
     int group_count;
     int light_count; // Σ counts
@@ -126,12 +138,35 @@ enum { GLSL_MATERIAL_MAX = 4 * LAM_FIELDS_MAX };
 size_t glsl_lights_bytes(const struct glsl_choices *choices);
 void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *frame, float *out);
 
+// The colours that lights are multiplied by (frame_material_colors), without what maps multiply at each point.
+void glsl_material_colors(const struct frame *frame, const lam_material *material, float kd[3], float ks[3]);
+
 // The same for one material's products: the block Products or BackProducts, or the material's texels of product_list: for
 // each light diffuse, specular and with gl1 ambient, then for each hemisphere sky and ground. The uniforms first_product
 // and back_first_product hold the index of the first texel.
 size_t glsl_products_bytes(const struct glsl_choices *choices);
 void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
                         float *out);
+
+// Sets the choices about maps for a range.
+void glsl_choose_maps(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range);
+
+// Whether shaders of the frame read a map of the material, and convert it at each point.
+bool glsl_reads_maps(const struct frame *frame, const lam_material *material);
+static inline bool glsl_converts(const struct frame *frame, const lam_material *material)
+{
+    return frame_material_is_converted(frame, material) && glsl_reads_maps(frame, material);
+}
+
+// The rows of a map's uniforms NAME_map_s and NAME_map_t: those of the matrix from the mesh's texture coordinates to the
+// picture's, with the scale and the offset of the texel. NULL: a map whose value is 1 everywhere.
+void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4], float t[4]);
+
+// Whether a mesh has the texture coordinates that a map reads.
+static inline bool glsl_has_texcoords(const lam_mesh *mesh, const lam_texture_map *map)
+{
+    return map->texcoords ? mesh->second_texcoords != NULL : mesh->texcoords != NULL;
+}
 
 // Writes the values of glsl_material_layout(products).
 void glsl_material_values(const struct frame *frame, const lam_material *material, bool products,

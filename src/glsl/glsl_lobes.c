@@ -32,10 +32,13 @@ bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
 {
     if (!f->adds_lights || !f->lights)
         return false;
+    bool numbers = f->converts && !f->microfacet; // the classic model's numbers come from these
     if (strcmp(parameter, "shininess") == 0)
         return f->highlights && !f->microfacet;
     if (strcmp(parameter, "metallic") == 0) // of Fresnel's factor
-        return f->microfacet;
+        return f->microfacet || numbers;
+    if (strcmp(parameter, "roughness") == 0 && numbers)
+        return true;
     const char *at = calls[f->choices->reflection];
     while (at && (at = strstr(at, "m.")) && !is_name(at + 2, name_length(at + 2), parameter))
         at += 2;
@@ -55,6 +58,12 @@ void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
 
 static void add_parameter(struct text *text, const struct glsl_facts *f, const char *name, size_t length)
 {
+    char member[32];
+    snprintf(member, sizeof member, "%.*s", (int)length, name);
+    if (glsl_maps_have(f, member)) {
+        text_print(text, "maps.%s", member);
+        return;
+    }
     text_print(text, "%s%.*s", !f->choices->products ? "m." : selects(f) ? "own_" : "", (int)length, name);
 }
 

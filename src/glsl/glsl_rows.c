@@ -32,6 +32,7 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
         f.positions |= c->groups[i].kind != LIGHT_DIRECTIONAL;
         f.directions |= c->groups[i].kind != LIGHT_POINT;
     }
+    glsl_find_maps(&f);
     return f;
 }
 
@@ -131,6 +132,31 @@ static void add_products(struct list *list, const struct glsl_facts *f, bool bac
         list->rows[i].back = back;
 }
 
+static void add_map_row(struct list *list, enum glsl_semantic semantic, const char *type, lam_map map, int side,
+                        const char *ending, const char *meaning)
+{
+    add(list, semantic, type, 0, NULL, "%s%s_map%s", side ? "back_" : "", lam_map_name(map), ending);
+    set_meaning(list, meaning);
+    list->rows[list->count - 1].map = map;
+    list->rows[list->count - 1].back = side;
+}
+
+static void add_maps(struct list *list, const struct glsl_facts *f)
+{
+    for (int side = 0; side < 2; side++)
+        for (int i = 0; i < LAM_MAP_COUNT; i++) {
+            if (!f->maps[side][i])
+                continue;
+            if (glsl_map_owner(f, side, (lam_map)i) == (lam_map)i)
+                add_map_row(list, GLSL_MAP, "sampler2D", (lam_map)i, side, "",
+                            "linear RGBA, all levels of detail, first row at the top");
+            add_map_row(list, GLSL_MAP_S, "vec4", (lam_map)i, side, "_s",
+                        "first row of the matrix to the picture's coordinates; factor of the texel");
+            add_map_row(list, GLSL_MAP_T, "vec4", (lam_map)i, side, "_t",
+                        "second row of the matrix to the picture's coordinates; added to the texel");
+        }
+}
+
 int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
 {
     const struct glsl_choices *c = f->choices;
@@ -151,6 +177,13 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
         add(&list, GLSL_EXPOSURE, "float", 0, NULL, "exposure");
         set_meaning(&list, "factor of all light: 2 to the power of the stops");
     }
+    for (int back = 0; back <= f->back_material && f->masks; back++)
+        if (c->alpha[back] == LAM_ALPHA_MASK) {
+            add(&list, GLSL_ALPHA_CUTOFF, "float", 0, NULL, "%salpha_cutoff", back ? "back_" : "");
+            set_meaning(&list, "points with less opacity are left out");
+            list.rows[list.count - 1].back = back;
+        }
+    add_maps(&list, f);
     if (c->output == LAM_OUTPUT_IDS) {
         add(&list, GLSL_OBJECT, "float", 0, NULL, "object");
         set_meaning(&list, "index of the object");
@@ -231,7 +264,10 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
             2, "vec4", "color",
             flat && glsl_120 ? "linear, not premultiplied; at all three vertices that of the triangle's last vertex"
                              : "linear, not premultiplied"};
-    if (f->tangent && c->tangents)
+    if (f->bends)
+        rows[count++] = (struct glsl_attribute){3, "vec4", "tangent",
+                                                "mesh tangent, unit, and the sign of the bitangent (MikkTSpace)"};
+    else if (f->tangent && c->tangents)
         rows[count++] = (struct glsl_attribute){
             3, "vec3", "tangent",
             flat && glsl_120 ? "mesh tangent; at all three vertices that of the triangle's last vertex"
@@ -246,6 +282,10 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
     if (flat && glsl_120 && shaded)
         rows[count++] = (struct glsl_attribute){6, "vec3", "provoking_position",
                                                 "position of the triangle's last vertex, where a flat triangle is lit"};
+    if (f->texcoords[0])
+        rows[count++] = (struct glsl_attribute){7, "vec2", "texcoord", "texture coordinates"};
+    if (f->texcoords[1])
+        rows[count++] = (struct glsl_attribute){8, "vec2", "second_texcoord", "second set of texture coordinates"};
     return count;
 }
 
@@ -270,6 +310,10 @@ bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool
     case GLSL_NORMAL_MATRIX:
         return !fragment;
     case GLSL_EXPOSURE:
+    case GLSL_MAP:
+    case GLSL_MAP_S:
+    case GLSL_MAP_T:
+    case GLSL_ALPHA_CUTOFF:
         return fragment;
     case GLSL_MODEL_VIEW: // field_tangent reads its columns
         return !fragment || (f->per_fragment && f->tangent && !f->choices->tangents);

@@ -28,6 +28,10 @@ enum glsl_semantic {
     GLSL_GROUND_PRODUCT,
     GLSL_OBJECT,
     GLSL_EXPOSURE,
+    GLSL_MAP,   // the sampler of a map
+    GLSL_MAP_S, // glsl_map_values
+    GLSL_MAP_T,
+    GLSL_ALPHA_CUTOFF,
 };
 
 struct glsl_row {
@@ -40,8 +44,9 @@ struct glsl_row {
     bool back; // belongs to the back material
     // Offset in floats of a member or a head: in struct glsl_light, in the material, or in up, sky, ground.
     int at;
+    lam_map map; // of GLSL_MAP…
 };
-enum { GLSL_ROWS_MAX = 24 + 2 * LAM_FIELDS_MAX };
+enum { GLSL_ROWS_MAX = 28 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
 
 // Properties of a shader that follow from its choices.
 struct glsl_facts {
@@ -49,20 +54,26 @@ struct glsl_facts {
     lam_shading shading; // PHONG for outputs of the geometry
     bool application, per_vertex, per_fragment;
     bool output_geometry, output_vector;
-    bool output_one_light;    // an output_vector of one light
-    bool unlit;               // the surface has its diffuse colour
-    bool lit;                 // the shader has a function light_point
-    bool adds_lights;         // light_point sums terms of lights
-    bool lights, hemispheres; // light_point reads them
-    bool attenuated;          // any light has a falloff
-    bool cones;               // any light has a cone
-    bool positions;           // any light is not directional
-    bool directions;          // any light is not a point
-    bool highlights;          // the reflection model has a highlight
-    bool microfacet;          // Fresnel's factor colours it
-    bool tangent;             // light_point reads a tangent
-    bool environment;         // light_point reads the environment
-    bool back_material;       // the back has a material of its own
+    bool output_one_light;       // an output_vector of one light
+    bool unlit;                  // the surface has its diffuse colour
+    bool lit;                    // the shader has a function light_point
+    bool adds_lights;            // light_point sums terms of lights
+    bool lights, hemispheres;    // light_point reads them
+    bool attenuated;             // any light has a falloff
+    bool cones;                  // any light has a cone
+    bool positions;              // any light is not directional
+    bool directions;             // any light is not a point
+    bool highlights;             // the reflection model has a highlight
+    bool microfacet;             // Fresnel's factor colours it
+    bool tangent;                // light_point reads a tangent
+    bool environment;            // light_point reads the environment
+    bool back_material;          // the back has a material of its own
+    bool mapped;                 // the fragment shader reads maps
+    bool maps[2][LAM_MAP_COUNT]; // those of the front, of the back
+    bool texcoords[2];           // the sets of texture coordinates that they read
+    bool bends;                  // a normal map
+    bool converts;               // a side's material is converted (glsl_choices.converted)
+    bool masks;                  // a side is masked
 };
 struct glsl_facts glsl_facts_of(const struct glsl_choices *choices);
 
@@ -71,6 +82,15 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *choices);
 bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
 // With products and two materials: appends the lines that select these parameters from the front or the back material.
 void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
+// Finds the maps that a shader reads; the other facts are there.
+void glsl_find_maps(struct glsl_facts *facts);
+// The map whose sampler another one uses: itself, or the first one of its side with the same texels.
+lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
+// Whether the maps' struct has a member of this name.
+bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
+// Appends the struct of what maps say of a point, and the functions that fill it.
+void glsl_add_maps(struct text *text, const struct glsl_facts *facts);
+
 // Appends the expression of a parameter of the material.
 void glsl_add_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
 // Appends the call that evaluates the lobe for the light sample `t`: "reflected_of(phong_lobe(s, t.l), shininess)".
@@ -84,7 +104,7 @@ struct glsl_attribute {
     int location;
     const char *type, *name, *meaning;
 };
-enum { GLSL_ATTRIBUTES_MAX = 7 };
+enum { GLSL_ATTRIBUTES_MAX = 9 };
 // Lists the vertex attributes. Returns their number.
 int glsl_attributes(const struct glsl_facts *facts, struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX]);
 

@@ -41,6 +41,7 @@ struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_dr
         (mirrors(frame->materials[range->front]) || (c.back_material && mirrors(frame->materials[range->back]))))
         c.environment = GLSL_FACES;
     find_groups(&c, frame);
+    glsl_choose_maps(&c, frame, range);
     return c;
 }
 
@@ -115,6 +116,10 @@ void glsl_material_values(const struct frame *frame, const lam_material *materia
     struct glsl_material_layout layout = glsl_material_layout(products);
     lam_material in_use = *material;
     in_use.shininess = frame_shininess(frame, material);
+    if (glsl_converts(frame, material)) { // each point makes its colours of the base colour
+        in_use.diffuse = (lam_rgba){material->ambient.r, material->ambient.g, material->ambient.b, material->diffuse.a};
+        in_use.specular = (lam_rgb){1, 1, 1};
+    }
     memset(out, 0, (size_t)layout.size * sizeof *out);
     for (int i = 0; i < layout.count; i++) {
         double numbers[4] = {0, 0, 0, 1};
@@ -174,6 +179,16 @@ size_t glsl_products_bytes(const struct glsl_choices *c)
     return all ? all : 16;
 }
 
+void glsl_material_colors(const struct frame *frame, const lam_material *material, float kd[3], float ks[3])
+{
+    bool converted = glsl_converts(frame, material);
+    frame_material_colors(material, kd, ks);
+    if (converted || (glsl_reads_maps(frame, material) && material->maps[LAM_MAP_METALLIC])) {
+        memcpy(kd, converted ? &material->ambient.r : &material->diffuse.r, 3 * sizeof *kd);
+        ks[0] = ks[1] = ks[2] = 1;
+    }
+}
+
 void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame, const lam_material *material,
                         float *out)
 {
@@ -186,7 +201,7 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
         out += size;
     }
     float kd[3], ks[3];
-    frame_material_colors(material, kd, ks);
+    glsl_material_colors(frame, material, kd, ks);
     // A block has an array of each product; in a texture the products of a light are consecutive.
     size_t lights = (size_t)c->light_count, hemispheres = (size_t)c->hemisphere_count, at = 0;
     size_t step = block ? 4 : c->gl1 ? 12 : 8, next = block ? 4 * lights : 4;

@@ -19,6 +19,15 @@
 //@if passes_tangent
 @varying@vec3 eye_tangent;
 //@end
+//@if bends
+@varying@float bitangent_sign;
+//@end
+//@if first_texcoords
+@varying@vec2 surface_texcoord;
+//@end
+//@if second_texcoords
+@varying@vec2 surface_second_texcoord;
+//@end
 //@if vertex_colors
 @varying@vec4 tint;
 //@end

@@ -98,7 +98,7 @@ light_source light_of(int i@list_parameter@)
 //@else
 //@if texture
 //@if microfacet
-    light.diffuse = mul3(scale3(m.diffuse.rgb, 1.0 - m.metallic), list_texel(light_list, first + 4).rgb);
+    light.diffuse = mul3(@lambert@, list_texel(light_list, first + 4).rgb);
     light.specular = list_texel(light_list, first + 5).rgb;
 //@elif highlights
     light.diffuse = mul3(m.diffuse.rgb, list_texel(light_list, first + 4).rgb);
@@ -109,7 +109,7 @@ light_source light_of(int i@list_parameter@)
 //@end
 //@else
 //@if microfacet
-    light.diffuse = mul3(scale3(m.diffuse.rgb, 1.0 - m.metallic), lights[i].diffuse.rgb);
+    light.diffuse = mul3(@lambert@, lights[i].diffuse.rgb);
     light.specular = lights[i].specular.rgb;
 //@elif highlights
     light.diffuse = mul3(m.diffuse.rgb, lights[i].diffuse.rgb);
@@ -185,6 +185,9 @@ hemisphere hemisphere_of(int i@list_parameter@)
 //@if vertex_colors
 // `tint` is the vertex colour: a factor of the ambient and diffuse terms, and of the opacity.
 //@end
+//@if mapped
+// `maps` is what the material's textures say of the point.
+//@end
 vec4 light_point(@lit_parameters@)
 {
 //@if !products
@@ -241,6 +244,9 @@ vec4 light_point(@lit_parameters@)
 //@if vertex_colors
     base = mul3(base, tint.rgb);
 //@end
+//@if map_color
+    base = mul3(base, maps.color);
+//@end
 //@if single_scattering
     fresnel mirror = fresnel_of(base, @metallic@, 0.0);
 //@else
@@ -249,6 +255,18 @@ vec4 light_point(@lit_parameters@)
 //@end
 //@if has_lights
 @groups@
+//@end
+//@if map_dielectric
+    sum.diffuse = scale3(sum.diffuse, maps.dielectric);
+//@end
+//@if map_specular
+    sum.specular = mul3(sum.specular, maps.specular);
+//@end
+//@if map_emission
+    sum.emission = mul3(sum.emission, maps.emission);
+//@end
+//@if map_occlusion
+    sum.ambient = scale3(sum.ambient, maps.occlusion);
 //@end
 //@if has_environment
     if (present(s.n) && present(s.v)) {
@@ -259,6 +277,14 @@ vec4 light_point(@lit_parameters@)
 //@end
     }
 //@end
+//@end
+//@if map_ambient
+    sum.ambient = mul3(sum.ambient, maps.ambient);
+//@if map_color
+    sum.diffuse = mul3(sum.diffuse, maps.color);
+//@end
+//@elif map_color
+    sum = tint_terms(sum, maps.color);
 //@end
 //@if vertex_colors
     sum = tint_terms(sum, tint.rgb);
@@ -275,6 +301,9 @@ vec4 light_point(@lit_parameters@)
 //@end
 //@if vertex_colors
     opacity = opacity * tint.a;
+//@end
+//@if map_opacity
+    opacity = opacity * maps.opacity;
 //@end
 //@if clamped
     opacity = saturate(opacity);

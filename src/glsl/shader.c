@@ -170,7 +170,7 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
     if (of_light)
         light = glsl_light_of(&frame->lights[m->order[index]]);
     float kd[3], ks[3];
-    frame_material_colors(material, kd, ks);
+    glsl_material_colors(frame, material, kd, ks);
     switch (row->semantic) {
     case GLSL_MODEL_VIEW_PROJECTION:
         return put_projection(out, draw, m->width, m->height);
@@ -216,6 +216,16 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
     case GLSL_EXPOSURE:
         out[0] = frame->exposure;
         return 1;
+    case GLSL_MAP_S:
+    case GLSL_MAP_T: {
+        float rows[2][4];
+        glsl_map_values(material->maps[row->map], draw->mesh, rows[0], rows[1]);
+        return put(out, rows[row->semantic == GLSL_MAP_T], 4);
+    }
+    case GLSL_ALPHA_CUTOFF:
+        out[0] = material->alpha_cutoff;
+        return 1;
+    case GLSL_MAP:
     case GLSL_ENVIRONMENT:
     case GLSL_LIGHT_LIST:
     case GLSL_PRODUCT_LIST:
@@ -230,7 +240,7 @@ static bool is_per_draw(enum glsl_semantic semantic)
 {
     return semantic == GLSL_MODEL_VIEW_PROJECTION || semantic == GLSL_MODEL_VIEW || semantic == GLSL_NORMAL_MATRIX ||
            semantic == GLSL_OBJECT || semantic == GLSL_FIRST_PRODUCT || semantic == GLSL_MATERIAL ||
-           (semantic >= GLSL_HEAD && semantic <= GLSL_GROUND_PRODUCT);
+           semantic >= GLSL_MAP || (semantic >= GLSL_HEAD && semantic <= GLSL_GROUND_PRODUCT);
 }
 
 static char *name_of(struct arena *arena, const struct glsl_row *row, const struct glsl_row *member, int index)

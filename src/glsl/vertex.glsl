@@ -13,7 +13,18 @@ void main()
     eye_normal = unit3(normal_matrix * normal);
 //@end
 //@if passes_tangent
-    eye_tangent = unit3(mat3(model_view) * tangent);
+    eye_tangent = unit3(mat3(model_view) * @tangent@);
+//@end
+//@if bends
+    // A mirroring object turns the bitangent round.
+    mat3 axes = mat3(model_view);
+    bitangent_sign = dot3(cross3(axes[0], axes[1]), axes[2]) < 0.0 ? -tangent.w : tangent.w;
+//@end
+//@if first_texcoords
+    surface_texcoord = texcoord;
+//@end
+//@if second_texcoords
+    surface_second_texcoord = second_texcoord;
 //@end
 //@if vertex_colors
     tint = color;
@@ -29,7 +40,7 @@ void main()
     vec3 n = unit3(normal_matrix * normal);
 //@end
 //@if passes_tangent
-    vec3 t = unit3(mat3(model_view) * tangent);
+    vec3 t = unit3(mat3(model_view) * @tangent@);
 //@end
 //@if two_sided
     // Both sides are lit; the fragment shader selects the visible one.

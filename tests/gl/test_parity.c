@@ -36,6 +36,9 @@ static const struct {
     {"ground", 2e-3, true},
     // Panels 100 times as bright as their neighbourhood, with edges of one texel, amplify rounding errors of directions.
     {"mirror-studio", 2e-3, false},
+    // Blended leaves on a sphere: next to its rim a triangle is seen almost from its edge, and the differences that the level of
+    // detail is made of cancel. One pixel, off by 1.1e-3.
+    {"masked", 2e-3, false},
 };
 
 static bool depth_is_ambiguous(const char *name)
@@ -205,7 +208,8 @@ static struct mask mask_of(const struct demo *demo)
     mask_steps(&mask, &image, 4 * size);
     bool translucent = false;
     for (int i = 0; i < lam_scene_material_count(demo->scene); i++)
-        translucent |= lam_scene_material(demo->scene, i)->diffuse.a < 1;
+        translucent |= lam_scene_material(demo->scene, i)->diffuse.a < 1 ||
+                       lam_scene_material(demo->scene, i)->alpha_mode == LAM_ALPHA_MASK;
     for (int i = 0; lam_scene_mesh(demo->scene, i); i++)
         translucent |= lam_scene_mesh(demo->scene, i)->colors_format == LAM_COLORS_LINEAR_F32;
     if (translucent) {
@@ -310,11 +314,6 @@ static void check_scene(void **state)
         skip();
     if (!demo_build(row, &demo, &error))
         fail_msg("%s: %s", row->name, error.text);
-    for (int i = 0; i < lam_scene_material_count(demo.scene); i++)
-        if (lam_scene_material(demo.scene, i)->maps[LAM_MAP_DIFFUSE]) { // OpenGL has no textures yet
-            lam_scene_free(demo.scene);
-            skip();
-        }
     demo.width *= SCALE;
     demo.height *= SCALE;
     lam_draw_params params = demo.params;

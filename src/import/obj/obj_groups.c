@@ -5,8 +5,6 @@
 // two that the file gives. A new object ends the group.
 #include "obj.h"
 
-#include "mtl_maps.h"
-
 #include "fail.h"
 #include "number.h"
 #include "shown_name.h"
@@ -290,10 +288,10 @@ static void warn_materials(struct state *state)
                        "materials, which are drawn in neutral grey",
                        name, line, shown, state->unknown_materials);
     }
-    size_t maps = obj->materials.other_maps;
+    size_t maps = obj->materials.maps;
     if (maps)
-        scene_warn(obj->scene, "%s: %zu map%s of materials that this version does not draw", name, maps,
-                   maps == 1 ? "" : "s");
+        scene_warn(obj->scene, "%s: %zu texture map%s named; this version draws without textures", name, maps,
+                   maps == 1 ? " is" : "s are");
 }
 
 bool obj_read_statements(struct obj *obj, lam_error *error)
@@ -339,5 +337,5 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
         return fail_without_triangles(&state, error);
     warn_elements(&state);
     warn_materials(&state);
-    return mtl_maps_read(obj->source, obj->scene, 0, &obj->memory, error);
+    return true;
 }

@@ -1,0 +1,350 @@
+// glsl_maps.c: what a material's maps change from point to point, as GLSL: a struct with a member for each number, and for
+// each side a function that reads the texels and fills it. The same rules as in src/cpu/shade/textures.inc.
+#include "glsl_rows.h"
+
+#include "texture_map.h"
+
+#include <stdio.h>
+#include <string.h>
+
+// --- choices
+
+static bool is_drawn(int map)
+{
+    return map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION && map != LAM_MAP_BUMP;
+}
+
+bool glsl_reads_maps(const struct frame *frame, const lam_material *material)
+{
+    bool any = false;
+    for (int i = 0; i < LAM_MAP_COUNT; i++)
+        any |= material->maps[i] && is_drawn(i);
+    return any && frame->shading == LAM_SHADING_PHONG;
+}
+
+static void choose_side(struct glsl_choices *c, const struct frame *frame, const lam_material *material, int side,
+                        const lam_mesh *mesh, const lam_texture_map *seen[2 * LAM_MAP_COUNT], int *seen_count)
+{
+    c->converted[side] = glsl_converts(frame, material);
+    if (frame->shading != LAM_SHADING_PHONG)
+        return;
+    for (int i = 0; i < LAM_MAP_COUNT; i++) {
+        const lam_texture_map *map = material->maps[i];
+        if (!map || !is_drawn(i) || (i == LAM_MAP_NORMAL && (!mesh->tangents || !glsl_has_texcoords(mesh, map))))
+            continue;
+        int texels = 0;
+        while (texels < *seen_count && !texture_map_same(seen[texels], map))
+            texels++;
+        if (texels == *seen_count)
+            seen[(*seen_count)++] = map;
+        c->maps[side][i] = (struct glsl_map){.used = 1,
+                                             .texels = (uint8_t)texels,
+                                             .texcoords = (uint8_t)map->texcoords,
+                                             .wrap_s = (uint8_t)map->wrap_s,
+                                             .wrap_t = (uint8_t)map->wrap_t,
+                                             .magnify = (uint8_t)map->magnify,
+                                             .minify = (uint8_t)map->minify,
+                                             .mip = (uint8_t)map->mip,
+                                             .channel = (uint8_t)map->channel};
+    }
+}
+
+void glsl_choose_maps(struct glsl_choices *c, const struct frame *frame, const struct frame_draw_range *range)
+{
+    const lam_texture_map *seen[2 * LAM_MAP_COUNT];
+    int count = 0;
+    c->anisotropy = (uint8_t)frame->anisotropy;
+    for (int side = 0; side < 2; side++) {
+        lam_alpha_mode mode = frame->materials[side ? range->back : range->front]->alpha_mode;
+        bool masked = mode == LAM_ALPHA_MASK && frame->masked && range->translucent;
+        c->alpha[side] = mode == LAM_ALPHA_MASK && !masked ? LAM_ALPHA_OPAQUE : (uint8_t)mode;
+    }
+    for (int side = 0; side <= c->back_material; side++)
+        choose_side(c, frame, frame->materials[side ? range->back : range->front], side, frame->draws[range->draw].mesh,
+                    seen, &count);
+}
+
+void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4], float t[4])
+{
+    static const float nothing[2][4] = {{1, 0, 0, 0}, {0, 1, 0, 1}};
+    memcpy(s, nothing[0], sizeof nothing[0]);
+    memcpy(t, nothing[1], sizeof nothing[1]);
+    if (!map)
+        return;
+    bool given = false;
+    for (int i = 0; i < 6; i++)
+        given |= map->transform[i / 3][i % 3] != 0;
+    if (given) {
+        memcpy(s, map->transform[0], sizeof map->transform[0]);
+        memcpy(t, map->transform[1], sizeof map->transform[1]);
+    }
+    s[3] = map->scale != 0 ? map->scale : 1;
+    t[3] = map->offset;
+    if (!glsl_has_texcoords(mesh, map)) { // as if all texels were 1
+        t[3] += s[3];
+        s[3] = 0;
+    }
+}
+
+// --- facts
+
+// Whether the shader's output depends on a map.
+static bool reads(const struct glsl_facts *f, lam_map map)
+{
+    bool sums = f->adds_lights, surface = f->lit && !f->unlit;
+    switch (map) {
+    case LAM_MAP_DIFFUSE:
+    case LAM_MAP_OPACITY:
+        return f->lit && !f->output_vector;
+    case LAM_MAP_NORMAL:
+        return surface && (f->lights || f->hemispheres || f->environment || f->output_vector);
+    case LAM_MAP_SHININESS:
+        return sums && f->highlights && !f->microfacet;
+    case LAM_MAP_METALLIC:
+    case LAM_MAP_ROUGHNESS:
+        return sums && (f->microfacet || f->converts);
+    default:
+        return sums;
+    }
+}
+
+void glsl_find_maps(struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    for (int side = 0; side <= f->back_material; side++) {
+        f->masks |= c->alpha[side] == LAM_ALPHA_MASK && !f->output_vector && !f->output_geometry;
+        f->converts |= c->converted[side] && f->adds_lights && f->lights;
+    }
+    for (int side = 0; side <= f->back_material && f->lit; side++)
+        for (int i = 0; i < LAM_MAP_COUNT; i++) {
+            if (!c->maps[side][i].used || !f->per_fragment || f->shading != LAM_SHADING_PHONG || !reads(f, (lam_map)i))
+                continue;
+            f->maps[side][i] = f->mapped = true;
+            f->texcoords[c->maps[side][i].texcoords] = true;
+            f->bends |= i == LAM_MAP_NORMAL;
+        }
+    f->converts &= f->mapped;
+}
+
+lam_map glsl_map_owner(const struct glsl_facts *f, int side, lam_map map)
+{
+    const struct glsl_map *maps = f->choices->maps[side];
+    for (int i = 0; i < (int)map; i++)
+        if (f->maps[side][i] && maps[i].texels == maps[map].texels)
+            return (lam_map)i;
+    return map;
+}
+
+static bool any_has(const struct glsl_facts *f, lam_map map) { return f->maps[0][map] || f->maps[1][map]; }
+
+// The members of the struct.
+enum {
+    COLOR,
+    AMBIENT,
+    SPECULAR,
+    EMISSION,
+    BEND,
+    OPACITY,
+    SHININESS,
+    OCCLUSION,
+    ROUGHNESS,
+    METALLIC,
+    DIELECTRIC,
+    MEMBERS
+};
+static const struct {
+    const char *name, *type, *meaning;
+} members[MEMBERS] = {
+    [COLOR] = {"color", "vec3", "factor of the diffuse or base colour"},
+    [AMBIENT] = {"ambient", "vec3", "factor of the ambient colour"},
+    [SPECULAR] = {"specular", "vec3", "factor of the highlights"},
+    [EMISSION] = {"emission", "vec3", "factor of the emission"},
+    [BEND] = {"bend", "vec3", "the normal beside tangent, bitangent and normal"},
+    [OPACITY] = {"opacity", "float", "factor of the opacity"},
+    [SHININESS] = {"shininess", "float", "exponent of the highlights"},
+    [OCCLUSION] = {"occlusion", "float", "share of the light from everywhere that arrives"},
+    [ROUGHNESS] = {"roughness", "float", "0 a mirror, 1 matt"},
+    [METALLIC] = {"metallic", "float", "0 a dielectric, 1 a metal"},
+    [DIELECTRIC] = {"dielectric", "float", "factor of the diffuse light"},
+};
+
+static bool has_member(const struct glsl_facts *f, int member)
+{
+    static const lam_map maps[MEMBERS] = {
+        [COLOR] = LAM_MAP_DIFFUSE,       [AMBIENT] = LAM_MAP_AMBIENT,     [SPECULAR] = LAM_MAP_SPECULAR,
+        [EMISSION] = LAM_MAP_EMISSION,   [BEND] = LAM_MAP_NORMAL,         [OPACITY] = LAM_MAP_OPACITY,
+        [SHININESS] = LAM_MAP_SHININESS, [OCCLUSION] = LAM_MAP_OCCLUSION, [ROUGHNESS] = LAM_MAP_ROUGHNESS,
+        [METALLIC] = LAM_MAP_METALLIC,   [DIELECTRIC] = LAM_MAP_METALLIC};
+    bool from_physical =
+        member == SPECULAR || member == SHININESS ? f->highlights : member == ROUGHNESS || member >= METALLIC;
+    return any_has(f, maps[member]) || (member == OPACITY && any_has(f, LAM_MAP_DIFFUSE)) ||
+           (f->converts && f->mapped && from_physical);
+}
+
+bool glsl_maps_have(const struct glsl_facts *f, const char *member)
+{
+    for (int i = 0; i < MEMBERS; i++)
+        if (strcmp(members[i].name, member) == 0)
+            return has_member(f, i);
+    return false;
+}
+
+// --- text
+
+static const char *prefix(int side) { return side ? "back_" : ""; }
+
+// A parameter of the side's material.
+static void add_own(struct text *text, const struct glsl_facts *f, int side, const char *name)
+{
+    text_print(text, "%s%s%s", prefix(side), f->choices->products ? "" : "material.", name);
+}
+
+// The value of a map, or of one channel of it.
+static void add_value(struct text *text, const struct glsl_facts *f, int side, lam_map map, const char *channels)
+{
+    const char *name = lam_map_name(map), *owner = lam_map_name(glsl_map_owner(f, side, map));
+    text_print(text, "%s_texel.%s * %s%s_map_s.w + %s%s_map_t.w", owner, channels, prefix(side), name, prefix(side),
+               name);
+}
+
+static void add_number(struct text *text, const struct glsl_facts *f, int side, lam_map map)
+{
+    static const char *const channels[] = {"r", "g", "b", "a"};
+    add_value(text, f, side, map, channels[f->choices->maps[side][map].channel]);
+}
+
+static void add_color(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
+{
+    if (!has_member(f, member))
+        return;
+    text_print(text, "    maps.%s = ", members[member].name);
+    if (f->maps[side][map])
+        add_value(text, f, side, map, "rgb");
+    else
+        text_add(text, member == AMBIENT && has_member(f, COLOR) ? "maps.color" : "vec3(1.0)");
+    text_add(text, ";\n");
+}
+
+// A number: the material's own times the map's.
+static void add_factor(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map,
+                       const char *own)
+{
+    if (!has_member(f, member))
+        return;
+    text_print(text, "    maps.%s = ", members[member].name);
+    if (own)
+        add_own(text, f, side, own);
+    else
+        text_add(text, "1.0");
+    if (f->maps[side][map]) {
+        text_add(text, " * (");
+        add_number(text, f, side, map);
+        text_add(text, ")");
+    }
+    text_add(text, ";\n");
+}
+
+static void add_texels(struct text *text, const struct glsl_facts *f, int side)
+{
+    static const char *const wraps[] = {"WRAP_REPEAT", "WRAP_CLAMP", "WRAP_MIRROR"};
+    static const char *const filters[] = {"FILTER_LINEAR", "FILTER_NEAREST"};
+    static const char *const mips[] = {"MIP_LINEAR", "MIP_NEAREST", "MIP_NONE"};
+    for (int i = 0; i < LAM_MAP_COUNT; i++) {
+        const struct glsl_map *map = &f->choices->maps[side][i];
+        if (!f->maps[side][i] || glsl_map_owner(f, side, (lam_map)i) != (lam_map)i)
+            continue;
+        const char *name = lam_map_name((lam_map)i), *p = prefix(side);
+        text_print(text, "    vec4 %s_texel = map_texel(%s%s_map, %s%s_map_s, %s%s_map_t, %s", name, p, name, p, name,
+                   p, name, map->texcoords ? "second" : "first");
+        if (f->choices->version != GLSL_120)
+            text_print(text, ",\n        sampling(%s, %s, %s, %s, %s)", wraps[map->wrap_s], wraps[map->wrap_t],
+                       filters[map->magnify], filters[map->minify], mips[map->mip]);
+        text_add(text, ");\n");
+    }
+}
+
+static void add_opacity(struct text *text, const struct glsl_facts *f, int side)
+{
+    if (!has_member(f, OPACITY))
+        return;
+    text_add(text, "    maps.opacity = 1.0");
+    for (int i = 0; i < 2; i++) {
+        lam_map map = i ? LAM_MAP_OPACITY : LAM_MAP_DIFFUSE;
+        if (!f->maps[side][map])
+            continue;
+        text_add(text, " * (");
+        if (i)
+            add_number(text, f, side, map);
+        else
+            add_value(text, f, side, map, "a");
+        text_add(text, ")");
+    }
+    text_add(text, ";\n");
+}
+
+// The numbers of a metallic-roughness material under a classic model (lam_material_as_classic).
+static void add_conversion(struct text *text, const struct glsl_facts *f, int side)
+{
+    bool phong = f->choices->reflection == LAM_REFLECTION_PHONG;
+    if (!has_member(f, SHININESS) || !has_member(f, SPECULAR))
+        return;
+    text_add(text, "    float slope = maps.roughness * maps.roughness;\n"
+                   "    float exponent = clamp(2.0 / max(slope * slope, 1.0e-12) - 2.0, 1.0, 4096.0);\n"
+                   "    vec3 base = ");
+    add_own(text, f, side, "diffuse.rgb");
+    text_print(text, "%s%s;\n", f->choices->colors ? " * tint.rgb" : "", has_member(f, COLOR) ? " * maps.color" : "");
+    text_print(text,
+               "    maps.specular = mix3(vec3(DIELECTRIC_F0), base, maps.metallic) * ((exponent + 8.0) * 0.125);\n"
+               "    maps.shininess = exponent%s;\n",
+               phong ? " * 0.25" : "");
+}
+
+static void add_side(struct text *text, const struct glsl_facts *f, int side)
+{
+    const struct glsl_choices *c = f->choices;
+    bool varies = c->converted[side] || f->maps[side][LAM_MAP_METALLIC];
+    text_print(text, "\n// What the maps of the %s say of the point.\nsurface_maps %s_maps(%s%s%s%s)\n{\n",
+               side ? "back" : "front", side ? "back" : "front", f->texcoords[0] ? "footprint first" : "",
+               f->texcoords[0] && f->texcoords[1] ? ", " : "", f->texcoords[1] ? "footprint second" : "",
+               c->colors && f->converts ? ", vec4 tint" : "");
+    text_add(text, "    surface_maps maps;\n");
+    add_texels(text, f, side);
+    add_color(text, f, side, COLOR, LAM_MAP_DIFFUSE);
+    add_color(text, f, side, AMBIENT, LAM_MAP_AMBIENT);
+    add_color(text, f, side, SPECULAR, LAM_MAP_SPECULAR);
+    add_color(text, f, side, EMISSION, LAM_MAP_EMISSION);
+    if (f->maps[side][LAM_MAP_NORMAL]) {
+        const char *owner = lam_map_name(glsl_map_owner(f, side, LAM_MAP_NORMAL));
+        text_print(text,
+                   "    maps.bend = vec3((%s_texel.xy * 2.0 - 1.0) * %snormal_map_s.w, %s_texel.z * 2.0 - 1.0);\n",
+                   owner, prefix(side), owner);
+        text_print(text, "    if (%snormal_map_s.w == 0.0) {\n        maps.bend = vec3(0.0, 0.0, 1.0);\n    }\n",
+                   prefix(side));
+    } else if (has_member(f, BEND)) {
+        text_add(text, "    maps.bend = vec3(0.0, 0.0, 1.0);\n");
+    }
+    add_opacity(text, f, side);
+    add_factor(text, f, side, SHININESS, LAM_MAP_SHININESS, "shininess");
+    add_factor(text, f, side, OCCLUSION, LAM_MAP_OCCLUSION, NULL);
+    add_factor(text, f, side, ROUGHNESS, LAM_MAP_ROUGHNESS, "roughness");
+    add_factor(text, f, side, METALLIC, LAM_MAP_METALLIC, "metallic");
+    if (has_member(f, DIELECTRIC)) // without products the diffuse colours of lights never have this factor
+        text_add(text, varies || (!c->products && f->microfacet) ? "    maps.dielectric = 1.0 - maps.metallic;\n"
+                                                                 : "    maps.dielectric = 1.0;\n");
+    if (c->converted[side])
+        add_conversion(text, f, side);
+    text_add(text, "    return maps;\n}\n");
+}
+
+void glsl_add_maps(struct text *text, const struct glsl_facts *f)
+{
+    if (!f->mapped)
+        return;
+    text_add(text, "// What maps say of a point.\nstruct surface_maps {\n");
+    for (int i = 0; i < MEMBERS; i++)
+        if (has_member(f, i))
+            text_print(text, "    %s %s; // %s\n", members[i].type, members[i].name, members[i].meaning);
+    text_add(text, "};\n");
+    for (int side = 0; side <= f->back_material; side++)
+        add_side(text, f, side);
+}

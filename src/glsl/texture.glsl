@@ -1,0 +1,144 @@
+
+// --- textures
+
+// Texture coordinates, and their derivatives by the window's x and y.
+struct footprint {
+    vec2 at, dx, dy;
+};
+
+// Coordinates over w and 1/w are linear in the window: their differences between neighbours are exact derivatives, and the
+// quotient rule gives those of the coordinates.
+footprint footprint_of(vec2 at)
+{
+    float w = gl_FragCoord.w; // 1/w
+    footprint f;
+    f.at = at;
+    f.dx = (dFdx(at * w) - at * dFdx(w)) / w;
+    f.dy = (dFdy(at * w) - at * dFdy(w)) / w;
+    return f;
+}
+//@if glsl_120
+
+// A texel, filtered by the hardware.
+vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f)
+{
+    return texture2D(map, vec2(dot(s.xyz, vec3(f.at, 1.0)), dot(t.xyz, vec3(f.at, 1.0))));
+}
+//@else
+
+#define WRAP_REPEAT    0
+#define WRAP_CLAMP     1
+#define WRAP_MIRROR    2
+#define FILTER_LINEAR  0
+#define FILTER_NEAREST 1
+#define MIP_LINEAR     0
+#define MIP_NEAREST    1
+#define MIP_NONE       2
+
+// How texels make a value.
+struct sampling {
+    int wrap_s, wrap_t, magnify, minify, mip;
+};
+
+// A coordinate as a place in the picture, 0...1.
+float wrapped(float s, int wrap)
+{
+    if (!(abs(s) < 2.0e9)) {
+        return s >= 2.0e9 && wrap == WRAP_CLAMP ? 1.0 : 0.0;
+    }
+    if (wrap == WRAP_CLAMP) {
+        return clamp(s, 0.0, 1.0);
+    }
+    float part = s - floor(s);
+    return wrap == WRAP_MIRROR && (int(floor(s)) & 1) == 1 ? 1.0 - part : part;
+}
+
+// The number of a texel that may lie one beyond the picture.
+int neighbour(int i, int size, int wrap)
+{
+    if (wrap == WRAP_REPEAT) {
+        return i < 0 ? size - 1 : (i >= size ? 0 : i);
+    }
+    return clamp(i, 0, size - 1);
+}
+
+// The filters are computed here: those of graphics cards round their weights, mostly to 1/256.
+vec4 filtered(sampler2D map, int level, vec2 place, sampling how, int kind)
+{
+    // Computed, since Mesa's software renderer takes the level of textureSize from one fragment of several.
+    ivec2 size = max(textureSize(map, 0) >> level, 1);
+    vec2 at = place * vec2(size);
+    if (kind == FILTER_NEAREST) {
+        return texelFetch(map, min(ivec2(at), size - 1), level);
+    }
+    at -= 0.5;
+    vec2 corner = floor(at);
+    vec2 part = at - corner;
+    int x0 = neighbour(int(corner.x), size.x, how.wrap_s);
+    int x1 = neighbour(int(corner.x) + 1, size.x, how.wrap_s);
+    int y0 = neighbour(int(corner.y), size.y, how.wrap_t);
+    int y1 = neighbour(int(corner.y) + 1, size.y, how.wrap_t);
+    vec4 a = texelFetch(map, ivec2(x0, y0), level);
+    vec4 b = texelFetch(map, ivec2(x1, y0), level);
+    vec4 c = texelFetch(map, ivec2(x0, y1), level);
+    vec4 d = texelFetch(map, ivec2(x1, y1), level);
+    vec4 upper = a + (b - a) * part.x;
+    vec4 lower = c + (d - c) * part.x;
+    return upper + (lower - upper) * part.y;
+}
+
+// The value at a level of detail (OpenGL 4.6, section 8.14). All levels are there, down to one texel.
+vec4 texel_at(sampler2D map, vec2 at, float detail, sampling how)
+{
+    vec2 place = vec2(wrapped(at.x, how.wrap_s), wrapped(at.y, how.wrap_t));
+    if (!(detail > 0.0)) {
+        return filtered(map, 0, place, how, how.magnify);
+    }
+    if (how.mip == MIP_NONE) {
+        return filtered(map, 0, place, how, how.minify);
+    }
+    ivec2 size = textureSize(map, 0);
+    int last = (floatBitsToInt(float(max(size.x, size.y))) >> 23) - 127; // the whole part of the logarithm to base 2
+    if (how.mip == MIP_NEAREST) {
+        int nearest = detail >= float(last) ? last : int(ceil(detail + 0.5)) - 1;
+        return filtered(map, min(nearest, last), place, how, how.minify);
+    }
+    if (detail >= float(last)) {
+        return filtered(map, last, place, how, how.minify);
+    }
+    int level = int(floor(detail));
+    vec4 finer = filtered(map, level, place, how, how.minify);
+    vec4 coarser = filtered(map, level + 1, place, how, how.minify);
+    return finer + (coarser - finer) * (detail - float(level));
+}
+
+// A texel of a map. s and t are rows of the matrix from the mesh's texture coordinates to the picture's.
+vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f, sampling how)
+{
+    vec2 at = vec2(s.x * f.at.x + s.y * f.at.y + s.z, t.x * f.at.x + t.y * f.at.y + t.z);
+    vec2 dx = vec2(s.x * f.dx.x + s.y * f.dx.y, t.x * f.dx.x + t.y * f.dx.y);
+    vec2 dy = vec2(s.x * f.dy.x + s.y * f.dy.y, t.x * f.dy.x + t.y * f.dy.y);
+    vec2 size = vec2(textureSize(map, 0));
+    float x = dot(dx * size, dx * size);
+    float y = dot(dy * size, dy * size);
+    float longer = max(x, y);
+    // Footprints of no size, and of none that is known, are magnified.
+    float detail = longer > 1.0e-30 ? 0.5 * log2(min(longer, 1.0e30)) : -50.0;
+//@if anisotropic
+    if (detail > 0.0) {
+        float shorter = min(x, y);
+        float ratio = shorter > 0.0 ? sqrt(longer) / sqrt(shorter) : float(@anisotropy@);
+        int probes = ratio >= float(@anisotropy@) ? @anisotropy@ : max(int(ceil(ratio)), 1);
+        vec2 axis = x >= y ? dx : dy;
+        detail = log2(sqrt(longer) / float(probes));
+        vec4 sum = vec4(0.0);
+        for (int i = 0; i < probes; i++) {
+            sum += texel_at(map, at + axis * ((float(i) + 0.5) / float(probes) - 0.5), detail, how);
+        }
+        return sum * (1.0 / float(probes));
+    }
+//@end
+    return texel_at(map, at, detail, how);
+}
+//@end
+

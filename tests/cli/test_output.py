@@ -216,7 +216,8 @@ class Report(Case):
                                  "lights": 0, "up": "y", "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}})
         self.assertGreaterEqual(model["materials"], 2)
         self.assertEqual(report["image"], {"path": "cube.png", "format": "png", "width": 64, "height": 32, "samples": 8,
-                                           "bytes": (self.folder / "cube.png").stat().st_size})
+                                           "bytes": (self.folder / "cube.png").stat().st_size, "exposure_stops": 0,
+                                           "exposure": "literal"})
         self.assertEqual(report["device"]["threads"], 2)
         times = report["times_ms"]
         self.assertLessEqual(sum(times[k] for k in ("read", "prepare", "camera", "frame", "encode")),
@@ -230,6 +231,39 @@ class Report(Case):
     def test_version_agrees(self):
         report = self.report("cube.obj", "-s", 16)
         self.assertEqual(self.good("--version").stdout.decode().split()[1], report["lambent"])
+
+    def test_dry_run(self):
+        """Says what would be written, and writes nothing; what drawing refuses is refused."""
+        words = ("cube.obj", "-s", "40x30", "--samples", 2, "--light", "point:position=1/2/3", "--light", "ambient", "-b", "#fff", "--dry-run")
+        text = self.good(*words, "-o", "a.jpg").stdout.decode()
+        for part in ("cube.obj\n", "obj, 12 triangles", "a.jpg, jpg, 40x30, 2 samples a pixel\n", "camera    eye ", "device    cpu",
+                     "--size 40x30 --samples 2 --background '#fff' --light point:position=1/2/3 --light ambient"):
+            self.assertIn(part, text)
+        self.assertNotIn("--dry-run", text)
+        self.good(*words, "--save-scene", "s.json", "-q")
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), sorted({"cube.obj", *self.given}))
+        (self.folder / "a.png").write_bytes(b"old")
+        self.assertIn(b"a.png, png, 40x30, 2 samples a pixel; replaces the file", self.good(*words, "-o", "a.png").stdout)
+        self.assertEqual((self.folder / "a.png").read_bytes(), b"old")
+        report = json.loads(self.good(*words, "-o", "a.png", "--json").stdout)
+        check_report(self, report)
+        self.assertEqual({k: v for k, v in report["planned"].items() if k != "options"},
+                         {"path": "a.png", "format": "png", "width": 40, "height": 30, "samples": 2, "replaces": True})
+        self.assertIn({"name": "light", "value": "ambient"}, report["planned"]["options"])
+        self.assertIn({"name": "dry-run", "value": None}, report["planned"]["options"])
+        # A scene file's own settings count.
+        (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "image": {"size": [33, 22]}, "objects": [{"shape": "cube"}]}))
+        self.assertIn(b"png, 33x22, ", self.good("s.json", "--dry-run", "-o", "s.png").stdout)
+        self.assertFalse((self.folder / "s.png").exists())
+        (self.folder / "cube.png").write_bytes(b"not ours")
+        for more, code in (((), 5), (("-o", "a.gif"), 3), (("-o", "cube.obj/a.png"), 5)):
+            drawn, planned = self.run_program("cube.obj", *more), self.run_program("cube.obj", "--dry-run", *more)
+            self.assertEqual((drawn.returncode, drawn.stderr), (code, planned.stderr))
+            self.assertEqual(planned.returncode, code)
+        self.assertEqual(self.run_program("missing.obj", "--dry-run").returncode, 2)
+        self.given |= {"a.png", "s.json", "cube.png"}
+        for command in (("explain", "teapot", "1,1"), ("shader", "teapot")):
+            self.bad(1, *command, "--dry-run", says="dry-run")
 
     def test_errors_are_reported(self):
         for words, code, name in ((("missing.obj",), 2, "cannot-read"), (("cube.obj", "-o", "x.gif"), 3, "unsupported"),

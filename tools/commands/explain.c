@@ -58,6 +58,8 @@ int run_explain(int operand_count, char **operands, const struct options *given)
     else if (strcmp(job.model, "-") == 0 && isatty(STDIN_FILENO))
         complain(&error, LAM_BAD_ARGUMENT,
                  "standard input is a terminal, expected a model: lambent explain - X,Y < FILE");
+    else if (options.dry_run)
+        complain(&error, LAM_BAD_ARGUMENT, "option '--dry-run' has no effect on explain, which writes nothing");
     else if (options.show)
         complain(&error, LAM_BAD_ARGUMENT,
                  "option '--show' has no effect on explain, which prints all terms of a pixel");

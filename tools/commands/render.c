@@ -12,6 +12,7 @@
 #include "interrupt.h"
 #include "job.h"
 #include "output.h"
+#include "plan.h"
 #include "progress.h"
 #include "report.h"
 
@@ -182,9 +183,11 @@ static int render_one(const char *model, lam_device *device, const struct option
         print_warnings(&job);
     if (!ok && may_talk)
         say_error(error.text);
-    if (ok && o->verbose && may_talk)
+    if (ok && o->dry_run && !stream && !o->quiet)
+        report_plan(&job);
+    else if (ok && o->verbose && may_talk && !o->dry_run)
         report_table(&job);
-    else if (ok && !o->quiet && !stream)
+    else if (ok && !o->quiet && !stream && !o->dry_run)
         report_line(&job);
     if (stream)
         report_json(stream, &job, &error);

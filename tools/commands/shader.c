@@ -143,10 +143,12 @@ int run_shader(int operand_count, char **operands, const struct options *given)
     bool to_files = options.output && strcmp(options.output, "-") != 0;
     struct job job = {.options = &options, .model = operand_count ? operands[0] : "sphere"};
     lam_error error = {0};
-    if (!*job.model) {
+    if (!*job.model)
         complain(&error, LAM_BAD_ARGUMENT, "a model's name is empty");
+    else if (options.dry_run)
+        complain(&error, LAM_BAD_ARGUMENT, "option '--dry-run' applies to pictures, not to shaders");
+    if (error.code)
         return report_failure(&error, given);
-    }
     interrupt_start();
     job.times.start = clock_ms();
     struct progress progress;

@@ -346,6 +346,11 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
         return false;
     if (show_is_all(job->options) && !show_all_check(job, error))
         return false;
+    if (job->options->dry_run) {
+        job->planned =
+            job_load(job, progress, error) && find_background(job, error) && job_arrange(job, progress, error);
+        return job->planned;
+    }
     return job_draw(job, format, progress, error) && write_output(job, error) &&
            (!job->options->save_scene || scene_settings_save(job, error));
 }

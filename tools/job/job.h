@@ -36,6 +36,7 @@ struct job {
     lam_device *device;
     uint64_t bytes; // size of the written file
     bool written;
+    bool planned;                  // --dry-run: everything is ready to be drawn
     struct options own;            // the options, completed by the settings of a scene file
     lam_picture_settings settings; // of the scene file; none set if the model is not a scene file
     lam_draw_params draw;          // of the drawn picture

@@ -503,6 +503,13 @@ const struct option option_table[] = {
      "well. Its schema is `docs/report.schema.json`.",
      .brief = "print a report for other programs", .store = store_switch, .others = "report stats info", FIELD(json),
      .single = TAKES_JSON},
+    {"dry-run", 0, GROUP_REPORT, NULL, NULL, "Print what would be drawn and written, and write nothing.",
+     "Models are read and checked, and so are the options and whether each picture can be written; nothing is drawn. "
+     "Printed for each model: the picture with its size and whether it replaces a file, the camera, the device, and "
+     "the "
+     "options of the command line. With `--json` the report has `planned` in place of `image`. What drawing would "
+     "refuse is an error with the same exit code.",
+     .store = store_switch, .others = "plan simulate no-write preview what-if check-only", FIELD(dry_run)},
     {"verbose", 'v', GROUP_REPORT, NULL, NULL, "Print on standard error what was read and the time of each step.", NULL,
      .store = store_switch, FIELD(verbose)},
     {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print nothing but errors.", NULL, .store = store_switch,

@@ -134,6 +134,7 @@ static bool apply(const struct option *option, const char *value, unsigned group
     lam_error reason = {0};
     if (option->store(option, value, options, &reason)) {
         options->given[option - option_table] = true;
+        options->values[option - option_table] = value;
         return true;
     }
     return complain(error, LAM_BAD_ARGUMENT, "option '--%s': %.400s", option->name, reason.text);

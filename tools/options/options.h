@@ -122,10 +122,11 @@ struct options {
     bool has_object;
 
     // Reports
-    bool json, quiet, verbose, version, help;
+    bool json, quiet, verbose, dry_run, version, help;
     bool brief_help; // -h, not --help
 
-    bool given[OPTIONS_MAX]; // for each row of the table: the option is on the command line
+    bool given[OPTIONS_MAX];         // for each row of the table: the option is on the command line
+    const char *values[OPTIONS_MAX]; // its last value there; NULL: it takes none
 };
 
 // Options that a command accepts without the rest of their group: bits above those of the groups.

@@ -9,6 +9,7 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "json.h"
+#include "plan.h"
 
 // The model's format; "shape" for a built-in shape.
 static const char *format_of(const lam_scene *scene)
@@ -232,6 +233,30 @@ static void json_counts(struct json *json, const lam_frame_report *frame)
     json_close(json, '}');
 }
 
+static void json_option(void *user, const char *name, const char *value)
+{
+    struct json *json = user;
+    json_open(json, NULL, '{');
+    json_text(json, "name", name);
+    json_text(json, "value", value);
+    json_close(json, '}');
+}
+
+static void json_plan(struct json *json, const struct job *job)
+{
+    json_open(json, "planned", '{');
+    json_text(json, "path", job->output);
+    json_text(json, "format", job->format);
+    json_count(json, "width", (uint64_t)job->options->width);
+    json_count(json, "height", (uint64_t)job->options->height);
+    json_count(json, "samples", (uint64_t)planned_samples(job->options));
+    json_flag(json, "replaces", plan_replaces(job));
+    json_open(json, "options", '[');
+    each_given_option(job->options, json_option, json);
+    json_close(json, ']');
+    json_close(json, '}');
+}
+
 static void json_error(struct json *json, const lam_error *error)
 {
     if (!error || error->code == LAM_OK) {
@@ -254,6 +279,11 @@ void report_json(FILE *file, const struct job *job, const lam_error *error)
         json_model(&json, job);
     } else {
         json_none(&json, "model");
+    }
+    if (job && job->planned) {
+        json_plan(&json, job);
+        json_camera(&json, &job->camera);
+        json_device(&json, job->device);
     }
     // Camera, device and times are reported only for a written picture.
     if (job && job->written) {

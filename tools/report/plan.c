@@ -1,0 +1,70 @@
+// plan.c: --dry-run: what would be drawn and written.
+#include "plan.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+int planned_samples(const struct options *options)
+{
+    return options->samples ? options->samples : lam_default_samples(options->width, options->height);
+}
+
+bool plan_replaces(const struct job *job)
+{
+    struct stat found;
+    return strcmp(job->output, "-") != 0 && stat(job->output, &found) == 0 && S_ISREG(found.st_mode);
+}
+
+// The values of an option that may be repeated. NULL: it may not.
+static const struct texts *texts_of(const struct option *option, const struct options *options)
+{
+    bool repeated = option->store == store_light || option->store == store_material || option->store == store_rotation;
+    return repeated ? (const struct texts *)(const void *)((const char *)options + option->field) : NULL;
+}
+
+void each_given_option(const struct options *options, option_visit *visit, void *user)
+{
+    for (const struct option *option = option_table; option->name; option++) {
+        size_t row = (size_t)(option - option_table);
+        const struct texts *texts = texts_of(option, options);
+        if (!options->given[row])
+            continue;
+        for (int i = 0; texts && i < texts->count; i++)
+            visit(user, option->name, texts->items[i]);
+        if (!texts)
+            visit(user, option->name, options->values[row]);
+    }
+}
+
+// Quoted where a shell would take the value apart.
+static void print_option(void *user, const char *name, const char *value)
+{
+    (void)user;
+    if (strcmp(name, "dry-run") == 0)
+        return;
+    const char *quote = value && (!*value || strpbrk(value, " \t\n#;&|<>*?$'\"()[]{}\\!~`")) ? "'" : "";
+    printf(" --%s%s%s%s%s", name, value ? " " : "", quote, value ? value : "", quote);
+}
+
+void report_plan(const struct job *job)
+{
+    const struct options *o = job->options;
+    const lam_camera *camera = &job->camera;
+    const char *format = lam_scene_format(job->scene);
+    printf("%s\n", strcmp(job->model, "-") == 0 ? "standard input" : job->model);
+    printf("  model     %s, %" PRIu64 " triangle%s\n", *format ? format : "shape", job->model_counts.triangles,
+           job->model_counts.triangles == 1 ? "" : "s");
+    printf("  picture   %s, %s, %dx%d, %d samples a pixel%s\n",
+           strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->format, o->width, o->height,
+           planned_samples(o), plan_replaces(job) ? "; replaces the file" : "");
+    if (o->save_scene)
+        printf("  scene     %s\n", o->save_scene);
+    printf("  camera    eye %.7g %.7g %.7g, target %.7g %.7g %.7g\n", camera->eye.x, camera->eye.y, camera->eye.z,
+           camera->target.x, camera->target.y, camera->target.z);
+    printf("  device    %s\n", lam_device_name(job->device));
+    printf("  options  ");
+    each_given_option(o, print_option, NULL);
+    printf("\n");
+}

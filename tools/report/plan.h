@@ -1,0 +1,18 @@
+// plan.h: --dry-run: what would be drawn and written.
+#ifndef PLAN_H
+#define PLAN_H
+
+#include "job.h"
+
+// Prints it on standard output.
+void report_plan(const struct job *job);
+
+int planned_samples(const struct options *options); // a pixel
+bool plan_replaces(const struct job *job);          // the picture's file exists
+
+// Calls `visit` for each option of the command line with its value (NULL: it takes none); one that may be repeated, once for
+// each value.
+typedef void option_visit(void *user, const char *name, const char *value);
+void each_given_option(const struct options *options, option_visit *visit, void *user);
+
+#endif

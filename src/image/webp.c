@@ -36,18 +36,20 @@ struct library {
     FUNCTIONS(MEMBER)
 };
 
-static bool open_library(struct library *webp, const char *subject, lam_error *error)
+// `file` begins messages; NULL: none does.
+static bool open_library(struct library *webp, const char *file, lam_error *error)
 {
+    const char *name = file ? file : "", *colon = file ? ": " : "";
     *webp = (struct library){.handle = library_open(LIBRARY, false, NULL)};
     if (!webp->handle)
-        return fail(error, LAM_UNSUPPORTED, "%s: WebP needs " LIBRARY ", which is not installed; " NEEDED, subject);
+        return fail(error, LAM_UNSUPPORTED, "%s%sWebP needs " LIBRARY ", which is not installed; " NEEDED, name, colon);
     bool all = true;
 #define LOOK_UP(name) all = all && library_find(webp->handle, #name, &webp->name);
     FUNCTIONS(LOOK_UP)
     if (all)
         return true;
     library_close(webp->handle);
-    return fail(error, LAM_UNSUPPORTED, "%s: " LIBRARY " lacks functions that libwebp 1.0 has; " NEEDED, subject);
+    return fail(error, LAM_UNSUPPORTED, "%s%s" LIBRARY " lacks functions that libwebp 1.0 has; " NEEDED, name, colon);
 }
 
 // --- reading
@@ -213,7 +215,7 @@ static bool webp_write(const lam_image *image, const lam_save_params *params, st
                     image->height, WEBP_MAX_DIMENSION);
     struct library webp;
     struct sink sink = {0};
-    if (!open_library(&webp, "picture", error))
+    if (!open_library(&webp, NULL, error))
         return false;
     bool ok = encode(&webp, image, params, &sink, error);
     library_close(webp.handle);

@@ -80,15 +80,15 @@ static struct file encode(const char *format, lam_pixel_format pixels)
     assert_true(lam_image_make(&image, SIDE, SIDE, pixels, NULL));
     memset(image.pixels, 0, PIXELS * (pixels == LAM_RGBA8 ? 4 : 16));
     bool ok = lam_image_encode(&image, format, NULL, &bytes, &error);
-    if (!ok && error.code != LAM_UNSUPPORTED) // EXR, where OpenEXR is not
+    if (!ok && error.code != LAM_UNSUPPORTED) // EXR and WebP, where their libraries are not
         fail_msg("%s", error.text);
     lam_image_free(&image);
     return (struct file){bytes.data, bytes.size};
 }
 
-enum { PNG, PPM, PFM, EXR, HDR, JPEG, PROGRESSIVE, BMP, TGA, FORMATS };
+enum { PNG, PPM, PFM, EXR, HDR, JPEG, PROGRESSIVE, BMP, TGA, WEBP, FORMATS };
 static const char *const names[FORMATS] = {"a.png", "a.ppm",           "a.pfm", "a.exr", "a.hdr",
-                                           "a.jpg", "progressive.jpg", "a.bmp", "a.tga"};
+                                           "a.jpg", "progressive.jpg", "a.bmp", "a.tga", "a.webp"};
 static struct file files[FORMATS];
 
 static int make_files(void **state)
@@ -103,6 +103,7 @@ static int make_files(void **state)
     files[PROGRESSIVE] = make_jpeg(true);
     files[BMP] = make_plain(
         (const uint8_t[54]){'B', 'M', [10] = 54, [14] = 40, [18] = SIDE, [22] = SIDE, [26] = 1, [28] = 24}, 54);
+    files[WEBP] = encode("webp", LAM_RGBA8);
     files[TGA] = make_plain((const uint8_t[18]){[2] = 2, [12] = SIDE, [14] = SIDE, [16] = 24}, 18);
     return 0;
 }
@@ -276,7 +277,7 @@ static void test_claims(void **state)
 {
     (void)state;
     for (int i = 0; i < FORMATS; i++) {
-        if (!files[i].bytes)
+        if (!files[i].bytes || i == WEBP) // whose header has no room for such a size
             continue;
         struct file large = claim(i, 40000, 20000), most = claim(i, 20000, 20000);
         lam_image image = {0};

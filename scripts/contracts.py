@@ -138,6 +138,16 @@ def reported(program, name):
     yield indented(text) if program else ""
 
 
+def glance():
+    yield "| contract | the course's own program | `lambent check` |"
+    yield "|---|---|---|"
+    for _, course, title, verdict, found in LECTURES:
+        # What is found in a program that compiles are names of mistakes; else it is parts of the messages and hints.
+        text = ", ".join("`%s`" % x for x in found) if verdict == "differs" else "; ".join(x.replace("|", "\\|") for x in found)
+        yield "| [`%s`](#%s) | %s | %s: %s |" % (course, course, title, verdict, text)
+    yield ""
+
+
 def page(program, runs):
     meaning = meanings(program)
     yield """# The contracts of `lambent check`
@@ -146,6 +156,7 @@ Made by `scripts/contracts.py` (`make docs`). For each contract that is built in
 the check finds in the course's own, written anew with the same mistakes. [Checking a shader](../check.md) explains the reports,
 [contract files](contract-file.md) how to write a contract of your own.
 """
+    yield from glance()
     order = re.findall(r'\{"(\w+)", text_\w+_json\}', read("src", "check", "contract", "contract.c"))
     for name in order:
         yield "\n".join(section(program if runs else None, json.loads(read("src", "check", "contracts", name + ".json")), meaning)) + "\n"

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "arena.h"
+#include "expectation.h"
 #include "fail.h"
 #include "fault_search.h"
 #include "srgb.h"
@@ -189,6 +190,8 @@ static void report_findings(struct run *r, const struct fault_search *s)
     for (int i = 0; report->findings && i < s->count; i++) {
         char explanation[400], correction[400];
         const struct found_fault *found = &s->found[i];
+        if (s->count > 1 && expectation_permits(&r->interface, r->params->terms, found->row->id))
+            continue;
         fault_text(found->row->explanation, &r->interface, r->frame, r->reflection, explanation, sizeof explanation);
         fault_text(found->row->correction, &r->interface, r->frame, r->reflection, correction, sizeof correction);
         size_t at = strlen(explanation);
@@ -209,7 +212,8 @@ static void report_findings(struct run *r, const struct fault_search *s)
                                                                          : 0};
     }
     for (int i = 0; i < r->scene_count; i++)
-        if (!report->scenes[i].passes && s->scene_faults[i])
+        if (!report->scenes[i].passes && s->scene_faults[i] &&
+            !expectation_permits(&r->interface, r->params->terms, s->scene_faults[i]->id))
             report->scenes[i].looks_like = s->scene_faults[i]->id;
 }
 

@@ -75,40 +75,94 @@ static bool try_candidate(struct run *r, lam_device *device, int scene_count, st
 }
 
 // Where the exercise has a number in place of a name, and the text does not say which of its numbers that is, all are
-// tried on the first scene, which shows every term: those that come nearest are kept in `best`, if the other scenes agree.
+// tried on the first scene, which shows every term. Numbers with which it is right are kept in `best`. If there are none
+// the shader has a mistake, and whichever come nearest prove little: then a number of the contract is kept where the
+// text has it, or nothing else, and no number of the text serves twice.
 enum { MAX_OPEN = 4, MAX_TRIES = 512 };
+static const double same_pictures = 1e-5; // mean difference
+
+struct open_number {
+    enum uniform_semantic semantic;
+    double values[MAX_NUMBERS][3];
+    int count, own; // 1 + the index of the contract's own value; 0: the text does not have it
+};
+
+// The numbers that are open, and how many combinations of them there are.
+static int find_open(struct shader_interface *interface, struct open_number open[MAX_OPEN], int *count)
+{
+    enum uniform_semantic semantics[SEMANTIC_COUNT];
+    const struct contract_defaults own = interface->defaults;
+    const uint64_t hash = shader_constants_hash(interface);
+    int found = shader_constants_open(interface, semantics), tries = 1;
+    *count = found < MAX_OPEN ? found : MAX_OPEN;
+    for (int i = 0; i < *count; i++) {
+        open[i].semantic = semantics[i];
+        open[i].count = shader_constants_values(interface, semantics[i], open[i].values);
+        open[i].own = 0;
+        tries *= open[i].count + 1; // the contract's own as well
+        for (int k = 0; k < open[i].count; k++) {
+            shader_constants_set(interface, semantics[i], open[i].values[k]);
+            if (shader_constants_hash(interface) == hash)
+                open[i].own = k + 1;
+            interface->defaults = own;
+        }
+    }
+    return tries;
+}
+
+// Whether `b` takes a number of the text that `a` takes too. Both lists are the text's numbers, or its vectors, in order.
+static bool is_taken(const struct open_number *a, int value_a, const struct open_number *b, int value_b)
+{
+    return value_a && value_b && a->count == b->count && value_a == value_b &&
+           memcmp(a->values[value_a - 1], b->values[value_b - 1], sizeof *a->values) == 0;
+}
+
+// Sets the numbers of a combination. Returns whether it is likely in a shader with a mistake.
+static bool set_numbers(struct shader_interface *interface, const struct open_number *open, int count, int combination)
+{
+    bool likely = true;
+    int values[MAX_OPEN], own_count = 0, text_count = 0;
+    for (int i = 0; i < count; i++) {
+        values[i] = combination % (open[i].count + 1);
+        combination /= open[i].count + 1;
+        if (open[i].own && values[i] == 0)
+            values[i] = open[i].own;
+        likely = likely && (!open[i].own || values[i] == open[i].own);
+        own_count += values[i] == 0;
+        text_count = open[i].count > text_count ? open[i].count : text_count;
+        for (int k = 0; k < i; k++)
+            likely = likely && !is_taken(&open[k], values[k], &open[i], values[i]);
+        if (values[i])
+            shader_constants_set(interface, open[i].semantic, open[i].values[values[i] - 1]);
+    }
+    return likely && own_count <= (count > text_count ? count - text_count : 0);
+}
+
 static bool fit_numbers(struct run *r, lam_device *device, const unsigned *choices, int choice_count,
                         struct candidate *best, lam_error *error)
 {
-    struct shader_interface *interface = &r->interface;
-    const struct contract_defaults own = interface->defaults;
-    enum uniform_semantic open[SEMANTIC_COUNT];
-    double values[MAX_OPEN][MAX_NUMBERS][3];
-    int counts[MAX_OPEN], tries = choice_count, open_count = shader_constants_open(interface, open);
-    open_count = open_count < MAX_OPEN ? open_count : MAX_OPEN;
-    for (int i = 0; i < open_count; i++) {
-        counts[i] = shader_constants_values(interface, open[i], values[i]);
-        tries *= counts[i] + 1; // the contract's own as well
-    }
-    struct candidate first = {.mean = 1e9};
-    if (tries == choice_count || tries > MAX_TRIES)
+    struct open_number open[MAX_OPEN];
+    const struct contract_defaults own = r->interface.defaults;
+    int count, tries = find_open(&r->interface, open, &count);
+    struct candidate right = {.fits = false}, nearest = {.mean = 1e9};
+    if (tries == 1 || tries * choice_count > MAX_TRIES)
         return true;
-    for (int k = 0; k < tries && !first.fits; k++) {
-        interface->defaults = own;
-        int rest = k / choice_count;
-        for (int i = 0; i < open_count; rest /= counts[i++] + 1)
-            if (rest % (counts[i] + 1))
-                shader_constants_set(interface, open[i], values[i][rest % (counts[i] + 1) - 1]);
-        struct candidate c = {.expectation = choices[k % choice_count], .numbers = interface->defaults};
+    for (int k = 0; k < tries * choice_count && !(right.fits && right.mean < same_pictures); k++) {
+        r->interface.defaults = own;
+        bool likely = set_numbers(&r->interface, open, count, k / choice_count);
+        struct candidate c = {.expectation = choices[k % choice_count], .numbers = r->interface.defaults};
         if (!try_candidate(r, device, 1, &c, error))
             return false;
-        if (c.mean < first.mean)
-            first = c;
+        if (c.fits && (!right.fits || c.mean < right.mean)) // a highlight may be small in the first scene
+            right = c;
+        if (likely && c.mean < nearest.mean)
+            nearest = c;
     }
-    if (!try_candidate(r, device, r->scene_count, &first, error))
+    struct candidate *chosen = right.fits ? &right : &nearest;
+    if (!try_candidate(r, device, r->scene_count, chosen, error))
         return false;
-    if (first.fits || first.mean < best->mean)
-        *best = first;
+    if (chosen->fits || chosen->mean < best->mean)
+        *best = *chosen;
     return true;
 }
 

@@ -229,6 +229,100 @@ void main() { vec3 p = vec3(gl_ModelViewMatrix * gl_Vertex), n = normalize(gl_No
   vColor = vec4(uColor * (uKa + uKd * d) + uKs * s * uSpecularColor, 1.); gl_Position = ftransform(); }
 """, "#version 120\nvarying vec4 vColor;\nvoid main() { gl_FragColor = vColor; }\n")
 
+# --- written by a teacher who had not seen the others
+add("learnopengl with numbers in the sum", """#version 330 core
+layout (location = 0) in vec3 aPos;
+layout (location = 1) in vec3 aNormal;
+out vec3 FragPos; out vec3 Normal;
+uniform mat4 model, view, projection;
+void main() {
+    mat3 nm = transpose(inverse(mat3(model)));
+    FragPos = (model * vec4(aPos, 1)).xyz;
+    Normal = normalize(nm * aNormal);
+    gl_Position = projection * view * model * vec4(aPos, 1);
+}
+""", """#version 330 core
+in vec3 FragPos; in vec3 Normal; out vec4 FragColor;
+uniform vec3 lightPos, viewPos, lightColor, objectColor;
+float lambert(vec3 n, vec3 l) { return clamp(dot(n, l), 0., 1.); }
+void main() {
+    vec3 N = normalize(Normal), L = normalize(lightPos - FragPos), V = normalize(viewPos - FragPos);
+    vec3 R = 2. * dot(N, L) * N - L;
+    float kd = lambert(N, L);
+    float ks = kd <= 0. ? 0. : .7 * pow(clamp(dot(V, R), 0., 1.), 64.);
+    FragColor = vec4((vec3(.2) + kd + ks) * lightColor * objectColor, 1.);
+}
+""")
+add("pittsburgh with an interface block", """#version 150
+in vec4 vPosition; in vec4 vNormal;
+uniform mat4 model_view, projection; uniform mat3 normal_matrix; uniform vec4 light_position;
+out Lighting { vec3 n; vec3 l; vec3 v; } to;
+void main() {
+    vec4 p = model_view * vPosition;
+    to.n = normalize(normal_matrix * vNormal.xyz);
+    vec4 lp = model_view * light_position;
+    to.l = lp.xyz - lp.w * p.xyz;
+    to.v = -p.xyz;
+    gl_Position = projection * p;
+}
+""", """#version 150
+in Lighting { vec3 n; vec3 l; vec3 v; } got;
+uniform vec4 ambient_product, diffuse_product, specular_product;
+uniform float shininess, attenuation_constant, attenuation_linear, attenuation_quadratic;
+out vec4 colour;
+float att(float d) { return 1.0 / dot(vec3(1.0, d, d * d), vec3(attenuation_constant, attenuation_linear, attenuation_quadratic)); }
+void main() {
+    vec3 n = normalize(got.n), l = normalize(got.l), h = normalize(l + normalize(got.v));
+    float nl = dot(n, l);
+    vec4 c = ambient_product;
+    if (nl > 0.0) {
+        float a = att(length(got.l));
+        c += a * (nl * diffuse_product + pow(max(0.0, dot(n, h)), shininess) * specular_product);
+    }
+    colour = vec4(c.rgb, diffuse_product.a);
+}
+""")
+add("angel with step and exp2", """#version 120
+attribute vec4 vPosition; attribute vec3 vNormal;
+uniform mat4 ModelView, Projection; uniform vec4 LightPosition; uniform mat3 NormalMatrix;
+varying vec3 fN, fL, fE;
+void main() {
+    vec3 pos = (ModelView * vPosition).xyz;
+    fN = normalize(NormalMatrix * vNormal); fE = -pos; fL = mix(LightPosition.xyz, LightPosition.xyz - pos, LightPosition.w);
+    gl_Position = Projection * vec4(pos, 1.0);
+}
+""", """#version 120
+varying vec3 fN, fL, fE;
+uniform vec4 AmbientProduct, DiffuseProduct, SpecularProduct; uniform float Shininess;
+void main() {
+    vec3 N = normalize(fN), L = normalize(fL), E = normalize(fE);
+    vec3 H = normalize(L + E);
+    float Kd = max(dot(L, N), 0.0);
+    float Ks = step(1e-9, dot(L, N)) * exp2(Shininess * log2(max(dot(N, H), 1e-20)));
+    gl_FragColor = vec4((AmbientProduct + Kd * DiffuseProduct + Ks * SpecularProduct).rgb, 1.0);
+}
+""")
+add("nyu with continue and division by the distance", """attribute vec4 position; attribute vec4 normal;
+uniform mat4 modelViewMatrix, projectionMatrix, normalMatrix;
+varying vec3 varyingNormal, varyingPosition;
+void main() { vec4 p = modelViewMatrix * position; varyingPosition = p.xyz; varyingNormal = (normalMatrix * vec4(normal.xyz, 0.0)).xyz;
+  varyingNormal = normalize(varyingNormal); gl_Position = projectionMatrix * p; }
+""", """precision highp float;
+varying vec3 varyingNormal, varyingPosition; uniform vec3 uColor;
+struct Light { vec3 lightPosition; vec3 lightColor; vec3 specularLightColor; };
+uniform Light lights[2];
+void main() {
+  vec3 n = normalize(varyingNormal), v = -normalize(varyingPosition), sum = vec3(0.0);
+  for (int i = 0; i < 2; ++i) {
+    vec3 d = lights[i].lightPosition - varyingPosition; float r = length(d); vec3 l = d / r;
+    float a = 1.0 / (1.0 + 0.54 * r + 0.20 * pow(r, 2.0));
+    float nl = dot(n, l); if (nl <= 0.0) continue;
+    sum += a * (nl * lights[i].lightColor * uColor + pow(max(dot(n, normalize(v + l)), 0.0), 64.0) * lights[i].specularLightColor);
+  }
+  gl_FragColor = vec4(sum, 1.0);
+}
+""")
+
 if __name__ == "__main__":
     target = pathlib.Path(sys.argv[1])
     target.mkdir(parents=True, exist_ok=True)

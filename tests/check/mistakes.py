@@ -149,6 +149,10 @@ MISTAKES = [
     (O, "no-ambient", [frag("uKa * uColor + ", "")]),
     (O, "no-clamp", [frag("max(dot(n, l), 0.0)", "dot(n, l)")]),
     (O, "specular-in-diffuse-colour", [frag("uKs * s * uSpecularColor", "uKs * s * uColor")]),
+    (O, "ka-missing", [frag("uKa * uColor", "uColor")]),
+    (O, "kd-missing", [frag("uKd * ", "")]),
+    (O, "ks-missing", [frag("uKs * s * uSpecularColor", "s * uSpecularColor")]),
+    (O, "ks-missing reflect-sign", [frag("uKs * s * uSpecularColor", "s * uSpecularColor"), frag("reflect(-l, n)", "reflect(l, n)")]),
     (O, "smooth-for-flat", [frag("uFlat ? vNf : vNs", "vNs"), frag("uFlat ? vLf : vLs", "vLs"), frag("uFlat ? vEf : vEs", "vEs")]),
     # --- NYU's names, two point lights
     (N, "normal-not-unit", [frag("normalize(varyingNormal)", "varyingNormal")]),

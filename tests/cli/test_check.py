@@ -599,6 +599,16 @@ class Contracts(CheckTest):
         self.assertIn("taken from the shader's text", " ".join(self.notes(report, "hint")))
         report = self.report_of(*self.shader("learnopengl", edits + [("frag", "diffuse > 0.0 ?", "true ?")]), code=6)
         self.assertEqual([m["id"] for m in report["mistakes"]], ["no-gate"])
+        # Numbers that come nearer than those of the exercise explain nothing.
+        for old, new, expected in (("reflect(-l, n)", "reflect(l, n)", ["reflect-sign"]), ("max(dot(n, l), 0.0)", "dot(n, l) * 0.5 + 0.5", ["half-lambert", "no-gate"]),
+                                   ("vec3 v = normalize(viewPos - FragPos)", "vec3 v = viewPos - FragPos", ["half-of-raw-eye"]),
+                                   ("max(dot(n, l), 0.0)", "pow(max(dot(n, l), 0.0), 2.0)", ["n.l-squared"])):
+            for names in (edits, [("frag", "    float ambientStrength = 0.1;\n    float specularStrength = 0.5;", "    float ambientStrength = 0.1, specularStrength = 0.5;")]):
+                report = self.report_of(*self.shader("learnopengl", [*names, ("frag", old, new)]), code=6)
+                found = [m["id"] for m in report["mistakes"]]
+                if names is not edits:
+                    self.assertEqual(found, expected, old)
+                self.assertLessEqual(set(found), set(expected), old)
         report = self.report_of(*self.shader("mdn", [
             ("vert", "vec3 ambientLight = vec3(0.3, 0.3, 0.3)", "vec3 a = vec3(0.2)"), ("vert", "vec3 directionalLightColor = vec3(1.0, 1.0, 1.0)", "vec3 b = vec3(0.8, 0.7, 0.6)"),
             ("vert", "vec3 directionalVector = normalize(vec3(0.85, 0.8, 0.75))", "vec3 c = normalize(vec3(0.2, 1.0, 0.5))"),

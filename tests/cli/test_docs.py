@@ -37,7 +37,10 @@ class Docs(Case):
         self.assertEqual(done.returncode, 0, done.stdout.decode())
         page = (ROOT / "docs" / "check" / "contracts.md").read_text()
         for link in re.findall(r"\]\(([^)]*)\)", page):
-            self.assertTrue((ROOT / "docs" / "check" / link).exists(), link)
+            if link.startswith("#"):
+                self.assertIn(f"\n## `{link[1:]}`\n", page)
+            else:
+                self.assertTrue((ROOT / "docs" / "check" / link).exists(), link)
         for lecture in (ROOT / "tests" / "check" / "lectures").iterdir():
             self.assertIn(f"lectures/{lecture.stem}.", page)
 

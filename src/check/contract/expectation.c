@@ -123,6 +123,28 @@ int expectations_of(const struct shader_interface *r, unsigned terms, unsigned o
     return count;
 }
 
+bool expectation_permits(const struct shader_interface *r, unsigned terms, const char *fault)
+{
+    static const struct {
+        const char *fault;
+        unsigned bit;
+    } rows[] = {{"no-ambient", EXPECT_NO_AMBIENT},
+                {"no-diffuse", EXPECT_NO_DIFFUSE},
+                {"no-specular", EXPECT_NO_SPECULAR},
+                {"specular-tinted", EXPECT_WHITE_SPECULAR},
+                {"specular-light-as-diffuse", EXPECT_SPECULAR_LIGHT_AS_DIFFUSE}};
+    unsigned choices[MAX_EXPECTATIONS];
+    int count = expectations_of(r, terms, choices);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        bool with = false, without = false;
+        for (int k = 0; k < count && strcmp(fault, rows[i].fault) == 0; k++)
+            *(choices[k] & rows[i].bit ? &with : &without) = true;
+        if (with && without)
+            return true;
+    }
+    return false;
+}
+
 void expectation_apply(unsigned e, struct reference_scene *s)
 {
     const lam_rgb white = {1, 1, 1};

@@ -29,6 +29,10 @@ enum { MAX_EXPECTATIONS = 16 };
 // lam_check_term that are asked for; 0: those that the declarations tell. Returns their count, at least 1.
 int expectations_of(const struct shader_interface *interface, unsigned terms, unsigned out[MAX_EXPECTATIONS]);
 
+// Whether a fault of the table only does what the declarations leave open, so that it is none: some of the possible
+// expectations have what it changes, and others do not.
+bool expectation_permits(const struct shader_interface *interface, unsigned terms, const char *fault);
+
 // Changes a scene from shader_interface_scene to the expected one.
 void expectation_apply(unsigned expectation, struct reference_scene *scene);
 

@@ -44,7 +44,7 @@ static bool read_vector(const struct declarations *d, int *at, double out[3])
     return true;
 }
 
-// Reads a number, vec3(a), vec3(a, b, c), or normalize() of one of these, up to `;`.
+// Reads a number, vec3(a), vec3(a, b, c), or normalize() of one of these, up to `;` or the next name.
 static bool read_value(const struct declarations *d, int at, double out[3])
 {
     bool unit = is(d, at, "normalize") && is(d, at + 1, "(");
@@ -57,7 +57,7 @@ static bool read_value(const struct declarations *d, int at, double out[3])
     lam_vec3 v = v3_unit(v3(out[0], out[1], out[2]));
     if (unit)
         memcpy(out, (const double[]){v.x, v.y, v.z}, 3 * sizeof *out);
-    return is(d, at + unit, ";") && (!unit || is(d, at, ")"));
+    return (is(d, at + unit, ";") || is(d, at + unit, ",")) && (!unit || is(d, at, ")"));
 }
 
 // The number in pow(x, number): the second argument, alone.
@@ -76,14 +76,26 @@ static bool read_exponent(const struct declarations *d, int at, double *out)
     return false;
 }
 
+// The exponent of a highlight among those of all pow(x, number): the largest. Squares and the like are something else.
+static bool find_exponent(const struct declarations *d, double *out)
+{
+    bool found = false;
+    double number;
+    for (int i = 0; i + 2 < d->word_count; i++)
+        if (is(d, i, "pow") && !d->words[i].is_member && read_exponent(d, i, &number) && (!found || number > *out)) {
+            *out = number;
+            found = true;
+        }
+    return found;
+}
+
 static bool find_value(const struct declarations *d, const char *name, double out[3])
 {
-    for (int i = 0; i + 2 < d->word_count; i++) {
-        if (!is(d, i, name) || d->words[i].is_member)
-            continue;
-        if (strcmp(name, "pow") == 0 ? read_exponent(d, i, &out[0]) : is(d, i + 1, "=") && read_value(d, i + 2, out))
+    if (strcmp(name, "pow") == 0)
+        return find_exponent(d, &out[0]);
+    for (int i = 0; i + 2 < d->word_count; i++)
+        if (is(d, i, name) && !d->words[i].is_member && is(d, i + 1, "=") && read_value(d, i + 2, out))
             return true;
-    }
     return false;
 }
 
@@ -179,7 +191,7 @@ int shader_constants_values(const struct shader_interface *r, enum uniform_seman
     const struct declarations *d = r->vertex_lit ? &r->vertex : &r->fragment;
     int count = 0;
     for (int i = 0; i < d->word_count && count < MAX_NUMBERS; i++) {
-        double v[3];
+        double v[3] = {0};
         int at = i;
         bool vector = is_vector(semantic);
         if (vector ? !read_vector(d, &at, v) : !read_number(d, &at, &v[0]))

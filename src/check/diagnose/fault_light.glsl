@@ -19,6 +19,7 @@ uniform int fault_on[FAULT_BITS];
 uniform Lamp lamps[LAMPS];
 uniform int lamp_count;
 uniform vec3 ambient_light, ka, kd, ks;
+uniform vec3 bare_ka, bare_kd, bare_ks; // the colours without their strengths
 uniform bool products; // the shader receives the colours multiplied by those of the light
 uniform vec3 kd_with_ks, ks_with_kd; // the colours with each other's strength
 uniform vec3 specular_as_diffuse;
@@ -192,9 +193,9 @@ vec4 shade(Surface s)
     if (is(FACE_FORWARD) && dot(n, v) < 0.0) {
         n = -n;
     }
-    vec3 diffuse_color = is(KD_KS_SWAPPED) ? kd_with_ks : (is(KA_KD_SWAPPED) ? ka : kd);
-    vec3 specular_color = is(KD_KS_SWAPPED) ? ks_with_kd : (is(SPECULAR_AS_DIFFUSE) ? specular_as_diffuse : ks);
-    vec3 ambient_color = is(KA_KD_SWAPPED) ? kd * (products ? lamps[0].diffuse : ambient_light) : ka * ambient_light;
+    vec3 diffuse_color = is(KD_KS_SWAPPED) ? kd_with_ks : (is(KA_KD_SWAPPED) ? ka : (is(BARE_KD) ? bare_kd : kd));
+    vec3 specular_color = is(KD_KS_SWAPPED) ? ks_with_kd : (is(SPECULAR_AS_DIFFUSE) ? specular_as_diffuse : (is(BARE_KS) ? bare_ks : ks));
+    vec3 ambient_color = is(KA_KD_SWAPPED) ? kd * (products ? lamps[0].diffuse : ambient_light) : (is(BARE_KA) ? bare_ka : ka) * ambient_light;
     if (is(SPECULAR_TINTED)) {
         specular_color *= tint * (products ? lamps[0].diffuse : vec3(1.0));
     }

@@ -209,6 +209,9 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_color(m, "ka", reference_scene->ambient, reference_scene->ka);
     set_color(m, "kd", reference_scene->diffuse, reference_scene->kd);
     set_color(m, "ks", reference_scene->specular, reference_scene->ks);
+    set_color(m, "bare_ka", reference_scene->ambient, 1);
+    set_color(m, "bare_kd", reference_scene->diffuse, 1);
+    set_color(m, "bare_ks", reference_scene->specular, 1);
     // In contracts with separate strengths and colours, shaders confuse one of them; in the others, the products.
     bool apart = interface->contract->material_strengths;
     set_color(m, "kd_with_ks", apart ? reference_scene->diffuse : reference_scene->specular, reference_scene->ks);

@@ -1,8 +1,7 @@
 // mtl.c: reads MTL, the material files of OBJ. docs/formats.md documents each statement.
 #include "mtl.h"
 
-#include <lambent/fields.h>
-
+#include "fields.h"
 #include "srgb.h"
 #include "number.h"
 #include "shown_name.h"
@@ -102,13 +101,17 @@ static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *
 
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-// Replaces a material whose colours are all 0 by the neutral grey, with a warning: exporters write such materials where
-// textures hold the colours, or by mistake.
+// Replaces a material whose colours are all 0: by white where a texture holds the colour, else, since exporters write such
+// materials by mistake, by the neutral grey, with a warning.
 static void replace_black(struct reader *reader, lam_material *m)
 {
     lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
     if (!reader->kd || !is_black(kd) || !is_black(m->ambient) || !is_black(m->specular) || !is_black(m->emission))
         return;
+    if (m->map_names[LAM_MAP_DIFFUSE]) {
+        reader->kd = false;
+        return;
+    }
     lam_material neutral = lam_material_default();
     m->ambient = neutral.ambient;
     m->diffuse = (lam_rgba){neutral.diffuse.r, neutral.diffuse.g, neutral.diffuse.b, m->diffuse.a};
@@ -142,7 +145,7 @@ static bool close_material(struct reader *reader, lam_error *error)
         return true;
     lam_material *m = &reader->material;
     replace_black(reader, m);
-    // A texture multiplies the colour, which is white by default. Textures are not drawn yet.
+    // A texture multiplies the colour, which is white by default.
     if (!reader->kd && m->map_names[LAM_MAP_DIFFUSE])
         m->diffuse.r = m->diffuse.g = m->diffuse.b = 1;
     if (!reader->ka)
@@ -225,7 +228,7 @@ static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at,
     struct arena *arena = &reader->scene->arena;
     reader->material.map_names[map] = text_name(arena, name, (size_t)(end - name));
     reader->material.map_options[map] = last > at ? text_name(arena, at, (size_t)(last - at)) : NULL;
-    reader->set->maps++;
+    reader->set->other_maps += map == LAM_MAP_DISPLACEMENT || map == LAM_MAP_REFLECTION;
     if (!reader->material.map_names[map] || (last > at && !reader->material.map_options[map]))
         return call_memory_error(arena->call, (size_t)(end - at), error);
     return true;
@@ -263,15 +266,15 @@ static const struct {
     {"map_disp", MAP + LAM_MAP_DISPLACEMENT},
     {"refl", MAP + LAM_MAP_REFLECTION},
     {"map_refl", MAP + LAM_MAP_REFLECTION},
-    // Refraction, the transmission filter, sharpness of reflections; and the metallic-roughness additions.
+    {"map_pm", MAP + LAM_MAP_METALLIC},
+    {"map_pr", MAP + LAM_MAP_ROUGHNESS},
+    // Refraction, the transmission filter, sharpness of reflections; and additions of physically based programs.
     {"ni", NOTHING},
     {"tf", NOTHING},
     {"kt", NOTHING},
     {"km", NOTHING},
     {"kr", NOTHING},
     {"sharpness", NOTHING},
-    {"pr", NOTHING},
-    {"pm", NOTHING},
     {"ps", NOTHING},
     {"pc", NOTHING},
     {"pcr", NOTHING},
@@ -297,8 +300,9 @@ static int statement_of(const uint8_t *at, const uint8_t *end)
 }
 
 // A colour (of one with an alpha the first three numbers), or a number brought into its range.
-static void read_material_field(struct reader *reader, const lam_field *field, const uint8_t *at, const uint8_t *end)
+static void read_material_field(struct reader *reader, int index, const uint8_t *at, const uint8_t *end)
 {
+    const lam_field *field = lam_material_field(index);
     lam_material *m = &reader->material;
     double numbers[4];
     if (lam_field_get(field, m, numbers) == 1) {
@@ -315,6 +319,7 @@ static void read_material_field(struct reader *reader, const lam_field *field, c
         numbers[0] = (double)color.r, numbers[1] = (double)color.g, numbers[2] = (double)color.b;
     }
     lam_field_set(field, m, numbers);
+    material_note_written(m, index);
     if (field->offset == offsetof(lam_material, ambient)) // 1 1 1 is a habit, not a choice
         reader->ka = !(numbers[0] == 1 && numbers[1] == 1 && numbers[2] == 1);
     reader->kd |= field->offset == offsetof(lam_material, diffuse);
@@ -342,7 +347,7 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
     float number;
     if (statement >= FIELD) {
         const lam_field *field = lam_material_field(statement - FIELD);
-        read_material_field(reader, field, at, end);
+        read_material_field(reader, statement - FIELD, at, end);
         if (field->offset == offsetof(lam_material, diffuse.a))
             reader->opacity = word;
         if (field->offset == offsetof(lam_material, shininess))
@@ -368,7 +373,7 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
     case NOTHING:
         break;
     case OTHER_MAP:
-        reader->set->maps += at < end;
+        reader->set->other_maps += at < end;
         break;
     default:
         return read_map(reader, (enum lam_map)(statement - MAP), at, end, error);

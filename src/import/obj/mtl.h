@@ -8,7 +8,7 @@
 // The materials of one model.
 struct mtl_set {
     struct name_table by_name; // of the model; the value is the index in the scene
-    size_t maps;               // statements that name a texture
+    size_t other_maps;         // statements that name a texture which is not drawn
 };
 
 // Reads a file's materials into the scene and the set; of equal names the first is kept. Errors in the file become

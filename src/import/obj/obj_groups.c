@@ -5,6 +5,8 @@
 // two that the file gives. A new object ends the group.
 #include "obj.h"
 
+#include "mtl_maps.h"
+
 #include "fail.h"
 #include "number.h"
 #include "shown_name.h"
@@ -288,10 +290,10 @@ static void warn_materials(struct state *state)
                        "materials, which are drawn in neutral grey",
                        name, line, shown, state->unknown_materials);
     }
-    size_t maps = obj->materials.maps;
+    size_t maps = obj->materials.other_maps;
     if (maps)
-        scene_warn(obj->scene, "%s: %zu texture map%s named; this version draws without textures", name, maps,
-                   maps == 1 ? " is" : "s are");
+        scene_warn(obj->scene, "%s: %zu map%s of materials that this version does not draw", name, maps,
+                   maps == 1 ? "" : "s");
 }
 
 bool obj_read_statements(struct obj *obj, lam_error *error)
@@ -337,5 +339,5 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
         return fail_without_triangles(&state, error);
     warn_elements(&state);
     warn_materials(&state);
-    return true;
+    return mtl_maps_read(obj->source, obj->scene, 0, &obj->memory, error);
 }

@@ -1,0 +1,251 @@
+// mtl_maps.c: maps of MTL materials: their options, and pictures decoded together.
+#include "mtl_maps.h"
+
+#include "companion.h"
+#include "number.h"
+#include "shown_name.h"
+#include "text_cursor.h"
+
+#include "fail.h"
+
+#include <string.h>
+#include <strings.h>
+
+// A picture that maps name: by its confined name, and whether its numbers are colours.
+struct picture {
+    const char *name;
+    lam_texture_values values;
+    struct companion file;
+    bool opened;
+    struct lam_texture *texture;
+    lam_error error;
+};
+
+struct pictures {
+    const struct import_source *source;
+    struct picture *items;
+    size_t count;
+};
+
+static bool is_color(int slot)
+{
+    return slot == LAM_MAP_AMBIENT || slot == LAM_MAP_DIFFUSE || slot == LAM_MAP_SPECULAR || slot == LAM_MAP_EMISSION;
+}
+
+static bool is_drawn(int slot) { return slot != LAM_MAP_DISPLACEMENT && slot != LAM_MAP_REFLECTION; }
+
+// --- options
+
+struct options {
+    const uint8_t *at, *end;
+};
+
+// Takes up to `most` numbers; returns how many there are.
+static int take_numbers(struct options *o, float *out, int most)
+{
+    int count = 0;
+    while (count < most && o->at < o->end) {
+        const uint8_t *after = number_float(o->at, o->end, &out[count]);
+        if (!after || after != text_skip_word(o->at, o->end))
+            break;
+        o->at = text_skip_white(after, o->end);
+        count++;
+    }
+    return count;
+}
+
+static bool take_word(struct options *o, const char *word)
+{
+    if (!text_is_word(o->at, o->end, word))
+        return false;
+    o->at = text_skip_white(text_skip_word(o->at, o->end), o->end);
+    return true;
+}
+
+// The channel of -imfchan; m, l and z are the matte (alpha), the luminance and the depth.
+static int channel_of(struct options *o)
+{
+    static const char letters[] = "rgbm";
+    const char *found = o->at < o->end ? strchr(letters, *o->at | 32) : NULL;
+    o->at = text_skip_white(text_skip_word(o->at, o->end), o->end);
+    return found && *found ? (int)(found - letters) : 0;
+}
+
+// MTL's texture coordinates have t upwards; -s and -o change them first.
+static void set_transform(lam_texture_map *map, const float scale[2], const float offset[2])
+{
+    const float m[2][3] = {{scale[0], 0, offset[0]}, {0, -scale[1], 1 - offset[1]}};
+    memcpy(map->transform, m, sizeof m);
+}
+
+static lam_texture_map map_of(const char *text, bool *channel_given)
+{
+    struct options o = {(const uint8_t *)text, (const uint8_t *)text + (text ? strlen(text) : 0)};
+    float scale[3] = {1, 1, 1}, offset[3] = {0, 0, 0}, unused[3], range[2] = {0, 1}, bump = 1;
+    lam_texture_map map = {0};
+    o.at = text_skip_white(o.at, o.end);
+    while (o.at < o.end) {
+        if (take_word(&o, "-s")) {
+            if (take_numbers(&o, scale, 3) == 1)
+                scale[1] = scale[0];
+        } else if (take_word(&o, "-o")) {
+            take_numbers(&o, offset, 3);
+        } else if (take_word(&o, "-mm")) {
+            take_numbers(&o, range, 2);
+        } else if (take_word(&o, "-bm")) {
+            take_numbers(&o, &bump, 1);
+        } else if (take_word(&o, "-clamp")) {
+            map.wrap_s = map.wrap_t = take_word(&o, "on") ? LAM_WRAP_CLAMP : LAM_WRAP_REPEAT;
+        } else if (take_word(&o, "-imfchan")) {
+            map.channel = channel_of(&o);
+            *channel_given = true;
+        } else {
+            o.at = text_skip_white(text_skip_word(o.at, o.end), o.end);
+            take_numbers(&o, unused, 3);
+        }
+    }
+    set_transform(&map, scale, offset);
+    map.offset = range[0];
+    map.scale = range[1] * bump;
+    return map;
+}
+
+// --- pictures
+
+static struct picture *picture_of(struct pictures *pictures, const char *name, int slot)
+{
+    lam_texture_values values =
+        is_color(slot) && pictures->source->params->color != LAM_COLOR_RAW ? LAM_TEXTURE_COLOR : LAM_TEXTURE_NUMBERS;
+    for (size_t i = 0; i < pictures->count; i++)
+        if (pictures->items[i].values == values && strcmp(pictures->items[i].name, name) == 0)
+            return &pictures->items[i];
+    struct picture *picture = &pictures->items[pictures->count++];
+    *picture = (struct picture){.name = name, .values = values};
+    return picture;
+}
+
+static void decode_picture(void *user, size_t index, int thread)
+{
+    const struct pictures *pictures = user;
+    struct picture *picture = &pictures->items[index];
+    (void)thread;
+    if (picture->opened)
+        picture->texture = texture_decode(picture->file.file.data, picture->file.file.size, picture->file.shown,
+                                          picture->values, pictures->source->call, &picture->error);
+}
+
+static bool can_do_without(const lam_error *error)
+{
+    return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
+}
+
+// --- materials
+
+// Whether the pictures of two maps are the same file's same channel.
+static bool is_own_alpha(const lam_material *m)
+{
+    return m->map_names[LAM_MAP_OPACITY] && m->map_names[LAM_MAP_DIFFUSE] &&
+           strcmp(m->map_names[LAM_MAP_OPACITY], m->map_names[LAM_MAP_DIFFUSE]) == 0;
+}
+
+static bool add_map(struct lam_scene *scene, lam_material *material, int slot, const struct picture *picture,
+                    lam_error *error)
+{
+    bool channel_given = false;
+    lam_texture_map *map = arena_alloc(&scene->arena, sizeof *map);
+    if (!map)
+        return call_memory_error(scene->arena.call, sizeof *map, error);
+    *map = map_of(material->map_options[slot], &channel_given);
+    map->texture = picture->texture;
+    // The opacity of a picture with alpha is its alpha, else its grey.
+    if (slot == LAM_MAP_OPACITY && !channel_given)
+        map->channel = picture->texture->opaque ? 0 : 3;
+    bool nothing = map->scale == 0 && map->offset == 0; // 0 would mean 1
+    if (nothing || (slot == LAM_MAP_OPACITY && map->channel == 3 && is_own_alpha(material)))
+        return true; // the alpha of the diffuse map counts already
+    material->maps[slot] = map;
+    if (slot == LAM_MAP_DIFFUSE && material->illum == 0 && !material->map_names[LAM_MAP_EMISSION])
+        material->maps[LAM_MAP_EMISSION] = map; // the colour itself, unlit
+    return scene_share_texture(scene, picture->texture, error);
+}
+
+// Calls that list pictures, and that give maps to materials.
+typedef bool map_fn(struct pictures *pictures, struct lam_scene *scene, lam_material *material, int slot,
+                    lam_error *error);
+
+static bool list_map(struct pictures *pictures, struct lam_scene *scene, lam_material *material, int slot,
+                     lam_error *error)
+{
+    (void)scene, (void)error;
+    picture_of(pictures, material->map_names[slot], slot);
+    return true;
+}
+
+static bool give_map(struct pictures *pictures, struct lam_scene *scene, lam_material *material, int slot,
+                     lam_error *error)
+{
+    const struct picture *picture = picture_of(pictures, material->map_names[slot], slot);
+    return !picture->texture || add_map(scene, material, slot, picture, error);
+}
+
+static bool for_each_map(struct pictures *pictures, struct lam_scene *scene, int first, map_fn *run, lam_error *error)
+{
+    for (int i = first; i < scene->materials.count; i++) {
+        lam_material *material = (lam_material *)scene->materials.items + i;
+        for (int slot = 0; slot < LAM_MAP_COUNT; slot++)
+            if (is_drawn(slot) && material->map_names[slot] && !run(pictures, scene, material, slot, error))
+                return false;
+    }
+    return true;
+}
+
+static bool open_pictures(struct pictures *pictures, struct arena *memory, lam_error *error)
+{
+    for (size_t i = 0; i < pictures->count; i++) {
+        struct picture *picture = &pictures->items[i];
+        picture->opened =
+            pictures->source->open(pictures->source, picture->name, memory, &picture->file, &picture->error);
+        if (!picture->opened && !can_do_without(&picture->error)) {
+            if (error)
+                *error = picture->error;
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool check_pictures(const struct pictures *pictures, struct lam_scene *scene, lam_error *error)
+{
+    for (size_t i = 0; i < pictures->count; i++) {
+        const struct picture *picture = &pictures->items[i];
+        if (picture->texture)
+            continue;
+        if (!can_do_without(&picture->error)) {
+            if (error)
+                *error = picture->error;
+            return false;
+        }
+        scene_warn(scene, "%s; drawn without this texture", picture->error.text);
+    }
+    return true;
+}
+
+bool mtl_maps_read(const struct import_source *source, struct lam_scene *scene, int first, struct arena *memory,
+                   lam_error *error)
+{
+    size_t most = (size_t)(scene->materials.count - first) * LAM_MAP_COUNT;
+    struct pictures pictures = {source, arena_array(memory, most, sizeof *pictures.items), 0};
+    if (!pictures.items)
+        return call_memory_error(source->call, most * sizeof *pictures.items, error);
+    for_each_map(&pictures, scene, first, list_map, error);
+    bool ok = open_pictures(&pictures, memory, error);
+    if (ok) {
+        pool_run(source->pool, pictures.count, decode_picture, &pictures);
+        ok = check_pictures(&pictures, scene, error) && for_each_map(&pictures, scene, first, give_map, error);
+    }
+    for (size_t i = 0; i < pictures.count; i++) {
+        file_release(&pictures.items[i].file.file);
+        lam_texture_free(pictures.items[i].texture);
+    }
+    return ok;
+}

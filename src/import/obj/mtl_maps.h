@@ -1,0 +1,12 @@
+// mtl_maps.h: the textures that MTL materials name.
+#ifndef MTL_MAPS_H
+#define MTL_MAPS_H
+
+#include "mtl.h"
+
+// Reads the textures of the scene's materials from `first` on (map_names, map_options), in parallel, and gives them their
+// maps. A picture that cannot be read is left out with a warning. `memory` holds what the load alone needs.
+bool mtl_maps_read(const struct import_source *source, struct lam_scene *scene, int first, struct arena *memory,
+                   lam_error *error);
+
+#endif

@@ -1,0 +1,132 @@
+# test_textures.py: textures of OBJ and glTF files: where a picture lands, its options, and what is said of a missing one.
+import base64
+import json
+import struct
+
+from harness import Case, pixel, read_png, write_png
+
+RED, GREEN, BLUE, WHITE = (255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 255, 255), (255, 255, 255, 255)
+# Rows from the top: red green, blue white.
+QUARTERS = write_png(8, 8, bytes(RED * 4 + GREEN * 4) * 4 + bytes(BLUE * 4 + WHITE * 4) * 4)
+SQUARE = """mtllib m.mtl
+v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0
+vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1
+vn 0 0 1
+usemtl a
+f 1/1/1 2/2/1 3/3/1 4/4/1
+"""
+LOOK = ["-s", "32", "-b", "black", "--camera", "eye=0/0/4,target=0/0/0,fovy=28.07", "--samples", "1", "-o", "a.png"]
+
+
+def corners(picture):
+    """The pixels in the middle of the picture's quarters: upper left, upper right, lower left, lower right."""
+    return [pixel(picture, x, y)[:3] for y in (4, 27) for x in (4, 27)]
+
+
+class Textures(Case):
+    def give(self, name, data):
+        (self.folder / name).write_bytes(data if isinstance(data, bytes) else data.encode())
+        self.given.add(name)
+        return name
+
+    def drawn(self, *words):
+        self.good(*words, *LOOK)
+        self.given.add("a.png")
+        return corners(read_png((self.folder / "a.png").read_bytes()))
+
+    def obj(self, statements, picture=QUARTERS):
+        self.give("t.png", picture)
+        self.give("m.mtl", "newmtl a\nKd 0 0 0\nKa 0 0 0\nillum 0\n" + statements)
+        return self.give("m.obj", SQUARE)
+
+    def test_mtl_orientation_and_options(self):
+        r, g, b, w = RED[:3], GREEN[:3], BLUE[:3], WHITE[:3]
+        # MTL's t points up: the picture stands as it does in a viewer.
+        self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke t.png\n")), [r, g, b, w])
+        self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke -o 0.5 0 t.png\n")), [g, r, w, b])
+        self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke -o 0 0.5 t.png\n")), [b, w, r, g])
+        self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke -s 4 1 t.png\n")), [g, r, w, b])
+        self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke -clamp on -o 1 0 t.png\n")), [g, g, w, w])
+        self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke -mm 1 -1 t.png\n"))[0], (0, 255, 255))
+        # illum 0 is the picture itself.
+        self.assertEqual(self.drawn(self.obj("map_Kd t.png\n")), [r, g, b, w])
+
+    def test_mtl_opacity(self):
+        half = write_png(8, 8, bytes((RED[:3] + (0,)) * 4 + GREEN * 4) * 4 + bytes((BLUE[:3] + (0,)) * 4 + WHITE * 4) * 4)
+        for statements in ("map_Kd t.png\n", "map_Kd t.png\nmap_d t.png\n", "map_Kd t.png\nmap_d -imfchan m t.png\n"):
+            found = self.drawn(self.obj(statements, half))
+            self.assertEqual([found[0], found[2]], [(0, 0, 0)] * 2, statements)  # the background
+            self.assertEqual([found[1], found[3]], [GREEN[:3], WHITE[:3]], statements)
+
+    def test_mtl_shading(self):
+        # A bump map that rises to the left is brighter under a light from the right.
+        ramp = write_png(8, 1, b"".join(bytes((240 - 30 * x,) * 3 + (255,)) for x in range(8)))
+        light = ["--light", "directional:direction=-1/0/-1,diffuse=0.5", "--rig", "none"]
+        plain = "newmtl a\nKd 0.6 0.6 0.6\nKs 0 0 0\n"
+        grey = self.give("m.obj", SQUARE)
+        self.give("m.mtl", plain)
+        before = self.drawn(grey, *light)[0][0]
+        for statement, picture in (("map_Bump -clamp on -bm 5 t.png", ramp),):
+            self.give("t.png", picture)
+            self.give("m.mtl", plain + statement + "\n")
+            self.assertGreater(self.drawn(grey, *light)[0][0], before + 5, statement)
+
+    def test_missing_and_broken(self):
+        done = self.good(self.obj("Ke 1 1 1\nmap_Ke nowhere.png\nmap_Kd t.png\n", b"no picture"), *LOOK)
+        self.given.add("a.png")
+        self.assertIn(b"nowhere.png", done.stderr)
+        self.assertIn(b"t.png: byte 0", done.stderr)
+        self.assertEqual(done.stderr.count(b"drawn without this texture"), 2)
+
+    # --- glTF
+
+    def gltf(self, texture=None, info=None, sampler=None, second=False, **changes):
+        places = struct.pack("<12f", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0)
+        coordinates = struct.pack("<8f", 0, 1, 1, 1, 1, 0, 0, 0)
+        other = struct.pack("<8f", *[0.25, 0.25] * 4)
+        data = places + coordinates + other + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
+        file = {
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1, "TEXCOORD_1": 2}, "indices": 3, "material": 0}]}],
+            "materials": [{"extensions": {"KHR_materials_unlit": {}}, "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, **(info or {})}}}],
+            "textures": [texture or {"source": 0, **({"sampler": 0} if sampler else {})}], "samplers": [sampler or {}],
+            "images": [{"uri": "data:image/png;base64," + base64.b64encode(QUARTERS).decode()}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                          {"bufferView": 0, "byteOffset": 48, "componentType": 5126, "count": 4, "type": "VEC2"},
+                          {"bufferView": 0, "byteOffset": 80, "componentType": 5126, "count": 4, "type": "VEC2"},
+                          {"bufferView": 0, "byteOffset": 112, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+            "bufferViews": [{"buffer": 0, "byteLength": len(data)}],
+            "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}], **changes}
+        return self.give("m.gltf", json.dumps(file))
+
+    def test_gltf_coordinates(self):
+        r, g, b, w = RED[:3], GREEN[:3], BLUE[:3], WHITE[:3]
+        nearest = {"magFilter": 9728, "minFilter": 9728}
+        self.assertEqual(self.drawn(self.gltf(sampler=nearest)), [r, g, b, w])
+        self.assertEqual(self.drawn(self.gltf(sampler=nearest, info={"texCoord": 1})), [r, r, r, r])
+        move = {"extensions": {"KHR_texture_transform": {"offset": [0.5, 0]}}}
+        self.assertEqual(self.drawn(self.gltf(sampler=nearest, info=move)), [g, r, w, b])
+        clamp = {**nearest, "wrapS": 33071}
+        self.assertEqual(self.drawn(self.gltf(sampler=clamp, info=move)), [g, g, w, w])
+        other = {"extensions": {"KHR_texture_transform": {"texCoord": 1}}}
+        self.assertEqual(self.drawn(self.gltf(sampler=nearest, info=other)), [r, r, r, r])
+        # A quarter turn about (0, 0), moved back into the picture.
+        turn = {"extensions": {"KHR_texture_transform": {"rotation": 1.5707963267948966, "offset": [0, 1]}}}
+        self.assertEqual(self.drawn(self.gltf(sampler=nearest, info=turn)), [b, r, w, g])
+
+    def test_gltf_pictures(self):
+        self.give("t.png", QUARTERS)
+        self.assertEqual(self.drawn(self.gltf(images=[{"uri": "t.png"}]))[0], self.drawn(self.gltf())[0])
+        done = self.good(self.gltf(images=[{"uri": "nowhere.png"}]), *LOOK)
+        self.assertIn(b"nowhere.png", done.stderr)
+        done = self.good(self.gltf(images=[{"uri": "data:;base64,AAAA"}]), *LOOK)
+        self.assertIn(b"images[0]: byte 0: not the start of", done.stderr)
+
+    def test_gltf_wrong(self):
+        self.bad(2, self.gltf(texture={"source": 4}), "-o", "a.png", says="textures[0].source")
+        self.bad(2, self.gltf(info={"index": 7}), "-o", "a.png", says="index")
+        self.bad(2, self.gltf(sampler={"wrapS": 5}), "-o", "a.png", says="samplers[0].wrapS: found 5, expected 33071, 33648 or 10497")
+        self.bad(3, self.gltf(texture={"extensions": {"KHR_texture_basisu": {"source": 0}}}), "-o", "a.png", says="KTX 2 alone")
+        done = self.good(self.gltf(images=[{}]), *LOOK)
+        self.given.add("a.png")
+        self.assertIn(b"images[0]: found neither uri nor bufferView", done.stderr)

@@ -518,6 +518,7 @@ const struct demo_row demos[] = {
      textured_physical},
     {"textured-classic", "the same maps on a classic material", textured_classic},
     {"textured-as-phong", "metallic-roughness maps under Phong's model", textured_converted},
+    {"textured-gouraud", "lit at the vertices: the diffuse map stays sharp", textured_gouraud},
     {"masked", "leaves: left out below half opacity to the left, blended to the right", textured_masked},
     {"samples-1", "no antialiasing", samples_1},
     {"samples-2", "2 samples a pixel", samples_2},

@@ -134,6 +134,12 @@ static bool bricks(struct demo *d, bool physical, lam_error *error)
 bool textured_physical(struct demo *d, lam_error *error) { return bricks(d, true, error); }
 bool textured_classic(struct demo *d, lam_error *error) { return bricks(d, false, error); }
 
+bool textured_gouraud(struct demo *d, lam_error *error)
+{
+    d->params.shading = LAM_SHADING_GOURAUD;
+    return bricks(d, false, error);
+}
+
 bool textured_converted(struct demo *d, lam_error *error)
 {
     d->params.reflection = LAM_REFLECTION_PHONG;

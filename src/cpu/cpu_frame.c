@@ -30,6 +30,7 @@ static void lay_out_shading(struct suballocator *from, struct shading *shading, 
     ARRAY(shading->vertices.table, slots);
     ARRAY(shading->vertices.color, vertices);
     ARRAY(shading->vertices.key, vertices);
+    ARRAY(shading->vertices.rest, vertices);
     ARRAY(shading->batch, 1);
     if (!light_culling_wanted(frame))
         return;

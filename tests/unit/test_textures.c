@@ -196,13 +196,15 @@ static lam_scene *lit_sphere(const lam_material *material)
     return scene;
 }
 
+static lam_shading shading_in_use = LAM_SHADING_PHONG;
+
 static void draw(const lam_material *material, lam_reflection reflection, float *pixels)
 {
     lam_error error;
     lam_scene *scene = lit_sphere(material);
     lam_device *device = lam_device_cpu(NULL, &error);
     lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
-    lam_draw_params params = {.samples = 4, .rig = LAM_RIG_NONE, .reflection = reflection};
+    lam_draw_params params = {.samples = 4, .rig = LAM_RIG_NONE, .reflection = reflection, .shading = shading_in_use};
     lam_image image = {.width = SIZE, .height = SIZE, .format = LAM_RGBA32F, .pixels = pixels};
     if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
         fail_msg("%s", error.text);
@@ -262,6 +264,39 @@ static void test_constant_maps(void **state)
     lam_texture_free(color);
     lam_texture_free(numbers);
     lam_texture_free(flat);
+}
+
+// Under Gouraud and flat shading the diffuse map multiplies the interpolated colours, and the emission map adds to them.
+static void test_vertex_shading(void **state)
+{
+    static float with[SIZE * SIZE * 4], without[SIZE * SIZE * 4];
+    static const lam_shading methods[] = {LAM_SHADING_FLAT, LAM_SHADING_GOURAUD};
+    (void)state;
+    lam_texture *color = constant(0.5f, 0.75f, 0.25f, 0.5f);
+    lam_texture_map map = {.texture = color};
+    for (int i = 0; i < 4; i++) {
+        lam_material m = lam_material_default(), plain;
+        m.physical = i / 2;
+        m.metallic = 0.3f, m.roughness = 0.4f;
+        m.diffuse = (lam_rgba){0.8f, 0.6f, 1, 1};
+        m.ambient = (lam_rgb){0.8f, 0.6f, 1};
+        m.emission = (lam_rgb){0.2f, 0.1f, 0};
+        plain = m;
+        if (!m.physical) // of a physical material the highlight has the colour too
+            plain.diffuse = (lam_rgba){0.4f, 0.45f, 0.25f, 0.5f}, plain.ambient = (lam_rgb){0.4f, 0.45f, 0.25f};
+        plain.emission = (lam_rgb){0.1f, 0.075f, 0};
+        m.maps[LAM_MAP_EMISSION] = &map;
+        if (!m.physical)
+            m.maps[LAM_MAP_DIFFUSE] = &map;
+        shading_in_use = methods[i % 2];
+        draw(&m, LAM_REFLECTION_AUTO, with);
+        draw(&plain, LAM_REFLECTION_AUTO, without);
+        shading_in_use = LAM_SHADING_PHONG;
+        double most = largest_difference(with, without);
+        if (!(most < 2e-5))
+            fail_msg("physical %d, shading %d: a channel differs by %g", i / 2, (int)methods[i % 2], most);
+    }
+    lam_texture_free(color);
 }
 
 // The alpha modes at an opacity of 0.3.
@@ -328,10 +363,8 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_texels),
-        cmocka_unit_test(test_constant_maps),
-        cmocka_unit_test(test_alpha_modes),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_texels),      cmocka_unit_test(test_constant_maps), cmocka_unit_test(test_vertex_shading),
+        cmocka_unit_test(test_alpha_modes), cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests_name("textures", tests, NULL, NULL);
 }

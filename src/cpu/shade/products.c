@@ -11,13 +11,15 @@ static void product(float out[3], const float *a, const float *b)
         out[i] = a[i] * b[i];
 }
 
-// The maps that shading reads. Colours of vertices and triangles are computed without them.
+// The maps that shading reads. Where colours of vertices or triangles are interpolated, those that multiply such a colour.
 static unsigned maps_of(const lam_material *material, const struct frame *frame)
 {
-    unsigned maps = 0;
-    for (int i = 0; i < LAM_MAP_COUNT && frame->shading == LAM_SHADING_PHONG; i++)
+    unsigned maps = 0, drawn = ~(1u << LAM_MAP_DISPLACEMENT | 1u << LAM_MAP_REFLECTION);
+    if (frame->shading != LAM_SHADING_PHONG)
+        drawn = 1u << LAM_MAP_DIFFUSE | 1u << LAM_MAP_OPACITY | 1u << LAM_MAP_EMISSION;
+    for (int i = 0; i < LAM_MAP_COUNT; i++)
         maps |= (material->maps[i] ? 1u : 0u) << i;
-    return maps & ~(1u << LAM_MAP_DISPLACEMENT | 1u << LAM_MAP_REFLECTION);
+    return maps & drawn;
 }
 
 static void multiply_material(struct material_products *out, const lam_material *material, const struct frame *frame)
@@ -27,7 +29,7 @@ static void multiply_material(struct material_products *out, const lam_material 
     memcpy(out->diffuse, &material->diffuse, sizeof out->diffuse);
     out->given = material;
     out->maps = maps_of(material, frame);
-    out->converted = out->maps && frame_material_is_converted(frame, material);
+    out->converted = out->maps && frame->shading == LAM_SHADING_PHONG && frame_material_is_converted(frame, material);
     out->shininess = frame_shininess(frame, material);
     memcpy(out->reflectivity, &material->reflectivity, sizeof out->reflectivity);
     out->mirrors = frame->environment && !material->physical &&

@@ -35,15 +35,19 @@ struct shading_batch {
     float vertex_color[3][BATCH_ROW], ambient_color[3][BATCH_ROW]; // what multiplies ka; `color` multiplies kd
     float specular[3][BATCH_ROW], emission[3][BATCH_ROW];          // what multiplies the highlights; the emission
     float power[BATCH_ROW], roughness[BATCH_ROW], metallic[BATCH_ROW], occlusion[BATCH_ROW];
-    float sign[BATCH_ROW]; // of the bitangent
+    float sign[BATCH_ROW];    // of the bitangent
+    float rest[3][BATCH_ROW]; // as vertex_cache.rest
     struct triangle_runs runs;
 };
 
 // Gouraud and flat shading: the vertices (or triangles) shaded for a tile, found again by hashing.
 struct vertex_cache {
-    uint32_t *table;      // slot → vertex + 1; its size is a power of two, fitted to the group
-    uint32_t (*key)[4];   // identity of a vertex: position, normal, colour, tangent element
-    float (*color)[4];    // r, g, b, a
+    uint32_t *table;    // slot → vertex + 1; its size is a power of two, fitted to the group
+    uint32_t (*key)[4]; // identity of a vertex: position, normal, colour, tangent element
+    float (*color)[4];  // r, g, b, a
+    // Of materials with maps: `color` is ambient and diffuse light, which the diffuse map multiplies, and this the rest
+    // (specular, emission without a map, reflection).
+    float (*rest)[3];
     uint32_t *run_vertex; // 3 for each run of fragments: the rows fragments->scratch
     uint32_t count;
 };

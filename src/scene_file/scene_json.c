@@ -142,6 +142,8 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
         !take_bool(r, NULL, root, "gl1", &draw->gl1) || !take_number(r, NULL, root, "light_cutoff", 0, 1, &cutoff) ||
         !take_word(r, NULL, root, "up", up_words, &up) || !take_rgb(r, NULL, root, "ambient", &ambient))
         return false;
+    if (!take_whole(r, NULL, root, "anisotropy", 1, 16, &draw->anisotropy))
+        return false;
     if (json_object_get(root, "light_cutoff"))
         draw->light_cutoff = cutoff > 0 ? (float)cutoff : -1;
     draw->shading = (lam_shading)shading;
@@ -163,6 +165,7 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
                 {"match_highlights", LAM_SETTING_MATCH_HIGHLIGHTS},
                 {"gl1", LAM_SETTING_GL1},
                 {"single_scattering", LAM_SETTING_SINGLE_SCATTERING},
+                {"anisotropy", LAM_SETTING_ANISOTROPY},
                 {"light_cutoff", LAM_SETTING_LIGHT_CUTOFF}};
     for (size_t i = 0; i < sizeof bits / sizeof *bits; i++)
         r->settings->present |= json_object_get(root, bits[i].key) ? bits[i].bit : 0;
@@ -187,10 +190,9 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
 static bool read_root(struct scene_reader *r, const json_t *root)
 {
     static const char *const keys[] = {
-        "lambent",    "image",  "camera",    "ambient",     "environment",      "shading",
-        "reflection", "viewer", "stage",     "flat_normal", "match_highlights", "single_scattering",
-        "gl1",        "up",     "materials", "objects",     "lights",           "light_cutoff",
-        NULL};
+        "lambent",   "image",   "camera",      "ambient",          "environment",       "shading", "reflection",
+        "viewer",    "stage",   "flat_normal", "match_highlights", "single_scattering", "gl1",     "up",
+        "materials", "objects", "lights",      "light_cutoff",     "anisotropy",        NULL};
     int version = 0;
     if (!check_keys(r, NULL, root, keys) || !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
         return false;

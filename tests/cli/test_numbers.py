@@ -7,7 +7,7 @@ import re
 import subprocess
 import unittest
 
-from harness import PROGRAM, ROOT, Case
+from harness import PROGRAM, ROOT, Case, write_png
 
 WORDS = {w: n for n, w in enumerate("zero one two three four five six seven eight nine ten eleven twelve".split())}
 NUMBER = r"((?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?|\.\d+|" + "|".join(WORDS) + ")"
@@ -199,7 +199,7 @@ CONTEXT = {
     "background": ([], "white"), "color-mode": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"),
     "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),
-    "viewer": ([], "infinite"), "normals": ([], "facet"),
+    "anisotropy": (["floor.obj"], "8"), "viewer": ([], "infinite"), "normals": ([], "facet"),
     "environment-rotation": (["--environment", "studio", "--reflectivity", "0.5"], "90"),
 }
 
@@ -212,6 +212,11 @@ class Defaults(Case):
         (self.folder / "tent.obj").write_text(
             "".join(f"v {x} -1 {z}\n" for x, z in ring) + "".join(f"v {x} 1 {z}\n" for x, z in ring) +
             "".join(f"f {i + 1} {i + 13} {(i + 1) % 12 + 13} {(i + 1) % 12 + 1}\n" for i in range(12)))
+        # A striped floor, seen at a slant.
+        (self.folder / "stripes.png").write_bytes(write_png(2, 2, bytes([255] * 8 + [0, 0, 0, 255] * 2)))
+        (self.folder / "floor.mtl").write_text("newmtl a\nmap_Kd -s 20 20 stripes.png\n")
+        (self.folder / "floor.obj").write_text("mtllib floor.mtl\nusemtl a\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\n"
+                                               "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 4/4 3/3 2/2 1/1\n")
         lights = [{"type": "point", "position": [i % 5 - 2, i // 5 - 2, 3], "color": [.05, .05, .05], "attenuation": [0, 0, 1]} for i in range(25)]
         (self.folder / "lights.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "sphere"}], "lights": lights}))
 
@@ -225,7 +230,7 @@ class Defaults(Case):
                 continue
             self.assertIn(name, CONTEXT, f"--{name}: add a row for it")
             more, other = CONTEXT[name]
-            model = more[0] if more and more[0].endswith(".json") else "tent.obj"
+            model = more[0] if more and more[0].endswith((".json", ".obj")) else "tent.obj"
             words = [model, *[w for w in more if w != model], *([] if name == "size" else ["-s", "96"])]
             with self.subTest(name):
                 value = re.match(r"[^\s,;]+", standard).group()

@@ -204,7 +204,7 @@ static void test_errors(void **unused)
         {"{\"x\": \"\\\"lambent\\\"\", \"lambent\": 1}",
          "s.json: x: unknown key; expected lambent, image, camera, ambient, "
          "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, single_scattering, gl1, up, "
-         "materials, objects, lights, light_cutoff"},
+         "materials, objects, lights, light_cutoff, anisotropy"},
         {"{\"lambent\": 1}", "s.json: 'objects' is missing, expected a list of at least one object"},
         {"{\"lambent\": 2, " BALL "}", "s.json: lambent: the format's version is 2, this program reads version 1"},
         {"{\"lambent\": \"1\", " BALL "}", "s.json: lambent: found \"1\", expected a number"},

@@ -125,6 +125,27 @@ static bool draws_once(const struct job *job)
     return o->repeat == 1 && !show_is_all(o) && !tangents;
 }
 
+// Under flat and Gouraud shading most maps are left out.
+static void warn_maps(struct job *job)
+{
+    static const lam_map fine[] = {LAM_MAP_NORMAL,   LAM_MAP_BUMP,      LAM_MAP_SPECULAR, LAM_MAP_SHININESS,
+                                   LAM_MAP_METALLIC, LAM_MAP_ROUGHNESS, LAM_MAP_OCCLUSION};
+    char names[120] = "", text[220];
+    if (draw_params_of(job->options, LAM_RIG_NONE).shading == LAM_SHADING_PHONG)
+        return;
+    for (size_t map = 0; map < sizeof fine / sizeof *fine; map++) {
+        bool used = false;
+        for (int i = 0; i < lam_scene_material_count(job->scene); i++)
+            used |= lam_scene_material(job->scene, i)->maps[fine[map]] != NULL;
+        if (used)
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? ", " : "",
+                     lam_map_name(fine[map]));
+    }
+    snprintf(text, sizeof text, "maps that need Phong shading are left out: %s", names);
+    if (*names)
+        lam_scene_add_warning(job->scene, text);
+}
+
 bool job_load(struct job *job, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
@@ -166,6 +187,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     if (lam_scene_triangle_count(job->scene) == 0)
         return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw", job->model);
     scene_settings_apply(job);
+    warn_maps(job);
     if (o->slices && lam_shape_find(job->model) < 0)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
     if ((o->model_scene || o->variant || o->animation || o->has_time || o->lenient) &&

@@ -262,6 +262,7 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
         .match_highlights = o->match_highlights,
         .gl1 = o->gl1,
         .single_scattering = o->single_scattering,
+        .anisotropy = o->anisotropy,
         .light_cutoff = !o->has_light_cutoff  ? 0
                         : o->light_cutoff > 0 ? (float)o->light_cutoff
                                               : -1,

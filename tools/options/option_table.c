@@ -215,6 +215,12 @@ const struct option option_table[] = {
      "its own size. Each triangle that covers part of a pixel is lit once in that pixel.",
      sample_words, .store = store_word,
      .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(samples)},
+    {"anisotropy", 0, GROUP_PICTURE, "N", "1",
+     "Probes of a texture where it is seen at a slant, 1 to 16: more are sharper.",
+     "Each pixel sees a texture through a footprint that is long where the surface turns away. One probe has the size "
+     "of its "
+     "longer axis, which blurs the shorter one; N probes along the longer axis are as sharp as N times that.",
+     .store = store_integer, .others = "anisotropic anisotropic-filtering", FIELD(anisotropy), .min = 1, .max = 16},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
      "It lies wherever the model does not, in pictures of `--show` too, and behind each picture of a sheet. The sheets "

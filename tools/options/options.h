@@ -20,6 +20,7 @@ struct options {
     int width, height;      // pixels
     bool has_size;          // the size was given
     int samples;            // 0: the library's default
+    int anisotropy;         // 0: 1
     const char *background; // as written; NULL: clear
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress

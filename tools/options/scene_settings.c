@@ -51,6 +51,8 @@ void scene_settings_apply(struct job *job)
     own->match_highlights |= s->draw.match_highlights;
     own->gl1 |= s->draw.gl1;
     own->single_scattering |= s->draw.single_scattering;
+    if (takes_setting(job, LAM_SETTING_ANISOTROPY, "anisotropy"))
+        own->anisotropy = s->draw.anisotropy;
     if (takes_setting(job, LAM_SETTING_LIGHT_CUTOFF, "light-cutoff")) {
         own->light_cutoff = (double)s->draw.light_cutoff;
         own->has_light_cutoff = true;
@@ -129,6 +131,7 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     s.present |= LAM_SETTING_SIZE | LAM_SETTING_SAMPLES | LAM_SETTING_BACKGROUND | LAM_SETTING_COLOR |
                  LAM_SETTING_CAMERA | LAM_SETTING_SHADING | LAM_SETTING_REFLECTION | LAM_SETTING_MATCH_HIGHLIGHTS |
                  LAM_SETTING_GL1;
+    s.present |= draw->anisotropy > 1 ? LAM_SETTING_ANISOTROPY : 0;
     s.present |= draw->light_cutoff != 0 ? LAM_SETTING_LIGHT_CUTOFF : 0;
     s.present |= draw->stage != LAM_STAGE_AUTO ? LAM_SETTING_STAGE : 0;
     s.present |= draw->viewer != LAM_VIEWER_LOCAL ? LAM_SETTING_VIEWER : 0;

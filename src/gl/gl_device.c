@@ -244,13 +244,30 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
     return draw_parts(f, error) && check_errors(f, error);
 }
 
+// Maps that this device does not draw.
+static bool check_maps(const struct frame *frame, lam_error *error)
+{
+    for (int i = 0; i < 2 * frame->range_count; i++) {
+        const struct frame_draw_range *range = &frame->ranges[i / 2];
+        const lam_material *material = frame->materials[i % 2 ? range->back : range->front];
+        for (int map = 0; map < LAM_MAP_COUNT; map++)
+            if (material->maps[map] && (frame->shading != LAM_SHADING_PHONG || map == LAM_MAP_BUMP))
+                return fail(error, LAM_UNSUPPORTED,
+                            "OpenGL: a material has a %s map, which this device %s; the CPU "
+                            "device draws it",
+                            lam_map_name((lam_map)map),
+                            map == LAM_MAP_BUMP ? "does not draw" : "draws under Phong shading alone");
+    }
+    return true;
+}
+
 static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct call_control *call,
                     lam_error *error)
 {
     struct gl_device *device = (struct gl_device *)base;
     struct gl_previous_context previous;
     struct gl_saved_state state;
-    if (!gl_context_enter(&device->context, &previous, error))
+    if (!check_maps(frame, error) || !gl_context_enter(&device->context, &previous, error))
         return false;
     struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .call = call, .image = image};
     f.stage = frame->stage;

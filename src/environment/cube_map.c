@@ -1,4 +1,4 @@
-// cube_map.c: a cube map in memory: borders, reference counting, lookup.
+// cube_map.c: a cube map in memory: reference counting, lookup.
 #include "environment_light.h"
 #include "fail.h"
 #include "float_state.h"
@@ -8,7 +8,6 @@
 #include "cube_lookup.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 struct lam_environment *cube_make(int size, lam_error *error)
 {
@@ -42,67 +41,6 @@ void lam_environment_free(lam_environment *cube)
 }
 
 int lam_environment_size(const lam_environment *cube) { return cube ? cube->size : 0; }
-
-void cube_direction(int face, double major, double across, double down, double out[3])
-{
-    const double table[LAM_FACE_COUNT][3] = {
-        [LAM_FACE_PX] = {major, -down, -across}, [LAM_FACE_NX] = {-major, -down, across},
-        [LAM_FACE_PY] = {across, major, down},   [LAM_FACE_NY] = {across, -major, -down},
-        [LAM_FACE_PZ] = {across, -down, major},  [LAM_FACE_NZ] = {-across, -down, -major},
-    };
-    memcpy(out, table[face], sizeof table[face]);
-}
-
-// The texel beside the edge on the neighbouring face. A face is taken from −size to size, so that texel i lies at the
-// odd number 2i + 1 − size; across the edge one axis continues inwards as far as the other came outwards. All numbers
-// are integers.
-static const float *neighbour(const struct lam_environment *cube, int face, int s, int t)
-{
-    int n = cube->size;
-    double across = 2 * s + 1 - n, down = 2 * t + 1 - n, d[3];
-    if (s < 0 || s >= n)
-        across = s < 0 ? -n : n;
-    else
-        down = t < 0 ? -n : n;
-    cube_direction(face, n - 1, across, down, d);
-    for (int other = 0; other < LAM_FACE_COUNT; other++) {
-        if (d[other / 2] != (other % 2 ? -n : n))
-            continue;
-        double unit[2][3];
-        cube_direction(other, 0, 1, 0, unit[0]);
-        cube_direction(other, 0, 0, 1, unit[1]);
-        int at[2];
-        for (int i = 0; i < 2; i++)
-            at[i] = ((int)(unit[i][0] * d[0] + unit[i][1] * d[1] + unit[i][2] * d[2]) + n - 1) / 2;
-        return cube_texel(cube, other, at[0], at[1]);
-    }
-    return cube_texel(cube, face, 0, 0); // unreachable: one axis is at ±size
-}
-
-static void close_corner(struct lam_environment *cube, int face, int s, int t)
-{
-    int n = cube->size, inner_s = s < 0 ? 0 : n - 1, inner_t = t < 0 ? 0 : n - 1;
-    const float *a = cube_texel(cube, face, inner_s, inner_t), *b = cube_texel(cube, face, s, inner_t),
-                *c = cube_texel(cube, face, inner_s, t);
-    float *out = cube_texel(cube, face, s, t);
-    for (int channel = 0; channel < 3; channel++)
-        out[channel] = (float)(((double)a[channel] + (double)b[channel] + (double)c[channel]) / 3);
-}
-
-void cube_close(struct lam_environment *cube)
-{
-    int n = cube->size;
-    for (int face = 0; face < LAM_FACE_COUNT; face++) {
-        for (int i = 0; i < n; i++) {
-            const int places[4][2] = {{-1, i}, {n, i}, {i, -1}, {i, n}};
-            for (int p = 0; p < 4; p++)
-                memcpy(cube_texel(cube, face, places[p][0], places[p][1]),
-                       neighbour(cube, face, places[p][0], places[p][1]), 3 * sizeof(float));
-        }
-        for (int corner = 0; corner < 4; corner++)
-            close_corner(cube, face, corner & 1 ? n : -1, corner & 2 ? n : -1);
-    }
-}
 
 lam_rgb lam_environment_sample(const lam_environment *cube, lam_vec3 direction)
 {

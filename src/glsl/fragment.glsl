@@ -71,6 +71,10 @@ void main()
 //@else
     vec3 n = eye_normal;
 //@end
+//@if tilts
+    n = unit3(n);
+    n = n - (perpendicular3(maps.across, n) * maps.slopes.x + perpendicular3(maps.down, n) * maps.slopes.y);
+//@end
 //@if two_sided
     if (!gl_FrontFacing) {
         n = negate3(n);

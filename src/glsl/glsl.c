@@ -174,6 +174,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"fragment", fragment},
         {"tangent", f->tangent},
         {"bends", f->bends},
+        {"tilts", f->tilts},
         {"alpha_ruled", alpha.bytes != NULL},
         {"mapped", f->mapped},
         {"first_texcoords", f->texcoords[0]},
@@ -227,12 +228,15 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     for (int i = 0; i < 8; i++)
         snprintf(numbers[i], sizeof numbers[i], "%d", counts[i]);
     char varying[32], arguments[8][96], anisotropy[8];
+    char map_arguments[64];
+    snprintf(map_arguments, sizeof map_arguments, "%s%s%s%s%s", f->texcoords[0] ? "first" : "",
+             f->texcoords[0] && f->texcoords[1] ? ", " : "", f->texcoords[1] ? "second" : "",
+             f->tilts ? ", eye_position" : "", c->colors && f->converts ? ", tint" : "");
     snprintf(anisotropy, sizeof anisotropy, "%d", c->anisotropy);
     snprintf(varying, sizeof varying, "%s%s", flat && !glsl_120 ? "flat " : "",
              glsl_120   ? "varying "
              : fragment ? "in "
                         : "out ");
-    bool tinted = c->colors && f->converts;
     const char *const position = f->unlit ? NULL : "p", *const sides[4] = {NULL, "true", "false", "gl_FrontFacing"};
     for (int i = 0; i < 4; i++) {
         const char *p = i == 0 ? "vec3 p, vec3 normal" : i == 3 ? "eye_position, n" : "p, n";
@@ -271,10 +275,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"front_arguments", arguments[1]},
         {"back_arguments", arguments[2]},
         {"fragment_arguments", arguments[3]},
-        {"map_arguments", f->texcoords[0] && f->texcoords[1] ? tinted ? "first, second, tint" : "first, second"
-                          : f->texcoords[1]                  ? tinted ? "second, tint" : "second"
-                          : tinted                           ? "first, tint"
-                                                             : "first"},
+        {"map_arguments", map_arguments},
         {"anisotropy", anisotropy},
         {"alpha_rule", alpha.bytes ? alpha.bytes : ""},
         {"tangent", f->bends ? "tangent.xyz" : "tangent"},

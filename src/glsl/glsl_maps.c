@@ -9,10 +9,7 @@
 
 // --- choices
 
-static bool is_drawn(int map)
-{
-    return map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION && map != LAM_MAP_BUMP;
-}
+static bool is_drawn(int map) { return map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION; }
 
 bool glsl_reads_maps(const struct frame *frame, const lam_material *material)
 {
@@ -30,7 +27,9 @@ static void choose_side(struct glsl_choices *c, const struct frame *frame, const
         return;
     for (int i = 0; i < LAM_MAP_COUNT; i++) {
         const lam_texture_map *map = material->maps[i];
-        if (!map || !is_drawn(i) || (i == LAM_MAP_NORMAL && (!mesh->tangents || !glsl_has_texcoords(mesh, map))))
+        bool placed = map && glsl_has_texcoords(mesh, map);
+        if (!map || !is_drawn(i) || (i == LAM_MAP_NORMAL && (!mesh->tangents || !placed)) ||
+            (i == LAM_MAP_BUMP && !placed))
             continue;
         int texels = 0;
         while (texels < *seen_count && !texture_map_same(seen[texels], map))
@@ -97,7 +96,9 @@ static bool reads(const struct glsl_facts *f, lam_map map)
     case LAM_MAP_OPACITY:
         return f->lit && !f->output_vector;
     case LAM_MAP_NORMAL:
-        return surface && (f->lights || f->hemispheres || f->environment || f->output_vector);
+    case LAM_MAP_BUMP: // GLSL 120 has no textureSize
+        return surface && (f->lights || f->hemispheres || f->environment || f->output_vector) &&
+               (map == LAM_MAP_NORMAL || f->choices->version != GLSL_120);
     case LAM_MAP_SHININESS:
         return sums && f->highlights && !f->microfacet;
     case LAM_MAP_METALLIC:
@@ -122,6 +123,7 @@ void glsl_find_maps(struct glsl_facts *f)
             f->maps[side][i] = f->mapped = true;
             f->texcoords[c->maps[side][i].texcoords] = true;
             f->bends |= i == LAM_MAP_NORMAL;
+            f->tilts |= i == LAM_MAP_BUMP;
         }
     f->converts &= f->mapped;
 }
@@ -129,8 +131,8 @@ void glsl_find_maps(struct glsl_facts *f)
 lam_map glsl_map_owner(const struct glsl_facts *f, int side, lam_map map)
 {
     const struct glsl_map *maps = f->choices->maps[side];
-    for (int i = 0; i < (int)map; i++)
-        if (f->maps[side][i] && maps[i].texels == maps[map].texels)
+    for (int i = 0; i < (int)map && map != LAM_MAP_BUMP; i++) // a bump map is read beside the point
+        if (f->maps[side][i] && i != LAM_MAP_BUMP && maps[i].texels == maps[map].texels)
             return (lam_map)i;
     return map;
 }
@@ -150,6 +152,9 @@ enum {
     ROUGHNESS,
     METALLIC,
     DIELECTRIC,
+    SLOPES,
+    ACROSS,
+    DOWN,
     MEMBERS
 };
 static const struct {
@@ -166,17 +171,23 @@ static const struct {
     [ROUGHNESS] = {"roughness", "float", "0 a mirror, 1 matt"},
     [METALLIC] = {"metallic", "float", "0 a dielectric, 1 a metal"},
     [DIELECTRIC] = {"dielectric", "float", "factor of the diffuse light"},
+    [SLOPES] = {"slopes", "vec2", "by how much the surface rises along the next two"},
+    [ACROSS] = {"across", "vec3", "the direction of the picture's rows in eye space, not unit"},
+    [DOWN] = {"down", "vec3", "the direction of its columns"},
 };
 
 static bool has_member(const struct glsl_facts *f, int member)
 {
-    static const lam_map maps[MEMBERS] = {
-        [COLOR] = LAM_MAP_DIFFUSE,       [AMBIENT] = LAM_MAP_AMBIENT,     [SPECULAR] = LAM_MAP_SPECULAR,
-        [EMISSION] = LAM_MAP_EMISSION,   [BEND] = LAM_MAP_NORMAL,         [OPACITY] = LAM_MAP_OPACITY,
-        [SHININESS] = LAM_MAP_SHININESS, [OCCLUSION] = LAM_MAP_OCCLUSION, [ROUGHNESS] = LAM_MAP_ROUGHNESS,
-        [METALLIC] = LAM_MAP_METALLIC,   [DIELECTRIC] = LAM_MAP_METALLIC};
-    bool from_physical =
-        member == SPECULAR || member == SHININESS ? f->highlights : member == ROUGHNESS || member >= METALLIC;
+    static const lam_map maps[MEMBERS] = {[COLOR] = LAM_MAP_DIFFUSE,       [AMBIENT] = LAM_MAP_AMBIENT,
+                                          [SPECULAR] = LAM_MAP_SPECULAR,   [EMISSION] = LAM_MAP_EMISSION,
+                                          [BEND] = LAM_MAP_NORMAL,         [OPACITY] = LAM_MAP_OPACITY,
+                                          [SHININESS] = LAM_MAP_SHININESS, [OCCLUSION] = LAM_MAP_OCCLUSION,
+                                          [ROUGHNESS] = LAM_MAP_ROUGHNESS, [METALLIC] = LAM_MAP_METALLIC,
+                                          [DIELECTRIC] = LAM_MAP_METALLIC, [SLOPES] = LAM_MAP_BUMP,
+                                          [ACROSS] = LAM_MAP_BUMP,         [DOWN] = LAM_MAP_BUMP};
+    bool from_physical = member == SPECULAR || member == SHININESS
+                             ? f->highlights
+                             : member == ROUGHNESS || member == METALLIC || member == DIELECTRIC;
     return any_has(f, maps[member]) || (member == OPACITY && any_has(f, LAM_MAP_DIFFUSE)) ||
            (f->converts && f->mapped && from_physical);
 }
@@ -244,23 +255,59 @@ static void add_factor(struct text *text, const struct glsl_facts *f, int side, 
     text_add(text, ";\n");
 }
 
-static void add_texels(struct text *text, const struct glsl_facts *f, int side)
+// Appends the arguments that say how a map is read: its texture coordinates, and the filters that the shader computes.
+static void add_sampling(struct text *text, const struct glsl_facts *f, const struct glsl_map *map)
 {
     static const char *const wraps[] = {"WRAP_REPEAT", "WRAP_CLAMP", "WRAP_MIRROR"};
     static const char *const filters[] = {"FILTER_LINEAR", "FILTER_NEAREST"};
     static const char *const mips[] = {"MIP_LINEAR", "MIP_NEAREST", "MIP_NONE"};
+    text_add(text, map->texcoords ? "second" : "first");
+    if (f->choices->version != GLSL_120)
+        text_print(text, ",\n        sampling(%s, %s, %s, %s, %s)", wraps[map->wrap_s], wraps[map->wrap_t],
+                   filters[map->magnify], filters[map->minify], mips[map->mip]);
+}
+
+static void add_texels(struct text *text, const struct glsl_facts *f, int side)
+{
     for (int i = 0; i < LAM_MAP_COUNT; i++) {
-        const struct glsl_map *map = &f->choices->maps[side][i];
-        if (!f->maps[side][i] || glsl_map_owner(f, side, (lam_map)i) != (lam_map)i)
+        if (!f->maps[side][i] || i == LAM_MAP_BUMP || glsl_map_owner(f, side, (lam_map)i) != (lam_map)i)
             continue;
         const char *name = lam_map_name((lam_map)i), *p = prefix(side);
-        text_print(text, "    vec4 %s_texel = map_texel(%s%s_map, %s%s_map_s, %s%s_map_t, %s", name, p, name, p, name,
-                   p, name, map->texcoords ? "second" : "first");
-        if (f->choices->version != GLSL_120)
-            text_print(text, ",\n        sampling(%s, %s, %s, %s, %s)", wraps[map->wrap_s], wraps[map->wrap_t],
-                       filters[map->magnify], filters[map->minify], mips[map->mip]);
+        text_print(text, "    vec4 %s_texel = map_texel(%s%s_map, %s%s_map_s, %s%s_map_t, ", name, p, name, p, name, p,
+                   name);
+        add_sampling(text, f, &f->choices->maps[side][i]);
         text_add(text, ");\n");
     }
+}
+
+// The heights of a bump map one texel of level 0 before and behind the point, along rows and columns.
+static void add_slopes(struct text *text, const struct glsl_facts *f, int side)
+{
+    if (!has_member(f, SLOPES))
+        return;
+    if (!f->maps[side][LAM_MAP_BUMP]) {
+        text_add(text, "    maps.slopes = vec2(0.0);\n    maps.across = vec3(0.0);\n    maps.down = vec3(0.0);\n");
+        return;
+    }
+    static const char *const names[] = {"left", "right", "above", "below"};
+    const struct glsl_map *map = &f->choices->maps[side][LAM_MAP_BUMP];
+    const char *p = prefix(side), *owner = lam_map_name(glsl_map_owner(f, side, LAM_MAP_BUMP));
+    text_print(text, "    vec2 one = 1.0 / vec2(textureSize(%s%s_map, 0));\n", p, owner);
+    for (int i = 0; i < 4; i++) {
+        text_print(text, "    float %s = map_texel(%s%s_map, %sbump_map_s%s, %sbump_map_t%s, ", names[i], p, owner, p,
+                   i == 0   ? " - vec4(0.0, 0.0, one.x, 0.0)"
+                   : i == 1 ? " + vec4(0.0, 0.0, one.x, 0.0)"
+                            : "",
+                   p,
+                   i == 2   ? " - vec4(0.0, 0.0, one.y, 0.0)"
+                   : i == 3 ? " + vec4(0.0, 0.0, one.y, 0.0)"
+                            : "");
+        add_sampling(text, f, map);
+        text_print(text, ").%c;\n", "rgba"[map->channel]);
+    }
+    text_print(text, "    maps.slopes = vec2(right - left, below - above) * (0.5 * %sbump_map_s.w);\n", p);
+    text_print(text, "    picture_axes(p, %sbump_map_s, %sbump_map_t, %s, maps.across, maps.down);\n", p, p,
+               map->texcoords ? "second" : "first");
 }
 
 static void add_opacity(struct text *text, const struct glsl_facts *f, int side)
@@ -303,10 +350,10 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
 {
     const struct glsl_choices *c = f->choices;
     bool varies = c->converted[side] || f->maps[side][LAM_MAP_METALLIC];
-    text_print(text, "\n// What the maps of the %s say of the point.\nsurface_maps %s_maps(%s%s%s%s)\n{\n",
+    text_print(text, "\n// What the maps of the %s say of the point.\nsurface_maps %s_maps(%s%s%s%s%s)\n{\n",
                side ? "back" : "front", side ? "back" : "front", f->texcoords[0] ? "footprint first" : "",
                f->texcoords[0] && f->texcoords[1] ? ", " : "", f->texcoords[1] ? "footprint second" : "",
-               c->colors && f->converts ? ", vec4 tint" : "");
+               f->tilts ? ", vec3 p" : "", c->colors && f->converts ? ", vec4 tint" : "");
     text_add(text, "    surface_maps maps;\n");
     add_texels(text, f, side);
     add_color(text, f, side, COLOR, LAM_MAP_DIFFUSE);
@@ -323,6 +370,7 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     } else if (has_member(f, BEND)) {
         text_add(text, "    maps.bend = vec3(0.0, 0.0, 1.0);\n");
     }
+    add_slopes(text, f, side);
     add_opacity(text, f, side);
     add_factor(text, f, side, SHININESS, LAM_MAP_SHININESS, "shininess");
     add_factor(text, f, side, OCCLUSION, LAM_MAP_OCCLUSION, NULL);

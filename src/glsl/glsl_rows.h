@@ -72,6 +72,7 @@ struct glsl_facts {
     bool maps[2][LAM_MAP_COUNT]; // those of the front, of the back
     bool texcoords[2];           // the sets of texture coordinates that they read
     bool bends;                  // a normal map
+    bool tilts;                  // a bump map
     bool converts;               // a side's material is converted (glsl_choices.converted)
     bool masks;                  // a side is masked
 };

@@ -112,6 +112,21 @@ vec4 texel_at(sampler2D map, vec2 at, float detail, sampling how)
     return finer + (coarser - finer) * (detail - float(level));
 }
 
+//@if tilts
+// The directions in eye space in which the picture's rows and columns run on the triangle through p; not unit.
+void picture_axes(vec3 p, vec4 s, vec4 t, footprint f, out vec3 across, out vec3 down)
+{
+    float w = gl_FragCoord.w;
+    vec3 px = (dFdx(p * w) - p * dFdx(w)) / w;
+    vec3 py = (dFdy(p * w) - p * dFdy(w)) / w;
+    vec2 dx = vec2(s.x * f.dx.x + s.y * f.dx.y, t.x * f.dx.x + t.y * f.dx.y);
+    vec2 dy = vec2(s.x * f.dy.x + s.y * f.dy.y, t.x * f.dy.x + t.y * f.dy.y);
+    float side = dx.x * dy.y - dy.x * dx.y < 0.0 ? -1.0 : 1.0;
+    across = (px * dy.y - py * dx.y) * side;
+    down = (py * dx.x - px * dy.x) * side;
+}
+
+//@end
 // A texel of a map. s and t are rows of the matrix from the mesh's texture coordinates to the picture's.
 vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f, sampling how)
 {

@@ -74,6 +74,41 @@ static void single_choices(struct visitor *v, const struct glsl_choices *base)
     }
 }
 
+// Materials with every map, on both sides, with a few of the ways to read them.
+static void maps(struct visitor *v, const struct glsl_choices *base)
+{
+    static const lam_reflection models[] = {LAM_REFLECTION_NONE, LAM_REFLECTION_LAMBERT, LAM_REFLECTION_PHONG,
+                                            LAM_REFLECTION_GGX};
+    for (int i = 0; i < 16; i++) {
+        struct glsl_choices c = *base;
+        c.reflection = models[i % 4];
+        c.two_sided = i & 4;
+        c.back_material = i & 8;
+        c.tangents = true;
+        c.colors = i & 4;
+        c.anisotropy = i & 4 ? 8 : 1;
+        c.converted[0] = i & 4 && c.reflection != LAM_REFLECTION_GGX;
+        c.alpha[0] = (uint8_t)(i % 3);
+        c.alpha[1] = (uint8_t)(i / 4 % 3);
+        for (int side = 0; side <= c.back_material; side++)
+            for (int map = 0; map < LAM_MAP_COUNT; map++)
+                c.maps[side][map] =
+                    (struct glsl_map){.used = map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION &&
+                                              (i < 12 || (map + i + side) % 3),
+                                      .texels = (uint8_t)(i & 1 ? map / 2 : map),
+                                      .texcoords = (uint8_t)((map + i) % 2),
+                                      .wrap_s = (uint8_t)(map % 3),
+                                      .wrap_t = (uint8_t)(i % 3),
+                                      .magnify = (uint8_t)(map % 2),
+                                      .minify = (uint8_t)(i % 2),
+                                      .mip = (uint8_t)(map % 3),
+                                      .channel = (uint8_t)(map % 4)};
+        call(v, &c);
+        c.output = LAM_OUTPUT_NORMALS;
+        call(v, &c);
+    }
+}
+
 int glsl_combinations(void (*visit)(void *user, const struct glsl_choices *choices), void *user)
 {
     struct visitor v = {visit, user, 0};
@@ -100,6 +135,7 @@ int glsl_combinations(void (*visit)(void *user, const struct glsl_choices *choic
                     base.reflection = LAM_REFLECTION_BLINN_PHONG;
                     base.two_sided = base.back_material = true;
                     single_choices(&v, &base);
+                    maps(&v, &base);
                 }
     return v.count;
 }

@@ -244,19 +244,21 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
     return draw_parts(f, error) && check_errors(f, error);
 }
 
-// Maps that this device does not draw.
+// Maps that this device does not draw: those of colours that are lit at vertices.
 static bool check_maps(const struct frame *frame, lam_error *error)
 {
-    for (int i = 0; i < 2 * frame->range_count; i++) {
+    static const lam_map drawn[] = {LAM_MAP_DIFFUSE, LAM_MAP_OPACITY, LAM_MAP_EMISSION};
+    bool at_vertices = frame->shading != LAM_SHADING_PHONG && !glsl_output_is_geometry(frame->output);
+    for (int i = 0; i < 2 * frame->range_count && at_vertices; i++) {
         const struct frame_draw_range *range = &frame->ranges[i / 2];
         const lam_material *material = frame->materials[i % 2 ? range->back : range->front];
-        for (int map = 0; map < LAM_MAP_COUNT; map++)
-            if (material->maps[map] && (frame->shading != LAM_SHADING_PHONG || map == LAM_MAP_BUMP))
-                return fail(error, LAM_UNSUPPORTED,
-                            "OpenGL: a material has a %s map, which this device %s; the CPU "
-                            "device draws it",
-                            lam_map_name((lam_map)map),
-                            map == LAM_MAP_BUMP ? "does not draw" : "draws under Phong shading alone");
+        for (int k = 0; k < 3; k++)
+            if (material->maps[drawn[k]])
+                return fail(
+                    error, LAM_UNSUPPORTED,
+                    "OpenGL: a material has a %s map, which this device draws under Phong shading alone; the CPU "
+                    "device draws it",
+                    lam_map_name(drawn[k]));
     }
     return true;
 }

@@ -54,9 +54,12 @@ void glsl_choose_maps(struct glsl_choices *c, const struct frame *frame, const s
     int count = 0;
     c->anisotropy = (uint8_t)frame->anisotropy;
     for (int side = 0; side < 2; side++) {
-        lam_alpha_mode mode = frame->materials[side ? range->back : range->front]->alpha_mode;
-        bool masked = mode == LAM_ALPHA_MASK && frame->masked && range->translucent;
-        c->alpha[side] = mode == LAM_ALPHA_MASK && !masked ? LAM_ALPHA_OPAQUE : (uint8_t)mode;
+        const lam_material *material = frame->materials[side ? range->back : range->front];
+        bool masks = material->alpha_mode == LAM_ALPHA_MASK && frame->masked && range->translucent;
+        // Where no texel has an alpha below 1, a map's scale makes nothing translucent.
+        bool opaque =
+            material->alpha_mode == LAM_ALPHA_MASK || (!range->translucent && glsl_reads_maps(frame, material));
+        c->alpha[side] = masks ? LAM_ALPHA_MASK : opaque ? LAM_ALPHA_OPAQUE : (uint8_t)material->alpha_mode;
     }
     for (int side = 0; side <= c->back_material; side++)
         choose_side(c, frame, frame->materials[side ? range->back : range->front], side, frame->draws[range->draw].mesh,

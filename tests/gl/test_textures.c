@@ -1,0 +1,215 @@
+// test_textures.c: textures of the OpenGL device: every wrap and filter against the CPU device, numbers beyond 0…1, uploads.
+#include <lambent/gl.h>
+#include <lambent/lambent.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { SIZE = 192, SIDE = 20 };
+
+static lam_device *cpu, *gl[2]; // OpenGL 3.3, OpenGL ES 3.0; NULL: not available
+
+// A picture of random texels; `scale` above 1: floats up to there.
+static lam_texture *random_texture(int width, int height, float scale)
+{
+    lam_error error = {0};
+    lam_image image = {.format = scale > 1 ? LAM_RGBA32F : LAM_RGBA8};
+    assert_true(lam_image_make(&image, width, height, image.format, &error));
+    unsigned state = 5;
+    for (int i = 0; i < width * height * 4; i++) {
+        state = state * 1664525u + 1013904223u;
+        if (scale > 1)
+            ((float *)image.pixels)[i] = i % 4 == 3 ? 1 : scale * (float)(state >> 8) / 16777216;
+        else
+            ((uint8_t *)image.pixels)[i] = i % 4 == 3 ? 255 : (uint8_t)(state >> 24);
+    }
+    lam_texture *texture = lam_texture_make(&image, LAM_TEXTURE_COLOR, NULL, &error);
+    lam_image_free(&image);
+    assert_non_null(texture);
+    return texture;
+}
+
+// A floor that leads away from the eye: near texels are many pixels wide, far ones a fraction of a pixel. The second set of
+// texture coordinates is turned by 90°.
+static lam_scene *floor_scene(const lam_texture_map *map)
+{
+    static const float positions[] = {-3, 0, 2, 3, 0, 2, 3, 0, -30, -3, 0, -30},
+                       normals[] = {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0};
+    static const float first[] = {-1.3f, -1.1f, 2.2f, -1.1f, 2.2f, 9, -1.3f, 9};
+    static const float second[] = {-1.1f, 1.3f, -1.1f, -2.2f, 9, -2.2f, 9, 1.3f};
+    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+    lam_error error = {0};
+    lam_scene *scene = lam_scene_make(&error);
+    lam_material material = lam_material_default();
+    material.unlit = true;
+    material.diffuse = (lam_rgba){1, 1, 1, 1};
+    material.maps[LAM_MAP_DIFFUSE] = map;
+    const lam_part part = {.triangle_count = 2, .material = lam_scene_add_material(scene, &material, &error)};
+    const lam_mesh mesh = {.positions = positions,
+                           .vertex_count = 4,
+                           .indices = indices,
+                           .triangle_count = 2,
+                           .normals = normals,
+                           .normal_count = 4,
+                           .texcoords = first,
+                           .texcoord_count = 4,
+                           .second_texcoords = second,
+                           .second_texcoord_count = 4,
+                           .parts = &part,
+                           .part_count = 1};
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
+    assert_true(part.material >= 0 && object.mesh >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
+    return scene;
+}
+
+static lam_image draw(lam_device *device, const lam_scene *scene, int anisotropy)
+{
+    lam_error error = {0};
+    lam_image image = {0};
+    lam_camera camera = {.eye = {0.3, 1, 3},
+                         .target = {0, 0, -3},
+                         .up = {0, 1, 0},
+                         .fovy_rad = 0.9,
+                         .near_plane = 0.1,
+                         .far_plane = 100};
+    lam_draw_params params = {.samples = 1, .anisotropy = anisotropy, .reflection = LAM_REFLECTION_AUTO};
+    if (!lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error) ||
+        !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
+        fail_msg("%s", error.text);
+    return image;
+}
+
+static double encoded(float x)
+{
+    double c = x < 0 ? 0 : x > 1 ? 1 : (double)x;
+    return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
+}
+
+// At most one covered pixel of a thousand differs by more than 1/255 (by the same share of larger numbers).
+static void compare(lam_device *device, const lam_scene *scene, int anisotropy, const char *name)
+{
+    lam_image a = draw(cpu, scene, anisotropy), b = draw(device, scene, anisotropy);
+    const float *p = a.pixels, *q = b.pixels;
+    int covered = 0, over = 0;
+    double variety = 0;
+    for (int i = 0; i < SIZE * SIZE; i++, p += 4, q += 4) {
+        bool apart = false;
+        for (int c = 0; c < 3; c++)
+            apart |=
+                p[c] > 1 ? !(fabsf(p[c] - q[c]) <= p[c] / 255) : !(fabs(encoded(p[c]) - encoded(q[c])) <= 1 / 255.0);
+        covered += p[3] > 0;
+        over += apart;
+        variety += p[3] > 0 && fabsf(p[0] - p[1]) > 0.05f;
+    }
+    if (covered < SIZE * SIZE / 3 || variety < covered / 10.0 || over * 1000 > covered)
+        fail_msg("%s: %d of %d covered pixels differ, %g are coloured", name, over, covered, variety);
+    lam_image_free(&a);
+    lam_image_free(&b);
+}
+
+static void wraps_and_filters(void **state)
+{
+    (void)state;
+    if (!gl[0] && !gl[1])
+        skip();
+    int count = 0;
+    lam_texture *texture = random_texture(SIDE, 13, 1);
+    for (int wrap = 0; wrap < LAM_WRAP_COUNT * LAM_WRAP_COUNT; wrap++)
+        for (int how = 0; how < 4 * LAM_MIP_COUNT; how++, count++) {
+            char name[64];
+            if (wrap % 4 && how % 5) // all ways alone, some of their products
+                continue;
+            lam_texture_map map = {.texture = texture,
+                                   .wrap_s = (lam_wrap)(wrap % 3),
+                                   .wrap_t = (lam_wrap)(wrap / 3),
+                                   .magnify = (lam_filter)(how % 2),
+                                   .minify = (lam_filter)(how / 2 % 2),
+                                   .mip = (lam_mip)(how / 4),
+                                   .texcoords = count % 2};
+            snprintf(name, sizeof name, "wraps %d %d, filters %d %d %d, set %d", wrap % 3, wrap / 3, how % 2,
+                     how / 2 % 2, how / 4, count % 2);
+            lam_scene *scene = floor_scene(&map);
+            compare(gl[count % 2] ? gl[count % 2] : gl[!(count % 2)], scene, 0, name);
+            lam_scene_free(scene);
+        }
+    lam_texture_free(texture);
+}
+
+static void transforms_floats_and_anisotropy(void **state)
+{
+    (void)state;
+    lam_texture *texture = random_texture(33, 64, 8), *plain = random_texture(64, 64, 1);
+    for (int i = 0; i < 2; i++) {
+        if (!gl[i])
+            continue;
+        lam_texture_map bright = {
+            .texture = texture, .transform = {{0.6f, 0.8f, 0.25f}, {-0.8f, 0.6f, -7}}, .scale = 0.5f, .offset = 0.125f};
+        lam_texture_map slanted = {.texture = plain};
+        lam_scene *scenes[] = {floor_scene(&bright), floor_scene(&slanted)};
+        compare(gl[i], scenes[0], 0, "numbers up to 8");
+        compare(gl[i], scenes[1], 2, "2 probes");
+        compare(gl[i], scenes[1], 16, "16 probes");
+        lam_scene_free(scenes[0]);
+        lam_scene_free(scenes[1]);
+    }
+    lam_texture_free(texture);
+    lam_texture_free(plain);
+}
+
+// A texture is uploaded once, and leaves with its scene.
+static void uploads(void **state)
+{
+    (void)state;
+    if (!gl[0])
+        skip();
+    lam_texture *texture = random_texture(512, 512, 1);
+    lam_texture_map map = {.texture = texture};
+    lam_scene *scene = floor_scene(&map), *next = floor_scene(NULL);
+    lam_image images[3] = {draw(gl[0], next, 0), draw(gl[0], scene, 0)};
+    lam_frame_report report;
+    lam_device_report(gl[0], &report);
+    uint64_t with = report.memory_bytes;
+    assert_true(report.bytes_uploaded > 512 * 512 * 8 * 4 / 3);
+    images[2] = draw(gl[0], scene, 0);
+    lam_device_report(gl[0], &report);
+    assert_true(report.bytes_uploaded < 1000);
+    assert_memory_equal(images[1].pixels, images[2].pixels, (size_t)SIZE * SIZE * 16);
+    lam_scene_free(scene);
+    lam_texture_free(texture);
+    lam_image_free(&images[0]);
+    images[0] = draw(gl[0], next, 0);
+    lam_device_report(gl[0], &report);
+    assert_true(report.memory_bytes + 512u * 512 * 8 < with);
+    for (int i = 0; i < 3; i++)
+        lam_image_free(&images[i]);
+    lam_scene_free(next);
+}
+
+int main(void)
+{
+    lam_error error = {0};
+    cpu = lam_device_cpu(NULL, &error);
+    for (int i = 0; i < 2; i++) {
+        gl[i] = lam_device_gl(&(lam_gl_params){.api = i ? LAM_GL_ES : LAM_GL_CORE, .debug = true}, &error);
+        print_message("%s\n", gl[i] ? lam_device_name(gl[i]) : error.text);
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(wraps_and_filters),
+        cmocka_unit_test(transforms_floats_and_anisotropy),
+        cmocka_unit_test(uploads),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    lam_device_free(gl[0]);
+    lam_device_free(gl[1]);
+    lam_device_free(cpu);
+    return failed;
+}

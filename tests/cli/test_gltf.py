@@ -1,5 +1,6 @@
 # test_gltf.py: options for glTF files: scenes, variants, cameras, required extensions; and scene files that name one.
 import base64
+import ctypes
 import json
 import struct
 
@@ -140,3 +141,52 @@ class Gltf(GltfCase):
         self.assertEqual([round(x, 6) + 0 for x in lights[0]["direction"]], [-1, 0, 0])
         camera = json.loads(self.good("a.json", "--camera", "0", "-o", "a.png", "-s", "32", "--json").stdout)["camera"]
         self.assertEqual([round(x, 6) + 0 for x in camera["eye"]], [9, 10, 0])
+
+
+class Compressed(Gltf):
+    """EXT_meshopt_compression: encoded here by the library itself, drawn as the plain file is."""
+
+    def encode(self, library, kind, data, count, stride):
+        bound = getattr(library, f"meshopt_encode{kind}Bound")
+        bound.restype = ctypes.c_size_t
+        size = bound(ctypes.c_size_t(count), ctypes.c_size_t(stride if kind == "VertexBuffer" else 4))
+        out = ctypes.create_string_buffer(size)
+        encode = getattr(library, f"meshopt_encode{kind}")
+        encode.restype = ctypes.c_size_t
+        words = (ctypes.c_uint32 * count)(*struct.unpack(f"<{count}H", data)) if kind != "VertexBuffer" else data
+        if kind == "VertexBuffer":
+            used = encode(out, ctypes.c_size_t(size), words, ctypes.c_size_t(count), ctypes.c_size_t(stride))
+        else:
+            used = encode(out, ctypes.c_size_t(size), words, ctypes.c_size_t(count))
+        self.assertGreater(used, 0)
+        return out.raw[:used]
+
+    def file(self, damage=None, **more):
+        try:
+            library = ctypes.CDLL("libmeshoptimizer.so.2d")
+        except OSError:
+            self.skipTest("libmeshoptimizer is not installed")
+        vertices = self.encode(library, "VertexBuffer", CORNERS[:48], 4, 12)
+        indices = self.encode(library, "IndexBuffer", CORNERS[48:], 6, 2)
+        data = bytearray(vertices + bytes(-len(vertices) % 4) + indices)
+        at = len(vertices) + (-len(vertices) % 4)
+        if damage is not None:
+            data[damage] ^= 0xff
+        views = [{"buffer": 1, "byteLength": 48, "byteStride": 12, "extensions": {"EXT_meshopt_compression": {
+                      "buffer": 0, "byteLength": len(vertices), "byteStride": 12, "count": 4, "mode": "ATTRIBUTES", **more}}},
+                 {"buffer": 1, "byteOffset": 48, "byteLength": 12, "extensions": {"EXT_meshopt_compression": {
+                      "buffer": 0, "byteOffset": at, "byteLength": len(indices), "byteStride": 2, "count": 6, "mode": "TRIANGLES"}}}]
+        buffers = [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(bytes(data)).decode()},
+                   {"byteLength": 60, "extensions": {"EXT_meshopt_compression": {"fallback": True}}}]
+        return self.model("packed.gltf", bufferViews=views, buffers=buffers, extensionsUsed=["EXT_meshopt_compression"],
+                          extensionsRequired=["EXT_meshopt_compression"])
+
+    def test_same_picture(self):
+        self.assertEqual(self.png(self.file(), "-s", "32"), self.png(self.model(), "-s", "32"))
+
+    def test_wrong(self):
+        self.bad(2, self.file(damage=0), "-o", "a.png", says="bufferViews[0].extensions.EXT_meshopt_compression: the compressed bytes are damaged")
+        self.bad(2, self.file(byteStride=10), "-o", "a.png", says="byteStride: found 10, expected a multiple of 4")
+        self.bad(2, self.file(count=5), "-o", "a.png", says="byteLength: found 48, but 5 elements of 12 bytes are 60")
+        self.bad(2, self.file(filter="QUATERNION"), "-o", "a.png", says="the filter QUATERNION does not go with ATTRIBUTES of 12 bytes")
+        self.bad(2, self.file(mode="LINES"), "-o", "a.png", says="mode")

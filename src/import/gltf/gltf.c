@@ -16,6 +16,7 @@
 #include "gltf_primitives.h"
 #include "gltf_textures.h"
 
+#include "dynamic_library.h"
 #include "fail.h"
 
 #include <string.h>
@@ -84,6 +85,7 @@ static bool gltf_load(const struct import_source *source, struct lam_scene *scen
     scene->shared_arrays = true;
     ok = gltf_buffers_end(&gltf) && ok;
     gltf_json_free(&gltf);
+    library_close(gltf.meshopt);
     arena_free(&scratch);
     return ok;
 }

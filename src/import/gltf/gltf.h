@@ -28,7 +28,7 @@ struct gltf_buffer {
 struct gltf_view {
     const uint8_t *data; // NULL: not looked at yet
     size_t size, stride; // stride 0: the elements lie one after the other
-    int buffer;
+    int buffer;          // −1: none, the bytes were decoded into the scene's memory
 };
 
 // componentType (section 3.6.2.2).
@@ -70,6 +70,7 @@ struct gltf {
     struct gltf_buffer *buffers;
     struct gltf_view *views;
     struct gltf_accessor *accessors;
+    void *meshopt;        // the library, once a view needs it; NULL: not opened
     int first_material;   // of the file's own in the scene
     int default_material; // of primitives that name none; −1: not made yet
     int variant;          // that the caller wants; −1: none

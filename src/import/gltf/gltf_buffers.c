@@ -3,6 +3,7 @@
 #include "gltf_buffers.h"
 
 #include "gltf_json.h"
+#include "gltf_meshopt.h"
 #include "gltf_uri.h"
 
 #include "fail.h"
@@ -49,13 +50,31 @@ static bool read_buffer(struct gltf *gltf, int index)
     return true;
 }
 
+bool gltf_buffer_bytes(struct gltf *gltf, const struct place *place, int index, size_t offset, size_t length,
+                       const uint8_t **out)
+{
+    if (!read_buffer(gltf, index))
+        return false;
+    const struct gltf_buffer *buffer = &gltf->buffers[index];
+    if (offset > buffer->size || length > buffer->size - offset)
+        return json_fail(&gltf->json, place, "found bytes %zu to %zu, but buffer %d has only %zu", offset,
+                         offset + length, index, buffer->size);
+    *out = buffer->data + offset;
+    return true;
+}
+
 const struct gltf_view *gltf_view_at(struct gltf *gltf, int index)
 {
     struct gltf_view *view = &gltf->views[index];
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "bufferViews"), (size_t)index);
     const json_t *object = gltf_list_item(gltf, "bufferViews", index);
     size_t offset = 0, length = 0, stride = 0;
+    bool decoded;
     if (view->data)
+        return view;
+    if (!gltf_meshopt_decode(gltf, place, object, view, &decoded))
+        return NULL;
+    if (decoded)
         return view;
     if (!gltf_take_index(gltf, place, object, "buffer", "buffers", &view->buffer) ||
         !gltf_take_whole(gltf, place, object, "byteOffset", 0, 9e15, &offset) ||
@@ -66,15 +85,10 @@ const struct gltf_view *gltf_view_at(struct gltf *gltf, int index)
         json_fail(&gltf->json, place, "%s is missing", view->buffer < 0 ? "buffer" : "byteLength");
         return NULL;
     }
-    if (!read_buffer(gltf, view->buffer))
+    const uint8_t *data;
+    if (!gltf_buffer_bytes(gltf, place, view->buffer, offset, length, &data))
         return NULL;
-    const struct gltf_buffer *buffer = &gltf->buffers[view->buffer];
-    if (offset > buffer->size || length > buffer->size - offset) {
-        json_fail(&gltf->json, place, "found bytes %zu to %zu, but buffer %d has only %zu", offset, offset + length,
-                  view->buffer, buffer->size);
-        return NULL;
-    }
-    view->data = buffer->data + offset;
+    view->data = data;
     view->size = length;
     view->stride = stride;
     return view;
@@ -82,6 +96,8 @@ const struct gltf_view *gltf_view_at(struct gltf *gltf, int index)
 
 void gltf_buffer_keep(struct gltf *gltf, int buffer)
 {
+    if (buffer < 0)
+        return; // decoded: the scene's already
     gltf->buffers[buffer].kept = true;
     gltf->source_kept |= gltf->buffers[buffer].data == gltf->binary;
 }

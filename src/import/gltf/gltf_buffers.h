@@ -9,6 +9,10 @@ bool gltf_buffers_start(struct gltf *gltf);
 // The bufferView of a number that was checked (gltf_take_index), its buffer read. NULL: an error.
 const struct gltf_view *gltf_view_at(struct gltf *gltf, int index);
 
+// Bytes of a buffer that is read when first used. False: it has no such bytes.
+bool gltf_buffer_bytes(struct gltf *gltf, const struct place *place, int index, size_t offset, size_t length,
+                       const uint8_t **out);
+
 // From now on an array of the scene lies in this buffer: its bytes stay as long as the scene.
 void gltf_buffer_keep(struct gltf *gltf, int buffer);
 

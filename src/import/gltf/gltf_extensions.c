@@ -17,6 +17,7 @@ static const struct {
     lam_extension_support support;
 } known[] = {
     {"EXT_mesh_gpu_instancing", READ},
+    {"EXT_meshopt_compression", READ},
     {"EXT_texture_webp", READ},
     {"KHR_lights_punctual", READ},
     {"KHR_materials_emissive_strength", READ},

@@ -1,0 +1,15 @@
+// gltf_meshopt.h: compressed bufferViews (EXT_meshopt_compression).
+#ifndef GLTF_MESHOPT_H
+#define GLTF_MESHOPT_H
+
+#include "gltf.h"
+
+// Decodes a bufferView that has the extension into memory of the scene. *done: whether it did; it leaves a view with plain
+// bytes to the caller where meshoptimizer is not installed. False: an error.
+bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const json_t *view, struct gltf_view *out,
+                         bool *done);
+
+// Whether a buffer only stands for bytes that every view of it has compressed elsewhere.
+bool gltf_meshopt_is_fallback(const json_t *buffer);
+
+#endif

@@ -58,7 +58,10 @@ typedef struct lam_shader_uniform {
     const char *meaning; // one line
     int count;           // numbers in `value`; 0: a sampler
     float value[16];     // matrices are column-major, as glUniformMatrix takes them
-    LAM_RESERVED(4);
+    // Of the sampler of a material's map: its texture, and how it is read. NULL: another uniform, or the run's material has no
+    // such map, and any texture may be bound. It belongs to the scene.
+    const lam_texture_map *map;
+    LAM_RESERVED(3);
 } lam_shader_uniform;
 
 // The content of a float texture (RGBA32F, not filtered), 1024 texels to a row; the last row may be short.

@@ -42,17 +42,47 @@ static bool is_selected(const struct frame *frame, const struct frame_draw_range
     return object < 0 || frame->draws[range->draw].object == object;
 }
 
+// Adds the maps of other materials, which may have some more: a map that a material has not is 1 everywhere (glsl_map_values).
+// False: one text cannot read both.
+static bool merge_maps(struct glsl_choices *all, const struct glsl_choices *own)
+{
+    bool same = true;
+    for (int side = 0; side < 2; side++) {
+        uint8_t *alpha = &all->alpha[side];
+        same &= all->converted[side] == own->converted[side];
+        same &= (*alpha == LAM_ALPHA_BLEND) == (own->alpha[side] == LAM_ALPHA_BLEND);
+        if (own->alpha[side] == LAM_ALPHA_MASK) // opaque ones have a cutoff of 0
+            *alpha = LAM_ALPHA_MASK;
+        for (int i = 0; i < LAM_MAP_COUNT; i++) {
+            struct glsl_map *a = &all->maps[side][i], b = own->maps[side][i];
+            a->texels = b.texels = (uint8_t)(side * LAM_MAP_COUNT + i); // each has a sampler of its own
+            same &= !a->used || !b.used || memcmp(a, &b, sizeof b) == 0;
+            if (!a->used)
+                *a = b;
+        }
+    }
+    return same;
+}
+
 // Merges the choices of all ranges, for one pair of sources. Vertex colours, back materials and the environment may be
 // used by some ranges only; the number of sides and the presence of tangents must be the same in all.
 static bool merge_choices(struct build *m, lam_stage stage, int object, lam_error *error)
 {
     const struct frame *frame = &m->frame;
     int first = -1;
+    bool mapped = false;
+    for (int i = 0; i < frame->range_count; i++)
+        mapped |= is_selected(frame, &frame->ranges[i], object) &&
+                  (glsl_reads_maps(frame, frame->materials[frame->ranges[i].front]) ||
+                   glsl_reads_maps(frame, frame->materials[frame->ranges[i].back]));
     for (int i = 0; i < frame->range_count; i++) {
         const struct frame_draw_range *range = &frame->ranges[i];
         if (!is_selected(frame, range, object))
             continue;
         struct glsl_choices own = glsl_choose(frame, range, stage);
+        for (int side = 0; side < 2 && mapped && !range->translucent; side++)
+            if (own.alpha[side] == LAM_ALPHA_BLEND) // as those with maps: their opacity is 1
+                own.alpha[side] = LAM_ALPHA_OPAQUE;
         if (first < 0) {
             m->choices = own;
             first = i;
@@ -70,6 +100,12 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, lam_erro
                         "objects %d and %d: one has tangents, the other has none, and one shader cannot draw both; "
                         "expected the number of one object",
                         a, b);
+        if (!merge_maps(&m->choices, &own))
+            return fail(
+                error, LAM_BAD_ARGUMENT,
+                "objects %d and %d: their materials blend, wrap, filter or convert differently, and one shader cannot "
+                "draw both; expected the number of one object",
+                a, b);
         m->choices.colors |= own.colors;
         m->choices.back_material |= own.back_material;
         if (own.environment)
@@ -223,7 +259,7 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
         return put(out, rows[row->semantic == GLSL_MAP_T], 4);
     }
     case GLSL_ALPHA_CUTOFF:
-        out[0] = material->alpha_cutoff;
+        out[0] = material->alpha_mode == LAM_ALPHA_MASK ? material->alpha_cutoff : 0;
         return 1;
     case GLSL_MAP:
     case GLSL_ENVIRONMENT:
@@ -279,6 +315,8 @@ static void add_uniform(const struct build *m, struct uniform_list *t, const str
     if (row->block)
         u->offset = block_offset(&t->end, u->type);
     u->count = value_of(m, range, row, member, index, u->value);
+    if (row->semantic == GLSL_MAP && range)
+        u->map = m->frame.materials[row->back ? range->back : range->front]->maps[row->map];
     u->name = name_of(&m->shader->arena, row, member, index);
     t->failed |= !u->name;
 }

@@ -194,6 +194,57 @@ static void uploads(void **state)
     lam_scene_free(next);
 }
 
+static const lam_shader_uniform *find(const lam_shader_draw *run, const char *name)
+{
+    for (int i = 0; i < run->uniform_count; i++)
+        if (strcmp(run->uniforms[i].name, name) == 0)
+            return &run->uniforms[i];
+    return NULL;
+}
+
+// Printed shaders: the sampler of a map names its texture; a run without the map has the value 1 whatever is bound; two ways to
+// wrap are too many for one text.
+static void printed_shaders(void **state)
+{
+    (void)state;
+    lam_error error = {0};
+    lam_texture *texture = random_texture(16, 16, 1);
+    lam_texture_map map = {.texture = texture, .wrap_s = LAM_WRAP_CLAMP, .scale = 0.5f, .offset = 0.25f}, other = map;
+    other.wrap_s = LAM_WRAP_MIRROR;
+    for (int i = 0; i < 2; i++) {
+        lam_scene *scene = floor_scene(&map);
+        lam_material material = lam_material_default();
+        material.unlit = true;
+        material.maps[LAM_MAP_DIFFUSE] = i ? &other : NULL;
+        lam_object object = lam_object_default();
+        object.mesh = lam_scene_add_shape(scene, "cube", NULL, &error);
+        object.material = lam_scene_add_material(scene, &material, &error);
+        assert_true(object.mesh >= 0 && object.material >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
+        lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
+        lam_shader *shader = lam_shader_make(scene, &camera, NULL, SIZE, SIZE, -1, NULL, &error);
+        if (i) {
+            assert_null(shader);
+            assert_int_equal(error.code, LAM_BAD_ARGUMENT);
+            lam_scene_free(scene);
+            continue;
+        }
+        assert_non_null(shader);
+        assert_int_equal(shader->draw_count, 2);
+        const lam_shader_uniform *sampler = find(&shader->draws[0], "diffuse_map");
+        assert_non_null(sampler);
+        assert_string_equal(sampler->type, "sampler2D");
+        assert_ptr_equal(sampler->map->texture, texture);
+        assert_true(find(&shader->draws[0], "diffuse_map_s")->value[3] == 0.5f);
+        assert_true(find(&shader->draws[0], "diffuse_map_t")->value[3] == 0.25f);
+        assert_null(find(&shader->draws[1], "diffuse_map")->map);
+        assert_true(find(&shader->draws[1], "diffuse_map_s")->value[3] == 0);
+        assert_true(find(&shader->draws[1], "diffuse_map_t")->value[3] == 1);
+        lam_shader_free(shader);
+        lam_scene_free(scene);
+    }
+    lam_texture_free(texture);
+}
+
 int main(void)
 {
     lam_error error = {0};
@@ -206,6 +257,7 @@ int main(void)
         cmocka_unit_test(wraps_and_filters),
         cmocka_unit_test(transforms_floats_and_anisotropy),
         cmocka_unit_test(uploads),
+        cmocka_unit_test(printed_shaders),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     lam_device_free(gl[0]);

@@ -108,7 +108,7 @@ static int binding_of(const char *block)
 
 static void set_all(FILE *file, const lam_shader_uniform *list, int count)
 {
-    int unit = 2; // 0 and 1 are the lists of lights
+    int unit = 2, map_unit = 3; // 0 and 1 are the lists of lights, 2 is the environment
     for (int i = 0; i < count;) {
         const lam_shader_uniform *u = &list[i];
         if (u->block) {
@@ -117,9 +117,16 @@ static void set_all(FILE *file, const lam_shader_uniform *list, int count)
                     u->block, u->block);
             continue;
         }
-        if (!u->count && strcmp(u->type, "sampler2D") == 0) {
-            bool lights = strcmp(u->name, "light_list") == 0;
+        bool lights = strcmp(u->name, "light_list") == 0;
+        if (!u->count && (lights || strcmp(u->name, "product_list") == 0)) {
             fprintf(file, "    set_list(program, \"%s\", %d, %s, %s_texels);\n", u->name, !lights, u->name, u->name);
+        } else if (!u->count && strcmp(u->type, "sampler2D") == 0) {
+            fprintf(file,
+                    "    // %s\n    glUniform1i(glGetUniformLocation(program, \"%s\"), %d); // your texture (--json "
+                    "names it): "
+                    "glActiveTexture(GL_TEXTURE0 + %d)\n",
+                    u->meaning, u->name, map_unit, map_unit);
+            map_unit++;
         } else if (!u->count) {
             fprintf(file,
                     "    // %s\n    glUniform1i(glGetUniformLocation(program, \"%s\"), %d); // your texture: "

@@ -11,6 +11,29 @@ static void numbers(struct json *json, const char *key, const float *values, int
     json_close(json, ']');
 }
 
+// A material's map, of the uniform that is its sampler.
+static void map_of(struct json *json, const lam_texture_map *map)
+{
+    static const char *const wraps[] = {"repeat", "clamp", "mirror"}, *const filters[] = {"linear", "nearest"};
+    static const char *const mips[] = {"linear", "nearest", "none"};
+    if (!map) {
+        json_none(json, "map");
+        return;
+    }
+    json_open(json, "map", '{');
+    json_text(json, "texture", lam_texture_name(map->texture));
+    json_count(json, "width", (uint64_t)lam_texture_width(map->texture, 0));
+    json_count(json, "height", (uint64_t)lam_texture_height(map->texture, 0));
+    json_text(json, "values", lam_texture_values_of(map->texture) == LAM_TEXTURE_COLOR ? "color" : "numbers");
+    json_count(json, "texcoords", (uint64_t)map->texcoords);
+    json_text(json, "wrap_s", wraps[map->wrap_s]);
+    json_text(json, "wrap_t", wraps[map->wrap_t]);
+    json_text(json, "magnify", filters[map->magnify]);
+    json_text(json, "minify", filters[map->minify]);
+    json_text(json, "mip", mips[map->mip]);
+    json_close(json, '}');
+}
+
 static void uniforms(struct json *json, const char *key, const lam_shader_uniform *list, int count)
 {
     json_open(json, key, '[');
@@ -29,6 +52,7 @@ static void uniforms(struct json *json, const char *key, const lam_shader_unifor
             numbers(json, "value", u->value, u->count);
         else
             json_none(json, "value");
+        map_of(json, u->map);
         json_close(json, '}');
     }
     json_close(json, ']');

@@ -194,6 +194,30 @@ static void uploads(void **state)
     lam_scene_free(next);
 }
 
+// Under Gouraud shading the device refuses a picture that would lack its textures, and draws the geometry.
+static void gouraud_is_refused(void **state)
+{
+    (void)state;
+    if (!gl[0])
+        skip();
+    lam_error error = {0};
+    lam_texture *texture = random_texture(8, 8, 1);
+    lam_texture_map map = {.texture = texture};
+    lam_scene *scene = floor_scene(&map);
+    lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
+    lam_draw_params params = {.shading = LAM_SHADING_GOURAUD, .samples = 1};
+    lam_image image = {0};
+    assert_true(lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error));
+    assert_false(lam_draw(gl[0], scene, &camera, &params, &image, NULL, &error));
+    assert_int_equal(error.code, LAM_UNSUPPORTED);
+    assert_non_null(strstr(error.text, "diffuse map"));
+    params.output = LAM_OUTPUT_DEPTH;
+    assert_true(lam_draw(gl[0], scene, &camera, &params, &image, NULL, &error));
+    lam_image_free(&image);
+    lam_scene_free(scene);
+    lam_texture_free(texture);
+}
+
 static const lam_shader_uniform *find(const lam_shader_draw *run, const char *name)
 {
     for (int i = 0; i < run->uniform_count; i++)
@@ -254,9 +278,8 @@ int main(void)
         print_message("%s\n", gl[i] ? lam_device_name(gl[i]) : error.text);
     }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wraps_and_filters),
-        cmocka_unit_test(transforms_floats_and_anisotropy),
-        cmocka_unit_test(uploads),
+        cmocka_unit_test(wraps_and_filters), cmocka_unit_test(transforms_floats_and_anisotropy),
+        cmocka_unit_test(uploads),           cmocka_unit_test(gouraud_is_refused),
         cmocka_unit_test(printed_shaders),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -209,8 +209,9 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
     if (!is_zero(p->t))
         vector(2, "t", p->t, "along the threads");
     bool colored = p->color.r != 1 || p->color.g != 1 || p->color.b != 1;
+    const char *tinting = f->surface.maps[LAM_MAP_DIFFUSE] ? "texture and vertex colour" : "vertex colour";
     if (colored)
-        color(2, "vertex colour", p->color, "multiplies ambient and diffuse");
+        color(2, tinting, p->color, "multiplies ambient and diffuse");
     print_lights(e, f, p);
     for (int i = 0; i < p->hemisphere_count; i++)
         print_hemisphere(&p->hemispheres[i], i);
@@ -230,7 +231,9 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
     }
 
     printf("\n  terms\n");
-    const char *tint = colored ? ", times the vertex colour" : "";
+    const char *tint = !colored                           ? ""
+                       : f->surface.maps[LAM_MAP_DIFFUSE] ? ", times texture and vertex colour"
+                                                          : ", times the vertex colour";
     char text[200];
     if (f->reflection == LAM_REFLECTION_NONE) {
         snprintf(text, sizeof text, "kd: unlit%s", tint);

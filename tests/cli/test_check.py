@@ -377,6 +377,14 @@ class Unruly(CheckTest):
                                 "--scenes", "all,diffuse,coarse,near", code=6)
         self.assertEqual({m["id"] for m in report["mistakes"]}, {"normal-not-unit", "specular-not-attenuated"})
 
+    def test_every_size(self):
+        """Pictures with mistakes are drawn at every second or third pixel of large ones: the names are the same."""
+        words = self.shader("pittsburgh", [("frag", "0.0), shininess)", "0.0), 2.0 * shininess)")])
+        for size in (96, 119, 121, 128):
+            report = self.report_of(*words, "--scenes", "all,highlight,gate", size=size, code=6)
+            self.assertEqual([m["id"] for m in report["mistakes"]], ["shininess-multiplied"], size)
+            self.assertLess(report["mistakes"][0]["mean_after"], 1e-3)
+
     def test_not_numbers(self):
         report = self.report_of(*self.shader("oregon", [("frag", "max(dot(r, e), 0.0)", "dot(r, e)"), ("frag", "dot(n, l) > 0.0 ?", "true ?")]),
                                 "--scenes", "gate,diffuse", code=6)

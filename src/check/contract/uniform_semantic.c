@@ -17,7 +17,7 @@ static struct uniform_value number(float x) { return (struct uniform_value){{x}}
 
 struct uniform_value matrix_value(const lam_mat4 *m)
 {
-    struct uniform_value out;
+    struct uniform_value out = {{0}};
     for (int c = 0; c < 4; c++)
         for (int r = 0; r < 4; r++)
             out.v[4 * c + r] = (float)m->m[r][c];

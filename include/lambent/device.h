@@ -196,10 +196,6 @@ typedef struct lam_draw_params {
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the light's number in lam_draw_lights.
     int output_light;
     lam_tone tone; // the curve between exposure and encoding, of pictures of 8 bits
-    // Physical materials under an environment: the number of directions per point over which the light is summed, in
-    // place of the split sum's tables; 0: the split sum. At most 65536. CPU device only: others fail with
-    // LAM_UNSUPPORTED.
-    int reference;
     LAM_RESERVED(27);
 } lam_draw_params;
 

@@ -71,6 +71,14 @@ LAM_API int lam_environment_size(const lam_environment *environment);
 // means of it, which the first frame that needs them makes and the environment keeps (docs/lighting/environment.md).
 LAM_API lam_rgb lam_environment_sample(const lam_environment *environment, lam_vec3 direction);
 
+// The light of an environment on physical materials as the texture `environment_light` of exported shaders (lambent/shader.h):
+// makes an LAM_RGBA32F picture 1024 texels wide, which the caller frees with lam_image_free. It holds the prefiltered levels
+// 1 to 11 and the irradiance divided by pi, each six faces in the order of lam_cube_face with a border of one texel, row by
+// row, one texel after the other across the rows of the picture; docs/lighting/environment.md lists sizes and roughnesses.
+// `control` may be NULL. Errors: LAM_BAD_ARGUMENT (NULL), LAM_LIMIT, LAM_CANCELLED.
+LAM_API bool lam_environment_light_image(const lam_environment *environment, struct lam_image *image,
+                                         const lam_control *control, lam_error *error);
+
 #ifdef __cplusplus
 }
 #endif

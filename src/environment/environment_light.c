@@ -7,6 +7,7 @@
 
 #include "call_control.h"
 #include "fail.h"
+#include "float_state.h"
 #include "linear.h"
 #include "pool.h"
 
@@ -15,6 +16,7 @@
 
 #include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 
 // --- the cells of a lobe
 
@@ -288,14 +290,26 @@ void environment_light_free(struct environment_light *light)
     free(light);
 }
 
+int environment_light_first(int level)
+{
+    size_t bytes = 0;
+    for (int i = 1; i < level; i++)
+        bytes += cube_bytes(prefiltered_size(i));
+    return (int)(bytes / (3 * sizeof(float)));
+}
+
+int environment_light_rows(void)
+{
+    int texels = environment_light_first(ENVIRONMENT_LEVELS) + (int)(cube_bytes(IRRADIANCE_SIZE) / (3 * sizeof(float)));
+    return (texels + ENVIRONMENT_LIGHT_WIDTH - 1) / ENVIRONMENT_LIGHT_WIDTH;
+}
+
 static struct environment_light *make(const struct lam_environment *cube, struct pool *pool, struct call_control *call,
                                       lam_error *error)
 {
     struct environment_light *light = calloc(1, sizeof *light);
-    size_t bytes = cube_bytes(IRRADIANCE_SIZE) + CUBE_TEXELS_AFTER;
-    for (int i = 1; i < ENVIRONMENT_LEVELS; i++)
-        bytes += cube_bytes(prefiltered_size(i));
-    float *at = light ? malloc(bytes) : NULL;
+    size_t bytes = (size_t)environment_light_rows() * ENVIRONMENT_LIGHT_WIDTH * 3 * sizeof(float) + CUBE_TEXELS_AFTER;
+    float *at = light ? calloc(1, bytes) : NULL;
     if (!at) {
         free(light);
         fail_memory(error, bytes);
@@ -332,4 +346,26 @@ const struct environment_light *environment_light(const struct lam_environment *
     }
     pthread_mutex_unlock(&one_maker);
     return light;
+}
+
+bool lam_environment_light_image(const lam_environment *cube, lam_image *image, const lam_control *control,
+                                 lam_error *error)
+{
+    if (!cube || !image)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_environment_light_image: %s is NULL", cube ? "image" : "environment");
+    struct call_control call;
+    call_start(&call, control);
+    uint64_t state = float_state_enter();
+    const struct environment_light *light = environment_light(cube, NULL, &call, error);
+    float_state_leave(state);
+    int rows = environment_light_rows();
+    if (!light || !lam_image_make(image, ENVIRONMENT_LIGHT_WIDTH, rows, LAM_RGBA32F, error))
+        return false;
+    float *out = image->pixels;
+    const float *from = light->texels;
+    for (size_t i = 0; i < (size_t)rows * ENVIRONMENT_LIGHT_WIDTH; i++, out += 4, from += 3) {
+        memcpy(out, from, 3 * sizeof *out);
+        out[3] = 1;
+    }
+    return true;
 }

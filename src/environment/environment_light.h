@@ -20,10 +20,16 @@ enum { ENVIRONMENT_LEVELS = 12, IRRADIANCE_SIZE = 32 };
 struct environment_light {
     struct lam_environment level[ENVIRONMENT_LEVELS]; // [0] shares the texels of the environment
     struct lam_environment irradiance;
-    float *texels; // of all but level[0]
+    float *texels; // of all but level[0], in whole rows of ENVIRONMENT_LIGHT_WIDTH texels
 };
 
 int prefiltered_size(int level); // texels on a side of levels 1 and up
+// Levels 1 and up and the irradiance, each six faces with their borders (cube_map.h), lie one after the other in `texels`:
+// the number of the first texel of a level, of the irradiance for ENVIRONMENT_LEVELS, and the rows of a texture of
+// ENVIRONMENT_LIGHT_WIDTH texels that hold all of them.
+enum { ENVIRONMENT_LIGHT_WIDTH = 1024 };
+int environment_light_first(int level);
+int environment_light_rows(void);
 double prefiltered_roughness(int level);
 
 // The light of an environment, made by the first call and kept with the environment; any number of threads may ask. `pool`

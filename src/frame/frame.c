@@ -70,9 +70,6 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "anisotropy is %d, expected 0 to 16", params->anisotropy);
     if ((unsigned)params->tone >= LAM_TONE_COUNT)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: tone %d is not one of lam_tone", (int)params->tone);
-    if (params->reference < 0 || params->reference > 65536)
-        return fail(error, LAM_BAD_ARGUMENT, "reference is %d, expected directions per point, 1 to 65536, or 0",
-                    params->reference);
     if (!(params->light_cutoff >= -3e38f && params->light_cutoff <= 1))
         return fail(error, LAM_BAD_ARGUMENT, "light_cutoff is %g, expected at most 1", (double)params->light_cutoff);
     if ((unsigned)params->output >= LAM_OUTPUT_COUNT || params->output_light < 0)

@@ -2,6 +2,7 @@
 #include "gl_device.h"
 
 #include "cube_map.h"
+#include "environment_light.h"
 #include "fail.h"
 #include "srgb.h"
 
@@ -40,6 +41,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     }
     c->reflection = wanted.reflection;
     c->environment = wanted.environment;
+    c->environment_light = wanted.environment_light;
     c->distant_viewer = wanted.distant_viewer;
     c->gl1 = wanted.gl1;
     c->single_scattering = wanted.single_scattering;
@@ -148,7 +150,8 @@ static bool set_up_draw(struct gl_frame *f, const struct frame_draw_range *list,
         call->by_elements = mesh->elements != 0;
         call->program = program_for(f, &c, error); // compiled by set_up
         if (!call->program || !textures_upload(f, call->program, call->range, error) ||
-            (c.environment != GLSL_NO_ENVIRONMENT && !environment_send(f, error)))
+            (c.environment != GLSL_NO_ENVIRONMENT && !environment_send(f, error)) ||
+            (c.environment_light && !environment_light_send(f, error)))
             return false;
     }
     return true;
@@ -160,6 +163,9 @@ static bool set_up(struct gl_frame *f, lam_error *error)
     const struct frame *frame = f->frame;
     if (!frame->range_count)
         return true;
+    if (frame->environment_lights &&
+        !(f->environment_light = environment_light(frame->environment, NULL, f->call, error)))
+        return false;
     struct glsl_choices any;
     choices_of(f, &frame->ranges[0], &any);
     f->storage = light_buffers_storage(f->device, &any);

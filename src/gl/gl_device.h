@@ -28,6 +28,7 @@ enum texture_unit {
     UNIT_PRODUCTS,
     UNIT_NEARER_DEPTH_IDS, // of the previous layer
     UNIT_OPAQUE_DEPTH_IDS, // of the opaque surfaces
+    UNIT_ENVIRONMENT_LIGHT,
     UNIT_COPY,
     UNIT_FIRST_MAP, // the maps of materials
     UNIT_COUNT = 16 // every driver has as many (OpenGL 3.3 and ES 3.0, GL_MAX_TEXTURE_IMAGE_UNITS)
@@ -197,7 +198,8 @@ struct gl_device {
     struct gl_targets targets;
     struct gl_light_buffer lights, products;
     struct lam_environment *environment; // retained; its faces are in environment_texture
-    GLuint environment_texture;
+    GLuint environment_texture, environment_light_texture;
+    const struct environment_light *environment_light; // in the texture; kept by `environment`
     uint64_t environment_bytes, target_bytes;
     struct gl_current_state current;
     struct buffer scratch;    // vertices before an upload
@@ -230,7 +232,8 @@ struct gl_frame {
     struct gl_draw_call *draw_calls;
     int draw_call_count;
     enum glsl_storage storage;
-    bool layered; // blended surfaces are peeled
+    const struct environment_light *environment_light; // on physical materials; NULL: none
+    bool layered;                                      // blended surfaces are peeled
     lam_stage stage;
     size_t material_stride; // distance between the products of consecutive materials, in bytes or texels
     // The part of the picture that is being drawn, and the sample's offset from the pixel's centre (pixels, y down).
@@ -310,6 +313,8 @@ void programs_free(struct gl_device *device);
 bool light_buffers_send(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
 enum glsl_storage light_buffers_storage(const struct gl_device *device, const struct glsl_choices *choices);
 bool environment_send(struct gl_frame *f, lam_error *error);
+// Uploads f->environment_light, likewise.
+bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
 // --- gl_targets.c

@@ -3,6 +3,7 @@
 #include "gl_device.h"
 
 #include "cube_map.h"
+#include "environment_light.h"
 #include "fail.h"
 
 #include <string.h>
@@ -153,6 +154,7 @@ bool environment_send(struct gl_frame *f, lam_error *error)
         return false;
     lam_environment_free(device->environment);
     device->environment = NULL;
+    device->environment_light = NULL; // another may come to lie at its address
     bool fresh = !device->environment_texture;
     if (fresh)
         gl->GenTextures(1, &device->environment_texture);
@@ -161,6 +163,28 @@ bool environment_send(struct gl_frame *f, lam_error *error)
         plain_texture(gl, GL_TEXTURE_2D_ARRAY);
     gl->TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGB32F, side, side, 6, 0, GL_RGB, GL_FLOAT, cube->texels);
     device->environment = cube_share(cube);
+    device->base.report.bytes_uploaded += bytes;
+    return true;
+}
+
+bool environment_light_send(struct gl_frame *f, lam_error *error)
+{
+    struct gl_device *device = f->device;
+    const struct gl *gl = f->gl;
+    if (device->environment_light == f->environment_light)
+        return true;
+    uint64_t held = 0, bytes = (uint64_t)environment_light_rows() * ENVIRONMENT_LIGHT_WIDTH * 3 * sizeof(float);
+    if (!gl_charge(f, &held, bytes, error))
+        return false;
+    bool fresh = !device->environment_light_texture;
+    if (fresh)
+        gl->GenTextures(1, &device->environment_light_texture);
+    gl_use_texture(device, UNIT_ENVIRONMENT_LIGHT, GL_TEXTURE_2D, device->environment_light_texture);
+    if (fresh)
+        plain_texture(gl, GL_TEXTURE_2D);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, ENVIRONMENT_LIGHT_WIDTH, environment_light_rows(), 0, GL_RGB, GL_FLOAT,
+                   f->environment_light->texels);
+    device->environment_light = f->environment_light;
     device->base.report.bytes_uploaded += bytes;
     return true;
 }
@@ -176,5 +200,7 @@ void light_buffers_free(struct gl_device *device)
     }
     if (device->environment_texture)
         gl->DeleteTextures(1, &device->environment_texture);
+    if (device->environment_light_texture)
+        gl->DeleteTextures(1, &device->environment_light_texture);
     lam_environment_free(device->environment);
 }

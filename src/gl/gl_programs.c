@@ -102,8 +102,8 @@ static bool find_uniforms(struct gl_frame *f, struct gl_program *program, lam_er
         program->locations[UNIFORM_HEAD + i] = gl->GetUniformLocation(program->name, name);
         program->locations[UNIFORM_BACK_HEAD + i] = gl->GetUniformLocation(program->name, back);
     }
-    static const char *const textures[UNIT_COPY] = {"environment_faces", "light_list", "product_list",
-                                                    "nearer_depth_ids", "opaque_depth_ids"};
+    static const char *const textures[UNIT_COPY] = {"environment_faces", "light_list",       "product_list",
+                                                    "nearer_depth_ids",  "opaque_depth_ids", "environment_light"};
     for (int unit = 0; unit < UNIT_COPY; unit++) {
         GLint at = gl->GetUniformLocation(program->name, textures[unit]);
         if (at >= 0)

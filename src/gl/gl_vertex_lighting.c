@@ -8,6 +8,7 @@
 #include "cube_lookup.h"
 #include "cube_map.h"
 #include "lighting.h"
+#include "surroundings_at.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -18,6 +19,7 @@ enum { CHUNK = 4096 }; // vertices lit in one go, a multiple of LANES
 // One side of a range.
 struct side {
     const struct frame *frame;
+    const struct environment_light *environment_light; // on physical materials; NULL: none
     const struct frame_draw *draw;
     const lam_mesh *mesh;
     const lam_material *material;
@@ -98,7 +100,14 @@ LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color)
         if (frame->gl1)
             sum = add_arriving_ambient(sum, product3(&m->ambient.r, l->ambient), t);
     }
-    if (frame->environment && (m->reflectivity.r != 0 || m->reflectivity.g != 0 || m->reflectivity.b != 0))
+    if (side->environment_light && (lobe_properties(model) & LOBE_MICROFACET)) {
+        vec3 kd = scale3(mul3(of3(&m->diffuse.r), color), num_of(1.0f - m->metallic));
+        vec3 light =
+            surroundings_light(mirror, kd, surroundings_at(frame, side->environment_light, s, num_of(m->roughness)));
+        sum.reflection = pick3(both(present(s.n), present(s.v)), add3(sum.reflection, light), sum.reflection);
+    }
+    if (frame->environment && !m->physical &&
+        (m->reflectivity.r != 0 || m->reflectivity.g != 0 || m->reflectivity.b != 0))
         sum = add_environment(sum, of3(&m->reflectivity.r), environment_of(frame, s));
     return tint_terms(sum, color);
 }
@@ -275,6 +284,7 @@ static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const stru
 {
     const struct frame_draw *draw = &f->frame->draws[run->draw];
     struct side side = {.frame = f->frame,
+                        .environment_light = f->environment_light,
                         .draw = draw,
                         .mesh = &mesh->mesh,
                         .translucent = run->translucent,

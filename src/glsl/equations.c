@@ -211,7 +211,7 @@ static void write_definition(struct text *text, const struct piece *p)
 
 // --- all files
 
-enum { FILES = 5 };
+enum { FILES = 6 };
 
 struct equations {
     struct text sources[FILES];
@@ -244,9 +244,12 @@ static int keep(struct equations *w, char *calls)
 static void write_kept(struct text *text, const struct equations *w)
 {
     static const char *const titles[FILES] = {
-        "functions of vectors and numbers", "reflection of the light from one direction at a point of a surface",
-        "kinds of light", "light that arrives at a point: direction, distance, attenuation and cone",
-        "light that leaves a point: its terms and their sum"};
+        "functions of vectors and numbers",
+        "reflection of the light from one direction at a point of a surface",
+        "kinds of light",
+        "light that arrives at a point: direction, distance, attenuation and cone",
+        "light that leaves a point: its terms and their sum",
+        "tone curves: from light to colours of a screen"};
     int file = -1;
     bool define = false;
     for (int i = 0; i < w->count; i++) {
@@ -266,8 +269,8 @@ static void write_kept(struct text *text, const struct equations *w)
 
 void equations_add(struct text *text, char *calls, const struct known_condition *known)
 {
-    static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h, text_light_kinds_h, text_lights_h,
-                                               text_sum_h};
+    static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h, text_light_kinds_h,
+                                               text_lights_h,     text_sum_h,   text_tone_h};
     struct equations *w = calloc(1, sizeof *w);
     bool ok = w != NULL;
     for (int i = 0; ok && i < FILES; i++) {

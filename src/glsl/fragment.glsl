@@ -98,6 +98,9 @@ void main()
 //@if exposed
     light.rgb = light.rgb * exposure;
 //@end
+//@if toned
+    light.rgb = saturate3(@tone@(tone_input(light.rgb)));
+//@end
 //@if encoded
     @pixel@ = vec4(encode(light.r), encode(light.g), encode(light.b), light.a);
 //@elif premultiplied

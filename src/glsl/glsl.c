@@ -1,6 +1,7 @@
 // glsl.c: makes the texts of a vertex and a fragment shader from a set of choices.
 #include "glsl.h"
 
+#include "environment_light.h"
 #include "equations.h"
 #include "fail.h"
 #include "glsl_rows.h"
@@ -200,6 +201,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"has_cone", f->cones},
         {"has_environment", f->environment},
         {"cube_map", c->environment == GLSL_CUBE},
+        {"environment_light", f->environment_light},
         {"highlights", f->highlights},
         {"microfacet", f->microfacet},
         {"single_scattering", c->single_scattering},
@@ -212,6 +214,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"depth_ids", c->layer != GLSL_NO_LAYERS},
         {"peels", c->layer == GLSL_PEELS},
         {"exposed", c->exposes && !f->output_vector},
+        {"toned", c->tone > LAM_TONE_NONE && !f->output_vector && !f->output_geometry},
         {"encoded", c->encoding == GLSL_ENCODED},
         {"premultiplied", c->encoding == GLSL_PREMULTIPLIED},
         {NULL, false},
@@ -260,6 +263,15 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     }
     if (f->output_vector)
         add_output_vector(&vector, f);
+    struct text sizes = {0}, starts = {0};
+    for (int i = 0; i <= ENVIRONMENT_LEVELS; i++) {
+        int size = i == 0 ? 0 : i < ENVIRONMENT_LEVELS ? prefiltered_size(i) : IRRADIANCE_SIZE;
+        text_print(&sizes, "%s%d.0", i ? ", " : "", size);
+        text_print(&starts, "%s%d.0", i ? ", " : "", i ? environment_light_first(i) : 0);
+    }
+    char level_count[16], row_count[16];
+    snprintf(level_count, sizeof level_count, "%d", ENVIRONMENT_LEVELS + 1);
+    snprintf(row_count, sizeof row_count, "%d.0", environment_light_rows());
     const char *pixel = glsl_120 ? "gl_FragColor" : "pixel";
     const struct preprocess_value values[] = {
         {"hemispheres", numbers[1]},
@@ -293,11 +305,17 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"flat_varying", fragment ? "flat in " : "flat out "},
         {"attributes", attributes.bytes ? attributes.bytes : ""},
         {"pixel", pixel},
+        {"tone", glsl_tone_function(c->tone)},
+        {"level_sizes", sizes.bytes},
+        {"level_starts", starts.bytes},
+        {"level_count", level_count},
+        {"level_rows", row_count},
         {NULL, NULL},
     };
     const struct preprocess_words words = {flags, values};
-    const struct text *parts[] = {&groups, &vector, &attributes, &chosen, &metallic, &roughness, &alpha};
-    for (int i = 0; i < 7; i++)
+    const struct text *parts[] = {&groups,    &vector, &attributes, &chosen, &metallic,
+                                  &roughness, &alpha,  &sizes,      &starts};
+    for (int i = 0; i < 9; i++)
         if (parts[i]->failed) {
             text->failed = true;
             text->error = parts[i]->error;
@@ -317,6 +335,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     free(metallic.bytes);
     free(roughness.bytes);
     free(alpha.bytes);
+    free(sizes.bytes);
+    free(starts.bytes);
 }
 
 // --- the shader
@@ -372,7 +392,8 @@ static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *er
     if (c->version == GLSL_300_ES && fragment && c->layer == GLSL_PEELS)
         text_add(&text, "precision highp usampler2D;\n");
     if (c->version == GLSL_300_ES &&
-        ((fragment == f->per_fragment && c->storage == GLSL_TEXTURE) || (fragment && f->mapped)))
+        ((fragment == f->per_fragment && (c->storage == GLSL_TEXTURE || f->environment_light)) ||
+         (fragment && f->mapped)))
         text_add(&text, "precision highp sampler2D;\n");
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && f->environment)
         text_print(&text, "precision highp %s;\n", c->environment == GLSL_CUBE ? "samplerCube" : "sampler2DArray");

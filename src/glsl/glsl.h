@@ -65,6 +65,8 @@ struct glsl_choices {
     enum glsl_storage storage;
     enum glsl_encoding encoding;
     enum glsl_environment environment;
+    // The environment lights a physical material: sampler2D environment_light beside it (environment_light.h).
+    bool environment_light;
     enum glsl_layer layer;
     lam_stage stage; // never AUTO
     lam_shading shading;
@@ -73,6 +75,7 @@ struct glsl_choices {
     bool distant_viewer;
     bool gl1;
     bool single_scattering;
+    lam_tone tone;      // of GLSL_ENCODED; AUTO, NONE: the light is clamped
     bool exposes;       // the fragment multiplies its light by the uniform `exposure`
     bool products;      // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
     bool two_sided;     // the back is lit with −n

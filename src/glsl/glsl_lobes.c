@@ -30,6 +30,8 @@ static size_t name_length(const char *at) { return strspn(at, "abcdefghijklmnopq
 
 bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
 {
+    if (f->environment_light && (strcmp(parameter, "roughness") == 0 || strcmp(parameter, "metallic") == 0))
+        return true;
     if (!f->adds_lights || !f->lights)
         return false;
     bool numbers = f->converts && !f->microfacet; // the classic model's numbers come from these
@@ -98,4 +100,17 @@ void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
     else
         text_add(text, "1.0"); // the base is 0: no highlight
     text_add(text, ")");
+}
+
+const char *glsl_tone_function(lam_tone tone)
+{
+    switch (tone) {
+#define TONE(NAME, function, ...)                                                                                      \
+    case LAM_TONE_##NAME:                                                                                              \
+        return #function;
+        TONES(TONE)
+#undef TONE
+    default:
+        return "";
+    }
 }

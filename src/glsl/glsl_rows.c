@@ -24,7 +24,8 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
     f.adds_lights = sums;
     f.tangent = (sums && lobe->tangents) || (f.lit && c->output == LAM_OUTPUT_TANGENTS);
     f.highlights = sums && c->light_count > 0 && lobe->base;
-    f.microfacet = f.highlights && lobe->microfacet;
+    f.environment_light = f.environment && c->environment_light;
+    f.microfacet = lobe && lobe->microfacet && (f.highlights || f.environment_light);
     f.back_material = c->two_sided && c->back_material && f.lit && !f.output_vector;
     for (int i = 0; i < c->group_count; i++) {
         f.attenuated |= f.lights && !f.output_vector && c->groups[i].falloff != FALLOFF_NONE;
@@ -197,6 +198,10 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
         } else {
             add(&list, GLSL_ENVIRONMENT, "sampler2DArray", 0, NULL, "environment_faces");
             set_meaning(&list, "linear light; six faces +x -x +y -y +z -z, each with a border of one texel");
+        }
+        if (f->environment_light) {
+            add(&list, GLSL_ENVIRONMENT_LIGHT, "sampler2D", 0, NULL, "environment_light");
+            set_meaning(&list, "float texture, 1024 texels wide, no filter: lam_environment_light_image");
         }
     }
     if (!f->lit || f->output_vector) {

@@ -13,6 +13,7 @@ enum glsl_semantic {
     GLSL_NORMAL_MATRIX,
     GLSL_ENVIRONMENT_MATRIX,
     GLSL_ENVIRONMENT,
+    GLSL_ENVIRONMENT_LIGHT,
     GLSL_LIGHT_LIST,
     GLSL_PRODUCT_LIST,
     GLSL_FIRST_PRODUCT,
@@ -67,6 +68,7 @@ struct glsl_facts {
     bool microfacet;             // Fresnel's factor colours it
     bool tangent;                // light_point reads a tangent
     bool environment;            // light_point reads the environment
+    bool environment_light;      // as light of a physical material
     bool back_material;          // the back has a material of its own
     bool mapped;                 // the fragment shader reads maps
     bool maps[2][LAM_MAP_COUNT]; // those of the front, of the back
@@ -96,6 +98,9 @@ void glsl_add_maps(struct text *text, const struct glsl_facts *facts);
 void glsl_add_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
 // Appends the call that evaluates the lobe for the light sample `t`: "reflected_of(phong_lobe(s, t.l), shininess)".
 void glsl_add_lobe(struct text *text, const struct glsl_facts *facts);
+
+// The function of a tone curve; "": none.
+const char *glsl_tone_function(lam_tone tone);
 
 // Lists the uniforms of both shaders in the order of their declaration, which is also the layout of each block. Returns
 // their number.

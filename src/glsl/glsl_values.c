@@ -37,8 +37,11 @@ struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_dr
     c.back_material = c.two_sided && range->back != range->front;
     c.colors = draw->mesh->colors != NULL;
     c.tangents = draw->mesh->tangents != NULL;
-    if (frame->environment &&
-        (mirrors(frame->materials[range->front]) || (c.back_material && mirrors(frame->materials[range->back]))))
+    if (frame->environment_lights && frame_is_physical(range->reflection)) {
+        c.environment = GLSL_FACES;
+        c.environment_light = true;
+    } else if (frame->environment && !frame_is_physical(range->reflection) &&
+               (mirrors(frame->materials[range->front]) || (c.back_material && mirrors(frame->materials[range->back]))))
         c.environment = GLSL_FACES;
     find_groups(&c, frame);
     glsl_choose_maps(&c, frame, range);

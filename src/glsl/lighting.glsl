@@ -34,6 +34,71 @@ vec3 environment_color(vec3 d)
 }
 //@end
 //@end
+//@if environment_light
+
+// Texel i of the prefiltered environment and of the irradiance.
+vec3 environment_light_texel(float i)
+{
+    float row = floor(i / 1024.0);
+//@if glsl_120
+    return texture2D(environment_light, (vec2(i - 1024.0 * row, row) + 0.5) / vec2(1024.0, @level_rows@)).rgb;
+//@else
+    return texelFetch(environment_light, ivec2(int(i - 1024.0 * row), int(row)), 0).rgb;
+//@end
+}
+
+// The point where a direction meets a cube, -1...1 on its face, and the number of the face (OpenGL 4.6, 8.13).
+vec3 cube_point(vec3 e)
+{
+    vec3 size = abs(e);
+    bool on_x = size.x >= size.y && size.x >= size.z;
+    bool on_y = !on_x && size.y >= size.z;
+    float major = on_x ? size.x : (on_y ? size.y : size.z);
+    bool minus = (on_x ? e.x : (on_y ? e.y : e.z)) < 0.0;
+    float across = on_x ? (minus ? e.z : -e.z) : (on_y ? e.x : (minus ? -e.x : e.x));
+    float down = on_y ? (minus ? -e.z : e.z) : -e.y;
+    float face = (on_x ? 0.0 : (on_y ? 2.0 : 4.0)) + (minus ? 1.0 : 0.0);
+    return major > 0.0 ? vec3(vec2(across, down) / major, face) : vec3(0.0, 0.0, face);
+}
+
+// The light of a level at a point of a cube. Each level is six faces with a border of one texel, one after the other.
+vec3 level_color(int level, vec3 point)
+{
+    const float sizes[@level_count@] = float[@level_count@](@level_sizes@);
+    const float starts[@level_count@] = float[@level_count@](@level_starts@);
+    float size = sizes[level];
+    float side = size + 2.0;
+    vec2 texel = clamp(point.xy * (0.5 * size) + (0.5 * size + 0.5), vec2(0.5), vec2(size + 0.5));
+    vec2 corner = floor(texel);
+    vec2 part = texel - corner;
+    float first = starts[level] + (point.z * side + corner.y) * side + corner.x;
+    vec3 a = environment_light_texel(first);
+    vec3 b = environment_light_texel(first + 1.0);
+    vec3 c = environment_light_texel(first + side);
+    vec3 d = environment_light_texel(first + side + 1.0);
+    return mix3(mix3(a, b, part.x), mix3(c, d, part.x), part.y);
+}
+
+// The light around the direction d in eye space: level 0 is the environment, as a mirror shows it.
+vec3 prefiltered_color(vec3 d, float level)
+{
+    vec3 point = cube_point(environment_matrix * d);
+    float first = min_of(floor(level), PREFILTERED_LAST - 1.0);
+    vec3 low = first > 0.5 ? level_color(int(first), point) : environment_color(d);
+    return mix3(low, level_color(int(first) + 1, point), level - first);
+}
+
+surroundings surroundings_of(surface s, float roughness)
+{
+    surroundings e;
+    float n_dot_v = dot3(s.n, s.v);
+    e.irradiance = level_color(int(PREFILTERED_LAST) + 1, cube_point(environment_matrix * s.n));
+    e.prefiltered = prefiltered_color(mirror3(s.v, s.n), prefilter_level(roughness));
+    e.albedo = single_scattering(n_dot_v, roughness);
+    e.bias = schlick_scattering(n_dot_v, roughness);
+    return e;
+}
+//@end
 //@if reads_lights
 
 // --- lights and materials
@@ -270,7 +335,14 @@ vec4 light_point(@lit_parameters@)
 //@end
 //@if has_environment
     if (present(s.n) && present(s.v)) {
-//@if products
+//@if environment_light
+        vec3 matt = scale3(base, 1.0 - @metallic@);
+        vec3 arriving = surroundings_light(mirror, matt, surroundings_of(s, @roughness@));
+//@if map_occlusion
+        arriving = scale3(arriving, maps.occlusion);
+//@end
+        sum.reflection = add3(sum.reflection, arriving);
+//@elif products
         sum = add_environment(sum, $(reflectivity).rgb, environment_color(mirror3(s.v, s.n)));
 //@else
         sum = add_environment(sum, m.reflectivity.rgb, environment_color(mirror3(s.v, s.n)));

@@ -110,6 +110,7 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, lam_erro
         m->choices.back_material |= own.back_material;
         if (own.environment)
             m->choices.environment = own.environment;
+        m->choices.environment_light |= own.environment_light;
     }
     if (first < 0)
         return fail(error, LAM_BAD_ARGUMENT, "object is %d, expected an object with triangles, 0 to %d", object,
@@ -131,6 +132,8 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
     c->storage = !params->lights && c->version == GLSL_120 ? GLSL_ARRAY : storages[params->lights];
     c->encoding = m->frame.color == LAM_COLOR_RAW ? GLSL_STRAIGHT : GLSL_ENCODED;
     c->exposes = m->frame.exposure != 1;
+    if (c->encoding == GLSL_ENCODED)
+        c->tone = m->frame.tone;
     c->products = params->products;
     if (c->environment)
         c->environment = GLSL_CUBE;
@@ -263,6 +266,7 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
         return 1;
     case GLSL_MAP:
     case GLSL_ENVIRONMENT:
+    case GLSL_ENVIRONMENT_LIGHT:
     case GLSL_LIGHT_LIST:
     case GLSL_PRODUCT_LIST:
         break;

@@ -327,6 +327,12 @@ static void test_any_size(void **state)
                 if (!(fabsf(cube->texels[k] / 2e38f - 1) < 1e-4f))
                     fail_msg("level %d, number %zu: %g, expected 2e38", i, k, (double)cube->texels[k]);
         }
+        lam_image texture = {0};
+        assert_true(lam_environment_light_image(environment, &texture, NULL, &error));
+        assert_int_equal(texture.width, ENVIRONMENT_LIGHT_WIDTH);
+        const float *last = (const float *)texture.pixels + 4 * (size_t)environment_light_first(ENVIRONMENT_LEVELS);
+        assert_memory_equal(last, light->irradiance.texels, 3 * sizeof(float));
+        lam_image_free(&texture);
         lam_environment_free(environment);
         lam_image_free(&image);
     }

@@ -250,7 +250,6 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
         .color = (lam_color_mode)o->color_mode,
         .exposure = o->exposure_kind == EXPOSURE_LITERAL ? o->exposure : 0,
         .tone = (lam_tone)o->tone,
-        .reference = o->reference,
         .rig = rig,
         .shading = o->has_shading ? (lam_shading)o->shading
                    : by_vertex    ? LAM_SHADING_GOURAUD

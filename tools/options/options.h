@@ -28,7 +28,6 @@ struct options {
     double exposure;        // stops, where the next is literal
     int exposure_kind;      // enum exposure_kind
     int tone;               // lam_tone
-    int reference;          // directions per point; 0: the split sum
     const char *show;       // as written (show_option.h); NULL: the picture
 
     const char *save_scene; // the scene file to write; NULL: none

@@ -136,11 +136,13 @@ typedef enum lam_output {
 // primaries of sRGB, and returns linear light from 0 to 1, which is then encoded (docs/lighting/tone.md has formulas, sources
 // and plots). They apply to pictures of 8 bits; pictures of floats hold the light itself.
 typedef enum lam_tone {
-    LAM_TONE_AUTO = 0, // KHRONOS_NEUTRAL where the frame shows a physical material, else NONE
+    // KHRONOS_NEUTRAL where the frame shows a physical material, else NONE.
+    LAM_TONE_AUTO = 0,
     LAM_TONE_NONE,     // each channel is cut off at 1
     LAM_TONE_REINHARD, // x / (1 + x) for each channel (Reinhard et al., 2002)
-    LAM_TONE_ACES,     // Hill's fit of the ACES reference and output transform for sRGB screens
-    LAM_TONE_AGX,      // Sobotka's AgX, its default contrast by Wrensch's polynomial
+    // Hill's fit of the ACES reference and output transform for sRGB screens.
+    LAM_TONE_ACES,
+    LAM_TONE_AGX, // Sobotka's AgX, its default contrast by Wrensch's polynomial
     // Colours up to 0.8 stay as they are but for a slight offset; brighter ones are compressed and lose saturation
     // (Khronos PBR Neutral).
     LAM_TONE_KHRONOS_NEUTRAL,
@@ -195,7 +197,7 @@ typedef struct lam_draw_params {
     lam_output output; // the content of the frame
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the light's number in lam_draw_lights.
     int output_light;
-    lam_tone tone; // the curve between exposure and encoding, of pictures of 8 bits
+    lam_tone tone; // between exposure and encoding, of 8-bit pictures
     LAM_RESERVED(27);
 } lam_draw_params;
 

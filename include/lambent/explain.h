@@ -93,9 +93,9 @@ typedef struct lam_explained_point {
     //     kd ⊙ irradiance (1 − (0.04 scale + bias)) + prefiltered ⊙ (f0 scale + bias)
     // with the mix of dielectric and metal, and the light between microfacets, of the lights' Fresnel factor.
     float environment_roughness;
-    float environment_level; // of the prefiltered environment, 0 (a mirror) to 11 (roughness 1)
-    float environment_scale, environment_bias;
-    lam_rgb irradiance, prefiltered;
+    float environment_level;                   // prefiltered: 0 (a mirror) to 11 (roughness 1)
+    float environment_scale, environment_bias; // of the split sum
+    lam_rgb irradiance, prefiltered;           // light that falls in, linear
     LAM_RESERVED(3);
 } lam_explained_point;
 

@@ -198,7 +198,7 @@ typedef struct lam_draw_params {
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the light's number in lam_draw_lights.
     int output_light;
     lam_tone tone; // between exposure and encoding, of 8-bit pictures
-    LAM_RESERVED(27);
+    LAM_RESERVED(28);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.

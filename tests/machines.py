@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-ROOMS = ["base", "json", "image", "geometry", "environment", "scene", "shapes", "import", "scene_file", "load", "frame", "device", "cpu"]
+ROOMS = ["base", "json", "image", "geometry", "environment", "texture", "scene", "shapes", "import", "scene_file", "load", "frame", "device", "cpu"]
 INCLUDES = ["include", "src/lighting"] + [os.path.relpath(path, ROOT) for room in ROOMS
                                          for path, _, _ in os.walk(os.path.join(ROOT, "src", room))]
 FLAGS = ["-std=gnu11", "-O2", "-D_GNU_SOURCE", "-DNDEBUG", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Werror", "-Wno-psabi", "-c"]
@@ -24,7 +24,7 @@ MACHINES = {
              # Not used by the web page, whose files are in memory.
              "without": ["file.c", "file_write.c", "scene_write.c"]},
 }
-LEFT_OUT = ["png_read.c", "jpeg.c"]  # libspng's and libjpeg's own headers are the host's
+LEFT_OUT = ["png_read.c", "jpeg.c", "jpeg_write.c"]  # libspng's and libjpeg's own headers are the host's
 
 
 def sources(machine):

@@ -9,12 +9,12 @@
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
+#include "lock.h"
 #include "pool.h"
 
 #define LANES 4
 #include "cube_lookup.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -331,12 +331,12 @@ static struct environment_light *make(const struct lam_environment *cube, struct
 const struct environment_light *environment_light(const struct lam_environment *cube, struct pool *pool,
                                                   struct call_control *call, lam_error *error)
 {
-    static pthread_mutex_t one_maker = PTHREAD_MUTEX_INITIALIZER;
+    static lock one_maker = LOCK_INITIALIZER;
     struct environment_light **kept = (struct environment_light **)(uintptr_t)&cube->light;
     struct environment_light *light = __atomic_load_n(kept, __ATOMIC_ACQUIRE);
     if (light)
         return light;
-    pthread_mutex_lock(&one_maker);
+    lock_take(&one_maker);
     light = __atomic_load_n(kept, __ATOMIC_ACQUIRE);
     if (!light) {
         struct pool *own = pool ? NULL : pool_make(0);
@@ -344,7 +344,7 @@ const struct environment_light *environment_light(const struct lam_environment *
         pool_free(own);
         __atomic_store_n(kept, light, __ATOMIC_RELEASE);
     }
-    pthread_mutex_unlock(&one_maker);
+    lock_give(&one_maker);
     return light;
 }
 

@@ -3,8 +3,8 @@
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
+#include "lock.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -130,7 +130,7 @@ lam_environment *lam_environment_built_in(const char *name, lam_error *error)
 // --- the studio of scenes without lights
 
 struct lazy_environment {
-    pthread_mutex_t one_maker;
+    lock one_maker;
     struct lam_environment *made;
 };
 
@@ -138,17 +138,17 @@ struct lazy_environment *lazy_environment_make(void)
 {
     struct lazy_environment *lazy = calloc(1, sizeof *lazy);
     if (lazy)
-        pthread_mutex_init(&lazy->one_maker, NULL);
+        lock_start(&lazy->one_maker);
     return lazy;
 }
 
 const struct lam_environment *lazy_environment_studio(struct lazy_environment *lazy, lam_error *error)
 {
-    pthread_mutex_lock(&lazy->one_maker);
+    lock_take(&lazy->one_maker);
     if (!lazy->made)
         lazy->made = lam_environment_built_in("studio", error);
     const struct lam_environment *made = lazy->made;
-    pthread_mutex_unlock(&lazy->one_maker);
+    lock_give(&lazy->one_maker);
     return made;
 }
 
@@ -157,6 +157,6 @@ void lazy_environment_free(struct lazy_environment *lazy)
     if (!lazy)
         return;
     lam_environment_free(lazy->made);
-    pthread_mutex_destroy(&lazy->one_maker);
+    lock_end(&lazy->one_maker);
     free(lazy);
 }

@@ -199,6 +199,15 @@ static bool for_each_map(struct pictures *pictures, struct lam_scene *scene, int
     return true;
 }
 
+static size_t maps_from(const struct lam_scene *scene, int first)
+{
+    size_t count = 0;
+    for (int i = first; i < scene->materials.count; i++)
+        for (int slot = 0; slot < LAM_MAP_COUNT; slot++)
+            count += is_drawn(slot) && lam_scene_material(scene, i)->map_names[slot];
+    return count;
+}
+
 static bool open_pictures(struct pictures *pictures, struct arena *memory, lam_error *error)
 {
     for (size_t i = 0; i < pictures->count; i++) {
@@ -233,7 +242,9 @@ static bool check_pictures(const struct pictures *pictures, struct lam_scene *sc
 bool mtl_maps_read(const struct import_source *source, struct lam_scene *scene, int first, struct arena *memory,
                    lam_error *error)
 {
-    size_t most = (size_t)(scene->materials.count - first) * LAM_MAP_COUNT;
+    size_t most = maps_from(scene, first);
+    if (!most)
+        return true;
     struct pictures pictures = {source, arena_array(memory, most, sizeof *pictures.items), 0};
     if (!pictures.items)
         return call_memory_error(source->call, most * sizeof *pictures.items, error);

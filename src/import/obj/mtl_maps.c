@@ -80,7 +80,8 @@ static void set_transform(lam_texture_map *map, const float scale[2], const floa
 
 static lam_texture_map map_of(const char *text, bool *channel_given)
 {
-    struct options o = {(const uint8_t *)text, (const uint8_t *)text + (text ? strlen(text) : 0)};
+    const uint8_t *begin = (const uint8_t *)(text ? text : "");
+    struct options o = {begin, begin + strlen((const char *)begin)};
     float scale[3] = {1, 1, 1}, offset[3] = {0, 0, 0}, unused[3], range[2] = {0, 1}, bump = 1;
     lam_texture_map map = {0};
     o.at = text_skip_white(o.at, o.end);

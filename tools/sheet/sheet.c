@@ -11,6 +11,9 @@
 #include "sheet_defaults.h"
 #include "suggest.h"
 
+// Most cells have no look of their own.
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+
 // A light from the left front, slightly from above: its highlight is in sight on any rounded model, left of the middle.
 #define KEY        "directional:frame=camera,direction=3/-1/-3"
 #define BRIGHT     "ambient=0.15,diffuse=0.7,specular=1"

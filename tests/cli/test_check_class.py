@@ -131,7 +131,9 @@ class Class(CheckTest):
         self.assertEqual(rows("--memory-limit", "600M", code=0)["ann"]["verdict"], "passes")
 
     def test_without_proc(self):
-        """Where /proc is missing, as in a bare chroot."""
+        """Where /proc is missing, as in a bare chroot. (Sanitizers read it themselves.)"""
+        if os.environ.get("LAMBENT_CHECK_EVERY", "1") != "1":
+            self.skipTest("sanitizers need /proc")
         self.write("ann", "pittsburgh")
         self.write("bob", "pittsburgh", [GATE])
         bare = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", 'mount -t tmpfs none /proc && test ! -e /proc/self && exec "$@"', "sh"]

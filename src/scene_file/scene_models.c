@@ -132,6 +132,10 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
     model->inner.arena = r->scene->arena;
     bool ok = (file ? import_file(r, wanted, file, model) : make_shape(r, wanted, model)) && complete(r, wanted, model);
     r->scene->arena = model->inner.arena;
+    for (int i = 0; i < model->inner.textures.count; i++) { // also after an error: the scene frees them
+        lam_texture *texture = ((lam_texture **)model->inner.textures.items)[i];
+        ok = scene_adopt_texture(r->scene, texture, ok ? r->error : NULL) && ok;
+    }
     for (int i = 0; ok && i < model->inner.warnings.count; i++)
         scene_warn(r->scene, "%s", ((const char **)model->inner.warnings.items)[i]);
     if (ok && !r->scene->clear_materials)

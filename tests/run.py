@@ -117,6 +117,7 @@ def main():
         problem = build(variant)
         if problem:
             print(problem[-6000:])
+            print("%s: a build that fails or warns counts as 1 failed" % variant["name"])
             totals[1] += 1  # a broken build and a warning both fail
         built = time.time()
         print("%s: built in %.0f s, testing" % (variant["name"], built - start), flush=True)

@@ -84,6 +84,7 @@ static bool is_out_of_memory(void)
     return false;
 }
 
+#ifndef SANITIZED
 static void on_crash(int number)
 {
     if (is_out_of_memory())
@@ -91,6 +92,7 @@ static void on_crash(int number)
     signal(number, SIG_DFL);
     raise(number);
 }
+#endif
 
 // The worker itself ends by _exit(), so it is the driver that calls exit().
 static void on_exit_of_driver(void) { _exit(is_out_of_memory() ? EXIT_MEMORY : EXIT_DRIVER); }

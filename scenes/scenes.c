@@ -438,6 +438,31 @@ static bool mirror_gouraud(struct demo *d, lam_error *error)
     return ok;
 }
 
+// Spheres of four roughnesses, from a mirror to a matt one, and of a dielectric, half a metal and a metal, under the studio.
+static bool environment_light(struct demo *d, lam_error *error)
+{
+    static const float roughness[4] = {0.05f, 0.3f, 0.6f, 1}, metallic[3] = {0, 0.5f, 1};
+    int mesh = shape(d, "sphere", 32, 16, error);
+    for (int i = 0; i < 12; i++) {
+        lam_material m = lam_material_default();
+        m.physical = true;
+        m.diffuse = (lam_rgba){0.9f, 0.45f, 0.15f, 1};
+        m.roughness = roughness[i % 4];
+        m.metallic = metallic[i / 4];
+        if (!place(d, mesh, lam_scene_add_material(d->scene, &m, error), (lam_vec3){1, 1, 1},
+                   (lam_vec3){2.2 * (i % 4) - 3.3, 2.2 - 2.2 * (i / 4), 0}, error))
+            return false;
+    }
+    look(d, (lam_vec3){0, 1.5, 15}, (lam_vec3){0, 0, 0}, 26);
+    return surround(d, "studio", 0.4, error);
+}
+
+static bool environment_reference(struct demo *d, lam_error *error)
+{
+    d->params.reference = 100;
+    return environment_light(d, error);
+}
+
 // --- pixels
 
 static bool with_samples(struct demo *d, int samples, lam_error *error)
@@ -514,6 +539,8 @@ const struct demo_row demos[] = {
     {"mirror-sky", "a ball that mirrors a sky: the sun to the right in front, the horizon bent downwards", mirror_sky},
     {"mirror-studio", "a gold teapot among turned soft boxes", mirror_studio},
     {"mirror-gouraud", "a mirror lit at its vertices, Z up, without perspective", mirror_gouraud},
+    {"environment-light", "metals and dielectrics of several roughnesses in the studio's light", environment_light},
+    {"environment-reference", "the same by the integral itself", environment_reference},
     {"textured", "bricks with every map of a metallic-roughness material, turned, mirrored at the seams",
      textured_physical},
     {"textured-classic", "the same maps on a classic material", textured_classic},

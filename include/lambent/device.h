@@ -198,7 +198,11 @@ typedef struct lam_draw_params {
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the light's number in lam_draw_lights.
     int output_light;
     lam_tone tone; // between exposure and encoding, of 8-bit pictures
-    LAM_RESERVED(28);
+    // Physical materials under an environment: the integral of its light is summed by so many directions at each lit point,
+    // 16..1048576, in place of the split sum (docs/lighting/environment.md). 0: the split sum. The CPU device alone; others
+    // refuse it (LAM_UNSUPPORTED).
+    int reference;
+    LAM_RESERVED(27);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.

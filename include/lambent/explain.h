@@ -89,7 +89,7 @@ typedef struct lam_explained_point {
     lam_rgb emission, ambient, diffuse, specular, reflection;
     lam_rgb sum;    // emission + ambient + diffuse + specular + reflection
     lam_rgb result; // the sum; clamped to 0…1 with gl1, flat and Gouraud
-    // The split sum of a physical material under an environment; all zero elsewhere. The reflection term is
+    // The split sum of a physical material under an environment; all zero elsewhere and with `reference`. The reflection term is
     //     kd ⊙ irradiance (1 − (0.04 scale + bias)) + prefiltered ⊙ (f0 scale + bias)
     // with the mix of dielectric and metal, and the light between microfacets, of the lights' Fresnel factor.
     float environment_roughness;
@@ -157,7 +157,10 @@ typedef struct lam_explanation {
     uint8_t bytes[4]; // what LAM_RGBA8 holds: floor(255·encoded + ½), and alpha
     lam_tone tone;    // in use, never AUTO
     lam_rgb toned;    // `straight` after the tone curve, which is then encoded
-    LAM_RESERVED(6);
+    // As in lam_draw_params, where it matters: the reflection terms of physical materials are sums over so many directions,
+    // and the members of the split sum are 0.
+    int reference;
+    LAM_RESERVED(5);
 } lam_explanation;
 
 // Draws the part of the picture around pixel (x, y), counted from the upper left corner, and records every number of

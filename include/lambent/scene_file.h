@@ -29,6 +29,7 @@ enum {
     LAM_SETTING_SINGLE_SCATTERING = 1 << 16, // draw.single_scattering
     LAM_SETTING_TONE = 1 << 17,              // draw.tone
     LAM_SETTING_ANISOTROPY = 1 << 18,        // draw.anisotropy
+    LAM_SETTING_REFERENCE = 1 << 19,         // draw.reference
 };
 
 // The picture that a scene file describes: its size, camera and way of drawing. lam_scene has the rest. Settings that

@@ -130,6 +130,19 @@ static void fill_report(lam_frame_report *report, const struct cpu_device *devic
     }
 }
 
+// Makes what lights physical materials: the environment prefiltered, or directions to sample it by.
+static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
+{
+    const struct frame *frame = cpu->shade.frame;
+    if (!frame->reference) {
+        cpu->shade.environment_light = environment_light(frame->environment, cpu->pool, cpu->call, error);
+        return cpu->shade.environment_light != NULL;
+    }
+    cpu->shade.reference = &memory->samples;
+    return environment_samples_make(&memory->samples, frame->environment, frame->to_environment, frame->reference,
+                                    &memory->reference, cpu->call, error);
+}
+
 static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct call_control *call,
                      lam_error *error)
 {
@@ -157,8 +170,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     };
     if (!cpu_frame_set_up(&cpu, &device->memory, error))
         return false;
-    if (frame->environment_lights &&
-        !(cpu.shade.environment_light = environment_light(frame->environment, device->pool, call, error)))
+    if (frame->environment_lights && !set_up_environment(&cpu, &device->memory, error))
         return false;
     cpu.kernels->resolve_empty(&cpu.target);
     if (!lam_output_is_light(frame->output))

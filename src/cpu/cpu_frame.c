@@ -197,7 +197,7 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
 uint64_t frame_memory_bytes(const struct frame_memory *memory)
 {
     return memory->vertices.capacity + memory->pieces.capacity + memory->products.capacity + memory->lights.capacity +
-           memory->bins.capacity;
+           memory->bins.capacity + memory->reference.capacity;
 }
 
 void frame_memory_free(struct frame_memory *memory)
@@ -207,4 +207,5 @@ void frame_memory_free(struct frame_memory *memory)
     buffer_free(&memory->products);
     buffer_free(&memory->lights);
     buffer_free(&memory->bins);
+    buffer_free(&memory->reference);
 }

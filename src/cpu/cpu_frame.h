@@ -62,12 +62,14 @@ static inline struct tile tile_number(const struct cpu_frame *cpu, size_t index)
 
 // Memory that the device keeps from frame to frame.
 struct frame_memory {
-    struct buffer vertices; // x, y and key of the vertices of meshes with indices
-    struct buffer pieces;   // and the first vertex of each draw
-    struct buffer products; // materials × lights
-    struct buffer lights;   // the rows of light_bounds
-    struct buffer bins;     // heads of all threads' bins
+    struct buffer vertices;  // x, y and key of the vertices of meshes with indices
+    struct buffer pieces;    // and the first vertex of each draw
+    struct buffer products;  // materials × lights
+    struct buffer lights;    // the rows of light_bounds
+    struct buffer bins;      // heads of all threads' bins
+    struct buffer reference; // directions
     struct light_bounds light_bounds;
+    struct environment_samples samples;
 };
 
 // Sets up the lists, products and threads of a frame. False: out of memory, or too many vertices or materials.

@@ -97,6 +97,7 @@ static void take_frame(lam_explanation *out, const struct frame *frame)
     out->background = frame->background;
     out->exposure = frame->exposure;
     out->tone = frame->tone;
+    out->reference = frame->environment_lights ? frame->reference : 0;
 }
 
 static bool check_place(const lam_device *device, const lam_draw_params *params, int width, int height,

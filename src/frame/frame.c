@@ -2,6 +2,7 @@
 #include "frame.h"
 
 #include "cube_map.h"
+#include "environment_samples.h"
 #include "fail.h"
 #include "linear.h"
 #include "view_extents.h"
@@ -68,6 +69,10 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
     if (params->anisotropy < 0 || params->anisotropy > 16)
         return fail(error, LAM_BAD_ARGUMENT, "anisotropy is %d, expected 0 to 16", params->anisotropy);
+    int n = params->reference;
+    if (n != 0 && (n < ENVIRONMENT_SAMPLES_MIN || n > ENVIRONMENT_SAMPLES_MAX))
+        return fail(error, LAM_BAD_ARGUMENT, "reference is %d, expected 0 or %d to %d directions", n,
+                    ENVIRONMENT_SAMPLES_MIN, ENVIRONMENT_SAMPLES_MAX);
     if ((unsigned)params->tone >= LAM_TONE_COUNT)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: tone %d is not one of lam_tone", (int)params->tone);
     if (!(params->light_cutoff >= -3e38f && params->light_cutoff <= 1))
@@ -419,6 +424,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->width = width;
     frame->height = height;
     frame->anisotropy = params->anisotropy ? params->anisotropy : 1;
+    frame->reference = params->reference;
     frame->samples = params->samples ? params->samples : lam_default_samples(width, height);
     frame->background = params->background;
     frame->color = params->color;

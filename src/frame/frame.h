@@ -67,6 +67,7 @@ struct frame {
     int width, height;
     int samples;
     int anisotropy; // the most probes of a texture for a point, 1…16
+    int reference;  // directions by which environment light is summed; 0: the split sum
     lam_rgba background;
     lam_color_mode color;
     float exposure; // 2^stops

@@ -275,6 +275,10 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
     struct gl_device *device = (struct gl_device *)base;
     struct gl_previous_context previous;
     struct gl_saved_state state;
+    if (frame->reference)
+        return fail(error, LAM_UNSUPPORTED,
+                    "OpenGL: reference is %d, and this device has the split sum alone; the CPU device sums directions",
+                    frame->reference);
     if (!check_maps(frame, error) || !gl_context_enter(&device->context, &previous, error))
         return false;
     struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .call = call, .image = image};

@@ -1,6 +1,7 @@
 // scene_json.c: scene files: the JSON around it all, the picture's settings, and the row in the table of formats.
 #include "scene_reader.h"
 
+#include "environment_samples.h"
 #include "fail.h"
 #include "json_parse.h"
 #include "linear.h"
@@ -142,8 +143,12 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
         !take_bool(r, NULL, root, "gl1", &draw->gl1) || !take_number(r, NULL, root, "light_cutoff", 0, 1, &cutoff) ||
         !take_word(r, NULL, root, "up", up_words, &up) || !take_rgb(r, NULL, root, "ambient", &ambient))
         return false;
-    if (!take_whole(r, NULL, root, "anisotropy", 1, 16, &draw->anisotropy))
+    if (!take_whole(r, NULL, root, "anisotropy", 1, 16, &draw->anisotropy) ||
+        !take_whole(r, NULL, root, "reference", 0, ENVIRONMENT_SAMPLES_MAX, &draw->reference))
         return false;
+    if (draw->reference && draw->reference < ENVIRONMENT_SAMPLES_MIN)
+        return fail_place(r, KEY_OF(NULL, "reference"), "found %d, expected 0 or at least %d", draw->reference,
+                          ENVIRONMENT_SAMPLES_MIN);
     if (json_object_get(root, "light_cutoff"))
         draw->light_cutoff = cutoff > 0 ? (float)cutoff : -1;
     draw->shading = (lam_shading)shading;
@@ -166,6 +171,7 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
                 {"gl1", LAM_SETTING_GL1},
                 {"single_scattering", LAM_SETTING_SINGLE_SCATTERING},
                 {"anisotropy", LAM_SETTING_ANISOTROPY},
+                {"reference", LAM_SETTING_REFERENCE},
                 {"light_cutoff", LAM_SETTING_LIGHT_CUTOFF}};
     for (size_t i = 0; i < sizeof bits / sizeof *bits; i++)
         r->settings->present |= json_object_get(root, bits[i].key) ? bits[i].bit : 0;
@@ -190,9 +196,9 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
 static bool read_root(struct scene_reader *r, const json_t *root)
 {
     static const char *const keys[] = {
-        "lambent",   "image",   "camera",      "ambient",          "environment",       "shading", "reflection",
-        "viewer",    "stage",   "flat_normal", "match_highlights", "single_scattering", "gl1",     "up",
-        "materials", "objects", "lights",      "light_cutoff",     "anisotropy",        NULL};
+        "lambent",   "image",   "camera",      "ambient",          "environment",       "shading",   "reflection",
+        "viewer",    "stage",   "flat_normal", "match_highlights", "single_scattering", "gl1",       "up",
+        "materials", "objects", "lights",      "light_cutoff",     "anisotropy",        "reference", NULL};
     int version = 0;
     if (!check_keys(r, NULL, root, keys) || !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
         return false;

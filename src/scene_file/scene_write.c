@@ -540,6 +540,8 @@ static bool put_settings(struct scene_writer *w, json_t *root, const lam_picture
         put(w, root, "gl1", json_true());
     if ((s->present & LAM_SETTING_ANISOTROPY) && s->draw.anisotropy > 1)
         put(w, root, "anisotropy", json_integer(s->draw.anisotropy));
+    if ((s->present & LAM_SETTING_REFERENCE) && s->draw.reference)
+        put(w, root, "reference", json_integer(s->draw.reference));
     if ((s->present & LAM_SETTING_LIGHT_CUTOFF) && s->draw.light_cutoff != 0)
         put(w, root, "light_cutoff", s->draw.light_cutoff > 0 ? number_float(s->draw.light_cutoff) : json_integer(0));
     return true;

@@ -1,4 +1,5 @@
 # test_environment.py: --environment in each of its forms, its rotation and its errors; and --opacity.
+import json
 import struct
 import unittest
 
@@ -65,6 +66,21 @@ class EnvironmentOption(Case):
     def test_explained(self):
         text = self.good("explain", "sphere", "20,20", *MIRROR[1:-1], "--environment", self.six()).stdout.decode()
         self.assertIn("kr ⊙ environment = (1 1 1) ⊙ (0 1 0)", text)
+
+    def test_reference(self):
+        """The integral by directions: near the split sum where the lobe is a mirror's, explained by its number, refused out of its range."""
+        metal = (*MIRROR[:-1], "--material", "#ffc356,metallic=1,roughness=0.1", "--environment", "sky", "--tone", "none", "-q")
+        split, summed = (read_png(self.good(*metal, *more, "-o", "-").stdout) for more in ((), ("--reference", 1024)))
+        apart = [abs(a - b) for y in range(12, 28) for x in range(12, 28) for a, b in zip(pixel(split, x, y), pixel(summed, x, y))]
+        self.assertGreater(max(apart), 0)
+        self.assertLess(sum(apart) / len(apart), 4)
+        text = self.good("explain", "sphere", "20,20", *metal[1:-1], "--reference", 64).stdout.decode()
+        self.assertIn("the integral of the environment's light, by 64 directions", text)
+        self.assertNotIn("prefiltered", text)
+        line = json.loads(self.good("explain", "sphere", "20,20", *metal[1:-1], "--reference", 64, "--json").stdout)
+        self.assertEqual(line["reference"], 64)
+        self.bad(1, *metal, "--reference", 5, "-o", "x.png", says=("reference is 5", "16 to 1048576"))
+        self.bad(1, *metal, "--reference", 2000000, "-o", "x.png", says="0 to 1048576")
 
     def test_wrong(self):
         self.ppm("odd.ppm", 10, 7, lambda x, y: (1, 2, 3))

@@ -199,6 +199,7 @@ CONTEXT = {
     "background": ([], "white"), "color-mode": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"),
     "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),
+    "reference": (["--environment", "studio", "--material", "#ffc356,metallic=1,roughness=0.3"], "64"),
     "anisotropy": (["floor.obj"], "8"), "viewer": ([], "infinite"), "normals": ([], "facet"),
     "environment-rotation": (["--environment", "studio", "--reflectivity", "0.5"], "90"),
 }

@@ -252,6 +252,8 @@ void explain_json(const lam_explanation *e, const char *model)
     real(&json, "exposure", e->exposure);
     json_text(&json, "encoding", e->color == LAM_COLOR_RAW ? "raw" : "srgb");
     json_text(&json, "tone", lam_tone_name(e->tone));
+    if (e->reference)
+        json_count(&json, "reference", (uint64_t)e->reference);
     color(&json, "toned", e->toned);
     color(&json, "encoded", e->encoded);
     json_open(&json, "bytes", '[');

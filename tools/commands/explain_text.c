@@ -253,6 +253,8 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
                  (double)p->environment_light.b);
         if (p->environment_scale + p->environment_bias > 0)
             snprintf(text, sizeof text, "kd ⊙ irradiance (1 − (0.04 scale + bias)) + prefiltered (f0 scale + bias)");
+        else if (e->reference && f->surface.physical)
+            snprintf(text, sizeof text, "the integral of the environment's light, by %d directions", e->reference);
         color(4, "reflection", p->reflection, e->has_environment ? text : "");
     }
     color(4, "sum", p->sum, "emission + ambient + diffuse + specular + reflection");

@@ -262,6 +262,7 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
         .gl1 = o->gl1,
         .single_scattering = o->single_scattering,
         .anisotropy = o->anisotropy,
+        .reference = o->reference,
         .light_cutoff = !o->has_light_cutoff  ? 0
                         : o->light_cutoff > 0 ? (float)o->light_cutoff
                                               : -1,

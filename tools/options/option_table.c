@@ -436,6 +436,13 @@ const struct option option_table[] = {
      "Leave out the light that the mirrors of GGX send to one another.",
      "Rough metals are darker then, as in renderers that leave it out.", .store = store_switch,
      FIELD(single_scattering)},
+    {"reference", 0, GROUP_SHADING, "N", "0",
+     "Sum the environment's light on physical materials by N directions at each point, 16 to 1048576; 0: split sum.",
+     "The picture's environment light is an approximation, the split sum; this is the integral that it stands for, to "
+     "compare with. "
+     "1024 directions are mostly within 0.5 % of it, 4096 within 0.2 %. The directions are the same at every point "
+     "and on every machine. CPU only.",
+     .store = store_integer, .others = "ground-truth importance-samples", FIELD(reference), .min = 0, .max = 1 << 20},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, "Light as OpenGL 1: colours clamped, shininess to 128, ambient attenuated.",
      "For comparison with old programs: vertex colours are clamped to 0...1 before interpolation, the shininess "
      "is at most 128, and the ambient light of a light is attenuated and limited to its cone.",

@@ -21,6 +21,7 @@ struct options {
     bool has_size;          // the size was given
     int samples;            // 0: the library's default
     int anisotropy;         // 0: 1
+    int reference;          // directions; 0: the split sum
     const char *background; // as written; NULL: clear
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress

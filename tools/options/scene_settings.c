@@ -53,6 +53,8 @@ void scene_settings_apply(struct job *job)
     own->single_scattering |= s->draw.single_scattering;
     if (takes_setting(job, LAM_SETTING_ANISOTROPY, "anisotropy"))
         own->anisotropy = s->draw.anisotropy;
+    if (takes_setting(job, LAM_SETTING_REFERENCE, "reference"))
+        own->reference = s->draw.reference;
     if (takes_setting(job, LAM_SETTING_LIGHT_CUTOFF, "light-cutoff")) {
         own->light_cutoff = (double)s->draw.light_cutoff;
         own->has_light_cutoff = true;
@@ -132,6 +134,7 @@ bool scene_settings_save(const struct job *job, lam_error *error)
                  LAM_SETTING_CAMERA | LAM_SETTING_SHADING | LAM_SETTING_REFLECTION | LAM_SETTING_MATCH_HIGHLIGHTS |
                  LAM_SETTING_GL1;
     s.present |= draw->anisotropy > 1 ? LAM_SETTING_ANISOTROPY : 0;
+    s.present |= draw->reference ? LAM_SETTING_REFERENCE : 0;
     s.present |= draw->light_cutoff != 0 ? LAM_SETTING_LIGHT_CUTOFF : 0;
     s.present |= draw->stage != LAM_STAGE_AUTO ? LAM_SETTING_STAGE : 0;
     s.present |= draw->viewer != LAM_VIEWER_LOCAL ? LAM_SETTING_VIEWER : 0;

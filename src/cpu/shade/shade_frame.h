@@ -3,6 +3,7 @@
 #define SHADE_FRAME_H
 
 #include "buffer.h"
+#include "environment_samples.h"
 #include "frame.h"
 #include "visible_normals.h"
 
@@ -33,6 +34,7 @@ struct shade_frame {
     const struct frame *frame;
     const struct material_products *materials;
     const struct environment_light *environment_light; // of physical materials; NULL: none
+    const struct environment_samples *reference;       // in place of it; NULL: none
     const struct light_bounds *light_bounds;           // NULL: every light is evaluated everywhere
     const float *decode_srgb, *decode_linear;          // 256 entries each: the value of a colour byte
     struct visible_normals

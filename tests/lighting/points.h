@@ -68,6 +68,17 @@ static inline void points_fill(struct points *p, uint64_t seed)
     }
 }
 
+static inline void points_environment(struct points *p, const struct width *width, int viewer)
+{
+    const float *in[INPUTS];
+    float *out[ENVIRONMENT_OUTPUTS];
+    for (int k = 0; k < INPUTS; k++)
+        in[k] = p->in[k];
+    for (int k = 0; k < ENVIRONMENT_OUTPUTS; k++)
+        out[k] = p->out[k];
+    width->environment(viewer, in, out, POINTS);
+}
+
 static inline void points_light(struct points *p, const struct width *width, const struct modes *modes)
 {
     const float *in[INPUTS];

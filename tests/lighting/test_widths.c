@@ -21,6 +21,8 @@
 // one.
 #define RECORDED_HASH 0x0deec07b96d48e47u
 
+#define RECORDED_ENVIRONMENT_HASH 0x6578129b33b60301u
+
 enum { WIDTHS_MAX = 16, NUMBERS = 1 << 16 };
 
 // Which NaN comes out is the processor's choice; that one comes out is ours.
@@ -147,6 +149,43 @@ static uint64_t hash_of_lobe(int model)
     return hash;
 }
 
+// The environment's light: of ordinary numbers, and of anything at all in some inputs.
+static uint64_t hash_of_environment(void)
+{
+    const struct width *widths[WIDTHS_MAX];
+    int count = widths_usable(widths, WIDTHS_MAX);
+    struct points *first = malloc(sizeof *first), *p = malloc(sizeof *p);
+    assert_non_null(first);
+    assert_non_null(p);
+    struct random r = {4711};
+    uint64_t hash = 0xcbf29ce484222325ull;
+    for (int turn = 0; turn < 8; turn++) {
+        points_fill(first, 1 + random_bits(&r));
+        for (int i = 0; i < POINTS && turn > 5; i++)
+            first->in[random_bits(&r) % INPUTS][i] =
+                i % 2 ? specials[random_bits(&r) % SPECIALS] : float_of_bits(random_bits(&r));
+        memcpy(p->in, first->in, sizeof p->in);
+        points_environment(first, widths[0], turn & 1);
+        hash = hash_of(hash, first->out[0], ENVIRONMENT_OUTPUTS * POINTS);
+        for (int w = 1; w < count; w++) {
+            points_environment(p, widths[w], turn & 1);
+            assert_same(first->out[0], p->out[0], ENVIRONMENT_OUTPUTS * POINTS, widths[w]->name, turn);
+        }
+    }
+    free(first);
+    free(p);
+    return hash;
+}
+
+static void test_environment_light(void **state)
+{
+    (void)state;
+    uint64_t hash = hash_of_environment();
+    if (hash != RECORDED_ENVIRONMENT_HASH)
+        fail_msg("hash of environment light is 0x%016llx, recorded 0x%016llx", (unsigned long long)hash,
+                 (unsigned long long)RECORDED_ENVIRONMENT_HASH);
+}
+
 static void test_same_bits(void **state)
 {
     (void)state;
@@ -196,6 +235,7 @@ static void test_gather(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits), cmocka_unit_test(test_gather)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits), cmocka_unit_test(test_environment_light),
+                                       cmocka_unit_test(test_gather)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

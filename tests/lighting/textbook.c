@@ -213,3 +213,46 @@ struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]
     }
     return result;
 }
+
+// --- the environment
+
+// A table of 32 roughnesses from 0.045 to 1 times 32 roots of n.v, linear between them.
+static double tabulated(const float table[1024], double n_v, double roughness)
+{
+    double x = 31 * sqrt(limit(n_v, 0, 1)), y = 31 * (limit(roughness, 0.045, 1) - 0.045) / (1 - 0.045);
+    int column = x < 30 ? (int)x : 30, row = y < 30 ? (int)y : 30;
+    double a = x - column, b = y - row, sum = 0;
+    for (int i = 0; i < 4; i++)
+        sum += (double)table[32 * (row + i / 2) + column + i % 2] * (i % 2 ? a : 1 - a) * (i / 2 ? b : 1 - b);
+    return sum;
+}
+
+static const float albedos[1024] = {
+#include "albedo.table"
+};
+static const float biases[1024] = {
+#include "bias.table"
+};
+
+// docs/lighting/environment.md and physical.md: a dielectric and a metal, mixed last.
+void textbook_environment(int viewer, const float in[INPUTS], double out[ENVIRONMENT_OUTPUTS], double *n_dot_v)
+{
+    vector p = take(in + IN_POINT), n = normalize(take(in + IN_NORMAL));
+    vector v = viewer == VIEWER_INFINITE ? (vector){0, 0, 1} : normalize(times(-1, p));
+    vector l = normalize(minus(take(in + IN_POSITION), p)), h = normalize(plus(l, v));
+    double roughness = (double)in[IN_PARAMETERS + 3], metallic = (double)in[IN_PARAMETERS + 4];
+    double n_v = inner(n, v), whole = tabulated(albedos, n_v, roughness), bias = tabulated(biases, n_v, roughness);
+    double grazing = pow(1 - limit(inner(v, h), 0, 1), 5);
+    *n_dot_v = n_v;
+    for (int i = 0; i < 3; i++) {
+        double base = (double)in[IN_TINT + i], irradiance = (double)in[IN_SKY + i], around = (double)in[IN_GROUND + i];
+        double glass = 0.04 * (whole - bias) + bias, metal = base * (whole - bias) + bias;
+        double more_glass = 1 + 0.04 * (1 / whole - 1), more_metal = 1 + base * (1 / whole - 1);
+        double matt = base * irradiance * (1 - glass);
+        out[OUT_FRESNEL + i] = (1 - metallic) * more_glass * (0.04 + 0.96 * grazing) +
+                               metallic * more_metal * (base + (1 - base) * grazing);
+        out[OUT_SPLIT_SUM + i] =
+            (1 - metallic) * (matt + more_glass * glass * around) + metallic * more_metal * metal * around;
+        out[OUT_SPLIT_ALONE + i] = (1 - metallic) * (matt + glass * around) + metallic * metal * around;
+    }
+}

@@ -15,6 +15,9 @@ struct textbook {
 
 struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]);
 
+// The environment's light on a metallic-roughness material (enum environment_output); sets *n_dot_v.
+void textbook_environment(int viewer, const float in[INPUTS], double out[ENVIRONMENT_OUTPUTS], double *n_dot_v);
+
 // The hash that test_widths recorded for a lam_reflection; 0: it has no row here.
 uint64_t textbook_hash(int model);
 

@@ -79,7 +79,6 @@ static void light(const struct modes *modes, const float *const in[INPUTS], floa
         int parameter = IN_PARAMETERS;
 #define TAKE(name) m.name = num_load(in[parameter++] + i);
         LOBE_PARAMETERS(TAKE)
-#undef TAKE
         m.fibre = num_of((float)modes->fibre);
         hemisphere h = {load3(in, IN_UP, i), load3(in, IN_SKY, i), load3(in, IN_GROUND, i)};
 
@@ -107,6 +106,27 @@ static void light(const struct modes *modes, const float *const in[INPUTS], floa
     }
 }
 
+static void environment(int viewer, const float *const in[INPUTS], float *const out[ENVIRONMENT_OUTPUTS], int count)
+{
+    for (int i = 0; i < count; i += LANES) {
+        surface s = surface_at(load3(in, IN_POINT, i), load3(in, IN_NORMAL, i), load3(in, IN_TANGENT, i), viewer);
+        lobe_parameters m;
+        int parameter = IN_PARAMETERS;
+        LOBE_PARAMETERS(TAKE)
+        vec3 base = load3(in, IN_TINT, i), l = unit3(sub3(load3(in, IN_POSITION, i), s.p));
+        num n_dot_v = dot3(s.n, s.v);
+        fresnel f = fresnel_of(base, m.metallic, scattering_gain(s, m.roughness));
+        light_source white = {.specular = vec3_of(num_of(1.0f), num_of(1.0f), num_of(1.0f))};
+        store3(out, OUT_FRESNEL, i, with_fresnel(white, f, s.v, l).specular);
+        surroundings e = {load3(in, IN_SKY, i), load3(in, IN_GROUND, i), single_scattering(n_dot_v, m.roughness),
+                          schlick_scattering(n_dot_v, m.roughness)};
+        vec3 kd = scale3(base, 1.0f - m.metallic);
+        store3(out, OUT_SPLIT_SUM, i, surroundings_light(f, kd, e));
+        store3(out, OUT_SPLIT_ALONE, i, surroundings_light(fresnel_of(base, m.metallic, num_of(0.0f)), kd, e));
+    }
+}
+#undef TAKE
+
 static void gather(const float *from, const uint32_t *at, int stride, float *const out[3], int count)
 {
     for (int i = 0; i < count; i += LANES) {
@@ -121,4 +141,4 @@ extern const struct width WIDTH_NAME;
 
 #define TEXT(x)  TEXT_(x)
 #define TEXT_(x) #x
-const struct width WIDTH_NAME = {TEXT(WIDTH_NAME), WIDTH_FEATURES, apply, light, gather};
+const struct width WIDTH_NAME = {TEXT(WIDTH_NAME), WIDTH_FEATURES, apply, light, environment, gather};

@@ -68,6 +68,15 @@ enum output {
     OUTPUTS = OUT_SUM + 3
 };
 
+// The environment's light on a metallic-roughness material: IN_TINT is the base colour, IN_SKY the irradiance ÷ π,
+// IN_GROUND the prefiltered light, and a light at IN_POSITION gives Fresnel's factor.
+enum environment_output {
+    OUT_FRESNEL,         // with the light between mirrors
+    OUT_SPLIT_SUM = 3,   // likewise
+    OUT_SPLIT_ALONE = 6, // without
+    ENVIRONMENT_OUTPUTS = 9
+};
+
 struct modes {
     int kind, falloff, model, fibre, viewer;
 };
@@ -78,6 +87,7 @@ struct width {
     int features; // of cpu_features.h, that it needs to run
     void (*apply)(enum function function, const float *a, const float *b, float *out, int count);
     void (*light)(const struct modes *modes, const float *const in[INPUTS], float *const out[OUTPUTS], int count);
+    void (*environment)(int viewer, const float *const in[INPUTS], float *const out[ENVIRONMENT_OUTPUTS], int count);
     // Three neighbours from each of `count` places, `stride` numbers apart, into three arrays.
     void (*gather)(const float *from, const uint32_t *at, int stride, float *const out[3], int count);
 };

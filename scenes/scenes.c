@@ -381,6 +381,66 @@ static bool coloured(struct demo *d, lam_rate rate, lam_error *error)
 static bool vertex_colours(struct demo *d, lam_error *e) { return coloured(d, LAM_PER_VERTEX, e); }
 static bool triangle_colours(struct demo *d, lam_error *e) { return coloured(d, LAM_PER_TRIANGLE, e); }
 
+// Adds a mesh of lines or points along a helix of `count` vertices round the y axis, with colours; `normals`: lit.
+static int helix(struct demo *d, int count, double radius, bool lines, bool normals, lam_error *error)
+{
+    enum { MAX = 160 };
+    float p[MAX * 3], n[MAX * 3];
+    uint8_t colors[MAX * 4];
+    uint32_t indices[MAX * 2];
+    // The sine and cosine of 20 degrees, turned on: no two libraries agree on all bits of the functions.
+    double s = 0, c = 1;
+    for (int i = 0; i < count; i++) {
+        double next_s = s * 0.9396926207859084 + c * 0.3420201433256687;
+        double next_c = c * 0.9396926207859084 - s * 0.3420201433256687;
+        s = next_s;
+        c = next_c;
+        const float normal[3] = {(float)c, 0, (float)s};
+        const float at[3] = {(float)(radius * c), (float)(1.8 * i / count - 0.9), (float)(radius * s)};
+        memcpy(n + 3 * i, normal, sizeof normal);
+        memcpy(p + 3 * i, at, sizeof at);
+        const uint8_t color[4] = {(uint8_t)(255 * i / count), 140, (uint8_t)(255 - 255 * i / count), 255};
+        memcpy(colors + 4 * i, color, sizeof color);
+        indices[2 * i] = (uint32_t)i;
+        indices[2 * i + 1] = (uint32_t)i + 1;
+    }
+    lam_mesh mesh = {.positions = p,
+                     .vertex_count = (uint32_t)count,
+                     .indices = lines ? indices : NULL,
+                     .normals = normals ? n : NULL,
+                     .normal_count = normals ? (uint32_t)count : 0,
+                     .colors = colors,
+                     .color_count = (uint32_t)count,
+                     .colors_format = LAM_COLORS_SRGB8,
+                     .line_count = lines ? (uint32_t)count - 1 : 0,
+                     .point_count = lines ? 0 : (uint32_t)count};
+    return lam_scene_add_mesh(d->scene, &mesh, error);
+}
+
+// The helix on the cylinder is its edge half and half: seen whole, since lines lie nearer by their width.
+static bool lines_and_points(struct demo *d, lam_error *error)
+{
+    static const float axis[6] = {0, -40, 0, 0, 40, 0};
+    lam_mesh line = {.positions = axis, .vertex_count = 2, .line_count = 1};
+    int emitting = material(d, (lam_rgba){0.1f, 0.1f, 0.1f, 1}, 0, 1, error);
+    lam_material glow = emitting >= 0 ? *lam_scene_material(d->scene, emitting) : lam_material_default();
+    glow.emission = (lam_rgb){0.7f, 0.2f, 0};
+    bool ok = emitting >= 0 && lam_scene_set_material(d->scene, emitting, &glow, error) &&
+              place(d, shape(d, "cylinder", 48, 1, error), named(d, LAM_MATERIAL_PEARL, error),
+                    (lam_vec3){0.6, 0.9, 0.6}, (lam_vec3){0, 0, 0}, error) &&
+              put(d, helix(d, 100, 0.602, true, true, error), -1, error) &&
+              put(d, helix(d, 150, 0.9, false, true, error), -1, error) &&
+              put(d, helix(d, 60, 1.1, false, false, error), -1, error) &&
+              put(d, helix(d, 60, 1.1, true, false, error), -1, error) &&
+              put(d, lam_scene_add_mesh(d->scene, &line, error), emitting, error);
+    d->params.line_width = 2.5f;
+    d->params.point_size = 5;
+    look(d, (lam_vec3){1, 1.6, 3}, (lam_vec3){0, 0, 0}, 40);
+    d->camera.near_plane = 0.5; // the axis is clipped above the eye
+    d->camera.far_plane = 20;
+    return ok;
+}
+
 // 500 km from the origin: the same picture as near it.
 static bool far_away(struct demo *d, lam_error *error)
 {
@@ -535,6 +595,7 @@ const struct demo_row demos[] = {
     {"translucent-cycle", "four fading bars, each over the next: no order of drawing them is right", over_and_under},
     {"vertex-colours", "colours interpolated over a square", vertex_colours},
     {"triangle-colours", "a colour for each triangle", triangle_colours},
+    {"lines", "lines and points: lit with normals, unlit without, one clipped above the eye", lines_and_points},
     {"far-away", "a centimetre of model 500 km from zero", far_away},
     {"mirror-sky", "a ball that mirrors a sky: the sun to the right in front, the horizon bent downwards", mirror_sky},
     {"mirror-studio", "a gold teapot among turned soft boxes", mirror_studio},

@@ -202,7 +202,10 @@ typedef struct lam_draw_params {
     // 16..1048576, in place of the split sum (docs/lighting/environment.md). 0: the split sum. The CPU device alone; others
     // refuse it (LAM_UNSUPPORTED).
     int reference;
-    LAM_RESERVED(27);
+    // The width of lines, and the sides of the squares that points are drawn as, in pixels, up to 1000. 0: 1.5 and 3. They lie
+    // nearer to the eye by their own width, as it is seen there, so that lines on a surface are not lost in it.
+    float line_width, point_size;
+    LAM_RESERVED(26);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.

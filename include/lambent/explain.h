@@ -105,7 +105,7 @@ typedef struct lam_explained_fragment {
     int object, mesh, part;
     // Their names; NULL: unnamed.
     const char *object_name, *mesh_name, *part_name;
-    uint32_t triangle;         // index in the mesh
+    uint32_t triangle;         // index in the mesh; of a line or point, where `corners` says so
     bool back;                 // the back side is seen
     bool flipped;              // the back side is seen and lit with −n
     int material;              // index in the scene; −1: the default material
@@ -126,6 +126,8 @@ typedef struct lam_explained_fragment {
     float transmittance[16];
     // Σ transmittance / samples of a pixel: the fragment's share of the pixel.
     float weight;
+    // Of what the mesh consists of: 3 triangles; 2 lines, 1 points, each drawn as two triangles, whose corners have the weights.
+    int corners;
     LAM_RESERVED(12);
 } lam_explained_fragment;
 

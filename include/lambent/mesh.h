@@ -1,4 +1,4 @@
-// lambent/mesh.h: triangles, their attributes, and meshes made from formulas.
+// lambent/mesh.h: triangles, lines and points, their attributes, and meshes made from formulas.
 #ifndef LAMBENT_MESH_H
 #define LAMBENT_MESH_H
 
@@ -32,7 +32,14 @@ typedef struct lam_part {
     LAM_RESERVED(4);
 } lam_part;
 
-// A mesh of triangles. Its arrays are borrowed: lam_scene_add_mesh copies them, and the scene owns its copies.
+// A mesh of triangles, of lines or of points. Its arrays are borrowed: lam_scene_add_mesh copies them, and the scene owns its
+// copies.
+//
+// At most one of triangle_count, line_count and point_count is not 0. What is said of triangles here holds for lines, which
+// have two corners, and for points, which have one: corner c of line l has the number 2l + c, point p the number p; index
+// arrays have as many elements, and parts count lines or points. Lines are drawn lam_draw_params.line_width pixels wide and
+// points as squares of point_size; both face the eye, and are seen from all sides. They are lit by their normals if they have
+// any, which nobody makes for them; without, they have the diffuse colour and the emission, unlit.
 //
 // Corner c of triangle t has the number i = 3t + c. Its position is element indices[i] of `positions`. Every other
 // attribute may have an index array of its own (3 per triangle), for files whose corners share positions but not
@@ -81,7 +88,10 @@ typedef struct lam_mesh {
 
     const lam_part *parts; // NULL: one unnamed part with the default material
     uint32_t part_count;   // elements of `parts`
-    LAM_RESERVED(32);
+
+    uint32_t line_count;  // lines of a mesh of lines
+    uint32_t point_count; // points of a mesh of points
+    LAM_RESERVED(31);
 } lam_mesh;
 
 // Parameters of a built-in shape. All zero: the shape's defaults.

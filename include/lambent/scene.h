@@ -191,8 +191,10 @@ LAM_API const lam_material *lam_scene_material(const lam_scene *scene, int index
 LAM_API const lam_object *lam_scene_object(const lam_scene *scene, int index);
 LAM_API const lam_light *lam_scene_light(const lam_scene *scene, int index);
 
-// The number of triangles, and of vertices, over all objects.
+// The number of triangles, of lines, of points, and of vertices, over all objects.
 LAM_API uint64_t lam_scene_triangle_count(const lam_scene *scene);
+LAM_API uint64_t lam_scene_line_count(const lam_scene *scene);
+LAM_API uint64_t lam_scene_point_count(const lam_scene *scene);
 LAM_API uint64_t lam_scene_vertex_count(const lam_scene *scene);
 
 // The name of the format that the scene was loaded from; "" for a scene made by hand.

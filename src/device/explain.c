@@ -1,6 +1,7 @@
 // explain.c: lam_explain: draws one tile with a recorder, and completes the recorded values.
 #include "device_type.h"
 #include "recorder.h"
+#include "scene_internal.h"
 
 #include "fail.h"
 #include "linear.h"
@@ -55,8 +56,18 @@ static double angle_between(lam_vec3 a, lam_vec3 b)
     return math_atan2(v3_length(v3_cross(a, b)), v3_dot(a, b));
 }
 
+// A point of eye space in world space and in that of an object's mesh; the rectangles of lines and points lie in eye space.
+static void leave_eye_space(const lam_camera *camera, const lam_object *object, lam_explained_point *point)
+{
+    lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up), to_world, to_mesh;
+    if (!mat4_inverse_affine(&view, &to_world) || !mat4_inverse_affine(&object->transform, &to_mesh))
+        return;
+    point->world_position = mat4_point(&to_world, point->mesh_position);
+    point->mesh_position = mat4_point(&to_mesh, point->world_position);
+}
+
 // Adds values that follow from the recorded ones.
-static void complete(struct recorder *recorder, const lam_scene *scene)
+static void complete(struct recorder *recorder, const lam_scene *scene, const lam_camera *camera)
 {
     for (int i = 0; i < recorder->out->fragment_count; i++) {
         lam_explained_fragment *fragment = &recorder->fragments[i];
@@ -64,10 +75,18 @@ static void complete(struct recorder *recorder, const lam_scene *scene)
         const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
         fragment->object_name = object->name;
         fragment->mesh = object->mesh;
+        fragment->corners = mesh->line_count ? 2 : mesh->point_count ? 1 : 3;
+        if (mesh_is_strokes(mesh))
+            fragment->triangle /= 2;
         for (int k = 0; k < fragment->point_count; k++) {
             lam_explained_point *point = (lam_explained_point *)(uintptr_t)&fragment->points[k];
-            point->mesh_position = v3_add(v3(mesh->origin[0], mesh->origin[1], mesh->origin[2]), point->mesh_position);
-            point->world_position = mat4_point(&object->transform, point->mesh_position);
+            if (mesh_is_strokes(mesh)) {
+                leave_eye_space(camera, object, point);
+            } else {
+                point->mesh_position =
+                    v3_add(v3(mesh->origin[0], mesh->origin[1], mesh->origin[2]), point->mesh_position);
+                point->world_position = mat4_point(&object->transform, point->mesh_position);
+            }
             for (int n = 0; n < point->light_count; n++) {
                 lam_explained_light *light = (lam_explained_light *)(uintptr_t)&point->lights[n];
                 light->theta_rad = angle_between(point->n, light->l);
@@ -150,7 +169,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     }
     take_frame(out, &device->frame);
     out->stops = params ? params->exposure : 0;
-    complete(&recorder, scene);
+    complete(&recorder, scene, camera);
     return out;
 }
 

@@ -4,6 +4,7 @@
 #include "cube_map.h"
 #include "environment_samples.h"
 #include "fail.h"
+#include "frame_strokes.h"
 #include "linear.h"
 #include "view_extents.h"
 #include "up_axis.h"
@@ -67,6 +68,11 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
     if ((unsigned)params->stage > LAM_STAGE_FRAGMENT || (unsigned)params->viewer > LAM_VIEWER_INFINITE ||
         (unsigned)params->flat_normal > LAM_FLAT_NORMAL_VERTEX)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
+    const double sizes[2] = {(double)params->line_width, (double)params->point_size};
+    for (int i = 0; i < 2; i++)
+        if (!(sizes[i] >= 0 && sizes[i] <= 1000))
+            return fail(error, LAM_BAD_ARGUMENT, "%s is %g, expected pixels from 0 to 1000",
+                        i ? "point_size" : "line_width", sizes[i]);
     if (params->anisotropy < 0 || params->anisotropy > 16)
         return fail(error, LAM_BAD_ARGUMENT, "anisotropy is %d, expected 0 to 16", params->anisotropy);
     int n = params->reference;
@@ -333,12 +339,21 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
         if (!part->triangle_count)
             continue;
         int front = material_index(object->material >= 0 ? object->material : part->material);
-        int back = object->back_material >= 0 ? frame_back_material(frame, front, material_index(object->back_material))
-                                              : front;
+        int back = object->back_material >= 0 && !draw->strokes
+                       ? frame_back_material(frame, front, material_index(object->back_material))
+                       : front;
         struct frame_draw_range *last = frame->range_count ? &frame->ranges[frame->range_count - 1] : NULL;
         if (last && last->draw == draw_index && last->front == front && last->back == back) {
             last->count += part->triangle_count;
             continue;
+        }
+        lam_reflection reflection = frame_reflection(frame, frame->materials[front]);
+        if (draw->strokes) {
+            if (!mesh->normals) { // unlit
+                reflection = LAM_REFLECTION_NONE;
+                front = frame_stroke_material(frame, front);
+            }
+            back = front;
         }
         bool varies = scene_extent(scene, object->mesh)->translucent;
         bool translucent = sees_through(frame->materials[front], varies) ||
@@ -346,25 +361,30 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
         frame->translucent |= translucent;
         frame->masked |= translucent && (frame->materials[front]->alpha_mode == LAM_ALPHA_MASK ||
                                          frame->materials[back]->alpha_mode == LAM_ALPHA_MASK);
-        frame->ranges[frame->range_count++] = (struct frame_draw_range){
-            draw->first_id + part->first_triangle,           part->triangle_count, draw_index, front, back, translucent,
-            frame_reflection(frame, frame->materials[front])};
+        frame->ranges[frame->range_count++] = (struct frame_draw_range){draw->first_id + part->first_triangle,
+                                                                        part->triangle_count,
+                                                                        draw_index,
+                                                                        front,
+                                                                        back,
+                                                                        translucent,
+                                                                        reflection};
     }
 }
 
 // Reserves storage for the frame's arrays, and divides it among them.
 static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct call_control *call, lam_error *error)
 {
-    size_t objects = (size_t)scene->objects.count, ranges = 0,
+    size_t objects = (size_t)scene->objects.count, ranges = 0, strokes = 0,
            lights = (size_t)scene->lights.count + LAM_RIG_LIGHTS_MAX;
     for (size_t i = 0; i < objects; i++) {
-        uint32_t parts = scene_mesh(scene, scene_object(scene, (int)i)->mesh)->part_count;
-        ranges += parts ? parts : 1;
+        const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, (int)i)->mesh);
+        ranges += mesh->part_count ? mesh->part_count : 1;
+        strokes += mesh_is_strokes(mesh);
     }
-    size_t materials = 2 * ((size_t)scene->materials.count + 1), turned = frame_materials_turned(frame, scene);
+    size_t materials = 3 * ((size_t)scene->materials.count + 1), turned = frame_materials_turned(frame, scene);
     size_t bytes = objects * sizeof *frame->draws + ranges * sizeof *frame->ranges + lights * sizeof *frame->lights +
                    lights * sizeof *frame->hemispheres + materials * sizeof *frame->materials +
-                   turned * sizeof *frame->turned + 64;
+                   turned * sizeof *frame->turned + strokes * sizeof *frame->stroke_meshes + 64;
     if (!buffer_reserve(&frame->storage, bytes, call, error))
         return false;
     char *at = frame->storage.data;
@@ -373,6 +393,8 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     at += materials * sizeof *frame->materials;
     frame->turned = (void *)at;
     at += turned * sizeof *frame->turned;
+    frame->stroke_meshes = (void *)at;
+    at += strokes * sizeof *frame->stroke_meshes;
     frame->draws = (void *)at;
     at += objects * sizeof *frame->draws;
     frame->lights = (void *)at;
@@ -451,8 +473,15 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
 
     lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up);
     double near_plane = camera->near_plane, far_plane = camera->far_plane, aspect = (double)width / height;
-    if (near_plane == 0 && far_plane == 0)
+    struct stroke_view stroke_view = {
+        .view = &view,
+        .orthographic = frame->orthographic,
+        .line_width = params->line_width > 0 ? (double)params->line_width : STROKE_LINE_WIDTH,
+        .point_size = params->point_size > 0 ? (double)params->point_size : STROKE_POINT_SIZE};
+    if (near_plane == 0 && far_plane == 0) {
         fit_planes(scene, &view, frame->orthographic, &near_plane, &far_plane);
+        frame_strokes_near(scene, camera, &stroke_view, height, &near_plane);
+    }
     frame->near_plane = rounded(near_plane);
     frame->far_plane = rounded(far_plane);
     frame->depth_near = frame->depth_far = 0;
@@ -468,15 +497,24 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         return false;
     lam_mat4 pixel = to_pixels(&projection, width, height);
 
+    stroke_view.projection = &projection;
+    stroke_view.pixel = &pixel;
+    stroke_view.near_plane = near_plane;
+    if (!frame_strokes_reserve(frame, scene, call, error))
+        return false;
     uint64_t next = 0;
     for (int i = 0; i < scene->objects.count; i++) {
-        uint32_t triangles = scene_mesh(scene, scene_object(scene, i)->mesh)->triangle_count;
+        const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
+        uint64_t triangles = mesh_is_strokes(mesh) ? 2 * (uint64_t)mesh_items(mesh) : mesh->triangle_count;
         if (!triangles)
             continue;
         if (next + triangles > TRIANGLES_MAX)
             return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
-        build_draw(&frame->draws[frame->draw_count], scene, i, (uint32_t)next, &view, &pixel);
-        frame->makes_normals |= frame->draws[frame->draw_count].crease_rad > 0;
+        struct frame_draw *draw = &frame->draws[frame->draw_count];
+        build_draw(draw, scene, i, (uint32_t)next, &view, &pixel);
+        if (mesh_is_strokes(mesh))
+            frame_strokes_build(frame, draw, &scene_object(scene, i)->transform, &stroke_view);
+        frame->makes_normals |= draw->crease_rad > 0;
         build_ranges(frame, scene, frame->draw_count++);
         next += triangles;
     }
@@ -504,4 +542,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
                         output_is_one_light(frame->output) ? params->output_light : -1, &view, error);
 }
 
-void frame_free(struct frame *frame) { buffer_free(&frame->storage); }
+void frame_free(struct frame *frame)
+{
+    buffer_free(&frame->storage);
+    buffer_free(&frame->strokes);
+}

@@ -23,6 +23,9 @@ struct frame_draw {
     float tangent[3][3]; // mesh directions to eye space, up to a positive factor
     bool mirrored;       // the transform reverses the winding
     bool one_sided;
+    // The mesh consists of the rectangles of lines or points (frame_strokes.h): made for this frame, in eye space. They are no
+    // surface: flat shading takes the normals of their vertices, and they cast no shadows.
+    bool strokes;
     lam_cull cull;
     // > 0: the mesh has no normals; the device computes those that it needs, with this crease angle.
     double crease_rad;
@@ -96,11 +99,14 @@ struct frame {
     int range_count;
     uint32_t triangle_count;
     // 0: the default material; 1 + i: the scene's; then, where some are the back of a front that another kind of model
-    // lights, all of them again for such backs. Each is of the kind that its model lights.
+    // lights, all of them again for such backs; then, where unlit lines or points have emission, all of them again for
+    // these. Each is of the kind that its model lights.
     const lam_material **materials;
     int material_count, scene_material_count; // all; without those backs
     lam_material *turned;                     // materials of the other kind than the scene's
     int turned_count;
+    lam_mesh *stroke_meshes; // one for each draw of lines or points
+    int stroke_mesh_count;
     struct frame_light *lights;
     int light_count;
     struct frame_hemisphere *hemispheres;
@@ -114,6 +120,8 @@ struct frame {
     lam_light rig[LAM_RIG_LIGHTS_MAX];
     lam_material default_material;
     struct buffer storage; // of the arrays
+    struct buffer strokes; // of the arrays of stroke_meshes
+    size_t strokes_used;   // bytes
 };
 
 // The reflection model that lights a material; never AUTO.
@@ -127,6 +135,9 @@ size_t frame_materials_turned(const struct frame *frame, const lam_scene *scene)
 void frame_materials_build(struct frame *frame, const lam_scene *scene);
 // The index of a back's material beside this front.
 int frame_back_material(struct frame *frame, int front, int back);
+
+// The index of the material of unlit lines and points: with the emission added to the diffuse colour.
+int frame_stroke_material(struct frame *frame, int front);
 
 // The colours that lights are multiplied by: kd and ks; of a physical material base (1 − metallic), and 1, since Fresnel's
 // factor comes later (fresnel_of).

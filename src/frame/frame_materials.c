@@ -40,7 +40,12 @@ size_t frame_materials_turned(const struct frame *frame, const lam_scene *scene)
         count += !fits(material, frame_reflection(frame, material));
         mixed |= material->physical != physical;
     }
-    // Each may be the back of an object whose front is of the other kind.
+    // Each may be the material of unlit lines, or the back of an object whose front is of the other kind.
+    for (int i = 0; i < scene->meshes.count; i++)
+        if (mesh_is_strokes(scene_mesh(scene, i)) && !scene_mesh(scene, i)->normals) {
+            count += (size_t)scene->materials.count + 1;
+            break;
+        }
     return count + (mixed && frame->reflection == LAM_REFLECTION_AUTO ? (size_t)scene->materials.count + 1 : 0);
 }
 
@@ -60,6 +65,13 @@ void frame_materials_build(struct frame *frame, const lam_scene *scene)
     }
 }
 
+// Has all materials `times` times in the list.
+static void repeat_materials(struct frame *frame, int times)
+{
+    for (; frame->material_count < times * frame->scene_material_count; frame->material_count++)
+        frame->materials[frame->material_count] = frame->materials[frame->material_count % frame->scene_material_count];
+}
+
 int frame_back_material(struct frame *frame, int front, int back)
 {
     const lam_material *material = frame->materials[back];
@@ -67,16 +79,31 @@ int frame_back_material(struct frame *frame, int front, int back)
     if (fits(material, model))
         return back;
     int second = frame->scene_material_count + back;
-    if (frame->material_count == frame->scene_material_count) { // the first such back: all of them follow the others
-        frame->material_count *= 2;
-        for (int i = 0; i < frame->scene_material_count; i++)
-            frame->materials[frame->scene_material_count + i] = frame->materials[i];
-    }
+    repeat_materials(frame, 2);
     if (frame->materials[second] == material) {
         frame->turned[frame->turned_count] = turned(material, model);
         frame->materials[second] = &frame->turned[frame->turned_count++];
     }
     return second;
+}
+
+int frame_stroke_material(struct frame *frame, int front)
+{
+    const lam_material *material = frame->materials[front];
+    if (material->emission.r == 0 && material->emission.g == 0 && material->emission.b == 0)
+        return front;
+    int third = 2 * frame->scene_material_count + front;
+    repeat_materials(frame, 3);
+    if (frame->materials[third] == material) {
+        lam_material *unlit = &frame->turned[frame->turned_count++];
+        *unlit = *material;
+        unlit->diffuse.r += material->emission.r;
+        unlit->diffuse.g += material->emission.g;
+        unlit->diffuse.b += material->emission.b;
+        unlit->emission = (lam_rgb){0, 0, 0};
+        frame->materials[third] = unlit;
+    }
+    return third;
 }
 
 void frame_material_colors(const lam_material *material, float kd[3], float ks[3])

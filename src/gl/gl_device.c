@@ -82,7 +82,8 @@ static enum vertex_form form_of(const struct gl_frame *f, const struct frame_dra
 {
     const struct frame *frame = f->frame;
     if (frame->shading == LAM_SHADING_FLAT && !glsl_output_is_geometry(frame->output))
-        return frame->flat_normal == LAM_FLAT_NORMAL_VERTEX && draw->mesh->normals ? FORM_FLAT_VERTEX : FORM_FLAT_FACE;
+        return (frame->flat_normal == LAM_FLAT_NORMAL_VERTEX || draw->strokes) && draw->mesh->normals ? FORM_FLAT_VERTEX
+                                                                                                      : FORM_FLAT_FACE;
     // Shaders number triangles by gl_VertexID / 3. A vertex lit for two materials has two colours.
     bool counts = f->layered || frame->output == LAM_OUTPUT_IDS;
     bool two = f->stage == LAM_STAGE_APPLICATION && draw_all > 1;
@@ -133,8 +134,8 @@ static bool set_up_draw(struct gl_frame *f, const struct frame_draw_range *list,
         return false;
     const struct frame_draw *draw = &frame->draws[list->draw];
     lam_mesh drawn = mesh_as_drawn(f, list, count);
-    struct gl_mesh *mesh =
-        mesh_upload(f, &drawn, form_of(f, draw, &drawn, f->draw_call_count - first), f->device->runs.data, runs, error);
+    struct gl_mesh *mesh = mesh_upload(f, &drawn, form_of(f, draw, &drawn, f->draw_call_count - first), draw->strokes,
+                                       f->device->runs.data, runs, error);
     if (!mesh)
         return false;
     bool colors = f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->output);

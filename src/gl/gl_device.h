@@ -60,6 +60,7 @@ struct gl_mesh {
     struct scene_token *token; // retained; NULL: the entry is free
     lam_mesh mesh;             // the arrays that the buffers were made from
     enum vertex_form form;
+    bool passing; // the arrays are those of one frame
     // Runs of the draw calls, where those of one call are not consecutive: the element buffer then orders the triangles
     // by call.
     struct mesh_run *runs;
@@ -275,9 +276,9 @@ bool mesh_can_share(const lam_mesh *mesh);
 void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
                    uint32_t count, struct mesh_vertex *out);
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form);
-// Returns the mesh's buffers, created on first use. With runs (NULL: none) the elements are ordered by call. The pointer
+// Returns the mesh's buffers, created on first use; `passing` arrays may change after the frame. With runs (NULL: none) the elements are ordered by call. The pointer
 // is valid until the next call. NULL on failure.
-struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form,
+struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form, bool passing,
                             const struct mesh_run *runs, int run_count, lam_error *error);
 // Frees the meshes of scenes that no longer exist, and meshes that the frame's scene no longer draws.
 void meshes_evict(struct gl_frame *f);

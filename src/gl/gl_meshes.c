@@ -276,13 +276,13 @@ static bool keep_runs(struct gl_mesh *row, const struct mesh_run *runs, int coun
     return true;
 }
 
-struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form,
+struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form, bool passing,
                             const struct mesh_run *runs, int run_count, lam_error *error)
 {
     struct gl_device *device = f->device;
     for (int i = 0; i < device->mesh_count; i++) {
         struct gl_mesh *row = &device->meshes[i];
-        if (row->token == f->frame->token && row->form == form && same_arrays(&row->mesh, mesh) &&
+        if (row->token == f->frame->token && row->form == form && !row->passing && same_arrays(&row->mesh, mesh) &&
             same_runs(row, runs, run_count)) {
             row->last_frame = device->frame_number;
             return row;
@@ -303,6 +303,7 @@ struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum verte
     row->token = scene_token_hold(f->frame->token);
     row->mesh = *mesh;
     row->form = form;
+    row->passing = passing;
     row->last_frame = device->frame_number;
     f->gl->GenBuffers(1, &row->vertices);
     f->gl->GenVertexArrays(1, &row->array);
@@ -323,7 +324,7 @@ void meshes_evict(struct gl_frame *f)
     for (int i = 0; i < device->mesh_count; i++) {
         struct gl_mesh *row = &device->meshes[i];
         bool gone = row->token && __atomic_load_n(&row->token->gone, __ATOMIC_ACQUIRE);
-        bool unused = row->token == f->frame->token && row->last_frame + 2 < device->frame_number;
+        bool unused = row->passing || (row->token == f->frame->token && row->last_frame + 2 < device->frame_number);
         if (row->token && (gone || unused))
             drop(device, row);
     }

@@ -258,9 +258,11 @@ static bool make_key(struct gl_frame *f, struct gl_vertex_lighting *row, const s
                            frame->distant_viewer, frame->match_highlights, frame->single_scattering,
                            frame->light_count,    frame->hemisphere_count, draw->one_sided,
                            frame->flat_normal,    (int)mesh->form,         frame->translucent};
+    const uint64_t frame_number = mesh->passing ? f->device->frame_number : 0; // the contents are of this frame
     const void *pointers[] = {frame->environment, mesh->mesh.positions, mesh->token};
     bool ok = key_add(f, row, size, choices, sizeof choices, error) &&
               key_add(f, row, size, pointers, sizeof pointers, error) &&
+              key_add(f, row, size, &frame_number, sizeof frame_number, error) &&
               key_add(f, row, size, draw->eye, sizeof draw->eye, error) &&
               key_add(f, row, size, draw->normal, sizeof draw->normal, error) &&
               key_add(f, row, size, draw->tangent, sizeof draw->tangent, error) &&

@@ -37,9 +37,11 @@ struct build {
 
 // --- choices for all ranges of a scene
 
+// Lines and points have no shader of their own: their rectangles belong to one camera.
 static bool is_selected(const struct frame *frame, const struct frame_draw_range *range, int object)
 {
-    return object < 0 || frame->draws[range->draw].object == object;
+    const struct frame_draw *draw = &frame->draws[range->draw];
+    return !draw->strokes && (object < 0 || draw->object == object);
 }
 
 // Adds the maps of other materials, which may have some more: a map that a material has not is 1 everywhere (glsl_map_values).

@@ -27,7 +27,7 @@ static bool next_shown(struct lam_scene *scene, const lam_object *object, struct
 {
     const lam_mesh *mesh = scene_mesh(scene, object->mesh);
     bool one = object->material >= 0 || !mesh->part_count;
-    if (mesh->triangle_count == 0 || shown->part >= (one ? 1 : mesh->part_count))
+    if (mesh_items(mesh) == 0 || shown->part >= (one ? 1 : mesh->part_count))
         return false;
     shown->front = material_at(scene, one ? object->material : mesh->parts[shown->part].material);
     shown->back = object->back_material >= 0 ? material_at(scene, object->back_material) : NULL;

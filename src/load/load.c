@@ -30,18 +30,10 @@ static bool check_params(const lam_load_params *params, const char *name, lam_er
 
 static bool check_not_empty(const struct lam_scene *scene, const char *name, lam_error *error)
 {
-    uint64_t triangles = 0, points = 0;
-    for (int i = 0; i < scene->meshes.count; i++) {
-        const lam_mesh *mesh = (const lam_mesh *)scene->meshes.items + i;
-        triangles += mesh->triangle_count;
-        points += mesh->vertex_count;
-    }
-    if (triangles)
-        return true;
-    if (points)
-        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles (%llu points only)", name,
-                    (unsigned long long)points);
-    return fail(error, LAM_CANNOT_READ, "%s: holds no triangles", name);
+    uint64_t items = 0;
+    for (int i = 0; i < scene->meshes.count; i++)
+        items += mesh_items(scene_mesh(scene, i));
+    return items || fail(error, LAM_CANNOT_READ, "%s: holds no triangles, lines or points", name);
 }
 
 static struct lam_scene *start_scene(const struct import_source *source, const struct importer *importer,

@@ -36,9 +36,9 @@ static lam_scene *load(const char *model, const lam_render_params *params, lam_e
     bool draws_once = !params->device && !(params->draw && reads_tangents(params->draw));
     lam_load_params plain = {.threads = params->threads, .normals_when_drawn = draws_once};
     lam_scene *scene = lam_scene_load(model, params->load ? params->load : &plain, params->control, error);
-    if (!scene || lam_scene_triangle_count(scene) > 0)
+    if (!scene || lam_scene_triangle_count(scene) + lam_scene_line_count(scene) + lam_scene_point_count(scene) > 0)
         return scene;
-    fail(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw", model);
+    fail(error, LAM_CANNOT_READ, "%s: found no triangles, lines or points, expected at least one to draw", model);
     lam_scene_free(scene);
     return NULL;
 }

@@ -1,4 +1,4 @@
-// mesh_bounds.c: the vertices that a mesh's triangles use, bounding boxes of meshes and scenes, the origin of meshes
+// mesh_bounds.c: the vertices that a mesh's triangles, lines or points use, bounding boxes of meshes and scenes, the origin of meshes
 // that lie far from zero, and translucency of vertex colours.
 #include "scene_internal.h"
 
@@ -35,7 +35,7 @@ static void mark_piece(void *user, size_t index, int thread)
 static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                       lam_error *error)
 {
-    size_t corners = (size_t)mesh->triangle_count * 3;
+    size_t corners = mesh_corners(mesh);
     extent->used = NULL;
     extent->used_count = mesh->indices ? mesh->vertex_count : (uint32_t)corners;
     if (!mesh->indices)

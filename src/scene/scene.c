@@ -186,7 +186,7 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
                                                                                          : math_radians(40);
     for (int i = 0; i < scene->meshes.count; i++) {
         lam_mesh *mesh = (lam_mesh *)scene->meshes.items + i;
-        if (mesh->normals && normals == LAM_NORMALS_FILE)
+        if ((mesh->normals && normals == LAM_NORMALS_FILE) || mesh_is_strokes(mesh))
             continue;
         bool ok = normals == LAM_NORMALS_FACET
                       ? normals_facet(mesh, &scene->arena, pool, call, error)
@@ -202,6 +202,8 @@ void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double cr
 {
     for (int i = 0; i < scene->meshes.count; i++) {
         lam_mesh *mesh = (lam_mesh *)scene->meshes.items + i;
+        if (mesh_is_strokes(mesh))
+            continue;
         if (normals == LAM_NORMALS_SMOOTH) {
             mesh->normals = NULL;
             mesh->normal_count = 0;
@@ -254,6 +256,22 @@ uint64_t lam_scene_triangle_count(const lam_scene *scene)
     uint64_t count = 0;
     for (int i = 0; i < lam_scene_object_count(scene); i++)
         count += scene_mesh(scene, scene_object(scene, i)->mesh)->triangle_count;
+    return count;
+}
+
+uint64_t lam_scene_line_count(const lam_scene *scene)
+{
+    uint64_t count = 0;
+    for (int i = 0; i < lam_scene_object_count(scene); i++)
+        count += scene_mesh(scene, scene_object(scene, i)->mesh)->line_count;
+    return count;
+}
+
+uint64_t lam_scene_point_count(const lam_scene *scene)
+{
+    uint64_t count = 0;
+    for (int i = 0; i < lam_scene_object_count(scene); i++)
+        count += scene_mesh(scene, scene_object(scene, i)->mesh)->point_count;
     return count;
 }
 

@@ -30,7 +30,7 @@ static bool indices_below(const uint32_t *indices, size_t count, uint32_t limit)
 static bool check_attribute(const char *name, const float *values, uint32_t count, int width, const uint32_t *own,
                             const lam_mesh *mesh, lam_error *error)
 {
-    size_t corners = (size_t)mesh->triangle_count * 3;
+    size_t corners = mesh_corners(mesh);
     if (!values)
         return true;
     if (!finite_floats(values, (size_t)count * (size_t)width))
@@ -44,18 +44,23 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
 {
     if (!check_reserved("mesh", mesh, error))
         return false;
-    size_t corners = (size_t)mesh->triangle_count * 3;
+    size_t corners = mesh_corners(mesh);
+    const char *items = mesh->line_count ? "lines" : mesh->point_count ? "points" : "triangles";
+    if ((mesh->triangle_count != 0) + (mesh->line_count != 0) + (mesh->point_count != 0) > 1)
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: %u triangles, %u lines and %u points, expected one kind",
+                    mesh->triangle_count, mesh->line_count, mesh->point_count);
     if (corners > UINT32_MAX)
-        return fail(error, LAM_LIMIT, "mesh: %u triangles, expected at most %u", mesh->triangle_count, UINT32_MAX / 3);
-    if (!mesh->positions && mesh->triangle_count)
+        return fail(error, LAM_LIMIT, "mesh: %u %s, expected at most %u", mesh_items(mesh), items,
+                    UINT32_MAX / (mesh->line_count ? 2 : 3));
+    if (!mesh->positions && corners)
         return fail(error, LAM_BAD_ARGUMENT, "mesh: positions are NULL");
     if (!math_finite(mesh->origin[0]) || !math_finite(mesh->origin[1]) || !math_finite(mesh->origin[2]))
         return fail(error, LAM_BAD_ARGUMENT, "mesh: the origin is not finite");
     if (mesh->indices && !indices_below(mesh->indices, corners, mesh->vertex_count))
         return fail(error, LAM_BAD_ARGUMENT, "mesh: an index is not below vertex_count, %u", mesh->vertex_count);
     if (!mesh->indices && corners > mesh->vertex_count)
-        return fail(error, LAM_BAD_ARGUMENT, "mesh: %u triangles without indices need %zu vertices, found %u",
-                    mesh->triangle_count, corners, mesh->vertex_count);
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: %u %s without indices need %zu vertices, found %u",
+                    mesh_items(mesh), items, corners, mesh->vertex_count);
     if (mesh->positions && !finite_floats(mesh->positions, (size_t)mesh->vertex_count * 3))
         return fail(error, LAM_BAD_ARGUMENT, "mesh: positions contain a number that is not finite");
     if (!check_attribute("normals", mesh->normals, mesh->normal_count, 3, mesh->normal_indices, mesh, error) ||
@@ -71,7 +76,7 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
         const float *as_floats = mesh->colors_format == LAM_COLORS_LINEAR_F32 ? mesh->colors : NULL;
         if (as_floats && !finite_floats(as_floats, (size_t)mesh->color_count * 4))
             return fail(error, LAM_BAD_ARGUMENT, "mesh: colors contain a number that is not finite");
-        size_t needed = mesh->colors_rate == LAM_PER_TRIANGLE ? mesh->triangle_count
+        size_t needed = mesh->colors_rate == LAM_PER_TRIANGLE ? mesh_items(mesh)
                         : mesh->indices                       ? mesh->vertex_count
                                                               : corners;
         bool by_index = mesh->color_indices && mesh->colors_rate == LAM_PER_VERTEX;
@@ -94,9 +99,9 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
             return fail(error, LAM_BAD_ARGUMENT, "mesh: part %u names material %d of %d", i, part->material,
                         scene->materials.count);
     }
-    if (mesh->part_count && next != mesh->triangle_count)
-        return fail(error, LAM_BAD_ARGUMENT, "mesh: the parts cover %llu of %u triangles", (unsigned long long)next,
-                    mesh->triangle_count);
+    if (mesh->part_count && next != mesh_items(mesh))
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: the parts cover %llu of %u %s", (unsigned long long)next,
+                    mesh_items(mesh), items);
     return true;
 }
 
@@ -125,7 +130,7 @@ static bool copy_text(struct lam_scene *scene, const char **text)
 
 static bool copy_mesh(struct lam_scene *scene, lam_mesh *mesh)
 {
-    size_t corners = (size_t)mesh->triangle_count * 3;
+    size_t corners = mesh_corners(mesh);
     size_t color_size = mesh->colors_format == LAM_COLORS_LINEAR_F32 ? 16 : 4;
     lam_part *parts = NULL;
     bool ok = copy_text(scene, &mesh->name) && copy_array(scene, &mesh->positions, mesh->vertex_count, 12) &&
@@ -159,7 +164,7 @@ int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error)
     bool ok = check_mesh(scene, mesh, error);
     if (ok && !copy_mesh(scene, &copy))
         ok = call_memory_error(scene->arena.call, 0, error);
-    if (ok && !copy.normals)
+    if (ok && !copy.normals && !mesh_is_strokes(&copy))
         ok = normals_smooth(&copy, math_radians(40), &scene->arena, NULL, NULL, error);
     int index = ok ? scene_adopt_mesh(scene, &copy, error) : -1;
     if (index >= 0 && !scene_measure(scene, NULL, error)) {

@@ -16,7 +16,7 @@ struct scene_list {
     int count, capacity;
 };
 
-// Bounds of a mesh's triangles.
+// Bounds of a mesh's triangles, lines or points.
 struct scene_extent {
     lam_vec3 minimum, maximum; // mesh coordinates, origin included
     // The vertices that triangles refer to, in order; NULL: all vertices.
@@ -152,6 +152,21 @@ bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error)
 
 // The largest distance of a triangle's vertex from a point, in world space.
 double scene_radius(const struct lam_scene *scene, lam_vec3 centre);
+
+// Whether a mesh consists of lines or points: what makes normals or follows surfaces passes over it.
+static inline bool mesh_is_strokes(const lam_mesh *mesh) { return mesh->line_count || mesh->point_count; }
+
+// The number of triangles, of lines or of points, and of their corners.
+static inline uint32_t mesh_items(const lam_mesh *mesh)
+{
+    return mesh->line_count ? mesh->line_count : mesh->point_count ? mesh->point_count : mesh->triangle_count;
+}
+static inline size_t mesh_corners(const lam_mesh *mesh)
+{
+    return mesh->line_count    ? (size_t)mesh->line_count * 2
+           : mesh->point_count ? mesh->point_count
+                               : (size_t)mesh->triangle_count * 3;
+}
 
 static inline const lam_mesh *scene_mesh(const struct lam_scene *scene, int i)
 {

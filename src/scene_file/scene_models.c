@@ -89,10 +89,10 @@ static bool import_file(struct scene_reader *r, const struct model_wanted *wante
     model->crease_angle_rad = importer_crease(importer, wanted->normals, wanted->crease_angle_rad);
     if (!importer->load(&source, inner, r->error))
         return false;
-    uint64_t triangles = 0;
+    uint64_t items = 0;
     for (int i = 0; i < inner->meshes.count; i++)
-        triangles += scene_mesh(inner, i)->triangle_count;
-    return triangles || fail(r->error, LAM_CANNOT_READ, "%s: holds no triangles", source.name);
+        items += mesh_items(scene_mesh(inner, i));
+    return items || fail(r->error, LAM_CANNOT_READ, "%s: holds no triangles, lines or points", source.name);
 }
 
 static bool open_file(struct scene_reader *r, const struct model_wanted *wanted, struct companion *file)

@@ -200,7 +200,7 @@ CONTEXT = {
     "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),
     "reference": (["--environment", "studio", "--material", "#ffc356,metallic=1,roughness=0.3"], "64"),
-    "anisotropy": (["floor.obj"], "8"), "viewer": ([], "infinite"), "normals": ([], "facet"),
+    "anisotropy": (["floor.obj"], "8"), "line-width": (["lines.obj"], "3"), "point-size": (["lines.obj"], "5"), "viewer": ([], "infinite"), "normals": ([], "facet"),
     "environment-rotation": (["--environment", "studio", "--reflectivity", "0.5"], "90"),
 }
 
@@ -213,6 +213,7 @@ class Defaults(Case):
         (self.folder / "tent.obj").write_text(
             "".join(f"v {x} -1 {z}\n" for x, z in ring) + "".join(f"v {x} 1 {z}\n" for x, z in ring) +
             "".join(f"f {i + 1} {i + 13} {(i + 1) % 12 + 13} {(i + 1) % 12 + 1}\n" for i in range(12)))
+        (self.folder / "lines.obj").write_text("v -1 0 0\nv 1 0 0\nv 0 1 1\nl 1 2\np 3\n")
         # A striped floor, seen at a slant.
         (self.folder / "stripes.png").write_bytes(write_png(2, 2, bytes([255] * 8 + [0, 0, 0, 255] * 2)))
         (self.folder / "floor.mtl").write_text("newmtl a\nmap_Kd -s 20 20 stripes.png\n")

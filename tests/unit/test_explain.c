@@ -44,10 +44,9 @@ static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z *
 
 static int reflections; // points whose reflection term was checked and is not 0
 
-static void check_light(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
-                        const lam_explained_light *l)
+static void check_light(const lam_explained_fragment *f, const lam_explained_point *p, const lam_explained_light *l)
 {
-    bool cosine = strcmp(lam_reflection_describe(e->reflection)->diffuse, "max(n·l, 0)") == 0;
+    bool cosine = strcmp(lam_reflection_describe(f->reflection)->diffuse, "max(n·l, 0)") == 0;
     float weak = l->attenuation * l->spot;
     for (int c = 0; c < 3; c++) {
         float kd = (&f->surface.diffuse.r)[c] * (&l->diffuse.r)[c],
@@ -64,9 +63,9 @@ static void check_light(const lam_explanation *e, const lam_explained_fragment *
         return;
     assert_true(fabs(cos(l->theta_rad) - (double)l->n_dot_l) < 2e-6);
     assert_true(fabs(dot(p->n, l->l) - cos(l->theta_rad)) < 1e-6);
-    if (e->reflection == LAM_REFLECTION_BLINN_PHONG && l->base > 0)
+    if (f->reflection == LAM_REFLECTION_BLINN_PHONG && l->base > 0)
         assert_true(fabs(cos(l->psi_rad) - (double)l->base) < 1e-5);
-    if (e->reflection == LAM_REFLECTION_PHONG && l->base > 0)
+    if (f->reflection == LAM_REFLECTION_PHONG && l->base > 0)
         assert_true(fabs(cos(l->phi_rad) - (double)l->base) < 1e-5);
     if (l->type != LAM_LIGHT_DIRECTIONAL) {
         double d = (double)l->distance;
@@ -85,7 +84,7 @@ static void check_environment(const lam_explanation *e, const lam_explained_frag
                               const lam_environment *environment)
 {
     assert_true(e->has_environment == (environment != NULL));
-    bool looks = environment && e->reflection != LAM_REFLECTION_NONE && dot(p->n, p->n) > 0;
+    bool looks = environment && f->reflection != LAM_REFLECTION_NONE && dot(p->n, p->n) > 0;
     lam_rgb light = {0, 0, 0};
     if (looks) {
         double n_v = dot(p->n, p->v), length = dot(p->environment_direction, p->environment_direction);
@@ -122,13 +121,13 @@ static void check_point(const lam_explanation *e, const lam_explained_fragment *
     bool plain = is_plain(f);
     if (plain)
         check_environment(e, f, p, environment);
-    if (plain && e->reflection != LAM_REFLECTION_NONE) {
+    if (plain && f->reflection != LAM_REFLECTION_NONE) {
         float ambient[3] = {p->ambient_term.r, p->ambient_term.g, p->ambient_term.b}, diffuse[3] = {0},
               specular[3] = {0};
         for (int i = 0; i < p->hemisphere_count; i++)
             add(ambient, p->hemispheres[i].term);
         for (int i = 0; i < p->light_count; i++) {
-            check_light(e, f, p, &p->lights[i]);
+            check_light(f, p, &p->lights[i]);
             add(ambient, p->lights[i].ambient_term);
             add(diffuse, p->lights[i].diffuse_term);
             add(specular, p->lights[i].specular_term);

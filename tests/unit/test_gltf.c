@@ -350,8 +350,6 @@ static void test_modes(void **state)
     assert_string_equal(lam_scene_warning(scene, 0),
                         "a.gltf: meshes[0].primitives[0]: the last 2 of 5 corners make no triangle");
     lam_scene_free(scene);
-    for (int mode = 0; mode < 4; mode++)
-        assert_null(load_mode(mode, 5, (uint16_t[]){0, 1, 2, 3, 4}, true));
 }
 
 // Primitives with different attributes are meshes of their own; what they share is shared.
@@ -369,20 +367,20 @@ static void test_several_primitives(void **state)
         "{\"attributes\": {\"POSITION\": 0, \"NORMAL\": 0}, \"indices\": 1, \"material\": 0}, "
         "{\"attributes\": {\"POSITION\": 0}, \"mode\": 0}, {\"attributes\": {}}]}], "
         "%B, " VIEWS ", " ACCESSORS "}");
-    assert_int_equal(lam_scene_mesh_count(scene), 2);
-    assert_int_equal(lam_scene_object_count(scene), 4);
+    assert_int_equal(lam_scene_mesh_count(scene), 3);
+    assert_int_equal(lam_scene_object_count(scene), 6);
+    assert_int_equal(lam_scene_point_count(scene), 8);
     assert_ptr_equal(lam_scene_mesh(scene, 0)->positions, lam_scene_mesh(scene, 1)->positions);
     assert_ptr_equal(lam_scene_mesh(scene, 0)->indices, lam_scene_mesh(scene, 1)->indices);
     assert_string_equal(lam_scene_mesh(scene, 1)->name, "pair");
     assert_string_equal(lam_scene_object(scene, 1)->name, "left");
-    assert_string_equal(lam_scene_object(scene, 2)->name, "pair");
+    assert_string_equal(lam_scene_object(scene, 3)->name, "pair");
     assert_int_equal(lam_scene_object(scene, 0)->cull, LAM_CULL_NONE);
     assert_int_equal(lam_scene_object(scene, 1)->cull, LAM_CULL_BACK);
     assert_int_equal(lam_scene_mesh(scene, 0)->parts[0].material, 1);
-    assert_int_equal(lam_scene_object(scene, 3)->mesh, 1);
-    assert_true(lam_scene_object(scene, 3)->transform.m[0][3] == 2);
-    assert_string_equal(lam_scene_warning(scene, 0), "a.gltf: not drawn: points (4) and lines (0)");
-    assert_string_equal(lam_scene_warning(scene, 1),
+    assert_int_equal(lam_scene_object(scene, 4)->mesh, 1);
+    assert_true(lam_scene_object(scene, 4)->transform.m[0][3] == 2);
+    assert_string_equal(lam_scene_warning(scene, 0),
                         "a.gltf: not drawn: primitives without the attribute POSITION (1)");
     lam_scene_free(scene);
 }
@@ -834,7 +832,7 @@ static void test_errors(void **state)
         {"{\"nodes\": [0]}", "{\"nodes\": [4]}", ": scenes[0].nodes[0]: found 4, expected a number from 0 to 0 (nodes)",
          LAM_CANNOT_READ},
         {"{\"nodes\": [0]}", "{\"nodes\": []}", ": holds no triangles in its scene", LAM_CANNOT_READ},
-        {"\"POSITION\": 0", "\"NORMAL\": 0", ": holds no triangles: its primitives (1) have no attribute POSITION",
+        {"\"POSITION\": 0", "\"NORMAL\": 0", ": holds nothing to draw: its primitives (1) have no attribute POSITION",
          LAM_CANNOT_READ},
         {"\"count\": 6",
          "\"count\": 6, \"sparse\": {\"count\": 1, \"indices\": {\"bufferView\": 0, \"componentType\": 5126}, "

@@ -15,15 +15,6 @@ static const struct {
     {"Negative/Mesh_NoPosition/", LAM_CANNOT_READ, "its primitives (1) have no attribute POSITION"},
     {"Negative/Mesh_PrimitiveRestart/", LAM_CANNOT_READ, "the greatest of its type, which glTF does not allow"},
     {"Compatibility/Compatibility_04.gltf", LAM_UNSUPPORTED, "the file needs glTF 2.1, expected at most 2.0"},
-    // points and lines alone
-    {"Mesh_PrimitiveMode_00.gltf", LAM_UNSUPPORTED, "points (1024) and lines (0) alone"},
-    {"Mesh_PrimitiveMode_01.gltf", LAM_UNSUPPORTED, "points (0) and lines (4) alone"},
-    {"Mesh_PrimitiveMode_02.gltf", LAM_UNSUPPORTED, "points (0) and lines (4) alone"},
-    {"Mesh_PrimitiveMode_03.gltf", LAM_UNSUPPORTED, "points (0) and lines (4) alone"},
-    {"Mesh_PrimitiveMode_07.gltf", LAM_UNSUPPORTED, "points (1024) and lines (0) alone"},
-    {"Mesh_PrimitiveMode_08.gltf", LAM_UNSUPPORTED, "points (0) and lines (4) alone"},
-    {"Mesh_PrimitiveMode_09.gltf", LAM_UNSUPPORTED, "points (0) and lines (4) alone"},
-    {"Mesh_PrimitiveMode_10.gltf", LAM_UNSUPPORTED, "points (0) and lines (4) alone"},
     // compressed
     {"nefertiti_draco.glb", LAM_UNSUPPORTED, "KHR_draco_mesh_compression"},
     {"DenseSphere.glb", LAM_UNSUPPORTED, "KHR_draco_mesh_compression"},

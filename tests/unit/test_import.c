@@ -107,7 +107,7 @@ static void test_foreign(void **unused)
             "a.txt: this is no model format known here; expected obj, stl, ply, gltf and scene", LAM_CANNOT_READ),
         ROW("", "a.obj", "a.obj: the file is empty", LAM_CANNOT_READ),
         ROW("hello there\n", "a.obj",
-            "a.obj:1: found 'hello', expected a statement of OBJ (v, f, …); the file holds no triangles",
+            "a.obj:1: found 'hello', expected a statement of OBJ (v, f, …); the file holds nothing to draw",
             LAM_CANNOT_READ),
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)

@@ -250,8 +250,8 @@ static void test_warnings(void **unused)
     (void)unused;
     expect_warning(TRIANGLE "f 1 2 3\nf 1 2\nf\nf 3\n", NULL,
                    "t.obj:5: a face of fewer than three corners is ignored, the first of 3");
-    expect_warning(TRIANGLE "l 1 2\nf 1 2 3\np 1\nl 2 3\n", NULL,
-                   "t.obj:4: 2 line and 1 point elements are not drawn, only faces");
+    expect_warning(TRIANGLE "l 1\nf 1 2 3\nl\nl 2 3\n", NULL, "t.obj: 2 lines of fewer than two vertices are ignored");
+    expect_warning(TRIANGLE "p\nf 1 2 3\n", NULL, "t.obj: 1 points without a vertex are ignored");
     expect_warning(TRIANGLE "f 1 2 3\ncstype bezier\ncurv 0 1 1 2 3\n", NULL,
                    "t.obj:5: free-form curves and surfaces are not drawn: 'cstype' is the first of 2 such statements");
     expect_warning(TRIANGLE "f 1 2 3\nfoo bar\n\nbaz\n", NULL,
@@ -305,9 +305,17 @@ static void test_errors(void **unused)
                  "t.obj:4: found the end of the line, expected a normal's coordinate (vn x y z)");
     expect_error(TRIANGLE "f 1 2 3\nf 1 2 7\nf 8 1 2\n", LAM_CANNOT_READ,
                  "t.obj:5: a face names vertex '7', but the file has 3");
-    expect_error("", LAM_CANNOT_READ, "t.obj: holds no triangles");
-    expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: holds no triangles (3 points only)");
-    expect_error(TRIANGLE "l 1 2\np 1 2 3\n", LAM_CANNOT_READ, "t.obj: holds no triangles, only 1 line and 1 point");
+    expect_error("", LAM_CANNOT_READ, "t.obj: holds no triangles, lines or points");
+    expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: holds vertices (3), but no faces, lines or points of them");
+    expect_error(TRIANGLE "l 1 4\n", LAM_CANNOT_READ, "t.obj:4: a line names vertex 4, but the file has 3");
+    expect_error(TRIANGLE "p 0\n", LAM_CANNOT_READ, "t.obj:4: a point names vertex 0, expected an index from 1");
+    expect_error(TRIANGLE "l 1 -4\n", LAM_CANNOT_READ,
+                 "t.obj:4: a line names vertex -4, counted back, but only 3 precede it");
+    expect_error(TRIANGLE "l 1 x\n", LAM_CANNOT_READ, "t.obj:4: found 'x', expected the number of a vertex");
+    expect_error(TRIANGLE "l 1 2x\n", LAM_CANNOT_READ,
+                 "t.obj:4: found 'x', expected a space between vertices (v or v/t)");
+    expect_error(TRIANGLE "vt 0 0\nl 1/1 2/2\n", LAM_CANNOT_READ,
+                 "t.obj:5: a line names texture coordinate 2, but the file has 1");
     expect_error(TRIANGLE "cstype bspline\nsurf 0 1 0 1 1 2 3\n", LAM_UNSUPPORTED,
                  "t.obj:4: holds no faces, only free-form curves and surfaces ('cstype'), which this version "
                  "cannot draw");
@@ -720,7 +728,7 @@ static void test_memory(void **unused)
             continue;
         }
         // A warning may be lost for lack of memory; all other allocations must succeed.
-        bool all = lam_scene_warning(scene, 3) != NULL;
+        bool all = lam_scene_warning(scene, 2) != NULL;
         lam_scene_free(scene);
         if (all)
             return;

@@ -190,7 +190,7 @@ static void write_fragment(struct json *json, const lam_explained_fragment *f)
     json_text(json, "mesh_name", f->mesh_name);
     index_of(json, "part", f->part);
     json_text(json, "part_name", f->part_name);
-    json_count(json, "triangle", f->triangle);
+    json_count(json, f->corners == 3 ? "triangle" : f->corners == 2 ? "line" : "point", f->triangle);
     json_text(json, "model", lam_reflection_describe(f->reflection)->word);
     json_text(json, "side", f->back ? "back" : "front");
     json_text(json, "lit_normal", f->flipped ? "-n" : "n");

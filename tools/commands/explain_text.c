@@ -308,9 +308,20 @@ static void print_material(const lam_explanation *e, const lam_explained_fragmen
     printf("\n");
 }
 
+// "triangle 5", "line 2".
+static const char *item_of(const lam_explained_fragment *f, char out[32])
+{
+    snprintf(out, 32, "%s %u", f->corners == 3 ? "triangle" : f->corners == 2 ? "line" : "point", f->triangle);
+    return out;
+}
+
 static void print_fragment(const lam_explanation *e, const lam_explained_fragment *f)
 {
-    printf("\ntriangle %u, its %s, of ", f->triangle, f->back ? "back" : "front");
+    char name[32];
+    if (f->corners == 3)
+        printf("\ntriangle %u, its %s, of ", f->triangle, f->back ? "back" : "front");
+    else
+        printf("\n%s, of ", item_of(f, name));
     if (f->part >= 0) {
         printf("part %d", f->part);
         named(f->part_name);
@@ -345,7 +356,6 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
     for (int s = 0; s < e->samples; s++)
         veiled |= (f->sample_mask >> s & 1) && f->transmittance[s] < 1;
     for (int s = 0; veiled && s < e->samples; s++) {
-        char name[32];
         snprintf(name, sizeof name, "sample %d", s);
         if (f->sample_mask >> s & 1)
             number(2, name, (double)f->transmittance[s], "transmittance of the surfaces in front: Π (1 − alpha)");
@@ -360,9 +370,8 @@ static void print_pixel(const lam_explanation *e)
     heading(0, "pixel", "         alpha");
     for (int i = 0; i < e->fragment_count; i++) {
         const lam_explained_fragment *f = &e->fragments[i];
-        char name[64];
-        snprintf(name, sizeof name, "triangle %u", f->triangle);
-        label(2, name);
+        char name[32];
+        label(2, item_of(f, name));
         printf("%13.7g %13.7g %13.7g %13.7g   counts %.7g\n", (double)f->color.r, (double)f->color.g,
                (double)f->color.b, (double)f->color.a, (double)f->weight);
     }

@@ -43,6 +43,8 @@ static void write_geometry(struct json *json, const struct job *job)
     lam_scene_bounds(scene, &low, &high);
     json_open(json, "counts", '{');
     json_count(json, "triangles", lam_scene_triangle_count(scene));
+    json_count(json, "lines", lam_scene_line_count(scene));
+    json_count(json, "points", lam_scene_point_count(scene));
     json_count(json, "vertices", lam_scene_vertex_count(scene));
     json_count(json, "objects", (uint64_t)lam_scene_object_count(scene));
     json_count(json, "meshes", (uint64_t)lam_scene_mesh_count(scene));

@@ -72,7 +72,15 @@ static void print_geometry(const struct job *job)
            unit ? " " : " (unit unknown)", unit ? "m" : "", lam_up_name(lam_scene_up(scene)));
     printf("%-12sfrom %.6g %.6g %.6g to %.6g %.6g %.6g\n", "", low.x, low.y, low.z, high.x, high.y, high.z);
     uint64_t triangles = lam_scene_triangle_count(scene), vertices = lam_scene_vertex_count(scene);
-    printf("%-12s%" PRIu64 " triangle%s, %" PRIu64 " vertices\n", "geometry", triangles, plural(triangles), vertices);
+    uint64_t lines = lam_scene_line_count(scene), points = lam_scene_point_count(scene);
+    printf("%-12s", "geometry");
+    if (triangles || !(lines + points))
+        printf("%" PRIu64 " triangle%s, ", triangles, plural(triangles));
+    if (lines)
+        printf("%" PRIu64 " line%s, ", lines, plural(lines));
+    if (points)
+        printf("%" PRIu64 " point%s, ", points, plural(points));
+    printf("%" PRIu64 " vertices\n", vertices);
     uint64_t meshes = (uint64_t)lam_scene_mesh_count(scene), objects = (uint64_t)lam_scene_object_count(scene);
     printf("%-12s%" PRIu64 " mesh%s, %" PRIu64 " part%s, %" PRIu64 " object%s", "", meshes, meshes == 1 ? "" : "es",
            stored.parts, plural(stored.parts), objects, plural(objects));

@@ -1,6 +1,7 @@
 // job.c: the steps from a model to a picture.
 #include "job.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +19,18 @@
 #include "show_option.h"
 #include "suggest.h"
 #include "material_option.h"
+
+const char *model_counts_text(const struct model_counts *counts, char out[MODEL_COUNTS_SIZE])
+{
+    const uint64_t numbers[] = {counts->triangles, counts->lines, counts->points};
+    static const char *const names[] = {"triangle", "line", "point"};
+    size_t length = 0;
+    for (int i = 0; i < 3; i++)
+        if (numbers[i] || (i == 0 && !counts->lines && !counts->points))
+            length += (size_t)snprintf(out + length, MODEL_COUNTS_SIZE - length, "%s%" PRIu64 " %s%s",
+                                       length ? ", " : "", numbers[i], names[i], numbers[i] == 1 ? "" : "s");
+    return out;
+}
 
 static lam_view view_of(const struct options *o)
 {
@@ -181,11 +194,13 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     if (!job->scene)
         return false;
     materials_warn(job->scene);
-    job->model_counts = (struct model_counts){lam_scene_triangle_count(job->scene), lam_scene_vertex_count(job->scene),
+    job->model_counts = (struct model_counts){lam_scene_triangle_count(job->scene), lam_scene_line_count(job->scene),
+                                              lam_scene_point_count(job->scene),    lam_scene_vertex_count(job->scene),
                                               lam_scene_mesh_count(job->scene),     lam_scene_object_count(job->scene),
                                               lam_scene_material_count(job->scene), lam_scene_light_count(job->scene)};
-    if (lam_scene_triangle_count(job->scene) == 0)
-        return complain(error, LAM_CANNOT_READ, "%s: found no triangles, expected at least one to draw", job->model);
+    if (job->model_counts.triangles + job->model_counts.lines + job->model_counts.points == 0)
+        return complain(error, LAM_CANNOT_READ,
+                        "%s: found no triangles, lines or points, expected at least one to draw", job->model);
     scene_settings_apply(job);
     warn_maps(job);
     if (o->slices && lam_shape_find(job->model) < 0)

@@ -15,9 +15,13 @@ struct job_times {
 
 // The contents of the model before options add to it.
 struct model_counts {
-    uint64_t triangles, vertices;
+    uint64_t triangles, lines, points, vertices;
     int meshes, objects, materials, lights;
 };
+
+// What it consists of: "1 triangle, 4 lines". Returns `out`.
+enum { MODEL_COUNTS_SIZE = 100 };
+const char *model_counts_text(const struct model_counts *counts, char out[MODEL_COUNTS_SIZE]);
 
 struct job {
     const struct options *options;

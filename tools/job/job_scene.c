@@ -263,6 +263,8 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
         .single_scattering = o->single_scattering,
         .anisotropy = o->anisotropy,
         .reference = o->reference,
+        .line_width = (float)o->line_width,
+        .point_size = (float)o->point_size,
         .light_cutoff = !o->has_light_cutoff  ? 0
                         : o->light_cutoff > 0 ? (float)o->light_cutoff
                                               : -1,

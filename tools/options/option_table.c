@@ -221,6 +221,15 @@ const struct option option_table[] = {
      "of its "
      "longer axis, which blurs the shorter one; N probes along the longer axis are as sharp as N times that.",
      .store = store_integer, .others = "anisotropic anisotropic-filtering", FIELD(anisotropy), .min = 1, .max = 16},
+    {"line-width", 0, GROUP_PICTURE, "PIXELS", "1.5", "The width of the lines that a model has.",
+     "Lines of OBJ (`l`), PLY (`edge`) and glTF files are as wide at every distance. They lie nearer than their "
+     "vertices by "
+     "their width, so that lines on a surface are seen, and end without caps.",
+     .store = store_number, .others = "linewidth stroke-width thickness", FIELD(line_width), .min = 0.01, .max = 1000},
+    {"point-size", 0, GROUP_PICTURE, "PIXELS", "3", "The size of the points that a model has: the sides of squares.",
+     "Points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, are as large at every "
+     "distance.",
+     .store = store_number, .others = "pointsize point-width splat-size", FIELD(point_size), .min = 0.01, .max = 1000},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
      "It lies wherever the model does not, in pictures of `--show` too, and behind each picture of a sheet. The sheets "

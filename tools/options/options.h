@@ -22,6 +22,8 @@ struct options {
     int samples;            // 0: the library's default
     int anisotropy;         // 0: 1
     int reference;          // directions; 0: the split sum
+    double line_width;      // pixels; 0: the library's default
+    double point_size;      // the same
     const char *background; // as written; NULL: clear
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress

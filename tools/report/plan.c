@@ -54,8 +54,8 @@ void report_plan(const struct job *job)
     const lam_camera *camera = &job->camera;
     const char *format = lam_scene_format(job->scene);
     printf("%s\n", strcmp(job->model, "-") == 0 ? "standard input" : job->model);
-    printf("  model     %s, %" PRIu64 " triangle%s\n", *format ? format : "shape", job->model_counts.triangles,
-           job->model_counts.triangles == 1 ? "" : "s");
+    char items[MODEL_COUNTS_SIZE];
+    printf("  model     %s, %s\n", *format ? format : "shape", model_counts_text(&job->model_counts, items));
     printf("  picture   %s, %s, %dx%d, %d samples a pixel%s\n",
            strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->format, o->width, o->height,
            planned_samples(o), plan_replaces(job) ? "; replaces the file" : "");

@@ -28,13 +28,13 @@ static double degrees(double angle_rad)
 
 void report_line(const struct job *job)
 {
-    uint64_t triangles = job->model_counts.triangles;
+    char items[MODEL_COUNTS_SIZE];
     char exposure[60] = "";
     if (job->exposure_fitted)
         snprintf(exposure, sizeof exposure, "  exposure %.4g stops (auto)", job->draw.exposure);
-    say_plain("%s  %dx%d  %" PRIu64 " triangle%s  %.*f ms%s\n",
-              strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width, job->image.height,
-              triangles, triangles == 1 ? "" : "s", job->times.total < 10 ? 1 : 0, job->times.total, exposure);
+    say_plain("%s  %dx%d  %s  %.*f ms%s\n", strcmp(job->output, "-") == 0 ? "standard output" : job->output,
+              job->image.width, job->image.height, model_counts_text(&job->model_counts, items),
+              job->times.total < 10 ? 1 : 0, job->times.total, exposure);
 }
 
 static void time_row(const char *name, double ms) { say_plain("  %-12s %10.2f ms\n", name, ms); }
@@ -45,8 +45,9 @@ void report_table(const struct job *job)
     const lam_frame_report *frame = &job->times.frame;
     lam_vec3 low, high;
     lam_scene_bounds(scene, &low, &high);
-    say_plain("model    %s (%s), %" PRIu64 " triangles, %" PRIu64 " vertices\n", job->model, format_of(scene),
-              job->model_counts.triangles, job->model_counts.vertices);
+    char items[MODEL_COUNTS_SIZE];
+    say_plain("model    %s (%s), %s, %" PRIu64 " vertices\n", job->model, format_of(scene),
+              model_counts_text(&job->model_counts, items), job->model_counts.vertices);
     say_plain("         meshes %d, objects %d, materials %d, lights %d, up %s\n", job->model_counts.meshes,
               job->model_counts.objects, job->model_counts.materials, job->model_counts.lights,
               lam_up_name(lam_scene_up(scene)));
@@ -121,6 +122,8 @@ static void json_model(struct json *json, const struct job *job)
         lam_scene_bounds(scene, &low, &high);
         json_text(json, "format", format_of(scene));
         json_count(json, "triangles", job->model_counts.triangles);
+        json_count(json, "lines", job->model_counts.lines);
+        json_count(json, "points", job->model_counts.points);
         json_count(json, "vertices", job->model_counts.vertices);
         json_count(json, "meshes", (uint64_t)job->model_counts.meshes);
         json_count(json, "objects", (uint64_t)job->model_counts.objects);

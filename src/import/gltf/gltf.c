@@ -35,23 +35,17 @@ static int gltf_probe(const uint8_t *bytes, size_t size)
     return memmem(bytes + at, size - at, key, sizeof key - 1) ? 2 : 0;
 }
 
-// What the file has beside triangles: a warning, or the error of a file without any.
+// Warns of what is not drawn; the error of a file that holds nothing else.
 static bool report_skipped(struct gltf *gltf)
 {
     struct lam_scene *scene = gltf->scene;
     const char *name = gltf->source->name;
-    if (!scene->objects.count && (gltf->points || gltf->lines))
-        return fail(gltf->json.error, LAM_UNSUPPORTED,
-                    "%s: holds points (%zu) and lines (%zu) alone, which this version does not draw", name,
-                    gltf->points, gltf->lines);
     if (!scene->objects.count && gltf->without_positions)
         return fail(gltf->json.error, LAM_CANNOT_READ,
-                    "%s: holds no triangles: its primitives (%zu) have no attribute POSITION", name,
+                    "%s: holds nothing to draw: its primitives (%zu) have no attribute POSITION", name,
                     gltf->without_positions);
     if (!scene->objects.count)
         return fail(gltf->json.error, LAM_CANNOT_READ, "%s: holds no triangles in its scene", name);
-    if (gltf->points || gltf->lines)
-        scene_warn(scene, "%s: not drawn: points (%zu) and lines (%zu)", name, gltf->points, gltf->lines);
     if (gltf->without_positions)
         scene_warn(scene, "%s: not drawn: primitives without the attribute POSITION (%zu)", name,
                    gltf->without_positions);

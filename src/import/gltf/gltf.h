@@ -86,7 +86,7 @@ struct gltf {
     struct gltf_mesh *meshes; // gltf_primitives.h
 
     // Primitives that are left out, for one warning of each kind, and for the error of a file with nothing else.
-    size_t points, lines, without_positions, flattened;
+    size_t without_positions, flattened;
 };
 
 #define GLTF_ALLOC(gltf, count, type) ((type *)arena_alloc_zeroed((gltf)->scratch, (size_t)(count) * sizeof(type)))

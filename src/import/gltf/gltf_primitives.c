@@ -134,25 +134,10 @@ static bool add_part(struct gltf *gltf, const struct place *place, const json_t 
     lam_part *part = arena_alloc_zeroed(&gltf->scene->arena, sizeof *part);
     if (!part)
         return gltf_no_memory(gltf, sizeof *part);
-    *part = (lam_part){.name = mesh->name, .triangle_count = mesh->triangle_count};
+    *part = (lam_part){.name = mesh->name, .triangle_count = mesh_items(mesh)};
     mesh->parts = part;
     mesh->part_count = 1;
     return gltf_take_material(gltf, place, primitive, &part->material);
-}
-
-// Counts the points and lines of a primitive.
-static bool skip_primitive(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode,
-                           uint32_t vertex_count)
-{
-    const uint32_t *indices;
-    size_t count;
-    if (!gltf_corners(gltf, place, primitive, vertex_count, &indices, &count))
-        return false;
-    if (mode == GLTF_POINTS)
-        gltf->points += count;
-    else
-        gltf->lines += mode == GLTF_LINES ? count / 2 : mode == GLTF_LINE_LOOP ? count : count ? count - 1 : 0;
-    return true;
 }
 
 static bool make_primitive(struct gltf *gltf, const struct place *place, const json_t *primitive, const char *name,
@@ -172,12 +157,12 @@ static bool make_primitive(struct gltf *gltf, const struct place *place, const j
     }
     if (!take_floats(gltf, here, attributes, &position_rule, 0, &mesh.positions, &mesh.vertex_count))
         return false;
-    if (mode < GLTF_TRIANGLES)
-        return skip_primitive(gltf, place, primitive, mode, mesh.vertex_count);
-    if (!gltf_triangles(gltf, place, primitive, mode, &mesh) || !add_part(gltf, place, primitive, &mesh) ||
+    ok = mode < GLTF_TRIANGLES ? gltf_strokes(gltf, place, primitive, mode, &mesh)
+                               : gltf_triangles(gltf, place, primitive, mode, &mesh);
+    if (!ok || !add_part(gltf, place, primitive, &mesh) ||
         !take_attributes(gltf, here, attributes, gltf_material_is_opaque(gltf, mesh.parts->material), &mesh))
         return false;
-    if (!mesh.triangle_count)
+    if (!mesh_items(&mesh))
         return true;
     if (!gltf_deform(gltf, place, primitive, deformation, &mesh, &out->skinned))
         return false;

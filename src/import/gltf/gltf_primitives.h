@@ -8,7 +8,7 @@
 
 // A mesh of the file as meshes of the scene, one for each of its primitives.
 struct gltf_primitive {
-    int mesh;     // index in the scene; −1: the primitive has no triangles
+    int mesh;     // index in the scene; −1: the primitive is empty
     bool skinned; // its positions are in the file's space
 };
 struct gltf_mesh {

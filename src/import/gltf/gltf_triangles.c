@@ -1,4 +1,4 @@
-// gltf_triangles.c: triangles, strips and fans of a primitive as triangles (section 3.7.2.1).
+// gltf_triangles.c: triangles, strips and fans of a primitive as triangles, and lines, loops and strips as lines (section 3.7.2.1).
 #include "gltf_triangles.h"
 
 #include "gltf_accessors.h"
@@ -93,6 +93,44 @@ bool gltf_triangles(struct gltf *gltf, const struct place *place, const json_t *
         json_place(place, where, sizeof where);
         scene_warn(gltf->scene, "%s: %s: the last %zu of %zu corners make no triangle", gltf->source->name, where,
                    count % 3, count);
+    }
+    return true;
+}
+
+// Every line of a strip or loop of `count` corners, as pairs of corners.
+static bool unroll_lines(struct gltf *gltf, const uint32_t *indices, size_t count, size_t lines, lam_mesh *mesh)
+{
+    uint32_t *out = arena_array(&gltf->scene->arena, lines, 2 * sizeof *out);
+    if (!out)
+        return gltf_no_memory(gltf, lines * 2 * sizeof *out);
+    for (size_t i = 0; i < 2 * lines; i++) {
+        size_t corner = (i / 2 + i % 2) % count;
+        out[i] = indices ? indices[corner] : (uint32_t)corner;
+    }
+    mesh->indices = out;
+    mesh->line_count = (uint32_t)lines;
+    return true;
+}
+
+bool gltf_strokes(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode, lam_mesh *mesh)
+{
+    const uint32_t *indices;
+    size_t count;
+    if (!gltf_corners(gltf, place, primitive, mesh->vertex_count, &indices, &count))
+        return false;
+    size_t lines = mode == GLTF_LINES ? count / 2 : count < 2 ? 0 : mode == GLTF_LINE_LOOP ? count : count - 1;
+    if (count > UINT32_MAX / 2)
+        return fail(gltf->json.error, LAM_LIMIT, "%s: a primitive of %zu points or ends of lines, expected at most %u",
+                    gltf->source->name, count, UINT32_MAX / 2);
+    if (mode == GLTF_LINE_LOOP || mode == GLTF_LINE_STRIP)
+        return unroll_lines(gltf, indices, count, lines, mesh);
+    mesh->indices = indices;
+    mesh->point_count = mode == GLTF_POINTS ? (uint32_t)count : 0;
+    mesh->line_count = mode == GLTF_LINES ? (uint32_t)lines : 0;
+    if (mode == GLTF_LINES && count % 2) {
+        char where[200];
+        json_place(place, where, sizeof where);
+        scene_warn(gltf->scene, "%s: %s: the last of %zu corners makes no line", gltf->source->name, where, count);
     }
     return true;
 }

@@ -5,6 +5,7 @@
 //   obj_parse.c, obj_line(s).c pass two: vertices and faces
 //   obj_faces.c                triangulates polygons, completes normals and texture coordinates
 //   obj_groups.c               statements between the faces: named parts, materials, smoothing groups
+//   obj_strokes.c              lines and points
 //   obj_libraries.c, mtl.c     material files
 //   obj_mesh.c                 the scene's mesh
 //   obj_stream.c               large files on disk: one pass, piece by piece
@@ -67,10 +68,21 @@ struct obj_polygon {
     uint32_t first_triangle, count;
 };
 
-// A statement of OBJ_OTHER and the number of triangles before it.
+// A statement of OBJ_OTHER, and the numbers of triangles, positions and texture coordinates before it.
 struct obj_statement {
     const uint8_t *at;
     uint32_t triangle;
+    uint32_t positions, texcoords;
+};
+
+// Lines or points: two corners of each line, one of each point.
+struct obj_strokes {
+    uint32_t *positions, *texcoords; // of each corner; OBJ_MISSING: none
+    size_t corners;
+    bool textured; // a corner names a texture coordinate
+    size_t empty;  // statements without one
+    lam_part *parts;
+    uint32_t part_count;
 };
 
 // The material files that were named so far.
@@ -100,7 +112,8 @@ struct obj {
     uint32_t *smoothing_groups;
     lam_part *parts;
     uint32_t part_count;
-    const char *object_name; // if the file has one object; else NULL
+    const char *object_name;       // if the file has one object; else NULL
+    struct obj_strokes strokes[2]; // points, lines
 
     double origin[3];
     bool has_origin;
@@ -150,6 +163,13 @@ bool obj_complete_normals(struct obj *obj, lam_error *error);
 
 // obj_groups.c
 bool obj_read_statements(struct obj *obj, lam_error *error);
+
+// obj_strokes.c. The corners that a statement l (lines) or p makes, so many of which are reserved, with parts; then each
+// statement is read in turn, and in the end both are added to the scene. `texcoords`: those of the file.
+size_t obj_strokes_corners(const struct obj *obj, const uint8_t *at, bool lines);
+bool obj_strokes_reserve(struct obj *obj, bool lines, size_t corners, size_t parts, lam_error *error);
+bool obj_strokes_read(struct obj *obj, const struct obj_statement *statement, bool lines, lam_error *error);
+bool obj_strokes_add(struct obj *obj, const float *texcoords, lam_error *error);
 
 // obj_libraries.c. Reads the file of a mtllib statement at `at`: its name, possibly with spaces, or several names. One
 // that cannot be opened is a warning.

@@ -1,5 +1,5 @@
 // obj_groups.c: an OBJ file's statements between vertices and faces, in file order: object, group, material, smoothing
-// group, material files, and elements that are not drawn.
+// group, material files, lines and points, and elements that are not drawn.
 //
 // A part is a run of triangles of the same object, group and material. Its name is "object/group", or the one of the
 // two that the file gives. A new object ends the group.
@@ -44,6 +44,11 @@ static const struct {
     {"shadow_obj", IGNORED}, {"trace_obj", IGNORED},
 };
 
+// The object and group of the last part of lines or of points.
+struct stroke_part {
+    const char *object, *group;
+};
+
 // The state after the statements read so far.
 struct state {
     struct obj *obj;
@@ -53,6 +58,7 @@ struct state {
     const char *part_name;                // "object/group"
     uint32_t smoothing, smoothing_from;   // the smoothing group, and its first triangle
     uint32_t objects;
+    struct stroke_part strokes[2];    // of points, of lines
     size_t counts[STATEMENTS];        // of each kind
     const uint8_t *first[STATEMENTS]; // of each kind
     size_t unknown_materials;
@@ -104,13 +110,13 @@ static bool same_name(const char *a, const char *b) { return a == b || (a && b &
 
 // --- parts
 
-static bool name_part(struct state *state, lam_error *error)
+// *name: "object/group", or the one of the two that is there.
+static bool join_names(const struct state *state, const char *object, const char *group, const char **out,
+                       lam_error *error)
 {
-    const char *object = state->part_object, *group = state->part_group;
-    if (!object || !group) {
-        state->part_name = object ? object : group;
+    *out = object ? object : group;
+    if (!object || !group)
         return true;
-    }
     size_t length = strlen(object), rest = strlen(group);
     char *name = arena_alloc(&state->obj->scene->arena, length + rest + 2);
     if (!name)
@@ -118,7 +124,7 @@ static bool name_part(struct state *state, lam_error *error)
     memcpy(name, object, length);
     name[length] = '/';
     memcpy(name + length + 1, group, rest + 1);
-    state->part_name = name;
+    *out = name;
     return true;
 }
 
@@ -138,7 +144,7 @@ static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
     if (!same) {
         state->part_object = state->object;
         state->part_group = state->group;
-        if (!name_part(state, error))
+        if (!join_names(state, state->object, state->group, &state->part_name, error))
             return false;
     }
     obj->parts[obj->part_count++] = (lam_part){.name = state->part_name,
@@ -146,6 +152,35 @@ static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
                                                .triangle_count = triangle - from,
                                                .material = state->material};
     return true;
+}
+
+// Reads lines or points, into the last part of their own if that has the state's object, group and material.
+static bool read_strokes(struct state *state, const struct obj_statement *s, bool lines, lam_error *error)
+{
+    struct obj *obj = state->obj;
+    struct obj_strokes *strokes = &obj->strokes[lines];
+    struct stroke_part *of = &state->strokes[lines];
+    size_t before = strokes->corners;
+    if (obj->streamed) { // the vertices that it names are counted in the whole text alone
+        obj->line_requested = true;
+        return true;
+    }
+    if (!obj_strokes_read(obj, s, lines, error))
+        return false;
+    uint32_t first = (uint32_t)(lines ? before / 2 : before);
+    uint32_t more = (uint32_t)(lines ? strokes->corners / 2 : strokes->corners) - first;
+    if (!more)
+        return true;
+    lam_part *last = strokes->part_count ? &strokes->parts[strokes->part_count - 1] : NULL;
+    if (last && last->material == state->material && same_name(of->object, state->object) &&
+        same_name(of->group, state->group)) {
+        last->triangle_count += more;
+        return true;
+    }
+    lam_part *part = &strokes->parts[strokes->part_count++];
+    *part = (lam_part){.first_triangle = first, .triangle_count = more, .material = state->material};
+    *of = (struct stroke_part){state->object, state->group};
+    return join_names(state, state->object, state->group, &part->name, error);
 }
 
 static void fill_smoothing(struct state *state, uint32_t triangle)
@@ -216,6 +251,9 @@ static bool apply_statement(struct state *state, enum statement statement, const
         fill_smoothing(state, s->triangle);
         state->smoothing = read_smoothing(state->obj, s->at);
         return true;
+    case LINES:
+    case POINTS:
+        return read_strokes(state, s, statement == LINES, error);
     default:
         return true;
     }
@@ -225,13 +263,7 @@ static void warn_elements(struct state *state)
 {
     struct obj *obj = state->obj;
     const char *name = obj->source->name;
-    size_t lines = state->counts[LINES], points = state->counts[POINTS], free_form = state->counts[FREE_FORM];
-    if (lines + points)
-        scene_warn(obj->scene, "%s:%zu: %zu line and %zu point elements are not drawn, only faces", name,
-                   obj_line_number(obj, !points || (lines && state->first[LINES] < state->first[POINTS])
-                                            ? state->first[LINES]
-                                            : state->first[POINTS]),
-                   lines, points);
+    size_t free_form = state->counts[FREE_FORM];
     char found[TEXT_FOUND_SIZE];
     if (free_form)
         scene_warn(obj->scene,
@@ -244,27 +276,23 @@ static void warn_elements(struct state *state)
                    state->counts[UNKNOWN]);
 }
 
-// The error for a file without triangles that contains other elements. load.c reports files without any.
-static bool fail_without_triangles(struct state *state, lam_error *error)
+// The error for a file that contains other elements alone. load.c reports files without any.
+static bool fail_without_faces(struct state *state, lam_error *error)
 {
     struct obj *obj = state->obj;
     const char *name = obj->source->name;
-    size_t lines = state->counts[LINES], points = state->counts[POINTS];
     char found[TEXT_FOUND_SIZE];
     if (state->counts[FREE_FORM])
         return fail(error, LAM_UNSUPPORTED,
                     "%s:%zu: holds no faces, only free-form curves and surfaces (%s), which this version cannot draw",
                     name, obj_line_number(obj, state->first[FREE_FORM]),
                     text_found(state->first[FREE_FORM], obj->end, found));
-    if (lines && points)
-        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu line%s and %zu point%s", name, lines,
-                    lines == 1 ? "" : "s", points, points == 1 ? "" : "s");
-    if (lines + points)
-        return fail(error, LAM_CANNOT_READ, "%s: holds no triangles, only %zu %s%s", name, lines + points,
-                    lines ? "line" : "point", lines + points == 1 ? "" : "s");
+    if (obj->total.positions)
+        return fail(error, LAM_CANNOT_READ, "%s: holds vertices (%llu), but no faces, lines or points of them", name,
+                    (unsigned long long)obj->total.positions);
     if (state->counts[UNKNOWN])
         return fail(error, LAM_CANNOT_READ,
-                    "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file holds no triangles", name,
+                    "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file holds nothing to draw", name,
                     obj_line_number(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found));
     return true;
 }
@@ -300,7 +328,7 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
 {
     struct call_control *call = obj->source->call;
     struct state state = {.obj = obj, .material = -1};
-    size_t count = (size_t)obj->total.others, parts = 1;
+    size_t count = (size_t)obj->total.others, parts = 1, corners[2] = {0, 0};
     bool smoothing = false;
     uint8_t *kinds = arena_alloc(&obj->memory, count);
     if (!kinds)
@@ -310,6 +338,8 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
             return call_error(call, error);
         kinds[i] = (uint8_t)statement_of(obj->statements[i].at, obj->end);
         parts += kinds[i] == OBJECT || kinds[i] == GROUP || kinds[i] == MATERIAL;
+        if ((kinds[i] == LINES || kinds[i] == POINTS) && !obj->streamed)
+            corners[kinds[i] == LINES] += obj_strokes_corners(obj, obj->statements[i].at, kinds[i] == LINES);
         // A file in which all are off has no smoothing groups.
         smoothing |= kinds[i] == SMOOTHING && read_smoothing(obj, obj->statements[i].at) != 0;
         // All material files are read first: some programs name them after the first use.
@@ -321,6 +351,9 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
     obj->parts = arena_array(&obj->scene->arena, parts, sizeof *obj->parts);
     if (!obj->parts)
         return no_memory(&state, parts * sizeof *obj->parts, error);
+    for (int lines = 0; lines < 2; lines++)
+        if (!obj_strokes_reserve(obj, lines, corners[lines], parts, error))
+            return false;
     if (smoothing) {
         obj->smoothing_groups = arena_array(&obj->scene->arena, triangles, sizeof(uint32_t));
         if (!obj->smoothing_groups)
@@ -335,8 +368,8 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
     fill_smoothing(&state, triangles);
     if (!end_part(&state, triangles, error))
         return false;
-    if (triangles == 0)
-        return fail_without_triangles(&state, error);
+    if (triangles == 0 && !obj->strokes[0].corners && !obj->strokes[1].corners)
+        return fail_without_faces(&state, error);
     warn_elements(&state);
     warn_materials(&state);
     return mtl_maps_read(obj->source, obj->scene, 0, &obj->memory, error);

@@ -296,7 +296,8 @@ const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at)
     case OBJ_OTHER:
         if (reader->next.others >= reader->limit.others)
             return fail_expected(reader, at, changed);
-        reader->obj->statements[reader->next.others++] = (struct obj_statement){at, (uint32_t)reader->next.triangles};
+        reader->obj->statements[reader->next.others++] = (struct obj_statement){
+            at, (uint32_t)reader->next.triangles, (uint32_t)reader->next.positions, (uint32_t)reader->next.texcoords};
         return obj_next_line(at, end);
     case OBJ_EMPTY:
         if (*at == 0 && at < end)

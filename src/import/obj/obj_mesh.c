@@ -52,6 +52,8 @@ static bool add_mesh(struct obj *obj, lam_error *error)
         .parts = obj->part_count ? obj->parts : NULL,
         .part_count = obj->part_count,
     };
+    if (!mesh.triangle_count)
+        return true;
     lam_object object = lam_object_default();
     object.name = obj->object_name;
     object.mesh = scene_adopt_mesh(obj->scene, &mesh, error);
@@ -61,9 +63,10 @@ static bool add_mesh(struct obj *obj, lam_error *error)
 bool obj_complete(struct obj *obj, lam_error *error)
 {
     call_progress(obj->source->call, 0.7, "read");
+    const float *texcoords = obj->texcoords; // those that faces do not name are dropped
     if (!obj_triangulate_polygons(obj, error) || !obj_read_statements(obj, error) ||
         !obj_complete_texcoords(obj, error) || !obj_complete_normals(obj, error))
         return false;
     warn_faces(obj);
-    return add_mesh(obj, error);
+    return add_mesh(obj, error) && obj_strokes_add(obj, texcoords, error);
 }

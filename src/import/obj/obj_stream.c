@@ -5,7 +5,7 @@
 // read once, and the file is never in memory as a whole. The final arrays reserve the address space that a file of this
 // size could fill; pages that were not touched are released.
 // obj.c reads all other files: those with vertex colours, a mix of corners with and without normals, relative indices,
-// or lines longer than TAIL, and all files with errors or with warnings that name a line.
+// lines and points, or text lines longer than TAIL, and all files with errors or with warnings that name a line.
 #include "loop_status.h"
 #include "obj.h"
 #include "origin.h"
@@ -377,8 +377,8 @@ static bool pass_arrays(struct stream *stream)
     if (!done || !obj->statements)
         return false;
     for (size_t i = 0; i < count; i++)
-        obj->statements[i] =
-            (struct obj_statement){stream->texts + stream->statements[i].offset, stream->statements[i].triangle};
+        obj->statements[i] = (struct obj_statement){.at = stream->texts + stream->statements[i].offset,
+                                                    .triangle = stream->statements[i].triangle};
     if (count == 0)
         return true;
     memset(stream->texts + stream->texts_used, 0, FILE_PADDING);

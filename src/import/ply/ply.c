@@ -11,8 +11,8 @@ static int ply_probe(const uint8_t *bytes, size_t size)
 }
 
 // The elements that are used.
-enum { VERTICES, FACES, STRIPS, WANTED };
-static const char *const element_names[WANTED] = {"vertex", "face", "tristrips"};
+enum { VERTICES, FACES, STRIPS, EDGES, WANTED };
+static const char *const element_names[WANTED] = {"vertex", "face", "tristrips", "edge"};
 
 struct reader {
     const struct import_source *source;
@@ -30,6 +30,22 @@ static bool fail_header(const struct reader *reader, const struct ply_element *e
 {
     return fail_line(error, reader->source, element->line, "element %s %s, expected %s", element->name, found,
                      expected);
+}
+
+// Edges name their ends by two numbers; others are not drawn.
+static void check_edges(struct reader *reader)
+{
+    static const char *const ends[] = {"vertex1", "vertex2"};
+    const struct ply_element *edges = reader->elements[EDGES];
+    for (int i = 0; edges && i < 2; i++) {
+        int property = ply_find(edges, false, ends[i]);
+        if (property >= 0 && ply_type_is_integer(edges->properties[property].type))
+            continue;
+        scene_warn(reader->scene, "%s:%zu: element edge has no integer property %s; its edges are not drawn",
+                   reader->source->name, edges->line, ends[i]);
+        reader->elements[EDGES] = NULL;
+        return;
+    }
 }
 
 // Finds the elements and the list of corners in each.
@@ -50,7 +66,7 @@ static bool choose_elements(struct reader *reader, lam_error *error)
     for (int kind = 0; kind < WANTED; kind++) {
         const struct ply_element *element = reader->elements[kind];
         reader->lists[kind] = -1;
-        if (!element || kind == VERTICES)
+        if (!element || kind == VERTICES || kind == EDGES)
             continue;
         int list = ply_find(element, true, "vertex_indices");
         if (list < 0)
@@ -63,20 +79,17 @@ static bool choose_elements(struct reader *reader, lam_error *error)
                                error);
         reader->lists[kind] = list;
     }
+    check_edges(reader);
     return true;
 }
 
-// Refuses point clouds, and faces without vertices.
-static bool check_surface(const struct reader *reader, lam_error *error)
+// Refuses faces and edges without vertices.
+static bool check_vertices(const struct reader *reader, lam_error *error)
 {
-    const struct ply_element *vertices = reader->elements[VERTICES];
     bool surface = reader->elements[FACES] || reader->elements[STRIPS];
-    if (vertices && !surface)
-        return fail(error, LAM_CANNOT_READ, "%s: the file holds %llu points and no faces, expected a surface",
-                    reader->source->name, (unsigned long long)vertices->count);
-    if (surface && !vertices)
-        return fail(error, LAM_CANNOT_READ, "%s: the file holds faces and no vertices, expected element vertex",
-                    reader->source->name);
+    if (!reader->elements[VERTICES] && (surface || reader->elements[EDGES]))
+        return fail(error, LAM_CANNOT_READ, "%s: the file holds %s and no vertices, expected element vertex",
+                    reader->source->name, surface ? "faces" : "edges");
     return true;
 }
 
@@ -155,6 +168,15 @@ static bool read_positions(struct reader *reader, lam_mesh *mesh, lam_error *err
            ply_positions(reader->source, &reader->tables[VERTICES], arena, mesh, &needs_doubles, error);
 }
 
+static bool add_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error)
+{
+    lam_object object = lam_object_default();
+    if (!mesh_items(mesh))
+        return true;
+    object.mesh = scene_adopt_mesh(scene, mesh, error);
+    return object.mesh >= 0 && scene_adopt_object(scene, &object, error) >= 0;
+}
+
 static bool build(struct reader *reader, lam_error *error)
 {
     const struct import_source *source = reader->source;
@@ -164,11 +186,11 @@ static bool build(struct reader *reader, lam_error *error)
         return fail_line(error, source, 1, "found %s, expected \"ply\"",
                          text_found(source->bytes, source->bytes + source->size, found));
     if (!ply_read_header(source, reader->scratch, &reader->header, error) || !choose_elements(reader, error) ||
-        !check_surface(reader, error))
+        !check_vertices(reader, error))
         return false;
     ply_warn_header(source, scene, &reader->header);
     if (!reader->elements[VERTICES])
-        return true; // the caller reports a file without triangles
+        return true; // the caller reports a file that holds nothing
     if (!read_elements(reader, error))
         return false;
 
@@ -184,13 +206,22 @@ static bool build(struct reader *reader, lam_error *error)
     mesh.tangent_count = mesh.tangents ? mesh.vertex_count : 0;
     mesh.color_count = mesh.colors ? mesh.vertex_count : 0;
 
-    bool done = reader->elements[FACES] ? ply_faces(source, &reader->tables[FACES], scene, &mesh, error)
-                                        : ply_strips(source, &reader->tables[STRIPS], scene, &mesh, error);
-    if (!done || mesh.triangle_count == 0)
-        return done;
-    lam_object object = lam_object_default();
-    object.mesh = scene_adopt_mesh(scene, &mesh, error);
-    return object.mesh >= 0 && scene_adopt_object(scene, &object, error) >= 0;
+    lam_mesh lines = mesh;
+    bool surface = reader->elements[FACES] || reader->elements[STRIPS];
+    if (surface) {
+        bool done = reader->elements[FACES] ? ply_faces(source, &reader->tables[FACES], scene, &mesh, error)
+                                            : ply_strips(source, &reader->tables[STRIPS], scene, &mesh, error);
+        if (!done || !add_mesh(scene, &mesh, error))
+            return false;
+    }
+    if (reader->elements[EDGES]) {
+        scene->shared_arrays |= surface;
+        return ply_edges(source, &reader->tables[EDGES], scene, &lines, error) && add_mesh(scene, &lines, error);
+    }
+    if (surface)
+        return true;
+    mesh.point_count = mesh.vertex_count; // a point cloud
+    return add_mesh(scene, &mesh, error);
 }
 
 static bool ply_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)

@@ -7,6 +7,7 @@
 //   ply_positions.c  positions from the columns of a table
 //   ply_columns.c    normals, tangents, texture coordinates and colours from the columns of a table
 //   ply_faces.c      triangles from faces and strips
+//   ply_edges.c      lines from edges
 //   ply_stream.c     large files of the usual layout, part by part
 #ifndef PLY_H
 #define PLY_H
@@ -138,6 +139,10 @@ bool ply_faces(const struct import_source *source, const struct ply_table *faces
                lam_mesh *mesh, lam_error *error);
 bool ply_strips(const struct import_source *source, const struct ply_table *strips, struct lam_scene *scene,
                 lam_mesh *mesh, lam_error *error);
+
+// Sets indices and line_count, with colours of the edges if the vertices have none.
+bool ply_edges(const struct import_source *source, const struct ply_table *edges, struct lam_scene *scene,
+               lam_mesh *mesh, lam_error *error);
 
 // ply_stream.c: the importer's load_stream.
 bool ply_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);

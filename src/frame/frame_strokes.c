@@ -1,0 +1,375 @@
+// frame_strokes.c: lines and points as rectangles that face the eye (frame_strokes.h).
+#include "frame_strokes.h"
+
+#include "linear.h"
+#include "srgb.h"
+
+#include <string.h>
+
+enum { CORNERS = 4, TRIANGLE_CORNERS = 6 };
+
+// The arrays of the rectangles of one mesh, in the order of their alignment; a member is NULL where the mesh lacks the
+// attribute. Corners 0 and 3 lie at the first end of a line, 1 and 2 at the second.
+struct stroke_arrays {
+    lam_part *parts;
+    float *positions, *normals, *tangents, *texcoords, *second_texcoords;
+    void *colors;
+    uint32_t *indices;
+};
+
+static size_t color_size(const lam_mesh *mesh) { return mesh->colors_format == LAM_COLORS_LINEAR_F32 ? 16 : 4; }
+
+// Divides memory among the arrays, and returns their size in bytes; `at` NULL: the size alone.
+static size_t divide(const lam_mesh *mesh, char *at, struct stroke_arrays *out)
+{
+    size_t vertices = CORNERS * (size_t)mesh_items(mesh), size = 0;
+    const struct {
+        bool there;
+        size_t bytes;
+    } wanted[] = {{mesh->part_count > 0, mesh->part_count * sizeof(lam_part)},
+                  {true, vertices * 3 * sizeof(float)},
+                  {mesh->normals != NULL, vertices * 3 * sizeof(float)},
+                  {mesh->normals && mesh->tangents, vertices * 4 * sizeof(float)},
+                  {mesh->texcoords != NULL, vertices * 2 * sizeof(float)},
+                  {mesh->second_texcoords != NULL, vertices * 2 * sizeof(float)},
+                  {mesh->colors != NULL, vertices * color_size(mesh)},
+                  {true, TRIANGLE_CORNERS * (size_t)mesh_items(mesh) * sizeof(uint32_t)}};
+    void *arrays[8] = {NULL};
+    for (int i = 0; i < 8; i++) {
+        arrays[i] = at && wanted[i].there ? at + size : NULL;
+        size += wanted[i].there ? (wanted[i].bytes + 15) / 16 * 16 : 0;
+    }
+    *out =
+        (struct stroke_arrays){arrays[0], arrays[1], arrays[2], arrays[3], arrays[4], arrays[5], arrays[6], arrays[7]};
+    return size;
+}
+
+bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, struct call_control *call,
+                           lam_error *error)
+{
+    struct stroke_arrays unused;
+    size_t bytes = 0;
+    for (int i = 0; i < scene->objects.count; i++) {
+        const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
+        bytes += mesh_is_strokes(mesh) ? divide(mesh, NULL, &unused) : 0;
+    }
+    frame->stroke_mesh_count = 0;
+    frame->strokes_used = 0;
+    return !bytes || buffer_reserve(&frame->strokes, bytes, call, error);
+}
+
+// How much nearer a stroke of a width lies: the share of its distance; orthographic: the distance. `pixel`: a pixel's height
+// in eye space where w is 1.
+static double nearer_by(const struct stroke_view *view, double width, double pixel)
+{
+    return view->orthographic || width * pixel < 0.25 ? width * pixel : 0.25;
+}
+
+void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera, const struct stroke_view *view,
+                        int height, double *near_plane)
+{
+    double half = view->orthographic ? camera->ortho_half_height : math_tan(camera->fovy_rad / 2), width = 0;
+    for (int i = 0; i < scene->objects.count; i++) {
+        const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
+        double own = mesh->line_count ? view->line_width : mesh->point_count ? view->point_size : 0;
+        width = own > width ? own : width;
+    }
+    double nearer = nearer_by(view, width, 2 * half / height);
+    *near_plane = view->orthographic ? *near_plane - nearer : *near_plane * (1 - nearer);
+}
+
+// --- attributes
+
+// A place on a line: from its corner a on to its corner b by the share t. A point is its corner a.
+struct place {
+    size_t a, b;
+    double t;
+};
+
+static size_t element(const uint32_t *own, const uint32_t *shared, size_t corner)
+{
+    return own ? own[corner] : shared ? shared[corner] : corner;
+}
+
+static float mixed(float a, float b, double t) { return (float)((double)a + ((double)b - (double)a) * t); }
+
+static void interpolate(const float *from, const uint32_t *own, const lam_mesh *mesh, size_t width, struct place place,
+                        float *out)
+{
+    const float *a = from + width * element(own, mesh->indices, place.a);
+    const float *b = from + width * element(own, mesh->indices, place.b);
+    for (size_t i = 0; i < width; i++)
+        out[i] = place.t == 0 ? a[i] : place.t == 1 ? b[i] : mixed(a[i], b[i], place.t);
+}
+
+// The byte whose light is nearest.
+static uint8_t encode_srgb(double light)
+{
+    int low = 0, high = 255;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (srgb_linear((middle + 0.5) / 255) < light)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return (uint8_t)low;
+}
+
+static void interpolate_color(const lam_mesh *mesh, size_t item, struct place place, void *out)
+{
+    bool each = mesh->colors_rate == LAM_PER_TRIANGLE;
+    size_t a = each ? item : element(mesh->color_indices, mesh->indices, place.a);
+    size_t b = each ? item : element(mesh->color_indices, mesh->indices, place.b);
+    if (mesh->colors_format == LAM_COLORS_LINEAR_F32) {
+        const float *from = mesh->colors;
+        float *to = out;
+        for (size_t i = 0; i < 4; i++)
+            to[i] = mixed(from[4 * a + i], from[4 * b + i], place.t);
+        return;
+    }
+    const uint8_t *from = mesh->colors;
+    uint8_t *to = out;
+    bool ends = place.t == 0 || place.t == 1, srgb = mesh->colors_format == LAM_COLORS_SRGB8;
+    if (ends) {
+        memcpy(to, from + 4 * (place.t == 0 ? a : b), 4);
+        return;
+    }
+    for (size_t i = 0; i < 4; i++) {
+        double x = from[4 * a + i] / 255.0, y = from[4 * b + i] / 255.0;
+        if (srgb && i < 3) {
+            x = srgb_linear(x);
+            y = srgb_linear(y);
+        }
+        double light = x + (y - x) * place.t;
+        to[i] = srgb && i < 3 ? encode_srgb(light) : (uint8_t)(light * 255 + 0.5);
+    }
+}
+
+// --- one rectangle
+
+struct builder {
+    const lam_mesh *from;
+    const struct stroke_view *view;
+    struct stroke_arrays to;
+    lam_mat4 eye;        // mesh to eye space
+    double normal[3][3]; // normals to eye space
+    double scale[2];     // a pixel's width and height in eye space where w is 1
+    double nearer;       // the share of its distance by which a stroke lies nearer; orthographic: the distance
+    double near_plane;   // where that leaves it at the near plane
+    double half;         // of a width, pixels
+    double bitangent;    // the sign that mirroring transforms give
+};
+
+static lam_vec3 eye_position(const struct builder *b, size_t corner)
+{
+    const float *p = b->from->positions + 3 * element(NULL, b->from->indices, corner);
+    return mat4_point(&b->eye, v3((double)p[0], (double)p[1], (double)p[2]));
+}
+
+static lam_vec3 moved_nearer(const struct builder *b, lam_vec3 p)
+{
+    return b->view->orthographic ? v3(p.x, p.y, p.z + b->nearer) : v3_scale(p, 1 - b->nearer);
+}
+
+static double w_of(const struct builder *b, lam_vec3 p) { return b->view->orthographic ? 1 : -p.z; }
+
+static void store_position(const struct builder *b, size_t vertex, lam_vec3 p)
+{
+    float *to = b->to.positions + 3 * vertex;
+    to[0] = (float)p.x;
+    to[1] = (float)p.y;
+    to[2] = (float)p.z;
+}
+
+static void store_attributes(const struct builder *b, size_t item, size_t vertex, struct place place)
+{
+    const lam_mesh *mesh = b->from;
+    if (b->to.normals) {
+        float n[3], *to = b->to.normals + 3 * vertex;
+        interpolate(mesh->normals, mesh->normal_indices, mesh, 3, place, n);
+        for (int i = 0; i < 3; i++)
+            to[i] = (float)(b->normal[i][0] * (double)n[0] + b->normal[i][1] * (double)n[1] +
+                            b->normal[i][2] * (double)n[2]);
+    }
+    if (b->to.tangents) {
+        float t[4], *to = b->to.tangents + 4 * vertex;
+        interpolate(mesh->tangents, mesh->tangent_indices, mesh, 4, place, t);
+        lam_vec3 turned = v3_unit(mat4_vector(&b->eye, v3((double)t[0], (double)t[1], (double)t[2])));
+        to[0] = (float)turned.x;
+        to[1] = (float)turned.y;
+        to[2] = (float)turned.z;
+        to[3] = (float)((double)t[3] * b->bitangent);
+    }
+    if (b->to.texcoords)
+        interpolate(mesh->texcoords, mesh->texcoord_indices, mesh, 2, place, b->to.texcoords + 2 * vertex);
+    if (b->to.second_texcoords)
+        interpolate(mesh->second_texcoords, mesh->second_texcoord_indices, mesh, 2, place,
+                    b->to.second_texcoords + 2 * vertex);
+    if (b->to.colors)
+        interpolate_color(mesh, item, place, (char *)b->to.colors + color_size(mesh) * vertex);
+}
+
+// Stores the corners of a rectangle: first `right` of the ends and then left of them, (x, y) in pixels, y up.
+static void store_corners(const struct builder *b, size_t item, const lam_vec3 ends[2], double x, double y)
+{
+    for (size_t corner = 0; corner < CORNERS; corner++) {
+        lam_vec3 p = ends[corner == 1 || corner == 2];
+        double side = corner < 2 ? -w_of(b, p) : w_of(b, p);
+        store_position(b, CORNERS * item + corner, v3(p.x + side * x * b->scale[0], p.y + side * y * b->scale[1], p.z));
+    }
+}
+
+static void store_nothing(const struct builder *b, size_t item, struct place place)
+{
+    for (size_t corner = 0; corner < CORNERS; corner++) {
+        store_position(b, CORNERS * item + corner, v3(0, 0, 0));
+        store_attributes(b, item, CORNERS * item + corner, place);
+    }
+}
+
+static void build_point(const struct builder *b, size_t item)
+{
+    lam_vec3 p = eye_position(b, item);
+    struct place place = {item, item, 0};
+    if (!(-p.z >= b->near_plane)) {
+        store_nothing(b, item, place);
+        return;
+    }
+    p = moved_nearer(b, p);
+    double w = w_of(b, p), x = w * b->half * b->scale[0], y = w * b->half * b->scale[1];
+    const lam_vec3 corners[CORNERS] = {v3(p.x - x, p.y - y, p.z), v3(p.x + x, p.y - y, p.z), v3(p.x + x, p.y + y, p.z),
+                                       v3(p.x - x, p.y + y, p.z)};
+    for (size_t corner = 0; corner < CORNERS; corner++) {
+        store_position(b, CORNERS * item + corner, corners[corner]);
+        store_attributes(b, item, CORNERS * item + corner, place);
+    }
+}
+
+static void build_line(const struct builder *b, size_t item)
+{
+    lam_vec3 p[2] = {eye_position(b, 2 * item), eye_position(b, 2 * item + 1)};
+    struct place places[2] = {{2 * item, 2 * item + 1, 0}, {2 * item, 2 * item + 1, 1}};
+    double before[2] = {b->near_plane + p[0].z, b->near_plane + p[1].z}; // > 0: before the near plane
+    if (!(before[0] <= 0) && !(before[1] <= 0)) {
+        store_nothing(b, item, places[0]);
+        return;
+    }
+    for (int i = 0; i < 2; i++)
+        if (before[i] > 0) {
+            double t = before[0] / (before[0] - before[1]);
+            lam_vec3 from = eye_position(b, 2 * item), to = eye_position(b, 2 * item + 1);
+            places[i].t = t;
+            p[i] = v3_add(from, v3_scale(v3_sub(to, from), t));
+            p[i].z = -b->near_plane;
+        }
+    double window[2][2];
+    for (int i = 0; i < 2; i++) {
+        p[i] = moved_nearer(b, p[i]);
+        window[i][0] = p[i].x / (w_of(b, p[i]) * b->scale[0]);
+        window[i][1] = p[i].y / (w_of(b, p[i]) * b->scale[1]);
+    }
+    double dx = window[1][0] - window[0][0], dy = window[1][1] - window[0][1], length = math_sqrt(dx * dx + dy * dy);
+    if (length > 0)
+        store_corners(b, item, p, -dy / length * b->half, dx / length * b->half);
+    else // seen along its length
+        store_corners(b, item, p, 0, 0);
+    for (size_t corner = 0; corner < CORNERS; corner++)
+        store_attributes(b, item, CORNERS * item + corner, places[corner == 1 || corner == 2]);
+}
+
+// --- all of a mesh
+
+static void start(struct builder *b, const struct frame *frame, const lam_mat4 *transform)
+{
+    const struct stroke_view *view = b->view;
+    const lam_mesh *mesh = b->from;
+    lam_mat4 origin = mat4_translate(mesh->origin[0], mesh->origin[1], mesh->origin[2]);
+    lam_mat4 world = mat4_mul(transform, &origin);
+    double width = mesh->line_count ? view->line_width : view->point_size, largest = 0;
+    b->eye = mat4_mul(view->view, &world);
+    b->half = width / 2;
+    b->scale[0] = 2 / (view->projection->m[0][0] * frame->width);
+    b->scale[1] = 2 / (view->projection->m[1][1] * frame->height);
+    b->nearer = nearer_by(view, width, b->scale[1]);
+    b->near_plane = view->orthographic ? view->near_plane + b->nearer : view->near_plane / (1 - b->nearer);
+    // As in frame_draw: the inverse transpose up to a positive factor, of a size that floats have.
+    mat4_normal_matrix(&b->eye, b->normal);
+    b->bitangent = mat4_determinant3(&b->eye) < 0 ? -1 : 1;
+    for (int i = 0; i < 9; i++) {
+        double c = b->normal[i / 3][i % 3];
+        largest = c > largest ? c : -c > largest ? -c : largest;
+    }
+    for (int i = 0; i < 9; i++)
+        b->normal[i / 3][i % 3] *= b->bitangent / (largest > 0 ? largest : 1);
+}
+
+static lam_mesh mesh_of(const struct builder *b)
+{
+    const lam_mesh *from = b->from;
+    size_t items = mesh_items(from);
+    uint32_t vertices = (uint32_t)(CORNERS * items);
+    for (size_t i = 0; i < items; i++) {
+        // Both triangles end at the second end of the line: flat shading takes its attributes, as OpenGL does for lines.
+        static const uint32_t corners[TRIANGLE_CORNERS] = {3, 0, 1, 3, 1, 2};
+        for (size_t k = 0; k < TRIANGLE_CORNERS; k++)
+            b->to.indices[TRIANGLE_CORNERS * i + k] = (uint32_t)(CORNERS * i) + corners[k];
+    }
+    for (uint32_t i = 0; i < from->part_count; i++) {
+        b->to.parts[i] = from->parts[i];
+        b->to.parts[i].first_triangle *= 2;
+        b->to.parts[i].triangle_count *= 2;
+    }
+    return (lam_mesh){.name = from->name,
+                      .positions = b->to.positions,
+                      .vertex_count = vertices,
+                      .indices = b->to.indices,
+                      .triangle_count = (uint32_t)(2 * items),
+                      .normals = b->to.normals,
+                      .normal_count = b->to.normals ? vertices : 0,
+                      .tangents = b->to.tangents,
+                      .tangent_count = b->to.tangents ? vertices : 0,
+                      .texcoords = b->to.texcoords,
+                      .texcoord_count = b->to.texcoords ? vertices : 0,
+                      .second_texcoords = b->to.second_texcoords,
+                      .second_texcoord_count = b->to.second_texcoords ? vertices : 0,
+                      .colors = b->to.colors,
+                      .color_count = b->to.colors ? vertices : 0,
+                      .colors_format = from->colors_format,
+                      .parts = b->to.parts,
+                      .part_count = from->part_count};
+}
+
+static void set_identity(struct frame_draw *draw, const lam_mat4 *pixel)
+{
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            draw->pixel[i][j] = (float)pixel->m[i][j];
+            if (i < 3)
+                draw->eye[i][j] = i == j;
+            if (i < 3 && j < 3)
+                draw->normal[i][j] = draw->tangent[i][j] = i == j;
+        }
+}
+
+void frame_strokes_build(struct frame *frame, struct frame_draw *draw, const lam_mat4 *transform,
+                         const struct stroke_view *view)
+{
+    struct builder b = {.from = draw->mesh, .view = view};
+    frame->strokes_used += divide(b.from, (char *)frame->strokes.data + frame->strokes_used, &b.to);
+    start(&b, frame, transform);
+    for (size_t i = 0; i < mesh_items(b.from); i++) {
+        if (b.from->line_count)
+            build_line(&b, i);
+        else
+            build_point(&b, i);
+    }
+    lam_mesh *mesh = &frame->stroke_meshes[frame->stroke_mesh_count++];
+    *mesh = mesh_of(&b);
+    draw->mesh = mesh;
+    draw->strokes = draw->one_sided = true;
+    draw->mirrored = false;
+    draw->cull = LAM_CULL_NONE;
+    draw->crease_rad = 0;
+    set_identity(draw, view->pixel);
+}

@@ -103,10 +103,19 @@ static const float *pixel_at(const lam_image *image, int x, int y)
     return (const float *)image->pixels + ((size_t)y * (size_t)image->width + (size_t)x) * 4;
 }
 
-static void sample_sphere(const lam_image *image, const double d[3], float out[3])
+// Where directions meet the picture, in pixels from the centre of the first.
+static double column_of(const lam_image *image, double x, double z)
 {
-    double x = (0.5 + math_atan2(d[0], -d[2]) / (2 * PI)) * image->width - 0.5;
-    double y = math_atan2(math_sqrt(d[0] * d[0] + d[2] * d[2]), d[1]) / PI * image->height - 0.5;
+    return (0.5 + math_atan2(x, -z) / (2 * PI)) * image->width - 0.5;
+}
+
+static double row_of(const lam_image *image, double from_axis, double y)
+{
+    return math_atan2(from_axis, y) / PI * image->height - 0.5;
+}
+
+static void sample_sphere(const lam_image *image, double x, double y, float out[3])
+{
     int column = (int)(x + 1) - 1, row = (int)(y + 1) - 1; // both at least −½
     double s = x - column, t = y - row;
     const float *a = pixel_at(image, column, row), *b = pixel_at(image, column + 1, row);
@@ -115,6 +124,33 @@ static void sample_sphere(const lam_image *image, const double d[3], float out[3
         double upper = (double)a[channel] * (1 - s) + (double)b[channel] * s;
         double lower = (double)c[channel] * (1 - s) + (double)e[channel] * s;
         out[channel] = (float)(upper * (1 - t) + lower * t);
+    }
+}
+
+// Row t of the four faces around: texels of a column have one longitude, `columns`, and the faces share their latitudes.
+static void sample_around(const lam_image *image, struct lam_environment *cube, const double *const columns[4], int t)
+{
+    static const enum lam_cube_face around[4] = {LAM_FACE_PX, LAM_FACE_NX, LAM_FACE_PZ, LAM_FACE_NZ};
+    int size = cube->size;
+    double down = 2 * t + 1 - size;
+    for (int s = 0; s < size; s++) {
+        double across = 2 * s + 1 - size;
+        double y = row_of(image, math_sqrt((double)size * size + across * across), -down);
+        for (int i = 0; i < 4; i++)
+            sample_sphere(image, columns[i][s], y, cube_texel(cube, around[i], s, t));
+    }
+}
+
+// Row t of the upper face, and the row of the lower one that lies below it: they share their longitudes.
+static void sample_ends(const lam_image *image, struct lam_environment *cube, int t)
+{
+    int size = cube->size;
+    double down = 2 * t + 1 - size;
+    for (int s = 0; s < size; s++) {
+        double across = 2 * s + 1 - size, from_axis = math_sqrt(across * across + down * down);
+        double x = column_of(image, across, down);
+        sample_sphere(image, x, row_of(image, from_axis, size), cube_texel(cube, LAM_FACE_PY, s, t));
+        sample_sphere(image, x, row_of(image, from_axis, -size), cube_texel(cube, LAM_FACE_NY, s, size - 1 - t));
     }
 }
 
@@ -146,18 +182,25 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
     struct lam_environment *cube = check_light(image, name, call, error) ? cube_within(call, size, error) : NULL;
     if (!cube)
         return NULL;
-    for (int face = 0; face < LAM_FACE_COUNT; face++) {
-        for (int t = 0; t < size; t++) {
-            if (!continues(call, t, error)) {
-                lam_environment_free(cube);
-                return NULL;
-            }
-            for (int s = 0; s < size; s++) {
-                double d[3];
-                cube_direction(face, size, 2 * s + 1 - size, 2 * t + 1 - size, d);
-                sample_sphere(image, d, cube_texel(cube, face, s, t));
-            }
-        }
+    double *memory = malloc(4 * (size_t)size * sizeof *memory);
+    bool ok = memory || fail_memory(error, 4 * (size_t)size * sizeof *memory);
+    const double *const columns[4] = {memory, memory + size, memory + 2 * size, memory + 3 * size};
+    for (int s = 0; ok && s < size; s++) {
+        double across = 2 * s + 1 - size;
+        memory[s] = column_of(image, size, -across);
+        memory[size + s] = column_of(image, -size, across);
+        memory[2 * size + s] = column_of(image, across, size);
+        memory[3 * size + s] = column_of(image, -across, -size);
+    }
+    for (int t = 0; ok && t < size; t++) {
+        ok = continues(call, t, error);
+        sample_around(image, cube, columns, t);
+        sample_ends(image, cube, t);
+    }
+    free(memory);
+    if (!ok) {
+        lam_environment_free(cube);
+        return NULL;
     }
     cube_close(cube);
     return cube;

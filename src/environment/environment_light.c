@@ -6,30 +6,18 @@
 #include "environment_light.h"
 
 #include "call_control.h"
+#include "cpu_features.h"
+#include "environment_kernels.h"
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
 #include "lock.h"
 #include "pool.h"
 
-#define LANES 4
-#include "cube_lookup.h"
-
 #include <stdlib.h>
 #include <string.h>
 
 // --- the cells of a lobe
-
-struct cell {
-    float x, y, z; // unit, z along the lobe's axis
-    float weight;  // all of them sum to 1
-    const struct lam_environment *cube;
-};
-enum { CELLS_MAX = 1024 };
-struct lobe_cells {
-    int near, count; // the far ones follow the near ones
-    struct cell cell[CELLS_MAX];
-};
 
 double prefiltered_roughness(int level)
 {
@@ -44,7 +32,7 @@ static const struct {
     int size;
     double core, growth;
 } levels[ENVIRONMENT_LEVELS] = {
-    {0},          {112, 0.8, 3.0}, {112, 0.7, 2.0}, {80, 0.5, 1.7}, {64, 0.4, 1.5}, {48, 0.35, 1.4},
+    {0},          {112, 0.8, 3.0}, {128, 0.6, 1.8}, {80, 0.5, 1.7}, {64, 0.4, 1.5}, {48, 0.35, 1.4},
     {.size = 32}, {.size = 24},    {.size = 16},    {.size = 16},   {.size = 16},   {.size = 16}};
 
 // What the far part of a lobe adds changes slowly: it is summed for a cube of a quarter of the size. Far is more than
@@ -101,79 +89,6 @@ static void cut_lobe(struct lobe_cells *cells, int level, const struct cube_chai
         cells->cell[i].weight = (float)((double)cells->cell[i].weight / total);
 }
 
-// --- texels
-
-// Red, green, blue and one number more: the compiler's vectors round each of them as plain C does.
-typedef float channels __attribute__((vector_size(16)));
-typedef float channels_memory __attribute__((vector_size(16), aligned(4), may_alias));
-
-static inline channels channels_at(const float *texel) { return (channels) * (const channels_memory *)texel; }
-
-// Adds the light of LANES places times a weight, as cube_look has it, all channels of a place side by side.
-LANE_FN void add_light(channels sum[LANES], const struct lam_environment *cube, const struct cube_place *place,
-                       float weight)
-{
-    int side = cube->size + 2;
-    inum column = int_of(place->s), row = int_of(place->t);
-    num s = place->s - num_of_int(column), t = place->t - num_of_int(row);
-    inum first = wrap_add(wrap_mul(wrap_add(wrap_mul(place->face, inum_of(side)), row), inum_of(side)), column);
-    for (int i = 0; i < LANES; i++) {
-        const float *from = cube->texels + 3 * (ptrdiff_t)ilane(first, i), *below = from + 3 * side;
-        channels a = channels_at(from), b = channels_at(from + 3), c = channels_at(below), e = channels_at(below + 3);
-        channels across = (channels){0} + lane(s, i);
-        channels upper = a + (b - a) * across, lower = c + (e - c) * across;
-        sum[i] += (upper + (lower - upper) * lane(t, i)) * weight;
-    }
-}
-
-// Two directions that make a frame with the unit vector n.
-static void frame_around(lam_vec3 n, lam_vec3 *x, lam_vec3 *y)
-{
-    double a = n.x * n.x, b = n.y * n.y, c = n.z * n.z;
-    lam_vec3 far = a <= b && a <= c ? v3(1, 0, 0) : b <= c ? v3(0, 1, 0) : v3(0, 0, 1);
-    *x = v3_unit(v3_cross(far, n));
-    *y = v3_cross(n, *x);
-}
-
-// A row of sums of the cells from `first` to `end`, and of a cube that holds the sums of others; NULL: none.
-static void prefilter_row(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
-                          struct lam_environment *out, int face, int t)
-{
-    for (int s = 0; s < out->size; s += LANES) {
-        float frame[9][LANES];
-        for (int i = 0; i < LANES; i++) {
-            double d[3];
-            cube_direction(face, out->size, 2 * (s + i) + 1 - out->size, 2 * t + 1 - out->size, d);
-            lam_vec3 axis[3];
-            axis[2] = v3_unit(v3(d[0], d[1], d[2]));
-            frame_around(axis[2], &axis[0], &axis[1]);
-            for (int k = 0; k < 3; k++) {
-                frame[k][i] = (float)axis[k].x;
-                frame[3 + k][i] = (float)axis[k].y;
-                frame[6 + k][i] = (float)axis[k].z;
-            }
-        }
-        num m[9];
-        for (int k = 0; k < 9; k++)
-            m[k] = num_load(frame[k]);
-        channels sum[LANES] = {{0}};
-        if (others) {
-            struct cube_place place = cube_place(m[2], m[5], m[8], others->size);
-            add_light(sum, others, &place, 1);
-        }
-        for (int c = first; c < end; c++) {
-            const struct cell *cell = &cells->cell[c];
-            struct cube_place place = cube_place(m[0] * cell->x + m[1] * cell->y + m[2] * cell->z,
-                                                 m[3] * cell->x + m[4] * cell->y + m[5] * cell->z,
-                                                 m[6] * cell->x + m[7] * cell->y + m[8] * cell->z, cell->cube->size);
-            add_light(sum, cell->cube, &place, cell->weight);
-        }
-        for (int i = 0; i < LANES; i++)
-            for (int c = 0; c < 3; c++)
-                cube_texel(out, face, s + i, t)[c] = sum[i][c];
-    }
-}
-
 // --- all of it
 
 struct making {
@@ -182,6 +97,7 @@ struct making {
     struct lam_environment far[ENVIRONMENT_LEVELS];
     float *far_texels;
     struct cube_sums *sums;
+    const struct environment_kernels *kernels;
     struct call_control *call;
 };
 
@@ -207,7 +123,8 @@ static void make_far_row(void *user, size_t index, int thread)
     int level = level_of(&index, far_size);
     struct lam_environment *cube = &work->far[level];
     const struct lobe_cells *cells = &work->cells[level];
-    prefilter_row(cells, cells->near, cells->count, NULL, cube, (int)index / cube->size, (int)index % cube->size);
+    work->kernels->prefilter_row(cells, cells->near, cells->count, NULL, cube, (int)index / cube->size,
+                                 (int)index % cube->size);
 }
 
 static void make_row(void *user, size_t index, int thread)
@@ -221,11 +138,11 @@ static void make_row(void *user, size_t index, int thread)
     int face = (int)index / cube->size, t = (int)index % cube->size;
     double roughness = level < ENVIRONMENT_LEVELS ? prefiltered_roughness(level) : 0;
     if (level == ENVIRONMENT_LEVELS)
-        cube_sums_row(work->sums, -1, cube, face, t);
+        work->kernels->cube_sums_row(work->sums, -1, cube, face, t);
     else if (far_size(level))
-        prefilter_row(&work->cells[level], 0, work->cells[level].near, &work->far[level], cube, face, t);
+        work->kernels->prefilter_row(&work->cells[level], 0, work->cells[level].near, &work->far[level], cube, face, t);
     else
-        cube_sums_row(work->sums, roughness * roughness, cube, face, t);
+        work->kernels->cube_sums_row(work->sums, roughness * roughness, cube, face, t);
 }
 
 // Makes the cells of the levels with rings, and the cubes of what is far.
@@ -266,6 +183,7 @@ static bool fill(struct environment_light *light, struct pool *pool, struct call
         return fail_memory(error, sizeof *work);
     work->light = light;
     work->call = call;
+    work->kernels = CPU_WIDEST(16, &environment_kernels_scalar, &environment_kernels_avx2, &environment_kernels_avx512);
     bool ok = cube_chain_make(&chain, &light->level[0], pool, call, error) && set_up(work, &chain, error) &&
               run(work, pool, far_size, 0, make_far_row, error);
     for (int i = 1; ok && i < ENVIRONMENT_LEVELS; i++)

@@ -60,7 +60,5 @@ float texel_weight(int size, int s, int t);
 // Sums over every texel of a small copy of a cube: the irradiance, or the environment prefiltered for a wide lobe.
 struct cube_sums;
 struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *error);
-// Row t of a face of `out`. `alpha` < 0: the irradiance; else GGX's lobe of that alpha = roughness².
-void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam_environment *out, int face, int t);
 
 #endif

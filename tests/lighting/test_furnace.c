@@ -54,7 +54,7 @@ static void test_table(void **state)
             count++;
         }
     print_message("single scattering: %.2g off at most, %.2g in the mean\n", worst, mean / count);
-    assert_true(worst < 0.03 && mean / count < 2e-3); // the worst at grazing angles on smooth surfaces
+    assert_true(worst < 0.025 && mean / count < 6e-4); // the worst at grazing angles on smooth surfaces
     assert_true(single_scattering(2, 3) == single_scattering(1, 1) &&
                 single_scattering(-1, 0) == single_scattering(0, 0));
 }

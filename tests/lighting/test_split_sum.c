@@ -55,7 +55,7 @@ static void mean_around(const double axis[3], int rings, const double *cosine, c
         out[j] /= total;
 }
 
-enum { RINGS = 100 };
+enum { RINGS = 130 };
 
 // D(h) max(r.l, 0), from halves h in which D(h) (h.n) is evenly dense up to where l meets the horizon.
 static void prefiltered(const double r[3], double roughness, double out[3])
@@ -89,7 +89,9 @@ static void scale_and_bias(double n_dot_v, double roughness, double *scale, doub
     s_x /= length;
     for (int i = 0; i < N; i++)
         for (int k = 0; k < N; k++) {
-            double r = sqrt((i + 0.5) / N), angle = PI * (k + 0.5) / N, side = r * sin(angle), lift = 0.5 * (1 + s_z);
+            // Rings crowd to the edge of the disc, where the slopes beyond alpha lie.
+            double rest = 1 - (i + 0.5) / N, r = sqrt(1 - pow(rest, 4)), angle = PI * (k + 0.5) / N,
+                   side = r * sin(angle), lift = 0.5 * (1 + s_z);
             double a = (1 - lift) * sqrt(fmax(0, 1 - side * side)) + lift * r * cos(angle);
             double up = sqrt(fmax(0, 1 - a * a - side * side));
             double x = alpha * (up * s_x - a * s_z), y = alpha * side, z = fmax(a * s_x + up * s_z, 1e-9);
@@ -98,7 +100,7 @@ static void scale_and_bias(double n_dot_v, double roughness, double *scale, doub
             if (l <= 0)
                 continue;
             double g_v = sqrt(n_dot_v * n_dot_v * (1 - square) + square), g_l = sqrt(l * l * (1 - square) + square);
-            double share = l * (n_dot_v + g_v) / (l * g_v + n_dot_v * g_l);
+            double share = 4 * pow(rest, 3) * l * (n_dot_v + g_v) / (l * g_v + n_dot_v * g_l);
             sum[0] += share;
             sum[1] += share * pow(1 - v_h, 5);
         }

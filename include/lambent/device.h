@@ -205,7 +205,15 @@ typedef struct lam_draw_params {
     // The width of lines, and the sides of the squares that points are drawn as, in pixels, up to 1000. 0: 1.5 and 3. They lie
     // nearer to the eye by their own width, as it is seen there, so that lines on a surface are not lost in it.
     float line_width, point_size;
-    LAM_RESERVED(26);
+    // Triangles between a point and a light take the light's diffuse and specular terms away, of every light that casts
+    // shadows (lam_light.no_shadows): docs/lighting/shadows.md.
+    bool shadows;
+    // Shadow rays start on the flat triangles themselves. By default they start where the vertices' normals say that the
+    // curved surface lies, or the terminator of a coarse smooth mesh would show its triangles.
+    bool flat_terminator;
+    // Points of a light with a radius that are tested for each lit point, 1..256; 0: 16.
+    int shadow_samples;
+    LAM_RESERVED(25);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.
@@ -233,7 +241,10 @@ typedef struct lam_frame_report {
     uint64_t memory_bytes;     // held by the device after the frame
     // LAM_OUTPUT_DEPTH: the distances, in model units, that 8 bits show white and black. Else 0.
     double depth_near, depth_far;
-    LAM_RESERVED(14);
+    // Building the bounding volume hierarchy, in milliseconds; 0: it was not needed, or the last frame's still held.
+    double hierarchy_ms;
+    uint64_t rays; // from lit points to lights
+    LAM_RESERVED(12);
 } lam_frame_report;
 
 // Draws the scene as the camera sees it into `image`, which the caller made with the size and pixel format

@@ -80,7 +80,14 @@ typedef struct lam_light {
     lam_rgb sky;    // hemisphere: light from above
     lam_rgb ground; // hemisphere: light from below
     lam_vec3 up;    // hemisphere: towards the sky; zero: the scene's up axis
-    LAM_RESERVED(32);
+
+    // With lam_draw_params.shadows. Point, directional, spot: the light passes through everything.
+    bool no_shadows;
+    // Point, spot: of the ball that gives the light, in world units, which makes soft edges. 0: a point.
+    float radius;
+    // Directional: the angular radius of the disc that gives the light (the sun's is 0.27 degrees). 0: a point.
+    float angular_radius_rad;
+    LAM_RESERVED(30);
 } lam_light;
 
 // A white light of a type at the origin, direction (0, 0, −1): ambient 0 (LAM_LIGHT_AMBIENT: 0.2), diffuse and specular

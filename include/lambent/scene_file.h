@@ -30,6 +30,7 @@ enum {
     LAM_SETTING_TONE = 1 << 17,              // draw.tone
     LAM_SETTING_ANISOTROPY = 1 << 18,        // draw.anisotropy
     LAM_SETTING_REFERENCE = 1 << 19,         // draw.reference
+    LAM_SETTING_SHADOWS = 1 << 20,           // draw.shadows, draw.flat_terminator, draw.shadow_samples
 };
 
 // The picture that a scene file describes: its size, camera and way of drawing. lam_scene has the rest. Settings that

@@ -34,7 +34,7 @@ int lam_field_get(const lam_field *field, const void *object, double numbers[4])
             numbers[i] = ((const double *)at)[i];
             break;
         case BOOL:
-            numbers[i] = *(const bool *)at;
+            numbers[i] = *(const bool *)at != (field->standard[0] != 0);
             break;
         }
     return count;
@@ -52,7 +52,7 @@ void lam_field_set(const lam_field *field, void *object, const double numbers[4]
             ((double *)at)[i] = numbers[i];
             break;
         case BOOL:
-            *(bool *)at = numbers[i] != 0;
+            *(bool *)at = (numbers[i] != 0) != (field->standard[0] != 0);
             break;
         }
 }
@@ -92,6 +92,8 @@ bool field_equal(const lam_field *field, const void *a, const void *b)
 bool field_is_zero(const lam_field *field, const void *object)
 {
     double numbers[4] = {0};
+    if (field->type == LAM_FIELD_FLAG)
+        return !*(const bool *)((const char *)object + field->offset);
     lam_field_get(field, object, numbers);
     return numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0 && numbers[3] == 0;
 }

@@ -44,6 +44,7 @@ struct field_fault {
 bool field_fits(const lam_field *field, const void *object, struct field_fault *fault);
 
 bool field_equal(const lam_field *field, const void *a, const void *b);
+// Whether its bytes are 0: a flag then has its default.
 bool field_is_zero(const lam_field *field, const void *object);
 // Sets the default, and any numbers whose angles are in degrees.
 void field_set_standard(const lam_field *field, void *object);

@@ -57,6 +57,21 @@ static const struct light_field rows[] = {
     {.field = {MEMBER(up), .type = LAM_FIELD_DIRECTION, .min = -UNBOUNDED, .max = UNBOUNDED,
                .light_types = BIT(HEMISPHERE), .summary = "towards the sky; default: the scene's up axis"},
      .optional = true},
+    {.field = {.name = "no_shadows",
+               .key = "shadows",
+               .offset = offsetof(lam_light, no_shadows),
+               .type = LAM_FIELD_FLAG,
+               .max = 1,
+               .standard = {1},
+               .light_types = REACHING,
+               .summary = "whether things cast shadows in its light, where a picture has shadows"},
+     .optional = true},
+    {.field = {MEMBER(radius), .max = UNBOUNDED, .light_types = PLACED, .unit = "world units",
+               .summary = "of the ball that gives the light, which makes soft shadows; 0: a point"},
+     .optional = true},
+    {.field = {ANGLE(angular_radius_rad, "radius"), .max = 90, .light_types = BIT(DIRECTIONAL),
+               .summary = "angular radius of the disc that gives the light, which makes soft shadows (the sun: 0.27)"},
+     .optional = true},
 };
 enum { COUNT = sizeof rows / sizeof *rows };
 _Static_assert((int)COUNT <= LAM_FIELDS_MAX, "more fields than LAM_FIELDS_MAX");

@@ -230,8 +230,13 @@ bool take_field(struct scene_reader *r, const struct place *place, const json_t 
     if (!json_object_get(object, field->key))
         return true;
     switch (field->type) {
-    case LAM_FIELD_FLAG:
-        return take_bool(r, place, object, field->key, at);
+    case LAM_FIELD_FLAG: {
+        bool on = false;
+        if (!take_bool(r, place, object, field->key, &on))
+            return false;
+        numbers[0] = on;
+        break;
+    }
     case LAM_FIELD_RGB:
         return take_rgb(r, place, object, field->key, at);
     case LAM_FIELD_RGBA:

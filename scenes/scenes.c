@@ -561,6 +561,47 @@ static bool nothing(struct demo *d, lam_error *error)
     return true;
 }
 
+// --- shadows
+
+static bool light(struct demo *d, lam_light_type type, lam_vec3 position, lam_vec3 direction, float strength,
+                  float radius, lam_error *error)
+{
+    lam_light l = lam_light_default(type);
+    l.position = position;
+    l.direction = direction;
+    l.diffuse = l.specular = (lam_rgb){strength, strength, strength};
+    l.outer_rad = type == LAM_LIGHT_SPOT ? 0.5f : 0;
+    l.radius = radius;
+    l.angular_radius_rad = radius * 0.1f;
+    return lam_scene_add_light(d->scene, &l, error) >= 0;
+}
+
+// A coarse ball, a box and a knot on a floor. The terminator of the ball is cured.
+static bool shadowed(struct demo *d, float radius, lam_error *error)
+{
+    int floor = shape(d, "cube", 0, 0, error), ball = shape(d, "sphere", 16, 8, error);
+    int knot = shape(d, "torus-knot", 60, 8, error);
+    int grey = material(d, (lam_rgba){0.7f, 0.7f, 0.68f, 1}, 0.1f, 20, error);
+    int red = material(d, (lam_rgba){0.7f, 0.2f, 0.15f, 1}, 0.4f, 40, error);
+    d->params.shadows = true;
+    look(d, (lam_vec3){2.5, 3.2, 6}, (lam_vec3){0, 0.1, 0}, 38);
+    lam_scene_set_ambient(d->scene, (lam_rgb){0.15f, 0.15f, 0.15f});
+    return place(d, floor, grey, (lam_vec3){6, 0.1, 6}, (lam_vec3){0, -1.1, 0}, error) &&
+           place(d, ball, red, (lam_vec3){0.8, 0.8, 0.8}, (lam_vec3){1.2, -0.2, 0.6}, error) &&
+           place(d, floor, red, (lam_vec3){0.4, 0.9, 0.4}, (lam_vec3){-1.6, -0.1, -0.4}, error) &&
+           place(d, knot, -1, (lam_vec3){0.7, 0.7, 0.7}, (lam_vec3){0, 0.4, -1.2}, error) &&
+           light(d, LAM_LIGHT_DIRECTIONAL, (lam_vec3){0, 0, 0}, (lam_vec3){-0.5, -1, -0.2}, 0.4f, radius, error) &&
+           light(d, LAM_LIGHT_POINT, (lam_vec3){-1, 2.2, 2}, (lam_vec3){0, -1, 0}, 0.3f, radius, error) &&
+           light(d, LAM_LIGHT_SPOT, (lam_vec3){2, 3, 1}, (lam_vec3){-0.6, -1, -0.4}, 0.4f, radius, error);
+}
+
+static bool shadows_hard(struct demo *d, lam_error *error) { return shadowed(d, 0, error); }
+static bool shadows_gouraud(struct demo *d, lam_error *error)
+{
+    d->params.shading = LAM_SHADING_GOURAUD;
+    return shadowed(d, 0, error);
+}
+
 const struct demo_row demos[] = {
     {"teapot", "the Utah teapot in the studio light", teapot},
     {"gyroid", "an implicit surface with normals from the gradient", gyroid},
@@ -608,6 +649,8 @@ const struct demo_row demos[] = {
     {"textured-as-phong", "metallic-roughness maps under Phong's model", textured_converted},
     {"textured-gouraud", "lit at the vertices: the diffuse map stays sharp", textured_gouraud},
     {"masked", "leaves: left out below half opacity to the left, blended to the right", textured_masked},
+    {"shadows", "a ball, a box and a knot: hard shadows of a directional, a point and a spot light", shadows_hard},
+    {"shadows-gouraud", "the same, lit at the vertices", shadows_gouraud},
     {"samples-1", "no antialiasing", samples_1},
     {"samples-2", "2 samples a pixel", samples_2},
     {"samples-8", "8 samples a pixel", samples_8},

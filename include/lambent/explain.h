@@ -48,15 +48,14 @@ typedef struct lam_explained_light {
     // The light's terms are not in the sum: they are too weak in this part of the picture
     // (lam_draw_params.light_cutoff).
     bool skipped;
-    // With lam_draw_params.shadows: whether triangles may shadow the point from this light, and the share of its light
-    // that passes them, a factor of diffuse_term and specular_term.
+    // With lam_draw_params.shadows: whether triangles may shadow the point from this light.
     bool casts_shadows;
+    // The share of the light that passes them, a factor of diffuse_term and specular_term; 1 without shadows.
     lam_rgb passed;
-    // The object and the triangle of its mesh in the way of the light's centre that is nearest to the point; object −1:
-    // none.
+    // The object whose triangle is the nearest in the way to the light's middle; −1: nothing is.
     int shadow_object;
-    uint32_t shadow_triangle;
-    float shadow_distance; // from the point to that triangle, world units
+    uint32_t shadow_triangle; // index in its mesh
+    float shadow_distance;    // from the point to that triangle, world units
     LAM_RESERVED(5);
 } lam_explained_light;
 

@@ -13,10 +13,11 @@ extern "C" {
 typedef enum lam_field_type {
     LAM_FIELD_NUMBER, // float
     LAM_FIELD_ANGLE,  // float, radians; degrees in scene files and options
-    LAM_FIELD_FLAG,   // 0 or 1; the member is a bool that is false where the flag has its default
-    LAM_FIELD_RGB,    // lam_rgb
-    LAM_FIELD_RGBA,   // lam_rgba; the alpha lies in 0..1
-    LAM_FIELD_POINT,  // lam_vec3
+    // 0 or 1; the member is a bool that is false where the flag has its default.
+    LAM_FIELD_FLAG,
+    LAM_FIELD_RGB,   // lam_rgb
+    LAM_FIELD_RGBA,  // lam_rgba; the alpha lies in 0..1
+    LAM_FIELD_POINT, // lam_vec3
     // lam_vec3 of any length but 0; a default of 0 stands for a direction that the scene decides.
     LAM_FIELD_DIRECTION,
     LAM_FIELD_TRIPLE, // three floats

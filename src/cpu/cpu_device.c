@@ -4,6 +4,7 @@
 #include "cpu_frame.h"
 #include "environment_light.h"
 #include "fail.h"
+#include "hierarchy.h"
 #include "isa.h"
 #include "output.h"
 #include "recorder.h"
@@ -23,6 +24,7 @@ struct cpu_device {
     struct thread_bins *bins;
     struct frame_memory memory;
     struct visible_buffers visible;
+    struct hierarchy_memory hierarchy;
     float decode_srgb[256], decode_linear[256];
 };
 
@@ -31,7 +33,7 @@ static uint64_t cpu_memory(const struct lam_device *base)
     const struct cpu_device *device = (const struct cpu_device *)base;
     const struct visible_buffers *visible = &device->visible;
     uint64_t bytes = frame_memory_bytes(&device->memory) + visible->sets.capacity + visible->normals.capacity +
-                     visible->fragment_stores.capacity;
+                     visible->fragment_stores.capacity + hierarchy_bytes(&device->hierarchy);
     for (int i = 0; i < device->thread_count; i++)
         bytes += thread_bytes(&device->threads[i], &device->bins[i]);
     return bytes;
@@ -49,6 +51,7 @@ static void cpu_free(struct lam_device *base)
     buffer_free(&device->visible.sets);
     buffer_free(&device->visible.normals);
     buffer_free(&device->visible.fragment_stores);
+    hierarchy_free(&device->hierarchy);
     free(device);
 }
 
@@ -120,6 +123,7 @@ static void fill_report(lam_frame_report *report, const struct cpu_device *devic
         report->pixels_covered += thread->pixels_covered;
         report->points_lit += thread->shading.points_lit;
         report->lights_evaluated += thread->shading.lights_evaluated;
+        report->rays += thread->shading.rays;
         report->triangles_binned += device->bins[i].triangles_binned;
     }
     double sum = (double)(coverage + lighting + resolved);
@@ -172,11 +176,17 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         return false;
     if (frame->environment_lights && !set_up_environment(&cpu, &device->memory, error))
         return false;
+    uint64_t clock = now_ns();
+    bool built = false;
+    if (frame->shadows &&
+        !(cpu.shade.hierarchy = hierarchy_of_frame(&device->hierarchy, frame, device->pool, call, &built, error)))
+        return false;
+    base->report.hierarchy_ms = built ? milliseconds_since(&clock) : 0;
     cpu.kernels->resolve_empty(&cpu.target);
     if (!lam_output_is_light(frame->output))
         output_empty(&cpu.target);
 
-    uint64_t clock = now_ns();
+    clock = now_ns();
     pool_run(device->pool, cpu.vertex_piece_count, vertex_task, &cpu);
     base->report.vertices_ms = milliseconds_since(&clock);
     if (!step_done(&cpu, error))
@@ -204,7 +214,8 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
 
 lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
 {
-    static const struct device_type type = {cpu_draw, cpu_memory, cpu_free, .makes_normals = true};
+    static const struct device_type type = {cpu_draw, cpu_memory, cpu_free, .makes_normals = true,
+                                            .casts_shadows = true};
     static const lam_cpu_params plain = {0};
     if (!params)
         params = &plain;

@@ -32,6 +32,9 @@ static void lay_out_shading(struct suballocator *from, struct shading *shading, 
     ARRAY(shading->vertices.key, vertices);
     ARRAY(shading->vertices.rest, vertices);
     ARRAY(shading->batch, 1);
+    shading->shadows = NULL;
+    if (frame->shadows)
+        ARRAY(shading->shadows, 1);
     if (!light_culling_wanted(frame))
         return;
     size_t lights = (size_t)frame->light_count;
@@ -87,7 +90,7 @@ static bool set_up_thread(struct thread_state *thread, const struct cpu_frame *c
         return false;
     lay_out_thread(&(struct suballocator){.block = thread->storage.data}, thread, &cpu->target);
     thread->coverage_ns = thread->lighting_ns = thread->resolve_ns = thread->pixels_covered = 0;
-    thread->shading.points_lit = thread->shading.lights_evaluated = 0;
+    thread->shading.points_lit = thread->shading.lights_evaluated = thread->shading.rays = 0;
     return true;
 }
 

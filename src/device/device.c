@@ -41,6 +41,8 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
                   "lam_draw: meshes of the scene have no normals (normals_when_drawn), which this device "
                   "does not make; "
                   "lam_scene_make_normals does");
+    if (ok && device->frame.shadows && !device->type->casts_shadows)
+        ok = fail(error, LAM_UNSUPPORTED, "the device '%s' draws no shadows, the CPU device does", device->name);
     ok = ok && device->type->draw(device, &device->frame, &target, &call, error);
     device->report.total_ms = (double)(now_ns() - call.start_ns) * 1e-6;
     device->report.memory_bytes = device->type->memory(device) + device->frame.storage.capacity;

@@ -15,6 +15,7 @@ struct device_type {
     uint64_t (*memory)(const struct lam_device *device);
     void (*free)(struct lam_device *device); // frees the device itself too
     bool makes_normals;                      // can draw frames whose makes_normals is set
+    bool casts_shadows;                      // can draw frames whose shadows is set
 };
 
 // The base of every device; a device's own struct begins with it.

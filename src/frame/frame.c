@@ -83,6 +83,8 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: tone %d is not one of lam_tone", (int)params->tone);
     if (!(params->light_cutoff >= -3e38f && params->light_cutoff <= 1))
         return fail(error, LAM_BAD_ARGUMENT, "light_cutoff is %g, expected at most 1", (double)params->light_cutoff);
+    if (params->shadow_samples < 0 || params->shadow_samples > 256)
+        return fail(error, LAM_BAD_ARGUMENT, "shadow_samples is %d, expected 0 to 256", params->shadow_samples);
     if ((unsigned)params->output >= LAM_OUTPUT_COUNT || params->output_light < 0)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: output or output_light is out of its range");
     if (params->shading == LAM_SHADING_PHONG &&
@@ -538,8 +540,15 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         frame->translucent = frame->masked = false;
     // Lit by a classic model, materials that the environment would have lit have the studio's rig.
     bool by_rig = params->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
-    return build_lights(frame, scene, by_rig ? LAM_RIG_STUDIO : params->rig,
-                        output_is_one_light(frame->output) ? params->output_light : -1, &view, error);
+    if (!build_lights(frame, scene, by_rig ? LAM_RIG_STUDIO : params->rig,
+                      output_is_one_light(frame->output) ? params->output_light : -1, &view, error))
+        return false;
+    frame->shadows = params->shadows && (lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED);
+    frame->flat_terminator = params->flat_terminator;
+    frame->shadow_samples = params->shadow_samples ? params->shadow_samples : 16;
+    if (frame->shadows)
+        frame_shadows_build(frame, scene, &view);
+    return true;
 }
 
 void frame_free(struct frame *frame)

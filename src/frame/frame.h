@@ -21,7 +21,9 @@ struct frame_draw {
     float eye[3][4];     // mesh positions to eye space
     float normal[3][3];  // mesh normals to eye space, up to a positive factor
     float tangent[3][3]; // mesh directions to eye space, up to a positive factor
-    bool mirrored;       // the transform reverses the winding
+    // With shadows only: mesh positions to world space, mesh normals to world space up to a positive factor.
+    double world[3][4], world_normal[3][3];
+    bool mirrored; // the transform reverses the winding
     bool one_sided;
     // The mesh consists of the rectangles of lines or points (frame_strokes.h): made for this frame, in eye space. They are no
     // surface: flat shading takes the normals of their vertices, and they cast no shadows.
@@ -53,6 +55,11 @@ struct frame_light {
     float diffuse[3], specular[3];
     int light; // index in the scene; −1: a light of the rig
     const lam_light *source;
+    // With shadows only.
+    bool casts_shadows;
+    double world_position[3]; // point, spot
+    double world_axis[3];     // unit, the direction in which the light travels
+    double radius;            // point, spot: of the ball; directional: of the disc at distance 1; 0: a point
 };
 
 // Sets the kind, falloff, attenuation, range and cone of a light, and zeroes position, axis and colours.
@@ -80,6 +87,9 @@ struct frame {
     lam_reflection reflection; // AUTO: the material's own; see frame_draw_range.reflection
     lam_flat_normal flat_normal;
     bool match_highlights, gl1, single_scattering;
+    bool shadows; // a light casts shadows, and the output shows it
+    bool flat_terminator;
+    int shadow_samples; // of a light with a radius
     lam_output output;
     // Largest sum, as a fraction of the encoded range, of the lights that a point may skip; 0: no light is skipped.
     float light_cutoff;
@@ -126,6 +136,17 @@ struct frame {
 
 // The reflection model that lights a material; never AUTO.
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material);
+
+// Fills in what shadows need of draws and lights, once those are built.
+void frame_shadows_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
+
+// A position of a draw's mesh in world space.
+static inline void frame_to_world(const struct frame_draw *draw, const float from[3], double to[3])
+{
+    double x = (double)from[0], y = (double)from[1], z = (double)from[2];
+    for (int i = 0; i < 3; i++)
+        to[i] = ((draw->world[i][0] * x + draw->world[i][1] * y) + draw->world[i][2] * z) + draw->world[i][3];
+}
 
 // Whether a model lights physical materials.
 bool frame_is_physical(lam_reflection model);

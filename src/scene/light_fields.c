@@ -69,7 +69,7 @@ static const struct light_field rows[] = {
     {.field = {MEMBER(radius), .max = UNBOUNDED, .light_types = PLACED, .unit = "world units",
                .summary = "of the ball that gives the light, which makes soft shadows; 0: a point"},
      .optional = true},
-    {.field = {ANGLE(angular_radius_rad, "radius"), .max = 90, .light_types = BIT(DIRECTIONAL),
+    {.field = {ANGLE(angular_radius_rad, "radius"), .max = 89, .light_types = BIT(DIRECTIONAL),
                .summary = "angular radius of the disc that gives the light, which makes soft shadows (the sun: 0.27)"},
      .optional = true},
 };

@@ -131,6 +131,7 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
     int shading = 0, reflection = 0, stage = 0, viewer = 0, flat_normal = 0, up = LAM_UP_Y;
     lam_rgb ambient = {0, 0, 0};
     double cutoff = 0;
+    bool terminator = true;
     struct json_choice reflections[LAM_REFLECTION_COUNT + 1];
     reflection_words(reflections);
     if (!take_word(r, NULL, root, "shading", shading_words, &shading) ||
@@ -140,6 +141,9 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
         !take_word(r, NULL, root, "flat_normal", flat_normal_words, &flat_normal) ||
         !take_bool(r, NULL, root, "match_highlights", &draw->match_highlights) ||
         !take_bool(r, NULL, root, "single_scattering", &draw->single_scattering) ||
+        !take_bool(r, NULL, root, "shadows", &draw->shadows) ||
+        !take_bool(r, NULL, root, "shadow_terminator", &terminator) ||
+        !take_whole(r, NULL, root, "shadow_samples", 1, 256, &draw->shadow_samples) ||
         !take_bool(r, NULL, root, "gl1", &draw->gl1) || !take_number(r, NULL, root, "light_cutoff", 0, 1, &cutoff) ||
         !take_word(r, NULL, root, "up", up_words, &up) || !take_rgb(r, NULL, root, "ambient", &ambient))
         return false;
@@ -151,6 +155,7 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
                           ENVIRONMENT_SAMPLES_MIN);
     if (json_object_get(root, "light_cutoff"))
         draw->light_cutoff = cutoff > 0 ? (float)cutoff : -1;
+    draw->flat_terminator = !terminator;
     draw->shading = (lam_shading)shading;
     draw->reflection = (lam_reflection)reflection;
     draw->stage = (lam_stage)stage;
@@ -170,6 +175,9 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
                 {"match_highlights", LAM_SETTING_MATCH_HIGHLIGHTS},
                 {"gl1", LAM_SETTING_GL1},
                 {"single_scattering", LAM_SETTING_SINGLE_SCATTERING},
+                {"shadows", LAM_SETTING_SHADOWS},
+                {"shadow_terminator", LAM_SETTING_SHADOWS},
+                {"shadow_samples", LAM_SETTING_SHADOWS},
                 {"anisotropy", LAM_SETTING_ANISOTROPY},
                 {"reference", LAM_SETTING_REFERENCE},
                 {"light_cutoff", LAM_SETTING_LIGHT_CUTOFF}};
@@ -196,9 +204,10 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
 static bool read_root(struct scene_reader *r, const json_t *root)
 {
     static const char *const keys[] = {
-        "lambent",   "image",   "camera",      "ambient",          "environment",       "shading",   "reflection",
-        "viewer",    "stage",   "flat_normal", "match_highlights", "single_scattering", "gl1",       "up",
-        "materials", "objects", "lights",      "light_cutoff",     "anisotropy",        "reference", NULL};
+        "lambent",    "image",     "camera",    "ambient",           "environment",      "shading",
+        "reflection", "viewer",    "stage",     "flat_normal",       "match_highlights", "single_scattering",
+        "gl1",        "up",        "materials", "objects",           "lights",           "light_cutoff",
+        "anisotropy", "reference", "shadows",   "shadow_terminator", "shadow_samples",   NULL};
     int version = 0;
     if (!check_keys(r, NULL, root, keys) || !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
         return false;

@@ -538,6 +538,12 @@ static bool put_settings(struct scene_writer *w, json_t *root, const lam_picture
         put(w, root, "match_highlights", json_true());
     if ((s->present & LAM_SETTING_GL1) && s->draw.gl1)
         put(w, root, "gl1", json_true());
+    if ((s->present & LAM_SETTING_SHADOWS) && s->draw.shadows)
+        put(w, root, "shadows", json_true());
+    if ((s->present & LAM_SETTING_SHADOWS) && s->draw.flat_terminator)
+        put(w, root, "shadow_terminator", json_false());
+    if ((s->present & LAM_SETTING_SHADOWS) && s->draw.shadow_samples)
+        put(w, root, "shadow_samples", json_integer(s->draw.shadow_samples));
     if ((s->present & LAM_SETTING_ANISOTROPY) && s->draw.anisotropy > 1)
         put(w, root, "anisotropy", json_integer(s->draw.anisotropy));
     if ((s->present & LAM_SETTING_REFERENCE) && s->draw.reference)

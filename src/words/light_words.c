@@ -30,7 +30,7 @@ struct reading {
     lam_light light;
     lam_vec3 target;
     bool has_position, has_direction, has_target;
-    bool position_in_radii, target_in_radii, linear_in_radii, quadratic_in_radii, range_in_radii;
+    bool position_in_radii, target_in_radii, linear_in_radii, quadratic_in_radii, range_in_radii, size_in_radii;
     lam_color_mode mode;
     uint64_t seen; // BIT(key)
     double numbers[KEYS][4];
@@ -156,6 +156,34 @@ static bool read_range(const char *value, struct reading *reading, lam_error *er
     return true;
 }
 
+// The radius of a ball, or of a disc in degrees: which one is known with the last key.
+static bool read_size(const char *value, struct reading *reading, lam_error *error)
+{
+    double *number = reading->numbers[field_index("radius")];
+    int count;
+    if (!word_numbers(value, 1, 1, number, &count, &reading->size_in_radii))
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "found 'radius=%.60s', expected a distance, with r for radii; of a directional light, degrees",
+                    value);
+    if (!(*number >= 0))
+        return fail(error, LAM_BAD_ARGUMENT, "radius is %.60s, expected a number of at least 0", value);
+    return true;
+}
+
+static bool set_size(struct reading *reading, lam_error *error)
+{
+    double number = reading->numbers[field_index("radius")][0];
+    if (reading->light.type != LAM_LIGHT_DIRECTIONAL) {
+        reading->light.radius = (float)number;
+        return true;
+    }
+    reading->light.angular_radius_rad = (float)math_radians(number);
+    return (number <= 89 && !reading->size_in_radii) ||
+           fail(error, LAM_BAD_ARGUMENT,
+                "radius is %g%s, expected 0 to 89 degrees: a directional light has an angular radius", number,
+                reading->size_in_radii ? "r" : "");
+}
+
 static bool read_frame(char *value, struct reading *reading, lam_error *error)
 {
     char *name = strchr(value, ':');
@@ -201,6 +229,8 @@ static bool read_value(struct reading *reading, int key, char *value, lam_error 
         return read_attenuation(value, reading, error);
     if (strcmp(field->key, "range") == 0)
         return read_range(value, reading, error);
+    if (strcmp(field->key, "radius") == 0)
+        return read_size(value, reading, error);
     if (!word_field(field, value, reading->mode, reading->numbers[key], error))
         return false;
     word_set_field(field, &reading->light, reading->numbers[key]);
@@ -357,7 +387,7 @@ static bool read_light(char *text, struct reading *reading, lam_error *error)
     if (!set_place(reading, error) || !check_keys(reading, error))
         return false;
     set_colors(reading);
-    return set_cone(reading, error);
+    return (!seen(reading, "radius") || set_size(reading, error)) && set_cone(reading, error);
 }
 
 // --- from radii and targets to a light of the scene
@@ -444,13 +474,15 @@ static bool place_light(struct reading *reading, const lam_light_text_params *pa
         light->attenuation.quadratic = (float)((double)light->attenuation.quadratic / (r * r));
     if (reading->range_in_radii)
         light->range = (float)((double)light->range * r);
+    if (reading->size_in_radii)
+        light->radius = (float)((double)light->radius * r);
     return true;
 }
 
 static bool in_radii(const struct reading *reading)
 {
     return reading->position_in_radii || reading->target_in_radii || reading->linear_in_radii ||
-           reading->quadratic_in_radii || reading->range_in_radii;
+           reading->quadratic_in_radii || reading->range_in_radii || reading->size_in_radii;
 }
 
 static bool add_light(lam_scene *scene, const char *text, const lam_light_text_params *params, int *index,

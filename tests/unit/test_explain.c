@@ -47,7 +47,10 @@ static int reflections; // points whose reflection term was checked and is not 0
 static void check_light(const lam_explained_fragment *f, const lam_explained_point *p, const lam_explained_light *l)
 {
     bool cosine = strcmp(lam_reflection_describe(f->reflection)->diffuse, "max(n·l, 0)") == 0;
-    float weak = l->attenuation * l->spot;
+    float weak = l->attenuation * l->spot * l->passed.r;
+    if (!l->casts_shadows)
+        assert_true(l->passed.r == 1 && l->passed.g == 1 && l->passed.b == 1);
+    assert_true((l->shadow_object < 0) == (l->passed.r == 1));
     for (int c = 0; c < 3; c++) {
         float kd = (&f->surface.diffuse.r)[c] * (&l->diffuse.r)[c],
               ks = (&f->surface.specular.r)[c] * (&l->specular.r)[c];

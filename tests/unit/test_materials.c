@@ -341,6 +341,17 @@ static void test_fields(void **state)
             lam_light wrong = light;
             double numbers[4];
             lam_field_get(field, &light, numbers);
+            if (field->type == LAM_FIELD_FLAG) { // stored so that its default is false
+                assert_true(numbers[0] == field->standard[0]);
+                assert_false(*(const bool *)((const char *)&light + field->offset));
+                for (int on = 0; on < 2; on++) {
+                    double back[4] = {-1};
+                    lam_field_set(field, &wrong, (double[4]){on});
+                    lam_field_get(field, &wrong, back);
+                    assert_true(back[0] == on);
+                }
+                continue;
+            }
             numbers[0] = NAN;
             lam_field_set(field, &wrong, numbers);
             assert_false(lam_light_check(&wrong, NULL));

@@ -160,11 +160,11 @@ static void test_lights(void **unused)
         "{\"type\": \"hemisphere\", \"sky\": [1, 0, 0], \"ground\": [0, 1, 0], \"up\": [1, 0, 0], \"frame\": "
         "\"camera\"}, "
         "{\"name\": \"p\", \"type\": \"point\", \"position\": [2, 4, 6, 2], \"attenuation\": [0, 0, 1], "
-        "\"range\": 9}, "
+        "\"range\": 9, \"shadows\": false, \"radius\": 0.5}, "
         "{\"type\": \"point\", \"position\": [1, 2, 3, 0]}, {\"type\": \"directional\", \"position\": [0, 1, "
         "0, 0]}, "
         "{\"type\": \"directional\", \"direction\": [1, 0, 0], \"color\": [1, 0.5, 0], \"intensity\": 2, "
-        "\"specular\": [0, 0, 1]}, "
+        "\"specular\": [0, 0, 1], \"radius\": 30}, "
         "{\"type\": \"spot\", \"position\": [1, 1, 1], \"target\": [1, 0, 1], \"cutoff\": 30, \"exponent\": "
         "2}, "
         "{\"type\": \"spot\", \"inner\": 10, \"outer\": 20, \"frame\": \"object\", \"object\": \"sphere\"}, "
@@ -178,7 +178,9 @@ static void test_lights(void **unused)
     assert_true(l[2]->position.x == 1 && l[2]->position.z == 3 && l[2]->attenuation.quadratic == 1 &&
                 l[2]->attenuation.constant == 0 && l[2]->range == 9);
     assert_true(l[3]->type == LAM_LIGHT_DIRECTIONAL && l[3]->direction.x == -1 && l[3]->direction.z == -3);
+    assert_true(l[2]->no_shadows && l[2]->radius == 0.5f && !l[3]->no_shadows && l[3]->radius == 0);
     assert_true(l[4]->direction.y == -1);
+    assert_true(fabs((double)l[5]->angular_radius_rad - asin(0.5)) < 1e-7 && l[5]->radius == 0);
     assert_true(l[5]->diffuse.r == 2 && l[5]->diffuse.g == 1 && l[5]->specular.r == 0 && l[5]->specular.b == 1);
     assert_true(l[6]->direction.y == -1 && fabs((double)l[6]->cutoff_rad - asin(0.5)) < 1e-7 && l[6]->exponent == 2);
     assert_true(l[7]->outer_rad > l[7]->inner_rad && l[7]->inner_rad > 0.17f && l[7]->cutoff_rad == 0);
@@ -204,7 +206,8 @@ static void test_errors(void **unused)
         {"{\"x\": \"\\\"lambent\\\"\", \"lambent\": 1}",
          "s.json: x: unknown key; expected lambent, image, camera, ambient, "
          "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, single_scattering, gl1, up, "
-         "materials, objects, lights, light_cutoff, anisotropy, reference"},
+         "materials, objects, lights, light_cutoff, anisotropy, reference, "
+         "shadows, shadow_terminator, shadow_samples"},
         {"{\"lambent\": 1}", "s.json: 'objects' is missing, expected a list of at least one object"},
         {"{\"lambent\": 2, " BALL "}", "s.json: lambent: the format's version is 2, this program reads version 1"},
         {"{\"lambent\": \"1\", " BALL "}", "s.json: lambent: found \"1\", expected a number"},
@@ -291,7 +294,7 @@ static void test_errors(void **unused)
         LIGHT("\"type\": \"point\", \"power\": 4", ".power: unknown key; did you mean 'intensity'?"),
         LIGHT("\"type\": \"point\", \"cutoff\": 4",
               ".cutoff: unknown key; expected name, type, frame, object, color, "
-              "intensity, position, ambient, diffuse, specular, attenuation, range"),
+              "intensity, position, ambient, diffuse, specular, attenuation, range, shadows, radius"),
         LIGHT("\"type\": \"point\", \"attenuation\": [0, 0, 0]",
               ".attenuation: all three numbers are 0, expected a + b d + c d^2 to be more than 0"),
         LIGHT("\"type\": \"point\", \"attenuation\": [1, -2, 0]",
@@ -416,11 +419,13 @@ static void test_writing(void **unused)
     lights[1].object = "ring";
     lights[2].attenuation = (lam_attenuation){0, 0, 0};
     lights[2].range = 7.7f;
+    lights[2].radius = 0.3f;
+    lights[0].no_shadows = true;
     for (int i = 0; i < 4; i++)
         assert_true(lam_scene_add_light(scene, &lights[i], &error) == i);
     lam_scene_set_ambient(scene, (lam_rgb){0.1f, 0.7f, 1e-3f});
     lam_picture_settings s = {.present = ((LAM_SETTING_LIGHTS << 1) - 1) | LAM_SETTING_LIGHT_CUTOFF |
-                                         LAM_SETTING_SINGLE_SCATTERING | LAM_SETTING_REFERENCE,
+                                         LAM_SETTING_SINGLE_SCATTERING | LAM_SETTING_REFERENCE | LAM_SETTING_SHADOWS,
                               .width = 7,
                               .height = 9,
                               .camera = lam_camera_default()};
@@ -437,6 +442,9 @@ static void test_writing(void **unused)
                                .light_cutoff = -1,
                                .match_highlights = true,
                                .reference = 64,
+                               .shadows = true,
+                               .flat_terminator = true,
+                               .shadow_samples = 5,
                                .single_scattering = true};
     s.camera.fovy_rad = 0.7123456789012345;
     s.camera.eye = (lam_vec3){1.0 / 3, 1e-9, 12345678.9};
@@ -456,6 +464,7 @@ static void test_writing(void **unused)
                 t.draw.viewer == s.draw.viewer && t.draw.flat_normal == s.draw.flat_normal && t.draw.gl1 &&
                 t.draw.match_highlights && t.draw.single_scattering && t.draw.rig == LAM_RIG_NONE &&
                 t.draw.light_cutoff < 0 && t.draw.reference == 64);
+    assert_true(t.draw.shadows && t.draw.flat_terminator && t.draw.shadow_samples == 5);
     assert_memory_equal(&t.camera.eye, &s.camera.eye, sizeof s.camera.eye);
     assert_true(fabs(t.camera.fovy_rad - s.camera.fovy_rad) <= 1.2e-16);
     assert_true(t.camera.near_plane == 0.1 && t.camera.far_plane == 100 && t.width == 7 && t.height == 9);
@@ -478,6 +487,7 @@ static void test_writing(void **unused)
                     a.outer_rad == b.outer_rad);
         assert_true(a.cutoff_rad == b.cutoff_rad || a.outer_rad > 0);
         assert_true(a.sky.r == b.sky.r && a.ground.b == b.ground.b);
+        assert_true(a.radius == b.radius && a.no_shadows == b.no_shadows);
     }
     assert_true(lam_scene_light(back, 2)->attenuation.constant == 1); // what three zeros stand for
     lam_rgb ambient = lam_scene_ambient(back);

@@ -88,6 +88,17 @@ static void write_light(struct json *json, const lam_explained_light *l)
     real(json, "attenuation", l->attenuation);
     real(json, "cos_axis", l->cos_axis);
     real(json, "spot", l->spot);
+    json_flag(json, "casts_shadows", l->casts_shadows);
+    color(json, "passed", l->passed);
+    if (l->shadow_object >= 0) {
+        json_open(json, "in_the_way", '{');
+        index_of(json, "object", l->shadow_object);
+        json_count(json, "triangle", l->shadow_triangle);
+        real(json, "distance", l->shadow_distance);
+        json_close(json, '}');
+    } else {
+        json_none(json, "in_the_way");
+    }
     real(json, "n_dot_l", l->n_dot_l);
     real(json, "base", l->base);
     real(json, "power", l->power);

@@ -114,10 +114,26 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
     number(4, "S", (double)l->S, remark);
 }
 
+// What is in the way of the light.
+static void print_shadow(const lam_explained_light *l)
+{
+    char remark[200] = "nothing is in the way";
+    if (!l->casts_shadows)
+        return;
+    if (l->shadow_object >= 0)
+        snprintf(remark, sizeof remark, "triangle %u of object %d is in the way, %.7g from the point",
+                 l->shadow_triangle, l->shadow_object, (double)l->shadow_distance);
+    color(4, "passed", l->passed, remark);
+}
+
 static void product(char text[200], const lam_explained_light *l, const char *what, lam_rgb c, float answer)
 {
-    snprintf(text, 200, "spot · attenuation · %s = %.7g · %.7g · (%.7g %.7g %.7g) · %.7g", what, (double)l->spot,
-             (double)l->attenuation, (double)c.r, (double)c.g, (double)c.b, (double)answer);
+    int used = snprintf(text, 200, "spot · attenuation · %s%s = %.7g · %.7g · (%.7g %.7g %.7g) · %.7g", what,
+                        l->casts_shadows ? " · passed" : "", (double)l->spot, (double)l->attenuation, (double)c.r,
+                        (double)c.g, (double)c.b, (double)answer);
+    if (l->casts_shadows && used < 200)
+        snprintf(text + used, 200 - (size_t)used, " · (%.7g %.7g %.7g)", (double)l->passed.r, (double)l->passed.g,
+                 (double)l->passed.b);
 }
 
 static void print_light(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
@@ -148,6 +164,7 @@ static void print_light(const lam_explanation *e, const lam_explained_fragment *
         number(4, "c", (double)l->cos_axis, "(−l)·axis");
         number(4, "spot", (double)l->spot, "the cone's factor");
     }
+    print_shadow(l);
     number(4, "n·l", (double)l->n_dot_l, "");
     print_highlight(f, p, l);
     char text[200];

@@ -143,6 +143,11 @@ static const struct word rig_words[] = {
     {"lecture", LAM_RIG_LECTURE, "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
     {NULL, 0, NULL}};
 
+static const struct word terminator_words[] = {
+    {"on", 0, "shadow rays start where the normals say that the curved surface lies"},
+    {"off", 1, "shadow rays start on the flat triangles: the terminator of a coarse smooth mesh shows them"},
+    {NULL, 0, NULL}};
+
 static const struct word stage_words[] = {{"application", LAM_STAGE_APPLICATION, "before drawing (flat, gouraud)"},
                                           {"vertex", LAM_STAGE_VERTEX, "for each vertex (flat, gouraud)"},
                                           {"fragment", LAM_STAGE_FRAGMENT, "for each fragment (flat, phong)"},
@@ -452,6 +457,18 @@ const struct option option_table[] = {
      "1024 directions are mostly within 0.5 % of it, 4096 within 0.2 %. The directions are the same at every point "
      "and on every machine. CPU only.",
      .store = store_integer, .others = "ground-truth importance-samples", FIELD(reference), .min = 0, .max = 1 << 20},
+    {"shadows", 0, GROUP_SHADING, NULL, NULL, "Let triangles take away the light of points behind them.",
+     "Exact: a ray from every lit point to every light whose key `shadows` is not off. Ambient and hemisphere light "
+     "and the environment cast none. A light with a `radius` has soft shadows. `docs/lighting/shadows.md` describes "
+     "what decides, and the mistakes that shadows are known for.",
+     .store = store_switch, .others = "shadow cast-shadows raytrace shadow-map", FIELD(shadows)},
+    {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", "on",
+     "Whether shadows follow the curved surface that the normals stand for: on or off.", NULL, terminator_words,
+     .store = store_word, .others = "terminator shadow-bias", FIELD(shadow_terminator)},
+    {"shadow-samples", 0, GROUP_SHADING, "N", "16",
+     "Points of a light with a radius that each lit point is tested with.",
+     "Their share that is in sight is the share of the light that arrives.", .store = store_integer,
+     .others = "soft-shadow-samples light-samples", FIELD(shadow_samples), .min = 1, .max = 256},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, "Light as OpenGL 1: colours clamped, shininess to 128, ambient attenuated.",
      "For comparison with old programs: vertex colours are clamped to 0...1 before interpolation, the shininess "
      "is at most 128, and the ambient light of a light is attenuated and limited to its cone.",

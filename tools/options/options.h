@@ -71,6 +71,9 @@ struct options {
     int stage;       // lam_stage
     int viewer;      // lam_viewer
     int flat_normal; // lam_flat_normal
+    bool shadows;
+    int shadow_terminator; // 1: off
+    int shadow_samples;    // 0: the library's default
     bool match_highlights, single_scattering, gl1, two_sided, one_sided, show_lights;
     int cull; // lam_cull
     bool has_cull;

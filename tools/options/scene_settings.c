@@ -51,6 +51,11 @@ void scene_settings_apply(struct job *job)
     own->match_highlights |= s->draw.match_highlights;
     own->gl1 |= s->draw.gl1;
     own->single_scattering |= s->draw.single_scattering;
+    own->shadows |= s->draw.shadows;
+    if (takes_setting(job, LAM_SETTING_SHADOWS, "shadow-terminator"))
+        own->shadow_terminator = s->draw.flat_terminator;
+    if (takes_setting(job, LAM_SETTING_SHADOWS, "shadow-samples"))
+        own->shadow_samples = s->draw.shadow_samples;
     if (takes_setting(job, LAM_SETTING_ANISOTROPY, "anisotropy"))
         own->anisotropy = s->draw.anisotropy;
     if (takes_setting(job, LAM_SETTING_REFERENCE, "reference"))
@@ -135,6 +140,7 @@ bool scene_settings_save(const struct job *job, lam_error *error)
                  LAM_SETTING_GL1;
     s.present |= draw->anisotropy > 1 ? LAM_SETTING_ANISOTROPY : 0;
     s.present |= draw->reference ? LAM_SETTING_REFERENCE : 0;
+    s.present |= draw->shadows ? LAM_SETTING_SHADOWS : 0;
     s.present |= draw->light_cutoff != 0 ? LAM_SETTING_LIGHT_CUTOFF : 0;
     s.present |= draw->stage != LAM_STAGE_AUTO ? LAM_SETTING_STAGE : 0;
     s.present |= draw->viewer != LAM_VIEWER_LOCAL ? LAM_SETTING_VIEWER : 0;

@@ -52,12 +52,19 @@ struct vertex_cache {
     uint32_t count;
 };
 
+// Where the shadow rays of a batch start, in the space of the hierarchy, and the triangles that they start on.
+struct shadow_rows {
+    double origin[3][BATCH_ROW];
+    int32_t own[BATCH_ROW]; // as in ray_lanes
+};
+
 // Scratch memory of one thread's shading, and its counters.
 struct shading {
     struct shading_batch *batch;
+    struct shadow_rows *shadows; // NULL: the frame has none
     struct vertex_cache vertices;
     struct light_list lights;
-    uint64_t points_lit, lights_evaluated;
+    uint64_t points_lit, lights_evaluated, rays;
 };
 
 #endif

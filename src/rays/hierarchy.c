@@ -1,0 +1,113 @@
+// hierarchy.c: the hierarchy of a frame, built when it is asked for and kept while the same meshes stay in their places.
+#include "builder.h"
+
+#include "fail.h"
+
+#include <string.h>
+
+// What a hierarchy depends on: equal pointers mean equal contents, since a scene never modifies its arrays.
+struct source {
+    const float *positions;
+    const uint32_t *indices;
+    uint32_t triangle_count, first_id;
+    bool strokes;
+    double world[3][4];
+};
+
+static bool same_sources(const struct hierarchy_memory *memory, const struct frame *frame)
+{
+    if (memory->token != frame->token || memory->source_count != frame->draw_count)
+        return false;
+    const struct source *sources = memory->sources.data;
+    for (int i = 0; i < frame->draw_count; i++) {
+        const struct frame_draw *draw = &frame->draws[i];
+        const struct source *s = &sources[i];
+        if (s->positions != draw->mesh->positions || s->indices != draw->mesh->indices ||
+            s->triangle_count != draw->mesh->triangle_count || s->first_id != draw->first_id ||
+            s->strokes != draw->strokes)
+            return false;
+        // Lines and points follow the eye, and are left out.
+        if (!draw->strokes && memcmp(s->world, draw->world, sizeof s->world) != 0)
+            return false;
+    }
+    return true;
+}
+
+static void note_sources(struct hierarchy_memory *memory, const struct frame *frame)
+{
+    struct source *sources = memory->sources.data;
+    for (int i = 0; i < frame->draw_count; i++) {
+        const struct frame_draw *draw = &frame->draws[i];
+        sources[i] = (struct source){draw->mesh->positions, draw->mesh->indices, draw->mesh->triangle_count,
+                                     draw->first_id,        draw->strokes,       {{0}}};
+        memcpy(sources[i].world, draw->world, sizeof sources[i].world);
+    }
+    memory->source_count = frame->draw_count;
+    memory->token = scene_token_hold(frame->token);
+}
+
+static void forget(struct hierarchy_memory *memory)
+{
+    scene_token_release(memory->token);
+    memory->token = NULL;
+}
+
+const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, const struct frame *frame,
+                                           struct pool *pool, struct call_control *call, bool *built, lam_error *error)
+{
+    struct hierarchy *h = &memory->hierarchy;
+    size_t count = frame->triangle_count;
+    *built = false;
+    if (memory->token && same_sources(memory, frame))
+        return h;
+    forget(memory);
+    if (!buffer_reserve(&memory->sources, ((size_t)frame->draw_count + 1) * sizeof(struct source), call, error) ||
+        !buffer_reserve(&memory->nodes, (count + 1) * sizeof(struct ray_node), call, error) ||
+        !buffer_reserve(&memory->triangles, (count + 1) * sizeof(struct ray_triangle), call, error) ||
+        !buffer_reserve(&memory->twins, (count + 1) * sizeof(uint32_t), call, error) ||
+        !buffer_reserve(&memory->scratch, (count + 1) * (sizeof(struct ray_triangle) + 2 * sizeof(struct primitive)),
+                        call, error))
+        return NULL;
+    struct builder builder = {.frame = frame,
+                              .hierarchy = h,
+                              .triangles = memory->triangles.data,
+                              .nodes = memory->nodes.data,
+                              .twins = memory->twins.data,
+                              .pool = pool,
+                              .loop = {.call = call}};
+    builder.primitives[0] = memory->scratch.data;
+    builder.primitives[1] = builder.primitives[0] + count;
+    builder.prepared = (struct ray_triangle *)(builder.primitives[1] + count);
+    *h = (struct hierarchy){.nodes = builder.nodes,
+                            .triangles = builder.triangles,
+                            .twins = builder.twins,
+                            .node_count = count > 1 ? (uint32_t)count - 1 : 1,
+                            .triangle_count = (uint32_t)count};
+    bool ok = ray_triangles_prepare(&builder, error) && ray_nodes_build(&builder, error);
+    // The scratch memory is twice as large as the hierarchy, and not needed again before something moves.
+    uint64_t scratch = memory->scratch.capacity;
+    buffer_free(&memory->scratch);
+    if (call)
+        call_refund(call, scratch);
+    if (!ok)
+        return NULL;
+    note_sources(memory, frame);
+    *built = true;
+    return h;
+}
+
+void hierarchy_free(struct hierarchy_memory *memory)
+{
+    forget(memory);
+    buffer_free(&memory->nodes);
+    buffer_free(&memory->triangles);
+    buffer_free(&memory->twins);
+    buffer_free(&memory->scratch);
+    buffer_free(&memory->sources);
+}
+
+uint64_t hierarchy_bytes(const struct hierarchy_memory *memory)
+{
+    return memory->nodes.capacity + memory->triangles.capacity + memory->twins.capacity + memory->scratch.capacity +
+           memory->sources.capacity;
+}

@@ -1,0 +1,391 @@
+// test_rays.c: rays against the hierarchy: the answer is the one of every triangle tested by itself, whatever the scene.
+#include <lambent/scene.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define LANES 8
+#include "ray_lanes.h"
+
+static uint64_t seed = 1;
+
+static double uniform(void)
+{
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(seed >> 11) / 9007199254740992.0;
+}
+
+static double between(double low, double high) { return low + (high - low) * uniform(); }
+
+// --- scenes of triangles
+
+enum { TRIANGLES_MAX = 20000 };
+
+struct soup {
+    float p[3 * TRIANGLES_MAX][3];
+    uint32_t count;
+    lam_scene *scene;
+    struct frame frame;
+    struct hierarchy_memory memory;
+    const struct hierarchy *hierarchy;
+};
+
+static void add_triangle(struct soup *s, const float a[3], const float b[3], const float c[3])
+{
+    memcpy(s->p[3 * s->count], a, 12);
+    memcpy(s->p[3 * s->count + 1], b, 12);
+    memcpy(s->p[3 * s->count++ + 2], c, 12);
+}
+
+static void build(struct soup *s, int threads, const lam_mat4 *transform)
+{
+    lam_error error = {0};
+    s->scene = lam_scene_make(&error);
+    lam_mesh mesh = {.positions = &s->p[0][0], .vertex_count = 3 * s->count, .triangle_count = s->count};
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_mesh(s->scene, &mesh, &error);
+    if (transform)
+        object.transform = *transform;
+    if (object.mesh < 0 || lam_scene_add_object(s->scene, &object, &error) < 0)
+        fail_msg("%s", error.text);
+    lam_light light = lam_light_default(LAM_LIGHT_POINT);
+    lam_scene_add_light(s->scene, &light, &error);
+    lam_camera camera = lam_camera_fit(s->scene, 100, 100, NULL);
+    s->frame = (struct frame){0};
+    lam_draw_params params = {.shadows = true};
+    if (!frame_build(&s->frame, s->scene, &camera, &params, 100, 100, NULL, &error))
+        fail_msg("%s", error.text);
+    struct pool *pool = pool_make(threads);
+    bool built;
+    memset(&s->memory, 0, sizeof s->memory);
+    s->hierarchy = hierarchy_of_frame(&s->memory, &s->frame, pool, NULL, &built, &error);
+    if (!s->hierarchy)
+        fail_msg("%s", error.text);
+    assert_true(built);
+    // The same again is not built again.
+    assert_true(hierarchy_of_frame(&s->memory, &s->frame, pool, NULL, &built, &error) == s->hierarchy && !built);
+    pool_free(pool);
+}
+
+static void drop(struct soup *s)
+{
+    hierarchy_free(&s->memory);
+    frame_free(&s->frame);
+    lam_scene_free(s->scene);
+    s->count = 0;
+}
+
+static void random_point(float p[3], double size)
+{
+    for (int i = 0; i < 3; i++)
+        p[i] = (float)between(-size, size);
+}
+
+// Triangles of all sizes, among them needles, points and lines.
+static void random_soup(struct soup *s, uint32_t count, double size)
+{
+    s->count = 0;
+    while (s->count < count) {
+        float a[3], b[3], c[3];
+        double reach = size * exp(between(-9, 0));
+        random_point(a, size);
+        random_point(b, reach);
+        random_point(c, reach);
+        for (int i = 0; i < 3; i++) {
+            b[i] += a[i];
+            c[i] += a[i];
+        }
+        int kind = (int)(uniform() * 12);
+        if (kind == 0)
+            memcpy(b, a, 12); // a line
+        if (kind == 1)
+            memcpy(c, memcpy(b, a, 12), 12); // a point
+        if (kind == 2)
+            for (int i = 0; i < 3; i++)
+                c[i] = 0.5f * (a[i] + b[i]); // three points on a line
+        if (kind == 3)
+            a[1] = b[1] = c[1] = 0; // in one plane with others
+        if (kind == 4 && s->count)
+            memcpy(a, s->p[3 * (s->count - 1)], 12); // shares a corner
+        add_triangle(s, a, b, c);
+    }
+}
+
+static struct ray_lanes random_rays(const struct soup *s, bool inside)
+{
+    struct ray_lanes ray;
+    int kind = (int)(uniform() * 5);
+    for (int i = 0; i < LANES; i++) {
+        double o[3], d[3];
+        uint32_t number = (uint32_t)(uniform() * s->count);
+        const struct ray_triangle *t = &s->hierarchy->triangles[number];
+        ray.own[i] = NO_TRIANGLE;
+        for (int k = 0; k < 3; k++) {
+            o[k] = between(-1.5, 1.5);
+            d[k] = between(-2, 2);
+        }
+        if (kind == 1) // along an axis
+            for (int k = 0; k < 3; k++)
+                d[k] = k == i % 3 ? (i & 4 ? -1 : 1) : 0;
+        for (int k = 0; k < 3 && (kind == 2 || inside); k++) // from a point of a triangle
+            o[k] = t->p[0][k] * 0.25 + t->p[1][k] * 0.25 + t->p[2][k] * 0.5;
+        if (kind == 2)
+            ray.own[i] = (int32_t)t->twin;
+        for (int k = 0; k < 3 && kind == 3; k++) // to a corner or the middle of an edge
+            d[k] = (i & 1 ? t->p[0][k] : 0.5 * (t->p[1][k] + t->p[2][k])) - o[k];
+        for (int k = 0; k < 3 && kind == 4; k++) // in a plane
+            d[k] = k == 1 ? 0 : d[k], o[k] = k == 1 ? t->p[0][1] : o[k];
+        for (int k = 0; k < 3; k++) {
+            ray.origin[k][i] = o[k];
+            ray.direction[k][i] = d[k];
+        }
+    }
+    ray.end = dnum_of(kind == 1 ? HUGE_VAL : kind == 3 ? 1.001 : 1);
+    return ray;
+}
+
+static unsigned every_triangle(const struct soup *s, const struct ray_lanes *ray, unsigned active)
+{
+    struct ray_view view = view_along(ray->direction);
+    unsigned hit = 0;
+    for (uint32_t i = 0; i < s->count; i++)
+        hit |= mask_bits(crosses(&s->hierarchy->triangles[i], ray, &view)) & active;
+    return hit;
+}
+
+static int found, missed;
+
+static void check_rays(const struct soup *s, int rounds)
+{
+    for (int i = 0; i < rounds; i++) {
+        struct ray_lanes ray = random_rays(s, i & 1);
+        unsigned active = i % 3 ? 0xff : (unsigned)(uniform() * 256), hit = any_hit(s->hierarchy, &ray, active);
+        assert_int_equal(hit, every_triangle(s, &ray, active));
+        found += __builtin_popcount(hit);
+        missed += __builtin_popcount(active & ~hit);
+    }
+}
+
+static struct soup soup;
+
+static void test_random(void **unused)
+{
+    (void)unused;
+    static const double sizes[] = {1, 1e-20, 1e20};
+    for (uint32_t count = 1; count < 3000; count = count * 3 + 1) {
+        random_soup(&soup, count, sizes[count % 3]);
+        build(&soup, 1 + (int)count % 3, NULL);
+        check_rays(&soup, 300);
+        drop(&soup);
+    }
+    // A turned object far away.
+    lam_mat4 m = {{{0.6, 0.8, 0, 1e7}, {-0.8, 0.6, 0, -3e6}, {0, 0, 1, 5}, {0, 0, 0, 1}}};
+    random_soup(&soup, 500, 3);
+    build(&soup, 2, &m);
+    check_rays(&soup, 300);
+    drop(&soup);
+    assert_true(found > 2000 && missed > 2000);
+}
+
+// Each triangle is in a leaf once, within the boxes above it.
+static uint32_t check_node(const struct hierarchy *h, uint32_t child, uint32_t count, const float low[3],
+                           const float high[3], uint8_t *seen, int depth)
+{
+    assert_true(depth < HIERARCHY_DEPTH);
+    uint32_t sum = 0;
+    for (uint32_t i = child; i < child + count; i++) {
+        const struct ray_triangle *t = &h->triangles[i];
+        assert_false(seen[t->number]++);
+        for (int k = 0; k < 9; k++)
+            assert_true((float)t->p[k / 3][k % 3] >= low[k % 3] && (float)t->p[k / 3][k % 3] <= high[k % 3]);
+    }
+    for (int side = 0; side < 2 && !count; side++) {
+        const struct ray_node *n = &h->nodes[child];
+        if (n->child[side] == h->triangle_count)
+            continue; // beside a lone leaf
+        for (int k = 0; k < 3; k++)
+            assert_true(n->low[side][k] >= low[k] && n->high[side][k] <= high[k]);
+        sum += check_node(h, n->child[side], n->count[side], n->low[side], n->high[side], seen, depth + 1);
+    }
+    return sum + count;
+}
+
+static void test_tree(void **unused)
+{
+    (void)unused;
+    static uint8_t seen[TRIANGLES_MAX];
+    static struct ray_node nodes[TRIANGLES_MAX];
+    static struct ray_triangle triangles[TRIANGLES_MAX];
+    static const float low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
+    for (int kind = 0; kind < 3; kind++)
+        for (int threads = 1; threads <= 5; threads += 2) {
+            seed = 5;
+            random_soup(&soup, TRIANGLES_MAX, 1);
+            for (uint32_t i = 0; i < soup.count && kind == 1; i++) // the same middle everywhere
+                for (int k = 0; k < 3; k++) {
+                    soup.p[3 * i + 1][k] = -soup.p[3 * i][k];
+                    soup.p[3 * i + 2][k] = 0;
+                }
+            for (uint32_t i = 0; i < soup.count && kind == 2; i++) // ever smaller towards a corner
+                for (int k = 0; k < 9; k++)
+                    soup.p[3 * i + (uint32_t)k / 3][k % 3] =
+                        (float)((double)soup.p[3 * i + (uint32_t)k / 3][k % 3] * 1e-3 + 1) *
+                        powf(0.99f, (float)(i % 8000));
+            build(&soup, threads, NULL);
+            memset(seen, 0, sizeof seen);
+            assert_int_equal(check_node(soup.hierarchy, 0, 0, low, high, seen, 0), soup.count);
+            if (threads == 1) {
+                memcpy(nodes, soup.hierarchy->nodes, (soup.count - 1) * sizeof *nodes);
+                memcpy(triangles, soup.hierarchy->triangles, soup.count * sizeof *triangles);
+            }
+            assert_memory_equal(nodes, soup.hierarchy->nodes, (soup.count - 1) * sizeof *nodes);
+            assert_memory_equal(triangles, soup.hierarchy->triangles, soup.count * sizeof *triangles);
+            check_rays(&soup, 10);
+            drop(&soup);
+        }
+}
+
+// Triangles with the same three positions, in any order, have the lowest number among them as their twin.
+static void test_twins(void **unused)
+{
+    (void)unused;
+    static const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+    random_soup(&soup, 300, 1);
+    for (uint32_t i = 0; i < 300; i++)
+        for (int n = 0; n < (i == 7 ? 60 : 2); n++) {
+            const int *order = orders[(i + (uint32_t)n) % 6];
+            add_triangle(&soup, soup.p[3 * i + (uint32_t)order[0]], soup.p[3 * i + (uint32_t)order[1]],
+                         soup.p[3 * i + (uint32_t)order[2]]);
+        }
+    build(&soup, 2, NULL);
+    for (uint32_t i = 0; i < soup.count; i++) {
+        const struct ray_triangle *t = &soup.hierarchy->triangles[i];
+        uint32_t lowest = t->number;
+        for (uint32_t j = 0; j < lowest; j++) {
+            int same = 0;
+            for (int o = 0; o < 6; o++)
+                same |= memcmp(soup.p[3 * j + (uint32_t)orders[o][0]], soup.p[3 * t->number], 12) == 0 &&
+                        memcmp(soup.p[3 * j + (uint32_t)orders[o][1]], soup.p[3 * t->number + 1], 12) == 0 &&
+                        memcmp(soup.p[3 * j + (uint32_t)orders[o][2]], soup.p[3 * t->number + 2], 12) == 0;
+            if (same)
+                lowest = j;
+        }
+        assert_int_equal(t->twin, lowest);
+        assert_int_equal(soup.hierarchy->twins[t->number], lowest);
+    }
+    drop(&soup);
+}
+
+// A closed surface of thin triangles around a point: no ray from there leaves it, least of all through its edges and
+// corners.
+static void test_watertight(void **unused)
+{
+    (void)unused;
+    enum { ROUND = 40, DOWN = 20 };
+    static float p[DOWN + 1][ROUND][3];
+    for (int j = 0; j <= DOWN; j++)
+        for (int i = 0; i < ROUND; i++) {
+            double a = 6.28318530717958647 * i / ROUND, b = 3.14159265358979323 * j / DOWN;
+            double r = j == 0 || j == DOWN ? 0 : sin(b) * (1 + 0.3 * uniform());
+            p[j][i][0] = (float)(r * cos(a) + 0.3);
+            p[j][i][1] = (float)cos(b);
+            p[j][i][2] = (float)(r * sin(a) * 1e-3 + 0.7); // flat: triangles seen at a slant
+        }
+    soup.count = 0;
+    for (int j = 0; j < DOWN; j++)
+        for (int i = 0; i < ROUND; i++) {
+            int n = (i + 1) % ROUND;
+            add_triangle(&soup, p[j][i], p[j + 1][i], p[j + 1][n]);
+            add_triangle(&soup, p[j][i], p[j + 1][n], p[j][n]);
+        }
+    build(&soup, 1, NULL);
+    double centre[3], world[3] = {0.3, 0.01, 0.7};
+    ray_point(soup.hierarchy, world, centre);
+    for (int round = 0; round < 3000; round++) {
+        struct ray_lanes ray;
+        for (int i = 0; i < LANES; i++) {
+            const struct ray_triangle *t = &soup.hierarchy->triangles[(uint32_t)(uniform() * soup.count)];
+            double share = i & 2 ? uniform() : 0;
+            for (int k = 0; k < 3; k++) {
+                ray.origin[k][i] = centre[k];
+                ray.direction[k][i] = t->p[0][k] + share * (t->p[1][k] - t->p[0][k]) - centre[k];
+                if (i & 1) // no direction in particular
+                    ray.direction[k][i] = between(-1, 1) * (k == 2 ? 1e-3 : 1);
+            }
+            ray.own[i] = NO_TRIANGLE;
+        }
+        ray.end = dnum_of(HUGE_VAL);
+        assert_int_equal(any_hit(soup.hierarchy, &ray, 0xff), 0xff);
+    }
+    drop(&soup);
+}
+
+// Whether a triangle is crossed, in exact terms: corners and rays on a grid, in whole numbers.
+static void test_exact(void **unused)
+{
+    (void)unused;
+    int hits = 0;
+    for (int round = 0; round < 20000; round++) {
+        struct ray_triangle triangle = {.twin = 3};
+        struct ray_lanes ray = {.own = inum_of(NO_TRIANGLE), .end = dnum_of(1)};
+        int64_t p[3][3], o[3], d[3];
+        for (int k = 0; k < 3; k++) {
+            for (int c = 0; c < 3; c++)
+                triangle.p[c][k] = (double)(p[c][k] = (int64_t)(uniform() * 8) - 4);
+            o[k] = (int64_t)(uniform() * 8) - 4;
+            d[k] = (int64_t)(uniform() * 4) * 2 - 4; // powers of two or 0: divisions are exact
+            d[k] = d[k] == 0 || d[k] == 2 || d[k] == -2 || d[k] == -4 ? d[k] : 4;
+            ray.origin[k] = dnum_of((double)o[k]);
+            ray.direction[k] = dnum_of((double)d[k]);
+        }
+        if (!d[0] && !d[1] && !d[2])
+            continue;
+        int64_t a[3][3], w[3], det = 0, t = 0;
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++)
+                a[c][k] = p[c][k] - o[k];
+        for (int c = 0; c < 3; c++) {
+            const int64_t *u = a[(c + 1) % 3], *v = a[(c + 2) % 3];
+            w[c] = d[0] * (u[1] * v[2] - u[2] * v[1]) + d[1] * (u[2] * v[0] - u[0] * v[2]) +
+                   d[2] * (u[0] * v[1] - u[1] * v[0]);
+            det += w[c];
+        }
+        // o + t d lies in the plane: t = det[a b c] / det.
+        t = a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) + a[0][1] * (a[1][2] * a[2][0] - a[1][0] * a[2][2]) +
+            a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
+        bool inside =
+            (w[0] >= 0 && w[1] >= 0 && w[2] >= 0 && det > 0) || (w[0] <= 0 && w[1] <= 0 && w[2] <= 0 && det < 0);
+        bool wanted = inside && (det > 0 ? t > 0 && t < det : t < 0 && t > det);
+        struct ray_view view = view_along(ray.direction);
+        assert_int_equal(mask_bits(crosses(&triangle, &ray, &view)), wanted ? 0xff : 0);
+        ray.own = inum_of(3);
+        assert_int_equal(mask_bits(crosses(&triangle, &ray, &view)), 0);
+        hits += wanted;
+    }
+    assert_true(hits > 100);
+}
+
+static void test_nothing(void **unused)
+{
+    (void)unused;
+    struct hierarchy none = {.scale = 1};
+    struct ray_lanes ray = {.end = dnum_of(1), .own = inum_of(NO_TRIANGLE)};
+    ray.direction[1] = dnum_of(1);
+    assert_int_equal(any_hit(&none, &ray, 0xff), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_exact), cmocka_unit_test(test_random),     cmocka_unit_test(test_tree),
+        cmocka_unit_test(test_twins), cmocka_unit_test(test_watertight), cmocka_unit_test(test_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -15,6 +15,12 @@ void *library_open(const char *name, bool resident, const char **reason)
     return NULL;
 }
 
+void *library_open_own(const char *name)
+{
+    (void)name;
+    return NULL;
+}
+
 void library_close(void *library) { (void)library; }
 
 bool library_find(void *library, const char *name, void *function)
@@ -26,6 +32,10 @@ bool library_find(void *library, const char *name, void *function)
 #else
 
 #include <dlfcn.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
 
 void *library_open(const char *name, bool resident, const char **reason)
 {
@@ -35,6 +45,36 @@ void *library_open(const char *name, bool resident, const char **reason)
         *reason = sentence ? sentence : "the loader gives no reason";
     }
     return library;
+}
+
+// The folders from one that holds this code: a build folder and its folder of tests; that of the libraries; that of the
+// programs, which has the libraries' beside it.
+static const char *const own_folders[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
+
+static void *open_beside(const char *file, const char *name)
+{
+    char folder[PATH_MAX], path[PATH_MAX + 100];
+    void *library = NULL;
+    if (!realpath(file, folder))
+        return NULL;
+    char *end = strrchr(folder, '/');
+    end[1] = 0;
+    for (size_t i = 0; i < sizeof own_folders / sizeof *own_folders && !library; i++) {
+        int length = snprintf(path, sizeof path, "%s%s%s", folder, own_folders[i], name);
+        if (length < (int)sizeof path && access(path, R_OK) == 0)
+            library = library_open(path, true, NULL);
+    }
+    return library;
+}
+
+void *library_open_own(const char *name)
+{
+    Dl_info here;
+    void *library = NULL;
+    // The name of a program's own code is the one that it was called by, perhaps without a folder.
+    if (dladdr((const void *)own_folders, &here) && here.dli_fname && strchr(here.dli_fname, '/'))
+        library = open_beside(here.dli_fname, name);
+    return library ? library : open_beside("/proc/self/exe", name);
 }
 
 void library_close(void *library)

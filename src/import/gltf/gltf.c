@@ -80,6 +80,7 @@ static bool gltf_load(const struct import_source *source, struct lam_scene *scen
     ok = gltf_buffers_end(&gltf) && ok;
     gltf_json_free(&gltf);
     library_close(gltf.meshopt);
+    library_close(gltf.draco);
     arena_free(&scratch);
     return ok;
 }

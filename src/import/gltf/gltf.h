@@ -2,7 +2,7 @@
 //
 // The JSON text (gltf_json.c) of a .gltf, or of a .glb (gltf_container.c), describes buffers (gltf_buffers.c,
 // gltf_views.c, gltf_meshopt.c) and typed arrays in them (gltf_accessors.c, gltf_numbers.c). Meshes are made of these
-// (gltf_primitives.c, gltf_triangles.c), and the tree of nodes places them (gltf_nodes.c, gltf_objects.c) beside lights
+// (gltf_primitives.c, gltf_triangles.c, gltf_draco.c), and the tree of nodes places them (gltf_nodes.c, gltf_objects.c) beside lights
 // and cameras (gltf_lights.c, gltf_cameras.c). Materials (gltf_materials.c) read textures, whose pictures are decoded
 // together (gltf_textures.c). An animation sets the nodes (gltf_animation.c) first; morph targets and skins
 // (gltf_deform.c, gltf_skins.c) give a mesh positions of its own.
@@ -38,7 +38,8 @@ enum { GLTF_I8 = 5120, GLTF_U8, GLTF_I16, GLTF_U16, GLTF_U32 = 5125, GLTF_F32 };
 struct gltf_accessor {
     bool ready;          // the members below are set
     const uint8_t *data; // the first element; NULL: all elements are zero
-    int buffer;          // that `data` lies in
+    int buffer;          // that `data` lies in; −1: none
+    int draco_view;      // 1 + the view that `data` was decoded from (gltf_draco.c); 0: none
     size_t count;        // elements
     size_t stride;       // bytes from one to the next
     int component;       // GLTF_…
@@ -71,6 +72,7 @@ struct gltf {
     struct gltf_view *views;
     struct gltf_accessor *accessors;
     void *meshopt;        // the library, once a view needs it; NULL: not opened
+    void *draco;          // the module, once a primitive needs it; NULL: not opened
     int first_material;   // of the file's own in the scene
     int default_material; // of primitives that name none; −1: not made yet
     int variant;          // that the caller wants; −1: none

@@ -19,6 +19,7 @@ static const struct {
     {"EXT_mesh_gpu_instancing", READ},
     {"EXT_meshopt_compression", READ},
     {"EXT_texture_webp", READ},
+    {"KHR_draco_mesh_compression", READ},
     {"KHR_lights_punctual", READ},
     {"KHR_materials_emissive_strength", READ},
     {"KHR_materials_pbrSpecularGlossiness", READ},

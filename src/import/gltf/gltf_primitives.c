@@ -6,6 +6,7 @@
 
 #include "gltf_accessors.h"
 #include "gltf_deform.h"
+#include "gltf_draco.h"
 #include "gltf_json.h"
 #include "gltf_materials.h"
 #include "gltf_numbers.h"
@@ -155,6 +156,8 @@ static bool make_primitive(struct gltf *gltf, const struct place *place, const j
         gltf->without_positions++;
         return true;
     }
+    if (!gltf_draco_decode(gltf, place, primitive, &mode))
+        return false;
     if (!take_floats(gltf, here, attributes, &position_rule, 0, &mesh.positions, &mesh.vertex_count))
         return false;
     ok = mode < GLTF_TRIANGLES ? gltf_strokes(gltf, place, primitive, mode, &mesh)

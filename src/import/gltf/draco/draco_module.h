@@ -1,0 +1,39 @@
+// draco_module.h: the face of lambent-draco, a shared object of its own that calls Draco's C++ library. It is opened when a file needs it
+// (gltf_draco.c), so that programs start without it. No exception leaves it.
+#ifndef DRACO_MODULE_H
+#define DRACO_MODULE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Changes with every change of the functions below.
+enum { DRACO_MODULE_VERSION = 1 };
+
+enum { DRACO_REASON_SIZE = 160 };
+
+struct draco_functions {
+    int version;
+    // Decodes a mesh: 1 and *mesh, with its numbers of vertices and triangles; 0: the bytes are damaged, and `reason` says why;
+    // −1: out of memory.
+    int (*decode)(const uint8_t *bytes, size_t size, void **mesh, uint32_t *vertices, uint32_t *triangles,
+                  char reason[DRACO_REASON_SIZE]);
+    // Writes the attribute of this unique id, `width` numbers of a glTF component type for each vertex, without gaps. Results as
+    // above.
+    int (*attribute)(const void *mesh, uint32_t id, int component, int width, void *out,
+                     char reason[DRACO_REASON_SIZE]);
+    // Writes three vertices for each triangle.
+    void (*triangles)(const void *mesh, uint32_t *out);
+    void (*free)(void *mesh);
+};
+
+// The only symbol of the shared object.
+const struct draco_functions *lambent_draco_functions(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

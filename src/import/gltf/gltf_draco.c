@@ -1,0 +1,202 @@
+// gltf_draco.c: primitives compressed by Draco, decoded by a module that calls its library, opened when a file needs it.
+// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_draco_mesh_compression
+#include "gltf_draco.h"
+
+#include "draco/draco_module.h"
+#include "gltf_accessors.h"
+#include "gltf_buffers.h"
+#include "gltf_json.h"
+#include "gltf_triangles.h"
+
+#include "dynamic_library.h"
+#include "fail.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define NAME "KHR_draco_mesh_compression"
+
+// Opens the module; *functions stays NULL where it or Draco's library is missing.
+static void find_functions(struct gltf *gltf, const struct draco_functions **functions)
+{
+    const struct draco_functions *(*get)(void) = NULL;
+    *functions = NULL;
+    if (!gltf->draco)
+        gltf->draco = library_open_own("lambent-draco.so");
+    if (gltf->draco && library_find(gltf->draco, "lambent_draco_functions", (void *)&get) &&
+        get()->version == DRACO_MODULE_VERSION)
+        *functions = get();
+}
+
+// A compressed primitive on its way.
+struct decoding {
+    struct gltf *gltf;
+    const struct place *place; // of the extension
+    const struct draco_functions *functions;
+    int view;
+    void *mesh;
+    uint32_t vertices, triangles;
+};
+
+// The result of a function of the module; false: an error.
+static bool succeeded(const struct decoding *d, const struct place *place, int result, const char *reason)
+{
+    return result > 0 ||
+           (result < 0 ? gltf_no_memory(d->gltf, 0)
+                       : json_fail(&d->gltf->json, place, "the compressed bytes are damaged: %s", reason));
+}
+
+// Memory of the accessor's elements, without gaps.
+static uint8_t *make_elements(const struct decoding *d, struct gltf_accessor *accessor)
+{
+    accessor->stride = (size_t)accessor->width * gltf_component_size(accessor->component);
+    uint8_t *elements = arena_array(&d->gltf->scene->arena, accessor->count, accessor->stride);
+    if (!elements)
+        gltf_no_memory(d->gltf, accessor->count * accessor->stride);
+    return elements;
+}
+
+static void keep(const struct decoding *d, struct gltf_accessor *accessor, const uint8_t *elements)
+{
+    accessor->data = elements;
+    accessor->buffer = -1;
+    accessor->draco_view = d->view + 1;
+}
+
+static bool decode_attribute(const struct decoding *d, const struct place *place, const json_t *id,
+                             struct gltf_accessor *accessor)
+{
+    char reason[DRACO_REASON_SIZE];
+    double number = json_is_number(id) ? json_number_value(id) : -1;
+    if (!(number >= 0 && number <= UINT32_MAX && number == (double)(uint32_t)number))
+        return json_unexpected(&d->gltf->json, place, id, "the number of an attribute");
+    if (accessor->count != d->vertices)
+        return json_fail(&d->gltf->json, place,
+                         "the compressed mesh has %u vertices, expected %zu, the accessor's count", d->vertices,
+                         accessor->count);
+    uint8_t *elements = make_elements(d, accessor);
+    if (!elements || !succeeded(d, place,
+                                d->functions->attribute(d->mesh, (uint32_t)number, accessor->component, accessor->width,
+                                                        elements, reason),
+                                reason))
+        return false;
+    keep(d, accessor, elements);
+    return true;
+}
+
+static bool decode_attributes(const struct decoding *d, const struct place *primitive_place, const json_t *primitive,
+                              const json_t *ids)
+{
+    const json_t *attributes = json_object_get(primitive, "attributes");
+    const struct place *here = KEY_OF(primitive_place, "attributes");
+    const char *name;
+    json_t *id;
+    json_object_foreach((json_t *)(uintptr_t)ids, name, id)
+    {
+        struct gltf_accessor *accessor;
+        const struct place *at = KEY_OF(KEY_OF(d->place, "attributes"), name);
+        if (!gltf_take_accessor(d->gltf, here, attributes, name, &accessor))
+            return false;
+        if (!accessor)
+            return json_fail(&d->gltf->json, at, "the primitive has no attribute of this name");
+        if (!decode_attribute(d, at, id, accessor))
+            return false;
+    }
+    return true;
+}
+
+// Writes the corners in the type of the primitive's indices; a primitive without any has its triangles in order.
+static bool decode_indices(const struct decoding *d, const struct place *primitive_place, const json_t *primitive,
+                           bool strip)
+{
+    struct gltf *gltf = d->gltf;
+    struct gltf_accessor *accessor;
+    const struct place *here = KEY_OF(primitive_place, "indices");
+    size_t count = 3 * (size_t)d->triangles;
+    if (!gltf_take_accessor(gltf, primitive_place, primitive, "indices", &accessor))
+        return false;
+    if (!accessor)
+        return json_fail(&gltf->json, primitive_place, "indices is missing, which a compressed mesh has");
+    if (accessor->width != 1 ||
+        (accessor->component != GLTF_U8 && accessor->component != GLTF_U16 && accessor->component != GLTF_U32))
+        return true; // gltf_indices reports it
+    if (strip)
+        accessor->count = count; // that of a strip; decoded are triangles
+    if (accessor->count != count)
+        return json_fail(&gltf->json, here, "the compressed mesh has %zu corners, expected %zu, the accessor's count",
+                         count, accessor->count);
+    uint32_t *corners = arena_array(gltf->scratch, count, sizeof *corners);
+    uint8_t *elements = corners ? make_elements(d, accessor) : NULL;
+    if (!elements)
+        return corners || gltf_no_memory(gltf, count * sizeof *corners);
+    d->functions->triangles(d->mesh, corners);
+    size_t size = gltf_component_size(accessor->component);
+    for (size_t i = 0; i < count; i++) {
+        if (size < 4 && corners[i] >> (8 * size))
+            return json_fail(&gltf->json, here, "number %zu of the compressed mesh is %u, which its type cannot hold",
+                             i, corners[i]);
+        memcpy(elements + i * size, &corners[i], size); // little-endian, as glTF's buffers are
+    }
+    keep(d, accessor, elements);
+    return true;
+}
+
+// Whether the view was decoded for this primitive before, as for another pose of it.
+static bool is_decoded(struct gltf *gltf, const json_t *primitive, int view)
+{
+    const json_t *position = json_object_get(json_object_get(primitive, "attributes"), "POSITION");
+    double number = json_is_number(position) ? json_number_value(position) : -1;
+    return number >= 0 && number < (double)gltf_list_size(gltf, "accessors") &&
+           gltf->accessors[(size_t)number].draco_view == view + 1;
+}
+
+// Whether the primitive's accessors have bytes of their own.
+static bool has_plain_bytes(struct gltf *gltf, const json_t *primitive)
+{
+    const json_t *position = json_object_get(json_object_get(primitive, "attributes"), "POSITION");
+    double number = json_is_number(position) ? json_number_value(position) : -1;
+    bool there = number >= 0 && number < (double)gltf_list_size(gltf, "accessors");
+    return there && json_object_get(gltf_list_item(gltf, "accessors", (int)number), "bufferView");
+}
+
+static bool decode(struct decoding *d, const struct place *place, const json_t *primitive, const json_t *ids,
+                   bool strip)
+{
+    char reason[DRACO_REASON_SIZE];
+    const struct gltf_view *view = gltf_view_at(d->gltf, d->view);
+    if (!view ||
+        !succeeded(d, d->place,
+                   d->functions->decode(view->data, view->size, &d->mesh, &d->vertices, &d->triangles, reason), reason))
+        return false;
+    bool ok = decode_attributes(d, place, primitive, ids) && decode_indices(d, place, primitive, strip);
+    d->functions->free(d->mesh);
+    return ok;
+}
+
+bool gltf_draco_decode(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t *mode)
+{
+    const json_t *object = gltf_extension(primitive, NAME);
+    struct decoding d = {.gltf = gltf, .place = KEY_OF(KEY_OF(place, "extensions"), NAME), .view = -1};
+    bool ok = true;
+    if (!object)
+        return true;
+    if (*mode != GLTF_TRIANGLES && *mode != GLTF_TRIANGLE_STRIP)
+        return json_fail(&gltf->json, KEY_OF(place, "mode"), "found %zu, expected 4 or 5 for a compressed mesh", *mode);
+    if (!gltf_take_index(gltf, d.place, object, "bufferView", "bufferViews", &d.view))
+        return false;
+    const json_t *ids = gltf_take_object(gltf, d.place, object, "attributes", &ok);
+    if (!ok)
+        return false;
+    if (d.view < 0 || !ids)
+        return json_fail(&gltf->json, d.place, "%s is missing", d.view < 0 ? "bufferView" : "attributes");
+    find_functions(gltf, &d.functions);
+    if (!d.functions)
+        return has_plain_bytes(gltf, primitive) ||
+               fail(gltf->json.error, LAM_UNSUPPORTED,
+                    "%s: is compressed by " NAME ", and its decoder is not installed (the module lambent-draco.so, and "
+                    "Debian's package libdraco7)",
+                    gltf->source->name);
+    bool strip = *mode == GLTF_TRIANGLE_STRIP;
+    *mode = GLTF_TRIANGLES;
+    return is_decoded(gltf, primitive, d.view) || decode(&d, place, primitive, ids, strip);
+}

@@ -1,0 +1,197 @@
+// test_gltf_draco.c: primitives compressed by Draco: attributes by their ids, in the type of their accessors; every damaged or cut buffer
+// ends with one sentence. Built without the decoder, files are refused or their plain bytes are read.
+#include "loading.h"
+
+// A square of four vertices: attribute 7 positions, attribute 3 texture coordinates as unsigned bytes; by Draco's own encoder.
+static const char compressed[] =
+    "RFJBQ08CAgEBAAAABAIBAgAAAR//ARH/AREC/wAAAAAAAQAJAwAHAgEDAgIAAwEBAQEADwMBMC8BEAMAKIKYAAAA/P8AAAAAAP8/"
+    "AAAAAAAAAAAAAAAAAAAAAIA/"
+    "DgEBAQAJAwEgARATARADABSQBCALAAAAAMgAAAA=";
+enum { COMPRESSED_BYTES = 122 };
+
+static const char file[] =
+    "{\"asset\": {\"version\": \"2.0\"}, %s \"nodes\": [{\"mesh\": 0}], \"meshes\": [{\"primitives\": "
+    "[{\"attributes\": "
+    "{\"POSITION\": 0, \"TEXCOORD_0\": 1}, \"indices\": 2, \"mode\": %d, \"extensions\": "
+    "{\"KHR_draco_mesh_compression\": "
+    "{\"bufferView\": 0, \"attributes\": {%s}}}}]}], \"accessors\": [{\"count\": %d, \"componentType\": 5126, "
+    "\"type\": \"VEC3\"}, "
+    "{\"count\": 4, \"componentType\": 5121, \"normalized\": true, \"type\": \"%s\"}, "
+    "{\"count\": %d, \"componentType\": %d, \"type\": \"SCALAR\"}], \"bufferViews\": [{\"buffer\": 0, \"byteLength\": "
+    "%d}], "
+    "\"buffers\": [{\"byteLength\": 122, \"uri\": \"data:application/octet-stream;base64,%s\"}]}";
+
+#define REQUIRED "\"extensionsRequired\": [\"KHR_draco_mesh_compression\"],"
+#define IDS      "\"POSITION\": 7, \"TEXCOORD_0\": 3"
+
+struct made_of {
+    const char *ids, *type;
+    int mode, vertices, corners, component, bytes;
+};
+static const struct made_of good = {IDS, "VEC2", 4, 4, 6, 5121, COMPRESSED_BYTES};
+
+static lam_scene *load_made(struct made_of m, const char *bytes, lam_error *error)
+{
+    char text[2000];
+    snprintf(text, sizeof text, file, REQUIRED, m.mode, m.ids, m.vertices, m.type, m.corners, m.component, m.bytes,
+             bytes);
+    return lam_scene_load_memory(text, strlen(text), "a.gltf", NULL, NULL, error);
+}
+
+#if HAS_DRACO
+
+static void decoded(void **state)
+{
+    (void)state;
+    static const int modes[] = {4, 5};
+    for (int i = 0; i < 2; i++) {
+        lam_error error = {0};
+        struct made_of m = good;
+        m.mode = modes[i];
+        m.corners = i ? 4 : 6;
+        m.component = i ? 5125 : 5121;
+        lam_scene *scene = load_made(m, compressed, &error);
+        if (!scene)
+            fail_msg("%s", error.text);
+        const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+        assert_int_equal(mesh->vertex_count, 4);
+        assert_int_equal(mesh->triangle_count, 2);
+        bool seen[4] = {false};
+        for (int v = 0; v < 4; v++) {
+            static const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5f}};
+            static const float st[4][2] = {{0, 0}, {200, 0}, {200, 100}, {0, 100}};
+            const float *p = mesh->positions + 3 * v;
+            for (int k = 0; k < 4; k++) {
+                float off = 0;
+                for (int axis = 0; axis < 3; axis++)
+                    off += p[axis] > corners[k][axis] ? p[axis] - corners[k][axis] : corners[k][axis] - p[axis];
+                if (off > 1e-3f)
+                    continue;
+                seen[k] = true;
+                for (int axis = 0; axis < 2; axis++)
+                    assert_true(mesh->texcoords[2 * v + axis] == st[k][axis] / 255.0f);
+            }
+        }
+        assert_true(seen[0] && seen[1] && seen[2] && seen[3]);
+        lam_scene_free(scene);
+    }
+}
+
+static void refuse_made(struct made_of m, const char *sentence)
+{
+    lam_error error = {0};
+    assert_null(load_made(m, compressed, &error));
+    assert_int_equal(error.code, LAM_CANNOT_READ);
+    assert_string_equal(error.text, sentence);
+}
+
+#define PLACE "a.gltf: meshes[0].primitives[0]."
+#define HERE  PLACE "extensions.KHR_draco_mesh_compression"
+
+static void wrong(void **state)
+{
+    (void)state;
+    struct made_of m = good;
+    m.ids = "\"POSITION\": 8";
+    refuse_made(m, HERE ".attributes.POSITION: the compressed bytes are damaged: there is no such attribute");
+    m.ids = "\"POSITION\": -1";
+    refuse_made(m, HERE ".attributes.POSITION: found -1, expected the number of an attribute");
+    m.ids = "\"NORMAL\": 7";
+    refuse_made(m, HERE ".attributes.NORMAL: the primitive has no attribute of this name");
+    m = good;
+    m.vertices = 5;
+    refuse_made(m, HERE ".attributes.POSITION: the compressed mesh has 4 vertices, expected 5, the accessor's count");
+    m = good;
+    m.type = "VEC3";
+    refuse_made(
+        m,
+        HERE ".attributes.TEXCOORD_0: the compressed bytes are damaged: it has 2 numbers for each vertex, expected 3");
+    m = good;
+    m.corners = 9;
+    refuse_made(m, PLACE "indices: the compressed mesh has 6 corners, expected 9, the accessor's count");
+    m = good;
+    m.mode = 6;
+    refuse_made(m, PLACE "mode: found 6, expected 4 or 5 for a compressed mesh");
+}
+
+static int value_of(char c)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    return (int)(strchr(letters, c) - letters);
+}
+
+static void encode(const uint8_t *bytes, int count, char *out)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (int i = 0; i < count; i += 3) {
+        unsigned group = (unsigned)bytes[i] << 16 | (i + 1 < count ? (unsigned)bytes[i + 1] << 8 : 0) |
+                         (i + 2 < count ? bytes[i + 2] : 0);
+        for (int k = 0; k < 4; k++)
+            *out++ = i + k - 1 < count || k < 2 ? letters[group >> (18 - 6 * k) & 63] : '=';
+    }
+    *out = 0;
+}
+
+// Every cut and every changed byte: a mesh, or one sentence that names the primitive.
+static void damaged(void **state)
+{
+    (void)state;
+    uint8_t bytes[COMPRESSED_BYTES + 3];
+    int refused = 0;
+    for (int i = 0; i < COMPRESSED_BYTES; i++) {
+        unsigned group = 0;
+        for (int k = 0; k < 4; k++) {
+            char c = compressed[i / 3 * 4 + k];
+            group = group << 6 | (c == '=' ? 0 : (unsigned)value_of(c));
+        }
+        bytes[i] = (uint8_t)(group >> (16 - 8 * (i % 3)));
+    }
+    for (int i = 0; i < 5 * COMPRESSED_BYTES; i++) {
+        static const uint8_t changes[] = {1, 0x80, 0xff, 0x24};
+        char text[400];
+        uint8_t changed[sizeof bytes];
+        lam_error error = {0};
+        struct made_of m = good;
+        memcpy(changed, bytes, sizeof bytes);
+        if (i < COMPRESSED_BYTES)
+            m.bytes = i ? i : 1;
+        else
+            changed[i % COMPRESSED_BYTES] ^= changes[i / COMPRESSED_BYTES - 1];
+        encode(changed, COMPRESSED_BYTES, text);
+        lam_scene *scene = load_made(m, text, &error);
+        if (!scene) {
+            refused++;
+            assert_true(error.code == LAM_CANNOT_READ || error.code == LAM_LIMIT);
+            if (error.code == LAM_CANNOT_READ && strncmp(error.text, PLACE, strlen(PLACE)) != 0)
+                fail_msg("%s", error.text);
+            assert_null(strchr(error.text, '\n'));
+        }
+        lam_scene_free(scene);
+    }
+    assert_true(refused > COMPRESSED_BYTES);
+}
+
+#else
+
+static void missing(void **state)
+{
+    (void)state;
+    lam_error error = {0};
+    assert_null(load_made(good, compressed, &error));
+    assert_int_equal(error.code, LAM_UNSUPPORTED);
+    assert_string_equal(
+        error.text, "a.gltf: is compressed by KHR_draco_mesh_compression, and its decoder is not installed (the module "
+                    "lambent-draco.so, and Debian's package libdraco7)");
+}
+
+#endif
+
+int main(void)
+{
+#if HAS_DRACO
+    const struct CMUnitTest tests[] = {cmocka_unit_test(decoded), cmocka_unit_test(wrong), cmocka_unit_test(damaged)};
+#else
+    const struct CMUnitTest tests[] = {cmocka_unit_test(missing)};
+#endif
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
